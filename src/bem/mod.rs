@@ -1,0 +1,86 @@
+//! The soil under the base: patches of boundary elements and what the integrator needs of them.
+//!
+//! # Contact vectors
+//!
+//! Slices called `traction` and `displacement` have 2Q entries for Q elements: first the Q normal
+//! components (pressure p, positive in compression, and displacement **down**), then the Q
+//! tangential ones (traction τ on the soil and displacement, positive to the right). They are
+//! means over the elements, from left to right.
+
+use crate::error::Result;
+use crate::motion::FreeField;
+
+/// One boundary element of the base: the interval from `left` to `right` of the flat surface, m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactElement {
+    /// Left end, m.
+    pub left: f64,
+    /// Right end, m.
+    pub right: f64,
+}
+
+impl ContactElement {
+    /// Length, m.
+    pub fn length(&self) -> f64 {
+        self.right - self.left
+    }
+
+    /// Midpoint, m.
+    pub fn center(&self) -> f64 {
+        0.5 * (self.left + self.right)
+    }
+}
+
+/// What the time integrator needs of any soil.
+///
+/// A ground answers with the mean displacement of every element at the end of a step, as the sum
+/// of an instantaneous part (a matrix times the tractions of this step, which are constant over
+/// the step) and a history part (all earlier tractions). Tractions here are **changes** against
+/// the static state, and so are displacements.
+pub trait Ground: Send {
+    /// The elements, from left to right, not overlapping.
+    fn elements(&self) -> &[ContactElement];
+
+    /// Prepares for steps of `time_step` seconds and forgets all tractions. Called once, first.
+    ///
+    /// # Errors
+    /// If this ground cannot march with this step.
+    fn prepare(&mut self, time_step: f64) -> Result<()>;
+
+    /// Hints that about `steps` steps will follow: kernels may be evaluated and memory reserved.
+    ///
+    /// # Errors
+    /// As for [`Ground::history`].
+    fn reserve(&mut self, _steps: usize) -> Result<()> {
+        Ok(())
+    }
+
+    /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the displacement at the end of a step
+    /// due to unit tractions during it.
+    fn instantaneous(&self, matrix: &mut [f64]);
+
+    /// Overwrites `displacement` (2Q, m) with what all committed tractions give at the end of the
+    /// next step.
+    ///
+    /// # Errors
+    /// If the history cannot be evaluated.
+    fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
+
+    /// Accepts the tractions (2Q, Pa) of the step that ends now.
+    fn commit(&mut self, traction: &[f64]);
+
+    /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the static displacement due to unit
+    /// tractions, up to a rigid settlement. Symmetric when rows are weighted by element lengths.
+    fn static_compliance(&self, matrix: &mut [f64]);
+
+    /// Overwrites `displacement` (2Q, m; normal components **down**) with the motion of the soil
+    /// without structure at `time`. The default samples `motion` at the element midpoints.
+    fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
+        let count = self.elements().len();
+        for (q, element) in self.elements().iter().enumerate() {
+            let [horizontal, vertical] = motion.displacement(element.center(), time);
+            displacement[q] = -vertical;
+            displacement[count + q] = horizontal;
+        }
+    }
+}

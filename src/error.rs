@@ -1,0 +1,198 @@
+//! Errors: every one names the quantity, its value and what was needed.
+
+use crate::interface::Mode;
+
+/// Result of every fallible function of the crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// What can go wrong, with the quantity, its value and what was needed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A number out of its range (NaN and infinities included).
+    #[error("{quantity} is {value}, but must be {needed}")]
+    Input {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// The value that was given.
+        value: f64,
+        /// What was needed.
+        needed: &'static str,
+    },
+    /// A slice or list of the wrong length.
+    #[error("{quantity} has length {found}, but must have {needed}")]
+    Size {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// The length that was given.
+        found: usize,
+        /// The length that was needed.
+        needed: usize,
+    },
+    /// An index that points outside its list.
+    #[error("{quantity} is {index}, but must be below {bound}")]
+    Index {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// The index that was given.
+        index: usize,
+        /// First value out of range.
+        bound: usize,
+    },
+    /// A part of the scene that was not given, or does not fit another part.
+    #[error("{quantity}: {needed}")]
+    Scene {
+        /// Name of the part.
+        quantity: &'static str,
+        /// What was needed.
+        needed: &'static str,
+    },
+    /// A ground-motion record that cannot be read.
+    #[error("{file}, line {line}: {reason}")]
+    Record {
+        /// File or source of the record.
+        file: String,
+        /// Line number, from 1 (0: the file as a whole).
+        line: usize,
+        /// What is wrong there.
+        reason: RecordError,
+    },
+    /// A matrix that cannot be factored.
+    #[error("{matrix} of order {order} is singular or not finite")]
+    Singular {
+        /// Name of the matrix.
+        matrix: &'static str,
+        /// Its order.
+        order: usize,
+    },
+    /// The static state under the structure's weight was not found.
+    #[error(
+        "no static equilibrium after {iterations} iterations: residual {residual:e} of the load \
+         (does the structure topple or slide under its own weight?)"
+    )]
+    Preload {
+        /// Iterations made.
+        iterations: usize,
+        /// Last change, relative to the load.
+        residual: f64,
+    },
+    /// A time step that could not be solved; the simulation stays at the last accepted step.
+    #[error("step {step} (t = {time} s): {source}")]
+    Step {
+        /// Number of the step that failed, from 1.
+        step: usize,
+        /// Time at its end, s.
+        time: f64,
+        /// What failed.
+        source: StepError,
+    },
+}
+
+/// Why a step failed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// No set of contact modes satisfied the interface laws.
+    #[error(
+        "contact modes not found in {iterations} trials, residual {residual:e}, modes {modes:?}"
+    )]
+    Contact {
+        /// Trials made, fallbacks included.
+        iterations: usize,
+        /// Largest violation of a law, relative to the largest contact traction.
+        residual: f64,
+        /// Modes of the last trial, left to right.
+        modes: Vec<Mode>,
+    },
+    /// Newton's iteration for a nonlinear structure did not converge.
+    #[error("Newton's iteration not converged in {iterations} iterations, residual {residual:e}")]
+    Newton {
+        /// Iterations made.
+        iterations: usize,
+        /// Last out-of-balance force relative to the largest force.
+        residual: f64,
+    },
+    /// A number became NaN or infinite.
+    #[error("{quantity} is not finite")]
+    NotFinite {
+        /// Name of the quantity.
+        quantity: &'static str,
+    },
+    /// A matrix of the step is singular.
+    #[error("{matrix} is singular")]
+    Singular {
+        /// Name of the matrix.
+        matrix: &'static str,
+    },
+}
+
+/// What is wrong with a line of a record.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RecordError {
+    /// The file could not be read.
+    #[error("cannot be read: {0}")]
+    Unreadable(std::io::ErrorKind),
+    /// There are too few samples.
+    #[error("{found} samples, at least {needed} needed")]
+    TooShort {
+        /// Samples found.
+        found: usize,
+        /// Samples needed.
+        needed: usize,
+    },
+    /// A line has too few columns.
+    #[error("{found} columns, but column {needed} was asked for")]
+    Column {
+        /// Columns found.
+        found: usize,
+        /// Column asked for, from 1.
+        needed: usize,
+    },
+    /// A field is not a finite number.
+    #[error("'{text}' is not a finite number")]
+    NotANumber {
+        /// The field, cut to 40 characters.
+        text: String,
+    },
+    /// The time column does not advance by equal steps.
+    #[error("time advances by {found} s, but by {expected} s before")]
+    UnequalStep {
+        /// This step, s.
+        found: f64,
+        /// The first step, s.
+        expected: f64,
+    },
+}
+
+/// `value` if it is finite and above zero.
+pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64> {
+    if value.is_finite() && value > 0.0 {
+        Ok(value)
+    } else {
+        Err(Error::Input { quantity, value, needed: "finite and above zero" })
+    }
+}
+
+/// `value` if it is finite and not below zero.
+pub(crate) fn not_negative(quantity: &'static str, value: f64) -> Result<f64> {
+    if value.is_finite() && value >= 0.0 {
+        Ok(value)
+    } else {
+        Err(Error::Input { quantity, value, needed: "finite and not below zero" })
+    }
+}
+
+/// `value` if it is finite.
+pub(crate) fn finite(quantity: &'static str, value: f64) -> Result<f64> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(Error::Input { quantity, value, needed: "finite" })
+    }
+}
+
+/// Error unless `found == needed`.
+pub(crate) fn same_length(quantity: &'static str, found: usize, needed: usize) -> Result<()> {
+    if found == needed { Ok(()) } else { Err(Error::Size { quantity, found, needed }) }
+}

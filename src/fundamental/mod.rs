@@ -1,0 +1,45 @@
+//! Plane-strain elastodynamic fundamental solutions.
+//!
+//! A line load per metre of thickness acts at the origin; the answers are displacements and
+//! tractions at an offset from it. Components are (x, z) with **z down**; index 0 is x, 1 is z,
+//! and `u[i][j]` is component i due to a load in direction j.
+
+use crate::error::Result;
+use crate::soil::Soil;
+
+/// How the line load of 1 N/m varies in time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoadHistory {
+    /// δ(t): an impulse.
+    Impulse,
+    /// H(t): switched on at t = 0 and held.
+    Step,
+    /// t·H(t): growing linearly from t = 0.
+    Ramp,
+}
+
+/// Displacements and tractions of an elastic plane or half-plane under a line load.
+pub trait FundamentalSolution: Send + Sync {
+    /// The soil.
+    fn soil(&self) -> &Soil;
+
+    /// `u[i][j]`: displacement i at `offset` (x, z) from a load in direction j, `time` after it
+    /// began; zero before the first arrival.
+    ///
+    /// # Errors
+    /// [`crate::Error::Input`] if the offset is zero, not finite, or not where the solution holds.
+    fn displacement(&self, offset: [f64; 2], time: f64, load: LoadHistory)
+    -> Result<[[f64; 2]; 2]>;
+
+    /// `t[i][j]`: traction i at `offset` on the plane with unit normal `normal`, load direction j.
+    ///
+    /// # Errors
+    /// As for [`FundamentalSolution::displacement`].
+    fn traction(
+        &self,
+        offset: [f64; 2],
+        normal: [f64; 2],
+        time: f64,
+        load: LoadHistory,
+    ) -> Result<[[f64; 2]; 2]>;
+}

@@ -1,0 +1,26 @@
+//! Convolution histories: what all past tractions give at the end of the next step.
+
+use crate::error::Result;
+
+/// Discrete convolution h^N = Σ_{m<N} G^{N−m+1} τ^m, with the inputs known only up to now.
+///
+/// Contact vectors are laid out as in [`crate::bem`].
+pub trait ConvolutionHistory: Send {
+    /// Inputs accepted so far.
+    fn steps(&self) -> usize;
+
+    /// Hints that about `steps` inputs will come in all: kernels and memory are made ready.
+    ///
+    /// # Errors
+    /// If a kernel cannot be evaluated.
+    fn reserve(&mut self, steps: usize) -> Result<()>;
+
+    /// Overwrites `displacement` with the history at the end of the next step.
+    ///
+    /// # Errors
+    /// If a kernel cannot be evaluated.
+    fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()>;
+
+    /// Accepts the tractions of the step that ends now.
+    fn push(&mut self, traction: &[f64]);
+}

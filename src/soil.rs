@@ -1,0 +1,83 @@
+//! The homogeneous, isotropic, linear elastic soil in plane strain.
+
+use crate::error::{Error, Result, finite, positive};
+
+/// Elastic half-plane: shear modulus, Poisson's ratio, density.
+///
+/// ```
+/// let soil = basemat::Soil::new(80.0e6, 0.25, 2000.0)?;
+/// assert_eq!(soil.shear_wave_speed(), 200.0);
+/// assert!((soil.pressure_wave_speed() - 200.0 * 3.0_f64.sqrt()).abs() < 1e-9);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Soil {
+    shear_modulus: f64,
+    poisson: f64,
+    density: f64,
+}
+
+impl Soil {
+    /// Soil from its shear modulus μ (Pa), Poisson's ratio ν and density ρ (kg/m³).
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless μ and ρ are finite and above zero and −1 < ν < 0.5.
+    pub fn new(shear_modulus: f64, poisson: f64, density: f64) -> Result<Self> {
+        positive("shear modulus of the soil", shear_modulus)?;
+        positive("density of the soil", density)?;
+        if !(poisson > -1.0 && poisson < 0.5) {
+            return Err(Error::Input {
+                quantity: "Poisson's ratio of the soil",
+                value: poisson,
+                needed: "above -1 and below 0.5",
+            });
+        }
+        let soil = Self { shear_modulus, poisson, density };
+        positive("shear wave speed of the soil", soil.shear_wave_speed())?;
+        finite("pressure wave speed of the soil", soil.pressure_wave_speed())?;
+        Ok(soil)
+    }
+
+    /// Soil from its wave speeds `c_S`, `c_P` (m/s) and density ρ (kg/m³).
+    ///
+    /// # Errors
+    /// [`Error::Input`] as for [`Soil::new`]; −1 < ν < 0.5 means `c_P` > 2/√3 · `c_S`.
+    pub fn from_wave_speeds(shear: f64, pressure: f64, density: f64) -> Result<Self> {
+        positive("shear wave speed", shear)?;
+        positive("pressure wave speed", pressure)?;
+        positive("density of the soil", density)?;
+        let slowness = (shear / pressure).powi(2);
+        let poisson = (1.0 - 2.0 * slowness) / (2.0 * (1.0 - slowness));
+        Self::new(density * shear * shear, poisson, density)
+    }
+
+    /// Shear modulus μ, Pa.
+    pub fn shear_modulus(&self) -> f64 {
+        self.shear_modulus
+    }
+
+    /// Poisson's ratio ν.
+    pub fn poisson(&self) -> f64 {
+        self.poisson
+    }
+
+    /// Density ρ, kg/m³.
+    pub fn density(&self) -> f64 {
+        self.density
+    }
+
+    /// Shear (S) wave speed c₂ = √(μ/ρ), m/s.
+    pub fn shear_wave_speed(&self) -> f64 {
+        (self.shear_modulus / self.density).sqrt()
+    }
+
+    /// Pressure (P) wave speed c₁ = c₂/a, m/s.
+    pub fn pressure_wave_speed(&self) -> f64 {
+        self.shear_wave_speed() / self.speed_ratio_squared().sqrt()
+    }
+
+    /// a² = (c₂/c₁)² = (1−2ν)/(2(1−ν)), between 0 and 3/4.
+    pub fn speed_ratio_squared(&self) -> f64 {
+        (1.0 - 2.0 * self.poisson) / (2.0 * (1.0 - self.poisson))
+    }
+}

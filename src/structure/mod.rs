@@ -1,0 +1,58 @@
+//! Structures: the trait that users implement, and three implementations of it.
+
+mod contact_node;
+mod triplets;
+
+pub use contact_node::ContactNode;
+pub use triplets::Triplets;
+
+/// What the integrator needs of a structure: implement this for your own model.
+///
+/// A structure has `n` unknowns, which are **absolute** displacements and rotations (m, rad;
+/// x to the right, y up, rotations counter-clockwise), measured from the unloaded state. It obeys
+///
+/// ```text
+/// M a + C v_rel + K u + f(u) = p(t) + weight + contact forces
+/// ```
+///
+/// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping
+/// does not act on the ride with the ground) and f the optional nonlinear force. Four methods are
+/// needed: [`unknowns`](Structure::unknowns), [`contact_nodes`](Structure::contact_nodes),
+/// [`mass`](Structure::mass) and [`stiffness`](Structure::stiffness); no support is fixed, the
+/// ground holds the structure up.
+///
+/// All forces are per metre of thickness.
+pub trait Structure: Send {
+    /// Number of unknowns n.
+    fn unknowns(&self) -> usize;
+
+    /// Points of the base that touch the ground, from left to right; between neighbours the base
+    /// is straight. A rigid base needs two.
+    fn contact_nodes(&self) -> Vec<ContactNode>;
+
+    /// Adds the mass matrix (n × n, kg/m) to `matrix`. Symmetric, positive semi-definite.
+    fn mass(&self, matrix: &mut Triplets);
+
+    /// Adds the stiffness matrix (n × n, N/m per metre) to `matrix`.
+    fn stiffness(&self, matrix: &mut Triplets);
+
+    /// Adds the viscous damping matrix (n × n) to `matrix`. Default: none.
+    fn damping(&self, _matrix: &mut Triplets) {}
+
+    /// Adds the external load at `time` (n, N/m), weight excepted, to `load`. Default: none.
+    fn load(&self, _time: f64, _load: &mut [f64]) {}
+
+    /// Whether f(u) is zero (the default); the two methods below are then never called.
+    fn is_linear(&self) -> bool {
+        true
+    }
+
+    /// Adds the nonlinear force f(u) (beyond K u) to `force`. Internal variables stay as they are.
+    fn nonlinear_force(&self, _displacement: &[f64], _force: &mut [f64]) {}
+
+    /// Adds the tangent ∂f/∂u to `matrix`, with the same sparsity at every call or less.
+    fn nonlinear_tangent(&self, _displacement: &[f64], _matrix: &mut Triplets) {}
+
+    /// Accepts a step that ended with `displacement`: internal variables may change here only.
+    fn commit(&mut self, _displacement: &[f64]) {}
+}

@@ -1,0 +1,66 @@
+//! The sink into which structures and elements write their matrices.
+
+/// Square sparse matrix under construction: entries at the same place add up.
+///
+/// Indices out of range and values that are not finite are remembered and reported as a typed
+/// error when the matrix is used, so that filling it never fails.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Triplets {
+    order: usize,
+    entries: Vec<(usize, usize, f64)>,
+}
+
+impl Triplets {
+    /// Empty matrix of `order` rows and columns.
+    pub fn new(order: usize) -> Self {
+        Self { order, entries: Vec::new() }
+    }
+
+    /// Number of rows and columns.
+    pub fn order(&self) -> usize {
+        self.order
+    }
+
+    /// Adds `value` at (`row`, `column`).
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        self.entries.push((row, column, value));
+    }
+
+    /// Adds a dense block (row-major, `indices.len()` squared) at rows and columns `indices`.
+    /// A block that is too short leaves its missing entries out.
+    pub fn add_block(&mut self, indices: &[usize], block: &[f64]) {
+        for (row, values) in indices.iter().zip(block.chunks(indices.len().max(1))) {
+            for (column, &value) in indices.iter().zip(values) {
+                self.add(*row, *column, value);
+            }
+        }
+    }
+
+    /// Adds a spring `stiffness` between two unknowns.
+    pub fn add_spring(&mut self, first: usize, second: usize, stiffness: f64) {
+        self.add(first, first, stiffness);
+        self.add(second, second, stiffness);
+        self.add(first, second, -stiffness);
+        self.add(second, first, -stiffness);
+    }
+
+    /// Adds `factor · l lᵀ`, where the row vector l is given as `(index, weight)` pairs: the matrix
+    /// of a spring (or dashpot) that sees the deformation l·u.
+    pub fn add_outer(&mut self, row: &[(usize, f64)], factor: f64) {
+        for &(i, a) in row {
+            for &(j, b) in row {
+                self.add(i, j, factor * a * b);
+            }
+        }
+    }
+
+    /// The entries so far, in the order they came: (row, column, value).
+    pub fn entries(&self) -> &[(usize, usize, f64)] {
+        &self.entries
+    }
+
+    /// Forgets all entries, keeping the memory.
+    pub fn clear(&mut self) {
+        self.entries.clear();
+    }
+}
