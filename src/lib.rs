@@ -2,13 +2,16 @@
 #![forbid(unsafe_code)]
 
 pub mod bem;
+pub mod coupled;
 mod error;
 pub mod fundamental;
 pub mod history;
 pub mod interface;
+mod linalg;
 pub mod motion;
 mod soil;
 pub mod structure;
 
 pub use error::{Error, RecordError, Result, StepError};
+pub use coupled::Simulation;
 pub use soil::Soil;

@@ -7,6 +7,17 @@
 //! tangential ones (traction τ on the soil and displacement, positive to the right). They are
 //! means over the elements, from left to right.
 
+mod half_plane;
+mod patch;
+mod spring;
+mod strip;
+
+pub use half_plane::HalfPlaneGround;
+pub use patch::{Pair, PatchKernel};
+pub(crate) use patch::check_order;
+pub use spring::SpringGround;
+pub use strip::{Grading, Strip};
+
 use crate::error::Result;
 use crate::motion::FreeField;
 

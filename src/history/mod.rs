@@ -1,5 +1,9 @@
 //! Convolution histories: what all past tractions give at the end of the next step.
 
+mod direct;
+
+pub use direct::DirectHistory;
+
 use crate::error::Result;
 
 /// Discrete convolution h^N = Σ_{m<N} G^{N−m+1} τ^m, with the inputs known only up to now.

@@ -1,6 +1,16 @@
 //! Interface laws between the base and the soil.
+//!
+//! A law knows one contact element at a time. For each [`Mode`] it states two linear
+//! [`Condition`]s between the element's opening and its traction, and after a trial it says which
+//! mode comes next. The mode search of [`crate::coupled`] does the rest and knows no law.
 
-/// State of one contact element during a step.
+mod bonded;
+mod coulomb;
+
+pub use bonded::Bonded;
+pub use coulomb::{Activation, Coulomb};
+
+/// What a contact element does during a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Mode {
     /// Closed, no slip (and the only mode of a bonded element).
@@ -11,4 +21,110 @@ pub enum Mode {
     SlipRight,
     /// Uplifted: no traction.
     Open,
+}
+
+impl Mode {
+    /// Whether the element is closed.
+    pub fn is_closed(self) -> bool {
+        self != Mode::Open
+    }
+
+    /// Whether the element slides.
+    pub fn is_slip(self) -> bool {
+        matches!(self, Mode::SlipLeft | Mode::SlipRight)
+    }
+}
+
+/// Opening and **total** traction (static part included) of one contact element, as means over it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContactState {
+    /// Gap between base and soil, m; positive when open.
+    pub gap: f64,
+    /// Slip of the structure over the soil since the static state, m; positive to the right.
+    pub slip: f64,
+    /// Contact pressure, Pa; positive in compression.
+    pub pressure: f64,
+    /// Shear traction that the structure exerts on the soil, Pa; positive to the right.
+    pub shear: f64,
+}
+
+/// What a law may need of the beginning of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepStart {
+    /// Opening and traction at the end of the step before.
+    pub state: ContactState,
+    /// Mode of the step before.
+    pub mode: Mode,
+    /// Whether the element has been open at any time since the start of the run.
+    pub has_opened: bool,
+    /// Time step, s.
+    pub time_step: f64,
+}
+
+/// One linear condition on the end of a step:
+/// `gap·g + slip·s + pressure·p + shear·τ = value`, coefficients in the fields.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Condition {
+    /// Coefficient of the gap.
+    pub gap: f64,
+    /// Coefficient of the slip.
+    pub slip: f64,
+    /// Coefficient of the pressure.
+    pub pressure: f64,
+    /// Coefficient of the shear traction.
+    pub shear: f64,
+    /// Right-hand side.
+    pub value: f64,
+}
+
+impl Condition {
+    /// The gap is `value`.
+    pub fn gap_is(value: f64) -> Self {
+        Self { gap: 1.0, value, ..Self::default() }
+    }
+
+    /// The slip is `value`.
+    pub fn slip_is(value: f64) -> Self {
+        Self { slip: 1.0, value, ..Self::default() }
+    }
+
+    /// The pressure is `value`.
+    pub fn pressure_is(value: f64) -> Self {
+        Self { pressure: 1.0, value, ..Self::default() }
+    }
+
+    /// The shear traction is `value`.
+    pub fn shear_is(value: f64) -> Self {
+        Self { shear: 1.0, value, ..Self::default() }
+    }
+}
+
+/// Differences below which a law should see equality.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// For gaps and slips, m.
+    pub length: f64,
+    /// For tractions, Pa.
+    pub traction: f64,
+}
+
+/// How base and soil touch: implement this for a law of your own.
+///
+/// A law is a rule without memory: what it needs of the past is in [`StepStart`].
+pub trait InterfaceLaw: Send {
+    /// The modes that this law uses; the first is that of an element at rest in contact.
+    fn modes(&self) -> &[Mode];
+
+    /// The two conditions that `mode` imposes on the end of the step.
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2];
+
+    /// The mode to try next, given the `trial` that the conditions of `mode` led to; `mode` itself
+    /// if the trial is admissible.
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &StepStart,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode;
 }

@@ -1,0 +1,165 @@
+//! Winkler's spring bed: a ground without memory.
+
+use super::{ContactElement, Ground};
+use crate::error::{Error, Result, not_negative, positive};
+
+/// Independent springs and dashpots under each element (Winkler bed).
+///
+/// Per unit of area, traction = stiffness · s + dashpot · ds/dt, normal and tangential alike,
+/// stepped by a θ rule: θ = ½ (the default) takes nothing from the springs' energy, θ = 1 damps the
+/// ringing that a bed without dashpots keeps after it was let go.
+///
+/// ```
+/// use basemat::bem::{Ground, SpringGround};
+/// let mut bed = SpringGround::new(-2.0..2.0, 4, 20.0e6, 10.0e6)?.with_dashpots(4.0e5, 0.0)?;
+/// bed.prepare(1.0e-3)?;
+/// let mut matrix = vec![0.0; 64];
+/// bed.instantaneous(&mut matrix);
+/// assert!((matrix[0] - 1.0 / (0.5 * 20.0e6 + 4.0e5 / 1.0e-3)).abs() < 1e-18);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct SpringGround {
+    elements: Vec<ContactElement>,
+    /// `[normal, tangential]`, Pa/m.
+    stiffness: [f64; 2],
+    /// `[normal, tangential]`, Pa·s/m.
+    dashpot: [f64; 2],
+    theta: f64,
+    time_step: f64,
+    displacement: Vec<f64>,
+}
+
+impl SpringGround {
+    /// Bed of `count` equal elements over `range` (m) with normal and tangential stiffness (Pa/m).
+    ///
+    /// # Errors
+    /// [`Error::Input`] for an empty range, no elements, or a stiffness not finite and above zero.
+    pub fn new(
+        range: std::ops::Range<f64>,
+        count: usize,
+        normal_stiffness: f64,
+        tangential_stiffness: f64,
+    ) -> Result<Self> {
+        let elements = super::Strip::uniform(range, count)?.elements();
+        positive("normal stiffness of the spring bed", normal_stiffness)?;
+        positive("tangential stiffness of the spring bed", tangential_stiffness)?;
+        Ok(Self {
+            displacement: vec![0.0; 2 * elements.len()],
+            elements,
+            stiffness: [normal_stiffness, tangential_stiffness],
+            dashpot: [0.0; 2],
+            theta: 0.5,
+            time_step: 0.0,
+        })
+    }
+
+    /// With dashpots (Pa·s/m) beside the springs.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless both are finite and not below zero.
+    pub fn with_dashpots(mut self, normal: f64, tangential: f64) -> Result<Self> {
+        self.dashpot = [
+            not_negative("normal dashpot of the spring bed", normal)?,
+            not_negative("tangential dashpot of the spring bed", tangential)?,
+        ];
+        Ok(self)
+    }
+
+    /// With another θ, from ½ to 1.
+    ///
+    /// # Errors
+    /// [`Error::Input`] outside this range.
+    pub fn with_theta(mut self, theta: f64) -> Result<Self> {
+        if !(0.5..=1.0).contains(&theta) {
+            return Err(Error::Input { quantity: "theta", value: theta, needed: "from 0.5 to 1" });
+        }
+        self.theta = theta;
+        Ok(self)
+    }
+
+    /// θ k + c/Δt of a component.
+    fn impedance(&self, component: usize) -> f64 {
+        self.theta * self.stiffness[component] + self.dashpot[component] / self.time_step
+    }
+
+    fn component(&self, index: usize) -> usize {
+        usize::from(index >= self.elements.len())
+    }
+}
+
+impl Ground for SpringGround {
+    fn elements(&self) -> &[ContactElement] {
+        &self.elements
+    }
+
+    fn prepare(&mut self, time_step: f64) -> Result<()> {
+        self.time_step = positive("time step", time_step)?;
+        self.displacement.fill(0.0);
+        Ok(())
+    }
+
+    fn instantaneous(&self, matrix: &mut [f64]) {
+        matrix.fill(0.0);
+        let size = 2 * self.elements.len();
+        for i in 0..size {
+            matrix[i * size + i] = 1.0 / self.impedance(self.component(i));
+        }
+    }
+
+    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
+        for (i, out) in displacement.iter_mut().enumerate() {
+            let k = self.component(i);
+            let impedance = self.impedance(k);
+            *out = (impedance - self.stiffness[k]) / impedance * self.displacement[i];
+        }
+        Ok(())
+    }
+
+    fn commit(&mut self, traction: &[f64]) {
+        for (i, traction) in traction.iter().enumerate() {
+            let k = self.component(i);
+            let impedance = self.impedance(k);
+            let kept = (impedance - self.stiffness[k]) / impedance * self.displacement[i];
+            self.displacement[i] = kept + traction / impedance;
+        }
+    }
+
+    fn static_compliance(&self, matrix: &mut [f64]) {
+        matrix.fill(0.0);
+        let size = 2 * self.elements.len();
+        for i in 0..size {
+            matrix[i * size + i] = 1.0 / self.stiffness[self.component(i)];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_held_traction_tends_to_the_static_displacement() {
+        let mut bed = SpringGround::new(0.0..1.0, 1, 100.0, 50.0)
+            .unwrap()
+            .with_dashpots(10.0, 5.0)
+            .unwrap();
+        bed.prepare(0.01).unwrap();
+        let mut s = [0.0; 2];
+        for _ in 0..10 {
+            bed.commit(&[200.0, -50.0]);
+        }
+        // s = p/k (1 − exp(−k t/c)) at t = 0.1 s, within the rule's second order.
+        let exact = 1.0 - (-1.0_f64).exp();
+        assert!((bed.displacement[0] / 2.0 - exact).abs() < 5e-4);
+        assert!((bed.displacement[1] / -1.0 - exact).abs() < 5e-4);
+        for _ in 0..2000 {
+            bed.commit(&[200.0, -50.0]);
+        }
+        bed.history(&mut s).unwrap();
+        let mut matrix = [0.0; 4];
+        bed.instantaneous(&mut matrix);
+        assert!((s[0] + matrix[0] * 200.0 - 2.0).abs() < 1e-12);
+        assert!((s[1] + matrix[3] * -50.0 + 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,103 @@
+//! Strips of contact elements on the surface.
+
+use super::ContactElement;
+use crate::error::{Error, Result, finite, positive};
+
+/// How element lengths vary along a strip.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub enum Grading {
+    /// Equal lengths: cheapest history.
+    #[default]
+    Uniform,
+    /// x = −cos(πk/Q): short elements at the ends, where tractions are singular. Second order
+    /// where uniform elements give first.
+    Cosine,
+}
+
+/// A foundation strip: an interval of the surface cut into elements.
+///
+/// ```
+/// use basemat::bem::{Grading, Strip};
+/// let strip = Strip::new(-5.0..5.0, 10, Grading::Cosine)?;
+/// assert_eq!(strip.elements().len(), 10);
+/// assert_eq!(strip.elements()[9].right, 5.0);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strip {
+    nodes: Vec<f64>,
+}
+
+impl Strip {
+    /// Strip over `range` (m) of `count` elements.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for an empty or infinite range or no elements.
+    pub fn new(range: std::ops::Range<f64>, count: usize, grading: Grading) -> Result<Self> {
+        finite("left end of the strip", range.start)?;
+        finite("right end of the strip", range.end)?;
+        positive("length of the strip", range.end - range.start)?;
+        if count == 0 {
+            return Err(Error::Input {
+                quantity: "number of contact elements",
+                value: 0.0,
+                needed: "one or more",
+            });
+        }
+        let middle = 0.5 * (range.start + range.end);
+        let half = 0.5 * (range.end - range.start);
+        let node = |k: usize| {
+            let fraction = k as f64 / count as f64;
+            // sin of the distance from the middle keeps both halves mirror images to rounding.
+            let place = match grading {
+                Grading::Uniform => 2.0 * fraction - 1.0,
+                Grading::Cosine => (std::f64::consts::PI * (fraction - 0.5)).sin(),
+            };
+            match k {
+                0 => range.start,
+                k if k == count => range.end,
+                _ => middle + half * place,
+            }
+        };
+        Self::from_nodes((0..=count).map(node).collect())
+    }
+
+    /// Strip of `count` equal elements over `range` (m).
+    ///
+    /// # Errors
+    /// As for [`Strip::new`].
+    pub fn uniform(range: std::ops::Range<f64>, count: usize) -> Result<Self> {
+        Self::new(range, count, Grading::Uniform)
+    }
+
+    /// Strip whose elements lie between neighbouring `nodes` (m).
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless the nodes are finite and increase; [`Error::Size`] for fewer than 2.
+    pub fn from_nodes(nodes: Vec<f64>) -> Result<Self> {
+        if nodes.len() < 2 {
+            return Err(Error::Size {
+                quantity: "list of strip nodes",
+                found: nodes.len(),
+                needed: 2,
+            });
+        }
+        for pair in nodes.windows(2) {
+            finite("strip node", pair[0])?;
+            finite("strip node", pair[1])?;
+            positive("length of a contact element", pair[1] - pair[0])?;
+        }
+        Ok(Self { nodes })
+    }
+
+    /// The element ends, from left to right, m.
+    pub fn nodes(&self) -> &[f64] {
+        &self.nodes
+    }
+
+    /// The elements, from left to right.
+    pub fn elements(&self) -> Vec<ContactElement> {
+        self.nodes.windows(2).map(|n| ContactElement { left: n[0], right: n[1] }).collect()
+    }
+}

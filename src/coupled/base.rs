@@ -1,0 +1,209 @@
+//! The base as the ground sees it: element means of the base displacement, and their transpose.
+
+use crate::bem::ContactElement;
+use crate::error::{Error, Result, finite};
+use crate::structure::{ContactNode, Triplets};
+
+/// Sparse row: (unknown, weight) pairs.
+type Row = Vec<(usize, f64)>;
+
+/// B, which takes unknowns to element means of the base displacement (normal components down),
+/// and BᵀA, which takes tractions to forces on the structure's unknowns.
+///
+/// For elements between neighbouring nodes the means are the T matrix of halves of Patel &
+/// Spyrakos, eq. 14, and its transpose is their eq. 15.
+#[derive(Debug, Clone)]
+pub(crate) struct Base {
+    /// Normal rows, then tangential rows.
+    rows: Vec<Row>,
+    lengths: Vec<f64>,
+    nodes: Vec<ContactNode>,
+}
+
+impl Base {
+    /// Averages the piecewise straight base over each element.
+    pub(crate) fn new(
+        nodes: Vec<ContactNode>,
+        elements: &[ContactElement],
+        unknowns: usize,
+    ) -> Result<Self> {
+        if nodes.len() < 2 {
+            return Err(Error::Size {
+                quantity: "list of contact nodes",
+                found: nodes.len(),
+                needed: 2,
+            });
+        }
+        for node in &nodes {
+            finite("coordinate of a contact node", node.x)?;
+            for &(index, weight) in node.horizontal.iter().chain(&node.vertical) {
+                finite("weight of a contact node", weight)?;
+                if index >= unknowns {
+                    let quantity = "unknown of a contact node";
+                    return Err(Error::Index { quantity, index, bound: unknowns });
+                }
+            }
+        }
+        if let Some(pair) = nodes.windows(2).find(|pair| pair[1].x <= pair[0].x) {
+            return Err(Error::Input {
+                quantity: "coordinate of a contact node",
+                value: pair[1].x,
+                needed: "to the right of the node before it",
+            });
+        }
+        let count = elements.len();
+        let mut rows = vec![Row::new(); 2 * count];
+        for (e, element) in elements.iter().enumerate() {
+            let slack = 1e-9 * element.length();
+            let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
+            for value in [element.left + slack - first, last - element.right + slack] {
+                if value < 0.0 {
+                    return Err(Error::Input {
+                        quantity: "overlap of the base with a contact element",
+                        value,
+                        needed: "not negative: every element must lie under the structure's base",
+                    });
+                }
+            }
+            for (node, weight) in mean_weights(&nodes, element) {
+                accumulate(&mut rows[e], &nodes[node].vertical, -weight);
+                accumulate(&mut rows[count + e], &nodes[node].horizontal, weight);
+            }
+        }
+        let lengths = elements.iter().map(ContactElement::length).collect();
+        Ok(Self { rows, lengths, nodes })
+    }
+
+    /// Lengths A of the elements.
+    pub(crate) fn lengths(&self) -> &[f64] {
+        &self.lengths
+    }
+
+    /// Length that goes with contact component `i`.
+    pub(crate) fn length(&self, i: usize) -> f64 {
+        self.lengths[i % self.lengths.len()]
+    }
+
+    /// out ← B u.
+    pub(crate) fn means(&self, u: &[f64], out: &mut [f64]) {
+        for (row, out) in self.rows.iter().zip(out) {
+            *out = row.iter().map(|&(j, weight)| weight * u[j]).sum();
+        }
+    }
+
+    /// f ← f + factor · BᵀA τ.
+    pub(crate) fn add_forces(&self, factor: f64, traction: &[f64], force: &mut [f64]) {
+        for (i, (row, traction)) in self.rows.iter().zip(traction).enumerate() {
+            let scaled = factor * self.length(i) * traction;
+            for &(j, weight) in row {
+                force[j] += weight * scaled;
+            }
+        }
+    }
+
+    /// Rotation of the base (counter-clockwise), from the chord between its ends.
+    pub(crate) fn rotation(&self, u: &[f64]) -> f64 {
+        let (first, last) = (&self.nodes[0], &self.nodes[self.nodes.len() - 1]);
+        let up = |node: &ContactNode| node.vertical.iter().map(|&(j, w)| w * u[j]).sum::<f64>();
+        (up(last) - up(first)) / (last.x - first.x)
+    }
+
+    /// Adds γ NᵀN to `matrix` and γ Nᵀ1 to the two right-hand sides (horizontal, vertical up),
+    /// N the displacements of the contact nodes.
+    pub(crate) fn tie_nodes(&self, factor: f64, matrix: &mut Triplets, rhs: [&mut [f64]; 2]) {
+        let [horizontal, vertical] = rhs;
+        for node in &self.nodes {
+            matrix.add_outer(&node.horizontal, factor);
+            matrix.add_outer(&node.vertical, factor);
+            for &(j, weight) in &node.horizontal {
+                horizontal[j] += factor * weight;
+            }
+            for &(j, weight) in &node.vertical {
+                vertical[j] += factor * weight;
+            }
+        }
+    }
+}
+
+fn accumulate(row: &mut Row, terms: &[(usize, f64)], factor: f64) {
+    for &(index, weight) in terms {
+        match row.iter_mut().find(|(j, _)| *j == index) {
+            Some((_, sum)) => *sum += factor * weight,
+            None => row.push((index, factor * weight)),
+        }
+    }
+}
+
+/// (node, weight) of the mean over `element` of the piecewise linear interpolation.
+fn mean_weights(nodes: &[ContactNode], element: &ContactElement) -> Vec<(usize, f64)> {
+    let mut weights = Vec::new();
+    for (k, pair) in nodes.windows(2).enumerate() {
+        let (x0, x1) = (pair[0].x, pair[1].x);
+        // The outermost segments also carry what rounding leaves outside them.
+        let from = if k == 0 { element.left } else { element.left.max(x0) };
+        let to = if k + 2 == nodes.len() { element.right } else { element.right.min(x1) };
+        if to > from {
+            let middle = (0.5 * (from + to) - x0) / (x1 - x0);
+            let share = (to - from) / element.length();
+            weights.push((k, share * (1.0 - middle)));
+            weights.push((k + 1, share * middle));
+        }
+    }
+    weights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn matching_meshes_give_halves() {
+        let nodes: Vec<_> =
+            (0..4).map(|k| ContactNode::free(f64::from(k as u32), 2 * k, 2 * k + 1)).collect();
+        let elements: Vec<_> = (0..3)
+            .map(|k| ContactElement { left: f64::from(k), right: f64::from(k + 1) })
+            .collect();
+        let base = Base::new(nodes, &elements, 8).unwrap();
+        assert_eq!(base.rows[1], vec![(3, -0.5), (5, -0.5)]);
+        assert_eq!(base.rows[3 + 2], vec![(4, 0.5), (6, 0.5)]);
+    }
+
+    #[test]
+    fn means_of_a_linear_field_are_exact_on_any_mesh() {
+        let xs = [-1.0, -0.3, 0.45, 2.0];
+        let nodes: Vec<_> =
+            xs.iter().enumerate().map(|(k, &x)| ContactNode::free(x, 2 * k, 2 * k + 1)).collect();
+        let ends = [-1.0, -0.8, 0.1, 1.3, 2.0];
+        let elements: Vec<_> =
+            ends.windows(2).map(|w| ContactElement { left: w[0], right: w[1] }).collect();
+        let base = Base::new(nodes, &elements, 8).unwrap();
+        let u: Vec<f64> = xs.iter().flat_map(|x| [2.0 + 3.0 * x, 1.0 - 0.5 * x]).collect();
+        let mut means = vec![0.0; 8];
+        base.means(&u, &mut means);
+        for (e, element) in elements.iter().enumerate() {
+            let x = element.center();
+            assert!((means[e] + (1.0 - 0.5 * x)).abs() < 1e-14);
+            assert!((means[4 + e] - (2.0 + 3.0 * x)).abs() < 1e-14);
+        }
+        assert!((base.rotation(&u) + 0.5).abs() < 1e-14);
+        // The transpose does the same work: (BᵀAτ)·u = Σ A τ·(B u).
+        let traction: Vec<f64> = (0..8).map(|i| f64::from(i).cos()).collect();
+        let mut force = vec![0.0; 8];
+        base.add_forces(1.0, &traction, &mut force);
+        let left: f64 = force.iter().zip(&u).map(|(f, u)| f * u).sum();
+        let right: f64 = (0..8).map(|i| base.length(i) * traction[i] * means[i]).sum();
+        assert!((left - right).abs() < 1e-13);
+    }
+
+    #[test]
+    fn bad_bases_are_errors() {
+        let element = [ContactElement { left: 0.0, right: 1.0 }];
+        let node = |x| ContactNode::free(x, 0, 1);
+        assert!(Base::new(vec![node(0.0)], &element, 2).is_err());
+        assert!(Base::new(vec![node(0.0), node(0.0)], &element, 2).is_err());
+        assert!(Base::new(vec![node(0.0), node(f64::NAN)], &element, 2).is_err());
+        assert!(Base::new(vec![node(0.0), node(0.9)], &element, 2).is_err());
+        assert!(Base::new(vec![node(0.0), node(1.0)], &element, 1).is_err());
+        assert!(Base::new(vec![node(0.0), node(1.0)], &element, 2).is_ok());
+    }
+}

@@ -1,0 +1,220 @@
+//! Putting a simulation together.
+
+use super::base::Base;
+use super::model::Model;
+use super::preload::{Placement, StaticState};
+use super::scheme::{Midpoint, TimeScheme};
+use super::simulation::{Operators, Simulation};
+use super::state::Probe;
+use crate::bem::Ground;
+use crate::error::{Error, Result, finite, not_negative, positive};
+use crate::interface::InterfaceLaw;
+use crate::motion::{AtRest, FreeField};
+use crate::structure::Structure;
+
+/// Parts of a [`Simulation`]: a structure, a ground and an interface law are needed, the rest has
+/// defaults (no motion, no weight, midpoint rule, no probes).
+pub struct SimulationBuilder {
+    time_step: f64,
+    structure: Option<Box<dyn Structure>>,
+    ground: Option<Box<dyn Ground>>,
+    laws: Vec<Box<dyn InterfaceLaw>>,
+    motion: Box<dyn FreeField>,
+    scheme: Box<dyn TimeScheme>,
+    gravity: f64,
+    placement: Placement,
+    probes: Vec<Probe>,
+    moment_center: Option<f64>,
+    steps: usize,
+}
+
+impl SimulationBuilder {
+    pub(super) fn new(time_step: f64) -> Self {
+        Self {
+            time_step,
+            structure: None,
+            ground: None,
+            laws: Vec::new(),
+            motion: Box::new(AtRest),
+            scheme: Box::new(Midpoint),
+            gravity: 0.0,
+            placement: Placement::default(),
+            probes: Vec::new(),
+            moment_center: None,
+            steps: 0,
+        }
+    }
+
+    /// The structure.
+    #[must_use]
+    pub fn structure(mut self, structure: impl Structure + 'static) -> Self {
+        self.structure = Some(Box::new(structure));
+        self
+    }
+
+    /// The ground.
+    #[must_use]
+    pub fn ground(mut self, ground: impl Ground + 'static) -> Self {
+        self.ground = Some(Box::new(ground));
+        self
+    }
+
+    /// One interface law for all elements.
+    #[must_use]
+    pub fn interface(mut self, law: impl InterfaceLaw + 'static) -> Self {
+        self.laws = vec![Box::new(law)];
+        self
+    }
+
+    /// An interface law for each element, from left to right.
+    #[must_use]
+    pub fn interfaces(mut self, laws: Vec<Box<dyn InterfaceLaw>>) -> Self {
+        self.laws = laws;
+        self
+    }
+
+    /// The ground motion.
+    #[must_use]
+    pub fn motion(mut self, motion: impl FreeField + 'static) -> Self {
+        self.motion = Box::new(motion);
+        self
+    }
+
+    /// The structure's time scheme; [`Midpoint`] unless given.
+    #[must_use]
+    pub fn scheme(mut self, scheme: impl TimeScheme + 'static) -> Self {
+        self.scheme = Box::new(scheme);
+        self
+    }
+
+    /// Gravity g (m/s²), which gives the structure its weight; the run then starts from the static
+    /// state under weight and the load at t = 0. Zero, the default: the base starts unpressed,
+    /// and uplift and sliding have nothing to hold against.
+    #[must_use]
+    pub fn gravity(mut self, gravity: f64) -> Self {
+        self.gravity = gravity;
+        self
+    }
+
+    /// What friction does while the weight comes on.
+    #[must_use]
+    pub fn placement(mut self, placement: Placement) -> Self {
+        self.placement = placement;
+        self
+    }
+
+    /// A quantity to read off at every step, see [`super::State::probes`].
+    #[must_use]
+    pub fn probe(mut self, probe: Probe) -> Self {
+        self.probes.push(probe);
+        self
+    }
+
+    /// Point (m) about which the base moment is taken; the middle of the base unless given.
+    #[must_use]
+    pub fn moment_center(mut self, x: f64) -> Self {
+        self.moment_center = Some(x);
+        self
+    }
+
+    /// About how many steps will be made: kernels and memory are then ready before the first.
+    #[must_use]
+    pub fn expected_steps(mut self, steps: usize) -> Self {
+        self.steps = steps;
+        self
+    }
+
+    /// Checks the parts against each other, finds the static state and factors what stays constant.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a missing part, the typed error of whatever is wrong with a given one,
+    /// [`Error::Preload`] if the structure cannot stand.
+    pub fn build(self) -> Result<Simulation> {
+        let time_step = positive("time step", self.time_step)?;
+        not_negative("gravity", self.gravity)?;
+        let missing = |quantity, needed| Error::Scene { quantity, needed };
+        let structure = self
+            .structure
+            .ok_or(missing("structure", "give one to the builder with `structure`"))?;
+        let mut ground =
+            self.ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
+        if self.laws.is_empty() {
+            return Err(missing("interface law", "give one to the builder with `interface`"));
+        }
+        let elements = ground.elements().to_vec();
+        crate::bem::check_order(&elements)?;
+        let count = elements.len();
+        if self.laws.len() != 1 && self.laws.len() != count {
+            return Err(Error::Size {
+                quantity: "list of interface laws",
+                found: self.laws.len(),
+                needed: count,
+            });
+        }
+        if self.laws.iter().any(|law| law.modes().is_empty()) {
+            return Err(missing("interface law", "`modes` must name at least one mode"));
+        }
+        let unknowns = structure.unknowns();
+        let base = Base::new(structure.contact_nodes(), &elements, unknowns)?;
+        let mut model = Model::new(structure, &base)?;
+        for probe in &self.probes {
+            for &(index, weight) in probe.rows().into_iter().flatten() {
+                finite("weight of a probe", weight)?;
+                if index >= unknowns {
+                    return Err(Error::Index { quantity: "unknown of a probe", index, bound: unknowns });
+                }
+            }
+        }
+        ground.prepare(time_step)?;
+        if self.steps > 0 {
+            ground.reserve(self.steps)?;
+        }
+
+        let mut static_load = vec![0.0; unknowns];
+        let static_state = if self.gravity > 0.0 {
+            model.structure.load(0.0, &mut static_load);
+            let mut load = static_load.clone();
+            model.mass.multiply_add(-self.gravity, &model.ride[1], &mut load);
+            if let Some(bad) = load.iter().find(|f| !f.is_finite()) {
+                finite("load at t = 0", *bad)?;
+            }
+            let (ground, laws) = (ground.as_ref(), &self.laws);
+            super::preload::solve(&mut model, ground, &base, laws, self.placement, &load)?
+        } else {
+            StaticState::weightless(count, unknowns)
+        };
+
+        let coefficients = self.scheme.coefficients(time_step);
+        let mut soil = vec![0.0; 4 * count * count];
+        ground.instantaneous(&mut soil);
+        if let Some(bad) = soil.iter().find(|g| !g.is_finite()) {
+            finite("instantaneous operator of the ground", *bad)?;
+        }
+        let tangent = model.tangent(&static_state.displacement)?;
+        let operators = Operators::new(&model, &base, &soil, &coefficients, tangent)?;
+        let middle = 0.5 * (elements[0].left + elements[count - 1].right);
+        let moment_center = finite("moment center", self.moment_center.unwrap_or(middle))?;
+        let arms = elements.iter().map(|e| e.center() - moment_center).collect();
+        let start_motion = {
+            let mut motion = vec![0.0; 2 * count];
+            ground.free_field(self.motion.as_ref(), 0.0, &mut motion);
+            motion
+        };
+        Ok(Simulation::assemble(super::simulation::Parts {
+            time_step,
+            model,
+            ground,
+            base,
+            laws: self.laws,
+            motion: self.motion,
+            coefficients,
+            static_state,
+            static_load,
+            soil,
+            operators,
+            probes: self.probes,
+            arms,
+            start_motion,
+        }))
+    }
+}

@@ -1,0 +1,236 @@
+//! The contact problem of a step, condensed to the tractions of the elements.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | W | Delassus operator: jump (soil − structure, normal components down) per unit traction |
+//! | j₀ | jump that the step would end with if tractions stayed at their static values |
+//! | τ | change of traction against the static state |
+//!
+//! jump = j₀ + W τ. Its normal components are gaps; slip of the structure is minus the tangential
+//! ones.
+
+use crate::interface::{Condition, ContactState, InterfaceLaw, Mode, StepStart, Tolerance};
+use crate::linalg::{DenseFactor, dense_multiply_add};
+
+/// What a step gives to the contact problem.
+#[derive(Clone, Copy)]
+pub(crate) struct ContactInput<'a> {
+    /// W, 2Q × 2Q, row-major.
+    pub(crate) delassus: &'a [f64],
+    /// j₀, 2Q.
+    pub(crate) free_jump: &'a [f64],
+    /// Static tractions, 2Q.
+    pub(crate) static_traction: &'a [f64],
+    /// Per element, the end of the step before.
+    pub(crate) start: &'a [StepStart],
+    /// One law for all elements, or one each.
+    pub(crate) laws: &'a [Box<dyn InterfaceLaw>],
+    /// Largest displacement that went into j₀: its rounding is the finest gap that can be told.
+    pub(crate) length_scale: f64,
+}
+
+impl ContactInput<'_> {
+    /// The law of an element.
+    pub(crate) fn law(&self, element: usize) -> &dyn InterfaceLaw {
+        self.laws[if self.laws.len() == 1 { 0 } else { element }].as_ref()
+    }
+}
+
+/// Solves for given modes, and keeps the factors while modes stay.
+pub(crate) struct ContactSolver {
+    count: usize,
+    /// Conditions of the last trial, two per element.
+    conditions: Vec<[Condition; 2]>,
+    /// The conditions whose factors are held; their values do not matter.
+    factored: Vec<[Condition; 2]>,
+    factor: DenseFactor,
+    valid: bool,
+    matrix: Vec<f64>,
+    rhs: Vec<f64>,
+    /// Per row of the reduced system: element, which condition, and the row's scale.
+    rows: Vec<(usize, usize, f64)>,
+    /// Contact components that are unknown; the others follow from one condition alone.
+    unknowns: Vec<usize>,
+    /// Change of traction of the last trial, 2Q.
+    pub(crate) traction: Vec<f64>,
+    /// Opening and total traction of the last trial, per element.
+    pub(crate) states: Vec<ContactState>,
+    jump: Vec<f64>,
+    /// Number of factorings so far.
+    pub(crate) factorings: usize,
+}
+
+impl ContactSolver {
+    pub(crate) fn new(count: usize) -> Self {
+        let size = 2 * count;
+        Self {
+            count,
+            conditions: vec![[Condition::default(); 2]; count],
+            factored: vec![[Condition::default(); 2]; count],
+            factor: DenseFactor::with_capacity(size),
+            valid: false,
+            matrix: Vec::with_capacity(size * size),
+            rhs: Vec::with_capacity(size),
+            rows: Vec::with_capacity(size),
+            unknowns: Vec::with_capacity(size),
+            traction: vec![0.0; size],
+            states: vec![ContactState::default(); count],
+            jump: vec![0.0; size],
+            factorings: 0,
+        }
+    }
+
+    /// Forgets the factors: to be called when W has changed.
+    pub(crate) fn invalidate(&mut self) {
+        self.valid = false;
+    }
+
+    /// Solves the linear system that `modes` define; false if it is singular.
+    pub(crate) fn trial(&mut self, input: &ContactInput<'_>, modes: &[Mode]) -> bool {
+        for (e, &mode) in modes.iter().enumerate() {
+            self.conditions[e] = input.law(e).conditions(mode, &input.start[e]);
+        }
+        let same = |a: &Condition, b: &Condition| {
+            (a.gap, a.slip, a.pressure, a.shear) == (b.gap, b.slip, b.pressure, b.shear)
+        };
+        let unchanged = self.valid
+            && self
+                .conditions
+                .iter()
+                .zip(&self.factored)
+                .all(|(a, b)| same(&a[0], &b[0]) && same(&a[1], &b[1]));
+        if !unchanged && !self.assemble(input) {
+            self.valid = false;
+            return false;
+        }
+        self.solve(input);
+        self.evaluate(input);
+        self.traction.iter().all(|t| t.is_finite())
+    }
+
+    /// Sorts conditions into those that fix a component alone and those that need the system, and
+    /// factors the latter.
+    fn assemble(&mut self, input: &ContactInput<'_>) -> bool {
+        let (count, size) = (self.count, 2 * self.count);
+        self.rows.clear();
+        self.unknowns.clear();
+        for (e, pair) in self.conditions.iter().enumerate() {
+            let fixed = pair.map(fixed_component);
+            for component in 0..2 {
+                if !fixed.contains(&Some(component)) {
+                    self.unknowns.push(component * count + e);
+                }
+            }
+            for (which, fixed) in fixed.iter().enumerate() {
+                if fixed.is_none() {
+                    self.rows.push((e, which, 1.0));
+                }
+            }
+        }
+        let order = self.unknowns.len();
+        if self.rows.len() != order {
+            return false;
+        }
+        self.matrix.clear();
+        for (e, which, scale) in &mut self.rows {
+            let condition = self.conditions[*e][*which];
+            let begin = self.matrix.len();
+            for &j in &self.unknowns {
+                let mut value = condition.gap * input.delassus[*e * size + j]
+                    - condition.slip * input.delassus[(count + *e) * size + j];
+                if j == *e {
+                    value += condition.pressure;
+                } else if j == count + *e {
+                    value += condition.shear;
+                }
+                self.matrix.push(value);
+            }
+            let row = &mut self.matrix[begin..];
+            let largest = row.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+            if !(largest > 0.0 && largest.is_finite()) {
+                return false;
+            }
+            *scale = 1.0 / largest;
+            for value in row {
+                *value *= *scale;
+            }
+        }
+        self.factorings += 1;
+        self.factored.copy_from_slice(&self.conditions);
+        self.valid = self.factor.factor(&self.matrix, order);
+        self.valid
+    }
+
+    /// Tractions from the factors held.
+    fn solve(&mut self, input: &ContactInput<'_>) {
+        let (count, size) = (self.count, 2 * self.count);
+        self.traction.fill(0.0);
+        for (e, pair) in self.conditions.iter().enumerate() {
+            for condition in pair {
+                if let Some(component) = fixed_component(*condition) {
+                    let i = component * count + e;
+                    let total = condition.value / (condition.pressure + condition.shear);
+                    self.traction[i] = total - input.static_traction[i];
+                }
+            }
+        }
+        // What the fixed tractions do to the gaps and slips of the others.
+        self.jump.copy_from_slice(input.free_jump);
+        if self.unknowns.len() < size {
+            dense_multiply_add(input.delassus, 1.0, &self.traction, &mut self.jump);
+        }
+        self.rhs.clear();
+        for &(e, which, scale) in &self.rows {
+            let condition = self.conditions[e][which];
+            let known = condition.gap * self.jump[e] - condition.slip * self.jump[count + e]
+                + condition.pressure * (input.static_traction[e] + self.traction[e])
+                + condition.shear * (input.static_traction[count + e] + self.traction[count + e]);
+            self.rhs.push(scale * (condition.value - known));
+        }
+        self.factor.solve(&mut self.rhs);
+        for (&i, value) in self.unknowns.iter().zip(&self.rhs) {
+            self.traction[i] = *value;
+        }
+    }
+
+    /// Jumps and states that go with the tractions.
+    pub(crate) fn evaluate(&mut self, input: &ContactInput<'_>) {
+        let count = self.count;
+        self.jump.copy_from_slice(input.free_jump);
+        dense_multiply_add(input.delassus, 1.0, &self.traction, &mut self.jump);
+        for (e, state) in self.states.iter_mut().enumerate() {
+            *state = ContactState {
+                gap: self.jump[e],
+                slip: -self.jump[count + e],
+                pressure: input.static_traction[e] + self.traction[e],
+                shear: input.static_traction[count + e] + self.traction[count + e],
+            };
+        }
+    }
+
+    /// What counts as equal, from the rounding of the last trial.
+    pub(crate) fn tolerance(&self, input: &ContactInput<'_>) -> Tolerance {
+        let traction = self
+            .states
+            .iter()
+            .map(|s| s.pressure.abs().max(s.shear.abs()))
+            .chain(input.static_traction.iter().map(|t| t.abs()))
+            .fold(0.0, f64::max);
+        let jump = self.jump.iter().fold(input.length_scale, |m, j| m.max(j.abs()));
+        Tolerance { length: 1e-13 * jump, traction: 1e-12 * traction }
+    }
+}
+
+/// The component (0 normal, 1 tangential) that a condition fixes by itself.
+fn fixed_component(condition: Condition) -> Option<usize> {
+    let Condition { gap, slip, pressure, shear, .. } = condition;
+    if gap != 0.0 || slip != 0.0 {
+        None
+    } else if pressure != 0.0 && shear == 0.0 {
+        Some(0)
+    } else if shear != 0.0 && pressure == 0.0 {
+        Some(1)
+    } else {
+        None
+    }
+}

@@ -1,0 +1,220 @@
+//! The static state under the structure's weight, contact conditions included.
+
+use super::base::Base;
+use super::contact::{ContactInput, ContactSolver};
+use super::model::Model;
+use super::modes::ModeSearch;
+use crate::bem::Ground;
+use crate::error::{Error, Result};
+use crate::interface::{ContactState, Coulomb, InterfaceLaw, Mode, StepStart};
+use crate::linalg::{SparseFactor, SparseMatrix};
+
+/// What friction does while the structure is placed on the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Placement {
+    /// The base is set down without friction, and sticks from then on.
+    #[default]
+    Frictionless,
+    /// The interface law acts while the weight comes on, in one step.
+    WithInterfaceLaw,
+}
+
+/// Static tractions, gaps, displacements and modes.
+#[derive(Debug, Clone)]
+pub(crate) struct StaticState {
+    pub(crate) traction: Vec<f64>,
+    /// Gaps of uplifted elements; closed ones have zero.
+    pub(crate) gap: Vec<f64>,
+    pub(crate) displacement: Vec<f64>,
+    pub(crate) modes: Vec<Mode>,
+}
+
+impl StaticState {
+    /// No weight: everything touches, nothing presses.
+    pub(crate) fn weightless(elements: usize, unknowns: usize) -> Self {
+        Self {
+            traction: vec![0.0; 2 * elements],
+            gap: vec![0.0; elements],
+            displacement: vec![0.0; unknowns],
+            modes: vec![Mode::Stick; elements],
+        }
+    }
+}
+
+/// Proximal iterations at most.
+const ITERATIONS: usize = 500;
+/// Share of the foundation's stiffness that the fictitious springs start with.
+const PROXIMAL_SHARE: f64 = 1e-4;
+
+/// Finds u and τ with K u + f(u) + BᵀA τ = `load` and the contact conditions of a soil at rest.
+///
+/// K alone is singular (the structure can ride), and the settlement of a half-plane has no datum.
+/// Springs ε M to the last iterate make each iteration regular, and pull at nothing once it
+/// converges (proximal point method); Newton's linearisation of f goes along.
+pub(crate) fn solve(
+    model: &mut Model,
+    ground: &dyn Ground,
+    base: &Base,
+    laws: &[Box<dyn InterfaceLaw>],
+    placement: Placement,
+    load: &[f64],
+) -> Result<StaticState> {
+    let (n, count) = (model.unknowns, base.lengths().len());
+    let size = 2 * count;
+    let smooth: Vec<Box<dyn InterfaceLaw>> = vec![Box::new(Coulomb::new(0.0)?)];
+    let laws = match placement {
+        Placement::Frictionless => &smooth,
+        Placement::WithInterfaceLaw => laws,
+    };
+    let mut soil = vec![0.0; size * size];
+    ground.static_compliance(&mut soil);
+    let epsilon = PROXIMAL_SHARE * vertical_stiffness(&soil, base)
+        / model.mass.form(&model.ride[1], &model.ride[1]).max(f64::MIN_POSITIVE);
+
+    let start = vec![
+        StepStart {
+            state: ContactState::default(),
+            mode: Mode::Stick,
+            has_opened: false,
+            time_step: 1.0,
+        };
+        count
+    ];
+    let mut solver = ContactSolver::new(count);
+    let mut search = ModeSearch::new(count);
+    let mut state = StaticState::weightless(count, n);
+    for (e, mode) in state.modes.iter_mut().enumerate() {
+        *mode = laws[if laws.len() == 1 { 0 } else { e }].modes()[0];
+    }
+    let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let load_scale = largest(load).max(f64::MIN_POSITIVE);
+    let mut compliance: Option<Compliance> = None;
+    let mut free_jump = vec![0.0; size];
+    let mut change = f64::INFINITY;
+    for _ in 0..ITERATIONS {
+        let tangent = model.tangent(&state.displacement)?;
+        let current = match compliance.take() {
+            Some(current) if model.linear => current,
+            _ => {
+                solver.invalidate();
+                Compliance::new(model, &tangent, base, &soil, epsilon)?
+            }
+        };
+        let current = compliance.insert(current);
+        // (K + D + εM) u₁ = load − f(u₀) + D u₀ + εM u₀ − BᵀAτ
+        let mut displacement = load.to_vec();
+        if !model.linear {
+            let mut force = vec![0.0; n];
+            model.structure.nonlinear_force(&state.displacement, &mut force);
+            for (d, f) in displacement.iter_mut().zip(&force) {
+                *d -= f;
+            }
+            tangent.multiply_add(1.0, &state.displacement, &mut displacement);
+        }
+        model.mass.multiply_add(epsilon, &state.displacement, &mut displacement);
+        current.factor.solve(&mut displacement);
+        base.means(&displacement, &mut free_jump);
+        for jump in &mut free_jump {
+            *jump = -*jump;
+        }
+        let input = ContactInput {
+            delassus: &current.delassus,
+            free_jump: &free_jump,
+            static_traction: &vec![0.0; size],
+            start: &start,
+            laws,
+            length_scale: largest(&free_jump),
+        };
+        search.solve(&mut solver, &input, &mut state.modes).map_err(|_| Error::Preload {
+            iterations: ITERATIONS,
+            residual: change,
+        })?;
+        for (i, traction) in solver.traction.iter().enumerate() {
+            let column = &current.columns[i * n..(i + 1) * n];
+            for (d, c) in displacement.iter_mut().zip(column) {
+                *d -= c * traction;
+            }
+        }
+        // What the fictitious springs still pull.
+        let moved: Vec<f64> =
+            displacement.iter().zip(&state.displacement).map(|(a, b)| a - b).collect();
+        let mut pull = vec![0.0; n];
+        model.mass.multiply_add(epsilon, &moved, &mut pull);
+        let previous = change;
+        change = largest(&pull) / load_scale;
+        state.displacement = displacement;
+        state.traction.copy_from_slice(&solver.traction);
+        if change <= 1e-13 || (change <= 1e-10 && change >= 0.5 * previous) {
+            for (e, gap) in state.gap.iter_mut().enumerate() {
+                *gap = if state.modes[e].is_closed() { 0.0 } else { solver.states[e].gap };
+            }
+            return Ok(state);
+        }
+        if !change.is_finite() {
+            break;
+        }
+    }
+    Err(Error::Preload { iterations: ITERATIONS, residual: change })
+}
+
+/// Factors of K + D + εM, its answer to unit tractions, and the static Delassus operator.
+struct Compliance {
+    factor: SparseFactor,
+    columns: Vec<f64>,
+    delassus: Vec<f64>,
+}
+
+impl Compliance {
+    fn new(
+        model: &Model,
+        tangent: &SparseMatrix,
+        base: &Base,
+        soil: &[f64],
+        epsilon: f64,
+    ) -> Result<Self> {
+        let n = model.unknowns;
+        let matrix = SparseMatrix::combine(
+            n,
+            &[(1.0, &model.stiffness), (1.0, tangent), (epsilon, &model.mass)],
+        );
+        let mut factor = SparseFactor::new("static stiffness matrix", &matrix)?;
+        let (columns, delassus) = condense(&mut factor, base, soil, n);
+        Ok(Self { factor, columns, delassus })
+    }
+}
+
+/// Columns of K⁻¹BᵀA and the Delassus operator `soil` + B K⁻¹BᵀA.
+pub(crate) fn condense(
+    factor: &mut SparseFactor,
+    base: &Base,
+    soil: &[f64],
+    unknowns: usize,
+) -> (Vec<f64>, Vec<f64>) {
+    let size = 2 * base.lengths().len();
+    let mut columns = vec![0.0; size * unknowns];
+    let mut delassus = soil.to_vec();
+    let mut unit = vec![0.0; size];
+    let mut means = vec![0.0; size];
+    for (i, column) in columns.chunks_exact_mut(unknowns.max(1)).enumerate() {
+        unit[i] = 1.0;
+        base.add_forces(1.0, &unit, column);
+        unit[i] = 0.0;
+        factor.solve(column);
+        base.means(column, &mut means);
+        for (row, mean) in means.iter().enumerate() {
+            delassus[row * size + i] += mean;
+        }
+    }
+    (columns, delassus)
+}
+
+/// Vertical force per settlement of the soil under a uniform pressure.
+fn vertical_stiffness(soil: &[f64], base: &Base) -> f64 {
+    let count = base.lengths().len();
+    let size = 2 * count;
+    let width: f64 = base.lengths().iter().sum();
+    let settled: f64 = (0..count)
+        .map(|p| base.lengths()[p] * (0..count).map(|q| soil[p * size + q]).sum::<f64>())
+        .sum();
+    width * width / settled
+}

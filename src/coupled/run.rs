@@ -1,0 +1,249 @@
+//! Results of a run: peaks, warnings, energies.
+
+use std::fmt;
+use std::time::Duration;
+
+use super::ledger::Ledger;
+use super::modes::SearchMethod;
+use super::state::{Probe, State, Transition};
+use crate::bem::ContactElement;
+
+/// Whether a run goes on after an observer has seen a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flow {
+    /// Go on.
+    Continue,
+    /// Stop after this step.
+    Stop,
+}
+
+impl From<()> for Flow {
+    fn from((): ()) -> Self {
+        Flow::Continue
+    }
+}
+
+/// A value of largest magnitude, with its sign, and when it occurred.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Peak {
+    /// The value, with its sign.
+    pub value: f64,
+    /// When, s.
+    pub time: f64,
+}
+
+impl Peak {
+    fn see(&mut self, value: f64, time: f64) {
+        if value.abs() > self.value.abs() {
+            *self = Self { value, time };
+        }
+    }
+}
+
+/// Where small-displacement contact is strained.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// Slip beyond the length of the shortest element: elements no longer face each other.
+    LargeSlip {
+        /// Largest slip, m.
+        slip: f64,
+        /// Shortest element, m.
+        element_length: f64,
+    },
+    /// Rotation of the base beyond [`Warning::ROTATION_LIMIT`]: cosines are no longer one.
+    LargeRotation {
+        /// Largest rotation, rad.
+        rotation: f64,
+    },
+    /// The energy ledger does not close to 1e-9.
+    Ledger {
+        /// Its residual, relative to the largest term.
+        residual: f64,
+    },
+}
+
+impl Warning {
+    /// Rotation above which a run warns, rad: the cosine is off by half a percent.
+    pub const ROTATION_LIMIT: f64 = 0.1;
+    /// Ledger residual above which a run warns.
+    pub const LEDGER_LIMIT: f64 = 1e-9;
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LargeSlip { slip, element_length } => write!(
+                f,
+                "slip of {slip:.3e} m is beyond the shortest element, {element_length:.3e} m: \
+                 contact is paired for small displacements"
+            ),
+            Self::LargeRotation { rotation } => {
+                write!(f, "base rotation of {rotation:.3e} rad: geometry is that of small rotations")
+            }
+            Self::Ledger { residual } => write!(f, "energy ledger open by {residual:.1e}"),
+        }
+    }
+}
+
+/// Summary of a run; forces per metre of thickness, on the soil.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// Steps of this run.
+    pub steps: usize,
+    /// Time at its end, s.
+    pub time: f64,
+    /// Largest base shear, N/m.
+    pub base_shear: Peak,
+    /// Largest change of base moment against the static state, N·m/m.
+    pub base_moment: Peak,
+    /// Smallest and largest normal force, N/m.
+    pub normal_force: [f64; 2],
+    /// Largest uplifted fraction of the base.
+    pub uplifted_fraction: Peak,
+    /// Largest slip of any element, m.
+    pub slip: Peak,
+    /// Mean slip at the end, m.
+    pub residual_slip: f64,
+    /// Largest base rotation, rad.
+    pub base_rotation: Peak,
+    /// Largest values of the probes, by name.
+    pub probes: Vec<(String, Peak)>,
+    /// Every change of contact mode.
+    pub transitions: Vec<Transition>,
+    /// The ledger at the end.
+    pub ledger: Ledger,
+    /// Largest ledger residual of the run.
+    pub ledger_residual: f64,
+    /// Linear solves of the mode search, in all.
+    pub trials: usize,
+    /// Steps that needed Gauss–Seidel, and steps that needed the least-index rule.
+    pub fallbacks: [usize; 2],
+    /// Warnings.
+    pub warnings: Vec<Warning>,
+    /// Wall time, observers included.
+    pub wall: Duration,
+    shortest: f64,
+    static_moment: f64,
+}
+
+impl Run {
+    pub(super) fn new(probes: &[Probe], elements: &[ContactElement], start: &State) -> Self {
+        Self {
+            steps: 0,
+            time: start.time,
+            base_shear: Peak::default(),
+            base_moment: Peak::default(),
+            normal_force: [start.normal_force; 2],
+            uplifted_fraction: Peak { value: start.uplifted_fraction, time: start.time },
+            slip: Peak::default(),
+            residual_slip: start.mean_slip(),
+            base_rotation: Peak::default(),
+            probes: probes.iter().map(|p| (p.name.clone(), Peak::default())).collect(),
+            transitions: Vec::new(),
+            ledger: start.ledger,
+            ledger_residual: 0.0,
+            trials: 0,
+            fallbacks: [0; 2],
+            warnings: Vec::new(),
+            wall: Duration::ZERO,
+            shortest: elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min),
+            static_moment: start.base_moment,
+        }
+    }
+
+    pub(super) fn record(&mut self, state: &State) {
+        let time = state.time;
+        self.steps += 1;
+        self.base_shear.see(state.base_shear, time);
+        self.base_moment.see(state.base_moment - self.static_moment, time);
+        self.normal_force[0] = self.normal_force[0].min(state.normal_force);
+        self.normal_force[1] = self.normal_force[1].max(state.normal_force);
+        self.uplifted_fraction.see(state.uplifted_fraction, time);
+        for contact in &state.contact {
+            self.slip.see(contact.slip, time);
+        }
+        self.base_rotation.see(state.base_rotation, time);
+        for ((_, peak), value) in self.probes.iter_mut().zip(&state.probes) {
+            peak.see(*value, time);
+        }
+        self.transitions.extend_from_slice(&state.transitions);
+        self.ledger_residual = self.ledger_residual.max(state.ledger.residual());
+        self.trials += state.trials;
+        match state.method {
+            SearchMethod::ActiveSet => {}
+            SearchMethod::GaussSeidel => self.fallbacks[0] += 1,
+            SearchMethod::LeastIndex => self.fallbacks[1] += 1,
+        }
+    }
+
+    pub(super) fn finish(&mut self, state: &State, wall: Duration) {
+        self.time = state.time;
+        self.residual_slip = state.mean_slip();
+        self.ledger = state.ledger;
+        self.wall = wall;
+        let slip = self.slip.value.abs();
+        if slip > self.shortest {
+            self.warnings.push(Warning::LargeSlip { slip, element_length: self.shortest });
+        }
+        let rotation = self.base_rotation.value.abs();
+        if rotation > Warning::ROTATION_LIMIT {
+            self.warnings.push(Warning::LargeRotation { rotation });
+        }
+        let residual = state.ledger.residual();
+        if residual > Warning::LEDGER_LIMIT {
+            self.warnings.push(Warning::Ledger { residual });
+        }
+    }
+
+    /// Largest value of the probe called `name`.
+    pub fn probe(&self, name: &str) -> Option<Peak> {
+        self.probes.iter().find(|(probe, _)| probe == name).map(|(_, peak)| *peak)
+    }
+}
+
+impl fmt::Display for Run {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let per_step = self.wall.as_secs_f64() / self.steps.max(1) as f64 * 1e6;
+        writeln!(
+            f,
+            "{} steps to t = {:.3} s in {:.2} s ({per_step:.1} µs per step, {:.2} solves per step, \
+             fallbacks {}/{})",
+            self.steps,
+            self.time,
+            self.wall.as_secs_f64(),
+            self.trials as f64 / self.steps.max(1) as f64,
+            self.fallbacks[0],
+            self.fallbacks[1],
+        )?;
+        let mut line = |name: &str, peak: Peak, unit: &str| {
+            writeln!(f, "  {name:<28}{:>13.5e} {unit:<6} at {:.3} s", peak.value, peak.time)
+        };
+        line("base shear", self.base_shear, "N/m")?;
+        line("base moment (change)", self.base_moment, "N·m/m")?;
+        line("uplifted fraction", self.uplifted_fraction, "")?;
+        line("slip", self.slip, "m")?;
+        line("base rotation", self.base_rotation, "rad")?;
+        for (name, peak) in &self.probes {
+            line(name, *peak, "")?;
+        }
+        writeln!(f, "  {:<28}{:>13.5e} m", "mean slip at the end", self.residual_slip)?;
+        writeln!(
+            f,
+            "  {:<28}{:>13.5e} to {:.5e} N/m",
+            "normal force", self.normal_force[0], self.normal_force[1]
+        )?;
+        let opened = self.transitions.iter().filter(|t| t.is_debonding()).count();
+        let closed = self.transitions.iter().filter(|t| t.is_rebonding()).count();
+        writeln!(
+            f,
+            "  {} mode changes ({opened} debondings, {closed} rebondings)",
+            self.transitions.len()
+        )?;
+        write!(f, "{}", self.ledger)?;
+        for warning in &self.warnings {
+            write!(f, "\nwarning: {warning}")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,152 @@
+//! Time schemes of the structure.
+
+use crate::error::{Error, Result};
+
+/// Where in the step the equation of motion is written, and how the step ends.
+///
+/// Each array holds the coefficients of (Δu, v₀, a₀): the displacement increment of the step and
+/// the velocity and acceleration at its start. The equation of motion
+/// `M a* + C v* + K u* + f(u*) + BᵀA τ = p(t*)` is written with
+/// `u* = u₀ + displacement·(Δu, v₀, a₀)` and so on; contact tractions τ are constant over the step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SchemeCoefficients {
+    /// u* − u₀.
+    pub displacement: [f64; 3],
+    /// v*.
+    pub velocity: [f64; 3],
+    /// a*.
+    pub acceleration: [f64; 3],
+    /// v₁, the velocity at the end.
+    pub new_velocity: [f64; 3],
+    /// a₁, the acceleration at the end.
+    pub new_acceleration: [f64; 3],
+    /// (t* − t₀)/Δt, the time of the external load.
+    pub load_fraction: f64,
+}
+
+/// How the structure's equation of motion is stepped in time.
+///
+/// Contact and soil need nothing of it: they live on displacements at the ends of steps and
+/// tractions constant within them.
+pub trait TimeScheme: Send {
+    /// The coefficients for steps of `time_step` seconds.
+    fn coefficients(&self, time_step: f64) -> SchemeCoefficients;
+}
+
+/// Implicit midpoint rule (the default): second order, conserves energy exactly.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Midpoint;
+
+impl TimeScheme for Midpoint {
+    fn coefficients(&self, time_step: f64) -> SchemeCoefficients {
+        theta_coefficients(0.5, time_step)
+    }
+}
+
+/// θ-method: the midpoint rule for θ = ½, dissipative at high frequencies above.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Theta {
+    theta: f64,
+}
+
+impl Theta {
+    /// Method with ½ ≤ θ ≤ 1.
+    ///
+    /// # Errors
+    /// [`Error::Input`] outside this range.
+    pub fn new(theta: f64) -> Result<Self> {
+        if (0.5..=1.0).contains(&theta) {
+            Ok(Self { theta })
+        } else {
+            Err(Error::Input { quantity: "theta", value: theta, needed: "from 0.5 to 1" })
+        }
+    }
+}
+
+impl TimeScheme for Theta {
+    fn coefficients(&self, time_step: f64) -> SchemeCoefficients {
+        theta_coefficients(self.theta, time_step)
+    }
+}
+
+/// u₁ − u₀ = Δt (θ v₁ + (1−θ) v₀), equation of motion at the same weights.
+fn theta_coefficients(theta: f64, time_step: f64) -> SchemeCoefficients {
+    let acceleration = [1.0 / (theta * time_step * time_step), -1.0 / (theta * time_step), 0.0];
+    SchemeCoefficients {
+        displacement: [theta, 0.0, 0.0],
+        velocity: [1.0 / time_step, 0.0, 0.0],
+        acceleration,
+        new_velocity: [1.0 / (theta * time_step), -(1.0 - theta) / theta, 0.0],
+        new_acceleration: acceleration,
+        load_fraction: theta,
+    }
+}
+
+impl SchemeCoefficients {
+    /// Whether the scheme leaves kinetic and linear strain energy exactly to the forces: whether
+    /// Δu = Δt (v₀+v₁)/2, a* = (v₁−v₀)/Δt and u* = u₀ + Δu/2.
+    pub(crate) fn conserves_energy(&self, time_step: f64) -> bool {
+        let (h, new) = (time_step, self.new_velocity);
+        let same = |a: f64, b: f64, scale: f64| (a - b).abs() <= 1e-12 * scale;
+        let inertia = [new[0] / h, (new[1] - 1.0) / h, new[2] / h];
+        let mean = [0.5 * h * new[0], 0.5 * h * (new[1] + 1.0), 0.5 * h * new[2]];
+        let units = [1.0, h, h * h];
+        (0..3).all(|k| {
+            let (one, half) = if k == 0 { (1.0, 0.5) } else { (0.0, 0.0) };
+            same(self.acceleration[k], inertia[k], units[k] / (h * h))
+                && same(mean[k], one, units[k])
+                && same(self.displacement[k], half, units[k])
+        })
+    }
+
+    /// Σ coefficientsₖ (Δu, v₀, a₀)ₖ.
+    pub(crate) fn apply(coefficients: [f64; 3], increment: f64, velocity: f64, acceleration: f64) -> f64 {
+        coefficients[0] * increment + coefficients[1] * velocity + coefficients[2] * acceleration
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Free vibration of u'' = −ω² u over one period.
+    fn error_after_a_period(scheme: &dyn TimeScheme, steps: usize) -> f64 {
+        let omega = 3.0_f64;
+        let time_step = std::f64::consts::TAU / omega / steps as f64;
+        let c = scheme.coefficients(time_step);
+        let (mut u, mut v, mut a) = (1.0, 0.0, -omega * omega);
+        for _ in 0..steps {
+            let stiffness = c.acceleration[0] + omega * omega * c.displacement[0];
+            let known = SchemeCoefficients::apply(c.acceleration, 0.0, v, a)
+                + omega * omega * (u + SchemeCoefficients::apply(c.displacement, 0.0, v, a));
+            let du = -known / stiffness;
+            let next = SchemeCoefficients::apply(c.new_velocity, du, v, a);
+            a = SchemeCoefficients::apply(c.new_acceleration, du, v, a);
+            v = next;
+            u += du;
+        }
+        ((u - 1.0).powi(2) + (v / omega).powi(2)).sqrt()
+    }
+
+    #[test]
+    fn midpoint_is_second_order_and_theta_first() {
+        let order = |scheme: &dyn TimeScheme| {
+            (error_after_a_period(scheme, 100) / error_after_a_period(scheme, 200)).log2()
+        };
+        assert!((order(&Midpoint) - 2.0).abs() < 0.05);
+        assert!((order(&Theta::new(0.6).unwrap()) - 1.0).abs() < 0.1);
+    }
+
+    #[test]
+    fn only_the_midpoint_rule_conserves() {
+        assert!(Midpoint.coefficients(1e-3).conserves_energy(1e-3));
+        assert!(!Theta::new(0.5001).unwrap().coefficients(1e-3).conserves_energy(1e-3));
+    }
+
+    #[test]
+    fn bad_theta_is_refused() {
+        for theta in [0.49, 1.01, f64::NAN] {
+            assert!(Theta::new(theta).is_err());
+        }
+    }
+}

@@ -1,0 +1,307 @@
+//! The simulation: its parts, its state, and the loop over steps.
+
+use super::base::Base;
+use super::builder::SimulationBuilder;
+use super::contact::ContactSolver;
+use super::ledger::Ledger;
+use super::model::Model;
+use super::modes::{ModeSearch, SearchMethod};
+use super::preload::{StaticState, condense};
+use super::run::{Flow, Run};
+use super::scheme::SchemeCoefficients;
+use super::state::{Probe, State};
+use crate::bem::{ContactElement, Ground};
+use crate::error::Result;
+use crate::interface::{ContactState, InterfaceLaw, StepStart};
+use crate::linalg::{SparseFactor, SparseMatrix};
+use crate::motion::FreeField;
+
+/// A structure on a ground, ready to march.
+///
+/// Made by [`Simulation::builder`]. The caller may own the loop ([`step`](Simulation::step)) or hand
+/// it over ([`run`](Simulation::run)).
+pub struct Simulation {
+    pub(super) time_step: f64,
+    pub(super) model: Model,
+    pub(super) ground: Box<dyn Ground>,
+    pub(super) base: Base,
+    pub(super) laws: Vec<Box<dyn InterfaceLaw>>,
+    pub(super) motion: Box<dyn FreeField>,
+    pub(super) coefficients: SchemeCoefficients,
+    pub(super) static_state: StaticState,
+    pub(super) static_load: Vec<f64>,
+    /// f(u) at the static state, nonlinear structures only.
+    pub(super) static_force: Vec<f64>,
+    /// Instantaneous operator of the ground, 2Q × 2Q.
+    pub(super) soil: Vec<f64>,
+    pub(super) operators: Operators,
+    pub(super) probes: Vec<Probe>,
+    /// Element midpoints relative to the point of the base moment.
+    pub(super) arms: Vec<f64>,
+    pub(super) solver: ContactSolver,
+    pub(super) search: ModeSearch,
+    pub(super) start: Vec<StepStart>,
+    pub(super) memory: Memory,
+    pub(super) work: Workspace,
+    pub(super) state: State,
+    /// Lengths of the elements, for [`Run`]'s warnings.
+    elements: Vec<ContactElement>,
+}
+
+/// What stays constant while the tangent does.
+pub(super) struct Operators {
+    pub(super) tangent: SparseMatrix,
+    pub(super) factor: SparseFactor,
+    /// Columns of K_eff⁻¹BᵀA, one after the other.
+    pub(super) columns: Vec<f64>,
+    pub(super) delassus: Vec<f64>,
+}
+
+impl Operators {
+    /// Factors K_eff = M, C, K + ∂f/∂u, each with the scheme's coefficient of Δu, and condenses it.
+    pub(super) fn new(
+        model: &Model,
+        base: &Base,
+        soil: &[f64],
+        coefficients: &SchemeCoefficients,
+        tangent: SparseMatrix,
+    ) -> Result<Self> {
+        let matrix = SparseMatrix::combine(
+            model.unknowns,
+            &[
+                (coefficients.acceleration[0], &model.mass),
+                (coefficients.velocity[0], &model.damping),
+                (coefficients.displacement[0], &model.stiffness),
+                (coefficients.displacement[0], &tangent),
+            ],
+        );
+        let mut factor = SparseFactor::new("effective stiffness matrix", &matrix)?;
+        let (columns, delassus) = condense(&mut factor, base, soil, model.unknowns);
+        Ok(Self { tangent, factor, columns, delassus })
+    }
+}
+
+/// What one step needs of the one before, besides the public state.
+pub(super) struct Memory {
+    /// Mean velocity and acceleration of the free field, as the time scheme sees them.
+    pub(super) ride_velocity: [f64; 2],
+    pub(super) ride_acceleration: [f64; 2],
+    /// Free field at t = 0, from which it is measured.
+    pub(super) start_motion: Vec<f64>,
+    /// Free field, soil displacement by tractions, and jump at the end of the last step, 2Q each.
+    pub(super) free_field: Vec<f64>,
+    pub(super) soil_displacement: Vec<f64>,
+    pub(super) jump: Vec<f64>,
+    /// Work of the nonlinear internal force so far.
+    pub(super) nonlinear_work: f64,
+}
+
+/// Scratch of a step: nothing in it outlives the step.
+pub(super) struct Workspace {
+    pub(super) free_field: Vec<f64>,
+    pub(super) history: Vec<f64>,
+    pub(super) free_jump: Vec<f64>,
+    pub(super) means: Vec<f64>,
+    pub(super) soil_displacement: Vec<f64>,
+    pub(super) modes: Vec<crate::interface::Mode>,
+    pub(super) load: Vec<f64>,
+    pub(super) known: Vec<f64>,
+    pub(super) increment: Vec<f64>,
+    pub(super) new_velocity: Vec<f64>,
+    pub(super) new_acceleration: Vec<f64>,
+    pub(super) vector: Vec<f64>,
+    pub(super) force: Vec<f64>,
+    pub(super) total: Vec<f64>,
+}
+
+pub(super) struct Parts {
+    pub(super) time_step: f64,
+    pub(super) model: Model,
+    pub(super) ground: Box<dyn Ground>,
+    pub(super) base: Base,
+    pub(super) laws: Vec<Box<dyn InterfaceLaw>>,
+    pub(super) motion: Box<dyn FreeField>,
+    pub(super) coefficients: SchemeCoefficients,
+    pub(super) static_state: StaticState,
+    pub(super) static_load: Vec<f64>,
+    pub(super) soil: Vec<f64>,
+    pub(super) operators: Operators,
+    pub(super) probes: Vec<Probe>,
+    pub(super) arms: Vec<f64>,
+    pub(super) start_motion: Vec<f64>,
+}
+
+impl Simulation {
+    /// Begins a simulation with steps of `time_step` seconds.
+    pub fn builder(time_step: f64) -> SimulationBuilder {
+        SimulationBuilder::new(time_step)
+    }
+
+    pub(super) fn assemble(parts: Parts) -> Self {
+        let (n, count) = (parts.model.unknowns, parts.base.lengths().len());
+        let size = 2 * count;
+        let at = &parts.static_state;
+        let contact: Vec<_> = (0..count)
+            .map(|e| ContactState {
+                gap: at.gap[e],
+                slip: 0.0,
+                pressure: at.traction[e],
+                shear: at.traction[count + e],
+            })
+            .collect();
+        let law = |e: usize| &parts.laws[if parts.laws.len() == 1 { 0 } else { e }];
+        // Whatever the placement did, what touches sticks from now on.
+        let modes: Vec<_> = (0..count)
+            .map(|e| {
+                let known = law(e).modes();
+                if known.contains(&at.modes[e]) && !at.modes[e].is_closed() {
+                    at.modes[e]
+                } else {
+                    known[0]
+                }
+            })
+            .collect();
+        let start = (0..count)
+            .map(|e| StepStart {
+                state: contact[e],
+                mode: modes[e],
+                has_opened: !modes[e].is_closed(),
+                time_step: parts.time_step,
+            })
+            .collect();
+        let mut jump = at.gap.clone();
+        jump.resize(size, 0.0);
+        let mut static_force = vec![0.0; n];
+        if !parts.model.linear {
+            parts.model.structure.nonlinear_force(&at.displacement, &mut static_force);
+        }
+        let elements = parts.ground.elements().to_vec();
+        let mut simulation = Self {
+            time_step: parts.time_step,
+            coefficients: parts.coefficients,
+            static_load: parts.static_load,
+            static_force,
+            soil: parts.soil,
+            operators: parts.operators,
+            arms: parts.arms,
+            solver: ContactSolver::new(count),
+            search: ModeSearch::new(count),
+            start,
+            memory: Memory {
+                ride_velocity: [0.0; 2],
+                ride_acceleration: [0.0; 2],
+                start_motion: parts.start_motion,
+                free_field: vec![0.0; size],
+                soil_displacement: vec![0.0; size],
+                jump,
+                nonlinear_work: 0.0,
+            },
+            work: Workspace::new(n, count),
+            state: State {
+                step: 0,
+                time: 0.0,
+                displacement: vec![0.0; n],
+                velocity: vec![0.0; n],
+                acceleration: vec![0.0; n],
+                contact,
+                modes,
+                transitions: Vec::with_capacity(count),
+                probes: vec![0.0; parts.probes.len()],
+                base_shear: 0.0,
+                base_moment: 0.0,
+                normal_force: 0.0,
+                uplifted_fraction: 0.0,
+                base_rotation: 0.0,
+                free_field: [0.0; 2],
+                ledger: Ledger::default(),
+                trials: 0,
+                method: SearchMethod::ActiveSet,
+            },
+            model: parts.model,
+            ground: parts.ground,
+            base: parts.base,
+            laws: parts.laws,
+            motion: parts.motion,
+            static_state: parts.static_state,
+            probes: parts.probes,
+            elements,
+        };
+        simulation.update_resultants();
+        simulation
+    }
+
+    /// The state at the end of the last accepted step (at first: the static state).
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The time step, s.
+    pub fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// The contact elements, from left to right.
+    pub fn elements(&self) -> &[ContactElement] {
+        &self.elements
+    }
+
+    /// The probes, in the order of [`State::probes`].
+    pub fn probes(&self) -> &[Probe] {
+        &self.probes
+    }
+
+    /// Static displacement of the structure's unknowns under weight, m and rad. Its rigid
+    /// settlement has no meaning on a half-plane, which has no datum in two dimensions.
+    pub fn static_displacement(&self) -> &[f64] {
+        &self.static_state.displacement
+    }
+
+    /// Makes up to `steps` steps, calling `observe` after each with the new state.
+    ///
+    /// `observe` may return nothing, or a [`Flow`] to stop early.
+    ///
+    /// # Errors
+    /// [`crate::Error::Step`] for a step that could not be solved; the simulation stays at the last
+    /// accepted one, and [`Simulation::state`] shows it.
+    pub fn run<R: Into<Flow>>(
+        &mut self,
+        steps: usize,
+        mut observe: impl FnMut(&State) -> R,
+    ) -> Result<Run> {
+        let begin = std::time::Instant::now();
+        self.ground.reserve(self.state.step + steps)?;
+        let mut run = Run::new(&self.probes, &self.elements, &self.state);
+        for _ in 0..steps {
+            self.step()?;
+            run.record(&self.state);
+            if observe(&self.state).into() == Flow::Stop {
+                break;
+            }
+        }
+        run.finish(&self.state, begin.elapsed());
+        Ok(run)
+    }
+}
+
+impl Workspace {
+    fn new(unknowns: usize, count: usize) -> Self {
+        let contact = || vec![0.0; 2 * count];
+        let structure = || vec![0.0; unknowns];
+        Self {
+            free_field: contact(),
+            history: contact(),
+            free_jump: contact(),
+            means: contact(),
+            soil_displacement: contact(),
+            modes: vec![crate::interface::Mode::Stick; count],
+            load: structure(),
+            known: structure(),
+            increment: structure(),
+            new_velocity: structure(),
+            new_acceleration: structure(),
+            vector: structure(),
+            force: structure(),
+            total: structure(),
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! What a step leaves behind.
+
+use super::ledger::Ledger;
+use super::modes::SearchMethod;
+use crate::interface::{ContactState, Mode};
+
+/// A change of contact mode.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Transition {
+    /// Step in which it happened, from 1.
+    pub step: usize,
+    /// Time at the end of that step, s.
+    pub time: f64,
+    /// Element, from the left, from 0.
+    pub element: usize,
+    /// Mode before.
+    pub from: Mode,
+    /// Mode after.
+    pub to: Mode,
+}
+
+impl Transition {
+    /// Whether the element opened.
+    pub fn is_debonding(&self) -> bool {
+        self.from.is_closed() && !self.to.is_closed()
+    }
+
+    /// Whether the element closed again.
+    pub fn is_rebonding(&self) -> bool {
+        !self.from.is_closed() && self.to.is_closed()
+    }
+}
+
+/// The simulation at the end of an accepted step.
+///
+/// Displacements are changes against the static state under weight. Forces are those of the
+/// structure **on the soil**, per metre of thickness; tractions of the step act at its middle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// Steps made.
+    pub step: usize,
+    /// Time, s.
+    pub time: f64,
+    /// Unknowns of the structure, m and rad (absolute, not relative to the ground).
+    pub displacement: Vec<f64>,
+    /// Their rates at the end of the step.
+    pub velocity: Vec<f64>,
+    /// Their accelerations; for the midpoint and θ rules the mean over the step.
+    pub acceleration: Vec<f64>,
+    /// Opening and total traction of each element.
+    pub contact: Vec<ContactState>,
+    /// Mode of each element.
+    pub modes: Vec<Mode>,
+    /// Changes of mode in this step.
+    pub transitions: Vec<Transition>,
+    /// Values of the probes, in the order they were given to the builder.
+    pub probes: Vec<f64>,
+    /// Horizontal force on the soil, positive to the right, N/m.
+    pub base_shear: f64,
+    /// Moment on the soil about the middle of the base, counter-clockwise, N·m/m.
+    pub base_moment: f64,
+    /// Total pressure on the soil, positive in compression, N/m.
+    pub normal_force: f64,
+    /// Length of open elements over the length of the base.
+    pub uplifted_fraction: f64,
+    /// Rotation of the base's chord, counter-clockwise, rad.
+    pub base_rotation: f64,
+    /// Mean horizontal and vertical (up) displacement of the free field under the base, m.
+    pub free_field: [f64; 2],
+    /// The energy ledger.
+    pub ledger: Ledger,
+    /// Linear solves that the mode search needed.
+    pub trials: usize,
+    /// How the modes were found.
+    pub method: SearchMethod,
+}
+
+impl State {
+    /// Largest |slip| of any element, m.
+    pub fn largest_slip(&self) -> f64 {
+        self.contact.iter().fold(0.0, |m, c| m.max(c.slip.abs()))
+    }
+
+    /// Slip averaged over the elements, m; positive when the structure moved to the right.
+    pub fn mean_slip(&self) -> f64 {
+        self.contact.iter().map(|c| c.slip).sum::<f64>() / self.contact.len() as f64
+    }
+}
+
+/// A quantity read off at every step: a weighted sum of displacements, velocities, accelerations.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Probe {
+    /// Name, for tables.
+    pub name: String,
+    /// (unknown, weight) pairs on the displacement (change against the static state).
+    pub displacement: Vec<(usize, f64)>,
+    /// (unknown, weight) pairs on the velocity.
+    pub velocity: Vec<(usize, f64)>,
+    /// (unknown, weight) pairs on the acceleration.
+    pub acceleration: Vec<(usize, f64)>,
+}
+
+impl Probe {
+    /// Displacement given by (unknown, weight) pairs.
+    pub fn displacement(name: impl Into<String>, row: Vec<(usize, f64)>) -> Self {
+        Self { name: name.into(), displacement: row, ..Self::default() }
+    }
+
+    /// Velocity given by (unknown, weight) pairs.
+    pub fn velocity(name: impl Into<String>, row: Vec<(usize, f64)>) -> Self {
+        Self { name: name.into(), velocity: row, ..Self::default() }
+    }
+
+    /// Acceleration given by (unknown, weight) pairs.
+    pub fn acceleration(name: impl Into<String>, row: Vec<(usize, f64)>) -> Self {
+        Self { name: name.into(), acceleration: row, ..Self::default() }
+    }
+
+    pub(crate) fn rows(&self) -> [&[(usize, f64)]; 3] {
+        [&self.displacement, &self.velocity, &self.acceleration]
+    }
+}

@@ -1,0 +1,409 @@
+//! One step of the coupled problem.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | Δu | displacement increment of the structure's unknowns |
+//! | u*, v*, a* | where the time scheme writes the equation of motion |
+//! | τ | change of contact traction against the static state |
+//! | s | soil displacement by the changes of traction: history + G¹ τ |
+//! | B, A | element means of the base displacement, element lengths |
+
+use super::contact::ContactInput;
+use super::scheme::SchemeCoefficients;
+use super::simulation::{Operators, Simulation};
+use super::state::{State, Transition};
+use crate::error::{Error, Result, StepError};
+use crate::interface::StepStart;
+use crate::linalg::{dense_multiply_add, dot};
+
+/// Newton iterations for a nonlinear structure.
+const NEWTON_ITERATIONS: usize = 40;
+/// Out-of-balance force at which Newton's iteration ends, relative to the largest force.
+const NEWTON_TOLERANCE: f64 = 1e-12;
+
+impl Simulation {
+    /// Makes one step and returns the new state.
+    ///
+    /// # Errors
+    /// [`Error::Step`] if the step could not be solved; the simulation is then as it was before.
+    pub fn step(&mut self) -> Result<&State> {
+        let step = self.state.step + 1;
+        let time = step as f64 * self.time_step;
+        let failed = |source| Error::Step { step, time, source };
+        self.observe_ground(time).map_err(failed)?;
+        self.ground.history(&mut self.work.history)?;
+        if self.work.history.iter().any(|x| !x.is_finite()) {
+            return Err(failed(StepError::NotFinite { quantity: "history of the ground" }));
+        }
+        let ride = self.known_forces();
+        let (trials, method) = if self.model.linear {
+            self.solve_linear().map_err(failed)?
+        } else {
+            self.solve_newton().map_err(failed)?
+        };
+        let finite = self.work.increment.iter().all(|x| x.is_finite());
+        if !finite {
+            return Err(failed(StepError::NotFinite { quantity: "displacement of the structure" }));
+        }
+        self.commit(step, time, ride);
+        self.state.trials = trials;
+        self.state.method = method;
+        Ok(&self.state)
+    }
+
+    /// Free field at the end of the step, measured from that at t = 0.
+    fn observe_ground(&mut self, time: f64) -> std::result::Result<(), StepError> {
+        let out = &mut self.work.free_field;
+        self.ground.free_field(self.motion.as_ref(), time, out);
+        for (value, start) in out.iter_mut().zip(&self.memory.start_motion) {
+            *value -= start;
+        }
+        if out.iter().all(|x| x.is_finite()) {
+            Ok(())
+        } else {
+            Err(StepError::NotFinite { quantity: "free field" })
+        }
+    }
+
+    /// Fills `work.known` with the right-hand side of K_eff Δu = …, contact and f(u) left out, and
+    /// returns how the free field rides: its increment and its velocity at v*.
+    fn known_forces(&mut self) -> Ride {
+        let c = self.coefficients;
+        let ride = self.ride();
+        let State { displacement: u, velocity: v, acceleration: a, time, .. } = &self.state;
+        let work = &mut self.work;
+        work.load.fill(0.0);
+        let load_time = time + c.load_fraction * self.time_step;
+        self.model.structure.load(load_time, &mut work.load);
+        for (load, at_start) in work.load.iter_mut().zip(&self.static_load) {
+            *load -= at_start;
+        }
+        work.known.copy_from_slice(&work.load);
+        let [horizontal, vertical] = &self.model.ride;
+        for (i, x) in work.vector.iter_mut().enumerate() {
+            *x = SchemeCoefficients::apply(c.acceleration, 0.0, v[i], a[i]);
+        }
+        self.model.mass.multiply_add(-1.0, &work.vector, &mut work.known);
+        if !self.model.damping.is_empty() {
+            for (i, x) in work.vector.iter_mut().enumerate() {
+                *x = SchemeCoefficients::apply(c.velocity, 0.0, v[i], a[i])
+                    - horizontal[i] * ride.velocity[0]
+                    - vertical[i] * ride.velocity[1];
+            }
+            self.model.damping.multiply_add(-1.0, &work.vector, &mut work.known);
+        }
+        for (i, x) in work.vector.iter_mut().enumerate() {
+            *x = u[i] + SchemeCoefficients::apply(c.displacement, 0.0, v[i], a[i]);
+        }
+        self.model.stiffness.multiply_add(-1.0, &work.vector, &mut work.known);
+        ride
+    }
+
+    /// The mean free field, stepped by the same scheme as the structure, so that a structure that
+    /// rides with the ground sees no damping force.
+    fn ride(&self) -> Ride {
+        let c = &self.coefficients;
+        let lengths = self.base.lengths();
+        let width: f64 = lengths.iter().sum();
+        let (down, along) = self.work.free_field.split_at(lengths.len());
+        let mean = |s: &[f64]| dot(s, lengths) / width;
+        let displacement = [mean(along), -mean(down)];
+        let increment: [f64; 2] =
+            std::array::from_fn(|k| displacement[k] - self.state.free_field[k]);
+        let memory = &self.memory;
+        let next = |coefficients| -> [f64; 2] {
+            std::array::from_fn(|k| {
+                let (v, a) = (memory.ride_velocity[k], memory.ride_acceleration[k]);
+                SchemeCoefficients::apply(coefficients, increment[k], v, a)
+            })
+        };
+        Ride {
+            displacement,
+            increment,
+            velocity: next(c.velocity),
+            new_velocity: next(c.new_velocity),
+            new_acceleration: next(c.new_acceleration),
+        }
+    }
+
+    /// Linear structure: one back-substitution, the contact problem, and the tractions' answer.
+    fn solve_linear(&mut self) -> std::result::Result<Solved, StepError> {
+        self.work.increment.copy_from_slice(&self.work.known);
+        self.solve_contact()
+    }
+
+    /// Takes the right-hand side in `work.increment` and leaves the increment there.
+    fn solve_contact(&mut self) -> std::result::Result<Solved, StepError> {
+        let work = &mut self.work;
+        self.operators.factor.solve(&mut work.increment);
+        for (i, x) in work.vector.iter_mut().enumerate() {
+            *x = self.state.displacement[i] + work.increment[i];
+        }
+        self.base.means(&work.vector, &mut work.means);
+        let mut length_scale = 0.0_f64;
+        let count = self.state.modes.len();
+        for (i, jump) in work.free_jump.iter_mut().enumerate() {
+            let (ground, means) = (work.free_field[i] + work.history[i], work.means[i]);
+            *jump = ground - means;
+            length_scale = length_scale.max(ground.abs()).max(means.abs());
+        }
+        for (jump, gap) in work.free_jump[..count].iter_mut().zip(&self.static_state.gap) {
+            *jump += gap;
+        }
+        if !length_scale.is_finite() {
+            return Err(StepError::NotFinite { quantity: "displacement of the structure" });
+        }
+        let input = ContactInput {
+            delassus: &self.operators.delassus,
+            free_jump: &work.free_jump,
+            static_traction: &self.static_state.traction,
+            start: &self.start,
+            laws: &self.laws,
+            length_scale,
+        };
+        work.modes.copy_from_slice(&self.state.modes);
+        let solved = self.search.solve(&mut self.solver, &input, &mut work.modes)?;
+        let n = self.model.unknowns;
+        for (column, traction) in
+            self.operators.columns.chunks_exact(n.max(1)).zip(&self.solver.traction)
+        {
+            for (du, c) in work.increment.iter_mut().zip(column) {
+                *du -= c * traction;
+            }
+        }
+        Ok(solved)
+    }
+
+    /// Nonlinear structure: Newton's method around the whole step, contact inside.
+    fn solve_newton(&mut self) -> std::result::Result<Solved, StepError> {
+        let c = self.coefficients;
+        let weight = c.displacement[0];
+        let n = self.model.unknowns;
+        // The increment that the last velocity suggests.
+        let mut guess: Vec<f64> = self.state.velocity.iter().map(|v| v * self.time_step).collect();
+        let mut residual = f64::INFINITY;
+        let mut trials = 0;
+        let mut linearised = vec![0.0; n];
+        for iteration in 0..NEWTON_ITERATIONS {
+            self.evaluate_nonlinear(&guess);
+            let tangent = self
+                .model
+                .tangent(&self.work.total)
+                .map_err(|_| StepError::NotFinite { quantity: "tangent of the structure" })?;
+            if !tangent.entries().eq(self.operators.tangent.entries()) {
+                let (model, base, soil) = (&self.model, &self.base, &self.soil);
+                self.operators = Operators::new(model, base, soil, &c, tangent)
+                    .map_err(|_| StepError::Singular { matrix: "effective stiffness matrix" })?;
+                self.solver.invalidate();
+            }
+            // K_eff Δu + f(u*) linearised at the guess: f + D weight (Δu − guess).
+            linearised.copy_from_slice(&self.work.force);
+            self.operators.tangent.multiply_add(-weight, &guess, &mut linearised);
+            for i in 0..n {
+                self.work.increment[i] = self.work.known[i] - linearised[i];
+            }
+            let (more, method) = self.solve_contact()?;
+            trials += more;
+            self.operators.tangent.multiply_add(weight, &self.work.increment, &mut linearised);
+            guess.copy_from_slice(&self.work.increment);
+            self.evaluate_nonlinear(&guess);
+            if self.work.force.iter().any(|f| !f.is_finite()) {
+                return Err(StepError::NotFinite { quantity: "nonlinear force of the structure" });
+            }
+            let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            let scale = largest(&self.work.known).max(largest(&self.work.force));
+            let open = linearised
+                .iter()
+                .zip(&self.work.force)
+                .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+            residual = if scale > 0.0 { open / scale } else { 0.0 };
+            // The first solve only predicts: its tangent may belong to the step before.
+            if residual <= NEWTON_TOLERANCE && (iteration > 0 || open == 0.0) {
+                return Ok((trials, method));
+            }
+        }
+        if residual <= 1e3 * NEWTON_TOLERANCE {
+            return Ok((trials, self.state.method));
+        }
+        Err(StepError::Newton { iterations: NEWTON_ITERATIONS, residual })
+    }
+
+    /// f at u* for an increment, minus f at the static state, into `work.force`.
+    fn evaluate_nonlinear(&mut self, increment: &[f64]) {
+        let c = self.coefficients.displacement;
+        let State { displacement: u, velocity: v, acceleration: a, .. } = &self.state;
+        let work = &mut self.work;
+        for (i, total) in work.total.iter_mut().enumerate() {
+            *total = self.static_state.displacement[i]
+                + u[i]
+                + SchemeCoefficients::apply(c, increment[i], v[i], a[i]);
+        }
+        work.force.fill(0.0);
+        self.model.structure.nonlinear_force(&work.total, &mut work.force);
+        for (force, at_rest) in work.force.iter_mut().zip(&self.static_force) {
+            *force -= at_rest;
+        }
+    }
+
+    /// Accepts the step: books it, then moves state, soil and structure to its end.
+    fn commit(&mut self, step: usize, time: f64, ride: Ride) {
+        let c = self.coefficients;
+        for i in 0..self.model.unknowns {
+            let (du, v, a) =
+                (self.work.increment[i], self.state.velocity[i], self.state.acceleration[i]);
+            self.work.new_velocity[i] = SchemeCoefficients::apply(c.new_velocity, du, v, a);
+            self.work.new_acceleration[i] = SchemeCoefficients::apply(c.new_acceleration, du, v, a);
+        }
+        self.book(&ride);
+        let state = &mut self.state;
+        for (u, du) in state.displacement.iter_mut().zip(&self.work.increment) {
+            *u += du;
+        }
+        state.velocity.copy_from_slice(&self.work.new_velocity);
+        state.acceleration.copy_from_slice(&self.work.new_acceleration);
+        state.contact.copy_from_slice(&self.solver.states);
+        state.transitions.clear();
+        for (element, (from, &to)) in state.modes.iter_mut().zip(&self.work.modes).enumerate() {
+            if *from != to {
+                state.transitions.push(Transition { step, time, element, from: *from, to });
+                *from = to;
+            }
+        }
+        for (e, start) in self.start.iter_mut().enumerate() {
+            *start = StepStart {
+                state: state.contact[e],
+                mode: state.modes[e],
+                has_opened: start.has_opened || !state.modes[e].is_closed(),
+                time_step: self.time_step,
+            };
+        }
+        self.memory.ride_velocity = ride.new_velocity;
+        self.memory.ride_acceleration = ride.new_acceleration;
+        self.memory.free_field.copy_from_slice(&self.work.free_field);
+        self.memory.soil_displacement.copy_from_slice(&self.work.soil_displacement);
+        state.free_field = ride.displacement;
+        state.step = step;
+        state.time = time;
+        self.ground.commit(&self.solver.traction);
+        for (i, total) in self.work.total.iter_mut().enumerate() {
+            *total = self.static_state.displacement[i] + self.state.displacement[i];
+        }
+        self.model.structure.commit(&self.work.total);
+        self.update_resultants();
+    }
+
+    /// Adds the step to the energy ledger, each term from its own definition.
+    fn book(&mut self, ride: &Ride) {
+        let c = self.coefficients;
+        let dt = self.time_step;
+        let Self { model, work, memory, state, base, solver, .. } = self;
+        let ledger = &mut state.ledger;
+        let (v0, v1, du) = (&state.velocity, &work.new_velocity, &work.increment);
+
+        ledger.kinetic = 0.5 * model.mass.form(v1, v1);
+        let work_of_load: f64 = dot(&work.load, du);
+        ledger.input += work_of_load;
+
+        if !model.damping.is_empty() {
+            let [horizontal, vertical] = &model.ride;
+            for (i, x) in work.vector.iter_mut().enumerate() {
+                *x = SchemeCoefficients::apply(c.velocity, du[i], v0[i], state.acceleration[i])
+                    - horizontal[i] * ride.velocity[0]
+                    - vertical[i] * ride.velocity[1];
+            }
+            work.total.fill(0.0);
+            model.damping.multiply_add(1.0, &work.vector, &mut work.total);
+            let dragged =
+                ride.increment[0] * dot(&work.total, horizontal)
+                    + ride.increment[1] * dot(&work.total, vertical);
+            ledger.damping += dot(&work.total, du) - dragged;
+            ledger.input -= dragged;
+        }
+
+        if !c.conserves_energy(dt) {
+            // Δu = Δt (v₀+v₁)/2 + r_d, a* = (v₁−v₀)/Δt + r_a, u* = (u₀+u₁)/2 + r_u
+            let change: Vec<f64> = v1.iter().zip(v0).map(|(b, a)| (b - a) / dt).collect();
+            let a0 = &state.acceleration;
+            let rest_d: Vec<f64> =
+                (0..du.len()).map(|i| du[i] - 0.5 * dt * (v0[i] + v1[i])).collect();
+            let rest_a: Vec<f64> = (0..du.len())
+                .map(|i| SchemeCoefficients::apply(c.acceleration, du[i], v0[i], a0[i]) - change[i])
+                .collect();
+            let rest_u: Vec<f64> = (0..du.len())
+                .map(|i| {
+                    SchemeCoefficients::apply(c.displacement, du[i], v0[i], a0[i]) - 0.5 * du[i]
+                })
+                .collect();
+            ledger.numerical += model.mass.form(&rest_d, &change)
+                + model.mass.form(du, &rest_a)
+                + model.stiffness.form(du, &rest_u);
+        }
+        if !model.linear {
+            memory.nonlinear_work += dot(&work.force, du);
+        }
+        for (i, x) in work.vector.iter_mut().enumerate() {
+            *x = state.displacement[i] + du[i];
+        }
+        ledger.strain =
+            0.5 * model.stiffness.form(&work.vector, &work.vector) + memory.nonlinear_work;
+
+        work.soil_displacement.copy_from_slice(&work.history);
+        dense_multiply_add(&self.soil, 1.0, &solver.traction, &mut work.soil_displacement);
+        base.means(&work.vector, &mut work.means);
+        let count = base.lengths().len();
+        for i in 0..2 * count {
+            let area = base.length(i);
+            let change = solver.traction[i];
+            let at_rest = self.static_state.traction[i];
+            let gap = if i < count { self.static_state.gap[i] } else { 0.0 };
+            let jump = gap + work.free_field[i] + work.soil_displacement[i] - work.means[i];
+            let opening = jump - memory.jump[i];
+            memory.jump[i] = jump;
+            ledger.soil += area * change * (work.soil_displacement[i] - memory.soil_displacement[i]);
+            ledger.contact -= area * (at_rest + change) * opening;
+            ledger.preload += area * at_rest * opening;
+            ledger.input -= area * change * (work.free_field[i] - memory.free_field[i]);
+        }
+    }
+
+    /// Resultants and probes from the present state.
+    pub(super) fn update_resultants(&mut self) {
+        let state = &mut self.state;
+        let (mut shear, mut moment, mut normal, mut open, mut width) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for (e, contact) in state.contact.iter().enumerate() {
+            let length = self.base.length(e);
+            width += length;
+            shear += length * contact.shear;
+            normal += length * contact.pressure;
+            moment -= length * contact.pressure * self.arms[e];
+            if !state.modes[e].is_closed() {
+                open += length;
+            }
+        }
+        state.base_shear = shear;
+        state.normal_force = normal;
+        state.base_moment = moment;
+        state.uplifted_fraction = open / width;
+        state.base_rotation = self.base.rotation(&state.displacement);
+        for (value, probe) in state.probes.iter_mut().zip(&self.probes) {
+            let [u, v, a] = probe.rows();
+            let sum = |row: &[(usize, f64)], x: &[f64]| -> f64 {
+                row.iter().map(|&(i, weight)| weight * x[i]).sum()
+            };
+            *value =
+                sum(u, &state.displacement) + sum(v, &state.velocity) + sum(a, &state.acceleration);
+        }
+    }
+}
+
+/// Trials of the mode search and its method.
+type Solved = (usize, super::modes::SearchMethod);
+
+/// The mean free field over a step: `[horizontal, vertical up]`.
+struct Ride {
+    displacement: [f64; 2],
+    increment: [f64; 2],
+    velocity: [f64; 2],
+    new_velocity: [f64; 2],
+    new_acceleration: [f64; 2],
+}

@@ -1,0 +1,137 @@
+//! The history as the sum that it is: exact, O(N) per step.
+
+use std::sync::Arc;
+
+use super::ConvolutionHistory;
+use crate::bem::PatchKernel;
+use crate::error::Result;
+use crate::linalg::dot;
+
+/// Steps of the sum that are taken together, so that tractions and kernels stay in cache.
+const CHUNK: usize = 512;
+
+/// Direct summation of the history: the oracle for all others, and the best for short runs.
+///
+/// Kernels are kept per pair *class* (on a uniform patch, per offset), reversed in time, so that
+/// each contribution is one contiguous dot product.
+pub struct DirectHistory {
+    kernel: Arc<PatchKernel>,
+    /// Lags for which coefficients are stored; grows by doubling.
+    capacity: usize,
+    /// Per class: the coefficient of lag n at `capacity − n`.
+    normal: Vec<Vec<f64>>,
+    tangential: Vec<Vec<f64>>,
+    coupling: Vec<Vec<f64>>,
+    /// Per contact component: its value at every step.
+    traction: Vec<Vec<f64>>,
+    steps: usize,
+}
+
+impl DirectHistory {
+    /// History of `kernel`, empty.
+    pub fn new(kernel: Arc<PatchKernel>) -> Self {
+        let (classes, components) = (kernel.classes(), 2 * kernel.elements().len());
+        Self {
+            kernel,
+            capacity: 0,
+            normal: vec![Vec::new(); classes],
+            tangential: vec![Vec::new(); classes],
+            coupling: vec![Vec::new(); classes],
+            traction: vec![Vec::new(); components],
+            steps: 0,
+        }
+    }
+
+    /// Makes lags up to `lags` available.
+    fn grow(&mut self, lags: usize) {
+        let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
+        let (mut zz, mut xx, mut zx) = (vec![0.0; new - old], vec![0.0; new - old], vec![]);
+        for class in 0..self.kernel.classes() {
+            let last = self.kernel.last_coupling_lag(class).min(new);
+            zx.clear();
+            zx.resize(new - old, 0.0);
+            self.kernel.coefficients(class, old + 1, &mut zz, &mut xx, &mut zx);
+            prepend_reversed(&mut self.normal[class], &zz);
+            prepend_reversed(&mut self.tangential[class], &xx);
+            // The coupling vanishes behind the Rayleigh wave: only its beginning is kept.
+            if last > self.coupling[class].len() {
+                let kept = last - old.min(last);
+                prepend_reversed(&mut self.coupling[class], &zx[..kept]);
+            }
+        }
+        self.capacity = new;
+    }
+}
+
+/// Puts `next` (lags following those stored) in front of `stored`, reversed.
+fn prepend_reversed(stored: &mut Vec<f64>, next: &[f64]) {
+    let mut grown = Vec::with_capacity(stored.len() + next.len());
+    grown.extend(next.iter().rev());
+    grown.extend_from_slice(stored);
+    *stored = grown;
+}
+
+impl ConvolutionHistory for DirectHistory {
+    fn steps(&self) -> usize {
+        self.steps
+    }
+
+    fn reserve(&mut self, steps: usize) -> Result<()> {
+        if steps + 1 > self.capacity {
+            self.grow(steps + 1);
+        }
+        for component in &mut self.traction {
+            component.reserve(steps.saturating_sub(component.len()));
+        }
+        Ok(())
+    }
+
+    fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
+        displacement.fill(0.0);
+        let past = self.steps;
+        if past == 0 {
+            return Ok(());
+        }
+        if past + 1 > self.capacity {
+            self.grow(past + 1);
+        }
+        let count = self.kernel.elements().len();
+        let (down, along) = displacement.split_at_mut(count);
+        // Input m (from 0) is seen with lag past + 1 − m.
+        for begin in (0..past).step_by(CHUNK) {
+            let end = (begin + CHUNK).min(past);
+            let range = |stored: usize, begin: usize| {
+                stored - (past + 1 - begin)..stored - (past + 1 - end)
+            };
+            for p in 0..count {
+                for q in 0..count {
+                    let pair = self.kernel.pair(p, q);
+                    let pressure = &self.traction[q];
+                    let shear = &self.traction[count + q];
+                    let lags = range(self.capacity, begin);
+                    let zz = dot(&self.normal[pair.class][lags.clone()], &pressure[begin..end]);
+                    let xx = dot(&self.tangential[pair.class][lags], &shear[begin..end]);
+                    down[p] += pair.scale * zz;
+                    along[p] += pair.scale * xx;
+                    let coupling = &self.coupling[pair.class];
+                    let first = (past + 1).saturating_sub(coupling.len()).max(begin);
+                    if first < end && pair.sign != 0.0 {
+                        let lags = range(coupling.len(), first);
+                        let zx = dot(&coupling[lags.clone()], &shear[first..end]);
+                        let xz = dot(&coupling[lags], &pressure[first..end]);
+                        down[p] += pair.sign * pair.scale * zx;
+                        along[p] -= pair.sign * pair.scale * xz;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, traction: &[f64]) {
+        for (stored, value) in self.traction.iter_mut().zip(traction) {
+            stored.push(*value);
+        }
+        self.steps += 1;
+    }
+}

@@ -1,0 +1,221 @@
+//! Hard unilateral contact with Coulomb friction.
+
+use super::{Condition, ContactState, InterfaceLaw, Mode, StepStart, Tolerance};
+use crate::error::{Error, Result, not_negative};
+
+/// On what the contact conditions of a closed element act.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Activation {
+    /// On the gap at the end of the step: g ≥ 0, p ≥ 0, p·g = 0 (Signorini).
+    #[default]
+    Gap,
+    /// On its change: an element whose gap at the start is at most `closed_below` (m) obeys
+    /// Δg ≥ 0, p ≥ 0, p·Δg = 0, any other one is free (Moreau 1988; Jean 1999). The base may
+    /// penetrate by what it moves within the step of its landing.
+    Rate {
+        /// Gap up to which an element counts as closed, m.
+        closed_below: f64,
+    },
+}
+
+/// Hard unilateral contact with Coulomb friction: stick, slip to either side, open.
+///
+/// Signorini's conditions normal to the base, |τ| ≤ friction · p along it, slip in the direction
+/// of the shear traction. Infinite friction is "uplift only", zero friction a smooth base.
+///
+/// ```
+/// use basemat::interface::Coulomb;
+/// assert_eq!(Coulomb::new(0.4)?.friction(), 0.4);
+/// assert!(Coulomb::new(f64::INFINITY).is_ok());
+/// assert!(Coulomb::new(-0.1).is_err());
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coulomb {
+    friction: f64,
+    tensile_strength: f64,
+    activation: Activation,
+}
+
+impl Coulomb {
+    /// Law with a friction coefficient of zero or more; infinity means that nothing ever slides.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for NaN or a negative coefficient.
+    pub fn new(friction: f64) -> Result<Self> {
+        if friction >= 0.0 {
+            Ok(Self { friction, tensile_strength: 0.0, activation: Activation::Gap })
+        } else {
+            Err(Error::Input {
+                quantity: "friction coefficient",
+                value: friction,
+                needed: "zero or more (infinite: no sliding)",
+            })
+        }
+    }
+
+    /// Law that opens but never slides (infinite friction).
+    pub fn uplift_only() -> Self {
+        Self { friction: f64::INFINITY, tensile_strength: 0.0, activation: Activation::Gap }
+    }
+
+    /// With a tensile strength (Pa) that holds an element until it first opens; friction is then
+    /// limited by friction · (p + strength).
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless finite and not below zero.
+    pub fn with_tensile_strength(mut self, strength: f64) -> Result<Self> {
+        self.tensile_strength = not_negative("tensile strength of the interface", strength)?;
+        Ok(self)
+    }
+
+    /// With another [`Activation`] of the contact conditions.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless `closed_below` is finite and not below zero.
+    pub fn with_activation(mut self, activation: Activation) -> Result<Self> {
+        if let Activation::Rate { closed_below } = activation {
+            not_negative("gap below which contact is closed", closed_below)?;
+        }
+        self.activation = activation;
+        Ok(self)
+    }
+
+    /// The friction coefficient.
+    pub fn friction(&self) -> f64 {
+        self.friction
+    }
+
+    fn strength(&self, start: &StepStart) -> f64 {
+        if start.has_opened { 0.0 } else { self.tensile_strength }
+    }
+
+    /// Gap that a closed element must have at the end of the step; `None` if it cannot close.
+    fn closed_gap(&self, start: &StepStart) -> Option<f64> {
+        match self.activation {
+            Activation::Gap => Some(0.0),
+            Activation::Rate { closed_below } => {
+                (start.state.gap <= closed_below).then_some(start.state.gap)
+            }
+        }
+    }
+}
+
+impl InterfaceLaw for Coulomb {
+    fn modes(&self) -> &[Mode] {
+        if self.friction == f64::INFINITY {
+            &[Mode::Stick, Mode::Open]
+        } else if self.friction == 0.0 {
+            // Either slip mode says the same when there is no friction: one is enough.
+            &[Mode::SlipRight, Mode::Open]
+        } else {
+            &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
+        }
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        let open = [Condition::pressure_is(0.0), Condition::shear_is(0.0)];
+        let Some(closed_gap) = self.closed_gap(start) else { return open };
+        let closed = Condition::gap_is(closed_gap);
+        // τ − (±friction)(p + strength) = 0
+        let slip = |friction: f64| Condition {
+            shear: 1.0,
+            pressure: -friction,
+            value: friction * self.strength(start),
+            ..Condition::default()
+        };
+        match mode {
+            Mode::Open => open,
+            Mode::Stick => [closed, Condition::slip_is(start.state.slip)],
+            Mode::SlipRight => [closed, slip(self.friction)],
+            Mode::SlipLeft => [closed, slip(-self.friction)],
+        }
+    }
+
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &StepStart,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        let at_rest = self.modes()[0];
+        let Some(closed_gap) = self.closed_gap(start) else { return Mode::Open };
+        if mode == Mode::Open {
+            let closes = trial.gap < closed_gap - tolerance.length;
+            return if closes { at_rest } else { Mode::Open };
+        }
+        if trial.pressure < -self.strength(start) - tolerance.traction {
+            return Mode::Open;
+        }
+        let advance = trial.slip - start.state.slip;
+        match mode {
+            Mode::Stick if self.friction == f64::INFINITY => Mode::Stick,
+            Mode::Stick => {
+                let limit = self.friction * (trial.pressure + self.strength(start)).max(0.0)
+                    + tolerance.traction;
+                if trial.shear > limit {
+                    Mode::SlipRight
+                } else if trial.shear < -limit {
+                    Mode::SlipLeft
+                } else {
+                    Mode::Stick
+                }
+            }
+            _ if self.friction == 0.0 => at_rest,
+            Mode::SlipRight if advance < -tolerance.length => Mode::Stick,
+            Mode::SlipLeft if advance > tolerance.length => Mode::Stick,
+            _ => mode,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TOLERANCE: Tolerance = Tolerance { length: 1e-12, traction: 1e-9 };
+
+    fn start(mode: Mode) -> StepStart {
+        StepStart { state: ContactState::default(), mode, has_opened: false, time_step: 0.01 }
+    }
+
+    #[test]
+    fn admissible_states_stay() {
+        let law = Coulomb::new(0.5).unwrap();
+        let start = start(Mode::Stick);
+        let state = ContactState { pressure: 2.0, shear: 0.99, ..Default::default() };
+        assert_eq!(law.next_mode(Mode::Stick, &start, &state, TOLERANCE), Mode::Stick);
+        let state = ContactState { pressure: 2.0, shear: 1.0, slip: 0.1, gap: 0.0 };
+        assert_eq!(law.next_mode(Mode::SlipRight, &start, &state, TOLERANCE), Mode::SlipRight);
+        let state = ContactState { gap: 0.1, ..Default::default() };
+        assert_eq!(law.next_mode(Mode::Open, &start, &state, TOLERANCE), Mode::Open);
+    }
+
+    #[test]
+    fn violations_change_the_mode() {
+        let law = Coulomb::new(0.5).unwrap();
+        let start = start(Mode::Stick);
+        let next = |mode, gap, slip, pressure, shear| {
+            law.next_mode(mode, &start, &ContactState { gap, slip, pressure, shear }, TOLERANCE)
+        };
+        assert_eq!(next(Mode::Stick, 0.0, 0.0, -1.0, 0.0), Mode::Open);
+        assert_eq!(next(Mode::Stick, 0.0, 0.0, 1.0, 0.6), Mode::SlipRight);
+        assert_eq!(next(Mode::Stick, 0.0, 0.0, 1.0, -0.6), Mode::SlipLeft);
+        assert_eq!(next(Mode::SlipRight, 0.0, -0.1, 1.0, 0.5), Mode::Stick);
+        assert_eq!(next(Mode::SlipLeft, 0.0, 0.1, 1.0, -0.5), Mode::Stick);
+        assert_eq!(next(Mode::Open, -0.1, 0.0, 0.0, 0.0), Mode::Stick);
+    }
+
+    #[test]
+    fn tensile_strength_holds_until_first_opening() {
+        let law = Coulomb::new(0.5).unwrap().with_tensile_strength(3.0).unwrap();
+        let state = ContactState { pressure: -2.0, ..Default::default() };
+        let mut start = start(Mode::Stick);
+        assert_eq!(law.next_mode(Mode::Stick, &start, &state, TOLERANCE), Mode::Stick);
+        start.has_opened = true;
+        assert_eq!(law.next_mode(Mode::Stick, &start, &state, TOLERANCE), Mode::Open);
+        assert!(law.with_tensile_strength(f64::NAN).is_err());
+        assert!(law.with_activation(Activation::Rate { closed_below: -1.0 }).is_err());
+    }
+}

@@ -1,0 +1,383 @@
+//! Sparse and dense solves: the only file that names faer.
+//!
+//! Everything runs sequentially, and solves use workspace made when the factor was made.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting::{factor as dense_factor, solve as dense_solve};
+use faer::perm::PermRef;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu};
+use faer::sparse::{SparseColMat, Triplet};
+use faer::{Conj, MatMut, MatRef, Par, Side, Spec};
+
+use crate::error::{Error, Result};
+use crate::structure::Triplets;
+
+/// Square sparse matrix, compressed by rows.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct SparseMatrix {
+    order: usize,
+    row_start: Vec<usize>,
+    column: Vec<usize>,
+    value: Vec<f64>,
+}
+
+impl SparseMatrix {
+    /// Sums the entries of `triplets` by place.
+    pub(crate) fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
+        let order = triplets.order();
+        let mut row_start = vec![0; order + 1];
+        for &(row, column, value) in triplets.entries() {
+            let index = row.max(column);
+            if index >= order {
+                return Err(Error::Index { quantity: name, index, bound: order });
+            }
+            if !value.is_finite() {
+                return Err(Error::Input { quantity: name, value, needed: "finite" });
+            }
+            row_start[row + 1] += 1;
+        }
+        for row in 0..order {
+            row_start[row + 1] += row_start[row];
+        }
+        let mut entries = vec![(0, 0.0); triplets.entries().len()];
+        let mut next = row_start.clone();
+        for &(row, column, value) in triplets.entries() {
+            entries[next[row]] = (column, value);
+            next[row] += 1;
+        }
+        let mut matrix = Self { order, row_start: vec![0], column: vec![], value: vec![] };
+        for row in 0..order {
+            let entries = &mut entries[row_start[row]..row_start[row + 1]];
+            entries.sort_by_key(|&(column, _)| column);
+            let start = matrix.column.len();
+            for &(column, value) in entries.iter() {
+                if matrix.column.len() > start && matrix.column.last() == Some(&column) {
+                    *matrix.value.last_mut().unwrap_or(&mut 0.0) += value;
+                } else {
+                    matrix.column.push(column);
+                    matrix.value.push(value);
+                }
+            }
+            matrix.row_start.push(matrix.column.len());
+        }
+        Ok(matrix)
+    }
+
+    /// Σ factor·matrix, all of one order.
+    pub(crate) fn combine(order: usize, terms: &[(f64, &SparseMatrix)]) -> Triplets {
+        let mut sum = Triplets::new(order);
+        for &(factor, matrix) in terms {
+            for (row, column, value) in matrix.entries() {
+                sum.add(row, column, factor * value);
+            }
+        }
+        sum
+    }
+
+    /// All stored entries: (row, column, value).
+    pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        (0..self.order).flat_map(move |row| {
+            (self.row_start[row]..self.row_start[row + 1])
+                .map(move |k| (row, self.column[k], self.value[k]))
+        })
+    }
+
+    /// Whether no entry is stored.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.value.is_empty()
+    }
+
+    /// y ← y + factor · A x.
+    pub(crate) fn multiply_add(&self, factor: f64, x: &[f64], y: &mut [f64]) {
+        for (row, y) in y.iter_mut().enumerate() {
+            let range = self.row_start[row]..self.row_start[row + 1];
+            let sum: f64 =
+                self.column[range.clone()].iter().zip(&self.value[range]).map(|(&j, a)| a * x[j]).sum();
+            *y += factor * sum;
+        }
+    }
+
+    /// x·A y.
+    pub(crate) fn form(&self, x: &[f64], y: &[f64]) -> f64 {
+        let mut total = 0.0;
+        for (row, x) in x.iter().enumerate() {
+            let range = self.row_start[row]..self.row_start[row + 1];
+            let sum: f64 =
+                self.column[range.clone()].iter().zip(&self.value[range]).map(|(&j, a)| a * y[j]).sum();
+            total += x * sum;
+        }
+        total
+    }
+
+    /// Largest |a_ij − a_ji| relative to the largest |a_ij|.
+    fn asymmetry(&self) -> f64 {
+        let mut largest = 0.0_f64;
+        let mut difference = 0.0_f64;
+        for (row, column, value) in self.entries() {
+            largest = largest.max(value.abs());
+            let range = self.row_start[column]..self.row_start[column + 1];
+            let twin = match self.column[range.clone()].binary_search(&row) {
+                Ok(k) => self.value[range.start + k],
+                Err(_) => 0.0,
+            };
+            difference = difference.max((value - twin).abs());
+        }
+        if largest > 0.0 { difference / largest } else { 0.0 }
+    }
+}
+
+/// Factors of a square sparse matrix, with the workspace of their solves.
+pub(crate) struct SparseFactor {
+    order: usize,
+    kind: Kind,
+    buffer: MemBuffer,
+}
+
+enum Kind {
+    Cholesky { symbolic: SymbolicCholesky<usize>, values: Vec<f64> },
+    Lu { symbolic: SymbolicLu<usize>, numeric: NumericLu<usize, f64> },
+}
+
+impl SparseFactor {
+    /// Cholesky where the matrix is symmetric positive definite, else LU with partial pivoting.
+    pub(crate) fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
+        let matrix = SparseMatrix::new(name, triplets)?;
+        let order = matrix.order;
+        let singular = || Error::Singular { matrix: name, order };
+        let entries: Vec<_> =
+            matrix.entries().map(|(row, col, val)| Triplet { row, col, val }).collect();
+        let csc = SparseColMat::<usize, f64>::try_new_from_triplets(order, order, &entries)
+            .map_err(|_| singular())?;
+        let symmetric = matrix.asymmetry() <= 1e-13;
+        let factor = if symmetric { Self::cholesky(&csc) } else { None };
+        let mut factor = factor.or_else(|| Self::lu(&csc)).ok_or_else(singular)?;
+        // A singular matrix may pass LU with a pivot of rounding size: it shows in a solve.
+        let mut probe = vec![1.0; order];
+        factor.solve(&mut probe);
+        if probe.iter().all(|x| x.is_finite()) { Ok(factor) } else { Err(singular()) }
+    }
+
+    fn cholesky(matrix: &SparseColMat<usize, f64>) -> Option<Self> {
+        let symbolic = factorize_symbolic_cholesky(
+            matrix.symbolic(),
+            Side::Lower,
+            SymmetricOrdering::Amd,
+            CholeskySymbolicParams::default(),
+        )
+        .ok()?;
+        let mut values = vec![0.0; symbolic.len_val()];
+        let mut buffer = MemBuffer::new(
+            symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default()),
+        );
+        symbolic
+            .factorize_numeric_llt(
+                &mut values,
+                matrix.as_ref(),
+                Side::Lower,
+                faer::linalg::cholesky::llt::factor::LltRegularization::default(),
+                Par::Seq,
+                MemStack::new(&mut buffer),
+                Spec::default(),
+            )
+            .ok()?;
+        let buffer = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
+        Some(Self { order: matrix.nrows(), kind: Kind::Cholesky { symbolic, values }, buffer })
+    }
+
+    fn lu(matrix: &SparseColMat<usize, f64>) -> Option<Self> {
+        let symbolic = factorize_symbolic_lu(matrix.symbolic(), LuSymbolicParams::default()).ok()?;
+        let mut numeric = NumericLu::new();
+        let mut buffer = MemBuffer::new(
+            symbolic.factorize_numeric_lu_scratch::<f64>(Par::Seq, Spec::default()),
+        );
+        symbolic
+            .factorize_numeric_lu(
+                &mut numeric,
+                matrix.as_ref(),
+                Par::Seq,
+                MemStack::new(&mut buffer),
+                Spec::default(),
+            )
+            .ok()?;
+        let buffer = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
+        Some(Self { order: matrix.nrows(), kind: Kind::Lu { symbolic, numeric }, buffer })
+    }
+
+    /// Overwrites `rhs` with A⁻¹ rhs.
+    pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
+        let stack = MemStack::new(&mut self.buffer);
+        let rhs = MatMut::from_column_major_slice_mut(rhs, self.order, 1);
+        match &self.kind {
+            Kind::Cholesky { symbolic, values } => {
+                LltRef::new(symbolic, values).solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+            }
+            Kind::Lu { symbolic, numeric } => {
+                LuRef::new_unchecked(symbolic, numeric)
+                    .solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+            }
+        }
+    }
+}
+
+/// LU factors of a dense matrix with partial pivoting, in memory that is kept between factorings.
+pub(crate) struct DenseFactor {
+    order: usize,
+    values: Vec<f64>,
+    forward: Vec<usize>,
+    inverse: Vec<usize>,
+    buffer: MemBuffer,
+}
+
+impl DenseFactor {
+    /// Room for matrices up to order `capacity`.
+    pub(crate) fn with_capacity(capacity: usize) -> Self {
+        let factor = dense_factor::lu_in_place_scratch::<usize, f64>(
+            capacity,
+            capacity,
+            Par::Seq,
+            Spec::default(),
+        );
+        let solve = dense_solve::solve_in_place_scratch::<usize, f64>(capacity, 1, Par::Seq);
+        Self {
+            order: 0,
+            values: Vec::with_capacity(capacity * capacity),
+            forward: Vec::with_capacity(capacity),
+            inverse: Vec::with_capacity(capacity),
+            buffer: MemBuffer::new(factor.or(solve)),
+        }
+    }
+
+    /// Factors the row-major `matrix` of `order`; false if it is singular or not finite.
+    pub(crate) fn factor(&mut self, matrix: &[f64], order: usize) -> bool {
+        self.order = order;
+        self.values.clear();
+        self.values.extend_from_slice(&matrix[..order * order]);
+        self.forward.clear();
+        self.forward.resize(order, 0);
+        self.inverse.clear();
+        self.inverse.resize(order, 0);
+        if order == 0 {
+            return true;
+        }
+        dense_factor::lu_in_place(
+            MatMut::from_row_major_slice_mut(&mut self.values, order, order),
+            &mut self.forward,
+            &mut self.inverse,
+            Par::Seq,
+            MemStack::new(&mut self.buffer),
+            Spec::default(),
+        );
+        (0..order).all(|k| {
+            let pivot = self.values[k * order + k];
+            pivot.is_finite() && pivot != 0.0
+        })
+    }
+
+    /// Overwrites `rhs` with A⁻¹ rhs.
+    pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
+        if self.order == 0 {
+            return;
+        }
+        let lu = MatRef::from_row_major_slice(&self.values, self.order, self.order);
+        let permutation = PermRef::new_checked(&self.forward, &self.inverse, self.order);
+        dense_solve::solve_in_place_with_conj(
+            lu,
+            lu,
+            permutation,
+            Conj::No,
+            MatMut::from_column_major_slice_mut(rhs, self.order, 1),
+            Par::Seq,
+            MemStack::new(&mut self.buffer),
+        );
+    }
+}
+
+/// y ← y + factor · A x for a dense row-major matrix with `x.len()` columns.
+pub(crate) fn dense_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
+    if x.is_empty() {
+        return;
+    }
+    for (row, y) in matrix.chunks_exact(x.len()).zip(y) {
+        *y += factor * dot(row, x);
+    }
+}
+
+/// Σ xᵢ yᵢ, in eight running sums so that the compiler can use vector registers.
+pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
+    let mut sums = [0.0; 8];
+    let (x_chunks, y_chunks) = (x.chunks_exact(8), y.chunks_exact(8));
+    let tail: f64 = x_chunks.remainder().iter().zip(y_chunks.remainder()).map(|(a, b)| a * b).sum();
+    for (a, b) in x_chunks.zip(y_chunks) {
+        for k in 0..8 {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    let [a, b, c, d, e, f, g, h] = sums;
+    tail + (((a + b) + (c + d)) + ((e + f) + (g + h)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ladder(order: usize, skew: f64) -> Triplets {
+        let mut matrix = Triplets::new(order);
+        for i in 0..order {
+            matrix.add(i, i, 3.0 + i as f64);
+            if i > 0 {
+                matrix.add(i, i - 1, -1.0 + skew);
+                matrix.add(i - 1, i, -0.5);
+                matrix.add(i - 1, i, -0.5 - skew);
+            }
+        }
+        matrix
+    }
+
+    #[test]
+    fn sparse_factors_solve_symmetric_and_unsymmetric() {
+        for skew in [0.0, 0.3] {
+            let triplets = ladder(40, skew);
+            let matrix = SparseMatrix::new("test", &triplets).unwrap();
+            let x: Vec<f64> = (0..40).map(|i| f64::from(i).sin()).collect();
+            let mut rhs = vec![0.0; 40];
+            matrix.multiply_add(1.0, &x, &mut rhs);
+            let mut factor = SparseFactor::new("test", &triplets).unwrap();
+            assert_eq!(matches!(factor.kind, Kind::Cholesky { .. }), skew == 0.0);
+            factor.solve(&mut rhs);
+            for (a, b) in rhs.iter().zip(&x) {
+                assert!((a - b).abs() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn dense_factor_solves_and_reports_singular() {
+        let matrix = [0.0, 2.0, 1.0, 1.0, 0.0, 3.0, 4.0, 1.0, 0.0];
+        let x = [1.0, -2.0, 0.5];
+        let mut rhs = [0.0; 3];
+        dense_multiply_add(&matrix, 1.0, &x, &mut rhs);
+        let mut factor = DenseFactor::with_capacity(3);
+        assert!(factor.factor(&matrix, 3));
+        factor.solve(&mut rhs);
+        for (a, b) in rhs.iter().zip(&x) {
+            assert!((a - b).abs() < 1e-14);
+        }
+        assert!(!factor.factor(&[1.0, 2.0, 2.0, 4.0], 2));
+    }
+
+    #[test]
+    fn singular_and_bad_matrices_are_errors() {
+        let mut zero = Triplets::new(2);
+        zero.add(0, 0, 1.0);
+        assert!(matches!(SparseFactor::new("k", &zero), Err(Error::Singular { .. })));
+        zero.add(1, 2, 1.0);
+        assert!(matches!(SparseMatrix::new("k", &zero), Err(Error::Index { index: 2, .. })));
+        let mut nan = Triplets::new(1);
+        nan.add(0, 0, f64::NAN);
+        assert!(matches!(SparseMatrix::new("k", &nan), Err(Error::Input { .. })));
+    }
+}
