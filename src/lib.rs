@@ -7,6 +7,7 @@ pub mod fundamental;
 pub mod history;
 pub mod interface;
 pub mod motion;
+pub mod reference;
 mod soil;
 pub mod structure;
 
