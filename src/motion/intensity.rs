@@ -6,7 +6,7 @@ use super::{Record, STANDARD_GRAVITY};
 impl Record {
     /// Peak ground acceleration (PGA): largest |a|, m/s².
     pub fn peak_acceleration(&self) -> f64 {
-        largest(self.acceleration().iter().copied())
+        largest(self.accelerations().iter().copied())
     }
 
     /// Peak ground velocity (PGV): largest |v| at any time, between samples too, m/s.
@@ -19,7 +19,7 @@ impl Record {
                 .flatten()
                 .map(move |elapsed| start.after(elapsed, jerk).velocity)
         });
-        largest(self.velocity().iter().copied().chain(between))
+        largest(self.velocities().iter().copied().chain(between))
     }
 
     /// Peak ground displacement (PGD): largest |u| during the record, between samples too, m.
@@ -33,7 +33,7 @@ impl Record {
                 .flatten()
                 .map(move |elapsed| start.after(elapsed, jerk).displacement)
         });
-        largest(self.displacement().iter().copied().chain(between))
+        largest(self.displacements().iter().copied().chain(between))
     }
 
     /// Arias intensity π/(2g) ∫ a² dt, m/s, with standard gravity.
@@ -49,7 +49,7 @@ impl Record {
     /// ```
     pub fn arias_intensity(&self) -> f64 {
         let sum: f64 =
-            self.acceleration().windows(2).map(|a| f64::midpoint(a[0] * a[0], a[1] * a[1])).sum();
+            self.accelerations().windows(2).map(|a| f64::midpoint(a[0] * a[0], a[1] * a[1])).sum();
         std::f64::consts::FRAC_PI_2 / STANDARD_GRAVITY * sum * self.time_step()
     }
 }

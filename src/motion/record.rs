@@ -118,17 +118,17 @@ impl Record {
     }
 
     /// Acceleration at the samples, m/s².
-    pub fn acceleration(&self) -> &[f64] {
+    pub fn accelerations(&self) -> &[f64] {
         &self.acceleration
     }
 
     /// Velocity at the samples, m/s.
-    pub fn velocity(&self) -> &[f64] {
+    pub fn velocities(&self) -> &[f64] {
         &self.velocity
     }
 
     /// Displacement at the samples, m.
-    pub fn displacement(&self) -> &[f64] {
+    pub fn displacements(&self) -> &[f64] {
         &self.displacement
     }
 
@@ -159,7 +159,7 @@ impl Record {
     /// let record = basemat::motion::el_centro_1940();
     /// let fine = record.resample(0.005)?;
     /// assert_eq!(fine.len(), 4 * 1559 + 1);
-    /// assert!((fine.displacement()[6236] - record.displacement()[1559]).abs() < 1e-12);
+    /// assert!((fine.displacements()[6236] - record.displacements()[1559]).abs() < 1e-12);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///

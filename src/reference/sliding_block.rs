@@ -49,7 +49,7 @@ impl SlidingBlock {
     pub fn slide(&self, record: &Record) -> SlidingHistory {
         let mut run = Run::new(self.yield_acceleration);
         let step = record.time_step();
-        for (index, pair) in record.acceleration().windows(2).enumerate() {
+        for (index, pair) in record.accelerations().windows(2).enumerate() {
             let end = (index + 1) as f64 * step;
             run.interval(index as f64 * step, end, pair[0], (pair[1] - pair[0]) / step);
         }
