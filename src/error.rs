@@ -163,6 +163,34 @@ pub enum RecordError {
         /// The first step, s.
         expected: f64,
     },
+    /// The steps of the time column are nearly equal, but drift away from equal ones.
+    #[error("time is {found} s, but would be {expected} s with equal steps")]
+    DriftingStep {
+        /// This time, s.
+        found: f64,
+        /// The time with equal steps, s.
+        expected: f64,
+    },
+    /// The time column does not increase.
+    #[error("time advances by {found} s, but must advance")]
+    TimeNotIncreasing {
+        /// This step, s.
+        found: f64,
+    },
+    /// The number of samples is not the one that was asked for.
+    #[error("{found} samples, but {needed} asked for")]
+    SampleCount {
+        /// Samples found.
+        found: usize,
+        /// Samples asked for.
+        needed: usize,
+    },
+    /// A line is too long to be one of numbers.
+    #[error("no line end in {bytes} bytes")]
+    LineTooLong {
+        /// Bytes read without a line end.
+        bytes: usize,
+    },
 }
 
 /// `value` if it is finite and above zero.

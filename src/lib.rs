@@ -9,6 +9,7 @@ pub mod history;
 pub mod interface;
 mod linalg;
 pub mod motion;
+pub mod reference;
 mod soil;
 pub mod structure;
 

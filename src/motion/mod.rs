@@ -1,4 +1,32 @@
 //! Ground motions: records, and the free field that they stand for.
+//!
+//! A [`Record`] is read or built, its [`Baseline`] treated, and integrated exactly; a [`FreeField`]
+//! says how the surface of the ground would move without the structure. [`VerticalIncidence`]
+//! makes one of records, [`RickerDisplacement`] is a pulse in closed form, [`FreeFieldFn`] takes
+//! closures, [`AtRest`] never moves.
+
+mod at_rest;
+mod baseline;
+mod closure;
+mod el_centro;
+mod integral;
+mod intensity;
+mod reader;
+mod record;
+mod ricker;
+mod unit;
+mod vertical_incidence;
+
+pub use at_rest::AtRest;
+pub use baseline::Baseline;
+pub use closure::FreeFieldFn;
+pub use el_centro::el_centro_1940;
+pub(crate) use integral::quadratic_roots_within;
+pub use reader::ColumnFormat;
+pub use record::Record;
+pub use ricker::RickerDisplacement;
+pub use unit::{AccelerationUnit, STANDARD_GRAVITY};
+pub use vertical_incidence::VerticalIncidence;
 
 /// Motion of the ground surface without the structure.
 pub trait FreeField: Send {

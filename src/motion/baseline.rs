@@ -1,0 +1,267 @@
+//! Baseline treatments of accelerograms.
+
+use crate::error::{Error, Result};
+
+/// What is subtracted from a record so that it ends at, or near, rest.
+///
+/// Every treatment subtracts a polynomial in time, evaluated at the samples, from the
+/// acceleration, so that the treated record is again linear between samples, and the conditions
+/// named below hold for its exact integrals to rounding. Every record starts from u = v = 0. T is the
+/// duration. Choose with care: displacements depend strongly on the choice, motions relative to
+/// the ground hardly.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Baseline {
+    /// Nothing: the record as it is.
+    #[default]
+    None,
+    /// The time mean of the acceleration, which makes v(T) = 0.
+    RemoveMean,
+    /// Parabola in acceleration that makes ∫ v² dt least; nothing is enforced at the end.
+    ///
+    /// Newmark, Blume & Kapur, "Seismic design spectra for nuclear power plants", J. Power
+    /// Division ASCE 99 (1973), 287–303; also *Abaqus Theory Manual*, 6.1.2, with one interval.
+    NewmarkParabola,
+    /// Polynomial of the `degree` (1 to 8) in velocity, zero at t = 0, that makes ∫ v² dt least
+    /// under the condition v(T) = 0.
+    ///
+    /// Its derivative is subtracted from the acceleration, as in Chiu, "Stable baseline
+    /// correction of digital strong-motion data", Bull. Seism. Soc. Am. 87 (1997), 932–944, and
+    /// Boore, "Effect of baseline corrections on displacements and response spectra …", Bull.
+    /// Seism. Soc. Am. 91 (2001), 1199–1211; the condition at T is added here. Degree 1 is
+    /// [`RemoveMean`](Self::RemoveMean).
+    VelocityPolynomial {
+        /// Degree of the polynomial in velocity.
+        degree: usize,
+    },
+    /// Polynomial of the `degree` (2 to 8) in displacement, without its constant and linear terms,
+    /// that makes ∫ u² dt least; nothing is enforced at the end.
+    ///
+    /// Its second derivative is subtracted from the acceleration; degree 6 is the practice of
+    /// Ancheta et al., *PEER NGA-West2 Database*, report PEER 2013/03, ch. 2.
+    DisplacementPolynomial {
+        /// Degree of the polynomial in displacement.
+        degree: usize,
+    },
+    /// Polynomial of the `degree` (3 to 8) in velocity, without its constant and linear terms, that
+    /// makes ∫ v² dt least under the conditions v(T) = 0 and u(T) = 0.
+    ///
+    /// The correction of the acceleration starts from zero as well, so that a record which starts
+    /// without a jump still does; it ends at rest where it began. The least-squares fit of
+    /// [`VelocityPolynomial`](Self::VelocityPolynomial) with two more conditions.
+    RestToRest {
+        /// Degree of the polynomial in velocity.
+        degree: usize,
+    },
+}
+
+/// A linear least-squares problem for the polynomial in acceleration.
+struct Fit {
+    /// Number of coefficients.
+    terms: usize,
+    /// The polynomial has the factor t.
+    starts_from_zero: bool,
+    /// What is made least.
+    least: Quantity,
+    /// What is made zero at the end.
+    zero_at_end: &'static [Quantity],
+}
+
+#[derive(Clone, Copy)]
+enum Quantity {
+    Velocity,
+    Displacement,
+}
+
+impl Baseline {
+    /// Treated samples.
+    pub(super) fn apply(self, samples: &[f64]) -> Result<Vec<f64>> {
+        let newmark =
+            Fit { terms: 3, starts_from_zero: false, least: Quantity::Velocity, zero_at_end: &[] };
+        let fit = match self {
+            Self::None => return Ok(samples.to_vec()),
+            Self::RemoveMean => Fit { terms: 1, zero_at_end: &[Quantity::Velocity], ..newmark },
+            Self::NewmarkParabola => newmark,
+            Self::VelocityPolynomial { degree } => {
+                check_degree(degree, 1, "between 1 and 8")?;
+                Fit { terms: degree, zero_at_end: &[Quantity::Velocity], ..newmark }
+            }
+            Self::DisplacementPolynomial { degree } => {
+                check_degree(degree, 2, "between 2 and 8")?;
+                Fit { terms: degree - 1, least: Quantity::Displacement, ..newmark }
+            }
+            Self::RestToRest { degree } => {
+                check_degree(degree, 3, "between 3 and 8")?;
+                Fit {
+                    terms: degree - 1,
+                    starts_from_zero: true,
+                    zero_at_end: &[Quantity::Velocity, Quantity::Displacement],
+                    ..newmark
+                }
+            }
+        };
+        fit.subtract(samples)
+    }
+}
+
+fn check_degree(degree: usize, least: usize, needed: &'static str) -> Result<()> {
+    if (least..=8).contains(&degree) {
+        Ok(())
+    } else {
+        let quantity = "degree of the baseline polynomial";
+        Err(Error::Input { quantity, value: degree as f64, needed })
+    }
+}
+
+impl Fit {
+    /// Samples less the fitted polynomial.
+    ///
+    /// With the basis functions φ, their exact integrals V and U (as of a record) and those v, u
+    /// of the samples, the coefficients c minimise ∫ (v − Σ c V)² under the conditions
+    /// Σ c V(T) = v(T), Σ c U(T) = u(T): a symmetric system with Lagrange multipliers. Time runs
+    /// from 0 to 1, which changes no coefficient.
+    fn subtract(&self, samples: &[f64]) -> Result<Vec<f64>> {
+        if samples.len() <= self.terms + 1 {
+            return Err(Error::Input {
+                quantity: "number of samples under a baseline fit",
+                value: samples.len() as f64,
+                needed: "above the number of coefficients by two at least",
+            });
+        }
+        let scale = samples.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+        if scale == 0.0 {
+            return Ok(samples.to_vec());
+        }
+        let step = 1.0 / (samples.len() - 1) as f64;
+        let basis: Vec<Vec<f64>> =
+            (0..self.terms).map(|term| self.basis(term, samples.len())).collect();
+        let target: Vec<f64> = samples.iter().map(|a| a / scale).collect();
+        let motions: Vec<Motion> =
+            basis.iter().chain([&target]).map(|a| Motion::new(step, a, self.least)).collect();
+        let coefficients = self.solve(&motions)?;
+        let correction = |index: usize| -> f64 {
+            coefficients.iter().zip(&basis).map(|(c, phi)| c * phi[index]).sum()
+        };
+        Ok(samples.iter().enumerate().map(|(i, a)| a - scale * correction(i)).collect())
+    }
+
+    /// Legendre polynomial on [0, 1] at the samples, times t where asked: powers would leave the
+    /// system ill-conditioned.
+    fn basis(&self, term: usize, count: usize) -> Vec<f64> {
+        let value = |index: usize| {
+            let time = index as f64 / (count - 1) as f64;
+            let x = 2.0 * time - 1.0;
+            let (mut before, mut now) = (0.0, 1.0);
+            for n in 0..term {
+                let n = n as f64;
+                (before, now) = (now, ((2.0 * n + 1.0) * x * now - n * before) / (n + 1.0));
+            }
+            if self.starts_from_zero { time * now } else { now }
+        };
+        (0..count).map(value).collect()
+    }
+
+    /// Coefficients; the last of `motions` is the target.
+    fn solve(&self, motions: &[Motion]) -> Result<Vec<f64>> {
+        let terms = self.terms;
+        let order = terms + self.zero_at_end.len();
+        // one row more than columns: the right-hand side is the last column
+        let mut rows = vec![vec![0.0; order + 1]; order];
+        for i in 0..terms {
+            for (j, motion) in motions.iter().enumerate() {
+                let column = if j == terms { order } else { j };
+                rows[i][column] = motions[i].product(motion);
+            }
+            for (k, &quantity) in self.zero_at_end.iter().enumerate() {
+                rows[i][terms + k] = motions[i].end(quantity);
+                rows[terms + k][i] = motions[i].end(quantity);
+                rows[terms + k][order] = motions[terms].end(quantity);
+            }
+        }
+        let mut solution = eliminate(rows)
+            .ok_or(Error::Singular { matrix: "system of the baseline fit", order })?;
+        solution.truncate(terms);
+        Ok(solution)
+    }
+}
+
+/// Integrals of an acceleration, as the fit needs them.
+struct Motion {
+    /// The fitted quantity at the Gauss points of each interval, times the root of the weight.
+    values: Vec<f64>,
+    velocity: f64,
+    displacement: f64,
+}
+
+/// Gauss–Legendre points and weights on [0, 1], exact for squares of the cubic displacement.
+const GAUSS: [(f64, f64); 4] = [
+    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
+    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
+    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
+    (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
+];
+
+impl Motion {
+    fn new(step: f64, samples: &[f64], least: Quantity) -> Self {
+        let (velocity, displacement) = super::integral::integrate(step, samples);
+        let last = samples.len() - 1;
+        let mut values = Vec::with_capacity(GAUSS.len() * last);
+        for index in 0..last {
+            let start = super::integral::Instant {
+                acceleration: samples[index],
+                velocity: velocity[index],
+                displacement: displacement[index],
+            };
+            let jerk = (samples[index + 1] - samples[index]) / step;
+            for (point, weight) in GAUSS {
+                let at = start.after(point * step, jerk);
+                let value = match least {
+                    Quantity::Velocity => at.velocity,
+                    Quantity::Displacement => at.displacement,
+                };
+                values.push(value * (weight * step).sqrt());
+            }
+        }
+        Self { values, velocity: velocity[last], displacement: displacement[last] }
+    }
+
+    /// Quantity at the end.
+    fn end(&self, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::Velocity => self.velocity,
+            Quantity::Displacement => self.displacement,
+        }
+    }
+
+    /// ∫ of the product of the fitted quantities.
+    fn product(&self, other: &Self) -> f64 {
+        self.values.iter().zip(&other.values).map(|(a, b)| a * b).sum()
+    }
+}
+
+/// Solution of a small dense system by elimination with row pivoting; the last column is the
+/// right-hand side. None if a pivot vanishes or is not finite.
+fn eliminate(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+    let order = rows.len();
+    for k in 0..order {
+        let pivot = (k..order).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()))?;
+        rows.swap(k, pivot);
+        if rows[k][k] == 0.0 || !rows[k][k].is_finite() {
+            return None;
+        }
+        let (done, below) = rows.split_at_mut(k + 1);
+        let row = &done[k];
+        for other in below {
+            let factor = other[k] / row[k];
+            for (entry, above) in other.iter_mut().zip(row).skip(k) {
+                *entry -= factor * above;
+            }
+        }
+    }
+    let mut solution = vec![0.0; order];
+    for k in (0..order).rev() {
+        let known: f64 = (k + 1..order).map(|j| rows[k][j] * solution[j]).sum();
+        solution[k] = (rows[k][order] - known) / rows[k][k];
+    }
+    Some(solution)
+}

@@ -1,0 +1,263 @@
+//! Equally spaced records of ground acceleration.
+
+use std::path::Path;
+
+use super::integral::{Instant, integrate};
+use super::{Baseline, ColumnFormat, reader};
+use crate::error::{Error, RecordError, Result, finite, positive};
+
+/// Most samples that [`Record::resample`] makes.
+const MOST_SAMPLES: f64 = 1e8;
+
+/// Ground acceleration at equal time steps, with its velocity and displacement.
+///
+/// The acceleration is linear between samples, so the velocity is piecewise quadratic and the
+/// displacement piecewise cubic; both are integrated exactly from rest at t = 0 and can be asked
+/// for at any time. Before t = 0 all three are zero. After the last sample the acceleration is
+/// zero and the velocity stays what it is: it is zero there only if a [`Baseline`] made it so.
+///
+/// ```
+/// use basemat::motion::Record;
+/// // a = t for one second: v = t²/2, u = t³/6
+/// let record = Record::new(0.5, vec![0.0, 0.5, 1.0])?;
+/// assert!((record.velocity_at(0.8) - 0.32).abs() < 1e-15);
+/// assert!((record.displacement_at(0.9) - 0.1215).abs() < 1e-15);
+/// assert_eq!(record.velocity_at(2.0), 0.5);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Record {
+    step: f64,
+    acceleration: Vec<f64>,
+    velocity: Vec<f64>,
+    displacement: Vec<f64>,
+}
+
+impl Record {
+    /// Record from its time step (s) and at least two samples of acceleration (m/s²).
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless the time step is positive and all samples, and the velocity and
+    /// displacement that follow, are finite; [`Error::Record`] for fewer than two samples.
+    pub fn new(time_step: f64, acceleration: Vec<f64>) -> Result<Self> {
+        positive("time step of the record", time_step)?;
+        if acceleration.len() < 2 {
+            return Err(Error::Record {
+                file: "samples".into(),
+                line: 0,
+                reason: RecordError::TooShort { found: acceleration.len(), needed: 2 },
+            });
+        }
+        for &value in &acceleration {
+            finite("acceleration of the record", value)?;
+        }
+        let (velocity, displacement) = integrate(time_step, &acceleration);
+        for (&v, &u) in velocity.iter().zip(&displacement) {
+            finite("velocity of the record", v)?;
+            finite("displacement of the record", u)?;
+        }
+        Ok(Self { step: time_step, acceleration, velocity, displacement })
+    }
+
+    /// Reads a text file with a column of time (s) and one of acceleration.
+    ///
+    /// See [`ColumnFormat`] for what is understood.
+    ///
+    /// # Errors
+    /// [`Error::Record`] with the line and the reason.
+    pub fn read(path: impl AsRef<Path>, format: &ColumnFormat) -> Result<Self> {
+        let path = path.as_ref();
+        let name = path.display().to_string();
+        match std::fs::File::open(path) {
+            Ok(file) => Self::from_reader(&name, file, format),
+            Err(error) => Err(Error::Record {
+                file: name,
+                line: 0,
+                reason: RecordError::Unreadable(error.kind()),
+            }),
+        }
+    }
+
+    /// Reads the same from any source of bytes; `name` is what errors call it.
+    ///
+    /// ```
+    /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
+    /// let text = "# station 1\nt,a\n0.00, 0\n0.01, 98.1\n0.02, -49.05\n";
+    /// let format = ColumnFormat::new(AccelerationUnit::Gal);
+    /// let record = Record::from_reader("text", text.as_bytes(), &format)?;
+    /// assert_eq!(record.time_step(), 0.01);
+    /// assert!((record.peak_acceleration() - 0.981).abs() < 1e-15);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Record`] with the line and the reason.
+    pub fn from_reader(
+        name: &str,
+        source: impl std::io::Read,
+        format: &ColumnFormat,
+    ) -> Result<Self> {
+        let (step, samples) = reader::read(name, source, format)?;
+        Self::new(step, samples)
+    }
+
+    /// Time step, s.
+    pub fn time_step(&self) -> f64 {
+        self.step
+    }
+
+    /// Number of samples, at least two.
+    #[expect(clippy::len_without_is_empty, reason = "a record is never empty")]
+    pub fn len(&self) -> usize {
+        self.acceleration.len()
+    }
+
+    /// Time of the last sample, s; the first is at zero.
+    pub fn duration(&self) -> f64 {
+        (self.len() - 1) as f64 * self.step
+    }
+
+    /// Acceleration at the samples, m/s².
+    pub fn accelerations(&self) -> &[f64] {
+        &self.acceleration
+    }
+
+    /// Velocity at the samples, m/s.
+    pub fn velocities(&self) -> &[f64] {
+        &self.velocity
+    }
+
+    /// Displacement at the samples, m.
+    pub fn displacements(&self) -> &[f64] {
+        &self.displacement
+    }
+
+    /// Acceleration (m/s²) at any `time` (s): linear between samples, zero outside the record.
+    pub fn acceleration_at(&self, time: f64) -> f64 {
+        self.at(time).acceleration
+    }
+
+    /// Velocity (m/s) at any `time` (s); constant after the last sample.
+    pub fn velocity_at(&self, time: f64) -> f64 {
+        self.at(time).velocity
+    }
+
+    /// Displacement (m) at any `time` (s); linear in time after the last sample.
+    pub fn displacement_at(&self, time: f64) -> f64 {
+        self.at(time).displacement
+    }
+
+    /// Record with its samples every `time_step` (s), the acceleration linear between the old
+    /// ones.
+    ///
+    /// The same function of time if the old step is a multiple of the new one; otherwise the old
+    /// corners are cut. Where only motion at other times is wanted, ask
+    /// [`displacement_at`](Self::displacement_at), which is exact at any time. The last sample is
+    /// the first one not before the end of the old record.
+    ///
+    /// ```
+    /// let record = basemat::motion::el_centro_1940();
+    /// let fine = record.resample(0.005)?;
+    /// assert_eq!(fine.len(), 4 * 1559 + 1);
+    /// assert!((fine.displacements()[6236] - record.displacements()[1559]).abs() < 1e-12);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless the step is positive and gives at most 10⁸ samples.
+    pub fn resample(&self, time_step: f64) -> Result<Self> {
+        positive("new time step of the record", time_step)?;
+        let duration = self.duration();
+        // slack for a step that divides the duration but for rounding
+        let intervals = (duration / time_step - 1e-9).ceil().max(1.0);
+        if intervals >= MOST_SAMPLES {
+            return Err(Error::Input {
+                quantity: "new time step of the record",
+                value: time_step,
+                needed: "long enough for at most 1e8 samples",
+            });
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in 1..1e8")]
+        let count = intervals as usize;
+        let sample = |k: usize| {
+            let time = k as f64 * time_step;
+            let rounded =
+                if time - duration < 1e-8 * time_step { time.min(duration) } else { time };
+            self.acceleration_at(rounded)
+        };
+        Self::new(time_step, (0..=count).map(sample).collect())
+    }
+
+    /// Record with all samples multiplied by `factor`, which may be negative.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if the factor or a product is not finite.
+    pub fn scaled(&self, factor: f64) -> Result<Self> {
+        finite("scale factor of the record", factor)?;
+        Self::new(self.step, self.acceleration.iter().map(|a| a * factor).collect())
+    }
+
+    /// Record scaled to a peak ground acceleration (m/s²), signs kept.
+    ///
+    /// ```
+    /// let record = basemat::motion::el_centro_1940().scaled_to_peak(5.0)?;
+    /// assert!((record.peak_acceleration() - 5.0).abs() < 1e-15);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless `peak` is positive and the record is not zero throughout.
+    pub fn scaled_to_peak(&self, peak: f64) -> Result<Self> {
+        positive("wanted peak acceleration", peak)?;
+        let present = positive("peak acceleration of the record", self.peak_acceleration())?;
+        self.scaled(peak / present)
+    }
+
+    /// Record with its baseline treated.
+    ///
+    /// ```
+    /// use basemat::motion::{Baseline, el_centro_1940};
+    /// let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 })?;
+    /// let end = record.duration();
+    /// assert!(record.velocity_at(end).abs() < 1e-12);
+    /// assert!(record.displacement_at(end + 100.0).abs() < 1e-10);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a degree out of its range, or too high for the number of samples.
+    pub fn with_baseline(&self, baseline: Baseline) -> Result<Self> {
+        Self::new(self.step, baseline.apply(&self.acceleration)?)
+    }
+
+    /// Motion at any time.
+    fn at(&self, time: f64) -> Instant {
+        let last = self.len() - 1;
+        if time.is_nan() || time <= 0.0 {
+            let acceleration = if time == 0.0 { self.acceleration[0] } else { 0.0 };
+            return Instant { acceleration, velocity: 0.0, displacement: 0.0 };
+        }
+        let duration = self.duration();
+        if time > duration {
+            let end = Instant { acceleration: 0.0, ..self.sample(last) };
+            return end.after(time - duration, 0.0);
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=last")]
+        let index = ((time / self.step) as usize).min(last - 1);
+        self.sample(index).after(time - index as f64 * self.step, self.jerk(index))
+    }
+
+    /// Motion at a sample.
+    pub(super) fn sample(&self, index: usize) -> Instant {
+        Instant {
+            acceleration: self.acceleration[index],
+            velocity: self.velocity[index],
+            displacement: self.displacement[index],
+        }
+    }
+
+    /// Rate of the acceleration in the interval after a sample.
+    pub(super) fn jerk(&self, index: usize) -> f64 {
+        (self.acceleration[index + 1] - self.acceleration[index]) / self.step
+    }
+}

@@ -1,0 +1,41 @@
+//! Units of acceleration.
+
+/// Standard gravity, 9.80665 m/s² (3rd CGPM, 1901).
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// Unit of the accelerations in a file.
+///
+/// ```
+/// use basemat::motion::AccelerationUnit;
+/// assert_eq!(AccelerationUnit::Gal.in_metres_per_second_squared(), 0.01);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum AccelerationUnit {
+    /// m/s².
+    MetrePerSecondSquared,
+    /// mm/s².
+    MillimetrePerSecondSquared,
+    /// g, 9.80665 m/s².
+    StandardGravity,
+    /// Gal, cm/s².
+    Gal,
+    /// ft/s², 0.3048 m/s².
+    FootPerSecondSquared,
+    /// in/s², 0.0254 m/s².
+    InchPerSecondSquared,
+}
+
+impl AccelerationUnit {
+    /// One of this unit in m/s².
+    pub fn in_metres_per_second_squared(self) -> f64 {
+        match self {
+            Self::MetrePerSecondSquared => 1.0,
+            Self::MillimetrePerSecondSquared => 1e-3,
+            Self::StandardGravity => STANDARD_GRAVITY,
+            Self::Gal => 1e-2,
+            Self::FootPerSecondSquared => 0.3048,
+            Self::InchPerSecondSquared => 0.0254,
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Static line loads: on the surface of a half-plane, and within a full plane.
+//!
+//! In two dimensions the displacement under a line load grows with the logarithm of the distance,
+//! so only displacements relative to another point exist.
+
+use std::f64::consts::PI;
+
+use crate::Soil;
+use crate::error::{Result, finite, positive};
+
+/// Settlement (m, downwards) of the surface at distance `near` (m) from a vertical line load (N/m,
+/// downwards), relative to the surface at distance `far` (m): (1−ν)P/(πμ) ln(far/near).
+///
+/// Flamant 1892; Johnson, *Contact Mechanics*, 1985, eq. 2.19b.
+///
+/// ```
+/// use basemat::{Soil, reference::flamant_relative_settlement};
+/// let soil = Soil::new(1.0, 0.5 - 1e-12, 1.0)?;
+/// let settlement = flamant_relative_settlement(&soil, 2.0, 1.0, 1.0_f64.exp())?;
+/// assert!((settlement - 1.0 / std::f64::consts::PI).abs() < 1e-11);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Input`](crate::Error::Input) unless the load is finite and the distances are finite
+/// and above zero.
+pub fn flamant_relative_settlement(soil: &Soil, load: f64, near: f64, far: f64) -> Result<f64> {
+    finite("line load", load)?;
+    positive("near distance from the load", near)?;
+    positive("far distance from the load", far)?;
+    Ok((1.0 - soil.poisson()) * load / (PI * soil.shear_modulus()) * (far / near).ln())
+}
+
+/// Horizontal displacement (m, to the right) of the surface at `x` (m) from a vertical line load
+/// (N/m, downwards): −(1−2ν)P/(4μ) sgn x, towards the load; zero under it.
+///
+/// Flamant 1892; Johnson, *Contact Mechanics*, 1985, eq. 2.19a.
+///
+/// ```
+/// use basemat::{Soil, reference::flamant_horizontal_displacement};
+/// let soil = Soil::new(1.0, 0.25, 1.0)?;
+/// assert_eq!(flamant_horizontal_displacement(&soil, 8.0, 3.0)?, -1.0);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Input`](crate::Error::Input) unless load and position are finite.
+pub fn flamant_horizontal_displacement(soil: &Soil, load: f64, x: f64) -> Result<f64> {
+    finite("line load", load)?;
+    finite("position on the surface", x)?;
+    let sign = if x == 0.0 { 0.0 } else { x.signum() };
+    Ok(-(1.0 - 2.0 * soil.poisson()) * load / (4.0 * soil.shear_modulus()) * sign)
+}
+
+/// Radial stress (Pa, tension positive) at `distance` r (m) and `angle` θ (rad from the downward
+/// vertical) from a vertical line load (N/m, downwards): −2P cos θ/(πr); the other components
+/// vanish.
+///
+/// Flamant 1892; Johnson, *Contact Mechanics*, 1985, eq. 2.15.
+///
+/// ```
+/// let stress = basemat::reference::flamant_radial_stress(3.0, 2.0, 0.0)?;
+/// assert!((stress + 3.0 / std::f64::consts::PI).abs() < 1e-15);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Input`](crate::Error::Input) unless load and angle are finite and the distance is
+/// finite and above zero.
+pub fn flamant_radial_stress(load: f64, distance: f64, angle: f64) -> Result<f64> {
+    finite("line load", load)?;
+    positive("distance from the load", distance)?;
+    finite("angle from the vertical", angle)?;
+    Ok(-2.0 * load * angle.cos() / (PI * distance))
+}
+
+/// Displacement `[u_x, u_y]` (m) at `point` (m from the load) in a full plane under a line `force`
+/// `[F_x, F_y]` (N/m), relative to its isotropic part at distance `datum` (m).
+///
+/// Kelvin's solution in plane strain, `u_i` = ((3−4ν) ln(datum/r) `F_i` + `r_i` (r·F)/r²)/(8πμ(1−ν)):
+/// Brebbia & Dominguez, *Boundary Elements: An Introductory Course*, 1992, ch. 3.
+///
+/// ```
+/// use basemat::{Soil, reference::kelvin_relative_displacement};
+/// let soil = Soil::new(1.0, 0.25, 1.0)?;
+/// let u = kelvin_relative_displacement(&soil, [6.0, 0.0], [1.0, 1.0], 2.0_f64.sqrt())?;
+/// assert!((u[0] - 0.5 / std::f64::consts::PI).abs() < 1e-15 && u[0] == u[1]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Input`](crate::Error::Input) unless all numbers are finite and the distance of the
+/// point and the datum above zero.
+pub fn kelvin_relative_displacement(
+    soil: &Soil,
+    force: [f64; 2],
+    point: [f64; 2],
+    datum: f64,
+) -> Result<[f64; 2]> {
+    for component in force {
+        finite("line force", component)?;
+    }
+    let distance = positive("distance from the load", point[0].hypot(point[1]))?;
+    positive("distance of the datum", datum)?;
+    let direction = point.map(|component| component / distance);
+    let along = direction[0] * force[0] + direction[1] * force[1];
+    let scale = 1.0 / (8.0 * PI * soil.shear_modulus() * (1.0 - soil.poisson()));
+    let isotropic = (3.0 - 4.0 * soil.poisson()) * (datum / distance).ln();
+    Ok([0, 1].map(|i| scale * (isotropic * force[i] + along * direction[i])))
+}

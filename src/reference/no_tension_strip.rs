@@ -1,0 +1,173 @@
+//! Rigid strip pressed on an elastic half-plane, with uplift.
+
+use std::f64::consts::PI;
+
+use crate::Soil;
+use crate::error::{Error, Result, finite, positive};
+
+/// Rigid flat strip on an elastic half-plane, pressed by an eccentric load, that may lift off.
+///
+/// Without friction, or sliding as a whole with Coulomb friction, so that the tractions follow
+/// from the pressure alone. The pressure is that of the inclined punch, with exponents −1/2 ± γ at
+/// its ends, tan πγ = −f (1−2ν)/(2(1−ν)), and a smooth end where the strip lifts: Muskhelishvili,
+/// *Some Basic Problems of the Mathematical Theory of Elasticity*, 1953, part VI; Johnson, *Contact
+/// Mechanics*, 1985, §2.8. The tilt is small; the settlement has no datum in two dimensions, so only
+/// the tilt is given.
+///
+/// The load acts at an eccentricity e from the middle, positive to the right, which tilts the
+/// strip clockwise: `tilt` and moments are positive counter-clockwise, so of the sign of −e.
+///
+/// ```
+/// use basemat::{Soil, reference::NoTensionStrip};
+/// let strip = NoTensionStrip::new(Soil::new(1.0, 0.25, 1.0)?, 1.0, 0.0)?;
+/// // e = 3B/4: contact over 2a = 4(B − e) = B, half of the strip
+/// let contact = strip.contact(1.0, 0.75)?;
+/// assert_eq!([contact.left, contact.right], [0.0, 1.0]);
+/// assert!((contact.tilt + 0.75 / (2.0 * std::f64::consts::PI * 0.25)).abs() < 1e-15);
+/// assert!((strip.moment(1.0, contact.tilt)? + 0.75).abs() < 1e-15);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoTensionStrip {
+    soil: Soil,
+    half_width: f64,
+    exponent: f64,
+}
+
+/// Where a tilted strip touches the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StripContact {
+    /// Left end of the contact, m from the middle of the strip.
+    pub left: f64,
+    /// Right end of the contact, m from the middle of the strip.
+    pub right: f64,
+    /// Rotation of the strip, rad, positive counter-clockwise.
+    pub tilt: f64,
+}
+
+impl StripContact {
+    /// Length of the contact, m.
+    pub fn length(&self) -> f64 {
+        self.right - self.left
+    }
+}
+
+impl NoTensionStrip {
+    /// Strip of half width B (m) on `soil`, sliding with `friction` f.
+    ///
+    /// f > 0: the strip slides to the right and drags the soil to the right with f times the
+    /// pressure; f < 0: to the left; f = 0: smooth.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless B is finite and above zero and f finite.
+    pub fn new(soil: Soil, half_width: f64, friction: f64) -> Result<Self> {
+        positive("half width of the strip", half_width)?;
+        finite("friction of the strip", friction)?;
+        let ratio = (1.0 - 2.0 * soil.poisson()) / (2.0 * (1.0 - soil.poisson()));
+        Ok(Self { soil, half_width, exponent: -(friction * ratio).atan() / PI })
+    }
+
+    /// γ: shift of the exponents of the pressure, −1/2 + γ at the left end and −1/2 − γ at the
+    /// right.
+    pub fn exponent(&self) -> f64 {
+        self.exponent
+    }
+
+    /// Contact and tilt under `load` N (N/m, downwards) at `eccentricity` e (m).
+    ///
+    /// Full contact for −B(1/2 − γ) ≤ e ≤ B(1/2 + γ); with more, over a length 2(B−e)/(1/2−γ) at the
+    /// right edge (2(B+e)/(1/2+γ) at the left).
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless N is finite and above zero and |e| < B.
+    pub fn contact(&self, load: f64, eccentricity: f64) -> Result<StripContact> {
+        let (b, g) = (self.half_width, self.exponent);
+        self.check(load, eccentricity)?;
+        let unit = self.unit_tilt(load);
+        if eccentricity > b * (0.5 + g) {
+            let half = (b - eccentricity) / (0.5 - g);
+            let tilt = -unit / (half * (1.0 + 2.0 * g));
+            Ok(StripContact { left: b - 2.0 * half, right: b, tilt })
+        } else if eccentricity < -b * (0.5 - g) {
+            let half = (b + eccentricity) / (0.5 + g);
+            let tilt = unit / (half * (1.0 - 2.0 * g));
+            Ok(StripContact { left: -b, right: 2.0 * half - b, tilt })
+        } else {
+            Ok(StripContact { left: -b, right: b, tilt: -unit * self.slope(eccentricity) })
+        }
+    }
+
+    /// Contact pressure (Pa) at `x` (m from the middle), zero outside the contact, infinite at an
+    /// edge that stays down.
+    ///
+    /// # Errors
+    /// [`Error::Input`] as for [`contact`](Self::contact), or if `x` is not finite.
+    pub fn pressure(&self, load: f64, eccentricity: f64, x: f64) -> Result<f64> {
+        let contact = self.contact(load, eccentricity)?;
+        finite("position under the strip", x)?;
+        if x < contact.left || x > contact.right {
+            return Ok(0.0);
+        }
+        let (b, g) = (self.half_width, self.exponent);
+        let scale = load * (PI * g).cos() / PI;
+        let half = contact.length() / 2.0;
+        let (from_left, from_right) = (x - contact.left, contact.right - x);
+        if contact.left > -b {
+            let shape = from_left.powf(0.5 + g) * from_right.powf(-0.5 - g);
+            return Ok(scale / (half * (1.0 + 2.0 * g)) * shape);
+        }
+        if contact.right < b {
+            let shape = from_right.powf(0.5 - g) * from_left.powf(-0.5 + g);
+            return Ok(scale / (half * (1.0 - 2.0 * g)) * shape);
+        }
+        let weight = from_left.powf(-0.5 + g) * from_right.powf(-0.5 - g);
+        Ok(scale * (1.0 + self.slope(eccentricity) * (x - 2.0 * g * b)) * weight)
+    }
+
+    /// Moment about the middle (N m/m, counter-clockwise, exerted on the strip by its load) that
+    /// gives the `tilt` (rad, counter-clockwise) under `load` N (N/m, downwards).
+    ///
+    /// Smooth, with θ₀ = (1−ν)N/(πμB): M/(NB) = θ/(2θ₀) up to θ₀ and 1 − θ₀/(2θ) beyond.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless N is finite and above zero and the tilt finite.
+    pub fn moment(&self, load: f64, tilt: f64) -> Result<f64> {
+        let (b, g) = (self.half_width, self.exponent);
+        self.check(load, 0.0)?;
+        finite("tilt of the strip", tilt)?;
+        let unit = self.unit_tilt(load);
+        // the slope of the pressure's factor, as if in full contact
+        let slope = -tilt / unit;
+        let eccentricity = if slope * b * (1.0 + 2.0 * g) > 1.0 {
+            b - (0.5 - g) / (slope * (1.0 + 2.0 * g))
+        } else if slope * b * (1.0 - 2.0 * g) < -1.0 {
+            -b - (0.5 + g) / (slope * (1.0 - 2.0 * g))
+        } else {
+            2.0 * g * b + slope * 2.0 * b * b * (0.25 - g * g)
+        };
+        Ok(-load * eccentricity)
+    }
+
+    /// c in p = N cos πγ/π · (1 + c (x − 2γB)) · weight, 1/m, in full contact.
+    fn slope(&self, eccentricity: f64) -> f64 {
+        let (b, g) = (self.half_width, self.exponent);
+        (eccentricity - 2.0 * g * b) / (2.0 * b * b * (0.25 - g * g))
+    }
+
+    /// (1−ν)N/(πμ), m.
+    fn unit_tilt(&self, load: f64) -> f64 {
+        (1.0 - self.soil.poisson()) * load / (PI * self.soil.shear_modulus())
+    }
+
+    fn check(&self, load: f64, eccentricity: f64) -> Result<()> {
+        positive("load on the strip", load)?;
+        if eccentricity.abs() < self.half_width {
+            return Ok(());
+        }
+        Err(Error::Input {
+            quantity: "eccentricity of the load",
+            value: eccentricity,
+            needed: "smaller than the half width of the strip",
+        })
+    }
+}

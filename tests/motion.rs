@@ -1,0 +1,530 @@
+//! Ground-motion records: reading, integration, baselines, free fields.
+
+mod support;
+
+use approx::assert_relative_eq;
+use basemat::motion::{
+    AccelerationUnit, AtRest, Baseline, ColumnFormat, FreeField, FreeFieldFn, Record,
+    RickerDisplacement, STANDARD_GRAVITY, VerticalIncidence, el_centro_1940,
+};
+use basemat::{Error, RecordError};
+use proptest::prelude::*;
+use support::{close, table};
+
+const METRIC: AccelerationUnit = AccelerationUnit::MetrePerSecondSquared;
+
+fn metric() -> ColumnFormat {
+    ColumnFormat::new(METRIC)
+}
+
+fn read(text: &str) -> Result<Record, Error> {
+    Record::from_reader("text", text.as_bytes(), &metric())
+}
+
+/// Line and reason of the refusal.
+#[track_caller]
+fn refusal(text: &[u8], format: &ColumnFormat) -> (usize, RecordError) {
+    match Record::from_reader("text", text, format) {
+        Err(Error::Record { file, line, reason }) => {
+            assert_eq!(file, "text");
+            (line, reason)
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+fn not_a_number(text: &str) -> RecordError {
+    RecordError::NotANumber { text: text.into() }
+}
+
+#[test]
+fn reader_takes_every_usual_layout() {
+    let wanted = Record::new(0.02, vec![0.0, 1.5, -2.5e-1]).unwrap();
+    for text in [
+        "0,0\n0.02,1.5\n0.04,-0.25\n",
+        "0 0\n0.02 1.5\n0.04 -.25",
+        "  0\t0 \r\n\r\n 0.02\t+1.5\r\n0.04 \t -25E-2\r\n",
+        "# a comment\ntime, acceleration\n# another\n0 , 0\n0.02 , 1.5\n0.04 , -0.25\n# end",
+        "\u{feff}t a\n0 0 9 9\n0.02 1.5 x y\n0.04 -0.25\n",
+        "5.00,0\n5.02,1.5\n5.04,-0.25\n",
+    ] {
+        assert_eq!(read(text).unwrap(), wanted, "{text:?}");
+    }
+    let swapped = b"1 0.0 0\n2 1.5 0.02\n3 -0.25 0.04\n";
+    let format = metric().with_columns(3, 2).with_samples(3);
+    assert_eq!(Record::from_reader("text", &swapped[..], &format).unwrap(), wanted);
+    // bytes that are not UTF-8 do no harm in comments
+    let latin = b"# S\xe9isme\n0 0\n0.02 1.5\n0.04 -0.25\n";
+    assert_eq!(Record::from_reader("text", &latin[..], &metric()).unwrap(), wanted);
+}
+
+#[test]
+fn reader_rounds_the_time_step_of_printed_times() {
+    // a third of a hundredth, printed with five digits
+    let text: String =
+        (0..301).map(|k| format!("{:.5} 1\n", f64::from(k) / 300.0)).collect::<String>();
+    let record = read(&text).unwrap();
+    assert_relative_eq!(record.time_step(), 1.0 / 300.0, max_relative = 1e-11);
+    assert_eq!(read("0 0\n0.1 0\n0.2 0\n0.3 0\n").unwrap().time_step(), 0.1);
+}
+
+#[test]
+fn units_are_converted() {
+    for (unit, factor) in [
+        (METRIC, 1.0),
+        (AccelerationUnit::MillimetrePerSecondSquared, 1e-3),
+        (AccelerationUnit::StandardGravity, 9.80665),
+        (AccelerationUnit::Gal, 0.01),
+        (AccelerationUnit::FootPerSecondSquared, 0.3048),
+        (AccelerationUnit::InchPerSecondSquared, 0.3048 / 12.0),
+    ] {
+        let text = "0 2\n1 4\n";
+        let record = Record::from_reader("", text.as_bytes(), &ColumnFormat::new(unit)).unwrap();
+        assert_relative_eq!(record.accelerations()[1], 4.0 * factor, max_relative = 1e-15);
+    }
+}
+
+#[test]
+fn reader_refuses_with_line_and_reason() {
+    let format = metric();
+    let cases: [(&[u8], usize, RecordError); 17] = [
+        (b"", 0, RecordError::TooShort { found: 0, needed: 2 }),
+        (b"# only\n\ncomments\n", 0, RecordError::TooShort { found: 0, needed: 2 }),
+        (b"0 1\n", 1, RecordError::TooShort { found: 1, needed: 2 }),
+        (b"0 1\n1 nan\n", 2, not_a_number("nan")),
+        (b"0 1\n1 -inf\n", 2, not_a_number("-inf")),
+        (b"0 1\nNaN 1\n", 2, not_a_number("NaN")),
+        (b"0 1\n1 1e999\n", 2, not_a_number("1e999")),
+        (b"0 1\n1\n", 2, RecordError::Column { found: 1, needed: 2 }),
+        (b"0,1\n1,\n", 2, not_a_number("")),
+        (b"0,1\n,1\n", 2, not_a_number("")),
+        (b"t a\nt a\n0 0\n1 1\n", 2, not_a_number("t")),
+        (b"0 0\nt a\n1 1\n", 2, not_a_number("t")),
+        (b"0 x\n1 1\n", 1, not_a_number("x")),
+        (b"0 1\n\xff\xfe 1\n", 2, not_a_number("\u{fffd}\u{fffd}")),
+        (b"0 1\n1 1\n1 1\n", 3, RecordError::TimeNotIncreasing { found: 0.0 }),
+        (b"0 1\n-1 1\n", 2, RecordError::TimeNotIncreasing { found: -1.0 }),
+        (b"0 1\n1 1\n\n2.2 1\n", 4, RecordError::UnequalStep { found: 1.2, expected: 1.0 }),
+    ];
+    for (text, line, reason) in cases {
+        let shown = String::from_utf8_lossy(text);
+        assert_eq!(refusal(text, &format), (line, reason), "{shown:?}");
+    }
+}
+
+#[test]
+fn reader_refuses_wrong_columns_and_counts() {
+    let text = b"0 1\n1 1\n";
+    let found = refusal(text, &metric().with_columns(1, 3));
+    assert_eq!(found, (1, RecordError::Column { found: 2, needed: 3 }));
+    let found = refusal(text, &metric().with_columns(0, 1));
+    assert_eq!(found, (1, RecordError::Column { found: 2, needed: 0 }));
+    let found = refusal(text, &metric().with_samples(3));
+    assert_eq!(found, (2, RecordError::SampleCount { found: 2, needed: 3 }));
+    // the acceleration taken for the time
+    let found = refusal(b"0 1\n1 3\n2 9\n", &metric().with_columns(2, 1));
+    assert_eq!(found, (3, RecordError::UnequalStep { found: 6.0, expected: 2.0 }));
+}
+
+#[test]
+fn reader_refuses_drifting_steps_and_endless_lines() {
+    let mut time = 0.0;
+    let mut text = String::new();
+    for k in 0..100 {
+        text += &format!("{time} 0\n");
+        time += 1.0 + 5e-5 * f64::from(k);
+    }
+    assert!(matches!(refusal(text.as_bytes(), &metric()).1, RecordError::DriftingStep { .. }));
+    let endless = std::io::Read::take(std::io::repeat(b'1'), 1 << 40);
+    let error = Record::from_reader("zeros", endless, &metric()).unwrap_err();
+    let reason = RecordError::LineTooLong { bytes: 65_536 };
+    assert_eq!(error, Error::Record { file: "zeros".into(), line: 1, reason });
+}
+
+#[test]
+fn reader_refuses_a_truncated_record() {
+    let text = include_str!("../data/elcentro1940_NS_peknold_0319g.csv");
+    let format = ColumnFormat::new(AccelerationUnit::StandardGravity).with_samples(1560);
+    let whole = text.trim_end();
+    assert_eq!(Record::from_reader("", whole.as_bytes(), &format).unwrap().len(), 1560);
+    let line = whole.lines().count();
+    let last_number = whole.len() - whole.rfind(',').unwrap() - 1;
+    let last_line = whole.lines().last().unwrap().len();
+    for cut in 1..=last_line {
+        let outcome = Record::from_reader("", &whole.as_bytes()[..whole.len() - cut], &format);
+        // a number cut within its digits is still a number: only that passes unseen
+        if cut >= last_number {
+            let error = outcome.unwrap_err();
+            assert!(matches!(error, Error::Record { line: l, .. } if l + 1 >= line), "{error}");
+        }
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_are_named() {
+    let error = Record::read("/nowhere/record.csv", &metric()).unwrap_err();
+    assert_eq!(error.to_string(), "/nowhere/record.csv, line 0: cannot be read: entity not found");
+    let error = Record::read(support::data_path(""), &metric()).unwrap_err();
+    assert!(matches!(error, Error::Record { reason: RecordError::Unreadable(_), .. }));
+    let file = support::data_path("../../data/elcentro1940_NS_peknold_0319g.csv");
+    let format = ColumnFormat::new(AccelerationUnit::StandardGravity);
+    assert_eq!(Record::read(file, &format).unwrap(), el_centro_1940());
+}
+
+#[test]
+fn bad_samples_and_steps_are_refused() {
+    for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(Record::new(step, vec![0.0; 3]), Err(Error::Input { .. })), "{step}");
+        assert!(matches!(el_centro_1940().resample(step), Err(Error::Input { .. })), "{step}");
+        assert!(el_centro_1940().scaled_to_peak(step).is_err(), "{step}");
+    }
+    for sample in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(matches!(Record::new(1.0, vec![0.0, sample]), Err(Error::Input { .. })));
+        assert!(el_centro_1940().scaled(sample).is_err());
+    }
+    assert!(matches!(Record::new(1e200, vec![1e200; 3]), Err(Error::Input { .. })));
+    for count in 0..2 {
+        let error = Record::new(1.0, vec![0.0; count]).unwrap_err();
+        let reason = RecordError::TooShort { found: count, needed: 2 };
+        assert_eq!(error, Error::Record { file: "samples".into(), line: 0, reason });
+    }
+    assert!(el_centro_1940().resample(1e-9).is_err());
+    assert!(Record::new(1.0, vec![0.0; 3]).unwrap().scaled_to_peak(1.0).is_err());
+}
+
+/// GOAL: peaks, end values and Arias intensity of El Centro, as tabulated with the record.
+#[test]
+fn el_centro_1940_peaks() {
+    let columns = ["npts", "dt", "dur", "pga_g", "t_pga", "pgv", "v_end", "d_end", "arias"];
+    let [count, step, duration, peak, peak_time, velocity, v_end, d_end, arias] =
+        table("summary_records.csv").row("file", "elcentro1940_NS_peknold_0319g.csv", columns);
+    let record = el_centro_1940();
+    assert_eq!(record.len() as f64, count);
+    assert_eq!(record.time_step(), step);
+    close("duration", record.duration(), duration, 1e-12, 0.0);
+    close("PGA", record.peak_acceleration() / STANDARD_GRAVITY, peak, 1e-12, 0.0);
+    close(
+        "at its time",
+        record.acceleration_at(peak_time).abs() / STANDARD_GRAVITY,
+        peak,
+        1e-12,
+        0.0,
+    );
+    let at_samples = record.velocities().iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    close("PGV at the samples", at_samples, velocity, 5e-7, 0.0);
+    close("v at the end", record.velocity_at(record.duration()), v_end, 5e-7, 0.0);
+    close("u at the end", record.displacement_at(record.duration()), d_end, 5e-7, 0.0);
+    close("Arias", record.arias_intensity(), arias, 5e-7, 0.0);
+    // between the samples the peaks are at least as large, as a fine resampling finds too
+    let fine = record.resample(0.02 / 64.0).unwrap();
+    let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    assert!(record.peak_velocity() >= at_samples);
+    close("PGV", largest(fine.velocities()), record.peak_velocity(), 1e-6, 0.0);
+    close("PGD", largest(fine.displacements()), record.peak_displacement(), 1e-8, 0.0);
+    assert!(largest(fine.velocities()) <= record.peak_velocity() + 1e-14);
+}
+
+#[test]
+fn peaks_between_samples() {
+    // a = 1 − t on [0, 2]: v = t − t²/2 peaks at t = 1 with 1/2; u = t²/2 − t³/6 rises to 2/3
+    let record = Record::new(2.0, vec![1.0, -1.0]).unwrap();
+    assert_eq!(record.peak_velocity(), 0.5);
+    assert_relative_eq!(record.peak_displacement(), 2.0 / 3.0, max_relative = 1e-15);
+    // a = 1 − t on [0, 4]: v = 0 again at t = 2, u = 2/3 there and −8/3 at the end
+    let record = Record::new(4.0, vec![1.0, -3.0]).unwrap();
+    assert_relative_eq!(record.peak_displacement(), 8.0 / 3.0, max_relative = 1e-15);
+    let record = Record::new(3.0, vec![1.0, -2.0]).unwrap();
+    assert_relative_eq!(record.peak_displacement(), 2.0 / 3.0, max_relative = 1e-15);
+}
+
+#[test]
+fn motion_outside_the_record() {
+    let record = Record::new(1.0, vec![2.0, 2.0]).unwrap();
+    for time in [-1.0, 0.0, f64::NEG_INFINITY, f64::NAN] {
+        assert_eq!(record.velocity_at(time), 0.0);
+        assert_eq!(record.displacement_at(time), 0.0);
+    }
+    assert_eq!([-1.0, 0.0, 1.0, 1.5].map(|t| record.acceleration_at(t)), [0.0, 2.0, 2.0, 0.0]);
+    assert_eq!(record.velocity_at(3.0), 2.0);
+    assert_eq!(record.displacement_at(3.0), 5.0);
+}
+
+#[test]
+fn resampling_keeps_the_function() {
+    let record = el_centro_1940();
+    let fine = record.resample(0.0025).unwrap();
+    for k in 0..4000 {
+        let time = f64::from(k) * 0.0077;
+        close("a", fine.acceleration_at(time), record.acceleration_at(time), 1e-11, 0.0);
+        close("v", fine.velocity_at(time), record.velocity_at(time), 1e-12, 0.0);
+        close("u", fine.displacement_at(time), record.displacement_at(time), 1e-12, 0.0);
+    }
+    assert_eq!(fine.resample(0.02).unwrap().len(), record.len());
+    // a step that does not divide the duration ends after the record, at zero
+    let odd = Record::new(1.0, vec![3.0, 3.0]).unwrap().resample(0.4).unwrap();
+    assert_eq!(odd.accelerations(), [3.0, 3.0, 3.0, 0.0]);
+}
+
+/// Every treatment of El Centro: what it promises at the end, and what it makes least.
+#[test]
+fn baselines_keep_their_promises() {
+    let record = el_centro_1940().resample(0.01).unwrap();
+    let end = record.duration();
+    let square = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>() * 0.01;
+    let treat = |baseline| record.with_baseline(baseline).unwrap();
+    assert_eq!(treat(Baseline::None), record);
+
+    let mut velocity_square = f64::INFINITY;
+    for degree in 1..=8 {
+        let treated = treat(Baseline::VelocityPolynomial { degree });
+        assert!(treated.velocity_at(end).abs() < 1e-13, "{degree}");
+        // a higher degree fits better
+        let now = square(treated.velocities());
+        assert!(now <= velocity_square * (1.0 + 1e-9), "{degree}: {now} {velocity_square}");
+        velocity_square = now;
+    }
+    let mean = treat(Baseline::RemoveMean);
+    assert!(mean.velocity_at(end).abs() < 1e-13);
+    let first = treat(Baseline::VelocityPolynomial { degree: 1 });
+    for (a, b) in mean.accelerations().iter().zip(first.accelerations()) {
+        close("degree 1 is the mean", *a, *b, 1e-15, 0.0);
+    }
+
+    for degree in 3..=8 {
+        let treated = treat(Baseline::RestToRest { degree });
+        assert!(treated.velocity_at(end).abs() < 1e-13, "{degree}");
+        assert!(treated.displacement_at(end).abs() < 1e-12, "{degree}");
+        assert!(treated.displacement_at(end + 1000.0).abs() < 1e-10, "{degree}");
+        assert_eq!(treated.accelerations()[0], record.accelerations()[0]);
+    }
+
+    // Newmark's parabola: any other parabola leaves more velocity
+    let parabola = treat(Baseline::NewmarkParabola);
+    let least = square(parabola.velocities());
+    assert!(least < square(record.velocities()));
+    for power in 0..3 {
+        for sign in [-1.0, 1.0] {
+            let shifted = parabola
+                .accelerations()
+                .iter()
+                .enumerate()
+                .map(|(k, a)| a + sign * 1e-4 * (k as f64 * 0.01 / end).powi(power));
+            let other = Record::new(0.01, shifted.collect()).unwrap();
+            assert!(square(other.velocities()) > least, "{power} {sign}");
+        }
+    }
+
+    // sextic in displacement: leaves less displacement than the record and than the parabola
+    let sextic = treat(Baseline::DisplacementPolynomial { degree: 6 });
+    let least = square(sextic.displacements());
+    assert!(least < square(record.displacements()) && least < square(parabola.displacements()));
+    for power in 0..5 {
+        for sign in [-1.0, 1.0] {
+            let shifted = sextic
+                .accelerations()
+                .iter()
+                .enumerate()
+                .map(|(k, a)| a + sign * 1e-4 * (k as f64 * 0.01 / end).powi(power));
+            let other = Record::new(0.01, shifted.collect()).unwrap();
+            assert!(square(other.displacements()) > least, "{power} {sign}");
+        }
+    }
+}
+
+/// A polynomial drift is removed entirely, and the record under it found again.
+#[test]
+fn baselines_remove_a_polynomial() {
+    let count = 2001;
+    let time = |k: i32| f64::from(k) / f64::from(count - 1);
+    let drift = Record::new(
+        0.01,
+        (0..count).map(|k| 0.3 - 0.8 * time(k) + 0.9 * time(k).powi(2)).collect(),
+    )
+    .unwrap();
+    for baseline in [
+        Baseline::NewmarkParabola,
+        Baseline::VelocityPolynomial { degree: 4 },
+        Baseline::DisplacementPolynomial { degree: 6 },
+    ] {
+        let treated = drift.with_baseline(baseline).unwrap();
+        let left = treated.peak_acceleration();
+        // the normal equations of twice integrated polynomials cost four digits
+        assert!(left < 1e-11, "{baseline:?}: {left:e}");
+    }
+}
+
+#[test]
+fn bad_baselines_are_refused() {
+    let record = el_centro_1940();
+    for baseline in [
+        Baseline::VelocityPolynomial { degree: 0 },
+        Baseline::VelocityPolynomial { degree: 9 },
+        Baseline::DisplacementPolynomial { degree: 1 },
+        Baseline::DisplacementPolynomial { degree: usize::MAX },
+        Baseline::RestToRest { degree: 2 },
+        Baseline::RestToRest { degree: 9 },
+    ] {
+        assert!(matches!(record.with_baseline(baseline), Err(Error::Input { .. })), "{baseline:?}");
+    }
+    let short = Record::new(1.0, vec![1.0, 2.0, 3.0, 4.0]).unwrap();
+    let error = short.with_baseline(Baseline::NewmarkParabola).unwrap_err();
+    assert!(matches!(error, Error::Input { value: 4.0, .. }), "{error}");
+    let silent = Record::new(1.0, vec![0.0; 9]).unwrap();
+    assert_eq!(silent.with_baseline(Baseline::RestToRest { degree: 4 }).unwrap(), silent);
+}
+
+#[test]
+fn free_fields_agree_with_their_sources() {
+    let record = el_centro_1940();
+    let vertical = record.scaled(-0.5).unwrap().resample(0.03).unwrap();
+    let both = VerticalIncidence::new(record.clone()).with_vertical(vertical.clone());
+    let only_vertical = VerticalIncidence::vertical(vertical.clone());
+    let from = VerticalIncidence::from(record.clone());
+    for k in -10..3000 {
+        let time = f64::from(k) * 0.0123;
+        let (u, w) = (record.displacement_at(time), vertical.displacement_at(time));
+        assert_eq!(both.displacement(1e3, time), [u, w]);
+        assert_eq!(only_vertical.displacement(0.0, time), [0.0, w]);
+        assert_eq!(from.displacement(0.0, time), [u, 0.0]);
+        assert_eq!(record.displacement(0.0, time), [u, 0.0]);
+        assert_eq!(record.velocity(0.0, time), [record.velocity_at(time), 0.0]);
+        let (u, w) = (record.velocity_at(time), vertical.velocity_at(time));
+        assert_eq!(both.velocity(-1e3, time), [u, w]);
+    }
+    assert_eq!(AtRest.displacement(0.0, 1.0), [0.0; 2]);
+    let always = FreeFieldFn::new(|_, _| [1.0, 1.0], |_, _| [2.0, 2.0]);
+    assert_eq!(always.displacement(0.0, 0.0), [0.0; 2]);
+    assert_eq!(always.velocity(0.0, -1.0), [0.0; 2]);
+    assert_eq!(always.velocity(0.0, 1e-9), [2.0; 2]);
+}
+
+#[test]
+fn ricker_velocity_is_the_derivative() {
+    let pulse = RickerDisplacement::new(-0.3, 0.4, 2.0).unwrap();
+    let turned = pulse.vertical();
+    for k in 1..400 {
+        let (time, h) = (f64::from(k) * 0.01 + 1e-3, 1e-5);
+        let slope = (pulse.displacement(0.0, time + h)[0] - pulse.displacement(0.0, time - h)[0])
+            / (2.0 * h);
+        close("velocity", pulse.velocity(5.0, time)[0], slope, 1e-8, 0.0);
+        assert_eq!(turned.displacement(0.0, time), [0.0, pulse.displacement(0.0, time)[0]]);
+    }
+    assert_eq!(pulse.displacement(0.0, 0.0), [0.0; 2]);
+    assert_eq!(pulse.velocity(0.0, -3.0), [0.0; 2]);
+    for (amplitude, sigma, center) in [
+        (f64::NAN, 1.0, 5.0),
+        (1.0, 0.0, 5.0),
+        (1.0, -1.0, 5.0),
+        (1.0, 1.0, 3.9),
+        (1.0, 1.0, f64::NAN),
+        (1.0, 1.0, f64::INFINITY),
+    ] {
+        assert!(RickerDisplacement::new(amplitude, sigma, center).is_err());
+    }
+}
+
+fn samples() -> impl Strategy<Value = Vec<f64>> {
+    prop::collection::vec(-10.0..10.0_f64, 2..60)
+}
+
+/// Lines much like those of records, so that the reader's inner parts are reached.
+fn nearly_a_record() -> impl Strategy<Value = Vec<u8>> {
+    let piece = prop_oneof![
+        Just(" ".to_owned()),
+        Just(",".to_owned()),
+        Just("\n".to_owned()),
+        Just("#".to_owned()),
+        Just("nan".to_owned()),
+        Just("\u{feff}".to_owned()),
+        (0..40).prop_map(|k| format!("\n{} ", f64::from(k) * 0.5)),
+        any::<f64>().prop_map(|value| format!("{value:e}")),
+    ];
+    prop::collection::vec(piece, 0..40).prop_map(|pieces| pieces.concat().into_bytes())
+}
+
+proptest! {
+    #[test]
+    fn reader_never_panics(
+        bytes in prop_oneof![prop::collection::vec(any::<u8>(), 0..300), nearly_a_record()],
+        time in 0..4_usize,
+        acceleration in 0..4_usize,
+    ) {
+        let format = metric().with_columns(time, acceleration);
+        if let Ok(record) = Record::from_reader("bytes", &bytes[..], &format) {
+            prop_assert!(record.len() >= 2 && record.time_step() > 0.0);
+            prop_assert!(record.accelerations().iter().all(|a| a.is_finite()));
+            prop_assert!(record.displacements().iter().all(|u| u.is_finite()));
+        }
+    }
+
+    #[test]
+    fn printed_records_are_read_back(step in 0.001..1.0_f64, values in samples()) {
+        let text: String = values
+            .iter()
+            .enumerate()
+            .map(|(k, a)| format!("{}, {a}\n", k as f64 * step))
+            .collect();
+        let record = read(&text).unwrap();
+        prop_assert_eq!(record.accelerations(), &values[..]);
+        prop_assert!((record.time_step() - step).abs() <= 1e-11 * step);
+    }
+
+    /// The slope of the displacement is the velocity, and that of the velocity the acceleration.
+    #[test]
+    fn integrals_are_consistent(
+        step in 0.01..1.0_f64,
+        values in samples(),
+        at in 0.0..1.2_f64,
+    ) {
+        let record = Record::new(step, values).unwrap();
+        let time = at * record.duration();
+        let h = 1e-3 * step;
+        // central differences of a cubic are off by u''' h²/6, those across a corner by (Δa/Δt) h
+        let slope = |f: &dyn Fn(f64) -> f64| (f(time + h) - f(time - h)) / (2.0 * h);
+        let scale = 20.0 * record.duration().max(1.0);
+        let v = slope(&|t| record.displacement_at(t));
+        if time > h {
+            prop_assert!((v - record.velocity_at(time)).abs() < 20.0 * h + 1e-9 * scale);
+            let corner = (time / step - (time / step).round()).abs() * step;
+            if corner > h {
+                let a = slope(&|t| record.velocity_at(t));
+                prop_assert!((a - record.acceleration_at(time)).abs() < 1e-8 * scale / step);
+            }
+        }
+    }
+
+    #[test]
+    fn integration_is_linear(
+        pairs in prop::collection::vec((-10.0..10.0_f64, -10.0..10.0_f64), 2..60),
+        factor in -3.0..3.0_f64,
+        at in -0.1..1.5_f64,
+    ) {
+        let new = |values: Vec<f64>| Record::new(0.1, values).unwrap();
+        let first = new(pairs.iter().map(|p| p.0).collect());
+        let second = new(pairs.iter().map(|p| p.1).collect());
+        let sum = new(pairs.iter().map(|p| p.0 + factor * p.1).collect());
+        let time = at * sum.duration();
+        let motion = |r: &Record| {
+            [r.acceleration_at(time), r.velocity_at(time), r.displacement_at(time)]
+        };
+        let (a, b, c) = (motion(&first), motion(&second), motion(&sum));
+        for k in 0..3 {
+            prop_assert!((a[k] + factor * b[k] - c[k]).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn baselines_hold_for_any_record(values in prop::collection::vec(-10.0..10.0_f64, 12..200)) {
+        let record = Record::new(0.02, values).unwrap();
+        let end = record.duration();
+        for degree in 1..=8 {
+            let treated = record.with_baseline(Baseline::VelocityPolynomial { degree }).unwrap();
+            prop_assert!(treated.velocity_at(end).abs() < 1e-11);
+        }
+        for degree in 3..=8 {
+            let treated = record.with_baseline(Baseline::RestToRest { degree }).unwrap();
+            prop_assert!(treated.velocity_at(end).abs() < 1e-11);
+            prop_assert!(treated.displacement_at(end).abs() < 1e-11);
+        }
+    }
+}
