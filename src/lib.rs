@@ -3,6 +3,7 @@
 
 pub mod bem;
 mod error;
+pub mod fem;
 pub mod fundamental;
 pub mod history;
 pub mod interface;
