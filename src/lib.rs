@@ -4,6 +4,7 @@
 pub mod bem;
 pub mod coupled;
 mod error;
+pub mod fem;
 pub mod fundamental;
 pub mod history;
 pub mod interface;

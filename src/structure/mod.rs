@@ -1,9 +1,19 @@
 //! Structures: the trait that users implement, and three implementations of it.
 
 mod contact_node;
+mod fem_model;
+mod rayleigh;
+mod rigid_block;
+mod section;
+mod shear_building;
 mod triplets;
 
 pub use contact_node::ContactNode;
+pub use fem_model::FemModel;
+pub use rayleigh::RayleighDamping;
+pub use rigid_block::RigidBlock;
+pub use section::{Section, SectionRows};
+pub use shear_building::{ShearBuilding, Storey};
 pub use triplets::Triplets;
 
 /// What the integrator needs of a structure: implement this for your own model.

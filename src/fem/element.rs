@@ -1,0 +1,99 @@
+//! What an element is.
+
+use crate::error::Result;
+
+/// Direction of an unknown at a node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// Displacement to the right, m.
+    X,
+    /// Displacement upwards, m.
+    Y,
+    /// Rotation, counter-clockwise, rad.
+    Rotation,
+}
+
+/// How the mass of an element is spread over its unknowns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum MassKind {
+    /// With the same shape functions as the stiffness: a full matrix.
+    #[default]
+    Consistent,
+    /// At the nodes: a diagonal matrix of the same total mass.
+    Lumped,
+}
+
+/// A finite element: implement this to bring your own.
+///
+/// Its matrices are dense, row-major and square, of order [`order`](Element::order); the unknowns
+/// run through the nodes in the element's order and, within a node, through
+/// [`directions`](Element::directions). `coordinates` holds one [x, y] (m) for each of the
+/// element's nodes. Every matrix is **added to**; the caller passes a zeroed buffer when it wants
+/// the matrix alone.
+///
+/// ```
+/// use basemat::fem::{Direction, Element, MassKind, Mesh};
+///
+/// /// A weightless spring that holds two points of the same height together.
+/// struct Tie(Vec<usize>);
+///
+/// impl Element for Tie {
+///     fn nodes(&self) -> &[usize] { &self.0 }
+///     fn directions(&self) -> &[Direction] { &[Direction::X] }
+///     fn stiffness(&self, _coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+///         for (entry, k) in matrix.iter_mut().zip([1.0e6, -1.0e6, -1.0e6, 1.0e6]) {
+///             *entry += k;
+///         }
+///     }
+///     fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, _matrix: &mut [f64]) {}
+/// }
+///
+/// let mut mesh = Mesh::new();
+/// let ends = vec![mesh.add_node(0.0, 0.0)?, mesh.add_node(1.0, 0.0)?];
+/// mesh.add(Tie(ends))?;
+/// assert_eq!(mesh.elements()[0].order(), 2);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub trait Element: Send {
+    /// Its nodes, as indices into the mesh.
+    fn nodes(&self) -> &[usize];
+
+    /// The unknowns it uses, the same ones at each of its nodes.
+    fn directions(&self) -> &[Direction];
+
+    /// Adds the stiffness matrix (N/m per metre) to `matrix`. Symmetric; a rigid motion of all
+    /// nodes must give no force.
+    fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
+
+    /// Adds the mass matrix (kg/m) to `matrix`. Symmetric, positive semi-definite.
+    fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]);
+
+    /// Adds the viscous damping matrix to `matrix`, Rayleigh damping excepted. Default: none.
+    fn damping(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
+
+    /// Checks the shape when the element enters a mesh. Default: any shape will do.
+    ///
+    /// # Errors
+    /// Whatever makes the element unusable at these coordinates.
+    fn check(&self, _coordinates: &[[f64; 2]]) -> Result<()> {
+        Ok(())
+    }
+
+    /// Number of its unknowns: nodes × directions.
+    fn order(&self) -> usize {
+        self.nodes().len() * self.directions().len()
+    }
+}
+
+/// Directions of elements without rotations.
+pub(crate) const TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
+
+/// Directions of beams and of masses with rotary inertia.
+pub(crate) const FRAME: &[Direction] = &[Direction::X, Direction::Y, Direction::Rotation];
+
+/// Adds a square block to a row-major `matrix` of the same order.
+pub(crate) fn add_square<const N: usize>(matrix: &mut [f64], block: &[[f64; N]; N]) {
+    for (entry, value) in matrix.iter_mut().zip(block.iter().flatten()) {
+        *entry += value;
+    }
+}

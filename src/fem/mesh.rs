@@ -1,0 +1,133 @@
+//! Nodes and the elements between them.
+
+use super::element::Element;
+use crate::error::{Error, Result, finite, not_negative};
+
+/// Nodes and elements.
+///
+/// ```
+/// use basemat::fem::{Beam, LumpedMass, Mesh};
+///
+/// let mut mesh = Mesh::new();
+/// let foot = mesh.add_node(0.0, 0.0)?;
+/// let top = mesh.add_node(0.0, 3.0)?;
+/// mesh.add(Beam::new([foot, top], 30.0e9, 0.4, 0.01, 2400.0)?)?;
+/// mesh.add(LumpedMass::new(top, 5000.0)?)?;
+/// assert_eq!(mesh.elements().len(), 2);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Default)]
+pub struct Mesh {
+    nodes: Vec<[f64; 2]>,
+    elements: Vec<Box<dyn Element>>,
+}
+
+impl std::fmt::Debug for Mesh {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let connectivity: Vec<&[usize]> = self.elements.iter().map(|e| e.nodes()).collect();
+        let mut fields = formatter.debug_struct("Mesh");
+        fields.field("nodes", &self.nodes).field("elements", &connectivity).finish()
+    }
+}
+
+impl Mesh {
+    /// Mesh without nodes.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a node at (`x`, `y`), m, and returns its index.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless both are finite.
+    pub fn add_node(&mut self, x: f64, y: f64) -> Result<usize> {
+        finite("x of the node", x)?;
+        finite("y of the node", y)?;
+        self.nodes.push([x, y]);
+        Ok(self.nodes.len() - 1)
+    }
+
+    /// Adds an element and returns its index.
+    ///
+    /// # Errors
+    /// [`Error::Index`] when one of its nodes does not exist; [`Error::Size`] when it has no nodes
+    /// or no directions; [`Error::Scene`] when a node or direction comes twice; and what
+    /// [`Element::check`] finds.
+    pub fn add(&mut self, element: impl Element + 'static) -> Result<usize> {
+        let nodes = element.nodes();
+        if element.order() == 0 {
+            return Err(Error::Size { quantity: "unknowns of the element", found: 0, needed: 1 });
+        }
+        if repeats(nodes) || repeats(element.directions()) {
+            return Err(Error::Scene {
+                quantity: "nodes and directions of the element",
+                needed: "each only once",
+            });
+        }
+        for &index in nodes {
+            if index >= self.nodes.len() {
+                let bound = self.nodes.len();
+                return Err(Error::Index { quantity: "node of the element", index, bound });
+            }
+        }
+        element.check(&self.coordinates(nodes))?;
+        self.elements.push(Box::new(element));
+        Ok(self.elements.len() - 1)
+    }
+
+    /// Coordinates [x, y] of all nodes, m.
+    pub fn nodes(&self) -> &[[f64; 2]] {
+        &self.nodes
+    }
+
+    /// All elements.
+    pub fn elements(&self) -> &[Box<dyn Element>] {
+        &self.elements
+    }
+
+    /// Node nearest to (`x`, `y`), the first one when several are; `None` for an empty mesh.
+    pub fn nearest_node(&self, x: f64, y: f64) -> Option<usize> {
+        let distance = |node: &[f64; 2]| (node[0] - x).hypot(node[1] - y);
+        let pairs = self.nodes.iter().map(distance).enumerate();
+        pairs.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
+    }
+
+    /// Nodes whose height differs from `y` by no more than `tolerance` (m), from left to right.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless `y` is finite and `tolerance` finite and not negative.
+    pub fn nodes_at_height(&self, y: f64, tolerance: f64) -> Result<Vec<usize>> {
+        finite("height of the nodes", y)?;
+        not_negative("tolerance of the height", tolerance)?;
+        let near = |&index: &usize| (self.nodes[index][1] - y).abs() <= tolerance;
+        let mut found: Vec<usize> = (0..self.nodes.len()).filter(near).collect();
+        found.sort_by(|&a, &b| self.nodes[a][0].total_cmp(&self.nodes[b][0]));
+        Ok(found)
+    }
+
+    /// Height of the lowest node, m; 0 for an empty mesh.
+    pub fn lowest(&self) -> f64 {
+        self.nodes.iter().map(|node| node[1]).reduce(f64::min).unwrap_or(0.0)
+    }
+
+    /// A length far below that of any element: the default tolerance for equal heights, m.
+    pub(crate) fn tolerance(&self) -> f64 {
+        let extent = |axis: usize| {
+            let values = self.nodes.iter().map(|node| node[axis]);
+            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |range, value| {
+                (range.0.min(value), range.1.max(value))
+            });
+            (high - low).max(0.0)
+        };
+        1e-9 * extent(0).max(extent(1))
+    }
+
+    /// Coordinates of `nodes`, which must exist.
+    pub(crate) fn coordinates(&self, nodes: &[usize]) -> Vec<[f64; 2]> {
+        nodes.iter().map(|&index| self.nodes[index]).collect()
+    }
+}
+
+fn repeats<T: PartialEq>(items: &[T]) -> bool {
+    items.iter().enumerate().any(|(index, item)| items[..index].contains(item))
+}

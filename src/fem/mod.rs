@@ -1,0 +1,44 @@
+//! Finite elements in the plane: solids, beams, trusses, masses, springs, and your own.
+//!
+//! A [`Mesh`] is a list of nodes and of [`Element`]s; [`crate::structure::FemModel`] makes a
+//! structure of it. Everything is per metre of thickness; x to the right, y up, rotations
+//! counter-clockwise.
+//!
+//! ```
+//! use basemat::fem::{Layer, Material, Mesh};
+//!
+//! let concrete = Material::new(30.0e9, 0.2, 2400.0)?;
+//! let mesh = Mesh::layered_block(-5.0..5.0, 4, &[Layer::new(2.0, 1, concrete)])?;
+//! assert_eq!(mesh.nodes().len(), 10);
+//! assert_eq!(mesh.nodes()[0], [-5.0, 0.0]);
+//! # Ok::<(), basemat::Error>(())
+//! ```
+
+mod assembly;
+mod beam;
+mod dashpot;
+mod element;
+mod layered_block;
+mod line;
+mod lumped_mass;
+mod material;
+mod mesh;
+mod numbering;
+mod quad4;
+mod quad4_shape;
+mod spring;
+mod truss;
+
+pub(crate) use assembly::{Quantity, assemble};
+pub use assembly::{assemble_damping, assemble_mass, assemble_stiffness};
+pub use beam::Beam;
+pub use dashpot::Dashpot;
+pub use element::{Direction, Element, MassKind};
+pub use layered_block::Layer;
+pub use lumped_mass::LumpedMass;
+pub use material::Material;
+pub use mesh::Mesh;
+pub use numbering::Numbering;
+pub use quad4::{Quad4, QuadFormulation};
+pub use spring::Spring;
+pub use truss::Truss;

@@ -1,0 +1,76 @@
+//! Which unknown belongs to which node and direction.
+
+use super::element::{Direction, Element};
+use super::mesh::Mesh;
+
+/// Numbers of the unknowns: node by node, only the directions that some element uses.
+///
+/// ```
+/// use basemat::fem::{Beam, Direction, Mesh, Numbering, Truss};
+///
+/// let mut mesh = Mesh::new();
+/// let [a, b, c] = [mesh.add_node(0.0, 0.0)?, mesh.add_node(3.0, 0.0)?, mesh.add_node(6.0, 0.0)?];
+/// mesh.add(Beam::new([a, b], 1.0e9, 0.1, 1.0e-3, 0.0)?)?;
+/// mesh.add(Truss::new([b, c], 1.0e9, 0.1, 0.0)?)?;
+/// let numbering = Numbering::new(&mesh);
+/// assert_eq!(numbering.unknowns(), 8);
+/// assert_eq!(numbering.unknown(b, Direction::Rotation), Some(5));
+/// assert_eq!(numbering.unknown(c, Direction::Rotation), None);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Numbering {
+    numbers: Vec<[Option<usize>; 3]>,
+    unknowns: usize,
+}
+
+impl Numbering {
+    /// Numbers the unknowns of `mesh`.
+    pub fn new(mesh: &Mesh) -> Self {
+        let mut used = vec![[false; 3]; mesh.nodes().len()];
+        for element in mesh.elements() {
+            for &node in element.nodes() {
+                for &direction in element.directions() {
+                    used[node][slot(direction)] = true;
+                }
+            }
+        }
+        let mut unknowns = 0;
+        let mut next = |is_used: bool| {
+            is_used.then(|| {
+                unknowns += 1;
+                unknowns - 1
+            })
+        };
+        let numbers = used.into_iter().map(|node| node.map(&mut next)).collect();
+        Self { numbers, unknowns }
+    }
+
+    /// Number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    /// Index of the unknown of `node` in `direction`, if there is one.
+    pub fn unknown(&self, node: usize, direction: Direction) -> Option<usize> {
+        self.numbers.get(node)?[slot(direction)]
+    }
+
+    /// Indices of the unknowns of `element`, in the order of its matrices; replaces `indices`.
+    pub(crate) fn of_element(&self, element: &dyn Element, indices: &mut Vec<usize>) {
+        indices.clear();
+        for &node in element.nodes() {
+            for &direction in element.directions() {
+                indices.push(self.unknown(node, direction).unwrap_or(usize::MAX));
+            }
+        }
+    }
+}
+
+fn slot(direction: Direction) -> usize {
+    match direction {
+        Direction::X => 0,
+        Direction::Y => 1,
+        Direction::Rotation => 2,
+    }
+}

@@ -1,0 +1,175 @@
+//! Four-node quadrilateral of a solid in plane strain.
+
+use super::element::{Direction, Element, MassKind, TRANSLATIONS, add_square};
+use super::material::Material;
+use super::quad4_shape::{CORNERS, Jacobian, gauss_points, shape};
+use crate::error::{Error, Result, same_length};
+
+/// How the stiffness of a [`Quad4`] is formed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum QuadFormulation {
+    /// 2 × 2 Gauss points. Far too stiff in bending (shear locking) and as ν → 1/2.
+    Full,
+    /// 2 × 2 Gauss points and two internal bending modes, corrected so that distorted elements
+    /// pass the patch test (QM6: Taylor, Beresford & Wilson, 1976). The default: rectangles bend
+    /// exactly, and nothing locks as ν → 1/2.
+    #[default]
+    IncompatibleModes,
+    /// One point at the centre: constant strain, as in Patel & Spyrakos. The two hourglass
+    /// patterns (nodes moving +, −, +, − in x or in y) meet no resistance: a mesh of these bends
+    /// too easily, and is a mechanism unless its mass or its neighbours hold it. On a rectangle,
+    /// `IncompatibleModes` is this element plus the hourglass stiffness that makes bending exact.
+    OnePoint,
+}
+
+/// Plane-strain quadrilateral with nodes counter-clockwise, 1 m thick.
+///
+/// ```
+/// use basemat::fem::{Element, MassKind, Material, Quad4, QuadFormulation};
+///
+/// let material = Material::new(1.0e9, 0.3, 2000.0)?;
+/// let quad = Quad4::new([0, 1, 2, 3], material, QuadFormulation::Full);
+/// let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+/// let mut mass = vec![0.0; 64];
+/// quad.mass(&corners, MassKind::Lumped, &mut mass);
+/// assert!((mass[0] - 1000.0).abs() < 1e-9);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quad4 {
+    nodes: [usize; 4],
+    material: Material,
+    formulation: QuadFormulation,
+}
+
+/// Displacement-to-strain columns `[ε_xx, ε_yy, γ_xy]` of a unit displacement in x and in y of a
+/// function with slopes (∂/∂x, ∂/∂y).
+fn strains([dx, dy]: [f64; 2]) -> [[f64; 3]; 2] {
+    [[dx, 0.0, dy], [0.0, dy, dx]]
+}
+
+impl Quad4 {
+    /// Quadrilateral between `nodes`, which run counter-clockwise.
+    pub fn new(nodes: [usize; 4], material: Material, formulation: QuadFormulation) -> Self {
+        Self { nodes, material, formulation }
+    }
+
+    /// ∫ Sᵀ D S over the points, S holding the strains of N patterns; row-major N × N.
+    fn integrate<const N: usize>(
+        &self,
+        points: &[[f64; 2]],
+        weight: f64,
+        coordinates: &[[f64; 2]],
+        patterns: impl Fn([f64; 2], &Jacobian) -> [[f64; 3]; N],
+    ) -> [[f64; N]; N] {
+        let elasticity = self.material.elasticity();
+        let mut matrix = [[0.0; N]; N];
+        for &point in points {
+            let jacobian = Jacobian::at(point, coordinates);
+            let strain = patterns(point, &jacobian);
+            let stress = strain.map(|e| elasticity.map(|row| dot(&row, &e)));
+            let area = weight * jacobian.determinant;
+            for i in 0..N {
+                for j in 0..N {
+                    matrix[i][j] += area * dot(&strain[i], &stress[j]);
+                }
+            }
+        }
+        matrix
+    }
+
+    fn with_bending_modes(&self, coordinates: &[[f64; 2]]) -> [[f64; 8]; 8] {
+        let centre = Jacobian::at([0.0; 2], coordinates);
+        let mut full = self.integrate(&gauss_points(), 1.0, coordinates, |point, jacobian| {
+            let mut strain = [[0.0; 3]; 12];
+            strain[..8].copy_from_slice(&node_strains(point, jacobian));
+            // Slopes of 1 − ξ² and 1 − η² through the centre's Jacobian, scaled so that their
+            // integral over the element vanishes: a constant stress does no work on them.
+            let scale = -2.0 * centre.determinant / jacobian.determinant;
+            let bend_xi = strains(centre.global([scale * point[0], 0.0]));
+            let bend_eta = strains(centre.global([0.0, scale * point[1]]));
+            strain[8..10].copy_from_slice(&bend_xi);
+            strain[10..].copy_from_slice(&bend_eta);
+            strain
+        });
+        // The internal modes are condensed out one after another.
+        for pivot in (8..12).rev() {
+            let row = full[pivot];
+            for i in 0..pivot {
+                let factor = full[i][pivot] / row[pivot];
+                for j in 0..pivot {
+                    full[i][j] -= factor * row[j];
+                }
+            }
+        }
+        std::array::from_fn(|i| std::array::from_fn(|j| full[i][j]))
+    }
+}
+
+fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Strains of unit displacements of the nodes, x and y in turn.
+fn node_strains(point: [f64; 2], jacobian: &Jacobian) -> [[f64; 3]; 8] {
+    let slopes = jacobian.slopes(point).map(strains);
+    std::array::from_fn(|i| slopes[i / 2][i % 2])
+}
+
+impl Element for Quad4 {
+    fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+
+    fn directions(&self) -> &[Direction] {
+        TRANSLATIONS
+    }
+
+    fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+        let block = match self.formulation {
+            QuadFormulation::Full => {
+                self.integrate(&gauss_points(), 1.0, coordinates, node_strains)
+            }
+            QuadFormulation::OnePoint => {
+                self.integrate(&[[0.0; 2]], 4.0, coordinates, node_strains)
+            }
+            QuadFormulation::IncompatibleModes => self.with_bending_modes(coordinates),
+        };
+        add_square(matrix, &block);
+    }
+
+    fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {
+        let mut block = [[0.0; 8]; 8];
+        // Exact: N_i N_j det J is of third degree in ξ and in η.
+        for point in gauss_points() {
+            let weight = self.material.density() * Jacobian::at(point, coordinates).determinant;
+            let shape = shape(point);
+            for i in 0..4 {
+                for j in 0..4 {
+                    let value = weight * shape[i] * shape[j];
+                    let column = if kind == MassKind::Lumped { i } else { j };
+                    for axis in 0..2 {
+                        block[2 * i + axis][2 * column + axis] += value;
+                    }
+                }
+            }
+        }
+        add_square(matrix, &block);
+    }
+
+    /// [`Error::Input`] unless the quadrilateral is convex and its nodes run counter-clockwise.
+    fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
+        same_length("coordinates of a quadrilateral", coordinates.len(), 4)?;
+        for corner in CORNERS {
+            let value = Jacobian::at(corner, coordinates).determinant;
+            if !(value.is_finite() && value > 0.0) {
+                return Err(Error::Input {
+                    quantity: "Jacobian at a corner of a quadrilateral",
+                    value,
+                    needed: "above zero: convex, nodes counter-clockwise",
+                });
+            }
+        }
+        Ok(())
+    }
+}

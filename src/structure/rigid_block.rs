@@ -1,0 +1,135 @@
+//! Rigid block on its flat base.
+
+use super::{ContactNode, Structure, Triplets};
+use crate::error::{Result, finite, not_negative, positive};
+
+/// Rigid body with a flat base: unknowns `[u_x, u_y, θ]` at the middle of the base.
+///
+/// A point at height z above the base and x beside its middle moves by `u_x − z θ` and `u_y + x θ`
+/// (small rotations). The centre of gravity lies above the middle of the base.
+///
+/// ```
+/// use basemat::structure::{RigidBlock, Structure, Triplets};
+///
+/// let block = RigidBlock::new(4.0, 10.0, 2000.0)?;
+/// assert_eq!(block.total_mass(), 80_000.0);
+/// let mut mass = Triplets::new(3);
+/// block.mass(&mut mass);
+/// // the centre of gravity, 5 m up, moves by u_x − 5 θ
+/// assert!(mass.entries().contains(&(0, 2, -400_000.0)));
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigidBlock {
+    width: f64,
+    mass: f64,
+    rotary_inertia: f64,
+    center_height: f64,
+    center: f64,
+    gravity: f64,
+}
+
+impl RigidBlock {
+    /// Index of the horizontal displacement of the base's middle.
+    pub const HORIZONTAL: usize = 0;
+    /// Index of the vertical displacement of the base's middle.
+    pub const VERTICAL: usize = 1;
+    /// Index of the rotation.
+    pub const ROTATION: usize = 2;
+
+    /// Homogeneous rectangle: width and height (m), density (kg/m³).
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless all are positive.
+    pub fn new(width: f64, height: f64, density: f64) -> Result<Self> {
+        positive("width of the block", width)?;
+        positive("height of the block", height)?;
+        positive("density of the block", density)?;
+        let mass = width * height * density;
+        let rotary_inertia = mass * (width * width + height * height) / 12.0;
+        Self::from_mass(width, mass, rotary_inertia, 0.5 * height)
+    }
+
+    /// Any rigid body: width of the base (m), mass (kg/m), rotary inertia about the centre of
+    /// gravity (kg m²/m) and height of the centre of gravity above the base (m).
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless width, mass and inertia are positive and the
+    /// height is not negative.
+    pub fn from_mass(
+        width: f64,
+        mass: f64,
+        rotary_inertia: f64,
+        center_height: f64,
+    ) -> Result<Self> {
+        positive("width of the block", width)?;
+        positive("mass of the block", mass)?;
+        positive("rotary inertia of the block", rotary_inertia)?;
+        not_negative("height of the centre of gravity", center_height)?;
+        finite("rotary inertia about the base", rotary_inertia + mass * center_height.powi(2))?;
+        Ok(Self { width, mass, rotary_inertia, center_height, center: 0.0, gravity: 0.0 })
+    }
+
+    /// The same block with the middle of its base at `center` (m) on the surface, instead of 0.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless it is finite.
+    pub fn centered_at(self, center: f64) -> Result<Self> {
+        Ok(Self { center: finite("middle of the base", center)?, ..self })
+    }
+
+    /// The same block with the P–Δ effect of its weight: `−m g h_c θ²/2` in the potential energy.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless `gravity` (m/s²) is finite and not negative.
+    pub fn with_p_delta(self, gravity: f64) -> Result<Self> {
+        Ok(Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self })
+    }
+
+    /// Mass m, kg per metre of thickness.
+    pub fn total_mass(&self) -> f64 {
+        self.mass
+    }
+
+    /// Rotary inertia about the middle of the base, kg m² per metre of thickness.
+    pub fn base_inertia(&self) -> f64 {
+        self.rotary_inertia + self.mass * self.center_height.powi(2)
+    }
+
+    /// Horizontal displacement at `height` (m) above the base, as a weighted sum of unknowns.
+    pub fn horizontal_at(&self, height: f64) -> Vec<(usize, f64)> {
+        vec![(Self::HORIZONTAL, 1.0), (Self::ROTATION, -height)]
+    }
+
+    /// Vertical displacement at coordinate `x` (m) of the surface, as a weighted sum of unknowns.
+    pub fn vertical_at(&self, x: f64) -> Vec<(usize, f64)> {
+        vec![(Self::VERTICAL, 1.0), (Self::ROTATION, x - self.center)]
+    }
+}
+
+impl Structure for RigidBlock {
+    fn unknowns(&self) -> usize {
+        3
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        let (left, right) = (self.center - 0.5 * self.width, self.center + 0.5 * self.width);
+        ContactNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION])
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        let coupling = -self.mass * self.center_height;
+        matrix.add(Self::HORIZONTAL, Self::HORIZONTAL, self.mass);
+        matrix.add(Self::VERTICAL, Self::VERTICAL, self.mass);
+        matrix.add(Self::ROTATION, Self::ROTATION, self.base_inertia());
+        matrix.add(Self::HORIZONTAL, Self::ROTATION, coupling);
+        matrix.add(Self::ROTATION, Self::HORIZONTAL, coupling);
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        if self.gravity > 0.0 {
+            let overturning = self.mass * self.gravity * self.center_height;
+            matrix.add(Self::ROTATION, Self::ROTATION, -overturning);
+        }
+    }
+}

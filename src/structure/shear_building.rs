@@ -1,0 +1,277 @@
+//! Shear building on a rigid base.
+
+use super::section::SectionRows;
+use super::{ContactNode, Structure, Triplets};
+use crate::error::{Error, Result, finite, not_negative, positive};
+use std::f64::consts::{PI, TAU};
+
+/// Storey of a [`ShearBuilding`]: the columns and the floor they carry.
+///
+/// All per metre of thickness.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Storey {
+    /// Height of the columns, m.
+    pub height: f64,
+    /// Mass of the floor on top, kg.
+    pub mass: f64,
+    /// Rotary inertia of that floor about its centre, kg m².
+    pub rotary_inertia: f64,
+    /// Sway stiffness of the columns, N/m.
+    pub stiffness: f64,
+    /// Dashpot between the floors, N s/m.
+    pub damping: f64,
+}
+
+impl Storey {
+    /// Storey without rotary inertia and damping.
+    pub fn new(height: f64, mass: f64, stiffness: f64) -> Self {
+        Self { height, mass, rotary_inertia: 0.0, stiffness, damping: 0.0 }
+    }
+}
+
+/// Floors on sway columns on a rigid base.
+///
+/// Unknowns: `[u_x, u_y, θ]` of the base, then the **absolute** horizontal displacement of each
+/// floor, from below. The columns neither shorten nor bend out of the building's frame: all floors
+/// move up and turn with the base, and a storey's drift is what remains of the floors' relative
+/// displacement after the turn, `d_j = u_j − u_(j−1) + h_j θ`.
+///
+/// ```
+/// use basemat::structure::{ShearBuilding, Storey, Structure};
+///
+/// let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
+/// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_damping_ratio(0.05)?;
+/// assert_eq!(building.unknowns(), 8);
+/// // 2 √(k/m) sin(π/22) rad/s on a fixed base
+/// assert!((building.fixed_base_frequency() - 2.02589).abs() < 1e-5);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShearBuilding {
+    width: f64,
+    base_mass: f64,
+    base_inertia: f64,
+    storeys: Vec<Storey>,
+    center: f64,
+    stiffness_damping: f64,
+    gravity: f64,
+}
+
+impl ShearBuilding {
+    /// Index of the base's horizontal displacement.
+    pub const HORIZONTAL: usize = 0;
+    /// Index of the vertical displacement of base and floors.
+    pub const VERTICAL: usize = 1;
+    /// Index of the rotation of base and floors.
+    pub const ROTATION: usize = 2;
+
+    /// Building on a rigid base of `width` (m), mass (kg/m) and rotary inertia about the middle of
+    /// its underside (kg m²/m); storeys from below, the first one's columns stand at height 0.
+    ///
+    /// # Errors
+    /// [`Error::Size`] without storeys; [`Error::Input`] unless width, base mass and each storey's
+    /// height, mass and stiffness are positive and inertias and dashpots not negative, or when
+    /// nothing resists rotation.
+    pub fn new(width: f64, base_mass: f64, base_inertia: f64, storeys: &[Storey]) -> Result<Self> {
+        positive("width of the base", width)?;
+        positive("mass of the base", base_mass)?;
+        not_negative("rotary inertia of the base", base_inertia)?;
+        if storeys.is_empty() {
+            return Err(Error::Size { quantity: "storeys", found: 0, needed: 1 });
+        }
+        for storey in storeys {
+            positive("height of a storey", storey.height)?;
+            positive("mass of a floor", storey.mass)?;
+            not_negative("rotary inertia of a floor", storey.rotary_inertia)?;
+            positive("stiffness of a storey", storey.stiffness)?;
+            not_negative("damping of a storey", storey.damping)?;
+        }
+        let building = Self {
+            width,
+            base_mass,
+            base_inertia,
+            storeys: storeys.to_vec(),
+            center: 0.0,
+            stiffness_damping: 0.0,
+            gravity: 0.0,
+        };
+        finite("mass of the building", building.total_mass())?;
+        positive("rotary inertia of base and floors", building.rotary_inertia())?;
+        Ok(building)
+    }
+
+    /// The same building with the middle of its base at `center` (m) on the surface.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless it is finite.
+    pub fn centered_at(self, center: f64) -> Result<Self> {
+        Ok(Self { center: finite("middle of the base", center)?, ..self })
+    }
+
+    /// The same building with stiffness-proportional damping, beside the storeys' dashpots, of
+    /// this ratio in the first mode on a fixed base.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless `ratio` is finite and not negative.
+    pub fn with_damping_ratio(self, ratio: f64) -> Result<Self> {
+        not_negative("damping ratio", ratio)?;
+        let stiffness_damping = ratio / (PI * self.fixed_base_frequency());
+        Ok(Self { stiffness_damping, ..self })
+    }
+
+    /// The same building with the P–Δ effect of the floors' weight: inextensible columns lower
+    /// what they carry by `(u_j − u_(j−1))²/(2 h_j)`.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless `gravity` (m/s²) is finite and not negative.
+    pub fn with_p_delta(self, gravity: f64) -> Result<Self> {
+        Ok(Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self })
+    }
+
+    /// The storeys, from below.
+    pub fn storeys(&self) -> &[Storey] {
+        &self.storeys
+    }
+
+    /// Mass of base and floors, kg per metre of thickness.
+    pub fn total_mass(&self) -> f64 {
+        self.base_mass + self.storeys.iter().map(|storey| storey.mass).sum::<f64>()
+    }
+
+    /// Index of the horizontal displacement on top of `storey` (0: the first floor).
+    ///
+    /// # Errors
+    /// [`Error::Index`] when there is no such storey.
+    pub fn floor(&self, storey: usize) -> Result<usize> {
+        let bound = self.storeys.len();
+        if storey < bound {
+            Ok(storey + 3)
+        } else {
+            Err(Error::Index { quantity: "storey", index: storey, bound })
+        }
+    }
+
+    /// Drift of `storey` (0: the lowest), `u_j − u_(j−1) + h_j θ`, as a weighted sum of unknowns.
+    ///
+    /// # Errors
+    /// [`Error::Index`] when there is no such storey.
+    pub fn drift(&self, storey: usize) -> Result<Vec<(usize, f64)>> {
+        self.floor(storey)?;
+        let mut row = Self::sway_row(storey).to_vec();
+        row.push((Self::ROTATION, self.storeys[storey].height));
+        Ok(row)
+    }
+
+    /// Horizontal force that the floor on top of `storey` exerts through its columns on what is
+    /// below, N, positive to the right: the base shear for storey 0.
+    ///
+    /// With P–Δ it is the horizontal part of the columns' force, −P/h of the sway included.
+    ///
+    /// # Errors
+    /// [`Error::Index`] when there is no such storey.
+    pub fn shear(&self, storey: usize) -> Result<SectionRows> {
+        let drift = self.drift(storey)?;
+        let Storey { height, stiffness, damping, .. } = self.storeys[storey];
+        let scaled = |factor: f64| drift.iter().map(move |&(index, w)| (index, factor * w));
+        let mut displacement: Vec<(usize, f64)> = scaled(stiffness).collect();
+        if self.gravity > 0.0 {
+            let sway = self.weight_on(storey) / height;
+            // The first two entries of a drift are its sway.
+            for entry in displacement.iter_mut().zip(Self::sway_row(storey)) {
+                entry.0.1 -= sway * entry.1.1;
+            }
+        }
+        let velocity = scaled(damping + self.stiffness_damping * stiffness).collect();
+        Ok(SectionRows { displacement, velocity, acceleration: Vec::new() })
+    }
+
+    /// Frequency of the first mode on a fixed base, without P–Δ, Hz.
+    pub fn fixed_base_frequency(&self) -> f64 {
+        let mut shape = vec![1.0; self.storeys.len()];
+        let mut square = 0.0;
+        // Inverse iteration: the shape under the inertia forces of the last shape. The cap only
+        // matters for nearly equal frequencies, where the quotient is accurate long before.
+        for _ in 0..10_000 {
+            let mut shear: f64 = self.inertia_forces(&shape).sum();
+            let mut sway = 0.0;
+            let mut next = Vec::with_capacity(shape.len());
+            for (storey, force) in self.storeys.iter().zip(self.inertia_forces(&shape)) {
+                sway += shear / storey.stiffness;
+                shear -= force;
+                next.push(sway);
+            }
+            let work: f64 = self.inertia_forces(&shape).zip(&next).map(|(f, u)| f * u).sum();
+            let inertia: f64 = self.inertia_forces(&next).zip(&next).map(|(f, u)| f * u).sum();
+            let quotient = work / inertia;
+            let change = (quotient - square).abs();
+            square = quotient;
+            shape = next.iter().map(|u| u / sway).collect();
+            if change <= 1e-15 * quotient {
+                break;
+            }
+        }
+        square.sqrt() / TAU
+    }
+
+    fn inertia_forces<'a>(&'a self, shape: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        self.storeys.iter().zip(shape).map(|(storey, u)| storey.mass * u)
+    }
+
+    /// `u_j − u_(j−1)`, the turn of the base left in.
+    fn sway_row(storey: usize) -> [(usize, f64); 2] {
+        let below = if storey == 0 { Self::HORIZONTAL } else { storey + 2 };
+        [(storey + 3, 1.0), (below, -1.0)]
+    }
+
+    /// Weight that the columns of `storey` carry, N.
+    fn weight_on(&self, storey: usize) -> f64 {
+        self.gravity * self.storeys[storey..].iter().map(|storey| storey.mass).sum::<f64>()
+    }
+
+    fn rotary_inertia(&self) -> f64 {
+        self.base_inertia + self.storeys.iter().map(|storey| storey.rotary_inertia).sum::<f64>()
+    }
+
+    /// Adds lᵀl of each storey's drift times `factor(storey)`.
+    fn add_drifts(&self, matrix: &mut Triplets, factor: impl Fn(&Storey) -> f64) {
+        for (index, storey) in self.storeys.iter().enumerate() {
+            let [upper, lower] = Self::sway_row(index);
+            let row = [upper, lower, (Self::ROTATION, storey.height)];
+            matrix.add_outer(&row, factor(storey));
+        }
+    }
+}
+
+impl Structure for ShearBuilding {
+    fn unknowns(&self) -> usize {
+        3 + self.storeys.len()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        let (left, right) = (self.center - 0.5 * self.width, self.center + 0.5 * self.width);
+        ContactNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION])
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        matrix.add(Self::HORIZONTAL, Self::HORIZONTAL, self.base_mass);
+        matrix.add(Self::VERTICAL, Self::VERTICAL, self.total_mass());
+        matrix.add(Self::ROTATION, Self::ROTATION, self.rotary_inertia());
+        for (index, storey) in self.storeys.iter().enumerate() {
+            matrix.add(index + 3, index + 3, storey.mass);
+        }
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        self.add_drifts(matrix, |storey| storey.stiffness);
+        if self.gravity > 0.0 {
+            for (index, storey) in self.storeys.iter().enumerate() {
+                let softening = self.weight_on(index) / storey.height;
+                matrix.add_outer(&Self::sway_row(index), -softening);
+            }
+        }
+    }
+
+    fn damping(&self, matrix: &mut Triplets) {
+        self.add_drifts(matrix, |s| s.damping + self.stiffness_damping * s.stiffness);
+    }
+}
