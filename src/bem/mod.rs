@@ -8,11 +8,14 @@
 //! means over the elements, from left to right.
 
 mod half_plane;
+mod influence;
+pub(crate) mod static_kernel;
 mod patch;
 mod spring;
 mod strip;
 
 pub use half_plane::HalfPlaneGround;
+pub use influence::InfluenceKernel;
 pub use patch::{Pair, PatchKernel};
 pub(crate) use patch::check_order;
 pub use spring::SpringGround;

@@ -3,6 +3,7 @@
 use super::ledger::Ledger;
 use super::modes::SearchMethod;
 use crate::interface::{ContactState, Mode};
+use crate::structure::SectionRows;
 
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -114,6 +115,16 @@ impl Probe {
     /// Acceleration given by (unknown, weight) pairs.
     pub fn acceleration(name: impl Into<String>, row: Vec<(usize, f64)>) -> Self {
         Self { name: name.into(), acceleration: row, ..Self::default() }
+    }
+
+    /// A section resultant of a structure.
+    pub fn section(name: impl Into<String>, rows: &SectionRows) -> Self {
+        Self {
+            name: name.into(),
+            displacement: rows.displacement.clone(),
+            velocity: rows.velocity.clone(),
+            acceleration: rows.acceleration.clone(),
+        }
     }
 
     pub(crate) fn rows(&self) -> [&[(usize, f64)]; 3] {

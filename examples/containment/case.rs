@@ -1,0 +1,166 @@
+//! One case: the scene, its run, and what is kept of it.
+
+use basemat::bem::HalfPlaneGround;
+use basemat::coupled::{Probe, Run};
+use basemat::fem::{Layer, Material, Mesh, QuadFormulation};
+use basemat::interface::{Bonded, Coulomb, Mode};
+use basemat::motion::{Record, STANDARD_GRAVITY};
+use basemat::structure::{FemModel, RayleighDamping};
+use basemat::{Simulation, Soil};
+use indicatif::ProgressBar;
+
+use super::AnyError;
+use super::options::{FOOT, Options, PSF, Quadrilateral, SLUG_PER_CUBIC_FOOT};
+
+/// What the interface does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kind {
+    Bonded,
+    Coulomb(f64),
+}
+
+/// One row of the table.
+#[derive(Debug, Clone)]
+pub struct Case {
+    pub name: String,
+    pub kind: Kind,
+}
+
+impl Case {
+    /// Bonded, uplift only, then one case per friction coefficient.
+    pub fn list(friction: &[f64]) -> Vec<Self> {
+        let mut cases = vec![
+            Self { name: "bonded".into(), kind: Kind::Bonded },
+            Self { name: "uplift only".into(), kind: Kind::Coulomb(f64::INFINITY) },
+        ];
+        cases.extend(
+            friction.iter().map(|&f| Self { name: format!("friction {f}"), kind: Kind::Coulomb(f) }),
+        );
+        cases
+    }
+}
+
+/// Histories at every step.
+#[derive(Debug, Default)]
+pub struct Histories {
+    pub time: Vec<f64>,
+    /// Absolute displacement at A, a roof corner, m.
+    pub roof: Vec<[f64; 2]>,
+    /// Horizontal force of the superstructure on the foundation, N/m.
+    pub shear: Vec<f64>,
+    /// Horizontal force of the base on the soil, N/m.
+    pub contact_shear: Vec<f64>,
+    pub base_moment: Vec<f64>,
+    pub normal_force: Vec<f64>,
+    pub uplifted_fraction: Vec<f64>,
+    pub mean_slip: Vec<f64>,
+    pub modes: Vec<Vec<Mode>>,
+}
+
+/// A case that has run.
+pub struct Outcome {
+    pub case: Case,
+    pub run: Run,
+    pub histories: Histories,
+}
+
+impl Outcome {
+    /// Largest base shear at the foundation–superstructure interface, N/m.
+    pub fn peak_shear(&self) -> f64 {
+        self.run.probe("base shear").map_or(0.0, |peak| peak.value.abs())
+    }
+
+    /// Largest displacement of the roof corner relative to the free field's start, m.
+    pub fn peak_roof(&self) -> f64 {
+        self.run.probe("roof x").map_or(0.0, |peak| peak.value.abs())
+    }
+}
+
+/// Builds the scene of `case` and runs it.
+pub fn run(
+    case: &Case,
+    options: &Options,
+    record: &Record,
+    steps: usize,
+    bar: &ProgressBar,
+) -> Result<Outcome, AnyError> {
+    let soil = Soil::from_wave_speeds(
+        options.shear_speed_fts * FOOT,
+        options.pressure_speed_fts * FOOT,
+        options.soil_density * SLUG_PER_CUBIC_FOOT,
+    )?;
+    let half = 0.5 * options.width_ft * FOOT;
+    let (model, foundation_height, roof_height) = structure(options)?;
+    let corner = model.nearest_node(-half, roof_height);
+    let section = model.section(foundation_height, 0.0)?;
+    let unknown = |direction| {
+        let index = model.unknown(corner, direction).ok_or("the roof corner has no unknowns")?;
+        Ok::<_, AnyError>(vec![(index, 1.0)])
+    };
+    let roof_x = unknown(basemat::fem::Direction::X)?;
+    let roof_y = unknown(basemat::fem::Direction::Y)?;
+
+    let builder = Simulation::builder(options.time_step_s())
+        .structure(model)
+        .ground(HalfPlaneGround::strip(soil, -half..half, usize::from(options.elements))?)
+        .motion(record.clone())
+        .gravity(STANDARD_GRAVITY)
+        .probe(Probe::displacement("roof x", roof_x))
+        .probe(Probe::displacement("roof y", roof_y))
+        .probe(Probe::section("base shear", &section.shear));
+    let mut simulation = match case.kind {
+        Kind::Bonded => builder.interface(Bonded),
+        Kind::Coulomb(friction) => builder.interface(Coulomb::new(friction)?),
+    }
+    .build()?;
+
+    let mut kept = Histories::default();
+    let run = simulation.run(steps, |state| {
+        kept.time.push(state.time);
+        kept.roof.push([state.probes[0], state.probes[1]]);
+        kept.shear.push(state.probes[2]);
+        kept.contact_shear.push(state.base_shear);
+        kept.base_moment.push(state.base_moment);
+        kept.normal_force.push(state.normal_force);
+        kept.uplifted_fraction.push(state.uplifted_fraction);
+        kept.mean_slip.push(state.mean_slip());
+        kept.modes.push(state.modes.clone());
+        if state.step % 256 == 0 {
+            bar.set_position(state.step as u64);
+        }
+    })?;
+    Ok(Outcome { case: case.clone(), run, histories: kept })
+}
+
+/// The paper's model: layers of rectangles, the lowest one the basemat. Returns it with the heights
+/// of the foundation's top and of the roof, m.
+fn structure(options: &Options) -> Result<(FemModel, f64, f64), AnyError> {
+    let solid = |young_psf: f64, density: f64| {
+        Material::new(young_psf * PSF, 1.0 / 3.0, density * SLUG_PER_CUBIC_FOOT)
+    };
+    let foundation = solid(106_560_369.0, 3.043_48)?;
+    let superstructure = solid(106_577_648.0, 0.590_06)?;
+    let formulation = match options.quadrilateral {
+        Quadrilateral::Full => QuadFormulation::Full,
+        Quadrilateral::Incompatible => QuadFormulation::IncompatibleModes,
+    };
+    let rows = usize::from(options.layers) - 1;
+    let layer = options.height_ft * FOOT / f64::from(options.layers);
+    let half = 0.5 * options.width_ft * FOOT;
+    let height = layer * rows as f64;
+    let mesh = Mesh::layered_block(
+        -half..half,
+        usize::from(options.elements),
+        &[
+            Layer::new(layer, 1, foundation).with_formulation(formulation),
+            Layer::new(height, rows, superstructure).with_formulation(formulation),
+        ],
+    )?;
+    let mut model = FemModel::on_base(mesh)?;
+    if options.damping > 0.0 {
+        let frequencies = [1.0, 10.0].map(|hertz| std::f64::consts::TAU * hertz);
+        model = model
+            .with_damping(RayleighDamping::from_ratios(frequencies, [options.damping; 2])?);
+    }
+    Ok((model, layer, layer + height))
+}

@@ -1,0 +1,90 @@
+//! El Centro on a containment that may uplift and slide: the problem of Patel & Spyrakos,
+//! "Uplifting-sliding response of flexible structures to seismic loads".
+//!
+//! Five runs as in the paper's Table 1 (bonded, uplift only, friction 0.4, 0.3, 0.2), a table, CSV
+//! files and plots. The figure with the dimensions is lost: contact length and height are a
+//! reconstruction, and the soil's density is an assumption. All are options:
+//!
+//! ```text
+//! cargo run --release --example containment -- --help
+//! ```
+
+mod case;
+mod options;
+mod plots;
+mod report;
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use clap::Parser;
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+
+use case::{Case, Outcome};
+use options::Options;
+
+type AnyError = Box<dyn std::error::Error + Send + Sync>;
+
+fn main() -> Result<(), AnyError> {
+    let options = Options::parse();
+    let record = options.record()?;
+    let steps = options.steps(&record);
+    let cases = Case::list(&options.friction);
+    println!(
+        "containment {} ft wide, {} ft high on soil with c_S = {} ft/s, c_P = {} ft/s; \
+         {steps} steps of {:.4} ms",
+        options.width_ft,
+        options.height_ft,
+        options.shear_speed_fts,
+        options.pressure_speed_fts,
+        1e3 * options.time_step_s(),
+    );
+
+    let bars = MultiProgress::new();
+    let style = ProgressStyle::with_template("{prefix:>14} {bar:40} {percent:>3} %  {eta} left")?;
+    let bars: Vec<_> = cases
+        .iter()
+        .map(|case| {
+            let bar = bars.add(ProgressBar::new(steps as u64));
+            bar.set_style(style.clone());
+            bar.set_prefix(case.name.clone());
+            bar
+        })
+        .collect();
+
+    // Cases are independent: as many at a time as there are processors.
+    let next = AtomicUsize::new(0);
+    let outcomes: Vec<Mutex<Option<Result<Outcome, AnyError>>>> =
+        cases.iter().map(|_| Mutex::new(None)).collect();
+    let workers = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    std::thread::scope(|scope| {
+        for _ in 0..workers.min(cases.len()) {
+            scope.spawn(|| {
+                loop {
+                    let k = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(case) = cases.get(k) else { break };
+                    let outcome = case::run(case, &options, &record, steps, &bars[k]);
+                    bars[k].finish();
+                    if let Ok(mut slot) = outcomes[k].lock() {
+                        *slot = Some(outcome);
+                    }
+                }
+            });
+        }
+    });
+    let mut results = Vec::new();
+    for (case, slot) in cases.iter().zip(outcomes) {
+        match slot.into_inner() {
+            Ok(Some(outcome)) => results.push(outcome.map_err(|e| format!("{}: {e}", case.name))?),
+            _ => return Err(format!("{}: the run did not end", case.name).into()),
+        }
+    }
+
+    std::fs::create_dir_all(&options.out)?;
+    report::print_table(&results);
+    report::write_summary(&options.out, &results)?;
+    report::write_histories(&options.out, &results)?;
+    plots::draw_all(&options.out, &results)?;
+    println!("\nfiles in {}", options.out.display());
+    Ok(())
+}

@@ -1,0 +1,197 @@
+//! Plots that correspond to the paper's Figs. 4, 5 and 6, and a map of contact modes.
+
+use std::path::Path;
+
+use basemat::interface::Mode;
+use plotters::prelude::*;
+
+use super::AnyError;
+use super::case::{Kind, Outcome};
+use super::report::file_stem;
+
+const SIZE: (u32, u32) = (1200, 640);
+/// Points per curve: more than pixels help nobody.
+const POINTS: usize = 4000;
+const COLORS: [RGBColor; 6] = [
+    RGBColor(40, 40, 40),
+    RGBColor(31, 119, 180),
+    RGBColor(214, 39, 40),
+    RGBColor(44, 160, 44),
+    RGBColor(255, 140, 0),
+    RGBColor(148, 103, 189),
+];
+
+/// Draws everything into `folder`.
+pub fn draw_all(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
+    curves(
+        &folder.join("roof_horizontal.svg"),
+        "Horizontal motion at A, a roof corner",
+        "displacement, mm",
+        results,
+        |outcome, k| 1e3 * outcome.histories.roof[k][0],
+    )?;
+    curves(
+        &folder.join("roof_vertical.svg"),
+        "Vertical motion at A, a roof corner (up)",
+        "displacement, mm",
+        results,
+        |outcome, k| 1e3 * outcome.histories.roof[k][1],
+    )?;
+    curves(
+        &folder.join("base_shear.svg"),
+        "Base shear at the foundation–superstructure interface",
+        "shear, kN/m",
+        results,
+        |outcome, k| 1e-3 * outcome.histories.shear[k],
+    )?;
+    for outcome in results.iter().filter(|outcome| outcome.case.kind != Kind::Bonded) {
+        let path = folder.join(format!("modes_{}.svg", file_stem(&outcome.case.name)));
+        mode_map(&path, outcome)?;
+    }
+    Ok(())
+}
+
+/// One curve per case.
+fn curves(
+    path: &Path,
+    title: &str,
+    unit: &str,
+    results: &[Outcome],
+    value: impl Fn(&Outcome, usize) -> f64,
+) -> Result<(), AnyError> {
+    let lines: Vec<Vec<(f64, f64)>> = results
+        .iter()
+        .map(|outcome| {
+            let time = &outcome.histories.time;
+            let every = time.len().div_ceil(POINTS).max(1);
+            (0..time.len()).step_by(every).map(|k| (time[k], value(outcome, k))).collect()
+        })
+        .collect();
+    let points = || lines.iter().flatten();
+    let end = points().fold(0.0_f64, |m, p| m.max(p.0));
+    let low = points().fold(0.0_f64, |m, p| m.min(p.1));
+    let high = points().fold(0.0_f64, |m, p| m.max(p.1));
+    let margin = 0.05 * (high - low).max(f64::MIN_POSITIVE);
+
+    let root = SVGBackend::new(path, SIZE).into_drawing_area();
+    root.fill(&WHITE)?;
+    let mut chart = ChartBuilder::on(&root)
+        .caption(title, ("sans-serif", 24))
+        .margin(16)
+        .x_label_area_size(48)
+        .y_label_area_size(76)
+        .build_cartesian_2d(0.0..end, low - margin..high + margin)?;
+    chart
+        .configure_mesh()
+        .x_desc("time, s")
+        .y_desc(unit)
+        .label_style(("sans-serif", 16))
+        .axis_desc_style(("sans-serif", 18))
+        .light_line_style(WHITE)
+        .draw()?;
+    for (k, (line, outcome)) in lines.into_iter().zip(results).enumerate() {
+        let color = COLORS[k % COLORS.len()];
+        chart
+            .draw_series(LineSeries::new(line, color.stroke_width(1)))?
+            .label(outcome.case.name.clone())
+            .legend(move |(x, y)| {
+                PathElement::new(vec![(x, y), (x + 24, y)], color.stroke_width(3))
+            });
+    }
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperRight)
+        .background_style(WHITE.mix(0.85))
+        .border_style(BLACK.mix(0.3))
+        .label_font(("sans-serif", 16))
+        .draw()?;
+    root.present()?;
+    Ok(())
+}
+
+fn color(mode: Mode) -> RGBColor {
+    match mode {
+        Mode::Stick => RGBColor(222, 230, 236),
+        Mode::SlipLeft => RGBColor(255, 166, 43),
+        Mode::SlipRight => RGBColor(214, 39, 40),
+        Mode::Open => RGBColor(22, 72, 120),
+    }
+}
+
+/// Contact modes over base and time; where steps share a column, the rarest mode shows.
+fn mode_map(path: &Path, outcome: &Outcome) -> Result<(), AnyError> {
+    let kept = &outcome.histories;
+    let (Some(first), Some(&end)) = (kept.modes.first(), kept.time.last()) else { return Ok(()) };
+    let count = first.len();
+    let every = kept.modes.len().div_ceil(1000).max(1);
+    let rank = |mode: Mode| match mode {
+        Mode::Stick => 0,
+        Mode::Open => 1,
+        Mode::SlipLeft => 2,
+        Mode::SlipRight => 3,
+    };
+
+    let root = SVGBackend::new(path, SIZE).into_drawing_area();
+    root.fill(&WHITE)?;
+    let title = format!("Contact modes, {}", outcome.case.name);
+    let mut chart = ChartBuilder::on(&root)
+        .caption(title, ("sans-serif", 24))
+        .margin(16)
+        .x_label_area_size(48)
+        .y_label_area_size(76)
+        .build_cartesian_2d(0.0..end, 0.0..count as f64 * 1.12)?;
+    chart
+        .configure_mesh()
+        .disable_mesh()
+        .x_desc("time, s")
+        .y_desc("element, from left (bottom) to right (top)")
+        .y_labels(6)
+        .label_style(("sans-serif", 16))
+        .axis_desc_style(("sans-serif", 18))
+        .draw()?;
+    for element in 0..count {
+        let mut begin = 0.0;
+        let mut shown: Option<Mode> = None;
+        let row = element as f64;
+        let columns: Vec<(f64, Mode)> = kept
+            .modes
+            .chunks(every)
+            .zip(kept.time.chunks(every))
+            .filter_map(|(modes, time)| {
+                let mode = modes.iter().map(|m| m[element]).max_by_key(|m| rank(*m))?;
+                Some((*time.last()?, mode))
+            })
+            .collect();
+        // One rectangle per stretch of equal mode keeps the file small.
+        for (k, &(time, mode)) in columns.iter().enumerate() {
+            let next = columns.get(k + 1).map(|c| c.1);
+            shown.get_or_insert(mode);
+            if next != Some(mode) {
+                let area = [(begin, row + 0.04), (time, row + 0.96)];
+                chart.draw_series([Rectangle::new(area, color(mode).filled())])?;
+                begin = time;
+                shown = None;
+            }
+        }
+    }
+    for (mode, name) in [
+        (Mode::Stick, "stick"),
+        (Mode::SlipLeft, "slip to the left"),
+        (Mode::SlipRight, "slip to the right"),
+        (Mode::Open, "open"),
+    ] {
+        chart
+            .draw_series(std::iter::once(Rectangle::new([(0.0, 0.0); 2], color(mode).filled())))?
+            .label(name)
+            .legend(move |(x, y)| Rectangle::new([(x, y - 6), (x + 24, y + 6)], color(mode).filled()));
+    }
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperRight)
+        .background_style(WHITE.mix(0.9))
+        .border_style(BLACK.mix(0.3))
+        .label_font(("sans-serif", 16))
+        .draw()?;
+    root.present()?;
+    Ok(())
+}

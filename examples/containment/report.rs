@@ -1,0 +1,145 @@
+//! The table on the screen, and the CSV files.
+
+use std::path::Path;
+
+use super::AnyError;
+use super::case::{Kind, Outcome};
+use super::options::POUND_FORCE_PER_FOOT;
+
+/// Peak base shear of the paper's Table 1, lb/ft, for the cases it has.
+fn paper_shear(kind: Kind) -> Option<f64> {
+    match kind {
+        Kind::Bonded => Some(28_970.0),
+        Kind::Coulomb(f64::INFINITY) => Some(20_130.0),
+        Kind::Coulomb(f) if f == 0.4 => Some(10_233.0),
+        Kind::Coulomb(f) if f == 0.3 => Some(6_415.0),
+        Kind::Coulomb(f) if f == 0.2 => Some(5_958.0),
+        Kind::Coulomb(_) => None,
+    }
+}
+
+/// Prints the table of all cases beside the paper's ratios.
+pub fn print_table(results: &[Outcome]) {
+    let bonded = results.first().map_or(1.0, Outcome::peak_shear);
+    println!(
+        "\n{:<14}{:>22}{:>12}{:>16}{:>9}{:>10}{:>10}{:>10}{:>10}{:>9}{:>9}",
+        "", "shear at foundation", "under base", "ratio  (paper)", "uplift", "slip", "residual",
+        "roof", "ledger", "run", "step"
+    );
+    println!(
+        "{:<14}{:>11}{:>11}{:>12}{:>7}{:>9}{:>9}{:>10}{:>10}{:>10}{:>10}{:>9}{:>9}",
+        "case", "kN/m", "lb/ft", "kN/m", "", "", "%", "mm", "mm", "mm", "", "s", "µs"
+    );
+    for outcome in results {
+        let run = &outcome.run;
+        let paper = paper_shear(outcome.case.kind)
+            .map_or_else(|| "–".to_owned(), |shear| format!("({:.3})", shear / 28_970.0));
+        println!(
+            "{:<14}{:>11.1}{:>11.0}{:>12.1}{:>8.3}{:>8}{:>9.0}{:>10.3}{:>10.3}{:>10.2}{:>10.1e}{:>9.1}{:>9.1}",
+            outcome.case.name,
+            1e-3 * outcome.peak_shear(),
+            outcome.peak_shear() / POUND_FORCE_PER_FOOT,
+            1e-3 * run.base_shear.value.abs(),
+            outcome.peak_shear() / bonded,
+            paper,
+            100.0 * run.uplifted_fraction.value,
+            1e3 * run.slip.value.abs(),
+            1e3 * run.residual_slip,
+            1e3 * outcome.peak_roof(),
+            run.ledger_residual,
+            run.wall.as_secs_f64(),
+            1e6 * run.wall.as_secs_f64() / run.steps.max(1) as f64,
+        );
+    }
+    for outcome in results {
+        for warning in &outcome.run.warnings {
+            println!("{}: {warning}", outcome.case.name);
+        }
+    }
+}
+
+/// Writes `summary.csv`, a row per case.
+pub fn write_summary(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
+    let bonded = results.first().map_or(1.0, Outcome::peak_shear);
+    let mut writer = csv::Writer::from_path(folder.join("summary.csv"))?;
+    writer.write_record([
+        "case",
+        "friction",
+        "peak_base_shear_n_per_m",
+        "peak_contact_shear_n_per_m",
+        "ratio_to_bonded",
+        "max_uplift_fraction",
+        "max_slip_m",
+        "residual_slip_m",
+        "peak_roof_displacement_m",
+        "ledger_residual",
+        "steps",
+        "wall_s",
+    ])?;
+    for outcome in results {
+        let run = &outcome.run;
+        let friction = match outcome.case.kind {
+            Kind::Bonded => String::new(),
+            Kind::Coulomb(friction) => friction.to_string(),
+        };
+        writer.write_record([
+            outcome.case.name.clone(),
+            friction,
+            outcome.peak_shear().to_string(),
+            run.base_shear.value.abs().to_string(),
+            (outcome.peak_shear() / bonded).to_string(),
+            run.uplifted_fraction.value.to_string(),
+            run.slip.value.abs().to_string(),
+            run.residual_slip.to_string(),
+            outcome.peak_roof().to_string(),
+            run.ledger_residual.to_string(),
+            run.steps.to_string(),
+            run.wall.as_secs_f64().to_string(),
+        ])?;
+    }
+    writer.flush()?;
+    Ok(())
+}
+
+/// File name of a case.
+pub fn file_stem(name: &str) -> String {
+    name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect()
+}
+
+/// Writes one CSV of histories per case.
+pub fn write_histories(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
+    for outcome in results {
+        let kept = &outcome.histories;
+        let path = folder.join(format!("{}.csv", file_stem(&outcome.case.name)));
+        let mut writer = csv::Writer::from_path(path)?;
+        writer.write_record([
+            "time_s",
+            "roof_x_m",
+            "roof_y_m",
+            "base_shear_n_per_m",
+            "contact_shear_n_per_m",
+            "base_moment_n_m_per_m",
+            "normal_force_n_per_m",
+            "uplifted_fraction",
+            "mean_slip_m",
+        ])?;
+        for k in 0..kept.time.len() {
+            writer.write_record(
+                [
+                    kept.time[k],
+                    kept.roof[k][0],
+                    kept.roof[k][1],
+                    kept.shear[k],
+                    kept.contact_shear[k],
+                    kept.base_moment[k],
+                    kept.normal_force[k],
+                    kept.uplifted_fraction[k],
+                    kept.mean_slip[k],
+                ]
+                .map(|value| format!("{value:.9e}")),
+            )?;
+        }
+        writer.flush()?;
+    }
+    Ok(())
+}
