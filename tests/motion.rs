@@ -61,9 +61,8 @@ fn reader_takes_every_usual_layout() {
 #[test]
 fn reader_rounds_the_time_step_of_printed_times() {
     // a third of a hundredth, printed with five digits
-    let text: String =
-        (0..301).map(|k| format!("{:.5} 1\n", f64::from(k) / 300.0)).collect::<String>();
-    let record = read(&text).unwrap();
+    let lines: Vec<String> = (0..301).map(|k| format!("{:.5} 1", f64::from(k) / 300.0)).collect();
+    let record = read(&lines.join("\n")).unwrap();
     assert_relative_eq!(record.time_step(), 1.0 / 300.0, max_relative = 1e-11);
     assert_eq!(read("0 0\n0.1 0\n0.2 0\n0.3 0\n").unwrap().time_step(), 0.1);
 }
@@ -129,12 +128,13 @@ fn reader_refuses_wrong_columns_and_counts() {
 #[test]
 fn reader_refuses_drifting_steps_and_endless_lines() {
     let mut time = 0.0;
-    let mut text = String::new();
+    let mut lines = Vec::new();
     for k in 0..100 {
-        text += &format!("{time} 0\n");
+        lines.push(format!("{time} 0"));
         time += 1.0 + 5e-5 * f64::from(k);
     }
-    assert!(matches!(refusal(text.as_bytes(), &metric()).1, RecordError::DriftingStep { .. }));
+    let (_, reason) = refusal(lines.join("\n").as_bytes(), &metric());
+    assert!(matches!(reason, RecordError::DriftingStep { .. }), "{reason}");
     let endless = std::io::Read::take(std::io::repeat(b'1'), 1 << 40);
     let error = Record::from_reader("zeros", endless, &metric()).unwrap_err();
     let reason = RecordError::LineTooLong { bytes: 65_536 };
@@ -459,12 +459,9 @@ proptest! {
 
     #[test]
     fn printed_records_are_read_back(step in 0.001..1.0_f64, values in samples()) {
-        let text: String = values
-            .iter()
-            .enumerate()
-            .map(|(k, a)| format!("{}, {a}\n", k as f64 * step))
-            .collect();
-        let record = read(&text).unwrap();
+        let line = |(k, a)| format!("{}, {a}", k as f64 * step);
+        let lines: Vec<String> = values.iter().enumerate().map(line).collect();
+        let record = read(&lines.join("\n")).unwrap();
         prop_assert_eq!(record.accelerations(), &values[..]);
         prop_assert!((record.time_step() - step).abs() <= 1e-11 * step);
     }
