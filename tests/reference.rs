@@ -19,6 +19,7 @@ fn soil() -> Soil {
 }
 
 #[track_caller]
+#[expect(clippy::needless_pass_by_value, reason = "takes results as they come")]
 fn refused<T: std::fmt::Debug>(outcome: Result<T, Error>) {
     assert!(matches!(outcome, Err(Error::Input { .. })), "{outcome:?}");
 }
@@ -108,7 +109,7 @@ fn slender_blocks_rock_as_housner_says() {
 /// ∫ f dx over the contact, by a substitution that tames both ends.
 fn integral(strip: &NoTensionStrip, eccentricity: f64, weight: impl Fn(f64) -> f64) -> f64 {
     let contact = strip.contact(5.0, eccentricity).unwrap();
-    let (middle, half) = ((contact.left + contact.right) / 2.0, contact.length() / 2.0);
+    let (middle, half) = (f64::midpoint(contact.left, contact.right), contact.length() / 2.0);
     let count = 4000;
     let mut sum = 0.0;
     for k in 0..count {
