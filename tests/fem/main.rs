@@ -1,0 +1,14 @@
+//! Finite elements and built-in structures against closed forms, statics and outside elements.
+
+mod beams;
+mod bending;
+mod damping;
+mod dense;
+mod errors;
+mod meshes;
+mod own_element;
+mod patch;
+mod rigid_block;
+mod rigid_motion;
+mod section;
+mod shear_building;
