@@ -95,8 +95,8 @@ fn element_matrix(kind: QuadFormulation, [a, b]: [f64; 2], nu: f64) -> Vec<Vec<f
 
 const HOURGLASS: [f64; 8] = [1.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.0, 0.0];
 
-/// Energy of the bending pattern u_x = ±1, ε_x = 4 y/(a b), γ = 4 x/(a b) for full integration;
-/// E' I κ²a/2 exactly, with κ = 4/(a b).
+/// Energy of the bending pattern `u_x = 4 x y/(a b)`: `ε_x = κ y` and γ = κ x with κ = 4/(a b) for
+/// full integration; E' I κ² a/2 for a beam.
 #[test]
 fn locking_of_one_rectangle_is_that_of_its_closed_form() {
     let ([a, b], nu) = ([2.0_f64, 0.7], 0.3);

@@ -1,4 +1,4 @@
-//! MacNeal & Harder's patch of distorted quadrilaterals (Finite Elements in Analysis and Design 1,
+//! The patch of distorted quadrilaterals of `MacNeal` & Harder (Finite Elements in Analysis and Design 1,
 //! 1985, fig. 1): boundary displacements of a constant strain must give that strain everywhere.
 
 use crate::dense::{collect, dot, form, largest, multiply, solve_held};
@@ -50,7 +50,7 @@ fn constant_strain_is_reproduced_on_distorted_quads() {
             let stiffness = collect(&model, |k| model.stiffness(k));
             let exact = exact(&model);
             let held: Vec<(usize, f64)> = (0..8).map(|index| (index, exact[index])).collect();
-            let found = solve_held(&stiffness, &vec![0.0; 16], &held);
+            let found = solve_held(&stiffness, &[0.0; 16], &held);
             let error: Vec<f64> = found.iter().zip(&exact).map(|(a, b)| a - b).collect();
             assert!(largest(&error) < 1e-11 * largest(&exact), "{formulation:?} {poisson}");
         }
@@ -72,7 +72,7 @@ fn strain_energy_is_that_of_the_uniform_strain() {
     }
 }
 
-/// Forces on the left edge of the patch: −σ_xx and −τ_xy times its length.
+/// Forces on the left edge of the patch: `−σ_xx` and `−τ_xy` times its length.
 #[test]
 fn edge_forces_are_those_of_the_uniform_stress() {
     let model = patch(QuadFormulation::IncompatibleModes, 0.25);

@@ -48,7 +48,7 @@ fn point_rows_follow_a_true_small_rotation() {
     }
 }
 
-/// V = m g h_c cos θ about the middle of the base: its second derivative is the stiffness.
+/// `V = m g h_c cos θ` about the middle of the base: its second derivative is the stiffness.
 #[test]
 fn p_delta_is_the_curvature_of_the_potential_energy() {
     let block = RigidBlock::from_mass(2.0, 900.0, 500.0, 4.0).unwrap();

@@ -1,8 +1,10 @@
 //! Section forces against free bodies.
 
 use crate::dense::{damping, dot, form, mass, multiply, noise, solve_held, stiffness};
-use basemat::fem::{Beam, Dashpot, Direction, Layer, LumpedMass, Material, Mesh};
-use basemat::structure::{FemModel, RayleighDamping, Structure};
+use basemat::fem::{
+    Beam, Dashpot, Direction, Layer, LumpedMass, Material, Mesh, Quad4, QuadFormulation,
+};
+use basemat::structure::{FemModel, RayleighDamping, SectionRows, Structure};
 
 const CUT: f64 = 2.0;
 
@@ -18,7 +20,7 @@ fn frame_on_block() -> [FemModel; 2] {
         }
         for element in block.elements() {
             let nodes: [usize; 4] = element.nodes().try_into().unwrap();
-            mesh.add(basemat::fem::Quad4::new(nodes, concrete, Default::default())).unwrap();
+            mesh.add(Quad4::new(nodes, concrete, QuadFormulation::default())).unwrap();
         }
         Ok(mesh)
     }];
@@ -53,7 +55,7 @@ fn static_load_passes_through_every_section() {
     let u = solve_held(&stiffness(&model), &load, &held);
     for height in [0.0, 1.0, CUT] {
         let section = model.section(height, 1.0).unwrap();
-        let value = |rows: &basemat::structure::SectionRows| rows.value(&u, &[], &[]);
+        let value = |rows: &SectionRows| rows.value(&u, &[], &[]);
         assert!((value(&section.shear) - 700.0).abs() < 1e-6);
         assert!((value(&section.compression) - 300.0).abs() < 1e-6);
         let moment = -300.0 * (3.5 - 1.0) - 700.0 * (6.0 - height) + 50.0;
@@ -78,17 +80,13 @@ fn moving_structure_keeps_the_balance_of_its_upper_part() {
         .collect();
     // The upper model's nodes are the full model's from the cut upwards.
     let skip = 2 * first;
-    let cut: Vec<usize> = (0..3)
-        .flat_map(|node| {
-            [Direction::X, Direction::Y, Direction::Rotation]
-                .into_iter()
-                .filter_map(move |direction| Some((node, direction)))
-        })
-        .filter_map(|(node, direction)| upper.unknown(node, direction))
-        .collect();
     let mut on_upper = force[skip..].to_vec();
-    for index in cut {
-        on_upper[index] = 0.0;
+    for node in 0..3 {
+        for direction in [Direction::X, Direction::Y, Direction::Rotation] {
+            if let Some(index) = upper.unknown(node, direction) {
+                on_upper[index] = 0.0;
+            }
+        }
     }
     let section = model.section(CUT, 0.3).unwrap();
     let inertia = mass(&upper);

@@ -26,7 +26,7 @@ fn uneven() -> ShearBuilding {
 /// Unit rigid rotation about the middle of the base: a floor at height z moves by −z.
 const TURN: [f64; 6] = [0.0, 0.0, 1.0, -4.0, -7.0, -10.5];
 
-/// ω_j = 2 √(k/m) sin((2j−1)π/(2(2N+1))), fixed base.
+/// `ω_j = 2 √(k/m) sin((2j−1)π/(2(2N+1)))`, fixed base.
 #[test]
 fn uniform_building_has_its_closed_form_frequencies() {
     let (m, k, n) = (20.0e3, 40.0e6, 5_u32);
