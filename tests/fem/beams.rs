@@ -1,6 +1,6 @@
 //! Beams and trusses against beam theory.
 
-use crate::dense::{eigenvalues, mass, part, solve_held, stiffness};
+use crate::dense::{eigenvalues, form, mass, part, solve_held, stiffness};
 use basemat::fem::{Beam, Direction, MassKind, Mesh, Truss};
 use basemat::structure::{FemModel, Structure};
 
@@ -92,6 +92,21 @@ fn timoshenko_tends_to_euler_bernoulli() {
         for (x, y) in a.iter().flatten().zip(b.iter().flatten()) {
             assert!((x - y).abs() <= 1e-9 * a[4][4]);
         }
+    }
+}
+
+/// A parabola w = x² has no shear: both beams carry it exactly, and ∫ ρ A w² = ρ A L⁵/5.
+#[test]
+fn consistent_mass_carries_constant_curvature_exactly() {
+    let length = 3.0_f64;
+    for shear in [None, Some(1.0e8)] {
+        let model = cantilever(length, 0.0, 1, shear);
+        let mut field = vec![0.0; model.unknowns()];
+        field[4] = length.powi(2);
+        field[5] = 2.0 * length;
+        let found = form(&field, &mass(&model), &field);
+        let exact = DENSITY * AREA * length.powi(5) / 5.0;
+        assert!((found / exact - 1.0).abs() < 1e-13, "{shear:?}");
     }
 }
 

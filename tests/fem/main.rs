@@ -2,6 +2,7 @@
 
 mod beams;
 mod bending;
+mod by_hand;
 mod damping;
 mod dense;
 mod errors;

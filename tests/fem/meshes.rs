@@ -13,11 +13,12 @@ fn layered_block_runs_from_the_base_upwards() {
     let layers = [
         Layer::new(1.0, 1, stiff),
         Layer::new(4.0, 2, soft()).with_formulation(QuadFormulation::OnePoint),
+        Layer::new(2.0, 1, stiff),
     ];
     let mesh = Mesh::layered_block(-3.0..3.0, 3, &layers).unwrap();
-    assert_eq!(mesh.elements().len(), 9);
+    assert_eq!(mesh.elements().len(), 12);
     let heights: Vec<f64> = mesh.nodes().iter().step_by(4).map(|node| node[1]).collect();
-    assert_eq!(heights, [0.0, 1.0, 3.0, 5.0]);
+    assert_eq!(heights, [0.0, 1.0, 3.0, 5.0, 7.0]);
     let line: Vec<f64> = mesh.nodes()[..4].iter().map(|node| node[0]).collect();
     assert_eq!(line, [-3.0, -1.0, 1.0, 3.0]);
     assert_eq!(mesh.elements()[3].nodes(), [4, 5, 9, 8]);

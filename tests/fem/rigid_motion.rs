@@ -96,8 +96,9 @@ fn consistent_mass_has_the_exact_rotary_inertia() {
     let ends = [mesh.add_node(-2.0, 0.0).unwrap(), mesh.add_node(2.0, 0.0).unwrap()];
     mesh.add(Beam::new(ends, 1.0, 1.0, 1.0, 6.0).unwrap()).unwrap();
     mesh.add(Truss::new(ends, 1.0, 1.0, 1.0).unwrap()).unwrap();
+    mesh.add(LumpedMass::new(ends[1], 5.0).unwrap().with_rotary_inertia(2.0).unwrap()).unwrap();
     let bar = FemModel::on_base(mesh).unwrap();
     let turn = bar.rigid_motion(Direction::Rotation, [0.0, 0.0]);
-    let exact = 7.0 * 4.0 * 16.0 / 12.0;
+    let exact = 7.0 * 4.0 * 16.0 / 12.0 + 5.0 * 4.0 + 2.0;
     assert!((form(&turn, &mass(&bar), &turn) / exact - 1.0).abs() < 1e-13);
 }
