@@ -8,7 +8,9 @@ use crate::error::{Result, not_negative, positive};
 ///
 /// Euler–Bernoulli with axial deformation; [`with_shear_stiffness`](Beam::with_shear_stiffness)
 /// makes it Timoshenko's. Exact for loads at the nodes (Przemieniecki, Theory of Matrix Structural
-/// Analysis, 1968, eq. 5.116). Rotary inertia of the cross-section is left out.
+/// Analysis, 1968, ch. 5). Rotary inertia of the cross-section is left out.
+/// Quadrilaterals do not hold the rotation of their nodes: a beam that ends on one is hinged there,
+/// unless it runs on along the edge of a second one.
 ///
 /// ```
 /// use basemat::fem::{Beam, Element};

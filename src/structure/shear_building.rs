@@ -116,6 +116,7 @@ impl ShearBuilding {
     pub fn with_damping_ratio(self, ratio: f64) -> Result<Self> {
         not_negative("damping ratio", ratio)?;
         let stiffness_damping = ratio / (PI * self.fixed_base_frequency());
+        finite("stiffness-proportional damping", stiffness_damping)?;
         Ok(Self { stiffness_damping, ..self })
     }
 

@@ -1,0 +1,15 @@
+//! Finite elements and built-in structures against closed forms, statics and outside elements.
+
+mod beams;
+mod bending;
+mod by_hand;
+mod damping;
+mod dense;
+mod errors;
+mod meshes;
+mod own_element;
+mod patch;
+mod rigid_block;
+mod rigid_motion;
+mod section;
+mod shear_building;

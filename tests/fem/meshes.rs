@@ -1,0 +1,49 @@
+//! Layered blocks and look-up of nodes.
+
+use basemat::fem::{Layer, LumpedMass, Material, Mesh, QuadFormulation, Truss};
+use basemat::structure::{FemModel, Structure};
+
+fn soft() -> Material {
+    Material::new(1.0e7, 0.2, 1500.0).unwrap()
+}
+
+#[test]
+fn layered_block_runs_from_the_base_upwards() {
+    let stiff = Material::new(30.0e9, 0.2, 2400.0).unwrap();
+    let layers = [
+        Layer::new(1.0, 1, stiff),
+        Layer::new(4.0, 2, soft()).with_formulation(QuadFormulation::OnePoint),
+        Layer::new(2.0, 1, stiff),
+    ];
+    let mesh = Mesh::layered_block(-3.0..3.0, 3, &layers).unwrap();
+    assert_eq!(mesh.elements().len(), 12);
+    let heights: Vec<f64> = mesh.nodes().iter().step_by(4).map(|node| node[1]).collect();
+    assert_eq!(heights, [0.0, 1.0, 3.0, 5.0, 7.0]);
+    let line: Vec<f64> = mesh.nodes()[..4].iter().map(|node| node[0]).collect();
+    assert_eq!(line, [-3.0, -1.0, 1.0, 3.0]);
+    assert_eq!(mesh.elements()[3].nodes(), [4, 5, 9, 8]);
+    assert_eq!(mesh.nodes_at_height(3.0, 1e-9).unwrap(), [8, 9, 10, 11]);
+    assert_eq!(mesh.nearest_node(1.4, 4.8), Some(14));
+    assert_eq!(Mesh::new().nearest_node(0.0, 0.0), None);
+}
+
+#[test]
+fn graded_grid_becomes_the_contact_line() {
+    let grid = [-1.0, -0.8, 0.0, 0.8, 1.0];
+    let model =
+        FemModel::on_base(Mesh::graded_block(&grid, &[Layer::new(1.0, 1, soft())]).unwrap());
+    let places: Vec<f64> = model.unwrap().contact_nodes().iter().map(|node| node.x).collect();
+    assert_eq!(places, grid);
+}
+
+#[test]
+fn only_used_directions_are_numbered() {
+    let mut mesh = Mesh::new();
+    for k in 0..4 {
+        mesh.add_node(f64::from(k), 0.0).unwrap();
+    }
+    mesh.add(Truss::new([0, 1], 1.0, 1.0, 0.0).unwrap()).unwrap();
+    mesh.add(LumpedMass::new(3, 2.0).unwrap().with_rotary_inertia(1.0).unwrap()).unwrap();
+    // node 2 has no element, node 3 a rotation
+    assert_eq!(FemModel::new(mesh, &[0, 1]).unwrap().unknowns(), 7);
+}
