@@ -14,6 +14,6 @@ pub mod reference;
 mod soil;
 pub mod structure;
 
-pub use error::{Error, RecordError, Result, StepError};
 pub use coupled::Simulation;
+pub use error::{Error, RecordError, Result, StepError};
 pub use soil::Soil;

@@ -9,7 +9,9 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
-use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu};
+use faer::sparse::linalg::lu::{
+    LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
+};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, MatRef, Par, Side, Spec};
 
@@ -95,8 +97,11 @@ impl SparseMatrix {
     pub(crate) fn multiply_add(&self, factor: f64, x: &[f64], y: &mut [f64]) {
         for (row, y) in y.iter_mut().enumerate() {
             let range = self.row_start[row]..self.row_start[row + 1];
-            let sum: f64 =
-                self.column[range.clone()].iter().zip(&self.value[range]).map(|(&j, a)| a * x[j]).sum();
+            let sum: f64 = self.column[range.clone()]
+                .iter()
+                .zip(&self.value[range])
+                .map(|(&j, a)| a * x[j])
+                .sum();
             *y += factor * sum;
         }
     }
@@ -106,8 +111,11 @@ impl SparseMatrix {
         let mut total = 0.0;
         for (row, x) in x.iter().enumerate() {
             let range = self.row_start[row]..self.row_start[row + 1];
-            let sum: f64 =
-                self.column[range.clone()].iter().zip(&self.value[range]).map(|(&j, a)| a * y[j]).sum();
+            let sum: f64 = self.column[range.clone()]
+                .iter()
+                .zip(&self.value[range])
+                .map(|(&j, a)| a * y[j])
+                .sum();
             total += x * sum;
         }
         total
@@ -189,11 +197,11 @@ impl SparseFactor {
     }
 
     fn lu(matrix: &SparseColMat<usize, f64>) -> Option<Self> {
-        let symbolic = factorize_symbolic_lu(matrix.symbolic(), LuSymbolicParams::default()).ok()?;
+        let symbolic =
+            factorize_symbolic_lu(matrix.symbolic(), LuSymbolicParams::default()).ok()?;
         let mut numeric = NumericLu::new();
-        let mut buffer = MemBuffer::new(
-            symbolic.factorize_numeric_lu_scratch::<f64>(Par::Seq, Spec::default()),
-        );
+        let mut buffer =
+            MemBuffer::new(symbolic.factorize_numeric_lu_scratch::<f64>(Par::Seq, Spec::default()));
         symbolic
             .factorize_numeric_lu(
                 &mut numeric,
@@ -213,11 +221,20 @@ impl SparseFactor {
         let rhs = MatMut::from_column_major_slice_mut(rhs, self.order, 1);
         match &self.kind {
             Kind::Cholesky { symbolic, values } => {
-                LltRef::new(symbolic, values).solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+                LltRef::new(symbolic, values).solve_in_place_with_conj(
+                    Conj::No,
+                    rhs,
+                    Par::Seq,
+                    stack,
+                );
             }
             Kind::Lu { symbolic, numeric } => {
-                LuRef::new_unchecked(symbolic, numeric)
-                    .solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+                LuRef::new_unchecked(symbolic, numeric).solve_in_place_with_conj(
+                    Conj::No,
+                    rhs,
+                    Par::Seq,
+                    stack,
+                );
             }
         }
     }

@@ -2,11 +2,11 @@
 
 mod support;
 
+use basemat::Simulation;
 use basemat::bem::SpringGround;
 use basemat::interface::Coulomb;
 use basemat::motion::FreeFieldFn;
 use basemat::structure::RigidBlock;
-use basemat::Simulation;
 
 /// Ground displacement and velocity of a ground acceleration 5·Ricker(σ = 0.3 s, t₀ = 1.5 s) m/s².
 fn ricker_ground() -> FreeFieldFn {

@@ -14,27 +14,29 @@ use super::options::{FOOT, Options, PSF, Quadrilateral, SLUG_PER_CUBIC_FOOT};
 
 /// What the interface does.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Kind {
+pub(crate) enum Kind {
     Bonded,
     Coulomb(f64),
 }
 
 /// One row of the table.
 #[derive(Debug, Clone)]
-pub struct Case {
-    pub name: String,
-    pub kind: Kind,
+pub(crate) struct Case {
+    pub(crate) name: String,
+    pub(crate) kind: Kind,
 }
 
 impl Case {
     /// Bonded, uplift only, then one case per friction coefficient.
-    pub fn list(friction: &[f64]) -> Vec<Self> {
+    pub(crate) fn list(friction: &[f64]) -> Vec<Self> {
         let mut cases = vec![
             Self { name: "bonded".into(), kind: Kind::Bonded },
             Self { name: "uplift only".into(), kind: Kind::Coulomb(f64::INFINITY) },
         ];
         cases.extend(
-            friction.iter().map(|&f| Self { name: format!("friction {f}"), kind: Kind::Coulomb(f) }),
+            friction
+                .iter()
+                .map(|&f| Self { name: format!("friction {f}"), kind: Kind::Coulomb(f) }),
         );
         cases
     }
@@ -42,42 +44,42 @@ impl Case {
 
 /// Histories at every step.
 #[derive(Debug, Default)]
-pub struct Histories {
-    pub time: Vec<f64>,
+pub(crate) struct Histories {
+    pub(crate) time: Vec<f64>,
     /// Absolute displacement at A, a roof corner, m.
-    pub roof: Vec<[f64; 2]>,
+    pub(crate) roof: Vec<[f64; 2]>,
     /// Horizontal force of the superstructure on the foundation, N/m.
-    pub shear: Vec<f64>,
+    pub(crate) shear: Vec<f64>,
     /// Horizontal force of the base on the soil, N/m.
-    pub contact_shear: Vec<f64>,
-    pub base_moment: Vec<f64>,
-    pub normal_force: Vec<f64>,
-    pub uplifted_fraction: Vec<f64>,
-    pub mean_slip: Vec<f64>,
-    pub modes: Vec<Vec<Mode>>,
+    pub(crate) contact_shear: Vec<f64>,
+    pub(crate) base_moment: Vec<f64>,
+    pub(crate) normal_force: Vec<f64>,
+    pub(crate) uplifted_fraction: Vec<f64>,
+    pub(crate) mean_slip: Vec<f64>,
+    pub(crate) modes: Vec<Vec<Mode>>,
 }
 
 /// A case that has run.
-pub struct Outcome {
-    pub case: Case,
-    pub run: Run,
-    pub histories: Histories,
+pub(crate) struct Outcome {
+    pub(crate) case: Case,
+    pub(crate) run: Run,
+    pub(crate) histories: Histories,
 }
 
 impl Outcome {
     /// Largest base shear at the foundation–superstructure interface, N/m.
-    pub fn peak_shear(&self) -> f64 {
+    pub(crate) fn peak_shear(&self) -> f64 {
         self.run.probe("base shear").map_or(0.0, |peak| peak.value.abs())
     }
 
     /// Largest displacement of the roof corner relative to the free field's start, m.
-    pub fn peak_roof(&self) -> f64 {
+    pub(crate) fn peak_roof(&self) -> f64 {
         self.run.probe("roof x").map_or(0.0, |peak| peak.value.abs())
     }
 }
 
 /// Builds the scene of `case` and runs it.
-pub fn run(
+pub(crate) fn run(
     case: &Case,
     options: &Options,
     record: &Record,
@@ -158,9 +160,9 @@ fn structure(options: &Options) -> Result<(FemModel, f64, f64), AnyError> {
     )?;
     let mut model = FemModel::on_base(mesh)?;
     if options.damping > 0.0 {
-        let frequencies = [1.0, 10.0].map(|hertz| std::f64::consts::TAU * hertz);
-        model = model
-            .with_damping(RayleighDamping::from_ratios(frequencies, [options.damping; 2])?);
+        let frequencies = [1.0, 10.0];
+        model =
+            model.with_damping(RayleighDamping::from_ratios(frequencies, [options.damping; 2])?);
     }
     Ok((model, layer, layer + height))
 }

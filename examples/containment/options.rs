@@ -7,20 +7,20 @@ use clap::{Parser, ValueEnum};
 
 use super::AnyError;
 
-pub const FOOT: f64 = 0.3048;
-pub const POUND_FORCE_PER_FOOT: f64 = 14.593_902_937_206_364;
-pub const PSF: f64 = 47.880_258_980_335_84;
-pub const SLUG_PER_CUBIC_FOOT: f64 = 515.378_818_393_229_5;
+pub(crate) const FOOT: f64 = 0.3048;
+pub(crate) const POUND_FORCE_PER_FOOT: f64 = 14.593_902_937_206_364;
+pub(crate) const PSF: f64 = 47.880_258_980_335_84;
+pub(crate) const SLUG_PER_CUBIC_FOOT: f64 = 515.378_818_393_229_5;
 
 /// El Centro on a containment that may uplift and slide (Patel & Spyrakos).
 ///
 /// Runs the bonded, the uplift-only and the sliding cases, prints a table, and writes summary.csv,
 /// one CSV of histories per case, and SVG plots.
 #[derive(Debug, Clone, Parser)]
-pub struct Options {
+pub(crate) struct Options {
     /// Folder for the files.
     #[arg(long, default_value = "target/containment")]
-    pub out: PathBuf,
+    pub(crate) out: PathBuf,
     /// Ground acceleration: a text file with time (s) and acceleration columns. El Centro 1940 NS
     /// unless given.
     #[arg(long)]
@@ -36,34 +36,34 @@ pub struct Options {
     duration: Option<f64>,
     /// Friction coefficients of the sliding cases.
     #[arg(long, value_delimiter = ',', default_value = "0.4,0.3,0.2")]
-    pub friction: Vec<f64>,
+    pub(crate) friction: Vec<f64>,
     /// Contact length, ft (reconstructed: the paper's figure is lost).
     #[arg(long = "width", default_value_t = 34.0, value_parser = positive)]
-    pub width_ft: f64,
+    pub(crate) width_ft: f64,
     /// Height, ft (reconstructed).
     #[arg(long = "height", default_value_t = 80.0, value_parser = positive)]
-    pub height_ft: f64,
+    pub(crate) height_ft: f64,
     /// Layers of elements, the lowest of them the basemat.
     #[arg(long, default_value_t = 13, value_parser = clap::value_parser!(u16).range(2..=200))]
-    pub layers: u16,
+    pub(crate) layers: u16,
     /// Elements along the base.
     #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..=400))]
-    pub elements: u16,
+    pub(crate) elements: u16,
     /// How the rectangles are integrated.
     #[arg(long, value_enum, default_value = "full")]
-    pub quadrilateral: Quadrilateral,
+    pub(crate) quadrilateral: Quadrilateral,
     /// Shear wave speed of the soil, ft/s.
     #[arg(long = "shear-speed", default_value_t = 650.0, value_parser = positive)]
-    pub shear_speed_fts: f64,
+    pub(crate) shear_speed_fts: f64,
     /// Pressure wave speed of the soil, ft/s.
     #[arg(long = "pressure-speed", default_value_t = 1300.0, value_parser = positive)]
-    pub pressure_speed_fts: f64,
+    pub(crate) pressure_speed_fts: f64,
     /// Density of the soil, slug/ft³ (not printed in the paper: an assumption).
     #[arg(long = "soil-density", default_value_t = 3.5, value_parser = positive)]
-    pub soil_density: f64,
-    /// Damping ratio of the structure at its first two elastic modes' range (1 and 10 Hz).
+    pub(crate) soil_density: f64,
+    /// Damping ratio of the structure at 1 and 10 Hz (Rayleigh).
     #[arg(long, default_value_t = 0.0)]
-    pub damping: f64,
+    pub(crate) damping: f64,
     /// Time step, ms; half an element's length over the pressure wave speed unless given.
     #[arg(long = "time-step", value_parser = positive)]
     time_step_ms: Option<f64>,
@@ -90,7 +90,7 @@ enum Treatment {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-pub enum Quadrilateral {
+pub(crate) enum Quadrilateral {
     /// Two by two Gauss points.
     Full,
     /// With incompatible modes, good in bending.
@@ -99,7 +99,7 @@ pub enum Quadrilateral {
 
 impl Options {
     /// The record, in m/s².
-    pub fn record(&self) -> Result<Record, AnyError> {
+    pub(crate) fn record(&self) -> Result<Record, AnyError> {
         let record = match &self.record {
             None => el_centro_1940(),
             Some(path) => {
@@ -119,12 +119,12 @@ impl Options {
     }
 
     /// Length of a contact element, ft.
-    pub fn element_ft(&self) -> f64 {
+    pub(crate) fn element_ft(&self) -> f64 {
         self.width_ft / f64::from(self.elements)
     }
 
     /// The paper's step: a P wave crosses half an element.
-    pub fn time_step_s(&self) -> f64 {
+    pub(crate) fn time_step_s(&self) -> f64 {
         match self.time_step_ms {
             Some(ms) => 1e-3 * ms,
             None => 0.5 * self.element_ft() / self.pressure_speed_fts,
@@ -132,9 +132,11 @@ impl Options {
     }
 
     /// Steps of a run.
-    pub fn steps(&self, record: &Record) -> usize {
+    pub(crate) fn steps(&self, record: &Record) -> usize {
         let duration = self.duration.unwrap_or_else(|| record.duration());
-        (duration / self.time_step_s()).round().max(1.0) as usize
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above zero")]
+        let steps = (duration / self.time_step_s()).round().max(1.0) as usize;
+        steps
     }
 }
 

@@ -22,7 +22,7 @@ const COLORS: [RGBColor; 6] = [
 ];
 
 /// Draws everything into `folder`.
-pub fn draw_all(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
+pub(crate) fn draw_all(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
     curves(
         &folder.join("roof_horizontal.svg"),
         "Horizontal motion at A, a roof corner",
@@ -183,7 +183,9 @@ fn mode_map(path: &Path, outcome: &Outcome) -> Result<(), AnyError> {
         chart
             .draw_series(std::iter::once(Rectangle::new([(0.0, 0.0); 2], color(mode).filled())))?
             .label(name)
-            .legend(move |(x, y)| Rectangle::new([(x, y - 6), (x + 24, y + 6)], color(mode).filled()));
+            .legend(move |(x, y)| {
+                Rectangle::new([(x, y - 6), (x + 24, y + 6)], color(mode).filled())
+            });
     }
     chart
         .configure_series_labels()

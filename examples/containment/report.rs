@@ -11,20 +11,29 @@ fn paper_shear(kind: Kind) -> Option<f64> {
     match kind {
         Kind::Bonded => Some(28_970.0),
         Kind::Coulomb(f64::INFINITY) => Some(20_130.0),
-        Kind::Coulomb(f) if f == 0.4 => Some(10_233.0),
-        Kind::Coulomb(f) if f == 0.3 => Some(6_415.0),
-        Kind::Coulomb(f) if f == 0.2 => Some(5_958.0),
+        Kind::Coulomb(0.4) => Some(10_233.0),
+        Kind::Coulomb(0.3) => Some(6_415.0),
+        Kind::Coulomb(0.2) => Some(5_958.0),
         Kind::Coulomb(_) => None,
     }
 }
 
 /// Prints the table of all cases beside the paper's ratios.
-pub fn print_table(results: &[Outcome]) {
+pub(crate) fn print_table(results: &[Outcome]) {
     let bonded = results.first().map_or(1.0, Outcome::peak_shear);
     println!(
         "\n{:<14}{:>22}{:>12}{:>16}{:>9}{:>10}{:>10}{:>10}{:>10}{:>9}{:>9}",
-        "", "shear at foundation", "under base", "ratio  (paper)", "uplift", "slip", "residual",
-        "roof", "ledger", "run", "step"
+        "",
+        "shear at foundation",
+        "under base",
+        "ratio  (paper)",
+        "uplift",
+        "slip",
+        "residual",
+        "roof",
+        "ledger",
+        "run",
+        "step"
     );
     println!(
         "{:<14}{:>11}{:>11}{:>12}{:>7}{:>9}{:>9}{:>10}{:>10}{:>10}{:>10}{:>9}{:>9}",
@@ -59,7 +68,7 @@ pub fn print_table(results: &[Outcome]) {
 }
 
 /// Writes `summary.csv`, a row per case.
-pub fn write_summary(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
+pub(crate) fn write_summary(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
     let bonded = results.first().map_or(1.0, Outcome::peak_shear);
     let mut writer = csv::Writer::from_path(folder.join("summary.csv"))?;
     writer.write_record([
@@ -102,12 +111,12 @@ pub fn write_summary(folder: &Path, results: &[Outcome]) -> Result<(), AnyError>
 }
 
 /// File name of a case.
-pub fn file_stem(name: &str) -> String {
+pub(crate) fn file_stem(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect()
 }
 
 /// Writes one CSV of histories per case.
-pub fn write_histories(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
+pub(crate) fn write_histories(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
     for outcome in results {
         let kept = &outcome.histories;
         let path = folder.join(format!("{}.csv", file_stem(&outcome.case.name)));

@@ -9,15 +9,15 @@
 
 mod half_plane;
 mod influence;
-pub(crate) mod static_kernel;
 mod patch;
 mod spring;
+pub(crate) mod static_kernel;
 mod strip;
 
 pub use half_plane::HalfPlaneGround;
 pub use influence::InfluenceKernel;
-pub use patch::{Pair, PatchKernel};
 pub(crate) use patch::check_order;
+pub use patch::{Pair, PatchKernel};
 pub use spring::SpringGround;
 pub use strip::{Grading, Strip};
 

@@ -49,6 +49,7 @@ impl PatchKernel {
             for (q, source) in elements.iter().enumerate() {
                 let (left, right) = if p < q { (receiver, source) } else { (source, receiver) };
                 // Rounding of the nodes must not split a class: 1e-12 of the patch is nothing.
+                #[allow(clippy::cast_possible_truncation, reason = "at most 1e12")]
                 let key = |length: f64| (length / span * 1e12).round() as i64;
                 let (a, b) = (key(left.length()), key(right.length()));
                 let distance = key(right.center() - left.center());

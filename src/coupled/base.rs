@@ -158,8 +158,7 @@ mod tests {
 
     #[test]
     fn matching_meshes_give_halves() {
-        let nodes: Vec<_> =
-            (0..4).map(|k| ContactNode::free(f64::from(k as u32), 2 * k, 2 * k + 1)).collect();
+        let nodes: Vec<_> = (0..4).map(|k| ContactNode::free(k as f64, 2 * k, 2 * k + 1)).collect();
         let elements: Vec<_> = (0..3)
             .map(|k| ContactElement { left: f64::from(k), right: f64::from(k + 1) })
             .collect();

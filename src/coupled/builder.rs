@@ -161,7 +161,11 @@ impl SimulationBuilder {
             for &(index, weight) in probe.rows().into_iter().flatten() {
                 finite("weight of a probe", weight)?;
                 if index >= unknowns {
-                    return Err(Error::Index { quantity: "unknown of a probe", index, bound: unknowns });
+                    return Err(Error::Index {
+                        quantity: "unknown of a probe",
+                        index,
+                        bound: unknowns,
+                    });
                 }
             }
         }

@@ -52,7 +52,11 @@ impl fmt::Display for Ledger {
         writeln!(f, "energy, J/m:  input {:.4e}", self.input)?;
         writeln!(f, "  kinetic     {:>12.4e}    strain      {:>12.4e}", self.kinetic, self.strain)?;
         writeln!(f, "  soil        {:>12.4e}    contact     {:>12.4e}", self.soil, self.contact)?;
-        writeln!(f, "  damping     {:>12.4e}    numerical   {:>12.4e}", self.damping, self.numerical)?;
+        writeln!(
+            f,
+            "  damping     {:>12.4e}    numerical   {:>12.4e}",
+            self.damping, self.numerical
+        )?;
         write!(f, "  preload     {:>12.4e}    residual    {:>12.1e}", self.preload, self.residual())
     }
 }

@@ -68,7 +68,12 @@ impl ModeSearch {
     }
 
     /// Next modes of all elements; whether all agree with `modes`.
-    fn ask_laws(&mut self, solver: &ContactSolver, input: &ContactInput<'_>, modes: &[Mode]) -> bool {
+    fn ask_laws(
+        &mut self,
+        solver: &ContactSolver,
+        input: &ContactInput<'_>,
+        modes: &[Mode],
+    ) -> bool {
         let tolerance = solver.tolerance(input);
         let mut settled = true;
         for (e, &mode) in modes.iter().enumerate() {

@@ -125,10 +125,9 @@ pub(crate) fn solve(
             laws,
             length_scale: largest(&free_jump),
         };
-        search.solve(&mut solver, &input, &mut state.modes).map_err(|_| Error::Preload {
-            iterations: ITERATIONS,
-            residual: change,
-        })?;
+        search
+            .solve(&mut solver, &input, &mut state.modes)
+            .map_err(|_| Error::Preload { iterations: ITERATIONS, residual: change })?;
         for (i, traction) in solver.traction.iter().enumerate() {
             let column = &current.columns[i * n..(i + 1) * n];
             for (d, c) in displacement.iter_mut().zip(column) {

@@ -79,7 +79,10 @@ impl fmt::Display for Warning {
                  contact is paired for small displacements"
             ),
             Self::LargeRotation { rotation } => {
-                write!(f, "base rotation of {rotation:.3e} rad: geometry is that of small rotations")
+                write!(
+                    f,
+                    "base rotation of {rotation:.3e} rad: geometry is that of small rotations"
+                )
             }
             Self::Ledger { residual } => write!(f, "energy ledger open by {residual:.1e}"),
         }

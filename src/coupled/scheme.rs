@@ -100,7 +100,12 @@ impl SchemeCoefficients {
     }
 
     /// Σ coefficientsₖ (Δu, v₀, a₀)ₖ.
-    pub(crate) fn apply(coefficients: [f64; 3], increment: f64, velocity: f64, acceleration: f64) -> f64 {
+    pub(crate) fn apply(
+        coefficients: [f64; 3],
+        increment: f64,
+        velocity: f64,
+        acceleration: f64,
+    ) -> f64 {
         coefficients[0] * increment + coefficients[1] * velocity + coefficients[2] * acceleration
     }
 }

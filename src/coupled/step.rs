@@ -45,7 +45,7 @@ impl Simulation {
         if !finite {
             return Err(failed(StepError::NotFinite { quantity: "displacement of the structure" }));
         }
-        self.commit(step, time, ride);
+        self.commit(step, time, &ride);
         self.state.trials = trials;
         self.state.method = method;
         Ok(&self.state)
@@ -246,7 +246,7 @@ impl Simulation {
     }
 
     /// Accepts the step: books it, then moves state, soil and structure to its end.
-    fn commit(&mut self, step: usize, time: f64, ride: Ride) {
+    fn commit(&mut self, step: usize, time: f64, ride: &Ride) {
         let c = self.coefficients;
         for i in 0..self.model.unknowns {
             let (du, v, a) =
@@ -254,7 +254,7 @@ impl Simulation {
             self.work.new_velocity[i] = SchemeCoefficients::apply(c.new_velocity, du, v, a);
             self.work.new_acceleration[i] = SchemeCoefficients::apply(c.new_acceleration, du, v, a);
         }
-        self.book(&ride);
+        self.book(ride);
         let state = &mut self.state;
         for (u, du) in state.displacement.iter_mut().zip(&self.work.increment) {
             *u += du;
@@ -313,9 +313,8 @@ impl Simulation {
             }
             work.total.fill(0.0);
             model.damping.multiply_add(1.0, &work.vector, &mut work.total);
-            let dragged =
-                ride.increment[0] * dot(&work.total, horizontal)
-                    + ride.increment[1] * dot(&work.total, vertical);
+            let dragged = ride.increment[0] * dot(&work.total, horizontal)
+                + ride.increment[1] * dot(&work.total, vertical);
             ledger.damping += dot(&work.total, du) - dragged;
             ledger.input -= dragged;
         }
@@ -359,7 +358,8 @@ impl Simulation {
             let jump = gap + work.free_field[i] + work.soil_displacement[i] - work.means[i];
             let opening = jump - memory.jump[i];
             memory.jump[i] = jump;
-            ledger.soil += area * change * (work.soil_displacement[i] - memory.soil_displacement[i]);
+            ledger.soil +=
+                area * change * (work.soil_displacement[i] - memory.soil_displacement[i]);
             ledger.contact -= area * (at_rest + change) * opening;
             ledger.preload += area * at_rest * opening;
             ledger.input -= area * change * (work.free_field[i] - memory.free_field[i]);
