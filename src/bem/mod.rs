@@ -7,6 +7,14 @@
 //! tangential ones (traction τ on the soil and displacement, positive to the right). They are
 //! means over the elements, from left to right.
 
+mod branch;
+mod influence;
+mod overlap;
+mod static_kernel;
+
+pub use influence::{Influence, InfluenceKernel, PairInfluence};
+pub use static_kernel::StaticKernel;
+
 use crate::error::Result;
 use crate::motion::FreeField;
 
