@@ -4,8 +4,8 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::patch::check_order;
-use super::{ContactElement, Grading, Ground, PatchKernel, Strip, static_kernel};
-use crate::error::{Error, Result};
+use super::{ContactElement, Grading, Ground, PatchKernel, StaticKernel, Strip};
+use crate::error::{Error, Result, same_length};
 use crate::history::{ConvolutionHistory, DirectHistory};
 use crate::soil::Soil;
 
@@ -21,7 +21,7 @@ use crate::soil::Soil;
 /// let mut ground = HalfPlaneGround::strip(soil, -5.0..5.0, 20)?;
 /// ground.prepare(1.0e-4)?;
 /// let mut matrix = vec![0.0; 40 * 40];
-/// ground.instantaneous(&mut matrix);
+/// ground.instantaneous(&mut matrix)?;
 /// // Before waves reach the edges, a pressure moves the surface by p·t/(ρ c₁); a step of 0.1 ms
 /// // leaves all but the outer few percent of a half-metre element in that state.
 /// let plane_wave = 1.0e-4 / (1900.0 * soil.pressure_wave_speed());
@@ -31,7 +31,14 @@ use crate::soil::Soil;
 pub struct HalfPlaneGround {
     soil: Soil,
     elements: Vec<ContactElement>,
-    prepared: Option<(Arc<PatchKernel>, Box<dyn ConvolutionHistory>)>,
+    statics: StaticKernel,
+    prepared: Option<Prepared>,
+}
+
+/// What a time step brings with it.
+struct Prepared {
+    kernel: Arc<PatchKernel>,
+    history: Box<dyn ConvolutionHistory>,
 }
 
 impl HalfPlaneGround {
@@ -58,7 +65,11 @@ impl HalfPlaneGround {
     pub fn new(soil: Soil, strips: &[Strip]) -> Result<Self> {
         let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
         check_order(&elements)?;
-        Ok(Self { soil, elements, prepared: None })
+        // The logarithm needs a length that fixes the datum; one well above the patch keeps the
+        // static matrix positive definite, and the settlement it stands for cancels in all results.
+        let span = elements[elements.len() - 1].right - elements[0].left;
+        let statics = StaticKernel::new(&soil, 10.0 * span)?;
+        Ok(Self { soil, elements, statics, prepared: None })
     }
 
     /// The soil.
@@ -75,45 +86,43 @@ impl Ground for HalfPlaneGround {
     fn prepare(&mut self, time_step: f64) -> Result<()> {
         let kernel = Arc::new(PatchKernel::new(self.soil, self.elements.clone(), time_step)?);
         let history = DirectHistory::new(Arc::clone(&kernel));
-        self.prepared = Some((kernel, Box::new(history)));
+        self.prepared = Some(Prepared { kernel, history: Box::new(history) });
         Ok(())
     }
 
     fn reserve(&mut self, steps: usize) -> Result<()> {
         match &mut self.prepared {
-            Some((_, history)) => history.reserve(steps),
+            Some(prepared) => prepared.history.reserve(steps),
             None => Err(NOT_PREPARED),
         }
     }
 
-    fn instantaneous(&self, matrix: &mut [f64]) {
+    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
         match &self.prepared {
-            Some((kernel, _)) => kernel.instantaneous(matrix),
-            None => matrix.fill(f64::NAN),
+            Some(prepared) => prepared.kernel.instantaneous(matrix),
+            None => Err(NOT_PREPARED),
         }
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
         match &mut self.prepared {
-            Some((_, history)) => history.evaluate(displacement),
+            Some(prepared) => prepared.history.evaluate(displacement),
             None => Err(NOT_PREPARED),
         }
     }
 
     fn commit(&mut self, traction: &[f64]) {
-        if let Some((_, history)) = &mut self.prepared {
-            history.push(traction);
+        if let Some(prepared) = &mut self.prepared {
+            prepared.history.push(traction);
         }
     }
 
-    fn static_compliance(&self, matrix: &mut [f64]) {
-        // The logarithm needs a length that fixes the datum; one well above the patch keeps the
-        // matrix positive definite, and the settlement it stands for cancels in all results.
+    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let count = self.elements.len();
-        let span = self.elements[count - 1].right - self.elements[0].left;
+        same_length("static compliance", matrix.len(), 4 * count * count)?;
         for (p, receiver) in self.elements.iter().enumerate() {
             for (q, source) in self.elements.iter().enumerate() {
-                let mean = static_kernel::mean(&self.soil, *source, *receiver, 10.0 * span);
+                let mean = self.statics.coefficients(*receiver, *source)?;
                 let mut set = |row: usize, column: usize, value: f64| {
                     matrix[row * 2 * count + column] = value;
                 };
@@ -123,6 +132,7 @@ impl Ground for HalfPlaneGround {
                 set(count + p, q, -mean.zx);
             }
         }
+        Ok(())
     }
 }
 

@@ -7,18 +7,21 @@
 //! tangential ones (traction τ on the soil and displacement, positive to the right). They are
 //! means over the elements, from left to right.
 
+mod branch;
 mod half_plane;
 mod influence;
+mod overlap;
 mod patch;
 mod spring;
-pub(crate) mod static_kernel;
+mod static_kernel;
 mod strip;
 
 pub use half_plane::HalfPlaneGround;
-pub use influence::InfluenceKernel;
+pub use influence::{Influence, InfluenceKernel, PairInfluence};
 pub(crate) use patch::check_order;
 pub use patch::{Pair, PatchKernel};
 pub use spring::SpringGround;
+pub use static_kernel::StaticKernel;
 pub use strip::{Grading, Strip};
 
 use crate::error::Result;
@@ -70,8 +73,11 @@ pub trait Ground: Send {
     }
 
     /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the displacement at the end of a step
-    /// due to unit tractions during it.
-    fn instantaneous(&self, matrix: &mut [f64]);
+    /// due to unit tractions during it. Symmetric when rows are weighted by element lengths.
+    ///
+    /// # Errors
+    /// If the ground is not prepared or the slice has the wrong length.
+    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()>;
 
     /// Overwrites `displacement` (2Q, m) with what all committed tractions give at the end of the
     /// next step.
@@ -85,7 +91,10 @@ pub trait Ground: Send {
 
     /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the static displacement due to unit
     /// tractions, up to a rigid settlement. Symmetric when rows are weighted by element lengths.
-    fn static_compliance(&self, matrix: &mut [f64]);
+    ///
+    /// # Errors
+    /// If the slice has the wrong length.
+    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
 
     /// Overwrites `displacement` (2Q, m; normal components **down**) with the motion of the soil
     /// without structure at `time`. The default samples `motion` at the element midpoints.

@@ -40,7 +40,7 @@ impl PatchKernel {
     /// [`Error::Size`] for none.
     pub fn new(soil: Soil, elements: Vec<ContactElement>, time_step: f64) -> Result<Self> {
         check_order(&elements)?;
-        let kernel = InfluenceKernel::new(soil, time_step)?;
+        let kernel = InfluenceKernel::new(&soil, time_step)?;
         let span = elements[elements.len() - 1].right - elements[0].left;
         let mut numbers = HashMap::new();
         let mut classes = Vec::new();
@@ -86,6 +86,10 @@ impl PatchKernel {
     /// Overwrites the slices (of one length) with the coefficients of `class` for the lags from
     /// `first_lag` (≥ 1) on, m²/Pa: vertical due to vertical, horizontal due to horizontal, and
     /// vertical (down) due to horizontal with the receiver on the right.
+    ///
+    /// # Errors
+    /// [`Error::Index`] for a class that does not exist, [`Error::Size`] for slices of different
+    /// lengths, [`Error::Input`] for lag 0.
     pub fn coefficients(
         &self,
         class: usize,
@@ -93,33 +97,49 @@ impl PatchKernel {
         normal: &mut [f64],
         tangential: &mut [f64],
         coupling: &mut [f64],
-    ) {
-        let (source, receiver) = self.classes[class];
-        self.kernel.fill(source, receiver, first_lag, normal, tangential, coupling);
+    ) -> Result<()> {
+        let (source, receiver) = self.class(class)?;
+        self.kernel.pair(receiver, source)?.fill(first_lag, normal, tangential, coupling)?;
         let length = receiver.length();
         for values in [normal, tangential, coupling] {
             for value in values {
                 *value *= length;
             }
         }
+        Ok(())
     }
 
-    /// Last lag at which the coupling of `class` is not zero.
-    pub fn last_coupling_lag(&self, class: usize) -> usize {
-        let (source, receiver) = self.classes[class];
-        self.kernel.last_coupling_lag(source, receiver)
+    /// Last lag at which the coupling of `class` is not zero; 0 if it always is.
+    ///
+    /// # Errors
+    /// [`Error::Index`] for a class that does not exist.
+    pub fn last_coupling_lag(&self, class: usize) -> Result<usize> {
+        let (source, receiver) = self.class(class)?;
+        Ok(self.kernel.pair(receiver, source)?.coupling_ends() - 1)
+    }
+
+    fn class(&self, class: usize) -> Result<(ContactElement, ContactElement)> {
+        self.classes.get(class).copied().ok_or(Error::Index {
+            quantity: "class of element pairs",
+            index: class,
+            bound: self.classes.len(),
+        })
     }
 
     /// Overwrites `matrix` (2Q × 2Q, row-major) with the coefficients of lag 1.
-    pub fn instantaneous(&self, matrix: &mut [f64]) {
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a slice of the wrong length.
+    pub fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
         let count = self.elements.len();
-        let first: Vec<[f64; 3]> = (0..self.classes())
+        crate::error::same_length("instantaneous operator", matrix.len(), 4 * count * count)?;
+        let first = (0..self.classes())
             .map(|class| {
                 let [mut zz, mut xx, mut zx] = [[0.0]; 3];
-                self.coefficients(class, 1, &mut zz, &mut xx, &mut zx);
-                [zz[0], xx[0], zx[0]]
+                self.coefficients(class, 1, &mut zz, &mut xx, &mut zx)?;
+                Ok([zz[0], xx[0], zx[0]])
             })
-            .collect();
+            .collect::<Result<Vec<_>>>()?;
         for p in 0..count {
             for q in 0..count {
                 let pair = self.pair(p, q);
@@ -133,6 +153,7 @@ impl PatchKernel {
                 set(count + p, q, -pair.sign * zx);
             }
         }
+        Ok(())
     }
 }
 

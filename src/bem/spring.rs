@@ -1,7 +1,7 @@
 //! Winkler's spring bed: a ground without memory.
 
 use super::{ContactElement, Ground};
-use crate::error::{Error, Result, not_negative, positive};
+use crate::error::{Error, Result, not_negative, positive, same_length};
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
@@ -14,7 +14,7 @@ use crate::error::{Error, Result, not_negative, positive};
 /// let mut bed = SpringGround::new(-2.0..2.0, 4, 20.0e6, 10.0e6)?.with_dashpots(4.0e5, 0.0)?;
 /// bed.prepare(1.0e-3)?;
 /// let mut matrix = vec![0.0; 64];
-/// bed.instantaneous(&mut matrix);
+/// bed.instantaneous(&mut matrix)?;
 /// assert!((matrix[0] - 1.0 / (0.5 * 20.0e6 + 4.0e5 / 1.0e-3)).abs() < 1e-18);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -83,6 +83,16 @@ impl SpringGround {
         self.theta * self.stiffness[component] + self.dashpot[component] / self.time_step
     }
 
+    fn fill_diagonal(&self, matrix: &mut [f64], value: impl Fn(usize) -> f64) -> Result<()> {
+        let size = 2 * self.elements.len();
+        same_length("matrix of the spring bed", matrix.len(), size * size)?;
+        matrix.fill(0.0);
+        for i in 0..size {
+            matrix[i * size + i] = value(self.component(i));
+        }
+        Ok(())
+    }
+
     fn component(&self, index: usize) -> usize {
         usize::from(index >= self.elements.len())
     }
@@ -99,12 +109,8 @@ impl Ground for SpringGround {
         Ok(())
     }
 
-    fn instantaneous(&self, matrix: &mut [f64]) {
-        matrix.fill(0.0);
-        let size = 2 * self.elements.len();
-        for i in 0..size {
-            matrix[i * size + i] = 1.0 / self.impedance(self.component(i));
-        }
+    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+        self.fill_diagonal(matrix, |component| 1.0 / self.impedance(component))
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
@@ -125,12 +131,8 @@ impl Ground for SpringGround {
         }
     }
 
-    fn static_compliance(&self, matrix: &mut [f64]) {
-        matrix.fill(0.0);
-        let size = 2 * self.elements.len();
-        for i in 0..size {
-            matrix[i * size + i] = 1.0 / self.stiffness[self.component(i)];
-        }
+    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        self.fill_diagonal(matrix, |component| 1.0 / self.stiffness[component])
     }
 }
 
@@ -156,7 +158,7 @@ mod tests {
         }
         bed.history(&mut s).unwrap();
         let mut matrix = [0.0; 4];
-        bed.instantaneous(&mut matrix);
+        bed.instantaneous(&mut matrix).unwrap();
         assert!((s[0] + matrix[0] * 200.0 - 2.0).abs() < 1e-12);
         assert!((s[1] + matrix[3] * -50.0 + 1.0).abs() < 1e-12);
     }

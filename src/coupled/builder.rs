@@ -190,7 +190,7 @@ impl SimulationBuilder {
 
         let coefficients = self.scheme.coefficients(time_step);
         let mut soil = vec![0.0; 4 * count * count];
-        ground.instantaneous(&mut soil);
+        ground.instantaneous(&mut soil)?;
         if let Some(bad) = soil.iter().find(|g| !g.is_finite()) {
             finite("instantaneous operator of the ground", *bad)?;
         }

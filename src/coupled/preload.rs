@@ -67,7 +67,7 @@ pub(crate) fn solve(
         Placement::WithInterfaceLaw => laws,
     };
     let mut soil = vec![0.0; size * size];
-    ground.static_compliance(&mut soil);
+    ground.static_compliance(&mut soil)?;
     let epsilon = PROXIMAL_SHARE * vertical_stiffness(&soil, base)
         / model.mass.form(&model.ride[1], &model.ride[1]).max(f64::MIN_POSITIVE);
 

@@ -4,6 +4,13 @@
 //! tractions at an offset from it. Components are (x, z) with **z down**; index 0 is x, 1 is z,
 //! and `u[i][j]` is component i due to a load in direction j.
 
+pub(crate) mod complex;
+pub(crate) mod gauss;
+pub(crate) mod laurent;
+pub(crate) mod rayleigh;
+
+pub use rayleigh::Rayleigh;
+
 use crate::error::Result;
 use crate::soil::Soil;
 

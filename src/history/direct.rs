@@ -43,14 +43,14 @@ impl DirectHistory {
     }
 
     /// Makes lags up to `lags` available.
-    fn grow(&mut self, lags: usize) {
+    fn grow(&mut self, lags: usize) -> Result<()> {
         let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
         let (mut zz, mut xx, mut zx) = (vec![0.0; new - old], vec![0.0; new - old], vec![]);
         for class in 0..self.kernel.classes() {
-            let last = self.kernel.last_coupling_lag(class).min(new);
+            let last = self.kernel.last_coupling_lag(class)?.min(new);
             zx.clear();
             zx.resize(new - old, 0.0);
-            self.kernel.coefficients(class, old + 1, &mut zz, &mut xx, &mut zx);
+            self.kernel.coefficients(class, old + 1, &mut zz, &mut xx, &mut zx)?;
             prepend_reversed(&mut self.normal[class], &zz);
             prepend_reversed(&mut self.tangential[class], &xx);
             // The coupling vanishes behind the Rayleigh wave: only its beginning is kept.
@@ -60,6 +60,7 @@ impl DirectHistory {
             }
         }
         self.capacity = new;
+        Ok(())
     }
 }
 
@@ -78,7 +79,7 @@ impl ConvolutionHistory for DirectHistory {
 
     fn reserve(&mut self, steps: usize) -> Result<()> {
         if steps + 1 > self.capacity {
-            self.grow(steps + 1);
+            self.grow(steps + 1)?;
         }
         for component in &mut self.traction {
             component.reserve(steps.saturating_sub(component.len()));
@@ -93,7 +94,7 @@ impl ConvolutionHistory for DirectHistory {
             return Ok(());
         }
         if past + 1 > self.capacity {
-            self.grow(past + 1);
+            self.grow(past + 1)?;
         }
         let count = self.kernel.elements().len();
         let (down, along) = displacement.split_at_mut(count);

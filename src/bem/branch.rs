@@ -1,0 +1,289 @@
+//! Quadrature of the half-plane surface kernel against a polynomial in the slowness.
+//!
+//! The kernel is a sum of branches, each a square root times a rational function whose poles are
+//! the roots of the Rayleigh polynomial. On each branch a variable s removes the square root, and
+//! pieces are subdivided until the nearest singularity is far enough for a Gauss rule. The poles
+//! that may come arbitrarily close to the path are subtracted and integrated in closed form: the
+//! Rayleigh root, which lies on it (principal value), and for small Poisson's ratios the root near
+//! the pressure wave, which lies beside it.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | τ, u | `c_S` t/x and 1/τ |
+//! | z | τ² − a² |
+//! | s | √(τ²−a²), √(τ²−1), √(1−τ²), or u in the tail |
+
+use crate::bem::overlap::Covered;
+use crate::fundamental::complex::Complex;
+use crate::fundamental::{gauss, rayleigh::Rayleigh};
+
+/// One branch of the kernel, in its own variable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Part {
+    /// zz and xx behind the pressure wave: s = √(τ²−a²).
+    Pressure,
+    /// zz and xx behind the shear wave: s = √(τ²−1).
+    Shear,
+    /// zx near the pressure wave: s = √(τ²−a²).
+    OddLow,
+    /// zx near the shear wave: s = √(1−τ²).
+    OddHigh,
+    /// zz and xx behind the Rayleigh wave, both branches: s = u.
+    Tail,
+}
+
+/// Branches of the kernel of one soil: where they end and where they are singular.
+#[derive(Debug, Clone)]
+pub(crate) struct Branches {
+    pub(crate) rayleigh: Rayleigh,
+    /// a.
+    pub(crate) first: f64,
+    /// τ between `OddLow` and `OddHigh`.
+    pub(crate) middle: f64,
+    /// τ where the tail begins.
+    pub(crate) tail: f64,
+    /// `c_S`/`c_R`.
+    pub(crate) arrival: f64,
+    /// Strength of the Rayleigh pulse of zx.
+    pub(crate) pulse: f64,
+    /// a² − y for the root near the pressure wave, when it is subtracted.
+    near: Option<f64>,
+    /// Singularities that only ask for subdivision, for each part.
+    regular: [[[f64; 2]; 4]; 5],
+    /// The Rayleigh pole in the variables of `Pressure` and `Shear`.
+    pole: [f64; 2],
+}
+
+/// A root nearer than this to a² is subtracted.
+const NEAR: f64 = 0.01;
+
+/// A pole within this reach of a piece is subtracted.
+const SUBTRACT: f64 = 3.0;
+
+impl Branches {
+    pub(crate) fn new(rayleigh: Rayleigh) -> Self {
+        let r = rayleigh;
+        let first = r.a2.sqrt();
+        let arrival = r.arrival();
+        let discriminant = r.discriminant();
+        let (one, two) = r.shifted_roots(discriminant, 0.0);
+        let near = (discriminant > 0.0 && -one.re < NEAR).then_some(-one.re);
+        let at = |z: Complex| {
+            let s = z.sqrt();
+            [s.re, s.im]
+        };
+        let shifted =
+            |z: Complex, sign: f64, offset: f64| at(z.scale(sign) + Complex::real(offset));
+        let one_pressure = if near.is_some() { at(two) } else { at(one) };
+        let (zp, zs, h) = (r.z.sqrt(), r.excess.sqrt(), r.h);
+        let regular = [
+            [[0.0, first], one_pressure, at(two), [-zp, 0.0]],
+            [[0.0, 1.0], shifted(one, 1.0, -h), shifted(two, 1.0, -h), [-zs, 0.0]],
+            [[0.0, first], one_pressure, at(two), [h.sqrt(), 0.0]],
+            [[0.0, zs], shifted(one, -1.0, h), shifted(two, -1.0, h), [h.sqrt(), 0.0]],
+            [[1.0 / arrival, 0.0]; 4],
+        ];
+        Self {
+            rayleigh,
+            first,
+            middle: (r.a2 + 0.5 * h).sqrt(),
+            tail: 1.6 * arrival,
+            arrival,
+            pulse: r.pulse(),
+            near,
+            regular,
+            pole: [zp, zs],
+        }
+    }
+
+    /// Interval of τ that belongs to a part.
+    fn range(&self, part: Part) -> [f64; 2] {
+        match part {
+            Part::Pressure => [self.first, self.tail],
+            Part::Shear => [1.0, self.tail],
+            Part::OddLow => [self.first, self.middle],
+            Part::OddHigh => [self.middle, 1.0],
+            Part::Tail => [self.tail, f64::INFINITY],
+        }
+    }
+
+    /// The variable s of a part at τ.
+    fn variable(&self, part: Part, tau: f64) -> f64 {
+        match part {
+            Part::Pressure | Part::OddLow => {
+                ((tau - self.first).max(0.0) * (tau + self.first)).sqrt()
+            }
+            Part::Shear => ((tau - 1.0).max(0.0) * (tau + 1.0)).sqrt(),
+            Part::OddHigh => ((1.0 - tau).max(0.0) * (1.0 + tau)).sqrt(),
+            Part::Tail => 1.0 / tau,
+        }
+    }
+
+    /// Adds ∫ f(τ) A(1/τ) dτ over `from` < τ < `to` (the part of it inside this branch) to `sum`:
+    /// zz and xx, or zx first.
+    pub(crate) fn add(&self, part: Part, from: f64, to: f64, a: &Covered, sum: &mut [f64; 2]) {
+        let [begin, end] = self.range(part);
+        let (from, to) = (from.max(begin), to.min(end));
+        if from >= to {
+            return;
+        }
+        let (one, two) = (self.variable(part, from), self.variable(part, to));
+        self.piece(part, [one.min(two), one.max(two)], a, sum, 0);
+    }
+
+    fn piece(
+        &self,
+        part: Part,
+        [low, high]: [f64; 2],
+        a: &Covered,
+        sum: &mut [f64; 2],
+        depth: u32,
+    ) {
+        if high <= low {
+            return;
+        }
+        let pole = match part {
+            Part::Pressure => Some(self.pole[0]),
+            Part::Shear => Some(self.pole[1]),
+            _ => None,
+        };
+        // No node may come near the pole: end the piece there.
+        if let Some(s) = pole {
+            if s > low && s < high {
+                self.piece(part, [low, s], a, sum, depth);
+                self.piece(part, [s, high], a, sum, depth);
+                return;
+            }
+        }
+        let mut reach = f64::INFINITY;
+        for &point in &self.regular[part as usize] {
+            reach = reach.min(gauss::reach(point, low, high));
+        }
+        if part == Part::Tail && !a.same {
+            reach = reach.min(gauss::reach([0.0, 0.0], low, high));
+        }
+        let mut subtract_pole = None;
+        if let Some(s) = pole {
+            let distance = gauss::reach([s, 0.0], low, high);
+            if distance < SUBTRACT {
+                subtract_pole = Some(s);
+            } else {
+                reach = reach.min(distance);
+            }
+        }
+        let mut subtract_near = None;
+        if let (Some(c), Part::Pressure | Part::OddLow) = (self.near, part) {
+            let distance = gauss::reach([0.0, c.sqrt()], low, high);
+            if distance < SUBTRACT {
+                subtract_near = Some(c);
+            } else {
+                reach = reach.min(distance);
+            }
+        }
+        let rule = match gauss::rule_for(reach) {
+            Some(rule) => rule,
+            None if depth < 60 => {
+                let middle = 0.5 * (low + high);
+                self.piece(part, [low, middle], a, sum, depth + 1);
+                self.piece(part, [middle, high], a, sum, depth + 1);
+                return;
+            }
+            None => gauss::largest(),
+        };
+        let residue = subtract_pole.map(|s| {
+            let [one, two, u] = self.smooth(part, s, pole);
+            let weight = a.at(u);
+            [one * weight, two * weight]
+        });
+        let side = subtract_near.map(|c| self.beside(part, c, a));
+        let (center, half) = (0.5 * (low + high), 0.5 * (high - low));
+        for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
+            let s = center + half * node;
+            let weight = weight * half;
+            let [one, two, u] = self.smooth(part, s, pole);
+            let covered = if part == Part::Tail { a.over(u) } else { a.at(u) };
+            let mut value = [one * covered, two * covered];
+            if let Some(residue) = residue {
+                value[0] -= residue[0];
+                value[1] -= residue[1];
+            }
+            if let Some(pole) = pole {
+                let inverse = 1.0 / (s - pole);
+                value[0] *= inverse;
+                value[1] *= inverse;
+            }
+            if let (Some(side), Some(c)) = (side, subtract_near) {
+                let factor = if c == 0.0 { 0.0 } else { c / (s * s + c) };
+                value[0] += factor * side[0];
+                value[1] += factor * side[1];
+            }
+            sum[0] += weight * value[0];
+            sum[1] += weight * value[1];
+        }
+        if let (Some(residue), Some(s)) = (residue, pole) {
+            // The floor stands for the pole at the end of a piece: the next piece cancels it.
+            let log = ((high - s).abs().max(1e-30) / (low - s).abs().max(1e-30)).ln();
+            sum[0] += residue[0] * log;
+            sum[1] += residue[1] * log;
+        }
+        if let (Some(side), Some(c)) = (side, subtract_near) {
+            let delta = c.sqrt();
+            let angle = ((high - low) * delta).atan2(c + low * high);
+            sum[0] -= side[0] * delta * angle;
+            sum[1] -= side[1] * delta * angle;
+        }
+    }
+
+    /// Kernel times dτ/ds at `s`, without 1/(s − pole) where there is one, and u.
+    fn smooth(&self, part: Part, s: f64, pole: Option<f64>) -> [f64; 3] {
+        let r = &self.rayleigh;
+        let (square, sixteen) = (s * s, 16.0 * r.h);
+        match part {
+            Part::Pressure | Part::Shear => {
+                let (z, y) = if part == Part::Pressure {
+                    (square, square + r.a2)
+                } else {
+                    (square + r.h, square + 1.0)
+                };
+                let u = 1.0 / y.sqrt();
+                let common = square * u / (sixteen * (s + pole.unwrap_or(0.0)) * r.pair(z));
+                let k2 = (r.g - 2.0 * z).powi(2);
+                if part == Part::Pressure {
+                    [common * k2, common * 4.0 * y * (z - r.h), u]
+                } else {
+                    [common * 4.0 * y * z, common * k2, u]
+                }
+            }
+            Part::OddLow | Part::OddHigh => {
+                let low = part == Part::OddLow;
+                let z = if low { square } else { r.h - square };
+                let root = if low { r.h - square } else { z }.max(0.0).sqrt();
+                let value =
+                    2.0 * (r.g - 2.0 * z) * square * root / (sixteen * (z - r.z) * r.pair(z));
+                [value, 0.0, 1.0 / (z + r.a2).sqrt()]
+            }
+            Part::Tail => {
+                let (ka, kb) = (1.0 - r.a2 * square, 1.0 - square);
+                let pair = (ka + r.sum * square) * ka + r.product * square * square;
+                let common = 1.0 / (sixteen * (1.0 - r.square * square) * pair);
+                let (sa, sb, k2) = (ka.sqrt(), kb.sqrt(), (2.0 - square).powi(2));
+                [common * (k2 * sa + 4.0 * ka * sb), common * (4.0 * kb * sa + k2 * sb), s]
+            }
+        }
+    }
+
+    /// What stands before s²/(s²+c) at the root s² = −c beside the path.
+    fn beside(&self, part: Part, c: f64, a: &Covered) -> [f64; 2] {
+        let r = &self.rayleigh;
+        let y = r.a2 - c;
+        let u = 1.0 / y.sqrt();
+        // The other factor of the pair at z = −c is c₂ − c, with c + c₂ = σ.
+        let common = a.at(u) / (16.0 * r.h * (-c - r.z) * (r.sum - 2.0 * c));
+        let k = r.g + 2.0 * c;
+        if part == Part::Pressure {
+            [common * u * k * k, common * u * 4.0 * y * (-c - r.h)]
+        } else {
+            [common * 2.0 * k * (r.h + c).sqrt(), 0.0]
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Static influence coefficients of boundary elements on an elastic half-plane.
+
+use crate::bem::overlap::Overlap;
+use crate::bem::{ContactElement, Influence};
+use crate::error::{Result, positive};
+use crate::fundamental::gauss;
+use crate::soil::Soil;
+
+/// Element means of the static surface displacement (Flamant):
+/// `u_zz` = `u_xx` = −(1−ν)/(πμ) ln(|x|/L₀) and `u_zx` = −`u_xz` = (1−2ν)/(4μ) sgn x
+/// (Johnson 1985, § 2.3), x from the load to the receiver, z down.
+#[derive(Debug, Clone, Copy)]
+pub struct StaticKernel {
+    logarithm: f64,
+    jump: f64,
+    reference: f64,
+}
+
+impl StaticKernel {
+    /// Kernel of a soil; displacements vanish at the distance `reference` (L₀, m), which is free
+    /// because a half-plane has no static datum.
+    ///
+    /// # Errors
+    /// [`crate::Error::Input`] unless the reference length is finite and above zero.
+    pub fn new(soil: &Soil, reference: f64) -> Result<Self> {
+        positive("reference length", reference)?;
+        Ok(Self {
+            logarithm: -(1.0 - soil.poisson()) / (std::f64::consts::PI * soil.shear_modulus()),
+            jump: (1.0 - 2.0 * soil.poisson()) / (4.0 * soil.shear_modulus()),
+            reference,
+        })
+    }
+
+    /// Mean displacement of the receiver per unit traction on the source, m/Pa.
+    ///
+    /// # Errors
+    /// [`crate::Error::Input`] unless both elements have finite ends, the left one first.
+    pub fn coefficients(
+        &self,
+        receiver: ContactElement,
+        source: ContactElement,
+    ) -> Result<Influence> {
+        let overlap = Overlap::new(receiver, source)?;
+        let (mut even, mut odd) = (0.0, 0.0);
+        for i in 1..overlap.nodes.len() {
+            let (low, high) = (overlap.nodes[i - 1], overlap.nodes[i]);
+            let (w0, w1) = (overlap.even[i - 1], overlap.even[i]);
+            even += self.segment([low, high], [w0, w1]);
+            odd += 0.5 * (high - low) * (overlap.odd[i - 1] + overlap.odd[i]);
+        }
+        let diagonal = self.logarithm * even / overlap.length;
+        Ok(Influence { zz: diagonal, xx: diagonal, zx: self.jump * odd / overlap.length })
+    }
+
+    /// ∫ w ln(x/L₀) dx for w linear between `low` and `high`.
+    fn segment(&self, [low, high]: [f64; 2], [w0, w1]: [f64; 2]) -> f64 {
+        let length = high - low;
+        let slope = (w1 - w0) / length;
+        if low >= 0.5 * length {
+            // Away from the singularity the rule is exact to rounding, the primitives cancel.
+            let rule = gauss::largest();
+            let mut sum = 0.0;
+            for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
+                let inside = 0.5 * length * (1.0 + node);
+                sum += weight * (w0 + slope * inside) * ((low + inside) / self.reference).ln();
+            }
+            return 0.5 * length * sum;
+        }
+        let primitive = |x: f64| {
+            if x == 0.0 {
+                return [0.0, 0.0];
+            }
+            let log = (x / self.reference).ln();
+            [x * (log - 1.0), 0.5 * x * x * (log - 0.5)]
+        };
+        let (one, two) = (primitive(low), primitive(high));
+        (w0 - slope * low) * (two[0] - one[0]) + slope * (two[1] - one[1])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn element(left: f64, right: f64) -> ContactElement {
+        ContactElement { left, right }
+    }
+
+    #[test]
+    fn means_match_quadrature() {
+        let soil = Soil::new(2.0, 0.3, 1.0).unwrap();
+        let kernel = StaticKernel::new(&soil, 3.0).unwrap();
+        // Midpoint rule over the receiver of the exact line integral over the source.
+        for (p, q) in [
+            (element(0.0, 1.0), element(1.5, 3.0)),
+            (element(-4.0, -1.0), element(-0.9, 0.3)),
+            (element(0.0, 1.0), element(400.0, 401.0)),
+        ] {
+            let count = 4000;
+            let inner = |x: f64| if x == 0.0 { 0.0 } else { x * ((x.abs() / 3.0).ln() - 1.0) };
+            let mut sum = 0.0;
+            for i in 0..count {
+                let x = p.left + p.length() * (f64::from(i) + 0.5) / f64::from(count);
+                sum += inner(x - q.left) - inner(x - q.right);
+            }
+            let expected = -0.7 / (std::f64::consts::PI * 2.0) * sum / f64::from(count);
+            let found = kernel.coefficients(p, q).unwrap();
+            assert!((found.zz - expected).abs() < 1e-6 * expected.abs(), "{p:?} {q:?}");
+            assert_eq!(found.zz, found.xx);
+            let jump = -0.4 / 8.0 * q.length();
+            assert!((found.zx - jump).abs() < 1e-15, "{} {jump}", found.zx);
+        }
+    }
+
+    #[test]
+    fn self_term_is_the_closed_form() {
+        // (1/l) ∫∫ ln|x−ξ| = l (ln l − 3/2).
+        let soil = Soil::new(1.0, 0.25, 1.0).unwrap();
+        let kernel = StaticKernel::new(&soil, 1.0).unwrap();
+        let found = kernel.coefficients(element(2.0, 4.0), element(2.0, 4.0)).unwrap();
+        let expected = -0.75 / std::f64::consts::PI * 2.0 * (2.0_f64.ln() - 1.5);
+        assert!((found.zz - expected).abs() < 1e-15);
+        assert_eq!(found.zx, 0.0);
+    }
+}

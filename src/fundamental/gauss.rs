@@ -1,0 +1,87 @@
+//! Gauss–Legendre rules, and how many points an integrand with known singularities needs.
+
+use std::sync::OnceLock;
+
+/// Orders kept, ascending.
+const ORDERS: [usize; 12] = [2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 26];
+
+/// A rule on [−1, 1].
+#[derive(Debug)]
+pub(crate) struct Rule {
+    pub(crate) nodes: Vec<f64>,
+    pub(crate) weights: Vec<f64>,
+    /// (ρ + 1/ρ)/2 of the smallest Bernstein ellipse inside which an integrand must be analytic.
+    reach: f64,
+}
+
+/// Relative error aimed at on one piece.
+const TOLERANCE: f64 = 1e-14;
+
+impl Rule {
+    /// Newton's iteration on the Legendre polynomial (Davis & Rabinowitz 1984, § 2.7).
+    fn new(order: usize) -> Self {
+        let count = order as f64;
+        let (mut nodes, mut weights) = (vec![0.0; order], vec![0.0; order]);
+        for i in 0..order {
+            let mut x = -(std::f64::consts::PI * (i as f64 + 0.75) / (count + 0.5)).cos();
+            let mut slope = 1.0;
+            for _ in 0..6 {
+                let (mut before, mut value) = (1.0, x);
+                for k in 2..=order {
+                    let k = k as f64;
+                    (before, value) =
+                        (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+                }
+                slope = count * (x * value - before) / (x * x - 1.0);
+                x -= value / slope;
+            }
+            nodes[i] = x;
+            weights[i] = 2.0 / ((1.0 - x * x) * slope * slope);
+        }
+        // The error of an order-n rule falls like ρ^(−2n).
+        let rho = TOLERANCE.powf(-0.5 / count);
+        Self { nodes, weights, reach: 0.5 * (rho + 1.0 / rho) }
+    }
+}
+
+fn rules() -> &'static [Rule] {
+    static RULES: OnceLock<Vec<Rule>> = OnceLock::new();
+    RULES.get_or_init(|| ORDERS.iter().map(|&order| Rule::new(order)).collect())
+}
+
+/// Largest rule used on a piece before it is split.
+const LARGEST: usize = 10;
+
+/// The rule for polynomials up to degree 51.
+pub(crate) fn largest() -> &'static Rule {
+    &rules()[ORDERS.len() - 1]
+}
+
+/// The cheapest rule for an integrand analytic inside the ellipse (|z−1| + |z+1|)/2 < `reach`, if
+/// it is small enough.
+pub(crate) fn rule_for(reach: f64) -> Option<&'static Rule> {
+    rules()[..=LARGEST].iter().find(|rule| rule.reach <= reach)
+}
+
+/// (|p − a| + |p − b|)/(b − a) of a point p in the complex plane and the interval [a, b].
+pub(crate) fn reach(point: [f64; 2], low: f64, high: f64) -> f64 {
+    let square = point[1] * point[1];
+    let first = ((point[0] - low).powi(2) + square).sqrt();
+    let second = ((point[0] - high).powi(2) + square).sqrt();
+    (first + second) / (high - low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rules_integrate_polynomials_exactly() {
+        for rule in rules() {
+            let degree = i32::try_from(2 * rule.nodes.len() - 2).unwrap();
+            let sum: f64 =
+                rule.nodes.iter().zip(&rule.weights).map(|(x, w)| w * x.powi(degree)).sum();
+            assert!((sum * f64::from(degree + 1) / 2.0 - 1.0).abs() < 1e-13, "{degree} {sum}");
+        }
+    }
+}

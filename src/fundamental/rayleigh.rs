@@ -1,0 +1,201 @@
+//! The Rayleigh polynomial of an elastic half-plane, its roots and the Rayleigh wave.
+//!
+//! With y the square of a slowness in units of the shear slowness, the Rayleigh function and its
+//! conjugate multiply to the cubic
+//!
+//! P(y) = (1−2y)⁴ + 16 y²(y−a²)(1−y) = 16(a²−1) y³ + (24−16a²) y² − 8 y + 1
+//!
+//! (Achenbach 1973, ch. 7; Kausel 2006). One root, `y_R` > 1, is the Rayleigh wave. The other two
+//! lie below a² as a real pair for Poisson's ratios up to 0.26308…, and are a complex pair above.
+//!
+//! | symbol | here | meaning |
+//! |---|---|---|
+//! | a² | `a2` | (`c_S`/`c_P`)² |
+//! | h | `h` | 1 − a² = 1/(2(1−ν)) |
+//! | g | `g` | 1 − 2a² = ν/(1−ν) |
+//! | z | | y − a², not below zero once the pressure wave has passed |
+//! | `y_R`, `z_R` | `square`, `z` | the Rayleigh root, and `y_R` − a² |
+//! | σ, ϖ | `sum`, `product` | the other two roots in z are those of z² + σ z + ϖ |
+
+use crate::fundamental::complex::Complex;
+use crate::soil::Soil;
+
+/// Roots of the Rayleigh polynomial of one soil.
+///
+/// The quadratic factor is kept by its coefficients, which are smooth in Poisson's ratio where
+/// its roots collide (ν = 0.26308…) and precise where one of them tends to a² like ν⁴ (ν → 0).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rayleigh {
+    /// a² = (`c_S`/`c_P`)².
+    pub(crate) a2: f64,
+    /// 1 − a².
+    pub(crate) h: f64,
+    /// 1 − 2a².
+    pub(crate) g: f64,
+    /// `y_R`.
+    pub(crate) square: f64,
+    /// `y_R` − a².
+    pub(crate) z: f64,
+    /// `y_R` − 1.
+    pub(crate) excess: f64,
+    /// Minus the sum of the other roots, measured from a².
+    pub(crate) sum: f64,
+    /// Their product, measured from a².
+    pub(crate) product: f64,
+}
+
+impl Rayleigh {
+    /// Roots for a soil.
+    pub fn new(soil: &Soil) -> Self {
+        let nu = soil.poisson();
+        let a2 = soil.speed_ratio_squared();
+        let h = 0.5 / (1.0 - nu);
+        let g = nu / (1.0 - nu);
+        // The cubic in w = y − 1, whose one positive root is the Rayleigh wave:
+        // −16 h w³ + (24 − 16a² − 48h) w² + (40 − 32a² − 48h) w + 1.
+        let cubic = [-16.0 * h, 32.0 * a2 - 24.0, 16.0 * a2 - 8.0, 1.0];
+        let value = |w: f64| ((cubic[0] * w + cubic[1]) * w + cubic[2]) * w + cubic[3];
+        let slope = |w: f64| (3.0 * cubic[0] * w + 2.0 * cubic[1]) * w + cubic[2];
+        // P(1) = 1 > 0 and P → −∞: bisect, then polish.
+        let (mut low, mut high) = (0.0, 4.0);
+        for _ in 0..30 {
+            let middle = 0.5 * (low + high);
+            if value(middle) > 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let mut excess = 0.5 * (low + high);
+        for _ in 0..3 {
+            excess -= value(excess) / slope(excess);
+        }
+        let z = excess + h;
+        // In c = a² − y: 16h c³ + C₂ c² − C₁ c + g⁴ with C₂ = 48a⁴ − 64a² + 24; its roots sum to
+        // −C₂/(16h) and multiply to −g⁴/(16h); c_R = −z is one of them.
+        let c2 = (48.0 * a2 - 64.0) * a2 + 24.0;
+        let sum = z - c2 / (16.0 * h);
+        let product = g.powi(4) / (16.0 * h * z);
+        Self { a2, h, g, square: 1.0 + excess, z, excess, sum, product }
+    }
+
+    /// P(y).
+    pub fn polynomial(&self, y: f64) -> f64 {
+        self.at(y - self.a2)
+    }
+
+    /// `y_R` = (`c_S`/`c_R`)², the root above 1.
+    pub fn rayleigh_root(&self) -> f64 {
+        self.square
+    }
+
+    /// The other two roots as (real, imaginary) pairs.
+    pub fn other_roots(&self) -> [[f64; 2]; 2] {
+        let (first, second) = self.shifted_roots(self.discriminant(), 0.0);
+        [[self.a2 + first.re, first.im], [self.a2 + second.re, second.im]]
+    }
+
+    /// Time at which the Rayleigh wave passes, c_S t/|x|: `c_S`/`c_R`.
+    pub fn arrival(&self) -> f64 {
+        self.square.sqrt()
+    }
+
+    /// Rayleigh wave speed over shear wave speed.
+    pub fn speed_ratio(&self) -> f64 {
+        1.0 / self.arrival()
+    }
+
+    /// P at y = a² + z.
+    pub(crate) fn at(&self, z: f64) -> f64 {
+        -16.0 * self.h * (z - self.z) * self.pair(z)
+    }
+
+    /// z² + σ z + ϖ, the factor of the two roots that are not the Rayleigh wave.
+    pub(crate) fn pair(&self, z: f64) -> f64 {
+        (z + self.sum) * z + self.product
+    }
+
+    /// (σ/2)² − ϖ: positive for a real pair.
+    pub(crate) fn discriminant(&self) -> f64 {
+        0.25 * self.sum * self.sum - self.product
+    }
+
+    /// Roots of z² + σ z + (σ/2)² − d, for a complex discriminant d = `real` + i `imaginary`.
+    pub(crate) fn shifted_roots(&self, real: f64, imaginary: f64) -> (Complex, Complex) {
+        let root = Complex::new(real, imaginary).sqrt();
+        let middle = Complex::real(-0.5 * self.sum);
+        if imaginary == 0.0 && real > 0.0 && self.sum > 0.0 {
+            let far = middle - root;
+            return (Complex::real(self.product / far.re), far);
+        }
+        (middle + root, middle - root)
+    }
+
+    /// The strength D of the Rayleigh pulse in `f_zx`: `f_zx` = … + D δ(τ − τ_R).
+    pub(crate) fn pulse(&self) -> f64 {
+        let (y, tau) = (self.square, self.arrival());
+        let (sa, sb) = (self.z.sqrt(), self.excess.sqrt());
+        let k = 1.0 - 2.0 * y;
+        let slope = -8.0 * tau * (k + sa * sb) - 4.0 * y * tau * (sb / sa + sa / sb);
+        std::f64::consts::PI * tau * (k + 2.0 * sa * sb) / slope
+    }
+
+    /// Residue at the Rayleigh root, in z, of numerator/P.
+    pub(crate) fn residue(&self, numerator: f64) -> f64 {
+        -numerator / (16.0 * self.h * self.pair(self.z))
+    }
+}
+
+impl Soil {
+    /// Rayleigh (R) wave speed, m/s: the speed of the surface wave (Achenbach 1973, § 5.11).
+    pub fn rayleigh_wave_speed(&self) -> f64 {
+        self.shear_wave_speed() * Rayleigh::new(self).speed_ratio()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn soil(nu: f64) -> Soil {
+        Soil::new(1.0, nu, 1.0).unwrap()
+    }
+
+    #[test]
+    fn known_wave_speeds() {
+        // nu = 1/4: y = (3 + sqrt 3)/4 exactly; nu = 0: c_R^2 = 3 - sqrt 5.
+        let quarter = Rayleigh::new(&soil(0.25));
+        assert!((quarter.rayleigh_root() - (3.0 + 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
+        let [[first, _], [second, _]] = quarter.other_roots();
+        assert!((first - (3.0 - 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
+        assert!((second - 0.25).abs() < 4e-16);
+        let speed = soil(0.0).rayleigh_wave_speed();
+        assert!((speed - (3.0 - 5.0_f64.sqrt()).sqrt()).abs() < 4e-16);
+    }
+
+    #[test]
+    fn small_root_keeps_its_relative_precision() {
+        // c (C1 - C2 c + ...) = g^4 with C1 = -P'(a^2).
+        for nu in [1e-1, 1e-3, 1e-6, -1e-4] {
+            let r = Rayleigh::new(&soil(nu));
+            let (near, _) = r.shifted_roots(r.discriminant(), 0.0);
+            let c = -near.re;
+            let k = r.g + 2.0 * c;
+            let residual = k.powi(4) - 16.0 * (r.a2 - c).powi(2) * c * (r.h + c);
+            assert!(residual.abs() < 1e-14 * r.g.powi(4), "{nu} {c:e} {residual:e}");
+        }
+    }
+
+    #[test]
+    fn factors_multiply_to_the_polynomial() {
+        for nu in [-0.9, -0.5, 0.0, 1e-4, 0.2, 0.25, 0.2630, 0.263_082_06, 0.45, 0.4999] {
+            let r = Rayleigh::new(&soil(nu));
+            for y in [0.0, 0.1, 0.3, 0.9, 1.0, 1.1, 2.0, 5.0] {
+                let k: f64 = 1.0 - 2.0 * y;
+                let direct = k.powi(4) + 16.0 * y * y * (y - r.a2) * (1.0 - y);
+                let scale = k.powi(4) + 16.0 * y * y * (y + 1.0) * (1.0 + y);
+                assert!((r.polynomial(y) - direct).abs() < 4e-15 * scale, "{nu} {y}");
+            }
+        }
+    }
+}
