@@ -19,9 +19,9 @@
 //! | `M_k` | (1/l_p) ∫ w x^(2k) dx |
 
 use crate::bem::ContactElement;
-use crate::bem::branch::{Branches, Part};
 use crate::bem::overlap::Overlap;
 use crate::error::{Error, Result, positive};
+use crate::fundamental::branch::{Branches, Part, Weight};
 use crate::fundamental::laurent::{TERMS, late_coefficients};
 use crate::fundamental::{gauss, rayleigh::Rayleigh};
 use crate::soil::Soil;
