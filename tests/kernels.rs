@@ -81,14 +81,14 @@ fn impulse_is_the_jump_of_the_transform() {
     }
 }
 
-/// Primitives against Gauss–Legendre-free quadrature: the midpoint rule in a variable that
-/// removes the square roots, away from the Rayleigh pole.
+/// Primitives against the midpoint rule, away from arrivals and the
+/// Rayleigh pole.
 #[test]
 fn primitives_match_quadrature() {
     for nu in POISSON {
         let plane = HalfPlane::new(soil(nu));
         let arrival = plane.rayleigh().arrival();
-        for (from, to) in [(0.8, 0.95), (1.001, 1.02), (arrival + 0.2, 3.0), (3.0, 6.0)] {
+        for (from, to) in [(0.87, 0.95), (1.001, 1.02), (arrival + 0.2, 3.0), (3.0, 6.0)] {
             let count = 20_000;
             let mut sums = [[0.0; 3]; 3];
             for i in 0..count {

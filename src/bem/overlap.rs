@@ -93,14 +93,14 @@ impl Overlap {
             high: [0.0; 3],
         };
         let (low, high) = (self.segment(step[0] * middle), self.segment(step[1] * middle));
-        if let (Ok(i), Ok(j)) = (low, high) {
-            if i == j {
-                // From the end where w is smaller, so that w keeps its relative precision there.
-                let k = if w[i].abs() <= w[i + 1].abs() { i } else { i + 1 };
-                covered.same = true;
-                covered.low = [x[k], w[k], slope(i)];
-                return covered;
-            }
+        if let (Ok(i), Ok(j)) = (low, high)
+            && i == j
+        {
+            // From the end where w is smaller, so that w keeps its relative precision there.
+            let k = if w[i].abs() <= w[i + 1].abs() { i } else { i + 1 };
+            covered.same = true;
+            covered.low = [x[k], w[k], slope(i)];
+            return covered;
         }
         let mut from = 0;
         match low {

@@ -175,12 +175,13 @@ impl Branches {
             _ => None,
         };
         // No node may come near the pole: end the piece there.
-        if let Some(s) = pole {
-            if s > low && s < high {
-                self.piece(part, [low, s], a, sum, depth);
-                self.piece(part, [s, high], a, sum, depth);
-                return;
-            }
+        if let Some(s) = pole
+            && s > low
+            && s < high
+        {
+            self.piece(part, [low, s], a, sum, depth);
+            self.piece(part, [s, high], a, sum, depth);
+            return;
         }
         let mut reach = f64::INFINITY;
         for &point in &self.regular[part as usize] {

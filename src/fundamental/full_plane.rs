@@ -1,6 +1,6 @@
 //! Fundamental solution of the full elastic plane (Eringen & Suhubi 1975, § 5.10).
 //!
-//! Line load j at the origin, distance r, direction e, z_α = c_α t/r, s_α = √(z_α²−1):
+//! Line load j at the origin, distance r, direction e; for each wave z = c t/r, s = √(z²−1):
 //!
 //! * `u_ij` = ψ `δ_ij` − χ `e_i` `e_j`
 //! * ψ = (1/4πρ)[−(Z₁−Z₂) + (L₁+L₂)],  χ = −(1/2πρ)(Z₁−Z₂)
@@ -44,7 +44,7 @@ impl FullPlane {
         let both = self.shear * time / r > 1.0;
         for (c, sign) in [(self.pressure, 1.0), (self.shear, -1.0)] {
             let z = c * time / r;
-            if !(z > 1.0) {
+            if z.is_nan() || z <= 1.0 {
                 continue;
             }
             let s = ((z - 1.0) * (z + 1.0)).sqrt();

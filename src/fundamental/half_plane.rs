@@ -5,7 +5,7 @@
 //!
 //! * `f_zz` = −[`S_a` K²/P · H(τ−a) + 4y(y−a²) `S_b`/P · H(τ−1)]
 //! * `f_xx` = −[4y(y−1) `S_a`/P · H(τ−a) + `S_b` K²/P · H(τ−1)]
-//! * `f_zx` = −2τ K `S_a` √(1−y)/P on a < τ < 1, plus D δ(τ−τ_R), times sgn x; `f_xz` = −`f_zx`
+//! * `f_zx` = −2τ K `S_a` √(1−y)/P on a < τ < 1, plus D δ(τ−`τ_R`), times sgn x; `f_xz` = −`f_zx`
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -73,11 +73,11 @@ impl HalfPlane {
         &self.branches.rayleigh
     }
 
-    /// f(τ), dimensionless, without the pulse D δ(τ−τ_R) of zx; infinite at the Rayleigh arrival.
+    /// f(τ), dimensionless, without the pulse D δ(τ−`τ_R`) of zx; infinite at the Rayleigh arrival.
     pub fn impulse(&self, tau: f64) -> Surface {
         let r = self.rayleigh();
         let a = self.branches.first;
-        if !(tau > a) {
+        if tau.is_nan() || tau <= a {
             return Surface::default();
         }
         let y = tau * tau;
@@ -153,7 +153,7 @@ impl HalfPlane {
     /// J(x, t) with `path` = `c_S` t, both in m; even in x for zz and xx, odd for zx; m².
     pub fn twice_integrated(&self, x: f64, path: f64) -> Surface {
         let r = x.abs();
-        if r == 0.0 || !(path > 0.0) {
+        if r == 0.0 || path.is_nan() || path <= 0.0 {
             return Surface::default();
         }
         let tau = path / r;
@@ -214,7 +214,7 @@ impl HalfPlane {
     /// ∫₀^τ f η^m dη of zz and xx for every weight.
     fn even(&self, tau: f64) -> [[f64; 2]; 4] {
         let mut sum = [[0.0; 2]; 4];
-        if !(tau > self.branches.first) {
+        if tau.is_nan() || tau <= self.branches.first {
             return sum;
         }
         let r = self.rayleigh();
@@ -290,7 +290,7 @@ impl HalfPlane {
 
     /// The same with the Rayleigh pulse once it has passed.
     fn odd_sum(&self, tau: f64, which: usize) -> f64 {
-        if !(tau > self.branches.first) {
+        if tau.is_nan() || tau <= self.branches.first {
             return 0.0;
         }
         let regular =
