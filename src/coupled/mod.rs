@@ -6,6 +6,7 @@ mod contact;
 mod ledger;
 mod model;
 mod modes;
+mod path;
 mod preload;
 mod run;
 mod scheme;
