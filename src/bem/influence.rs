@@ -3,25 +3,25 @@
 //! A unit traction acts on a source element during one time step; wanted is the mean displacement
 //! of a receiver element n step ends later. With `c_S` = μ = 1 and τ = t/|x|
 //!
-//! G = 1/(π l_p) ∫∫ w(x) f(t/|x|)/|x| dt dx = 1/(π l_p) ∫ f(τ) A(τ) dτ,
-//! A(τ) = ∫ w(x) dx over t₀/τ < x < t₁/τ,
+//! * G = 1/(π l) ∫∫ w(x) f(t/|x|)/|x| dt dx = 1/(π l) ∫ f(τ) A(τ) dτ
+//! * A(τ) = ∫ w(x) dx over t₀/τ < x < t₁/τ
 //!
-//! with f the self-similar surface kernel (Cagniard–de Hoop; Achenbach 1973, ch. 7; Kausel 2006)
+//! with l the length of the receiver, f the self-similar surface kernel (Cagniard–de Hoop; Achenbach 1973, ch. 7; Kausel 2006)
 //! and w the length of overlap of the two elements shifted by x. Every term of A is positive for
 //! separate elements, so nothing cancels; differences of the closed-form double primitive lose up
 //! to fourteen digits here.
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | a, τ_R | `c_S`/`c_P`, `c_S`/`c_R` |
+//! | a, `τ_R` | `c_S`/`c_P`, `c_S`/`c_R` |
 //! | t₀, t₁ | `c_S` (n−1)Δt, `c_S` nΔt, m |
-//! | `c_k` | f = Σ `c_k` τ^(−2k−1) for τ > τ_R |
-//! | `M_k` | (1/l_p) ∫ w x^(2k) dx |
+//! | `c_k` | f = Σ `c_k` τ^(−2k−1) for τ > `τ_R` |
+//! | `M_k` | (1/l) ∫ w x^(2k) dx |
 
 use crate::bem::ContactElement;
-use crate::bem::branch::{Branches, Part};
 use crate::bem::overlap::Overlap;
 use crate::error::{Error, Result, positive};
+use crate::fundamental::branch::{Branches, Part, Weight};
 use crate::fundamental::laurent::{TERMS, late_coefficients};
 use crate::fundamental::{gauss, rayleigh::Rayleigh};
 use crate::soil::Soil;
@@ -110,7 +110,7 @@ impl InfluenceKernel {
     /// the traction acts during the first.
     ///
     /// # Errors
-    /// [`Error::Input`] for a bad element, [`Error::Index`] for lag 0.
+    /// [`Error::Input`] for a bad element or lag 0.
     pub fn coefficients(
         &self,
         receiver: ContactElement,
@@ -141,12 +141,11 @@ impl PairInfluence<'_> {
         }
         let (step, far) = (self.kernel.step, self.overlap.farthest());
         let (begin, end) = ((lag - 1) as f64 * step, lag as f64 * step);
-        let sum = if begin >= LATE * self.kernel.branches.arrival * far {
+        if begin >= LATE * self.kernel.branches.arrival * far {
             self.late(begin, end)
         } else {
             self.early(begin, end)
-        };
-        sum
+        }
     }
 
     /// Overwrites the slices with lags `first`, `first + 1`, … of one component each.

@@ -7,7 +7,6 @@
 //! tangential ones (traction τ on the soil and displacement, positive to the right). They are
 //! means over the elements, from left to right.
 
-mod branch;
 mod half_plane;
 mod influence;
 mod overlap;

@@ -3,6 +3,7 @@
 
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, finite};
+use crate::fundamental::branch::Weight;
 
 /// Overlap lengths w(x) of a receiver element and a source element shifted by x, folded to x ≥ 0.
 ///
@@ -92,14 +93,14 @@ impl Overlap {
             high: [0.0; 3],
         };
         let (low, high) = (self.segment(step[0] * middle), self.segment(step[1] * middle));
-        if let (Ok(i), Ok(j)) = (low, high) {
-            if i == j {
-                // From the end where w is smaller, so that w keeps its relative precision there.
-                let k = if w[i].abs() <= w[i + 1].abs() { i } else { i + 1 };
-                covered.same = true;
-                covered.low = [x[k], w[k], slope(i)];
-                return covered;
-            }
+        if let (Ok(i), Ok(j)) = (low, high)
+            && i == j
+        {
+            // From the end where w is smaller, so that w keeps its relative precision there.
+            let k = if w[i].abs() <= w[i + 1].abs() { i } else { i + 1 };
+            covered.same = true;
+            covered.low = [x[k], w[k], slope(i)];
+            return covered;
         }
         let mut from = 0;
         match low {
@@ -130,7 +131,7 @@ impl Overlap {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Covered {
     /// Both limits lie in the same segment.
-    pub(crate) same: bool,
+    same: bool,
     span: f64,
     begin: f64,
     end: f64,
@@ -141,9 +142,9 @@ pub(crate) struct Covered {
     high: [f64; 3],
 }
 
-impl Covered {
+impl Weight for Covered {
     /// A(u), m².
-    pub(crate) fn at(&self, u: f64) -> f64 {
+    fn at(&self, u: f64) -> f64 {
         if self.same {
             return u * self.over(u);
         }
@@ -155,12 +156,16 @@ impl Covered {
     }
 
     /// A(u)/u, m².
-    pub(crate) fn over(&self, u: f64) -> f64 {
+    fn over(&self, u: f64) -> f64 {
         if self.same {
             let middle = 0.5 * (self.begin + self.end);
             self.span * (self.low[1] + self.low[2] * (middle * u - self.low[0]))
         } else {
             self.at(u) / u
         }
+    }
+
+    fn vanishes(&self) -> bool {
+        self.same
     }
 }

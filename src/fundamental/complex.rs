@@ -10,8 +10,6 @@ pub(crate) struct Complex {
 }
 
 impl Complex {
-    pub(crate) const ONE: Self = Self { re: 1.0, im: 0.0 };
-
     pub(crate) const fn new(re: f64, im: f64) -> Self {
         Self { re, im }
     }
@@ -42,7 +40,9 @@ impl Complex {
     /// Principal artanh; on the real axis beyond ±1 its real part.
     pub(crate) fn atanh(self) -> Self {
         let above = (1.0 + self.re).powi(2) + self.im * self.im;
-        let below = (1.0 - self.re).powi(2) + self.im * self.im;
+        // The floor stands for the pole itself.
+        let below = ((1.0 - self.re).powi(2) + self.im * self.im).max(1e-30);
+        let above = above.max(1e-30);
         let re = if self.re.abs() < 0.5 * above.min(below) {
             0.25 * (4.0 * self.re / below).ln_1p()
         } else {

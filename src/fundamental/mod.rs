@@ -4,11 +4,16 @@
 //! tractions at an offset from it. Components are (x, z) with **z down**; index 0 is x, 1 is z,
 //! and `u[i][j]` is component i due to a load in direction j.
 
+pub(crate) mod branch;
 pub(crate) mod complex;
+mod full_plane;
 pub(crate) mod gauss;
+mod half_plane;
 pub(crate) mod laurent;
 pub(crate) mod rayleigh;
 
+pub use full_plane::FullPlane;
+pub use half_plane::{HalfPlane, Surface};
 pub use rayleigh::Rayleigh;
 
 use crate::error::Result;

@@ -95,7 +95,7 @@ impl Rayleigh {
         [[self.a2 + first.re, first.im], [self.a2 + second.re, second.im]]
     }
 
-    /// Time at which the Rayleigh wave passes, c_S t/|x|: `c_S`/`c_R`.
+    /// Time at which the Rayleigh wave passes, `c_S` t/|x|: `c_S`/`c_R`.
     pub fn arrival(&self) -> f64 {
         self.square.sqrt()
     }
@@ -131,7 +131,7 @@ impl Rayleigh {
         (middle + root, middle - root)
     }
 
-    /// The strength D of the Rayleigh pulse in `f_zx`: `f_zx` = … + D δ(τ − τ_R).
+    /// The strength D of the Rayleigh pulse in `f_zx`: `f_zx` = … + D δ(τ − `τ_R`).
     pub(crate) fn pulse(&self) -> f64 {
         let (y, tau) = (self.square, self.arrival());
         let (sa, sb) = (self.z.sqrt(), self.excess.sqrt());

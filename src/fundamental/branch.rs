@@ -13,9 +13,36 @@
 //! | z | τ² − a² |
 //! | s | √(τ²−a²), √(τ²−1), √(1−τ²), or u in the tail |
 
-use crate::bem::overlap::Covered;
 use crate::fundamental::complex::Complex;
 use crate::fundamental::{gauss, rayleigh::Rayleigh};
+
+/// What the kernel is integrated against: a smooth function A of the slowness u.
+pub(crate) trait Weight {
+    /// A(u).
+    fn at(&self, u: f64) -> f64;
+    /// A(u)/u.
+    fn over(&self, u: f64) -> f64;
+    /// Whether A(u)/u is smooth at u = 0.
+    fn vanishes(&self) -> bool;
+}
+
+/// A = τ^power.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Power(pub(crate) i32);
+
+impl Weight for Power {
+    fn at(&self, u: f64) -> f64 {
+        u.powi(-self.0)
+    }
+
+    fn over(&self, u: f64) -> f64 {
+        u.powi(-self.0 - 1)
+    }
+
+    fn vanishes(&self) -> bool {
+        self.0 < 0
+    }
+}
 
 /// One branch of the kernel, in its own variable.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,7 +148,7 @@ impl Branches {
 
     /// Adds ∫ f(τ) A(1/τ) dτ over `from` < τ < `to` (the part of it inside this branch) to `sum`:
     /// zz and xx, or zx first.
-    pub(crate) fn add(&self, part: Part, from: f64, to: f64, a: &Covered, sum: &mut [f64; 2]) {
+    pub(crate) fn add(&self, part: Part, from: f64, to: f64, a: &impl Weight, sum: &mut [f64; 2]) {
         let [begin, end] = self.range(part);
         let (from, to) = (from.max(begin), to.min(end));
         if from >= to {
@@ -135,7 +162,7 @@ impl Branches {
         &self,
         part: Part,
         [low, high]: [f64; 2],
-        a: &Covered,
+        a: &impl Weight,
         sum: &mut [f64; 2],
         depth: u32,
     ) {
@@ -148,18 +175,19 @@ impl Branches {
             _ => None,
         };
         // No node may come near the pole: end the piece there.
-        if let Some(s) = pole {
-            if s > low && s < high {
-                self.piece(part, [low, s], a, sum, depth);
-                self.piece(part, [s, high], a, sum, depth);
-                return;
-            }
+        if let Some(s) = pole
+            && s > low
+            && s < high
+        {
+            self.piece(part, [low, s], a, sum, depth);
+            self.piece(part, [s, high], a, sum, depth);
+            return;
         }
         let mut reach = f64::INFINITY;
         for &point in &self.regular[part as usize] {
             reach = reach.min(gauss::reach(point, low, high));
         }
-        if part == Part::Tail && !a.same {
+        if part == Part::Tail && !a.vanishes() {
             reach = reach.min(gauss::reach([0.0, 0.0], low, high));
         }
         let mut subtract_pole = None;
@@ -273,7 +301,7 @@ impl Branches {
     }
 
     /// What stands before s²/(s²+c) at the root s² = −c beside the path.
-    fn beside(&self, part: Part, c: f64, a: &Covered) -> [f64; 2] {
+    fn beside(&self, part: Part, c: f64, a: &impl Weight) -> [f64; 2] {
         let r = &self.rayleigh;
         let y = r.a2 - c;
         let u = 1.0 / y.sqrt();

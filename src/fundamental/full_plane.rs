@@ -1,0 +1,157 @@
+//! Fundamental solution of the full elastic plane (Eringen & Suhubi 1975, § 5.10).
+//!
+//! Line load j at the origin, distance r, direction e; for each wave z = c t/r, s = √(z²−1):
+//!
+//! * `u_ij` = ψ `δ_ij` − χ `e_i` `e_j`
+//! * ψ = (1/4πρ)[−(Z₁−Z₂) + (L₁+L₂)],  χ = −(1/2πρ)(Z₁−Z₂)
+//! * r ψ' = (1/2πρ)[(Z₁−Z₂) − Q₂],  r χ' = (1/2πρ)[2(Z₁−Z₂) + Q₁ − Q₂]
+//! * `t_ij` = (μ/r){(rψ'−χ)(`δ_ij` `r_n` + `e_i` `n_j`) − 2χ(`n_i` `e_j` − 2`e_i` `e_j` `r_n`)
+//!   − 2rχ' `e_i` `e_j` `r_n` + (λ/μ)(rψ'−rχ'−χ) `e_j` `n_i`},  `r_n` = e·n
+//!
+//! For a load H(t), Z = z s/c², L = arccosh(z)/c², Q = z/(s c²), each zero for z ≤ 1; the impulse
+//! and the ramp take their time derivatives and integrals. Once both waves have passed, the
+//! differences are formed without their common growth in time.
+
+use crate::error::{Error, Result, finite};
+use crate::fundamental::{FundamentalSolution, LoadHistory};
+use crate::soil::Soil;
+
+/// The full elastic plane: no surface, plane strain.
+#[derive(Debug, Clone, Copy)]
+pub struct FullPlane {
+    soil: Soil,
+    pressure: f64,
+    shear: f64,
+}
+
+/// Time functions of one load: Z₁−Z₂, L₁+L₂, Q₂ and 2(Z₁−Z₂)+Q₁−Q₂.
+struct Functions {
+    difference: f64,
+    logarithm: f64,
+    shear: f64,
+    slope: f64,
+}
+
+impl FullPlane {
+    /// The full plane of a soil.
+    pub fn new(soil: Soil) -> Self {
+        Self { soil, pressure: soil.pressure_wave_speed(), shear: soil.shear_wave_speed() }
+    }
+
+    fn functions(&self, r: f64, time: f64, load: LoadHistory) -> Functions {
+        let mut out = Functions { difference: 0.0, logarithm: 0.0, shear: 0.0, slope: 0.0 };
+        // With both waves past, Z may lose any term that does not depend on the wave speed.
+        let both = self.shear * time / r > 1.0;
+        for (c, sign) in [(self.pressure, 1.0), (self.shear, -1.0)] {
+            let z = c * time / r;
+            if z.is_nan() || z <= 1.0 {
+                continue;
+            }
+            let s = ((z - 1.0) * (z + 1.0)).sqrt();
+            let square = 1.0 / (c * c);
+            let sum = z + s;
+            // Z, L, Q and 2Z + Q, without their common terms if `both`.
+            let (unit, zed, log, cue, slope) = match load {
+                LoadHistory::Impulse => {
+                    let unit = square * c / r;
+                    let cue = -1.0 / (s * s * s);
+                    let zed = if both { 1.0 / (s * sum * sum) } else { z / s * z + s };
+                    (unit, zed, 1.0 / s, cue, 2.0 * zed + cue)
+                }
+                LoadHistory::Step => {
+                    let cue = z / s;
+                    let zed = if both { -z / sum } else { z * s };
+                    let slope = if both { z / (s * sum * sum) } else { 2.0 * zed + cue };
+                    (square, zed, s.asinh(), cue, slope)
+                }
+                LoadHistory::Ramp => {
+                    let unit = square * r / c;
+                    // s³ − z³ = −(z² + zs + s²)/(z + s)
+                    let zed =
+                        if both { -(z * z + z * s + s * s) / (3.0 * sum) } else { s * s * s / 3.0 };
+                    let slope =
+                        if both { -(s + 2.0 * z) / (3.0 * sum * sum) } else { 2.0 * zed + s };
+                    (unit, zed, z * s.asinh() - s, s, slope)
+                }
+            };
+            out.difference += sign * unit * zed;
+            out.logarithm += unit * log;
+            out.slope += sign * unit * slope;
+            if sign < 0.0 {
+                out.shear = unit * cue;
+            }
+        }
+        out
+    }
+}
+
+/// Distance and direction of an offset.
+fn polar(offset: [f64; 2]) -> Result<(f64, [f64; 2])> {
+    finite("x component of the offset", offset[0])?;
+    finite("z component of the offset", offset[1])?;
+    let r = offset[0].hypot(offset[1]);
+    if r.is_finite() && r > 0.0 {
+        Ok((r, [offset[0] / r, offset[1] / r]))
+    } else {
+        Err(Error::Input { quantity: "distance", value: r, needed: "finite and above zero" })
+    }
+}
+
+impl FundamentalSolution for FullPlane {
+    fn soil(&self) -> &Soil {
+        &self.soil
+    }
+
+    fn displacement(
+        &self,
+        offset: [f64; 2],
+        time: f64,
+        load: LoadHistory,
+    ) -> Result<[[f64; 2]; 2]> {
+        let (r, e) = polar(offset)?;
+        finite("time", time)?;
+        let f = self.functions(r, time, load);
+        let unit = 1.0 / (4.0 * std::f64::consts::PI * self.soil.density());
+        let psi = unit * (f.logarithm - f.difference);
+        let chi = -2.0 * unit * f.difference;
+        let off = -chi * e[0] * e[1];
+        Ok([[psi - chi * e[0] * e[0], off], [off, psi - chi * e[1] * e[1]]])
+    }
+
+    /// [`LoadHistory::Impulse`] gives the function away from the fronts; at a front it is a
+    /// Hadamard finite part, not integrable as it stands.
+    fn traction(
+        &self,
+        offset: [f64; 2],
+        normal: [f64; 2],
+        time: f64,
+        load: LoadHistory,
+    ) -> Result<[[f64; 2]; 2]> {
+        let (r, e) = polar(offset)?;
+        finite("time", time)?;
+        finite("x component of the normal", normal[0])?;
+        finite("z component of the normal", normal[1])?;
+        let f = self.functions(r, time, load);
+        let unit = 1.0 / (2.0 * std::f64::consts::PI * self.soil.density());
+        let chi = -unit * f.difference;
+        let psi_slope = unit * (f.difference - f.shear);
+        let chi_slope = unit * f.slope;
+        let n = normal;
+        let along = e[0] * n[0] + e[1] * n[1];
+        let nu = self.soil.poisson();
+        let lame = 2.0 * nu / (1.0 - 2.0 * nu);
+        let scale = self.soil.shear_modulus() / r;
+        let mut t = [[0.0; 2]; 2];
+        for i in 0..2 {
+            for j in 0..2 {
+                let delta = if i == j { along } else { 0.0 };
+                t[i][j] = scale
+                    * ((psi_slope - chi) * (delta + e[i] * n[j])
+                        - 2.0 * chi * (n[i] * e[j] - 2.0 * e[i] * e[j] * along)
+                        - 2.0 * chi_slope * e[i] * e[j] * along
+                        + lame * (psi_slope - chi_slope - chi) * e[j] * n[i]);
+            }
+        }
+        Ok(t)
+    }
+}
