@@ -59,26 +59,27 @@ impl Path {
             }
             lambda += direction * reach;
             let leaving = modes[first];
-            let mut found = false;
-            'search: for &mode in input.law(first).modes() {
-                if mode == leaving {
-                    continue;
-                }
+            let here = self.states[first].along(&self.rates[first], direction * reach);
+            // Several modes may be admissible here: the path goes on in the one that continues it.
+            let compliance = input.delassus[first * (2 * modes.len() + 1)];
+            let mut best = (f64::INFINITY, leaving, direction);
+            for &mode in input.law(first).modes() {
                 modes[first] = mode;
-                *trials += 2;
-                if !self.line(solver, input, modes, lambda) {
+                if mode == leaving || !self.line(solver, input, modes, lambda) {
                     continue;
                 }
-                for sense in [direction, -direction] {
-                    if self.reach(input, modes, sense, tolerance).0 > STEP {
-                        direction = sense;
-                        found = true;
-                        break 'search;
-                    }
+                *trials += 2;
+                let break_off = here.distance(&self.states[first], compliance);
+                // Only one sense of λ is admissible; rounding leaves the other one next to nothing.
+                let [ahead, back] = [direction, -direction]
+                    .map(|sense| (self.reach(input, modes, sense, tolerance).0, sense));
+                let (reach, sense) = if ahead.0 >= back.0 { ahead } else { back };
+                if break_off < best.0 && reach > STEP {
+                    best = (break_off, mode, sense);
                 }
             }
-            if !found {
-                modes[first] = leaving;
+            (_, modes[first], direction) = best;
+            if modes[first] == leaving {
                 return;
             }
         }
@@ -92,8 +93,8 @@ impl Path {
         let mut pressure = 0.0_f64;
         for e in 0..count {
             let blocked = input.free_jump[e].abs() / input.delassus[e * size + e];
-            let sheared = input.free_jump[count + e].abs()
-                / input.delassus[(count + e) * size + count + e];
+            let sheared =
+                input.free_jump[count + e].abs() / input.delassus[(count + e) * size + count + e];
             let before = input.start[e].state;
             pressure = pressure.max(blocked).max(sheared).max(before.pressure.abs());
         }
@@ -171,23 +172,16 @@ impl Path {
         let mut nearest = (far, 0);
         for (e, &mode) in modes.iter().enumerate() {
             let admits = |distance: f64| {
-                let (state, rate) = (&self.states[e], &self.rates[e]);
-                let s = direction * distance;
-                let there = ContactState {
-                    gap: state.gap + s * rate.gap,
-                    slip: state.slip + s * rate.slip,
-                    pressure: state.pressure + s * rate.pressure,
-                    shear: state.shear + s * rate.shear,
-                };
+                let there = self.states[e].along(&self.rates[e], direction * distance);
                 input.law(e).next_mode(mode, &input.start[e], &there, tolerance) == mode
             };
+            if !admits(STEP) {
+                return (0.0, e);
+            }
             if admits(nearest.0) {
                 continue;
             }
             let (mut low, mut high) = (0.0, nearest.0);
-            if !admits(STEP) {
-                return (0.0, e);
-            }
             for _ in 0..120 {
                 let middle = 0.5 * (low + high);
                 if admits(middle) {
@@ -199,5 +193,24 @@ impl Path {
             nearest = (low, e);
         }
         nearest
+    }
+}
+
+impl ContactState {
+    /// This state after `distance` at `rate`.
+    fn along(&self, rate: &Self, distance: f64) -> Self {
+        Self {
+            gap: self.gap + distance * rate.gap,
+            slip: self.slip + distance * rate.slip,
+            pressure: self.pressure + distance * rate.pressure,
+            shear: self.shear + distance * rate.shear,
+        }
+    }
+
+    /// How far two states are apart, as a traction.
+    fn distance(&self, other: &Self, compliance: f64) -> f64 {
+        (self.pressure - other.pressure).abs()
+            + (self.shear - other.shear).abs()
+            + ((self.gap - other.gap).abs() + (self.slip - other.slip).abs()) / compliance
     }
 }
