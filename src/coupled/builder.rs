@@ -202,6 +202,9 @@ impl SimulationBuilder {
         let start_motion = {
             let mut motion = vec![0.0; 2 * count];
             ground.free_field(self.motion.as_ref(), 0.0, &mut motion);
+            if let Some(bad) = motion.iter().find(|u| !u.is_finite()) {
+                finite("free field at t = 0", *bad)?;
+            }
             motion
         };
         Ok(Simulation::assemble(super::simulation::Parts {

@@ -21,6 +21,9 @@ pub(crate) struct Model {
 impl Model {
     pub(crate) fn new(structure: Box<dyn Structure>, base: &Base) -> Result<Self> {
         let unknowns = structure.unknowns();
+        if unknowns == 0 {
+            return Err(Error::Size { quantity: "list of unknowns", found: 0, needed: 1 });
+        }
         let assemble = |name, fill: &dyn Fn(&mut Triplets)| {
             let mut triplets = Triplets::new(unknowns);
             fill(&mut triplets);
@@ -50,6 +53,7 @@ impl Model {
         self.tangent.clear();
         if !self.linear {
             self.structure.nonlinear_tangent(displacement, &mut self.tangent);
+            same_length("tangent of the nonlinear force", self.tangent.order(), self.unknowns)?;
         }
         SparseMatrix::new("tangent of the nonlinear force", &self.tangent)
     }

@@ -150,7 +150,8 @@ impl Simulation {
         for (jump, gap) in work.free_jump[..count].iter_mut().zip(&self.static_state.gap) {
             *jump += gap;
         }
-        if !length_scale.is_finite() {
+        // `max` ignores NaN, so the jumps themselves are asked.
+        if !(length_scale.is_finite() && work.free_jump.iter().all(|jump| jump.is_finite())) {
             return Err(StepError::NotFinite { quantity: "displacement of the structure" });
         }
         let input = ContactInput {

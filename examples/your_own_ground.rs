@@ -1,0 +1,106 @@
+//! A ground of your own: independent elastic columns that send all waves straight down.
+//!
+//! ```text
+//! cargo run --release --example your_own_ground
+//! ```
+//!
+//! Under each element stands a column of soil that never ends: a pressure p moves its top at the
+//! velocity p/(ρ c_P), a shear traction τ at τ/(ρ c_S), for ever. It has no memory but its present
+//! displacement, radiates as much as a ground can, and has no static stiffness; a spring of
+//! `held` Pa/m brings one, so that the structure has something to stand on.
+
+use basemat::bem::{ContactElement, Ground, Strip};
+use basemat::interface::Coulomb;
+use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::structure::RigidBlock;
+use basemat::{Result, Simulation, Soil};
+
+struct Columns {
+    elements: Vec<ContactElement>,
+    /// ρ c_P and ρ c_S, Pa·s/m.
+    impedance: [f64; 2],
+    /// Springs beside the dashpots, Pa/m.
+    held: f64,
+    time_step: f64,
+    /// Normal components (down), then tangential ones, at the end of the last accepted step.
+    displacement: Vec<f64>,
+}
+
+impl Columns {
+    fn new(soil: Soil, range: std::ops::Range<f64>, count: usize, held: f64) -> Result<Self> {
+        let wave_speeds = [soil.pressure_wave_speed(), soil.shear_wave_speed()];
+        Ok(Self {
+            elements: Strip::uniform(range, count)?.elements(),
+            impedance: wave_speeds.map(|speed| soil.density() * speed),
+            held,
+            time_step: 0.0,
+            displacement: vec![0.0; 2 * count],
+        })
+    }
+
+    /// Displacement at the end of the next step is `kept · old + gained · traction`: the midpoint
+    /// rule for `z ds/dt + k s = traction`.
+    fn step_factors(&self, component: usize) -> [f64; 2] {
+        let z = self.impedance[usize::from(component >= self.elements.len())] / self.time_step;
+        let k = 0.5 * self.held;
+        [(z - k) / (z + k), 1.0 / (z + k)]
+    }
+}
+
+impl Ground for Columns {
+    fn elements(&self) -> &[ContactElement] {
+        &self.elements
+    }
+
+    fn prepare(&mut self, time_step: f64) -> Result<()> {
+        self.time_step = time_step;
+        self.displacement.fill(0.0);
+        Ok(())
+    }
+
+    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+        let size = self.displacement.len();
+        matrix.fill(0.0);
+        for i in 0..size {
+            matrix[i * size + i] = self.step_factors(i)[1];
+        }
+        Ok(())
+    }
+
+    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
+        for (i, out) in displacement.iter_mut().enumerate() {
+            *out = self.step_factors(i)[0] * self.displacement[i];
+        }
+        Ok(())
+    }
+
+    fn commit(&mut self, traction: &[f64]) {
+        for (i, traction) in traction.iter().enumerate() {
+            let [kept, gained] = self.step_factors(i);
+            self.displacement[i] = kept * self.displacement[i] + gained * traction;
+        }
+    }
+
+    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        let size = self.displacement.len();
+        matrix.fill(0.0);
+        for i in 0..size {
+            matrix[i * size + i] = 1.0 / self.held;
+        }
+        Ok(())
+    }
+}
+
+fn main() -> Result<()> {
+    let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+    let run = Simulation::builder(5.0e-3)
+        .structure(RigidBlock::new(6.0, 8.0, 1000.0)?)
+        .ground(Columns::new(soil, -3.0..3.0, 12, 20.0e6)?)
+        .interface(Coulomb::new(0.5)?)
+        .motion(el_centro_1940())
+        .gravity(STANDARD_GRAVITY)
+        .build()?
+        .run(2000, |_| {})?;
+    println!("{run}");
+    Ok(())
+}

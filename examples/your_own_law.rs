@@ -1,0 +1,115 @@
+//! An interface law of your own: friction that drops when sliding begins.
+//!
+//! ```text
+//! cargo run --release --example your_own_law
+//! ```
+//!
+//! A law looks at one contact element at a time. It answers three questions:
+//!
+//! 1. which modes are there ([`InterfaceLaw::modes`]);
+//! 2. what does a mode demand of the end of the step: two linear conditions between gap, slip,
+//!    pressure and shear ([`InterfaceLaw::conditions`]);
+//! 3. is the trial that came out admissible, and if not, which mode should be tried next
+//!    ([`InterfaceLaw::next_mode`]).
+//!
+//! The solver does the rest. A law has no memory of its own: what it needs of the past is in
+//! [`StepStart`], the end of the step before. Here that is the mode, since an element that slid
+//! keeps the kinetic coefficient until it sticks again.
+
+use basemat::bem::HalfPlaneGround;
+use basemat::coupled::Run;
+use basemat::interface::{
+    Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+};
+use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::structure::RigidBlock;
+use basemat::{Simulation, Soil};
+
+/// Static friction until an element slides, kinetic friction while it does.
+struct StaticKinetic {
+    at_rest: f64,
+    sliding: f64,
+}
+
+impl StaticKinetic {
+    /// The coefficient of this step. It depends on the start of the step alone, so that it cannot
+    /// change while the modes of the step are searched for.
+    fn friction(&self, start: &StepStart) -> f64 {
+        if start.mode.is_slip() { self.sliding } else { self.at_rest }
+    }
+}
+
+impl InterfaceLaw for StaticKinetic {
+    // The first one is the mode of an element at rest in contact.
+    fn modes(&self) -> &[Mode] {
+        &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        // shear − (±friction) · pressure = 0
+        let cone =
+            |friction: f64| Condition { shear: 1.0, pressure: -friction, ..Condition::default() };
+        let closed = Condition::gap_is(0.0);
+        match mode {
+            Mode::Stick => [closed, Condition::slip_is(start.state.slip)],
+            // The structure slides to the right and drags the soil along: shear is positive.
+            Mode::SlipRight => [closed, cone(self.friction(start))],
+            Mode::SlipLeft => [closed, cone(-self.friction(start))],
+            Mode::Open => [Condition::pressure_is(0.0), Condition::shear_is(0.0)],
+        }
+    }
+
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &StepStart,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        let limit = self.friction(start) * trial.pressure.max(0.0) + tolerance.traction;
+        let advance = trial.slip - start.state.slip;
+        match mode {
+            // An open element that would enter the soil closes, a closed one in tension opens.
+            Mode::Open if trial.gap < -tolerance.length => Mode::Stick,
+            Mode::Open => Mode::Open,
+            _ if trial.pressure < -tolerance.traction => Mode::Open,
+            Mode::Stick if trial.shear > limit => Mode::SlipRight,
+            Mode::Stick if trial.shear < -limit => Mode::SlipLeft,
+            // Friction must not push: an element that slides the wrong way sticks.
+            Mode::SlipRight if advance < -tolerance.length => Mode::Stick,
+            Mode::SlipLeft if advance > tolerance.length => Mode::Stick,
+            admissible => admissible,
+        }
+    }
+}
+
+/// A squat block that slides before it rocks, 10 s of El Centro at one and a half times its size.
+fn slide(law: impl InterfaceLaw + 'static) -> basemat::Result<Run> {
+    let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+    Simulation::builder(5.0e-3)
+        .structure(RigidBlock::new(8.0, 4.0, 2000.0)?)
+        .ground(HalfPlaneGround::strip(soil, -4.0..4.0, 8)?)
+        .interface(law)
+        .motion(el_centro_1940().scaled(1.5)?)
+        .gravity(STANDARD_GRAVITY)
+        .build()?
+        .run(2000, |_| {})
+}
+
+fn main() -> basemat::Result<()> {
+    let cases = [
+        ("Coulomb, 0.30", slide(Coulomb::new(0.3)?)?),
+        ("static 0.30, kinetic 0.15", slide(StaticKinetic { at_rest: 0.3, sliding: 0.15 })?),
+        ("Coulomb, 0.15", slide(Coulomb::new(0.15)?)?),
+    ];
+    println!("{:<28}{:>14}{:>14}{:>16}", "law", "largest slip", "residual slip", "ledger residual");
+    for (name, run) in cases {
+        println!(
+            "{name:<28}{:>11.1} mm{:>11.1} mm{:>16.1e}",
+            1e3 * run.slip.value,
+            1e3 * run.residual_slip,
+            run.ledger_residual
+        );
+    }
+    Ok(())
+}
