@@ -17,7 +17,7 @@ fn soil() -> Soil {
 
 /// 500 steps of a rigid block under El Centro, from rest: the strong part of the record is not in
 /// it, so that the mode search is the same at every run.
-fn scene(bencher: &mut criterion::Bencher<'_>, law: impl InterfaceLaw + Clone + 'static) {
+fn scene(bencher: &mut criterion::Bencher<'_>, law: &(impl InterfaceLaw + Clone + 'static)) {
     bencher.iter_batched(
         || {
             Simulation::builder(4.0e-3)
@@ -41,9 +41,9 @@ fn scene(bencher: &mut criterion::Bencher<'_>, law: impl InterfaceLaw + Clone + 
 fn steps(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("500 steps, rigid block");
     group.throughput(Throughput::Elements(500)).sample_size(20);
-    group.bench_function("bonded", |b| scene(b, Bonded));
-    group.bench_function("uplift only", |b| scene(b, Coulomb::uplift_only()));
-    group.bench_function("friction 0.2", |b| scene(b, Coulomb::new(0.2).expect("a valid law")));
+    group.bench_function("bonded", |b| scene(b, &Bonded));
+    group.bench_function("uplift only", |b| scene(b, &Coulomb::uplift_only()));
+    group.bench_function("friction 0.2", |b| scene(b, &Coulomb::new(0.2).expect("a valid law")));
     group.finish();
 }
 
