@@ -1,4 +1,137 @@
 //! Earthquake response of flexible structures whose base can uplift and slide on elastic ground.
+//!
+//! A structure (finite elements, a rigid block, a shear building, or any model of your own) stands
+//! on the flat surface of a homogeneous elastic half-plane. The ground shakes. Element by element,
+//! the base may stick, open, close again and slide with friction. Wanted are displacements, contact
+//! tractions, base shear and moment, uplift and slip. Everything is two-dimensional, per metre of
+//! thickness, for small displacements.
+//!
+//! # One complete example
+//!
+//! ```
+//! use basemat::bem::HalfPlaneGround;
+//! use basemat::coupled::Probe;
+//! use basemat::interface::Coulomb;
+//! use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+//! use basemat::structure::{ShearBuilding, Storey};
+//! use basemat::{Simulation, Soil};
+//!
+//! // Five storeys on a base 10 m wide, soil with a shear wave speed of 205 m/s.
+//! let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
+//! let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_damping_ratio(0.05)?;
+//! let weight = STANDARD_GRAVITY * building.total_mass();
+//! let roof = building.floor(4)?;
+//! let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+//!
+//! let mut simulation = Simulation::builder(0.01)
+//!     .structure(building)
+//!     .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 10)?)
+//!     .interface(Coulomb::new(0.4)?)
+//!     .motion(el_centro_1940())
+//!     .gravity(STANDARD_GRAVITY)
+//!     .probe(Probe::displacement("roof", vec![(roof, 1.0)]))
+//!     .build()?;
+//!
+//! // Before it shakes, the ground carries the weight and nothing else.
+//! let start = simulation.state();
+//! assert!((start.normal_force / weight - 1.0).abs() < 1e-9);
+//! assert!(start.base_shear.abs() < 1e-9 * weight && start.base_moment.abs() < 1e-9 * weight);
+//!
+//! let run = simulation.run(300, |state| {
+//!     // Coulomb's conditions hold in every element at every step.
+//!     for contact in &state.contact {
+//!         let tolerance = 1e-6 * weight / 10.0;
+//!         assert!(contact.pressure >= -tolerance && contact.gap >= -1e-9);
+//!         assert!(contact.shear.abs() <= 0.4 * contact.pressure + tolerance);
+//!     }
+//! })?;
+//! assert_eq!(run.steps, 300);
+//! assert!(run.base_shear.value.abs() > 0.0);
+//! // Every joule is accounted for.
+//! assert!(run.ledger_residual < 1e-9);
+//! println!("{run}");
+//! # Ok::<(), basemat::Error>(())
+//! ```
+//!
+//! # Equations
+//!
+//! The soil answers to the tractions of all steps so far; element means of its surface
+//! displacement at the end of step N are
+//!
+//! ```math
+//! s^N = s_{ff}^N + \sum_{m=1}^{N} G^{\,N-m+1}\, \tau^m
+//! ```
+//!
+//! with τᵐ constant over element and step, Gⁿ in closed form for the half-plane, and `s_ff` the free
+//! field. The structure obeys the midpoint rule (or another [`coupled::TimeScheme`]),
+//!
+//! ```math
+//! M \frac{v_1 - v_0}{\Delta t} + C \bar v + K \bar u + f(\bar u) = p(t_{1/2}) - B^T A\, \tau,
+//! \qquad u_1 - u_0 = \Delta t\, \bar v
+//! ```
+//!
+//! with B the element means of the base displacement and A the element lengths. Base and soil meet
+//! by gap g, slip w, pressure p and shear τ of each element: hard contact with Coulomb friction,
+//!
+//! ```math
+//! g \ge 0, \quad p \ge 0, \quad p\, g = 0, \qquad
+//! |\tau| \le \varphi\, p, \quad \Delta w = 0 \ \text{ or } \ \tau = \varphi\, p\, \mathrm{sgn}\,\Delta w ,
+//! ```
+//!
+//! or whatever an [`interface::InterfaceLaw`] says. The discrete equations keep an energy balance,
+//! exactly and for every time step, mesh and Poisson's ratio:
+//!
+//! ```text
+//! kinetic + strain + damping + numerical + soil + contact + preload = input
+//! ```
+//!
+//! The soil's term is the energy that the tractions put into a real half-plane, so it is never
+//! negative, and contact only takes energy away: nothing can blow up. [`coupled::Ledger`] computes
+//! each term from its own definition, and its residual comes with every run. `docs/theory.md` in
+//! the repository has derivations and sources.
+//!
+//! # Conventions
+//!
+//! | what | how |
+//! |---|---|
+//! | units | SI, per metre of thickness: N/m, N·m/m, kg/m; tractions in Pa |
+//! | axes | x to the right, y up, the soil at y ≤ 0; kernels alone use z down |
+//! | rotations, moments | positive counter-clockwise |
+//! | pressure | positive in compression |
+//! | shear, base shear | what the structure exerts on the soil, positive to the right |
+//! | gap, slip | positive when open; positive when the structure moved to the right over the soil |
+//! | contact vectors | 2Q numbers for Q elements: Q normal components (pressure; displacement **down**), then Q tangential ones (to the right) |
+//! | unknowns | absolute displacements; in [`coupled::State`] changes against the static state |
+//! | time | step n ends at t = nΔt; tractions belong to the whole step |
+//!
+//! # Map
+//!
+//! | module | what is in it |
+//! |---|---|
+//! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy ledger |
+//! | [`structure`] | finite-element model, rigid block, shear building, and the trait for your own |
+//! | [`fem`] | meshes and elements |
+//! | [`interface`] | bonded and Coulomb contact, and the trait for your own law |
+//! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], influence coefficients |
+//! | [`history`] | the convolution with all past tractions |
+//! | [`fundamental`] | elastodynamic fundamental solutions |
+//! | [`motion`] | records, baselines, free fields, El Centro 1940 |
+//! | [`reference`](mod@reference) | closed forms from the literature, to check against |
+//!
+//! # Bring your own
+//!
+//! | for a … of your own | implement | methods needed |
+//! |---|---|---|
+//! | structure | [`structure::Structure`] | 4 |
+//! | finite element | [`fem::Element`] | 4 |
+//! | law between base and soil | [`interface::InterfaceLaw`] | 3 |
+//! | ground motion | [`motion::FreeField`], or closures in [`motion::FreeFieldFn`] | 2 |
+//! | soil | [`bem::Ground`] | 6 |
+//! | time scheme | [`coupled::TimeScheme`] | 1 |
+//! | convolution algorithm | [`history::ConvolutionHistory`] | 4 |
+//! | fundamental solution | [`fundamental::FundamentalSolution`] | 3 |
+//!
+//! The examples `your_own_structure`, `your_own_law` and `your_own_ground` do it.
 #![forbid(unsafe_code)]
 
 pub mod bem;
@@ -17,3 +150,13 @@ pub mod structure;
 pub use coupled::Simulation;
 pub use error::{Error, RecordError, Result, StepError};
 pub use soil::Soil;
+
+/// The README's program is compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+/// The snippets of the architecture guide are, too.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/architecture.md")]
+struct Architecture;

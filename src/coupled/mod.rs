@@ -1,4 +1,63 @@
 //! The coupled nonlinear time integrator.
+//!
+//! [`Simulation::builder`] takes the parts and checks them against each other;
+//! [`Simulation::step`] makes one step, [`Simulation::run`] many.
+//!
+//! # A step
+//!
+//! Let u be the structure's unknowns, τ the contact tractions of the step as **changes** against the
+//! static state, and s the soil's displacement by them. With the coefficients that a [`TimeScheme`]
+//! gives for a*, v* and u* as functions of the increment Δu,
+//!
+//! ```text
+//! M a* + C (v* − v_ff) + K u* + f(u*) = p(t*) − Bᵀ A τ
+//! jump = gap₀ + s_ff + h + G¹ τ − B (u₀ + Δu)
+//! ```
+//!
+//! where B takes unknowns to element means of the base displacement (normal components down), A
+//! holds the element lengths, h is the history of all earlier tractions and `s_ff` the free field.
+//! The normal components of the jump are gaps; slip is minus the tangential ones. Eliminating Δu
+//! leaves one linear relation between jumps and tractions,
+//!
+//! ```text
+//! jump = j_free + W τ,     W = G¹ + B K_eff⁻¹ Bᵀ A     (Delassus operator, 2Q × 2Q)
+//! K_eff = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u),             θ = ½ for the midpoint rule
+//! ```
+//!
+//! 1. free field and history at the end of the step;
+//! 2. response without changes of traction: one solve with the factors of K_eff;
+//! 3. contact: the mode of each element and τ, from `j_free` and W alone;
+//! 4. commit: unknowns, history, ledger.
+//!
+//! For a linear structure W is computed once. For a nonlinear one Newton's method goes around
+//! steps 2 and 3, with a new W whenever the tangent changes.
+//!
+//! # Mode search
+//!
+//! Starting from the modes of the step before: solve the linear system that the modes define, let
+//! each [`crate::interface::InterfaceLaw`] say its next mode, repeat until nothing changes. A mode vector that
+//! comes back is a cycle; then Gauss–Seidel over the elements, each solved exactly by trying its
+//! modes, and at last single changes by the least-index rule. [`State::method`] tells what was
+//! needed, [`State::trials`] how many linear solves. If nothing converges, the step is an
+//! [`crate::Error::Step`] and the simulation stays at the last accepted one.
+//!
+//! # Preload
+//!
+//! With [`SimulationBuilder::gravity`] above zero, the run starts from the static state under weight
+//! and the load at t = 0: contact conditions included, with the static compliance of the ground.
+//! The structure has no support of its own and the half-plane no static datum, so the search is a
+//! proximal point iteration: weak springs to the last iterate, which pull at nothing once it
+//! converges. [`Placement`] says what friction does meanwhile. An equilibrium need not be stable:
+//! a block that P–Δ would topple is found standing, and falls when the ground shakes.
+//!
+//! # Ledger
+//!
+//! ```text
+//! kinetic + strain + damping + numerical + soil + contact + preload = input
+//! ```
+//!
+//! holds exactly for the discrete equations; see [`Ledger`] for the terms. [`Run::ledger_residual`]
+//! is the largest violation of a run, relative to the largest term.
 
 mod base;
 mod builder;
