@@ -66,9 +66,9 @@ fn independent_tilt(elements: usize, duration: f64) -> Vec<f64> {
     let shifted = |y: &[f64], k: &[f64], h: f64| -> Vec<f64> {
         y.iter().zip(k).map(|(y, k)| y + h * k).collect()
     };
-    let mut n = 0;
-    while (n as f64) * step < duration {
-        let t = n as f64 * step;
+    let mut n = 0_u32;
+    while f64::from(n) * step < duration {
+        let t = f64::from(n) * step;
         let k1 = rate(t, &y);
         let k2 = rate(t + 0.5 * step, &shifted(&y, &k1, 0.5 * step));
         y = shifted(&y, &k2, step);
