@@ -73,7 +73,7 @@ fn independent_tilt(elements: usize, duration: f64) -> Vec<f64> {
         let k2 = rate(t + 0.5 * step, &shifted(&y, &k1, 0.5 * step));
         y = shifted(&y, &k2, step);
         n += 1;
-        if n % every == 0 {
+        if n.is_multiple_of(every) {
             tilt.push(y[1]);
         }
     }
