@@ -186,13 +186,50 @@ fn lamb_line_load_and_elements() {
                 close(found, expected, 1e-11, &what);
             }
         }
-        // A load H(t) on an element: the mean over a receiver that shrinks to the point.
-        for row in rows(element).iter().filter(|row| row[0] == 0.0) {
-            let half = 1e-3;
-            let point = ContactElement { left: row[1] - half, right: row[1] + half };
-            let u = plane.element_mean(point, receiver(0.0), row[2]).unwrap();
-            close(u.xx, row[3], 3e-3, &format!("element {nu} {row:?}"));
-            close(u.zz, row[6], 3e-3, &format!("element {nu} {row:?}"));
+        // Traction on [−1/2, 1/2], receiver a point: differences of ∫₀^X u dx, which is Q for an
+        // impulse and X F + t Q for a load H(t).
+        for row in rows(element).iter().filter(|row| row[0] >= 0.0) {
+            let sides = [row[1] + 0.5, row[1] - 0.5].map(|x: f64| {
+                if x == 0.0 {
+                    return [0.0; 3];
+                }
+                let tau = row[2] / x.abs();
+                let (f, q) = (plane.heaviside(tau), plane.first_tail(tau));
+                let join = |f: f64, q: f64| {
+                    if row[0] == 1.0 { q } else { x.abs() * f + row[2] * q }
+                };
+                let even = x.signum() / PI;
+                [join(f.xx, q.xx) * even, join(f.zz, q.zz) * even, join(f.zx, q.zx) / PI]
+            });
+            let what = format!("element {nu} {row:?}");
+            for (i, expected) in [row[3], row[6], row[5]].into_iter().enumerate() {
+                close(sides[0][i] - sides[1][i], expected, 1e-11, &what);
+            }
+        }
+    }
+}
+
+/// Each load is the time derivative of the next.
+#[test]
+fn half_plane_loads_follow_from_each_other() {
+    let ground = Soil::new(3.0, 0.3, 2.0).unwrap();
+    let plane = HalfPlane::new(ground);
+    let h = 1e-5;
+    for (slow, fast) in
+        [(LoadHistory::Ramp, LoadHistory::Step), (LoadHistory::Step, LoadHistory::Impulse)]
+    {
+        for (x, time) in [(0.8, 0.3), (0.8, 0.5), (-0.8, 0.6), (-2.0, 1.3), (0.8, 3.0), (0.8, 0.66)]
+        {
+            let at = |time: f64| plane.displacement([x, 0.0], time, slow).unwrap();
+            let (before, after) = (at(time - h), at(time + h));
+            let rate = plane.displacement([x, 0.0], time, fast).unwrap();
+            for i in 0..2 {
+                for j in 0..2 {
+                    let found = (after[i][j] - before[i][j]) / (2.0 * h);
+                    let what = format!("{slow:?} {x} {time} {i} {j}");
+                    close(found, rate[i][j], 2e-7, &what);
+                }
+            }
         }
     }
 }

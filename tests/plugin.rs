@@ -342,9 +342,8 @@ impl ConvolutionHistory for Plain {
         }
         for (m, traction) in self.past.iter().enumerate() {
             let lag = past - 1 - m;
-            for p in 0..count {
-                for q in 0..count {
-                    let pair = self.kernel.pair(p, q);
+            for (p, pairs) in self.kernel.pairs().chunks(count).enumerate() {
+                for (q, pair) in pairs.iter().enumerate() {
                     let [zz, xx, zx] = [0, 1, 2].map(|k| pair.scale * lags[pair.class][k][lag]);
                     displacement[p] += zz * traction[q] + pair.sign * zx * traction[count + q];
                     displacement[count + p] +=
@@ -360,43 +359,6 @@ impl ConvolutionHistory for Plain {
     }
 }
 
-/// The half-plane with a history of one's own.
-struct OwnHistory {
-    soil: Soil,
-    inner: HalfPlaneGround,
-    parts: Option<(Arc<PatchKernel>, Box<dyn ConvolutionHistory>)>,
-}
-
-impl Ground for OwnHistory {
-    fn elements(&self) -> &[ContactElement] {
-        self.inner.elements()
-    }
-
-    fn prepare(&mut self, time_step: f64) -> Result<()> {
-        let elements = self.inner.elements().to_vec();
-        let kernel = Arc::new(PatchKernel::new(self.soil, elements, time_step)?);
-        let history = Plain { kernel: Arc::clone(&kernel), past: Vec::new() };
-        self.parts = Some((kernel, Box::new(history)));
-        Ok(())
-    }
-
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
-        self.parts.as_ref().unwrap().0.instantaneous(matrix)
-    }
-
-    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        self.parts.as_mut().unwrap().1.evaluate(displacement)
-    }
-
-    fn commit(&mut self, traction: &[f64]) {
-        self.parts.as_mut().unwrap().1.push(traction);
-    }
-
-    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.inner.static_compliance(matrix)
-    }
-}
-
 #[test]
 fn own_history() {
     let inner = || HalfPlaneGround::strip(soil(), -2.0..2.0, 4).unwrap();
@@ -407,7 +369,9 @@ fn own_history() {
         simulation
     };
     let scene = || Simulation::builder(1e-2).motion(push()).gravity(9.81);
-    let own = march(scene().ground(OwnHistory { soil: soil(), inner: inner(), parts: None }));
+    let plain =
+        |kernel| Box::new(Plain { kernel, past: Vec::new() }) as Box<dyn ConvolutionHistory>;
+    let own = march(scene().ground(inner().with_history(plain)));
     let crate_history = march(scene().ground(inner()));
     assert_same_motion(&own, &crate_history, 1e-6);
 }

@@ -64,6 +64,8 @@ pub(crate) struct Outcome {
     pub(crate) case: Case,
     pub(crate) run: Run,
     pub(crate) histories: Histories,
+    /// Contact length, m.
+    pub(crate) width: f64,
 }
 
 impl Outcome {
@@ -131,7 +133,7 @@ pub(crate) fn run(
             bar.set_position(state.step as u64);
         }
     })?;
-    Ok(Outcome { case: case.clone(), run, histories: kept })
+    Ok(Outcome { case: case.clone(), run, histories: kept, width: 2.0 * half })
 }
 
 /// The paper's model: layers of rectangles, the lowest one the basemat. Returns it with the heights

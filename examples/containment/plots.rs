@@ -85,6 +85,8 @@ fn curves(
         .configure_mesh()
         .x_desc("time, s")
         .y_desc(unit)
+        .x_label_formatter(&|x| format!("{x:.0}"))
+        .y_label_formatter(&|y| format!("{y:.0}"))
         .label_style(("sans-serif", 16))
         .axis_desc_style(("sans-serif", 18))
         .light_line_style(WHITE)
@@ -123,6 +125,8 @@ fn mode_map(path: &Path, outcome: &Outcome) -> Result<(), AnyError> {
     let kept = &outcome.histories;
     let (Some(first), Some(&end)) = (kept.modes.first(), kept.time.last()) else { return Ok(()) };
     let count = first.len();
+    let half = 0.5 * outcome.width;
+    let length = outcome.width / count as f64;
     let every = kept.modes.len().div_ceil(1000).max(1);
     let rank = |mode: Mode| match mode {
         Mode::Stick => 0,
@@ -139,20 +143,21 @@ fn mode_map(path: &Path, outcome: &Outcome) -> Result<(), AnyError> {
         .margin(16)
         .x_label_area_size(48)
         .y_label_area_size(76)
-        .build_cartesian_2d(0.0..end, 0.0..count as f64 * 1.12)?;
+        .build_cartesian_2d(0.0..end, -half..1.7 * half)?;
     chart
         .configure_mesh()
         .disable_mesh()
         .x_desc("time, s")
-        .y_desc("element, from left (bottom) to right (top)")
-        .y_labels(6)
+        .y_desc("place along the base, m (right is up)")
+        .x_label_formatter(&|x| format!("{x:.0}"))
+        .y_label_formatter(&|y| if *y > half { String::new() } else { format!("{y:.0}") })
         .label_style(("sans-serif", 16))
         .axis_desc_style(("sans-serif", 18))
         .draw()?;
     for element in 0..count {
         let mut begin = 0.0;
         let mut shown: Option<Mode> = None;
-        let row = element as f64;
+        let row = element as f64 * length - half;
         let columns: Vec<(f64, Mode)> = kept
             .modes
             .chunks(every)
@@ -167,7 +172,7 @@ fn mode_map(path: &Path, outcome: &Outcome) -> Result<(), AnyError> {
             let next = columns.get(k + 1).map(|c| c.1);
             shown.get_or_insert(mode);
             if next != Some(mode) {
-                let area = [(begin, row + 0.04), (time, row + 0.96)];
+                let area = [(begin, row + 0.04 * length), (time, row + 0.96 * length)];
                 chart.draw_series([Rectangle::new(area, color(mode).filled())])?;
                 begin = time;
                 shown = None;
@@ -181,7 +186,7 @@ fn mode_map(path: &Path, outcome: &Outcome) -> Result<(), AnyError> {
         (Mode::Open, "open"),
     ] {
         chart
-            .draw_series(std::iter::once(Rectangle::new([(0.0, 0.0); 2], color(mode).filled())))?
+            .draw_series(std::iter::once(Rectangle::new([(0.0, -half); 2], color(mode).filled())))?
             .label(name)
             .legend(move |(x, y)| {
                 Rectangle::new([(x, y - 6), (x + 24, y + 6)], color(mode).filled())

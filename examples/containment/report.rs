@@ -53,7 +53,7 @@ pub(crate) fn print_table(results: &[Outcome]) {
             paper,
             100.0 * run.uplifted_fraction.value,
             1e3 * run.slip.value.abs(),
-            1e3 * run.residual_slip,
+            1e3 * run.residual_slip + 0.0,
             1e3 * outcome.peak_roof(),
             run.ledger_residual,
             run.wall.as_secs_f64(),

@@ -32,8 +32,12 @@ pub struct HalfPlaneGround {
     soil: Soil,
     elements: Vec<ContactElement>,
     statics: StaticKernel,
+    make_history: Box<MakeHistory>,
     prepared: Option<Prepared>,
 }
+
+/// Makes the history of a patch.
+type MakeHistory = dyn Fn(Arc<PatchKernel>) -> Box<dyn ConvolutionHistory> + Send;
 
 /// What a time step brings with it.
 struct Prepared {
@@ -69,7 +73,20 @@ impl HalfPlaneGround {
         // static matrix positive definite, and the settlement it stands for cancels in all results.
         let span = elements[elements.len() - 1].right - elements[0].left;
         let statics = StaticKernel::new(&soil, 10.0 * span)?;
-        Ok(Self { soil, elements, statics, prepared: None })
+        let make_history =
+            Box::new(|kernel| Box::new(DirectHistory::new(kernel)) as Box<dyn ConvolutionHistory>);
+        Ok(Self { soil, elements, statics, make_history, prepared: None })
+    }
+
+    /// With another history than the direct sum: `make` is called with the patch's coefficients
+    /// once the time step is known.
+    #[must_use]
+    pub fn with_history(
+        mut self,
+        make: impl Fn(Arc<PatchKernel>) -> Box<dyn ConvolutionHistory> + Send + 'static,
+    ) -> Self {
+        self.make_history = Box::new(make);
+        self
     }
 
     /// The soil.
@@ -85,8 +102,8 @@ impl Ground for HalfPlaneGround {
 
     fn prepare(&mut self, time_step: f64) -> Result<()> {
         let kernel = Arc::new(PatchKernel::new(self.soil, self.elements.clone(), time_step)?);
-        let history = DirectHistory::new(Arc::clone(&kernel));
-        self.prepared = Some(Prepared { kernel, history: Box::new(history) });
+        let history = (self.make_history)(Arc::clone(&kernel));
+        self.prepared = Some(Prepared { kernel, history });
         Ok(())
     }
 

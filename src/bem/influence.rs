@@ -110,7 +110,7 @@ impl InfluenceKernel {
     /// the traction acts during the first.
     ///
     /// # Errors
-    /// [`Error::Input`] for a bad element, [`Error::Index`] for lag 0.
+    /// [`Error::Input`] for a bad element or lag 0.
     pub fn coefficients(
         &self,
         receiver: ContactElement,

@@ -85,7 +85,7 @@ pub trait Ground: Send {
     /// If the history cannot be evaluated.
     fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
 
-    /// Accepts the tractions (2Q, Pa) of the step that ends now.
+    /// Accepts the tractions (2Q, Pa; missing entries count as zero) of the step that ends now.
     fn commit(&mut self, traction: &[f64]);
 
     /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the static displacement due to unit
@@ -98,11 +98,12 @@ pub trait Ground: Send {
     /// Overwrites `displacement` (2Q, m; normal components **down**) with the motion of the soil
     /// without structure at `time`. The default samples `motion` at the element midpoints.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
-        let count = self.elements().len();
-        for (q, element) in self.elements().iter().enumerate() {
+        let (down, along) =
+            displacement.split_at_mut(self.elements().len().min(displacement.len()));
+        for (element, (down, along)) in self.elements().iter().zip(down.iter_mut().zip(along)) {
             let [horizontal, vertical] = motion.displacement(element.center(), time);
-            displacement[q] = -vertical;
-            displacement[count + q] = horizontal;
+            *down = -vertical;
+            *along = horizontal;
         }
     }
 }

@@ -78,9 +78,9 @@ impl PatchKernel {
         self.classes.len()
     }
 
-    /// How receiver `p` and source `q` find their coefficients; indices below the element count.
-    pub fn pair(&self, p: usize, q: usize) -> Pair {
-        self.pairs[p * self.elements.len() + q]
+    /// How all pairs find their coefficients: receiver by receiver, Q sources each.
+    pub fn pairs(&self) -> &[Pair] {
+        &self.pairs
     }
 
     /// Overwrites the slices (of one length) with the coefficients of `class` for the lags from
@@ -140,9 +140,8 @@ impl PatchKernel {
                 Ok([zz[0], xx[0], zx[0]])
             })
             .collect::<Result<Vec<_>>>()?;
-        for p in 0..count {
-            for q in 0..count {
-                let pair = self.pair(p, q);
+        for (p, pairs) in self.pairs.chunks_exact(count).enumerate() {
+            for (q, pair) in pairs.iter().enumerate() {
                 let [zz, xx, zx] = first[pair.class].map(|value| value * pair.scale);
                 let mut set = |row: usize, column: usize, value: f64| {
                     matrix[row * 2 * count + column] = value;

@@ -114,16 +114,18 @@ impl Ground for SpringGround {
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        for (i, out) in displacement.iter_mut().enumerate() {
+        same_length("displacement of the history", displacement.len(), self.displacement.len())?;
+        for (i, (out, last)) in displacement.iter_mut().zip(&self.displacement).enumerate() {
             let k = self.component(i);
             let impedance = self.impedance(k);
-            *out = (impedance - self.stiffness[k]) / impedance * self.displacement[i];
+            *out = (impedance - self.stiffness[k]) / impedance * last;
         }
         Ok(())
     }
 
     fn commit(&mut self, traction: &[f64]) {
-        for (i, traction) in traction.iter().enumerate() {
+        for i in 0..self.displacement.len() {
+            let traction = traction.get(i).copied().unwrap_or(0.0);
             let k = self.component(i);
             let impedance = self.impedance(k);
             let kept = (impedance - self.stiffness[k]) / impedance * self.displacement[i];

@@ -65,6 +65,7 @@ mod contact;
 mod ledger;
 mod model;
 mod modes;
+mod path;
 mod preload;
 mod run;
 mod scheme;

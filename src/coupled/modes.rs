@@ -4,10 +4,11 @@
 //!    Patel & Spyrakos' Appendix; a primal–dual active set method, Hüeber, Stadler & Wohlmuth 2008).
 //! 2. If a mode vector comes back: Gauss–Seidel over the elements, each solved exactly by trying
 //!    its modes with the other tractions held, then the modes so found solved together.
-//! 3. If that does not settle: single changes, always of the first element that objects (Murty's
-//!    least-index rule, finite for frictionless problems).
+//! 3. If that does not settle: follow the solution from a load under which every element is pressed
+//!    shut, one change of mode at a time (see [`super::path`]).
 
 use super::contact::{ContactInput, ContactSolver};
+use super::path::Path;
 use crate::error::StepError;
 use crate::interface::{Condition, ContactState, Mode, Tolerance};
 
@@ -15,8 +16,6 @@ use crate::interface::{Condition, ContactState, Mode, Tolerance};
 const ACTIVE_SET_TRIALS: usize = 60;
 /// Sweeps of Gauss–Seidel.
 const SWEEPS: usize = 400;
-/// Single changes per element.
-const SINGLE_CHANGES: usize = 40;
 
 /// How the modes of a step were found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -25,8 +24,8 @@ pub enum SearchMethod {
     ActiveSet,
     /// Gauss–Seidel with local enumeration was needed.
     GaussSeidel,
-    /// Single changes by the least-index rule were needed.
-    LeastIndex,
+    /// The solution was followed from a fully closed state.
+    Path,
 }
 
 /// Memory of the mode search.
@@ -34,6 +33,7 @@ pub(crate) struct ModeSearch {
     visited: Vec<Mode>,
     next: Vec<Mode>,
     before: Vec<Mode>,
+    path: Path,
 }
 
 impl ModeSearch {
@@ -42,6 +42,7 @@ impl ModeSearch {
             visited: Vec::with_capacity(count * ACTIVE_SET_TRIALS),
             next: vec![Mode::Stick; count],
             before: vec![Mode::Stick; count],
+            path: Path::new(count),
         }
     }
 
@@ -60,8 +61,9 @@ impl ModeSearch {
         if self.gauss_seidel(solver, input, modes, &mut trials) {
             return Ok((trials, SearchMethod::GaussSeidel));
         }
-        if self.least_index(solver, input, modes, &mut trials) {
-            return Ok((trials, SearchMethod::LeastIndex));
+        self.path.follow(solver, input, modes, &mut trials);
+        if solver.trial(input, modes) && self.ask_laws(solver, input, modes) {
+            return Ok((trials, SearchMethod::Path));
         }
         let residual = violation(solver, input, modes);
         Err(StepError::Contact { iterations: trials, residual, modes: modes.to_vec() })
@@ -133,31 +135,6 @@ impl ModeSearch {
                 wait = 2 * sweep;
             }
             self.before.copy_from_slice(modes);
-        }
-        false
-    }
-
-    fn least_index(
-        &mut self,
-        solver: &mut ContactSolver,
-        input: &ContactInput<'_>,
-        modes: &mut [Mode],
-        trials: &mut usize,
-    ) -> bool {
-        for e in 0..modes.len() {
-            modes[e] = input.law(e).modes()[0];
-        }
-        for _ in 0..SINGLE_CHANGES * modes.len() {
-            *trials += 1;
-            if !solver.trial(input, modes) {
-                return false;
-            }
-            if self.ask_laws(solver, input, modes) {
-                return true;
-            }
-            if let Some(e) = (0..modes.len()).find(|&e| self.next[e] != modes[e]) {
-                modes[e] = self.next[e];
-            }
         }
         false
     }

@@ -120,7 +120,7 @@ pub struct Run {
     pub ledger_residual: f64,
     /// Linear solves of the mode search, in all.
     pub trials: usize,
-    /// Steps that needed Gauss–Seidel, and steps that needed the least-index rule.
+    /// Steps that needed Gauss–Seidel, and steps that needed path following.
     pub fallbacks: [usize; 2],
     /// Warnings.
     pub warnings: Vec<Warning>,
@@ -176,7 +176,7 @@ impl Run {
         match state.method {
             SearchMethod::ActiveSet => {}
             SearchMethod::GaussSeidel => self.fallbacks[0] += 1,
-            SearchMethod::LeastIndex => self.fallbacks[1] += 1,
+            SearchMethod::Path => self.fallbacks[1] += 1,
         }
     }
 

@@ -48,6 +48,9 @@ pub struct Simulation {
     elements: Vec<ContactElement>,
 }
 
+/// Steps that a run prepares for, at most; beyond, memory grows as it goes.
+const RESERVED_STEPS: usize = 100_000;
+
 /// What stays constant while the tangent does.
 pub(super) struct Operators {
     pub(super) tangent: SparseMatrix,
@@ -269,7 +272,8 @@ impl Simulation {
         mut observe: impl FnMut(&State) -> R,
     ) -> Result<Run> {
         let begin = std::time::Instant::now();
-        self.ground.reserve(self.state.step + steps)?;
+        // An observer may be meant to stop a run without end: what it will need is not known.
+        self.ground.reserve(self.state.step.saturating_add(steps.min(RESERVED_STEPS)))?;
         let mut run = Run::new(&self.probes, &self.elements, &self.state);
         for _ in 0..steps {
             self.step()?;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::ConvolutionHistory;
 use crate::bem::PatchKernel;
-use crate::error::Result;
+use crate::error::{Result, same_length};
 use crate::linalg::dot;
 
 /// Steps of the sum that are taken together, so that tractions and kernels stay in cache.
@@ -88,6 +88,8 @@ impl ConvolutionHistory for DirectHistory {
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
+        let count = self.kernel.elements().len();
+        same_length("displacement of the history", displacement.len(), 2 * count)?;
         displacement.fill(0.0);
         let past = self.steps;
         if past == 0 {
@@ -96,7 +98,6 @@ impl ConvolutionHistory for DirectHistory {
         if past + 1 > self.capacity {
             self.grow(past + 1)?;
         }
-        let count = self.kernel.elements().len();
         let (down, along) = displacement.split_at_mut(count);
         // Input m (from 0) is seen with lag past + 1 − m.
         for begin in (0..past).step_by(CHUNK) {
@@ -104,9 +105,8 @@ impl ConvolutionHistory for DirectHistory {
             let range = |stored: usize, begin: usize| {
                 stored - (past + 1 - begin)..stored - (past + 1 - end)
             };
-            for p in 0..count {
-                for q in 0..count {
-                    let pair = self.kernel.pair(p, q);
+            for (p, pairs) in self.kernel.pairs().chunks_exact(count).enumerate() {
+                for (q, pair) in pairs.iter().enumerate() {
                     let pressure = &self.traction[q];
                     let shear = &self.traction[count + q];
                     let lags = range(self.capacity, begin);
@@ -130,8 +130,8 @@ impl ConvolutionHistory for DirectHistory {
     }
 
     fn push(&mut self, traction: &[f64]) {
-        for (stored, value) in self.traction.iter_mut().zip(traction) {
-            stored.push(*value);
+        for (i, stored) in self.traction.iter_mut().enumerate() {
+            stored.push(traction.get(i).copied().unwrap_or(0.0));
         }
         self.steps += 1;
     }

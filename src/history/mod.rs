@@ -22,9 +22,9 @@ pub trait ConvolutionHistory: Send {
     /// Overwrites `displacement` with the history at the end of the next step.
     ///
     /// # Errors
-    /// If a kernel cannot be evaluated.
+    /// If the slice has the wrong length or a kernel cannot be evaluated.
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()>;
 
-    /// Accepts the tractions of the step that ends now.
+    /// Accepts the tractions of the step that ends now (2Q, Pa; missing entries count as zero).
     fn push(&mut self, traction: &[f64]);
 }

@@ -90,6 +90,16 @@ impl Coulomb {
         if start.has_opened { 0.0 } else { self.tensile_strength }
     }
 
+    /// τ = ±friction (p + strength), written so that infinite friction has its limit: p + strength
+    /// = 0 with the shear traction free. Without it the incremental problem need not have a
+    /// solution: an element about to open under shear could neither stick nor let go.
+    fn slip_condition(&self, direction: f64, start: &StepStart) -> Condition {
+        let (friction, strength) = (self.friction, self.strength(start));
+        let [shear, pressure] =
+            if friction > 1.0 { [-direction / friction, 1.0] } else { [direction, -friction] };
+        Condition { shear, pressure, value: -pressure * strength, ..Condition::default() }
+    }
+
     /// Gap that a closed element must have at the end of the step; `None` if it cannot close.
     fn closed_gap(&self, start: &StepStart) -> Option<f64> {
         match self.activation {
@@ -103,9 +113,7 @@ impl Coulomb {
 
 impl InterfaceLaw for Coulomb {
     fn modes(&self) -> &[Mode] {
-        if self.friction == f64::INFINITY {
-            &[Mode::Stick, Mode::Open]
-        } else if self.friction == 0.0 {
+        if self.friction == 0.0 {
             // Either slip mode says the same when there is no friction: one is enough.
             &[Mode::SlipRight, Mode::Open]
         } else {
@@ -117,18 +125,11 @@ impl InterfaceLaw for Coulomb {
         let open = [Condition::pressure_is(0.0), Condition::shear_is(0.0)];
         let Some(closed_gap) = self.closed_gap(start) else { return open };
         let closed = Condition::gap_is(closed_gap);
-        // τ − (±friction)(p + strength) = 0
-        let slip = |friction: f64| Condition {
-            shear: 1.0,
-            pressure: -friction,
-            value: friction * self.strength(start),
-            ..Condition::default()
-        };
         match mode {
             Mode::Open => open,
             Mode::Stick => [closed, Condition::slip_is(start.state.slip)],
-            Mode::SlipRight => [closed, slip(self.friction)],
-            Mode::SlipLeft => [closed, slip(-self.friction)],
+            Mode::SlipRight => [closed, self.slip_condition(1.0, start)],
+            Mode::SlipLeft => [closed, self.slip_condition(-1.0, start)],
         }
     }
 
@@ -145,27 +146,26 @@ impl InterfaceLaw for Coulomb {
             let closes = trial.gap < closed_gap - tolerance.length;
             return if closes { at_rest } else { Mode::Open };
         }
-        if trial.pressure < -self.strength(start) - tolerance.traction {
-            return Mode::Open;
-        }
         let advance = trial.slip - start.state.slip;
-        match mode {
-            Mode::Stick if self.friction == f64::INFINITY => Mode::Stick,
-            Mode::Stick => {
-                let limit = self.friction * (trial.pressure + self.strength(start)).max(0.0)
-                    + tolerance.traction;
-                if trial.shear > limit {
-                    Mode::SlipRight
-                } else if trial.shear < -limit {
-                    Mode::SlipLeft
-                } else {
-                    Mode::Stick
-                }
+        let (normal, slack) = (trial.pressure + self.strength(start), tolerance.traction);
+        let slides = |direction: f64| {
+            if normal < -slack || (self.friction > 0.0 && direction * trial.shear < -slack) {
+                Mode::Open
+            } else if self.friction > 0.0 && direction * advance < -tolerance.length {
+                Mode::Stick
+            } else {
+                mode
             }
-            _ if self.friction == 0.0 => at_rest,
-            Mode::SlipRight if advance < -tolerance.length => Mode::Stick,
-            Mode::SlipLeft if advance > tolerance.length => Mode::Stick,
-            _ => mode,
+        };
+        match mode {
+            Mode::SlipRight => slides(1.0),
+            Mode::SlipLeft => slides(-1.0),
+            _ if normal < -slack => Mode::Open,
+            // Infinite friction times no pressure is no limit.
+            _ if self.friction == f64::INFINITY => Mode::Stick,
+            _ if trial.shear > self.friction * normal.max(0.0) + slack => Mode::SlipRight,
+            _ if trial.shear < -self.friction * normal.max(0.0) - slack => Mode::SlipLeft,
+            _ => Mode::Stick,
         }
     }
 }

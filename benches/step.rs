@@ -1,0 +1,73 @@
+//! Time per step of whole scenes, and of the direct history alone.
+
+use std::hint::black_box;
+use std::sync::Arc;
+
+use basemat::bem::{ContactElement, HalfPlaneGround, PatchKernel, Strip};
+use basemat::history::{ConvolutionHistory, DirectHistory};
+use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
+use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::structure::RigidBlock;
+use basemat::{Simulation, Soil};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+
+fn soil() -> Soil {
+    Soil::new(80.0e6, 1.0 / 3.0, 1900.0).expect("a valid soil")
+}
+
+/// 500 steps of a rigid block under El Centro, from rest: the strong part of the record is not in
+/// it, so that the mode search is the same at every run.
+fn scene(bencher: &mut criterion::Bencher<'_>, law: &(impl InterfaceLaw + Clone + 'static)) {
+    bencher.iter_batched(
+        || {
+            Simulation::builder(4.0e-3)
+                .structure(RigidBlock::new(10.0, 20.0, 500.0).expect("a valid block"))
+                .ground(HalfPlaneGround::strip(soil(), -5.0..5.0, 10).expect("a valid strip"))
+                .interface(law.clone())
+                .motion(el_centro_1940())
+                .gravity(STANDARD_GRAVITY)
+                .expected_steps(500)
+                .build()
+                .expect("a valid scene")
+        },
+        |mut simulation| {
+            let run = simulation.run(500, |_| ());
+            black_box(run.expect("every step is solved").base_shear)
+        },
+        criterion::BatchSize::LargeInput,
+    );
+}
+
+fn steps(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("500 steps, rigid block");
+    group.throughput(Throughput::Elements(500)).sample_size(20);
+    group.bench_function("bonded", |b| scene(b, &Bonded));
+    group.bench_function("uplift only", |b| scene(b, &Coulomb::uplift_only()));
+    group.bench_function("friction 0.2", |b| scene(b, &Coulomb::new(0.2).expect("a valid law")));
+    group.finish();
+}
+
+fn direct_history(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("direct history, one evaluation");
+    for past in [1_000, 10_000] {
+        let elements: Vec<ContactElement> =
+            Strip::uniform(-5.0..5.0, 10).expect("a valid strip").elements();
+        let kernel = PatchKernel::new(soil(), elements, 2.0e-3).expect("a valid patch");
+        let mut history = DirectHistory::new(Arc::new(kernel));
+        history.reserve(past + 1).expect("kernels");
+        for step in 0..past {
+            let traction: Vec<f64> = (0..20).map(|i| ((step * 7 + i) as f64).sin()).collect();
+            history.push(&traction);
+        }
+        let mut displacement = vec![0.0; 20];
+        // Pressure on settlement and shear on sway, for each pair of elements.
+        group.throughput(Throughput::Elements(2 * 100 * past as u64));
+        group.bench_function(BenchmarkId::new("10 elements", past), |bencher| {
+            bencher.iter(|| history.evaluate(black_box(&mut displacement)));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, steps, direct_history);
+criterion_main!(benches);
