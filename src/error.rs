@@ -68,7 +68,8 @@ pub enum Error {
     /// The static state under the structure's weight was not found.
     #[error(
         "no static equilibrium after {iterations} iterations: residual {residual:e} of the load \
-         (does the structure topple or slide under its own weight?)"
+         (does the structure topple or slide under its own weight? horizontal static loads need \
+         `Placement::WithInterfaceLaw`)"
     )]
     Preload {
         /// Iterations made.
@@ -112,6 +113,9 @@ pub enum StepError {
         /// Last out-of-balance force relative to the largest force.
         residual: f64,
     },
+    /// The ground could not give its history.
+    #[error("history of the ground: {0}")]
+    Ground(Box<Error>),
     /// A number became NaN or infinite.
     #[error("{quantity} is not finite")]
     NotFinite {

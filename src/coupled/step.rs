@@ -31,7 +31,9 @@ impl Simulation {
         let time = step as f64 * self.time_step;
         let failed = |source| Error::Step { step, time, source };
         self.observe_ground(time).map_err(failed)?;
-        self.ground.history(&mut self.work.history)?;
+        self.ground
+            .history(&mut self.work.history)
+            .map_err(|error| failed(StepError::Ground(Box::new(error))))?;
         if self.work.history.iter().any(|x| !x.is_finite()) {
             return Err(failed(StepError::NotFinite { quantity: "history of the ground" }));
         }
