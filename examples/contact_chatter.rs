@@ -55,11 +55,11 @@ fn main() -> Result<(), basemat::Error> {
     println!("lengths in mm, content above 20 Hz and energies relative to weight and input");
     for &friction in &options.friction {
         println!(
-            "\n| friction {friction} | Δt, ms | rms > 20 Hz, % | peak > 20 Hz, % | peak slip | \
+            "\n| friction {friction} | Δt, ms | rms > 20 Hz, % | peak > 20 Hz, % | alternating, % | peak slip | \
              residual slip | uplift | peak rotation, mrad | contact | numerical | penetration | \
              ledger | changes |"
         );
-        println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+        println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
         for (name, scheme, activation) in schemes {
             for halving in 0..3 {
                 let scene = Scene {
@@ -75,11 +75,12 @@ fn main() -> Result<(), basemat::Error> {
                 };
                 let o = scene.run()?;
                 println!(
-                    "| {name} | {:.3} | {:.3} | {:.2} | {:.3} | {:.3} | {:.3} | {:.3} | {:.4} | \
+                    "| {name} | {:.3} | {:.3} | {:.2} | {:.3} | {:.3} | {:.3} | {:.3} | {:.3} | {:.4} | \
                      {:.4} | {:.1e} | {:.0e} | {} |",
                     1e3 * scene.time_step,
                     100.0 * o.rms_above,
                     100.0 * o.peak_above,
+                    100.0 * o.alternating,
                     1e3 * o.peak_slip,
                     1e3 * o.residual_slip,
                     o.uplift,

@@ -39,6 +39,8 @@ pub(crate) struct Scene {
 pub(crate) struct Outcome {
     pub(crate) rms_above: f64,
     pub(crate) peak_above: f64,
+    /// Root mean square of what alternates from step to step.
+    pub(crate) alternating: f64,
     pub(crate) peak_slip: f64,
     pub(crate) residual_slip: f64,
     pub(crate) uplift: f64,
@@ -90,7 +92,10 @@ impl Scene {
         })?;
         let fast = high_pass(&force, self.time_step);
         let square: f64 = fast.iter().map(|f| f * f).sum();
+        let square_of_alternating: f64 =
+            force.windows(3).map(|f| (0.25 * (f[0] + f[2]) - 0.5 * f[1]).powi(2)).sum();
         Ok(Outcome {
+            alternating: (square_of_alternating / force.len() as f64).sqrt(),
             rms_above: (square / fast.len() as f64).sqrt(),
             peak_above: fast.iter().fold(0.0, |m, f| m.max(f.abs())),
             peak_slip: run.slip.value.abs(),

@@ -20,7 +20,8 @@ pub(crate) struct Scene {
 impl Scene {
     fn ground(&self) -> HalfPlaneGround {
         let soil = Soil::new(1.0, self.poisson, 1.0).unwrap();
-        let strip = if self.graded { HalfPlaneGround::graded_strip } else { HalfPlaneGround::strip };
+        let strip =
+            if self.graded { HalfPlaneGround::graded_strip } else { HalfPlaneGround::strip };
         let mut ground = strip(soil, -1.0..1.0, self.elements).unwrap();
         let length = 2.0 / self.elements as f64;
         ground.prepare(self.beta * length / soil.pressure_wave_speed()).unwrap();
@@ -114,7 +115,8 @@ fn multiply(matrix: &[f64], x: &[f64]) -> Vec<f64> {
 /// Inverse by Gauss–Jordan elimination with column pivots.
 fn inverse(matrix: &[f64], size: usize) -> Vec<f64> {
     let mut left = matrix.to_vec();
-    let mut right: Vec<f64> = (0..size * size).map(|k| f64::from(u8::from(k / size == k % size))).collect();
+    let mut right: Vec<f64> =
+        (0..size * size).map(|k| f64::from(u8::from(k / size == k % size))).collect();
     for k in 0..size {
         let pivot = (k..size)
             .max_by(|&a, &b| left[a * size + k].abs().total_cmp(&left[b * size + k].abs()))
