@@ -82,17 +82,20 @@ fn ledger_closes_and_every_term_counts() {
     assert_eq!(seen, [true; 8], "a term was never put to the test");
 }
 
-/// A stiff structure that rides far with the ground: the strain energy is that of a deformation
-/// of micrometres on a displacement of metres.
+/// A stiff structure that rides far with the ground: K u and ½ u·K u are those of a deformation of
+/// micrometres on a displacement of decimetres. Rounding of the ride opens the ledger in proportion
+/// to the stiffness, most while the motion is still weak, and no more than that.
 #[test]
-fn long_rides_do_not_open_the_ledger() {
+fn long_rides_open_the_ledger_by_rounding_only() {
     for (modulus, strength) in [(2e8, 1.0), (2e10, 1.0), (2e10, 10.0), (2e12, 10.0)] {
         let material = Material::new(modulus, 0.2, 1500.0).unwrap();
         let mesh = Mesh::layered_block(-2.0..2.0, 6, &[Layer::new(6.0, 6, material)]).unwrap();
         let model = FemModel::on_base(mesh).unwrap();
         let bonded = scene(SI, strength).motion(shake(SI, strength)).interface(Bonded);
-        let residual = run(bonded.structure(model), 300).ledger_residual;
-        println!("E = {modulus:e}, strength {strength}: {residual:.1e}");
-        assert!(residual < 1e-9, "E = {modulus:e}, strength {strength}: {residual:e}");
+        let run = run(bonded.structure(model), 300);
+        let (largest, end) = (run.ledger_residual, run.ledger.residual());
+        println!("E = {modulus:e}, strength {strength}: {largest:.1e}, at the end {end:.1e}");
+        assert!(largest < 1e-21 * modulus, "E = {modulus:e}, strength {strength}: {largest:e}");
+        assert!(end < 3e-22 * modulus, "E = {modulus:e}, strength {strength}: {end:e}");
     }
 }
