@@ -300,19 +300,15 @@ impl Tally {
         }
         solver.invalidate();
         let mut modes = problem.modes.clone();
-        match search.solve(&mut solver, &input, &mut modes) {
-            Ok((trials, method)) => {
-                self.trials += trials;
-                self.methods[method as usize] += 1;
-                self.worst = self.worst.max(check(&solver, &modes));
-                Some((modes, solver.states))
-            }
-            Err(_) => {
-                self.failed += usize::from(!all.is_empty() && !strong);
-                self.failed_with_strength += usize::from(!all.is_empty() && strong);
-                None
-            }
-        }
+        let Ok((trials, method)) = search.solve(&mut solver, &input, &mut modes) else {
+            self.failed += usize::from(!all.is_empty() && !strong);
+            self.failed_with_strength += usize::from(!all.is_empty() && strong);
+            return None;
+        };
+        self.trials += trials;
+        self.methods[method as usize] += 1;
+        self.worst = self.worst.max(check(&solver, &modes));
+        Some((modes, solver.states))
     }
 }
 

@@ -100,7 +100,7 @@ impl Path {
         let count = modes.len();
         // Multiples of the golden ratio, modulo one, never meet.
         let spread = |e: usize| (0.618_033_988_749_895 * (attempt * count + e + 1) as f64).fract();
-        if attempt % 2 == 0 {
+        if attempt.is_multiple_of(2) {
             self.begin_open(input, spread, modes);
         } else {
             self.begin_shut(input, spread, modes);
