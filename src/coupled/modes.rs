@@ -4,8 +4,8 @@
 //!    Patel & Spyrakos' Appendix; a primal–dual active set method, Hüeber, Stadler & Wohlmuth 2008).
 //! 2. If a mode vector comes back: Gauss–Seidel over the elements, each solved exactly by trying
 //!    its modes with the other tractions held, then the modes so found solved together.
-//! 3. If that does not settle: follow the solution from a load under which every element is pressed
-//!    shut, one change of mode at a time (see [`super::path`]).
+//! 3. If that does not settle: follow the solution from a load under which every element is open,
+//!    one change of mode at a time (see [`super::path`]).
 
 use super::contact::{ContactInput, ContactSolver};
 use super::path::Path;
@@ -16,6 +16,8 @@ use crate::interface::{Condition, ContactState, Mode, Tolerance};
 const ACTIVE_SET_TRIALS: usize = 60;
 /// Sweeps of Gauss–Seidel.
 const SWEEPS: usize = 400;
+/// Paths followed.
+const PATHS: usize = 8;
 
 /// How the modes of a step were found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,7 +26,7 @@ pub enum SearchMethod {
     ActiveSet,
     /// Gauss–Seidel with local enumeration was needed.
     GaussSeidel,
-    /// The solution was followed from a fully closed state.
+    /// The solution was followed from a known one.
     Path,
 }
 
@@ -61,8 +63,7 @@ impl ModeSearch {
         if self.gauss_seidel(solver, input, modes, &mut trials) {
             return Ok((trials, SearchMethod::GaussSeidel));
         }
-        self.path.follow(solver, input, modes, &mut trials);
-        if solver.trial(input, modes) && self.ask_laws(solver, input, modes) {
+        if self.along_path(solver, input, modes, &mut trials) {
             return Ok((trials, SearchMethod::Path));
         }
         let residual = violation(solver, input, modes);
@@ -106,6 +107,23 @@ impl ModeSearch {
             modes.copy_from_slice(&self.next);
             if self.visited.chunks_exact(modes.len()).any(|seen| seen == modes) {
                 return false;
+            }
+        }
+        false
+    }
+
+    fn along_path(
+        &mut self,
+        solver: &mut ContactSolver,
+        input: &ContactInput<'_>,
+        modes: &mut [Mode],
+        trials: &mut usize,
+    ) -> bool {
+        for attempt in 0..PATHS {
+            self.path.follow(solver, input, attempt, modes, trials);
+            // Where a path was lost, the solution is often near.
+            if self.active_set(solver, input, modes, trials) {
+                return true;
             }
         }
         false
@@ -217,3 +235,7 @@ fn violation(solver: &ContactSolver, input: &ContactInput<'_>, modes: &[Mode]) -
     });
     worst.fold(0.0, f64::max) / scale
 }
+
+#[cfg(test)]
+#[path = "modes_tests.rs"]
+mod tests;

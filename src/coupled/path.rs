@@ -1,14 +1,21 @@
 //! The last resort of the mode search: parametric pivoting.
 //!
-//! The contact problem is embedded in a family j(λ) = j₀ + (1−λ) d. At λ = 0 all elements are
-//! pressed shut and stick; at λ = 1 it is the problem to solve. For fixed modes the solution is
-//! linear in λ, so it is followed to the first λ at which a law objects, that element's mode is
-//! changed to the one that continues the solution there, and so on. λ may turn back in between.
-//! For the complementarity problem of Coulomb friction this is Lemke's method (Lemke 1965) with
-//! its covering vector; here it needs of a law no more than its conditions and its next mode.
+//! The contact problem is embedded in a family j(λ) = j₀ + (1−λ) d. At λ = 0 the solution is
+//! known; at λ = 1 it is the problem to solve. For fixed modes the solution is linear in λ, so it is
+//! followed to the first λ at which a law objects, that element's mode is changed to the one that
+//! continues the solution there, and so on. λ may turn back in between. For the complementarity
+//! problem of Coulomb friction this is Lemke's method (Lemke 1965) with d its covering vector; here
+//! it needs of a law no more than its conditions and its next mode.
+//!
+//! Begun with all elements open and a d that widens gaps only, the path cannot run off to λ = −∞:
+//! there j = d + W r with p·g = 0 and τ·Δjₜ ≤ 0 would give r·A W r + p·A dₙ ≤ 0, hence r = 0, which
+//! is the beginning. This holds for any friction coefficient (A W symmetric, positive definite).
+//! With tensile strength the law is not monotone and the path may break; then it is begun
+//! elsewhere, also with all elements pressed shut.
 
 use super::contact::{ContactInput, ContactSolver};
 use crate::interface::{ContactState, Mode, Tolerance};
+use crate::linalg::dot;
 
 /// Changes of mode per element, at most.
 const CHANGES: usize = 60;
@@ -36,15 +43,17 @@ impl Path {
         }
     }
 
-    /// Follows the path and leaves in `modes` those at its end, which the caller must check.
+    /// Follows the path and leaves in `modes` those at its end, which the caller must check. Each
+    /// `attempt` begins elsewhere, since a path may be lost.
     pub(crate) fn follow(
         &mut self,
         solver: &mut ContactSolver,
         input: &ContactInput<'_>,
+        attempt: usize,
         modes: &mut [Mode],
         trials: &mut usize,
     ) {
-        self.begin(input, modes);
+        self.begin(input, attempt, modes);
         let (mut lambda, mut direction) = (0.0, 1.0);
         for _ in 0..CHANGES * modes.len() {
             *trials += 2;
@@ -85,44 +94,86 @@ impl Path {
         }
     }
 
-    /// Sets the modes and d of the beginning: pressures well above all that the step knows,
-    /// unequal so that no two elements change at once.
-    fn begin(&mut self, input: &ContactInput<'_>, modes: &mut [Mode]) {
+    /// Sets the modes and d of the beginning, different for each attempt: all elements far open, or
+    /// pressed shut, by unequal amounts so that no two change at once.
+    fn begin(&mut self, input: &ContactInput<'_>, attempt: usize, modes: &mut [Mode]) {
+        let count = modes.len();
+        // Multiples of the golden ratio, modulo one, never meet.
+        let spread = |e: usize| (0.618_033_988_749_895 * (attempt * count + e + 1) as f64).fract();
+        if attempt.is_multiple_of(2) {
+            self.begin_open(input, spread, modes);
+        } else {
+            self.begin_shut(input, spread, modes);
+        }
+    }
+
+    /// All elements open without tractions; d widens the gaps only.
+    fn begin_open(
+        &mut self,
+        input: &ContactInput<'_>,
+        spread: impl Fn(usize) -> f64,
+        modes: &mut [Mode],
+    ) {
+        let count = modes.len();
+        let mut largest = 0.0_f64;
+        for (e, mode) in modes.iter_mut().enumerate() {
+            let known = input.law(e).modes();
+            *mode = if known.contains(&Mode::Open) { Mode::Open } else { known[0] };
+            let row = &input.delassus[e * 2 * count..(e + 1) * 2 * count];
+            let gap = input.free_jump[e] - dot(row, input.static_traction);
+            largest = largest.max(gap.abs()).max(input.start[e].state.gap.abs());
+        }
+        self.offset.fill(0.0);
+        for (e, offset) in self.offset[..count].iter_mut().enumerate() {
+            *offset = (3.0 + spread(e)) * if largest > 0.0 { largest } else { 1.0 };
+        }
+    }
+
+    /// All elements in the mode of rest, with pressures well above all that the step knows.
+    fn begin_shut(
+        &mut self,
+        input: &ContactInput<'_>,
+        spread: impl Fn(usize) -> f64,
+        modes: &mut [Mode],
+    ) {
         let count = modes.len();
         let size = 2 * count;
         let mut pressure = 0.0_f64;
         for e in 0..count {
-            let blocked = input.free_jump[e].abs() / input.delassus[e * size + e];
-            let sheared =
-                input.free_jump[count + e].abs() / input.delassus[(count + e) * size + count + e];
-            let before = input.start[e].state;
-            pressure = pressure.max(blocked).max(sheared).max(before.pressure.abs());
+            for i in [e, count + e] {
+                pressure = pressure.max(input.free_jump[i].abs() / input.delassus[i * (size + 1)]);
+            }
+            pressure = pressure.max(input.start[e].state.pressure.abs());
         }
         if pressure == 0.0 {
             pressure = 1.0;
         }
-        for i in 0..size {
-            let element = i % count;
-            let state = input.start[element].state;
-            let closed = if i >= count {
-                -state.slip
-            } else if input.start[element].mode.is_closed() {
-                state.gap
-            } else {
-                0.0
-            };
-            let row = &input.delassus[i * size..(i + 1) * size];
-            let mut answer = 0.0;
-            for (q, fixed) in input.static_traction.iter().enumerate() {
-                // Multiples of the golden ratio, modulo one, never meet.
-                let spread = (0.618_033_988_749_895 * (q + 1) as f64).fract();
-                let total = if q < count { (10.0 + 5.0 * spread) * pressure } else { 0.0 };
-                answer += row[q] * (total - fixed);
-            }
-            self.offset[i] = closed - answer - input.free_jump[i];
-        }
+        let mut change: Vec<f64> = input.static_traction.iter().map(|fixed| -fixed).collect();
         for (e, mode) in modes.iter_mut().enumerate() {
-            *mode = input.law(e).modes()[0];
+            let (law, start) = (input.law(e), &input.start[e]);
+            *mode = law.modes()[0];
+            let pressed = (10.0 + 5.0 * spread(e)) * pressure;
+            let mut wanted =
+                ContactState { gap: 0.0, slip: start.state.slip, pressure: pressed, shear: 0.0 };
+            for condition in law.conditions(*mode, start) {
+                if condition.gap != 0.0 && condition.pressure == 0.0 {
+                    wanted.gap = condition.value / condition.gap;
+                }
+            }
+            // A law may not let an element close in this step, however hard it is pressed.
+            let exact = Tolerance { length: 0.0, traction: 0.0 };
+            let next = law.next_mode(*mode, start, &wanted, exact);
+            if next != *mode {
+                *mode = next;
+                wanted = ContactState { gap: start.state.gap, pressure: 0.0, ..wanted };
+            }
+            change[e] += wanted.pressure;
+            self.offset[e] = wanted.gap;
+            self.offset[count + e] = -wanted.slip;
+        }
+        for (i, offset) in self.offset.iter_mut().enumerate() {
+            let row = &input.delassus[i * size..(i + 1) * size];
+            *offset -= dot(row, &change) + input.free_jump[i];
         }
     }
 

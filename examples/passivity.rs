@@ -1,0 +1,59 @@
+//! Passivity of the half-plane in long runs: random tractions never extract energy, and random
+//! displacements give bounded tractions. The short form of this table is a test.
+//!
+//! ```text
+//! cargo run --release --example passivity -- --elements 60 --steps 10000
+//! ```
+
+#[path = "../tests/support/passivity.rs"]
+mod passivity;
+#[path = "../tests/support/random.rs"]
+mod random;
+
+use clap::Parser;
+use passivity::Scene;
+
+/// Passivity of the half-plane under random tractions and displacements.
+#[derive(Debug, Parser)]
+struct Options {
+    /// Elements of the strip
+    #[arg(long, default_value_t = 60)]
+    elements: usize,
+    /// Steps of each run
+    #[arg(long, default_value_t = 10_000)]
+    steps: usize,
+    /// Steps over element length, c₁Δt/l
+    #[arg(long, value_delimiter = ',', default_value = "0.02,0.5,50")]
+    beta: Vec<f64>,
+    /// Poisson's ratios
+    #[arg(long, value_delimiter = ',', default_value = "0,0.3333333333333333,0.4999")]
+    poisson: Vec<f64>,
+    /// Elements graded towards the edges too (many times slower to evaluate)
+    #[arg(long)]
+    graded: bool,
+}
+
+fn main() {
+    let options = Options::parse();
+    let Options { elements, steps, .. } = options;
+    println!("{elements} elements, {steps} steps");
+    println!(
+        "{:>8} {:>8} {:>8} {:>12} {:>20} {:>8}",
+        "β", "ν", "mesh", "least work", "growth of tractions", "wall, s"
+    );
+    let meshes: &[bool] = if options.graded { &[false, true] } else { &[false] };
+    for &beta in &options.beta {
+        for &poisson in &options.poisson {
+            for &graded in meshes {
+                let scene = Scene { poisson, beta, graded, elements, steps, seed: 1 };
+                let begin = std::time::Instant::now();
+                let (work, growth) = (scene.least_work(), scene.growth_of_tractions());
+                let mesh = if graded { "graded" } else { "uniform" };
+                println!(
+                    "{beta:>8} {poisson:>8.4} {mesh:>8} {work:>12.3e} {growth:>20.3} {:>8.1}",
+                    begin.elapsed().as_secs_f64()
+                );
+            }
+        }
+    }
+}

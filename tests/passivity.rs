@@ -1,0 +1,48 @@
+//! The soil operator never gives energy away, whatever the step, the mesh and Poisson's ratio.
+
+#[path = "support/passivity.rs"]
+mod passivity;
+#[path = "support/random.rs"]
+mod random;
+
+use passivity::Scene;
+
+const BETAS: [f64; 8] = [0.02, 0.1, 0.25, 0.5, 1.0, 2.0, 10.0, 50.0];
+const POISSON: [f64; 5] = [0.0, 0.2, 1.0 / 3.0, 0.45, 0.4999];
+
+/// Scenes of 20 elements. The direct history costs steps², so only three pairs of β and ν run
+/// long here; the example `passivity` runs all of them longer still.
+fn scenes() -> impl Iterator<Item = Scene> {
+    let long =
+        |beta, poisson| [(0.02, 0.4999), (0.5, 1.0 / 3.0), (50.0, 0.0)].contains(&(beta, poisson));
+    BETAS.into_iter().flat_map(move |beta| {
+        POISSON.into_iter().flat_map(move |poisson| {
+            [false, true].into_iter().map(move |graded| {
+                let steps = if long(beta, poisson) { 3000 } else { 300 };
+                Scene { poisson, beta, graded, elements: 20, steps, seed: 11 }
+            })
+        })
+    })
+}
+
+#[test]
+fn random_tractions_never_extract_energy() {
+    let mut least = f64::INFINITY;
+    for scene in scenes() {
+        let work = scene.least_work();
+        assert!(work >= 0.0, "{scene:?}: {work:e}");
+        least = least.min(work);
+    }
+    println!("least work over the sum of its parts: {least:e}");
+}
+
+#[test]
+fn random_displacements_give_bounded_tractions() {
+    let mut largest = 0.0_f64;
+    for scene in scenes() {
+        let growth = scene.growth_of_tractions();
+        assert!(growth < 2.0, "{scene:?}: {growth}");
+        largest = largest.max(growth);
+    }
+    println!("largest growth from the first tenth to the last: {largest}");
+}

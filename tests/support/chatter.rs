@@ -1,0 +1,139 @@
+//! A rocking and sliding block on soil, and how smooth its normal force is.
+#![allow(dead_code, reason = "each binary uses its own part")]
+
+use basemat::bem::HalfPlaneGround;
+use basemat::coupled::{Midpoint, Theta};
+use basemat::fem::{Layer, Material, Mesh};
+use basemat::interface::{Activation, Coulomb};
+use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::structure::{FemModel, RigidBlock};
+use basemat::{Result, Simulation, Soil};
+
+/// Content above this frequency counts as chatter, Hz.
+const CUT: f64 = 20.0;
+const DENSITY: f64 = 1500.0;
+const WIDTH: f64 = 4.0;
+
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Scheme {
+    Midpoint,
+    Theta(f64),
+}
+
+/// A run of the block under El Centro × 2.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Scene {
+    pub(crate) friction: f64,
+    pub(crate) scheme: Scheme,
+    pub(crate) activation: Activation,
+    pub(crate) shear_speed: f64,
+    pub(crate) elements: usize,
+    pub(crate) time_step: f64,
+    pub(crate) duration: f64,
+    pub(crate) height: f64,
+    /// Young's modulus of a flexible block.
+    pub(crate) young: Option<f64>,
+}
+
+/// What a run shows; forces relative to the weight, energies to the input's peak.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Outcome {
+    pub(crate) rms_above: f64,
+    pub(crate) peak_above: f64,
+    /// Root mean square of what alternates from step to step.
+    pub(crate) alternating: f64,
+    pub(crate) peak_slip: f64,
+    pub(crate) residual_slip: f64,
+    pub(crate) uplift: f64,
+    pub(crate) rotation: f64,
+    pub(crate) contact: f64,
+    pub(crate) numerical: f64,
+    /// Deepest penetration of a closed element, m.
+    pub(crate) penetration: f64,
+    pub(crate) ledger_residual: f64,
+    pub(crate) changes: usize,
+}
+
+impl Scene {
+    pub(crate) fn run(&self) -> Result<Outcome> {
+        let soil = Soil::new(1900.0 * self.shear_speed.powi(2), 0.33, 1900.0)?;
+        let half = 0.5 * WIDTH;
+        let law = Coulomb::new(self.friction)?.with_activation(self.activation)?;
+        let builder = Simulation::builder(self.time_step)
+            .ground(HalfPlaneGround::strip(soil, -half..half, self.elements)?)
+            .interface(law)
+            .motion(el_centro_1940().scaled(2.0)?)
+            .gravity(STANDARD_GRAVITY);
+        let builder = match self.scheme {
+            Scheme::Midpoint => builder.scheme(Midpoint),
+            Scheme::Theta(theta) => builder.scheme(Theta::new(theta)?),
+        };
+        let builder = match self.young {
+            None => builder.structure(RigidBlock::new(WIDTH, self.height, DENSITY)?),
+            Some(young) => {
+                let material = Material::new(young, 0.2, DENSITY)?;
+                let rows = self.elements;
+                let layers = [Layer::new(self.height, rows, material)];
+                let mesh = Mesh::layered_block(-half..half, self.elements, &layers)?;
+                builder.structure(FemModel::on_base(mesh)?)
+            }
+        };
+        let mut simulation = builder.build()?;
+        let weight = WIDTH * self.height * DENSITY * STANDARD_GRAVITY;
+        let mut force = Vec::new();
+        let (mut penetration, mut input) = (0.0_f64, 0.0_f64);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
+        let steps = (self.duration / self.time_step).round() as usize;
+        let run = simulation.run(steps, |state| {
+            force.push(state.normal_force / weight);
+            input = input.max(state.ledger.input.abs());
+            for contact in &state.contact {
+                penetration = penetration.max(-contact.gap);
+            }
+        })?;
+        let fast = high_pass(&force, self.time_step);
+        let square: f64 = fast.iter().map(|f| f * f).sum();
+        let square_of_alternating: f64 =
+            force.windows(3).map(|f| (0.25 * (f[0] + f[2]) - 0.5 * f[1]).powi(2)).sum();
+        Ok(Outcome {
+            alternating: (square_of_alternating / force.len() as f64).sqrt(),
+            rms_above: (square / fast.len() as f64).sqrt(),
+            peak_above: fast.iter().fold(0.0, |m, f| m.max(f.abs())),
+            peak_slip: run.slip.value.abs(),
+            residual_slip: run.residual_slip,
+            uplift: run.uplifted_fraction.value,
+            rotation: run.base_rotation.value.abs(),
+            contact: run.ledger.contact / input,
+            numerical: run.ledger.numerical / input,
+            penetration,
+            ledger_residual: run.ledger_residual,
+            changes: run.transitions.len(),
+        })
+    }
+}
+
+/// Content above [`CUT`]: fourth-order Butterworth high-pass, forwards and backwards, so that it
+/// shifts nothing in time.
+fn high_pass(signal: &[f64], time_step: f64) -> Vec<f64> {
+    let mut out: Vec<f64> = signal.iter().map(|s| s - signal[0]).collect();
+    for _ in 0..2 {
+        for damping in [0.923_879_532_511_286_7, 0.382_683_432_365_089_8] {
+            section(&mut out, damping, time_step);
+        }
+        out.reverse();
+    }
+    out
+}
+
+/// One second-order section s²/(s² + 2ζωs + ω²), bilinear with the cut-off kept.
+fn section(signal: &mut [f64], damping: f64, time_step: f64) {
+    let k = (std::f64::consts::PI * CUT * time_step).tan();
+    let norm = 1.0 + 2.0 * damping * k + k * k;
+    let (a1, a2) = (2.0 * (k * k - 1.0) / norm, (1.0 - 2.0 * damping * k + k * k) / norm);
+    let (mut x1, mut x2, mut y1, mut y2) = (0.0, 0.0, 0.0, 0.0);
+    for x in signal {
+        let y = (*x - 2.0 * x1 + x2) / norm - a1 * y1 - a2 * y2;
+        (x2, x1, y2, y1) = (x1, *x, y1, y);
+        *x = y;
+    }
+}

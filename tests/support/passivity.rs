@@ -1,0 +1,142 @@
+//! What the energy argument promises of the half-plane, tried on random tractions.
+
+use basemat::Soil;
+use basemat::bem::{Ground, HalfPlaneGround};
+
+use crate::random::Random;
+
+/// A strip, its step and what drives it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Scene {
+    pub(crate) poisson: f64,
+    /// c₁ Δt over the mean element length.
+    pub(crate) beta: f64,
+    pub(crate) graded: bool,
+    pub(crate) elements: usize,
+    pub(crate) steps: usize,
+    pub(crate) seed: u64,
+}
+
+impl Scene {
+    fn ground(&self) -> HalfPlaneGround {
+        let soil = Soil::new(1.0, self.poisson, 1.0).unwrap();
+        let strip =
+            if self.graded { HalfPlaneGround::graded_strip } else { HalfPlaneGround::strip };
+        let mut ground = strip(soil, -1.0..1.0, self.elements).unwrap();
+        let length = 2.0 / self.elements as f64;
+        ground.prepare(self.beta * length / soil.pressure_wave_speed()).unwrap();
+        ground.reserve(self.steps).unwrap();
+        ground
+    }
+
+    /// Work W_N = Σ A τ·Δs: its smallest value over that at the end of a third of the run.
+    ///
+    /// Tractions are white noise for a third of the run, then slow, and in the last third they take
+    /// out as much energy in each step as they can: τ = −½ G⁻¹(h − s₀) minimises τ·A(h + Gτ − s₀).
+    pub(crate) fn least_work(&self) -> f64 {
+        let mut ground = self.ground();
+        let size = 2 * self.elements;
+        let mut operator = vec![0.0; size * size];
+        ground.instantaneous(&mut operator).unwrap();
+        let inverse = inverse(&operator, size);
+        let lengths: Vec<f64> = ground.elements().iter().map(|e| e.right - e.left).collect();
+        let mut random = Random(self.seed);
+        let (mut traction, mut history) = (vec![0.0; size], vec![0.0; size]);
+        let mut before = vec![0.0; size];
+        let (mut work, mut least, mut given) = (0.0, f64::INFINITY, 0.0);
+        for step in 0..self.steps {
+            ground.history(&mut history).unwrap();
+            let third = 3 * step / self.steps;
+            if third == 2 {
+                let change: Vec<f64> =
+                    history.iter().zip(&before).map(|(h, s)| -0.5 * (h - s)).collect();
+                traction = multiply(&inverse, &change);
+            } else {
+                for t in &mut traction {
+                    let kick = random.within(-1.0, 1.0);
+                    *t = if third == 0 { kick } else { 0.95 * *t + 0.3 * kick };
+                }
+            }
+            let mut now = multiply(&operator, &traction);
+            for (s, h) in now.iter_mut().zip(&history) {
+                *s += h;
+            }
+            for i in 0..size {
+                work += lengths[i % self.elements] * traction[i] * (now[i] - before[i]);
+            }
+            least = least.min(work);
+            if third == 0 {
+                given = work;
+            }
+            ground.commit(&traction);
+            before.copy_from_slice(&now);
+        }
+        least / given
+    }
+
+    /// Tractions that random displacements need: the largest of the run's last tenth over the
+    /// largest of its first tenth. Displacements move by white noise of one size.
+    pub(crate) fn growth_of_tractions(&self) -> f64 {
+        let mut ground = self.ground();
+        let size = 2 * self.elements;
+        let mut operator = vec![0.0; size * size];
+        ground.instantaneous(&mut operator).unwrap();
+        let inverse = inverse(&operator, size);
+        let mut random = Random(self.seed);
+        let (mut history, mut open) = (vec![0.0; size], vec![0.0; size]);
+        let tenth = self.steps / 10;
+        let (mut early, mut late) = (0.0_f64, 0.0_f64);
+        for step in 0..self.steps {
+            ground.history(&mut history).unwrap();
+            for (o, h) in open.iter_mut().zip(&history) {
+                *o = random.within(-1.0, 1.0) - h;
+            }
+            let traction = multiply(&inverse, &open);
+            let largest = traction.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
+            if !largest.is_finite() {
+                return f64::INFINITY;
+            }
+            if step < tenth {
+                early = early.max(largest);
+            } else if step >= self.steps - tenth {
+                late = late.max(largest);
+            }
+            ground.commit(&traction);
+        }
+        late / early
+    }
+}
+
+fn multiply(matrix: &[f64], x: &[f64]) -> Vec<f64> {
+    let row = |row: &[f64]| row.iter().zip(x).map(|(a, b)| a * b).sum();
+    matrix.chunks_exact(x.len()).map(row).collect()
+}
+
+/// Inverse by Gauss–Jordan elimination with column pivots.
+fn inverse(matrix: &[f64], size: usize) -> Vec<f64> {
+    let mut left = matrix.to_vec();
+    let mut right: Vec<f64> =
+        (0..size * size).map(|k| f64::from(u8::from(k / size == k % size))).collect();
+    for k in 0..size {
+        let pivot = (k..size)
+            .max_by(|&a, &b| left[a * size + k].abs().total_cmp(&left[b * size + k].abs()))
+            .unwrap_or(k);
+        for j in 0..size {
+            left.swap(k * size + j, pivot * size + j);
+            right.swap(k * size + j, pivot * size + j);
+        }
+        let scale = 1.0 / left[k * size + k];
+        for j in 0..size {
+            left[k * size + j] *= scale;
+            right[k * size + j] *= scale;
+        }
+        for i in (0..size).filter(|i| *i != k) {
+            let factor = left[i * size + k];
+            for j in 0..size {
+                left[i * size + j] -= factor * left[k * size + j];
+                right[i * size + j] -= factor * right[k * size + j];
+            }
+        }
+    }
+    right
+}
