@@ -21,8 +21,9 @@ use crate::linalg::dot;
 const CHANGES: usize = 60;
 /// λ below which the path counts as lost.
 const LOST: f64 = -1e4;
-/// Shortest advance of λ that counts.
-const STEP: f64 = 1e-13;
+/// Shortest advances of λ that count: a change of mode is found within the laws' tolerances only,
+/// so that the next mode may become admissible a little later.
+const STEPS: [f64; 4] = [1e-13, 1e-11, 1e-9, 1e-7];
 
 /// Memory of the path.
 pub(crate) struct Path {
@@ -83,7 +84,7 @@ impl Path {
                 let [ahead, back] = [direction, -direction]
                     .map(|sense| (self.reach(input, modes, sense, tolerance).0, sense));
                 let (reach, sense) = if ahead.0 >= back.0 { ahead } else { back };
-                if break_off < best.0 && reach > STEP {
+                if break_off < best.0 && reach > STEPS[0] {
                     best = (break_off, mode, sense);
                 }
             }
@@ -226,13 +227,13 @@ impl Path {
                 let there = self.states[e].along(&self.rates[e], direction * distance);
                 input.law(e).next_mode(mode, &input.start[e], &there, tolerance) == mode
             };
-            if !admits(STEP) {
+            let Some(begin) = STEPS.into_iter().find(|&step| admits(step)) else {
                 return (0.0, e);
-            }
+            };
             if admits(nearest.0) {
                 continue;
             }
-            let (mut low, mut high) = (0.0, nearest.0);
+            let (mut low, mut high) = (begin, nearest.0);
             for _ in 0..120 {
                 let middle = 0.5 * (low + high);
                 if admits(middle) {
