@@ -150,8 +150,7 @@ impl RigidStrip {
 fn invert(matrix: &[f64]) -> Vec<f64> {
     let n = matrix.len().isqrt();
     let mut a = matrix.to_vec();
-    let mut inverse: Vec<f64> =
-        (0..n * n).map(|i| f64::from(u8::from(i / n == i % n))).collect();
+    let mut inverse: Vec<f64> = (0..n * n).map(|i| f64::from(u8::from(i / n == i % n))).collect();
     for k in 0..n {
         let larger = |i: &usize, j: &usize| a[i * n + k].abs().total_cmp(&a[j * n + k].abs());
         let pivot = (k..n).max_by(larger).unwrap();
