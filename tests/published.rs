@@ -10,7 +10,7 @@ use basemat::motion::RickerDisplacement;
 use basemat::structure::{ContactNode, RigidBlock, ShearBuilding, Storey, Structure, Triplets};
 use basemat::{Simulation, Soil};
 use support::rigid_strip::{Contact, RigidStrip};
-use support::series::{Error, Series, within};
+use support::series::{Error, Series, whole, within};
 use support::table;
 
 /// Ricker pulse of peak 1.
@@ -39,7 +39,7 @@ fn impedances(
     bonded: bool,
     frequencies: &[f64],
 ) -> Vec<[[f64; 2]; 4]> {
-    let steps = (60.0 / time_step).round() as usize;
+    let steps = whole(60.0 / time_step);
     let pulse: Vec<f64> = (1..=steps).map(|n| ricker(n as f64 * time_step, 0.5, 3.0)).collect();
     // By symmetry vertical and horizontal, or vertical and rocking, do not mix.
     let run = |contact, motion: [f64; 3]| -> [Vec<f64>; 3] {
@@ -120,7 +120,7 @@ fn transient_errors(
     } else {
         [strip(Contact::Tangential), strip(Contact::Normal)]
     };
-    let steps = (vertical.duration() / time_step).round() as usize;
+    let steps = whole(vertical.duration() / time_step);
     for n in 1..=steps {
         let time = n as f64 * time_step;
         let force =
@@ -162,7 +162,7 @@ fn structure_errors<const N: usize>(
         .build()
         .unwrap();
     let mut errors = [Error::default(); N];
-    let steps = (columns[0].duration() / time_step).round() as usize;
+    let steps = whole(columns[0].duration() / time_step);
     let run = simulation
         .run(steps, |state| {
             for k in 0..N {

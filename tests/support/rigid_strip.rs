@@ -1,7 +1,7 @@
 //! Rigid massless strip on the half-plane, marched with nothing but the `Ground` trait.
 
 use basemat::Soil;
-use basemat::bem::{Grading, Ground, HalfPlaneGround, Strip};
+use basemat::bem::{ContactElement, Grading, Ground, HalfPlaneGround, Strip};
 
 /// How the strip and the soil touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,7 +67,7 @@ impl RigidStrip {
                 }
             }
         }
-        let lengths: Vec<f64> = ground.elements().iter().map(|e| e.length()).collect();
+        let lengths: Vec<f64> = ground.elements().iter().map(ContactElement::length).collect();
         let forces = std::array::from_fn(|k: usize| {
             motions[k].iter().enumerate().map(|(i, m)| m * lengths[i % elements]).collect()
         });

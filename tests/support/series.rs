@@ -2,6 +2,12 @@
 
 use super::Table;
 
+/// The whole number nearest to a number that is not negative.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small and positive")]
+pub(crate) fn whole(number: f64) -> usize {
+    number.round() as usize
+}
+
 /// A column of a table at equally spaced times, starting at zero.
 pub(crate) struct Series {
     step: f64,
@@ -22,9 +28,9 @@ impl Series {
     pub(crate) fn at(&self, time: f64) -> f64 {
         let place = time / self.step;
         if (place - place.round()).abs() < 1e-6 {
-            return self.values[place.round() as usize];
+            return self.values[whole(place)];
         }
-        let first = (place.floor() as usize).clamp(1, self.values.len() - 3) - 1;
+        let first = whole(place.floor()).clamp(1, self.values.len() - 3) - 1;
         (0..4)
             .map(|i| {
                 let weight: f64 = (0..4)
