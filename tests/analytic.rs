@@ -230,10 +230,11 @@ fn rocking(shear_wave_speed: f64, elements: usize) -> [f64; 3] {
     let run = simulation.run(whole(1.5 / time_step), |s| tilts.push(s.displacement[2])).unwrap();
     assert!(run.ledger_residual < 1e-9, "ledger open by {:.1e}", run.ledger_residual);
     assert!(run.ledger.soil > 0.0, "energy radiated: {:e}", run.ledger.soil);
-    let peak = (whole(pushed / time_step)..).find(|&k| tilts[k + 1] < tilts[k]).unwrap();
+    let peak =
+        (whole(pushed / time_step)..tilts.len() - 1).find(|&k| tilts[k + 1] < tilts[k]).unwrap();
     let [before, tilt, after] = [tilts[peak - 1], tilts[peak], tilts[peak + 1]];
     let turned = peak as f64 + 0.5 * (before - after) / (before - 2.0 * tilt + after);
-    let upright = (peak..).find(|&k| tilts[k + 1] < 0.0).unwrap();
+    let upright = (peak..tilts.len() - 1).find(|&k| tilts[k + 1] < 0.0).unwrap();
     let crossed = upright as f64 + tilts[upright] / (tilts[upright] - tilts[upright + 1]);
     // Pressure on the last element acts at its middle: the block turns about that point.
     let slenderness = (b - 0.5 * edge) / h;

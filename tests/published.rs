@@ -141,14 +141,17 @@ fn transient_errors(
     errors.map(Error::relative)
 }
 
+/// A column, the same quantity of a state, and whether it is a mean over the step.
+type Check<'a> = (&'a str, &'a dyn Fn(&State) -> f64, bool);
+
 /// Errors of a structure with unknowns `[u_x, u_y, θ, …]` under the vertically incident S wave of
-/// the tables; `checks` are (column, what it is in the state, whether it is a mean over the step).
+/// the tables.
 fn structure_errors<const N: usize>(
     file: &str,
     structure: impl Structure + 'static,
     poisson: f64,
     (grading, elements, time_step): (Grading, usize, f64),
-    checks: [(&str, &dyn Fn(&State) -> f64, bool); N],
+    checks: [Check; N],
 ) -> [f64; N] {
     let table = table(file);
     let columns = checks.map(|check| Series::new(&table, check.0));
@@ -273,11 +276,11 @@ impl Structure for Cantilever {
     }
 
     fn stiffness(&self, matrix: &mut Triplets) {
-        self.add(1.0, matrix, |beam, at, block| beam.stiffness(at, block));
+        self.add(1.0, matrix, Beam::stiffness);
     }
 
     fn damping(&self, matrix: &mut Triplets) {
-        self.add(0.02, matrix, |beam, at, block| beam.stiffness(at, block));
+        self.add(0.02, matrix, Beam::stiffness);
     }
 }
 
