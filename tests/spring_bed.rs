@@ -33,7 +33,7 @@ fn winkler_error(elements: usize, time_step: f64) -> f64 {
         .gravity(9.81)
         .build()
         .unwrap();
-    let every = (0.01 / time_step).round() as usize;
+    let every = support::series::whole(0.01 / time_step);
     let theta = table.column("theta");
     let (mut error, mut norm) = (0.0, 0.0);
     let run = sim
