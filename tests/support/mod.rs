@@ -1,6 +1,9 @@
 //! Helpers shared by the test binaries.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
+pub(crate) mod rigid_strip;
+pub(crate) mod series;
+
 use std::path::PathBuf;
 
 /// Path of a file in `tests/data`.

@@ -1,0 +1,161 @@
+//! Orders of accuracy in the time step and in the element size.
+
+mod support;
+
+use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::interface::{Bonded, Coulomb};
+use basemat::motion::RickerDisplacement;
+use basemat::structure::RigidBlock;
+use basemat::{Simulation, Soil};
+use support::series::{Error, Series, print_errors, whole};
+use support::table;
+
+/// Sampling of the histories: all time steps are fractions of it.
+const SAMPLE: f64 = 0.2;
+
+/// A block of width and mass 2 and 4 under a Ricker pulse of peak 1 that ends before `duration`.
+#[derive(Debug, Clone, Copy)]
+struct Scene {
+    height: f64,
+    gravity: f64,
+    sigma: f64,
+    friction: Option<f64>,
+    duration: f64,
+}
+
+/// Base displacement, rotation, and base shear (its mean over a sample), every `SAMPLE`.
+type History = [Vec<f64>; 3];
+
+const NAMES: [&str; 3] = ["u_base", "theta", "V"];
+
+/// The bonded block of the reference table.
+const BONDED: Scene =
+    Scene { height: 2.0, gravity: 0.0, sigma: 1.0, friction: None, duration: 20.0 };
+
+fn history(scene: Scene, (grading, elements): (Grading, usize), time_step: f64) -> History {
+    let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
+    let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
+    let builder = Simulation::builder(time_step)
+        .structure(RigidBlock::new(2.0, scene.height, 2.0 / scene.height).unwrap())
+        .ground(HalfPlaneGround::new(soil, &[strip]).unwrap())
+        .motion(RickerDisplacement::new(1.0, scene.sigma, 5.0 * scene.sigma).unwrap())
+        .gravity(scene.gravity);
+    let builder = match scene.friction {
+        Some(friction) => builder.interface(Coulomb::new(friction).unwrap()),
+        None => builder.interface(Bonded),
+    };
+    let mut simulation = builder.build().unwrap();
+    let every = whole(SAMPLE / time_step);
+    let mut history = [const { Vec::new() }; 3];
+    let mut shear = 0.0;
+    let run = simulation
+        .run(whole(scene.duration / time_step), |state| {
+            shear += state.base_shear / every as f64;
+            if state.step % every == 0 {
+                history[0].push(state.displacement[0]);
+                history[1].push(state.displacement[2]);
+                history[2].push(shear);
+                shear = 0.0;
+            }
+        })
+        .unwrap();
+    assert!(run.ledger_residual < 1e-9, "ledger open by {:.1e}", run.ledger_residual);
+    println!(
+        "{scene:?} {grading:?} {elements}, step {time_step}: uplift {:.2}, slip {:.2}",
+        run.uplifted_fraction.value, run.slip.value
+    );
+    history
+}
+
+/// Relative distance of `found` from `reference`, component by component.
+fn distance(found: &History, reference: &History) -> [f64; 3] {
+    std::array::from_fn(|k| {
+        let mut error = Error::default();
+        found[k].iter().zip(&reference[k]).for_each(|(a, b)| error.add(*a, *b));
+        error.relative()
+    })
+}
+
+/// Distances of each run from the next.
+fn successive(runs: &[History]) -> Vec<[f64; 3]> {
+    runs.windows(2).map(|pair| distance(&pair[0], &pair[1])).collect()
+}
+
+/// Prints errors, each at half the step or element of the one before, and gives the mean order of
+/// the last `halvings`.
+fn orders(scene: &str, errors: &[[f64; 3]], halvings: u8) -> [f64; 3] {
+    for error in errors {
+        print_errors(scene, &NAMES, error);
+    }
+    let last = errors.len() - 1;
+    let first = last - usize::from(halvings);
+    let orders =
+        std::array::from_fn(|k| (errors[first][k] / errors[last][k]).log2() / f64::from(halvings));
+    print_errors(&format!("{scene}: order"), &NAMES, &orders);
+    orders
+}
+
+#[track_caller]
+fn check(scene: &str, orders: [f64; 3], wanted: std::ops::Range<f64>) {
+    for (name, order) in NAMES.iter().zip(orders) {
+        assert!(wanted.contains(&order), "{scene}: order {order:.2} of {name}");
+    }
+}
+
+/// GOAL: second order in the time step.
+/// SCENE: bonded block, Ricker pulse, steps 0.2, 0.1, 0.05, 0.025.
+/// REFERENCE: each run against the next finer one.
+#[test]
+fn time_step_bonded() {
+    let runs = [0.2, 0.1, 0.05, 0.025].map(|step| history(BONDED, (Grading::Cosine, 8), step));
+    check("time step", orders("time step", &successive(&runs), 1), 1.8..2.2);
+}
+
+/// GOAL: the order that contact leaves, at least one. It is not smooth: events fall on steps.
+/// SCENE: blocks under their weight that rock, slide, or do both; steps 0.1 to 0.0125.
+/// REFERENCE: a step four times finer than the finest.
+#[test]
+fn time_step_contact() {
+    let quick =
+        Scene { height: 4.0, gravity: 0.1, sigma: 1.0, friction: Some(2.0), duration: 20.0 };
+    let slow = Scene { height: 6.0, gravity: 0.15, sigma: 2.0, friction: None, duration: 25.0 };
+    for (name, scene) in [
+        ("sliding", Scene { friction: Some(0.5), ..slow }),
+        ("rocking", Scene { friction: Some(f64::INFINITY), ..slow }),
+        ("rocking and sliding", quick),
+    ] {
+        let run = |step| history(scene, (Grading::Cosine, 8), step);
+        let reference = run(0.003_125);
+        let errors = [0.1, 0.05, 0.025, 0.0125].map(|step| distance(&run(step), &reference));
+        check(name, orders(name, &errors, 3), 1.0..3.0);
+    }
+}
+
+/// GOAL: first order in the element size on uniform elements, second on graded ones.
+/// SCENE: bonded block, Ricker pulse, 4 to 32 elements, step 0.025.
+/// REFERENCE: each run against the next finer one, and the frequency-domain table.
+#[test]
+fn element_size() {
+    let table = table("td_block_SV_nu0333_h2_rho1.csv");
+    let column = |name| Series::new(&table, name);
+    let (base, rotation, shear) = (column("u_base"), column("theta"), column("V"));
+    let times = (1..=whole(BONDED.duration / SAMPLE)).map(|n| n as f64 * SAMPLE);
+    // Mean of the shear over a sample, from means over its eighths.
+    let mean = |time: f64| -> f64 {
+        (0..8).map(|k| shear.mean(time - f64::from(k) * SAMPLE / 8.0, SAMPLE / 8.0)).sum::<f64>()
+            / 8.0
+    };
+    let exact: History = [
+        times.clone().map(|time| base.at(time)).collect(),
+        times.clone().map(|time| -rotation.at(time)).collect(),
+        times.map(mean).collect(),
+    ];
+    for (grading, wanted) in [(Grading::Uniform, 0.8..1.2), (Grading::Cosine, 1.7..2.3)] {
+        let runs = [4, 8, 16, 32].map(|count| history(BONDED, (grading, count), 0.025));
+        let scene = format!("{grading:?}, next finer");
+        check(&scene, orders(&scene, &successive(&runs), 1), wanted.clone());
+        let scene = format!("{grading:?}, table");
+        let errors = runs.map(|run| distance(&run, &exact));
+        check(&scene, orders(&scene, &errors, 1), wanted);
+    }
+}

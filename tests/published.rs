@@ -1,0 +1,485 @@
+//! The linear problem against tables that were computed independently of this crate.
+
+mod support;
+
+use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::coupled::State;
+use basemat::fem::{Beam, Element, MassKind};
+use basemat::interface::Bonded;
+use basemat::motion::RickerDisplacement;
+use basemat::structure::{ContactNode, RigidBlock, ShearBuilding, Storey, Structure, Triplets};
+use basemat::{Simulation, Soil};
+use support::rigid_strip::{Contact, RigidStrip};
+use support::series::{Error, Series, whole, within};
+use support::table;
+
+/// Ricker pulse of peak 1.
+fn ricker(time: f64, sigma: f64, center: f64) -> f64 {
+    let a = ((time - center) / sigma).powi(2);
+    (1.0 - 2.0 * a) * (-a).exp()
+}
+
+/// Sum of `values`(k) e^(−iωt(k)): its real and imaginary part.
+fn transform(values: &[f64], omega: f64, time: impl Fn(usize) -> f64) -> [f64; 2] {
+    values.iter().enumerate().fold([0.0; 2], |[re, im], (k, v)| {
+        let phase = omega * time(k);
+        [re + v * phase.cos(), im - v * phase.sin()]
+    })
+}
+
+fn divide([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
+    let square = c * c + d * d;
+    [(a * c + b * d) / square, (b * c - a * d) / square]
+}
+
+/// Impedances `[hh, vv, rr, hr]` at each of `frequencies`.
+fn impedances(
+    poisson: f64,
+    (grading, elements, time_step): (Grading, usize, f64),
+    bonded: bool,
+    frequencies: &[f64],
+) -> Vec<[[f64; 2]; 4]> {
+    let steps = whole(60.0 / time_step);
+    let pulse: Vec<f64> = (1..=steps).map(|n| ricker(n as f64 * time_step, 0.5, 3.0)).collect();
+    // By symmetry vertical and horizontal, or vertical and rocking, do not mix.
+    let run = |contact, motion: [f64; 3]| -> [Vec<f64>; 3] {
+        let mut strip = RigidStrip::new(poisson, grading, elements, time_step, contact);
+        let mut forces = [const { Vec::new() }; 3];
+        for p in &pulse {
+            for (list, force) in forces.iter_mut().zip(strip.drive(motion.map(|m| m * p))) {
+                list.push(force);
+            }
+        }
+        forces
+    };
+    let forces = if bonded {
+        let [hh, vv, _] = run(Contact::Bonded, [1.0, 1.0, 0.0]);
+        let [hr, _, rr] = run(Contact::Bonded, [0.0, 0.0, 1.0]);
+        [hh, vv, rr, hr]
+    } else {
+        let [hr, vv, rr] = run(Contact::Normal, [0.0, 1.0, 1.0]);
+        let [hh, _, _] = run(Contact::Tangential, [1.0, 0.0, 0.0]);
+        [hh, vv, rr, hr]
+    };
+    frequencies
+        .iter()
+        .map(|&omega| {
+            let motion = transform(&pulse, omega, |k| (k + 1) as f64 * time_step);
+            // Forces are means over the step, whose transform has this factor.
+            let phase = 0.5 * omega * time_step;
+            let mean = phase.sin() / phase;
+            std::array::from_fn(|k| {
+                let force = transform(&forces[k], omega, |k| (k as f64 + 0.5) * time_step);
+                divide(force, motion).map(|x| x / mean)
+            })
+        })
+        .collect()
+}
+
+/// Errors of `[hh, vv, rr, hr]` over 0.1 ≤ a₀ ≤ 4, each the root mean square of the error over that
+/// of the modulus.
+fn impedance_errors(
+    file: &str,
+    poisson: f64,
+    mesh: (Grading, usize, f64),
+    bonded: bool,
+) -> [f64; 4] {
+    let columns =
+        ["a0", "re_khh", "im_khh", "re_kvv", "im_kvv", "re_krr", "im_krr", "re_khr", "im_khr"];
+    let rows = table(file).rows(columns).into_iter();
+    let rows: Vec<_> = rows.filter(|row| (0.0999..4.0001).contains(&row[0])).collect();
+    let frequencies: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    let found = impedances(poisson, mesh, bonded, &frequencies);
+    let mut errors = [Error::default(); 4];
+    for (row, found) in rows.iter().zip(&found) {
+        for k in 0..4 {
+            for part in 0..2 {
+                errors[k].add(found[k][part], row[2 * k + 1 + part]);
+            }
+        }
+    }
+    errors.map(Error::relative)
+}
+
+/// Errors of `[uy_Fy, ux_Fx, th_Fx, ux_M, th_M]`.
+fn transient_errors(
+    file: &str,
+    poisson: f64,
+    mesh: (Grading, usize, f64),
+    bonded: bool,
+    load: impl Fn(f64) -> f64,
+) -> [f64; 5] {
+    let (grading, elements, time_step) = mesh;
+    let table = table(file);
+    let [vertical, horizontal, coupling, rocking] =
+        ["uy_Fy", "ux_Fx", "th_Fx", "th_M"].map(|column| Series::new(&table, column));
+    let strip = |contact| RigidStrip::new(poisson, grading, elements, time_step, contact);
+    let mut errors = [Error::default(); 5];
+    let mut runs = if bonded {
+        [strip(Contact::Bonded), strip(Contact::Bonded)]
+    } else {
+        [strip(Contact::Tangential), strip(Contact::Normal)]
+    };
+    let steps = whole(vertical.duration() / time_step);
+    for n in 1..=steps {
+        let time = n as f64 * time_step;
+        let force =
+            (load(time - time_step) + 4.0 * load(time - 0.5 * time_step) + load(time)) / 6.0;
+        let [first, second] = if bonded {
+            [runs[0].push([force, force, 0.0]), runs[1].push([0.0, 0.0, force])]
+        } else {
+            let [across, [_, down, turn]] =
+                [runs[0].push([force, 0.0, 0.0]), runs[1].push([0.0, force, force])];
+            [[across[0], down, 0.0], [0.0, 0.0, turn]]
+        };
+        errors[0].add(first[1], vertical.at(time));
+        errors[1].add(first[0], horizontal.at(time));
+        errors[2].add(first[2], coupling.at(time));
+        errors[3].add(second[0], coupling.at(time));
+        errors[4].add(second[2], rocking.at(time));
+    }
+    errors.map(Error::relative)
+}
+
+/// A column, the same quantity of a state, and whether it is a mean over the step.
+type Check<'a> = (&'a str, &'a dyn Fn(&State) -> f64, bool);
+
+/// Errors of a structure with unknowns `[u_x, u_y, θ, …]` under the vertically incident S wave of
+/// the tables.
+fn structure_errors<const N: usize>(
+    file: &str,
+    structure: impl Structure + 'static,
+    poisson: f64,
+    (grading, elements, time_step): (Grading, usize, f64),
+    checks: [Check; N],
+) -> [f64; N] {
+    let table = table(file);
+    let columns = checks.map(|check| Series::new(&table, check.0));
+    let soil = Soil::new(1.0, poisson, 1.0).unwrap();
+    let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
+    let mut simulation = Simulation::builder(time_step)
+        .structure(structure)
+        .ground(HalfPlaneGround::new(soil, &[strip]).unwrap())
+        .interface(Bonded)
+        .motion(RickerDisplacement::new(1.0, 1.0, 5.0).unwrap())
+        .build()
+        .unwrap();
+    let mut errors = [Error::default(); N];
+    let steps = whole(columns[0].duration() / time_step);
+    let run = simulation
+        .run(steps, |state| {
+            for k in 0..N {
+                let wanted = if checks[k].2 {
+                    columns[k].mean(state.time, time_step)
+                } else {
+                    columns[k].at(state.time)
+                };
+                errors[k].add(checks[k].1(state), wanted);
+            }
+        })
+        .unwrap();
+    assert!(run.ledger_residual < 1e-9, "ledger open by {:.1e}", run.ledger_residual);
+    assert!(run.ledger.soil > 0.0, "energy radiated: {:e}", run.ledger.soil);
+    errors.map(Error::relative)
+}
+
+fn base_motion(state: &State) -> f64 {
+    state.displacement[0]
+}
+
+/// The tables count rotations and moments clockwise.
+fn rotation(state: &State) -> f64 {
+    -state.displacement[2]
+}
+
+fn shear(state: &State) -> f64 {
+    state.base_shear
+}
+
+fn moment(state: &State) -> f64 {
+    -state.base_moment
+}
+
+fn block_errors(
+    name: &str,
+    poisson: f64,
+    height: f64,
+    density: f64,
+    mesh: (Grading, usize, f64),
+) -> [f64; 5] {
+    let roof = |state: &State| state.displacement[0] - height * state.displacement[2];
+    structure_errors(
+        &format!("td_block_SV_{name}.csv"),
+        RigidBlock::new(2.0, height, density).unwrap(),
+        poisson,
+        mesh,
+        [
+            ("u_base", &base_motion, false),
+            ("theta", &rotation, false),
+            ("u_roof", &roof, false),
+            ("V", &shear, true),
+            ("M", &moment, true),
+        ],
+    )
+}
+
+/// Beam on a rigid base with mass and rotary inertia: node 0 is the middle of the base.
+struct Cantilever {
+    beams: Vec<Beam>,
+    heights: Vec<[f64; 2]>,
+}
+
+impl Cantilever {
+    fn new(elements: usize) -> Self {
+        // EI = 20, mass per length 1, and an area that keeps the axial mode out of the way.
+        let beam = |k| Beam::new([k, k + 1], 20.0, 1.0, 1.0, 1.0).unwrap();
+        let height = |k| [0.0, 4.0 * k as f64 / elements as f64];
+        Self {
+            beams: (0..elements).map(beam).collect(),
+            heights: (0..=elements).map(height).collect(),
+        }
+    }
+
+    fn top(&self) -> usize {
+        3 * self.beams.len()
+    }
+
+    fn add(
+        &self,
+        factor: f64,
+        matrix: &mut Triplets,
+        fill: impl Fn(&Beam, &[[f64; 2]], &mut [f64]),
+    ) {
+        for (k, beam) in self.beams.iter().enumerate() {
+            let mut block = [0.0; 36];
+            fill(beam, &self.heights[k..k + 2], &mut block);
+            let unknowns: Vec<usize> = (3 * k..3 * k + 6).collect();
+            matrix.add_block(&unknowns, &block.map(|x| factor * x));
+        }
+    }
+}
+
+impl Structure for Cantilever {
+    fn unknowns(&self) -> usize {
+        3 * self.heights.len()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        ContactNode::rigid_base(-1.0, 1.0, [0, 1, 2])
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        matrix.add(0, 0, 1.0);
+        matrix.add(1, 1, 1.0);
+        matrix.add(2, 2, 1.0 / 3.0);
+        self.add(1.0, matrix, |beam, at, block| beam.mass(at, MassKind::Consistent, block));
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        self.add(1.0, matrix, Beam::stiffness);
+    }
+
+    fn damping(&self, matrix: &mut Triplets) {
+        self.add(0.02, matrix, Beam::stiffness);
+    }
+}
+
+fn cantilever_errors(mesh: (Grading, usize, f64), beams: usize) -> [f64; 6] {
+    let cantilever = Cantilever::new(beams);
+    let top = cantilever.top();
+    let tip = move |state: &State| state.displacement[top];
+    let beam_shear = |state: &State| -state.base_shear - state.acceleration[0];
+    structure_errors(
+        "td_EBcantilever_SV_nu0333.csv",
+        cantilever,
+        1.0 / 3.0,
+        mesh,
+        [
+            ("u_base", &base_motion, false),
+            ("theta", &rotation, false),
+            ("u_top", &tip, false),
+            ("V_beam", &beam_shear, true),
+            ("V", &shear, true),
+            ("M", &moment, true),
+        ],
+    )
+}
+
+fn building_errors(mesh: (Grading, usize, f64)) -> [f64; 7] {
+    let storey = Storey {
+        height: 1.0,
+        mass: 1.0,
+        rotary_inertia: 1.0 / 3.0,
+        stiffness: 2.0,
+        damping: 2.0 * 0.158_885_451_5,
+    };
+    let building = ShearBuilding::new(2.0, 1.0, 1.0 / 3.0, &[storey; 3]).unwrap();
+    let first_shear = building.shear(0).unwrap();
+    // Storey displacements relative to the frame of the base.
+    let relative = |j: usize| {
+        move |state: &State| {
+            let u = &state.displacement;
+            u[2 + j] - u[0] + j as f64 * u[2]
+        }
+    };
+    let storey_shear =
+        move |s: &State| first_shear.value(&s.displacement, &s.velocity, &s.acceleration);
+    structure_errors(
+        "td_shearbuilding3_SV_nu0333_sig1.csv",
+        building,
+        1.0 / 3.0,
+        mesh,
+        [
+            ("u_base", &base_motion, false),
+            ("theta", &rotation, false),
+            ("v1", &relative(1), false),
+            ("v3", &relative(3), false),
+            ("V1", &storey_shear, false),
+            ("V", &shear, true),
+            ("M", &moment, true),
+        ],
+    )
+}
+
+const U8: (Grading, usize, f64) = (Grading::Uniform, 8, 0.05);
+const U16: (Grading, usize, f64) = (Grading::Uniform, 16, 0.05);
+const U32: (Grading, usize, f64) = (Grading::Uniform, 32, 0.05);
+const C8: (Grading, usize, f64) = (Grading::Cosine, 8, 0.05);
+const C16: (Grading, usize, f64) = (Grading::Cosine, 16, 0.05);
+
+const POISSON: [(&str, f64); 3] = [("0", 0.0), ("025", 0.25), ("0333", 1.0 / 3.0)];
+
+/// Errors of the impedances on four meshes, their limits, and the order in the element size.
+fn check_impedances(bonded: bool) {
+    let (kind, names) = if bonded {
+        ("bonded", &["khh", "kvv", "krr", "khr"][..])
+    } else {
+        ("relaxed", &["khh", "kvv", "krr"][..])
+    };
+    let count = names.len();
+    for (name, poisson) in POISSON {
+        let file = format!("strip_{kind}_nu{name}_xi00.csv");
+        let limits = [
+            (U8, [4e-2, 4e-2, 1.3e-1, 7.3e-2]),
+            (U16, [2e-2, 2e-2, 6.2e-2, 3.5e-2]),
+            (C8, [1.3e-2, 1.3e-2, 3.9e-2, 1.9e-2]),
+            (C16, [3.5e-3, 3.3e-3, 9.7e-3, 6.2e-3]),
+        ];
+        let [u8, u16, c8, c16] = limits.map(|(mesh, limits)| {
+            let errors = impedance_errors(&file, poisson, mesh, bonded);
+            let scene = format!("{kind} {name} {:?} {}", mesh.0, mesh.1);
+            within(&scene, names, &errors[..count], &limits[..count]);
+            errors
+        });
+        for k in 0..3 {
+            let (uniform, cosine) = ((u8[k] / u16[k]).log2(), (c8[k] / c16[k]).log2());
+            assert!((0.9..1.2).contains(&uniform), "order of {}: {uniform}", names[k]);
+            assert!((1.7..2.3).contains(&cosine), "order of {}: {cosine}", names[k]);
+        }
+    }
+}
+
+/// GOAL: the soil operator alone, all components, is the half-plane's, and converges to it.
+/// SCENE: massless rigid strip, bonded; a Ricker pulse of each rigid motion, Fourier transformed.
+/// REFERENCE: impedances over a₀, the problem of Luco & Westmann 1972, by a spectral method.
+#[test]
+fn luco_westmann_1972_bonded_strip() {
+    check_impedances(true);
+    let file = "strip_bonded_nu0333_xi00.csv";
+    let errors = impedance_errors(file, 1.0 / 3.0, U32, true);
+    let limits = [8.5e-3, 9.5e-3, 2.9e-2, 1.8e-2];
+    within("bonded 0333 Uniform 32", &["khh", "kvv", "krr", "khr"], &errors, &limits);
+}
+
+/// GOAL: as above for the diagonal parts of the operator, without their coupling.
+/// SCENE: the strip presses without friction, or drags without pressure.
+/// REFERENCE: relaxed impedances, the problem of Karasudhi, Keer & Lee 1968.
+#[test]
+fn karasudhi_keer_lee_1968_relaxed_strip() {
+    check_impedances(false);
+}
+
+/// GOAL: the operator in time, with forces prescribed.
+/// SCENE: massless rigid strip under a Gaussian or Ricker pulse of each force.
+/// REFERENCE: `td_strip_*`, Fourier syntheses of the impedances, in time.
+#[test]
+fn td_strip_force_pulses() {
+    let gauss = |t: f64| (-((t - 3.0) / 0.5).powi(2)).exp();
+    let names = ["uy_Fy", "ux_Fx", "th_M", "th_Fx", "ux_M"];
+    let order = [0, 1, 4, 2, 3];
+    for (kind, count) in [("bonded", 5), ("relaxed", 3)] {
+        for (name, poisson) in &POISSON[1..] {
+            for (pulse, limits) in [
+                (
+                    "gauss",
+                    [
+                        [7e-3, 6.4e-3, 3e-2, 2.6e-2, 2.6e-2],
+                        [1.8e-3, 1.6e-3, 7.5e-3, 6.6e-3, 6.6e-3],
+                    ],
+                ),
+                (
+                    "ricker2",
+                    [[1.2e-2, 1e-2, 3.5e-2, 3.9e-2, 3.9e-2], [3.1e-3, 2.6e-3, 8.4e-3, 1e-2, 1e-2]],
+                ),
+            ] {
+                let file = format!("td_strip_{kind}_nu{name}_{pulse}.csv");
+                let load = |t: f64| if pulse == "gauss" { gauss(t) } else { ricker(t, 1.0, 5.0) };
+                for (mesh, limits) in [C8, C16].into_iter().zip(limits) {
+                    let errors = transient_errors(&file, *poisson, mesh, kind == "bonded", load);
+                    let errors = order.map(|k| errors[k]);
+                    let scene = format!("{kind} {name} {pulse} cosine {}", mesh.1);
+                    within(&scene, &names[..count], &errors[..count], &limits[..count]);
+                }
+            }
+        }
+    }
+}
+
+/// GOAL: structure, soil and incident wave together, forces on the soil included.
+/// SCENE: rigid blocks of three slendernesses, bonded, vertically incident SV Ricker pulse.
+/// REFERENCE: `td_block_SV_*`, frequency domain; forces as their means over the step.
+#[test]
+fn td_block_under_sv_pulse() {
+    let names = ["u_base", "theta", "u_roof", "V", "M"];
+    let third = 1.0 / 3.0;
+    for (name, poisson, height, density, limits) in [
+        ("nu025_h1_rho1", 0.25, 1.0, 1.0, [4e-3, 8.5e-3, 9.3e-3, 2e-3, 1.5e-2]),
+        ("nu025_h2_rho1", 0.25, 2.0, 1.0, [4.5e-3, 5.2e-3, 8.2e-3, 2.7e-3, 1.5e-2]),
+        ("nu025_h4_rho0.5", 0.25, 4.0, 0.5, [3.6e-3, 3.8e-3, 4.8e-3, 2.9e-3, 1.6e-2]),
+        ("nu0333_h1_rho1", third, 1.0, 1.0, [3.6e-3, 8.5e-3, 8.7e-3, 2e-3, 1.4e-2]),
+        ("nu0333_h2_rho1", third, 2.0, 1.0, [4.2e-3, 5.1e-3, 8.3e-3, 2.4e-3, 1.5e-2]),
+        ("nu0333_h4_rho0.5", third, 4.0, 0.5, [3.4e-3, 3.7e-3, 5e-3, 2.7e-3, 1.6e-2]),
+    ] {
+        let errors = block_errors(name, poisson, height, density, C16);
+        within(&format!("block {name} cosine 16"), &names, &errors, &limits);
+    }
+    for (mesh, limits) in [
+        (U8, [4.8e-2, 5.9e-2, 1e-1, 3e-2, 1.8e-1]),
+        (U16, [2.3e-2, 2.8e-2, 5e-2, 1.5e-2, 8.5e-2]),
+        (U32, [1.2e-2, 1.4e-2, 2.4e-2, 7.3e-3, 4.2e-2]),
+        (C8, [1.5e-2, 1.8e-2, 3.2e-2, 9.2e-3, 5.3e-2]),
+    ] {
+        let errors = block_errors("nu0333_h2_rho1", third, 2.0, 1.0, mesh);
+        within(&format!("block nu0333_h2_rho1 {:?} {}", mesh.0, mesh.1), &names, &errors, &limits);
+    }
+}
+
+/// GOAL: a flexible structure of finite elements with damping, brought by a user.
+/// SCENE: Euler–Bernoulli cantilever (8 beams) on a bonded rigid base, SV Ricker pulse.
+/// REFERENCE: `td_EBcantilever_SV_nu0333.csv`, exact beam functions in the frequency domain.
+#[test]
+fn td_cantilever_under_sv_pulse() {
+    let names = ["u_base", "theta", "u_top", "V_beam", "V", "M"];
+    let limits = [3.8e-3, 6.9e-3, 6.1e-3, 3.6e-3, 3.2e-3, 1.3e-2];
+    within("cantilever cosine 16", &names, &cantilever_errors(C16, 8), &limits);
+}
+
+/// GOAL: the shear building, its storeys' dashpots and section forces.
+/// SCENE: three storeys on a massive bonded base, SV Ricker pulse.
+/// REFERENCE: `td_shearbuilding3_SV_nu0333_sig1.csv`, frequency domain.
+#[test]
+fn td_shear_building_under_sv_pulse() {
+    let names = ["u_base", "theta", "v1", "v3", "V1", "V", "M"];
+    let limits = [3.3e-3, 4.5e-3, 3.8e-3, 7.6e-3, 3.4e-3, 2.1e-3, 1.15e-2];
+    within("shear building cosine 16", &names, &building_errors(C16), &limits);
+}
