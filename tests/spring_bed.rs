@@ -33,6 +33,7 @@ fn winkler_error(elements: usize, time_step: f64) -> f64 {
         .gravity(9.81)
         .build()
         .unwrap();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
     let every = (0.01 / time_step).round() as usize;
     let theta = table.column("theta");
     let (mut error, mut norm) = (0.0, 0.0);
