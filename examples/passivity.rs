@@ -23,10 +23,10 @@ struct Options {
     #[arg(long, default_value_t = 10_000)]
     steps: usize,
     /// Steps over element length, c₁Δt/l
-    #[arg(long, value_delimiter = ',', default_value = "0.02,0.5,50")]
+    #[arg(long, value_delimiter = ',', default_value = "0.5")]
     beta: Vec<f64>,
     /// Poisson's ratios
-    #[arg(long, value_delimiter = ',', default_value = "0,0.3333333333333333,0.4999")]
+    #[arg(long, value_delimiter = ',', default_value = "0.3333333333333333")]
     poisson: Vec<f64>,
     /// Elements graded towards the edges too (many times slower to evaluate)
     #[arg(long)]

@@ -33,7 +33,7 @@ fn random_tractions_never_extract_energy() {
         assert!(work >= 0.0, "{scene:?}: {work:e}");
         least = least.min(work);
     }
-    println!("least work over the sum of its parts: {least:e}");
+    println!("least work over what the first ten steps gave: {least:e}");
 }
 
 #[test]

@@ -29,10 +29,11 @@ impl Scene {
         ground
     }
 
-    /// Work W_N = Σ A τ·Δs: its smallest value over that at the end of a third of the run.
+    /// Work W_N = Σ A τ·Δs after the first ten steps: its smallest value over that after ten steps.
     ///
-    /// Tractions are white noise for a third of the run, then slow, and in the last third they take
-    /// out as much energy in each step as they can: τ = −½ G⁻¹(h − s₀) minimises τ·A(h + Gτ − s₀).
+    /// Tractions are white noise for ten steps, then for half of the run they take out as much
+    /// energy in each step as they can: τ = −½ G⁻¹(h − s₀) minimises τ·A(h + Gτ − s₀). Slow noise
+    /// follows.
     pub(crate) fn least_work(&self) -> f64 {
         let mut ground = self.ground();
         let size = 2 * self.elements;
@@ -46,15 +47,15 @@ impl Scene {
         let (mut work, mut least, mut given) = (0.0, f64::INFINITY, 0.0);
         for step in 0..self.steps {
             ground.history(&mut history).unwrap();
-            let third = 3 * step / self.steps;
-            if third == 2 {
+            let noise = step < 10;
+            if !noise && step < self.steps / 2 {
                 let change: Vec<f64> =
                     history.iter().zip(&before).map(|(h, s)| -0.5 * (h - s)).collect();
                 traction = multiply(&inverse, &change);
             } else {
                 for t in &mut traction {
                     let kick = random.within(-1.0, 1.0);
-                    *t = if third == 0 { kick } else { 0.95 * *t + 0.3 * kick };
+                    *t = if noise { kick } else { 0.95 * *t + 0.3 * kick };
                 }
             }
             let mut now = multiply(&operator, &traction);
@@ -64,9 +65,11 @@ impl Scene {
             for i in 0..size {
                 work += lengths[i % self.elements] * traction[i] * (now[i] - before[i]);
             }
-            least = least.min(work);
-            if third == 0 {
+            if noise {
                 given = work;
+            }
+            if !noise || work < 0.0 {
+                least = least.min(work);
             }
             ground.commit(&traction);
             before.copy_from_slice(&now);
