@@ -2,6 +2,11 @@
 
 use std::fmt;
 
+use super::scheme::SchemeCoefficients;
+use super::simulation::Simulation;
+use super::step::Ride;
+use crate::linalg::{dense_multiply_add, dot};
+
 /// Energies since the start, J per metre of thickness.
 ///
 /// ```text
@@ -44,6 +49,84 @@ impl Ledger {
         ];
         let scale = left.iter().fold(self.input.abs(), |m, x| m.max(x.abs()));
         if scale > 0.0 { (left.iter().sum::<f64>() - self.input).abs() / scale } else { 0.0 }
+    }
+}
+
+impl Simulation {
+    /// Adds the step to the energy ledger, each term from its own definition.
+    pub(super) fn book(&mut self, ride: &Ride) {
+        let c = self.coefficients;
+        let dt = self.time_step;
+        let Self { model, work, memory, state, base, solver, .. } = self;
+        let ledger = &mut state.ledger;
+        let (v0, v1, du) = (&state.velocity, &work.new_velocity, &work.increment);
+
+        ledger.kinetic = 0.5 * model.mass.form(v1, v1);
+        let work_of_load: f64 = dot(&work.load, du);
+        ledger.input += work_of_load;
+
+        if !model.damping.is_empty() {
+            let [horizontal, vertical] = &model.ride;
+            for (i, x) in work.vector.iter_mut().enumerate() {
+                *x = SchemeCoefficients::apply(c.velocity, du[i], v0[i], state.acceleration[i])
+                    - horizontal[i] * ride.velocity[0]
+                    - vertical[i] * ride.velocity[1];
+            }
+            work.total.fill(0.0);
+            model.damping.multiply_add(1.0, &work.vector, &mut work.total);
+            let dragged = ride.increment[0] * dot(&work.total, horizontal)
+                + ride.increment[1] * dot(&work.total, vertical);
+            ledger.damping += dot(&work.total, du) - dragged;
+            ledger.input -= dragged;
+        }
+
+        if !c.conserves_energy(dt) {
+            // Δu = Δt (v₀+v₁)/2 + r_d, a* = (v₁−v₀)/Δt + r_a, u* = (u₀+u₁)/2 + r_u
+            let a0 = &state.acceleration;
+            let (change, rest) = (&mut work.vector, &mut work.total);
+            for i in 0..du.len() {
+                change[i] = (v1[i] - v0[i]) / dt;
+                rest[i] = du[i] - 0.5 * dt * (v0[i] + v1[i]);
+            }
+            ledger.numerical += model.mass.form(rest, change);
+            for i in 0..du.len() {
+                rest[i] =
+                    SchemeCoefficients::apply(c.acceleration, du[i], v0[i], a0[i]) - change[i];
+            }
+            ledger.numerical += model.mass.form(du, rest);
+            for i in 0..du.len() {
+                let there = SchemeCoefficients::apply(c.displacement, du[i], v0[i], a0[i]);
+                rest[i] = there - 0.5 * du[i];
+            }
+            ledger.numerical += model.stiffness.form(du, rest);
+        }
+        if !model.linear {
+            memory.nonlinear_work += dot(&work.force, du);
+        }
+        for (i, x) in work.vector.iter_mut().enumerate() {
+            *x = state.displacement[i] + du[i];
+        }
+        ledger.strain =
+            0.5 * model.stiffness.form(&work.vector, &work.vector) + memory.nonlinear_work;
+
+        work.soil_displacement.copy_from_slice(&work.history);
+        dense_multiply_add(&self.soil, 1.0, &solver.traction, &mut work.soil_displacement);
+        base.means(&work.vector, &mut work.means);
+        let count = base.lengths().len();
+        for i in 0..2 * count {
+            let area = base.length(i);
+            let change = solver.traction[i];
+            let at_rest = self.static_state.traction[i];
+            let gap = if i < count { self.static_state.gap[i] } else { 0.0 };
+            let jump = gap + work.free_field[i] + work.soil_displacement[i] - work.means[i];
+            let opening = jump - memory.jump[i];
+            memory.jump[i] = jump;
+            ledger.soil +=
+                area * change * (work.soil_displacement[i] - memory.soil_displacement[i]);
+            ledger.contact -= area * (at_rest + change) * opening;
+            ledger.preload += area * at_rest * opening;
+            ledger.input -= area * change * (work.free_field[i] - memory.free_field[i]);
+        }
     }
 }
 

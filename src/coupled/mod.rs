@@ -37,7 +37,7 @@
 //! Starting from the modes of the step before: solve the linear system that the modes define, let
 //! each [`crate::interface::InterfaceLaw`] say its next mode, repeat until nothing changes. A mode vector that
 //! comes back is a cycle; then Gauss–Seidel over the elements, each solved exactly by trying its
-//! modes, and at last a path of solutions followed from a fully closed state. [`State::method`] tells what was
+//! modes, and at last a path of solutions followed from a known state. [`State::method`] tells what was
 //! needed, [`State::trials`] how many linear solves. If nothing converges, the step is an
 //! [`crate::Error::Step`] and the simulation stays at the last accepted one.
 //!

@@ -14,7 +14,7 @@ use super::simulation::{Operators, Simulation};
 use super::state::{State, Transition};
 use crate::error::{Error, Result, StepError};
 use crate::interface::StepStart;
-use crate::linalg::{dense_multiply_add, dot};
+use crate::linalg::dot;
 
 /// Newton iterations for a nonlinear structure.
 const NEWTON_ITERATIONS: usize = 40;
@@ -295,80 +295,6 @@ impl Simulation {
         self.update_resultants();
     }
 
-    /// Adds the step to the energy ledger, each term from its own definition.
-    fn book(&mut self, ride: &Ride) {
-        let c = self.coefficients;
-        let dt = self.time_step;
-        let Self { model, work, memory, state, base, solver, .. } = self;
-        let ledger = &mut state.ledger;
-        let (v0, v1, du) = (&state.velocity, &work.new_velocity, &work.increment);
-
-        ledger.kinetic = 0.5 * model.mass.form(v1, v1);
-        let work_of_load: f64 = dot(&work.load, du);
-        ledger.input += work_of_load;
-
-        if !model.damping.is_empty() {
-            let [horizontal, vertical] = &model.ride;
-            for (i, x) in work.vector.iter_mut().enumerate() {
-                *x = SchemeCoefficients::apply(c.velocity, du[i], v0[i], state.acceleration[i])
-                    - horizontal[i] * ride.velocity[0]
-                    - vertical[i] * ride.velocity[1];
-            }
-            work.total.fill(0.0);
-            model.damping.multiply_add(1.0, &work.vector, &mut work.total);
-            let dragged = ride.increment[0] * dot(&work.total, horizontal)
-                + ride.increment[1] * dot(&work.total, vertical);
-            ledger.damping += dot(&work.total, du) - dragged;
-            ledger.input -= dragged;
-        }
-
-        if !c.conserves_energy(dt) {
-            // Δu = Δt (v₀+v₁)/2 + r_d, a* = (v₁−v₀)/Δt + r_a, u* = (u₀+u₁)/2 + r_u
-            let change: Vec<f64> = v1.iter().zip(v0).map(|(b, a)| (b - a) / dt).collect();
-            let a0 = &state.acceleration;
-            let rest_d: Vec<f64> =
-                (0..du.len()).map(|i| du[i] - 0.5 * dt * (v0[i] + v1[i])).collect();
-            let rest_a: Vec<f64> = (0..du.len())
-                .map(|i| SchemeCoefficients::apply(c.acceleration, du[i], v0[i], a0[i]) - change[i])
-                .collect();
-            let rest_u: Vec<f64> = (0..du.len())
-                .map(|i| {
-                    SchemeCoefficients::apply(c.displacement, du[i], v0[i], a0[i]) - 0.5 * du[i]
-                })
-                .collect();
-            ledger.numerical += model.mass.form(&rest_d, &change)
-                + model.mass.form(du, &rest_a)
-                + model.stiffness.form(du, &rest_u);
-        }
-        if !model.linear {
-            memory.nonlinear_work += dot(&work.force, du);
-        }
-        for (i, x) in work.vector.iter_mut().enumerate() {
-            *x = state.displacement[i] + du[i];
-        }
-        ledger.strain =
-            0.5 * model.stiffness.form(&work.vector, &work.vector) + memory.nonlinear_work;
-
-        work.soil_displacement.copy_from_slice(&work.history);
-        dense_multiply_add(&self.soil, 1.0, &solver.traction, &mut work.soil_displacement);
-        base.means(&work.vector, &mut work.means);
-        let count = base.lengths().len();
-        for i in 0..2 * count {
-            let area = base.length(i);
-            let change = solver.traction[i];
-            let at_rest = self.static_state.traction[i];
-            let gap = if i < count { self.static_state.gap[i] } else { 0.0 };
-            let jump = gap + work.free_field[i] + work.soil_displacement[i] - work.means[i];
-            let opening = jump - memory.jump[i];
-            memory.jump[i] = jump;
-            ledger.soil +=
-                area * change * (work.soil_displacement[i] - memory.soil_displacement[i]);
-            ledger.contact -= area * (at_rest + change) * opening;
-            ledger.preload += area * at_rest * opening;
-            ledger.input -= area * change * (work.free_field[i] - memory.free_field[i]);
-        }
-    }
-
     /// Resultants and probes from the present state.
     pub(super) fn update_resultants(&mut self) {
         let state = &mut self.state;
@@ -403,10 +329,10 @@ impl Simulation {
 type Solved = (usize, super::modes::SearchMethod);
 
 /// The mean free field over a step: `[horizontal, vertical up]`.
-struct Ride {
+pub(super) struct Ride {
     displacement: [f64; 2],
-    increment: [f64; 2],
-    velocity: [f64; 2],
+    pub(super) increment: [f64; 2],
+    pub(super) velocity: [f64; 2],
     new_velocity: [f64; 2],
     new_acceleration: [f64; 2],
 }
