@@ -100,7 +100,8 @@ pub enum StepError {
     Contact {
         /// Trials made, fallbacks included.
         iterations: usize,
-        /// Largest violation of a law, relative to the largest contact traction.
+        /// Largest tension or penetration (as a traction) of the last trial, relative to the
+        /// largest pressure. A law's other objections, to friction for instance, have no measure.
         residual: f64,
         /// Modes of the last trial, left to right.
         modes: Vec<Mode>,

@@ -106,6 +106,32 @@ fn an_unprepared_half_plane_says_so() {
 }
 
 #[test]
+fn an_unprepared_spring_bed_says_so() {
+    let mut bed = SpringGround::new(0.0..1.0, 1, 1e6, 1e6).unwrap();
+    error_with("prepare", bed.instantaneous(&mut [0.0; 4]));
+    error_with("prepare", bed.history(&mut [0.0; 2]));
+}
+
+/// Counts as large as they come are refused or cut, not allocated.
+#[test]
+fn absurd_counts_do_not_panic() {
+    for count in [0, 1_000_000_000_000, usize::MAX] {
+        error_with("number of contact elements", HalfPlaneGround::strip(soil(), 0.0..1.0, count));
+        error_with("number of contact elements", SpringGround::new(0.0..1.0, count, 1.0, 1.0));
+    }
+    let mut ground = HalfPlaneGround::strip(soil(), 0.0..1.0, 1).unwrap();
+    ground.prepare(0.01).unwrap();
+    ground.reserve(usize::MAX).unwrap();
+
+    let left = ContactElement { left: 0.0, right: 1.0 };
+    let right = ContactElement { left: 1.0, right: 2.0 };
+    let kernel = InfluenceKernel::new(&soil(), 1e-30).unwrap();
+    let pair = kernel.pair(right, left).unwrap();
+    assert_eq!(pair.coupling_ends(), usize::MAX);
+    pair.fill(usize::MAX, &mut [0.0; 2], &mut [0.0; 2], &mut [0.0; 2]).unwrap();
+}
+
+#[test]
 fn kernels() {
     let element = |left: f64, right: f64| ContactElement { left, right };
     refused("time step", &BAD, |x| InfluenceKernel::new(&soil(), x));

@@ -11,7 +11,7 @@ const BETAS: [f64; 8] = [0.02, 0.1, 0.25, 0.5, 1.0, 2.0, 10.0, 50.0];
 const POISSON: [f64; 5] = [0.0, 0.2, 1.0 / 3.0, 0.45, 0.4999];
 
 /// Scenes of 20 elements. The direct history costs steps², so only three pairs of β and ν run
-/// long here; the example `passivity` runs all of them longer still.
+/// long here; the example `passivity` runs any of them longer still.
 fn scenes() -> impl Iterator<Item = Scene> {
     let long =
         |beta, poisson| [(0.02, 0.4999), (0.5, 1.0 / 3.0), (50.0, 0.0)].contains(&(beta, poisson));

@@ -30,6 +30,8 @@ fn main() -> Result<(), AnyError> {
     let record = options.record()?;
     let steps = options.steps(&record);
     let cases = Case::list(&options.friction);
+    // A folder that cannot be written is better known before the runs than after.
+    std::fs::create_dir_all(&options.out)?;
     println!(
         "containment {} ft wide, {} ft high on soil with c_S = {} ft/s, c_P = {} ft/s; \
          {steps} steps of {:.4} ms",
@@ -80,7 +82,6 @@ fn main() -> Result<(), AnyError> {
         }
     }
 
-    std::fs::create_dir_all(&options.out)?;
     report::print_table(&results);
     report::write_summary(&options.out, &results)?;
     report::write_histories(&options.out, &results)?;

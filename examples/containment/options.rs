@@ -62,7 +62,7 @@ pub(crate) struct Options {
     #[arg(long = "soil-density", default_value_t = 3.5, value_parser = positive)]
     pub(crate) soil_density: f64,
     /// Damping ratio of the structure at 1 and 10 Hz (Rayleigh).
-    #[arg(long, default_value_t = 0.0)]
+    #[arg(long, default_value_t = 0.0, value_parser = not_negative)]
     pub(crate) damping: f64,
     /// Time step, ms; half an element's length over the pressure wave speed unless given.
     #[arg(long = "time-step", value_parser = positive)]
@@ -144,5 +144,12 @@ fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
         _ => Err("must be a number above zero".into()),
+    }
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        _ => Err("must be a number, zero or more".into()),
     }
 }

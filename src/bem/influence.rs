@@ -159,7 +159,7 @@ impl PairInfluence<'_> {
         crate::error::same_length("xx coefficients", xx.len(), zz.len())?;
         crate::error::same_length("zx coefficients", zx.len(), zz.len())?;
         for (i, ((zz, xx), zx)) in zz.iter_mut().zip(xx).zip(zx).enumerate() {
-            let influence = self.at(first + i);
+            let influence = self.at(first.saturating_add(i));
             (*zz, *xx, *zx) = (influence.zz, influence.xx, influence.zx);
         }
         Ok(())
@@ -172,7 +172,8 @@ impl PairInfluence<'_> {
         }
         let crossing = self.kernel.branches.arrival * self.overlap.farthest() / self.kernel.step;
         let mut lag = lag_from(crossing.floor());
-        while self.couples((lag.saturating_sub(1)) as f64 * self.kernel.step) {
+        // A lag too large for a count stays at the largest one.
+        while lag < usize::MAX && self.couples((lag.saturating_sub(1)) as f64 * self.kernel.step) {
             lag += 1;
         }
         lag.max(1)

@@ -78,6 +78,17 @@ impl SpringGround {
         Ok(self)
     }
 
+    /// Error before `prepare`: without a time step there is no impedance.
+    fn check_prepared(&self) -> Result<()> {
+        if self.time_step > 0.0 {
+            return Ok(());
+        }
+        Err(Error::Scene {
+            quantity: "spring bed",
+            needed: "`prepare` must be called with the time step first",
+        })
+    }
+
     /// θ k + c/Δt of a component.
     fn impedance(&self, component: usize) -> f64 {
         self.theta * self.stiffness[component] + self.dashpot[component] / self.time_step
@@ -110,10 +121,12 @@ impl Ground for SpringGround {
     }
 
     fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+        self.check_prepared()?;
         self.fill_diagonal(matrix, |component| 1.0 / self.impedance(component))
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
+        self.check_prepared()?;
         same_length("displacement of the history", displacement.len(), self.displacement.len())?;
         for (i, (out, last)) in displacement.iter_mut().zip(&self.displacement).enumerate() {
             let k = self.component(i);

@@ -15,6 +15,9 @@ pub enum Grading {
     Cosine,
 }
 
+/// Most elements of a strip: their dense operator alone takes 3.2 GB.
+const MOST_ELEMENTS: usize = 10_000;
+
 /// A foundation strip: an interval of the surface cut into elements.
 ///
 /// ```
@@ -33,16 +36,16 @@ impl Strip {
     /// Strip over `range` (m) of `count` elements.
     ///
     /// # Errors
-    /// [`Error::Input`] for an empty or infinite range or no elements.
+    /// [`Error::Input`] for an empty or infinite range, no elements or more than 10 000.
     pub fn new(range: std::ops::Range<f64>, count: usize, grading: Grading) -> Result<Self> {
         finite("left end of the strip", range.start)?;
         finite("right end of the strip", range.end)?;
         positive("length of the strip", range.end - range.start)?;
-        if count == 0 {
+        if !(1..=MOST_ELEMENTS).contains(&count) {
             return Err(Error::Input {
                 quantity: "number of contact elements",
-                value: 0.0,
-                needed: "one or more",
+                value: count as f64,
+                needed: "from 1 to 10 000",
             });
         }
         let middle = 0.5 * (range.start + range.end);

@@ -222,7 +222,7 @@ fn solve_element(
     (determinant != 0.0 && change.iter().all(|x| x.is_finite())).then_some(change)
 }
 
-/// Largest objection of a law: tension or penetration as traction, relative to the largest.
+/// Largest tension or penetration as a traction, relative to the largest pressure.
 fn violation(solver: &ContactSolver, input: &ContactInput<'_>, modes: &[Mode]) -> f64 {
     let size = 2 * modes.len();
     let scale = solver.states.iter().fold(f64::MIN_POSITIVE, |m, s| m.max(s.pressure.abs()));

@@ -12,7 +12,8 @@ use crate::linalg::{SparseFactor, SparseMatrix};
 /// What friction does while the structure is placed on the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Placement {
-    /// The base is set down without friction, and sticks from then on.
+    /// The base is set down without friction and without adhesion, and sticks from then on. What
+    /// does not touch under weight alone starts open; a bonded law holds it at that gap.
     #[default]
     Frictionless,
     /// The interface law acts while the weight comes on, in one step.
@@ -91,7 +92,9 @@ pub(crate) fn solve(
     let mut compliance: Option<Compliance> = None;
     let mut free_jump = vec![0.0; size];
     let mut change = f64::INFINITY;
-    for _ in 0..ITERATIONS {
+    let mut iterations = 0;
+    while iterations < ITERATIONS {
+        iterations += 1;
         let tangent = model.tangent(&state.displacement)?;
         let current = match compliance.take() {
             Some(current) if model.linear => current,
@@ -127,7 +130,7 @@ pub(crate) fn solve(
         };
         search
             .solve(&mut solver, &input, &mut state.modes)
-            .map_err(|_| Error::Preload { iterations: ITERATIONS, residual: change })?;
+            .map_err(|_| Error::Preload { iterations, residual: change })?;
         for (i, traction) in solver.traction.iter().enumerate() {
             let column = &current.columns[i * n..(i + 1) * n];
             for (d, c) in displacement.iter_mut().zip(column) {
@@ -153,7 +156,7 @@ pub(crate) fn solve(
             break;
         }
     }
-    Err(Error::Preload { iterations: ITERATIONS, residual: change })
+    Err(Error::Preload { iterations, residual: change })
 }
 
 /// Factors of K + D + εM, its answer to unit tractions, and the static Delassus operator.

@@ -56,7 +56,7 @@ pub enum Warning {
         /// Largest rotation, rad.
         rotation: f64,
     },
-    /// The energy ledger does not close to 1e-9.
+    /// The energy ledger does not close to 1e-9 at the end.
     Ledger {
         /// Its residual, relative to the largest term.
         residual: f64,
@@ -66,7 +66,8 @@ pub enum Warning {
 impl Warning {
     /// Rotation above which a run warns, rad: the cosine is off by half a percent.
     pub const ROTATION_LIMIT: f64 = 0.1;
-    /// Ledger residual above which a run warns.
+    /// Ledger residual at the end of a run above which it warns. Earlier, while energies are still
+    /// small, the relative residual may be larger: see [`Run::ledger_residual`].
     pub const LEDGER_LIMIT: f64 = 1e-9;
 }
 
@@ -104,7 +105,7 @@ pub struct Run {
     pub normal_force: [f64; 2],
     /// Largest uplifted fraction of the base.
     pub uplifted_fraction: Peak,
-    /// Largest slip of any element, m.
+    /// Largest slip of any element, m; tangential motion while it is open counts.
     pub slip: Peak,
     /// Mean slip at the end, m.
     pub residual_slip: f64,

@@ -58,7 +58,8 @@ pub struct State {
     pub probes: Vec<f64>,
     /// Horizontal force on the soil, positive to the right, N/m.
     pub base_shear: f64,
-    /// Moment on the soil about the middle of the base, counter-clockwise, N·m/m.
+    /// Moment on the soil, counter-clockwise, N·m/m; about the middle of the base, or the
+    /// builder's moment center.
     pub base_moment: f64,
     /// Total pressure on the soil, positive in compression, N/m.
     pub normal_force: f64,
@@ -72,7 +73,7 @@ pub struct State {
     pub ledger: Ledger,
     /// Linear solves that the mode search needed.
     pub trials: usize,
-    /// How the modes were found.
+    /// How the modes were found; in a nonlinear step, the farthest that any iteration had to go.
     pub method: SearchMethod,
 }
 

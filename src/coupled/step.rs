@@ -9,6 +9,7 @@
 //! | B, A | element means of the base displacement, element lengths |
 
 use super::contact::ContactInput;
+use super::modes::SearchMethod;
 use super::scheme::SchemeCoefficients;
 use super::simulation::{Operators, Simulation};
 use super::state::{State, Transition};
@@ -185,7 +186,7 @@ impl Simulation {
         // The increment that the last velocity suggests.
         let mut guess: Vec<f64> = self.state.velocity.iter().map(|v| v * self.time_step).collect();
         let mut residual = f64::INFINITY;
-        let mut trials = 0;
+        let (mut trials, mut method) = (0, SearchMethod::ActiveSet);
         let mut linearised = vec![0.0; n];
         for iteration in 0..NEWTON_ITERATIONS {
             self.evaluate_nonlinear(&guess);
@@ -205,8 +206,9 @@ impl Simulation {
             for i in 0..n {
                 self.work.increment[i] = self.work.known[i] - linearised[i];
             }
-            let (more, method) = self.solve_contact()?;
+            let (more, last_method) = self.solve_contact()?;
             trials += more;
+            method = method.max(last_method);
             self.operators.tangent.multiply_add(weight, &self.work.increment, &mut linearised);
             guess.copy_from_slice(&self.work.increment);
             self.evaluate_nonlinear(&guess);
@@ -226,7 +228,7 @@ impl Simulation {
             }
         }
         if residual <= 1e3 * NEWTON_TOLERANCE {
-            return Ok((trials, self.state.method));
+            return Ok((trials, method));
         }
         Err(StepError::Newton { iterations: NEWTON_ITERATIONS, residual })
     }
@@ -326,7 +328,7 @@ impl Simulation {
 }
 
 /// Trials of the mode search and its method.
-type Solved = (usize, super::modes::SearchMethod);
+type Solved = (usize, SearchMethod);
 
 /// The mean free field over a step: `[horizontal, vertical up]`.
 pub(super) struct Ride {

@@ -39,11 +39,13 @@ impl Mesh {
     ///
     /// # Errors
     /// [`Error::Input`] or [`Error::Size`] when the range is empty or not finite, when there are
-    /// no columns, layers or rows, or when a height is not positive.
+    /// no columns, layers or rows, more than a million columns or rows of a layer, or when a height
+    /// is not positive.
     pub fn layered_block(x: Range<f64>, columns: usize, layers: &[Layer]) -> Result<Self> {
         finite("left end of the block", x.start)?;
         finite("right end of the block", x.end)?;
         positive("width of the block", x.end - x.start)?;
+        check_count("columns of the block", columns)?;
         let fraction = |k: usize| k as f64 / columns.max(1) as f64;
         // Weighted ends rather than start + step: both ends come out exact.
         let place = |k: usize| x.start * (1.0 - fraction(k)) + x.end * fraction(k);
@@ -88,6 +90,7 @@ impl Mesh {
             if layer.rows == 0 {
                 return Err(Error::Size { quantity: "rows of a layer", found: 0, needed: 1 });
             }
+            check_count("rows of a layer", layer.rows)?;
             for row in 1..=layer.rows {
                 let y = base + layer.height * (row as f64 / layer.rows as f64);
                 let upper = add_row(&mut mesh, grid, y)?;
@@ -101,6 +104,17 @@ impl Mesh {
         }
         Ok(mesh)
     }
+}
+
+/// Most columns of a block and rows of a layer.
+const MOST: usize = 1_000_000;
+
+/// Error for a count that would only fill the memory.
+fn check_count(quantity: &'static str, count: usize) -> Result<()> {
+    if count <= MOST {
+        return Ok(());
+    }
+    Err(Error::Input { quantity, value: count as f64, needed: "at most a million" })
 }
 
 /// Adds the nodes of one height and returns the first one's index.

@@ -10,6 +10,9 @@ use crate::linalg::dot;
 /// Steps of the sum that are taken together, so that tractions and kernels stay in cache.
 const CHUNK: usize = 512;
 
+/// Steps ahead that a hint prepares for, at most; beyond, memory grows as it goes.
+const RESERVED_STEPS: usize = 100_000;
+
 /// Direct summation of the history: the oracle for all others, and the best for short runs.
 ///
 /// Kernels are kept per pair *class* (on a uniform patch, per offset), reversed in time, so that
@@ -77,9 +80,11 @@ impl ConvolutionHistory for DirectHistory {
         self.steps
     }
 
+    /// Prepares for 100 000 further steps at most: a larger hint may stand for a run without end.
     fn reserve(&mut self, steps: usize) -> Result<()> {
-        if steps + 1 > self.capacity {
-            self.grow(steps + 1)?;
+        let steps = steps.min(self.steps.saturating_add(RESERVED_STEPS));
+        if steps >= self.capacity {
+            self.grow(steps.saturating_add(1))?;
         }
         for component in &mut self.traction {
             component.reserve(steps.saturating_sub(component.len()));

@@ -34,6 +34,7 @@ pub trait FreeField: Send {
     /// at and before t = 0.
     fn displacement(&self, x: f64, time: f64) -> [f64; 2];
 
-    /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`.
+    /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`. The crate's own
+    /// grounds and time schemes ask for displacements only; a ground of your own may need it.
     fn velocity(&self, x: f64, time: f64) -> [f64; 2];
 }
