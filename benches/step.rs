@@ -1,10 +1,10 @@
-//! Time per step of whole scenes, and of the direct history alone.
+//! Time per step of whole scenes, and of the histories alone.
 
 use std::hint::black_box;
 use std::sync::Arc;
 
 use basemat::bem::{ContactElement, HalfPlaneGround, PatchKernel, Strip};
-use basemat::history::{ConvolutionHistory, DirectHistory};
+use basemat::history::{ConvolutionHistory, DirectHistory, RelaxedFftHistory};
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::RigidBlock;
@@ -69,5 +69,46 @@ fn direct_history(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, steps, direct_history);
+/// Whole marches, kernels and memory made ready before.
+fn whole_march(criterion: &mut Criterion) {
+    const STEPS: usize = 10_000;
+    let elements = Strip::uniform(-5.0..5.0, 10).expect("a valid strip").elements();
+    let kernel = Arc::new(PatchKernel::new(soil(), elements, 2.0e-3).expect("a valid patch"));
+    let make = |relaxed: bool| -> Box<dyn ConvolutionHistory> {
+        let kernel = Arc::clone(&kernel);
+        if relaxed {
+            Box::new(RelaxedFftHistory::new(kernel))
+        } else {
+            Box::new(DirectHistory::new(kernel))
+        }
+    };
+    let mut group = criterion.benchmark_group("history, 10 000 steps, 10 elements");
+    group.throughput(Throughput::Elements(STEPS as u64)).sample_size(10);
+    for (name, relaxed) in [("direct", false), ("relaxed FFT", true)] {
+        group.bench_function(name, |bencher| {
+            bencher.iter_batched(
+                || {
+                    let mut history = make(relaxed);
+                    history.reserve(STEPS).expect("kernels");
+                    history
+                },
+                |mut history| {
+                    let (mut displacement, mut traction) = ([0.0; 20], [0.0; 20]);
+                    for step in 0..STEPS {
+                        history.evaluate(&mut displacement).expect("a valid history");
+                        for (i, value) in traction.iter_mut().enumerate() {
+                            *value = ((step * 7 + i) % 101) as f64;
+                        }
+                        history.push(&traction);
+                    }
+                    black_box(displacement)
+                },
+                criterion::BatchSize::LargeInput,
+            );
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, steps, direct_history, whole_march);
 criterion_main!(benches);

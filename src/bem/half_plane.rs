@@ -4,9 +4,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::patch::check_order;
-use super::{ContactElement, Grading, Ground, PatchKernel, StaticKernel, Strip};
+use super::{ContactElement, Grading, Ground, History, PatchKernel, StaticKernel, Strip};
 use crate::error::{Error, Result, same_length};
-use crate::history::{ConvolutionHistory, DirectHistory};
+use crate::history::ConvolutionHistory;
 use crate::soil::Soil;
 
 /// Homogeneous elastic half-plane with one or several strips on its surface.
@@ -73,13 +73,19 @@ impl HalfPlaneGround {
         // static matrix positive definite, and the settlement it stands for cancels in all results.
         let span = elements[elements.len() - 1].right - elements[0].left;
         let statics = StaticKernel::new(&soil, 10.0 * span)?;
-        let make_history =
-            Box::new(|kernel| Box::new(DirectHistory::new(kernel)) as Box<dyn ConvolutionHistory>);
+        let make_history = Box::new(|kernel| History::default().make(kernel));
         Ok(Self { soil, elements, statics, make_history, prepared: None })
     }
 
-    /// With another history than the direct sum: `make` is called with the patch's coefficients
-    /// once the time step is known.
+    /// With a history of this kind; [`History::Auto`] unless called.
+    #[must_use]
+    pub fn with_history_kind(mut self, history: History) -> Self {
+        self.make_history = Box::new(move |kernel| history.make(kernel));
+        self
+    }
+
+    /// With a history of one's own: `make` is called with the patch's coefficients once the time
+    /// step is known.
     #[must_use]
     pub fn with_history(
         mut self,

@@ -7,6 +7,7 @@
 //! tangential ones (traction τ on the soil and displacement, positive to the right). They are
 //! means over the elements, from left to right.
 
+mod choice;
 mod half_plane;
 mod influence;
 mod overlap;
@@ -15,6 +16,7 @@ mod spring;
 mod static_kernel;
 mod strip;
 
+pub use choice::History;
 pub use half_plane::HalfPlaneGround;
 pub use influence::{Influence, InfluenceKernel, PairInfluence};
 pub(crate) use patch::check_order;

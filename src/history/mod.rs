@@ -1,8 +1,10 @@
 //! Convolution histories: what all past tractions give at the end of the next step.
 
 mod direct;
+mod relaxed_fft;
 
 pub use direct::DirectHistory;
+pub use relaxed_fft::RelaxedFftHistory;
 
 use crate::error::Result;
 

@@ -1,0 +1,148 @@
+//! How elements talk to each other, and over short lags.
+
+use crate::bem::PatchKernel;
+use crate::error::Result;
+
+/// Pairs of a patch and its coefficients over short delays.
+///
+/// Index d of a coefficient is the number of steps from the traction to the first step that sees
+/// it as history: lag d + 1 of the kernel.
+pub(super) struct Coefficients {
+    /// Receiver by receiver, Q sources each: class, and sign of the coupling.
+    pub(super) pairs: Vec<(usize, f64)>,
+    /// 1/length of each receiver.
+    pub(super) scales: Vec<f64>,
+    pub(super) classes: usize,
+    /// Last d at which any coupling is not zero.
+    pub(super) coupling_reach: usize,
+    /// How far ahead the coupling is summed directly.
+    pub(super) coupling_direct: usize,
+    /// Per class: d = 0 … leaf − 1; the first is zero.
+    normal: Vec<Vec<f64>>,
+    tangential: Vec<Vec<f64>>,
+    /// Per class: d = 0 … as long as it is not zero and summed directly.
+    coupling: Vec<Vec<f64>>,
+}
+
+/// Coefficients d = 0 … of one class.
+pub(super) struct Class {
+    pub(super) normal: Vec<f64>,
+    pub(super) tangential: Vec<f64>,
+    pub(super) coupling: Vec<f64>,
+}
+
+impl Class {
+    /// Room for `length` values of d.
+    pub(super) fn new(length: usize) -> Self {
+        let [normal, tangential, coupling] = [(); 3].map(|()| vec![0.0; length]);
+        Self { normal, tangential, coupling }
+    }
+
+    /// Coefficients of `class`.
+    pub(super) fn fill(&mut self, kernel: &PatchKernel, class: usize) -> Result<()> {
+        let Self { normal, tangential, coupling } = self;
+        // The first is the instantaneous coefficient, no part of the history.
+        kernel.coefficients(class, 2, &mut normal[1..], &mut tangential[1..], &mut coupling[1..])
+    }
+}
+
+impl Coefficients {
+    /// For leaves of `leaf` steps; a coupling that reaches no further than `direct` is summed.
+    pub(super) fn new(kernel: &PatchKernel, leaf: usize, direct: usize) -> Result<Self> {
+        let classes = kernel.classes();
+        let reaches = (0..classes)
+            .map(|class| Ok(kernel.last_coupling_lag(class)?.saturating_sub(1)))
+            .collect::<Result<Vec<_>>>()?;
+        let coupling_reach = reaches.iter().copied().max().unwrap_or(0);
+        let coupling_direct = if coupling_reach <= direct { coupling_reach } else { leaf - 1 };
+        let mut values = Class::new(leaf.max(coupling_direct + 1));
+        let mut near = Self {
+            pairs: kernel.pairs().iter().map(|pair| (pair.class, pair.sign)).collect(),
+            scales: kernel.elements().iter().map(|e| 1.0 / e.length()).collect(),
+            classes,
+            coupling_reach,
+            coupling_direct,
+            normal: Vec::with_capacity(classes),
+            tangential: Vec::with_capacity(classes),
+            coupling: Vec::with_capacity(classes),
+        };
+        for (class, reach) in reaches.into_iter().enumerate() {
+            values.fill(kernel, class)?;
+            near.normal.push(values.normal[..leaf].to_vec());
+            near.tangential.push(values.tangential[..leaf].to_vec());
+            near.coupling.push(values.coupling[..=reach.min(coupling_direct)].to_vec());
+        }
+        Ok(near)
+    }
+
+    /// Numbers held.
+    pub(super) fn numbers(&self) -> usize {
+        [&self.normal, &self.tangential, &self.coupling].into_iter().flatten().map(Vec::len).sum()
+    }
+
+    /// Whether blocks have to look after the coupling.
+    pub(super) fn couples_far(&self) -> bool {
+        self.coupling_reach > self.coupling_direct
+    }
+
+    /// Adds what input `now` gives to the rest of its leaf, `ahead` outputs, and its coupling to
+    /// `coupled` of them.
+    pub(super) fn scatter(
+        &self,
+        rows: &mut [f64],
+        stride: usize,
+        now: usize,
+        ahead: usize,
+        coupled: usize,
+    ) {
+        let count = self.scales.len();
+        for (p, pairs) in self.pairs.chunks_exact(count).enumerate() {
+            let scale = self.scales[p];
+            for (row, table, other) in [(p, &self.normal, 0), (count + p, &self.tangential, count)]
+            {
+                let (mut q, mut four) = (0, pairs.chunks_exact(4));
+                for pairs in four.by_ref() {
+                    let values: [f64; 4] =
+                        std::array::from_fn(|k| scale * rows[(other + q + k) * stride + now]);
+                    let from: [&[f64]; 4] = std::array::from_fn(|k| &table[pairs[k].0][1..=ahead]);
+                    let output = &mut rows[row * stride + now + 1..][..ahead];
+                    add_four(output, from, values);
+                    q += 4;
+                }
+                for (class, _) in four.remainder() {
+                    let value = scale * rows[(other + q) * stride + now];
+                    let output = &mut rows[row * stride + now + 1..][..ahead];
+                    add(output, &table[*class][1..=ahead], value);
+                    q += 1;
+                }
+            }
+            for (q, &(class, sign)) in pairs.iter().enumerate() {
+                let coupling = &self.coupling[class];
+                let reach = coupled.min(coupling.len() - 1);
+                if sign == 0.0 || reach == 0 {
+                    continue;
+                }
+                for (row, source, sign) in [(p, count + q, sign), (count + p, q, -sign)] {
+                    let value = sign * scale * rows[source * stride + now];
+                    let output = &mut rows[row * stride + now + 1..][..reach];
+                    add(output, &coupling[1..=reach], value);
+                }
+            }
+        }
+    }
+}
+
+fn add(output: &mut [f64], coefficients: &[f64], value: f64) {
+    for (output, coefficient) in output.iter_mut().zip(coefficients) {
+        *output += coefficient * value;
+    }
+}
+
+fn add_four(output: &mut [f64], coefficients: [&[f64]; 4], values: [f64; 4]) {
+    let length = output.len();
+    let [a, b, c, d] = coefficients.map(|from| &from[..length]);
+    let [x, y, z, w] = values;
+    for k in 0..length {
+        output[k] += (a[k] * x + b[k] * y) + (c[k] * z + d[k] * w);
+    }
+}

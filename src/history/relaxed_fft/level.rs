@@ -1,0 +1,244 @@
+//! Blocks of one size: their transforms and the spectra of the coefficients.
+
+use std::sync::Arc;
+
+use realfft::num_complex::Complex;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+
+use super::coefficients::Coefficients;
+
+/// Frequencies that are multiplied together, so that all inputs and outputs stay in cache.
+const TILE: usize = 64;
+
+/// What b inputs give at the next b outputs: convolutions of length 2b.
+pub(super) struct Level {
+    /// b.
+    pub(super) size: usize,
+    forward: Arc<dyn RealToComplex<f64>>,
+    inverse: Arc<dyn ComplexToReal<f64>>,
+    /// Spectra of all classes, over 2b: b + 1 real parts, then as many imaginary ones, each.
+    normal: Vec<f64>,
+    tangential: Vec<f64>,
+    /// Empty where the coupling has died out within smaller blocks.
+    coupling: Vec<f64>,
+}
+
+/// Scratch of the transforms of all levels.
+#[derive(Default)]
+pub(super) struct Work {
+    real: Vec<f64>,
+    spectra: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+    inputs: Vec<f64>,
+    outputs: Vec<f64>,
+}
+
+impl Work {
+    /// Real numbers held.
+    pub(super) fn numbers(&self) -> usize {
+        self.real.capacity()
+            + 2 * (self.spectra.capacity() + self.scratch.capacity())
+            + self.inputs.capacity()
+            + self.outputs.capacity()
+    }
+
+    /// Scratch for the blocks of `level` with `components` transformed together, and for smaller.
+    pub(super) fn grow(&mut self, level: &Level, components: usize) {
+        let scratch = level.forward.get_scratch_len().max(level.inverse.get_scratch_len());
+        let zero = Complex::default();
+        let longer = |length: usize, needed: usize| length.max(needed);
+        self.real.resize(longer(self.real.len(), 2 * level.size), 0.0);
+        self.spectra.resize(longer(self.spectra.len(), components * (level.size + 1)), zero);
+        self.scratch.resize(longer(self.scratch.len(), scratch), zero);
+        self.inputs.resize(longer(self.inputs.len(), components * 2 * TILE), 0.0);
+        self.outputs.resize(longer(self.outputs.len(), components * 2 * TILE), 0.0);
+    }
+}
+
+/// Which components of the tractions move which.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Part {
+    /// Pressure moves down.
+    Normal,
+    /// Shear moves along.
+    Tangential,
+    /// Each moves the other.
+    Coupling,
+    /// All of it.
+    All,
+}
+
+/// Where inputs and outputs are, and how elements talk to each other.
+pub(super) struct Block<'a> {
+    /// 2Q rows: inputs before `now`, outputs from there on.
+    pub(super) rows: &'a mut [f64],
+    /// Length of a row.
+    pub(super) stride: usize,
+    /// Inputs so far.
+    pub(super) now: usize,
+    pub(super) coefficients: &'a Coefficients,
+}
+
+impl Level {
+    /// Numbers held.
+    pub(super) fn numbers(&self) -> usize {
+        self.normal.capacity() + self.tangential.capacity() + self.coupling.capacity()
+    }
+
+    /// Blocks of `size`, without spectra yet.
+    pub(super) fn new(size: usize, planner: &mut RealFftPlanner<f64>) -> Self {
+        Self {
+            size,
+            forward: planner.plan_fft_forward(2 * size),
+            inverse: planner.plan_fft_inverse(2 * size),
+            normal: Vec::new(),
+            tangential: Vec::new(),
+            coupling: Vec::new(),
+        }
+    }
+
+    /// Reserves memory for `classes` spectra of each kind, and the coupling if `couples`.
+    pub(super) fn reserve(&mut self, classes: usize, couples: bool) {
+        let length = classes * 2 * (self.size + 1);
+        self.normal.reserve_exact(length);
+        self.tangential.reserve_exact(length);
+        if couples {
+            self.coupling.reserve_exact(length);
+        }
+    }
+
+    /// Adds the spectra of the next class, whose coefficients reach as far as 2b or further.
+    pub(super) fn add_class(&mut self, values: [&[f64]; 3], couples: bool, work: &mut Work) {
+        let count = if couples { 3 } else { 2 };
+        let stored = [&mut self.normal, &mut self.tangential, &mut self.coupling];
+        for (values, stored) in values.into_iter().zip(stored).take(count) {
+            let real = &mut work.real[..2 * self.size];
+            let spectrum = &mut work.spectra[..=self.size];
+            real.copy_from_slice(&values[..2 * self.size]);
+            transform(&*self.forward, real, spectrum, &mut work.scratch);
+            stored.extend(spectrum.iter().map(|c| c.re));
+            stored.extend(spectrum.iter().map(|c| c.im));
+        }
+    }
+
+    /// Adds what the last b inputs give to the next b outputs.
+    pub(super) fn apply(&self, block: &mut Block<'_>, part: Part, work: &mut Work) {
+        let count = block.coefficients.scales.len();
+        let (first, components) = match part {
+            Part::Normal => (0, count),
+            Part::Tangential => (count, count),
+            Part::Coupling | Part::All => (0, 2 * count),
+        };
+        let (size, bins) = (self.size, self.size + 1);
+        for component in 0..components {
+            let row = &block.rows[(first + component) * block.stride..][..block.now];
+            let real = &mut work.real[..2 * size];
+            real[..size].copy_from_slice(&row[block.now - size..]);
+            real[size..].fill(0.0);
+            let spectrum = &mut work.spectra[component * bins..][..bins];
+            transform(&*self.forward, real, spectrum, &mut work.scratch);
+        }
+        self.multiply(block.coefficients, part, components, work);
+        for component in 0..components {
+            let scale = block.coefficients.scales[component % count] / (2 * size) as f64;
+            let real = &mut work.real[..2 * size];
+            let spectrum = &mut work.spectra[component * bins..][..bins];
+            // Real up to rounding, and the inverse transform insists on it.
+            (spectrum[0].im, spectrum[size].im) = (0.0, 0.0);
+            let scratch = &mut work.scratch[..self.inverse.get_scratch_len()];
+            let done = self.inverse.process_with_scratch(spectrum, real, scratch);
+            debug_assert!(done.is_ok());
+            let row = &mut block.rows[(first + component) * block.stride + block.now..][..size];
+            for (output, value) in row.iter_mut().zip(&real[size..]) {
+                *output += scale * value;
+            }
+        }
+    }
+
+    /// Replaces the spectra of inputs by those of outputs, tile by tile.
+    fn multiply(&self, table: &Coefficients, part: Part, components: usize, work: &mut Work) {
+        let (bins, count) = (self.size + 1, table.scales.len());
+        let tiles = bins.div_ceil(TILE);
+        let width = bins.div_ceil(tiles);
+        let Work { spectra, inputs, outputs, .. } = work;
+        for begin in (0..bins).step_by(width) {
+            let width = width.min(bins - begin);
+            let of = |component: usize| component * 2 * width..(component + 1) * 2 * width;
+            for component in 0..components {
+                let (re, im) = inputs[of(component)].split_at_mut(width);
+                let values = &spectra[component * bins + begin..][..width];
+                for (value, (re, im)) in values.iter().zip(re.iter_mut().zip(im)) {
+                    (*re, *im) = (value.re, value.im);
+                }
+            }
+            outputs[..components * 2 * width].fill(0.0);
+            let mut add = |sign: f64, stored: &[f64], class: usize, source, receiver| {
+                let re = &stored[class * 2 * bins + begin..][..width];
+                let im = &stored[(class * 2 + 1) * bins + begin..][..width];
+                let (output, input) = (&mut outputs[of(receiver)], &inputs[of(source)]);
+                if sign > 0.0 {
+                    multiply_add::<true>(output, [re, im], input);
+                } else {
+                    multiply_add::<false>(output, [re, im], input);
+                }
+            };
+            for (p, pairs) in table.pairs.chunks_exact(count).enumerate() {
+                for (q, &(class, sign)) in pairs.iter().enumerate() {
+                    match part {
+                        Part::Normal => add(1.0, &self.normal, class, q, p),
+                        Part::Tangential => add(1.0, &self.tangential, class, q, p),
+                        Part::Coupling => {}
+                        Part::All => {
+                            add(1.0, &self.normal, class, q, p);
+                            add(1.0, &self.tangential, class, count + q, count + p);
+                        }
+                    }
+                    let couples = matches!(part, Part::Coupling | Part::All);
+                    if couples && sign != 0.0 && !self.coupling.is_empty() {
+                        add(sign, &self.coupling, class, count + q, p);
+                        add(-sign, &self.coupling, class, q, count + p);
+                    }
+                }
+            }
+            for component in 0..components {
+                let (re, im) = outputs[of(component)].split_at(width);
+                let values = &mut spectra[component * bins + begin..][..width];
+                for (value, (re, im)) in values.iter_mut().zip(re.iter().zip(im)) {
+                    *value = Complex::new(*re, *im);
+                }
+            }
+        }
+    }
+}
+
+/// Transform of `real`, which is overwritten as well.
+fn transform(
+    plan: &dyn RealToComplex<f64>,
+    real: &mut [f64],
+    spectrum: &mut [Complex<f64>],
+    scratch: &mut [Complex<f64>],
+) {
+    // All lengths are the plan's own, so there is nothing that could fail.
+    let done = plan.process_with_scratch(real, spectrum, &mut scratch[..plan.get_scratch_len()]);
+    debug_assert!(done.is_ok());
+}
+
+/// Adds (or takes away) the product of two spectra, all as real parts before imaginary ones.
+fn multiply_add<const PLUS: bool>(output: &mut [f64], factor: [&[f64]; 2], input: &[f64]) {
+    let width = output.len() / 2;
+    let (out_re, out_im) = output.split_at_mut(width);
+    let (in_re, in_im) = input.split_at(width);
+    let (re, im) = (&factor[0][..width], &factor[1][..width]);
+    let (in_re, in_im, out_im) = (&in_re[..width], &in_im[..width], &mut out_im[..width]);
+    for k in 0..width {
+        let real = re[k] * in_re[k] - im[k] * in_im[k];
+        let imaginary = re[k] * in_im[k] + im[k] * in_re[k];
+        if PLUS {
+            out_re[k] += real;
+            out_im[k] += imaginary;
+        } else {
+            out_re[k] -= real;
+            out_im[k] -= imaginary;
+        }
+    }
+}
