@@ -123,6 +123,12 @@ fn absurd_counts_do_not_panic() {
     ground.prepare(0.01).unwrap();
     ground.reserve(usize::MAX).unwrap();
 
+    // Steps beside which the fronts' passage is no time at all must not split pieces without end.
+    for step in [1e200, 1e300] {
+        ground.prepare(step).unwrap();
+        assert!(ground.instantaneous(&mut [0.0; 4]).is_ok());
+    }
+
     let left = ContactElement { left: 0.0, right: 1.0 };
     let right = ContactElement { left: 1.0, right: 2.0 };
     let kernel = InfluenceKernel::new(&soil(), 1e-30).unwrap();

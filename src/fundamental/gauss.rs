@@ -65,6 +65,10 @@ pub(crate) fn rule_for(reach: f64) -> Option<&'static Rule> {
 
 /// (|p − a| + |p − b|)/(b − a) of a point p in the complex plane and the interval [a, b].
 pub(crate) fn reach(point: [f64; 2], low: f64, high: f64) -> f64 {
+    if point[1] == 0.0 {
+        // Squares of tiny slownesses would vanish, and pieces be split without end.
+        return ((point[0] - low).abs() + (point[0] - high).abs()) / (high - low);
+    }
     let square = point[1] * point[1];
     let first = ((point[0] - low).powi(2) + square).sqrt();
     let second = ((point[0] - high).powi(2) + square).sqrt();
