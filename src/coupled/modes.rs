@@ -66,8 +66,34 @@ impl ModeSearch {
         if self.along_path(solver, input, modes, &mut trials) {
             return Ok((trials, SearchMethod::Path));
         }
-        let residual = violation(solver, input, modes);
+        let residual = self.disagreement(solver, input, modes);
         Err(StepError::Contact { iterations: trials, residual, modes: modes.to_vec() })
+    }
+
+    /// How far the tractions of `modes` are from those of the modes that the laws ask for instead,
+    /// relative to the largest; 1 if either set of modes is singular.
+    fn disagreement(
+        &mut self,
+        solver: &mut ContactSolver,
+        input: &ContactInput<'_>,
+        modes: &[Mode],
+    ) -> f64 {
+        if !solver.trial(input, modes) {
+            return 1.0;
+        }
+        self.ask_laws(solver, input, modes);
+        let before = solver.states.clone();
+        if !solver.trial(input, &self.next) {
+            return 1.0;
+        }
+        let (mut largest, mut apart) = (f64::MIN_POSITIVE, 0.0_f64);
+        for (a, b) in before.iter().zip(&solver.states) {
+            for (a, b) in [(a.pressure, b.pressure), (a.shear, b.shear)] {
+                largest = largest.max(a.abs()).max(b.abs());
+                apart = apart.max((a - b).abs());
+            }
+        }
+        apart / largest
     }
 
     /// Next modes of all elements; whether all agree with `modes`.
@@ -220,20 +246,6 @@ fn solve_element(
     let determinant = a * d - b * c;
     let change = [(r * d - b * s) / determinant, (a * s - r * c) / determinant];
     (determinant != 0.0 && change.iter().all(|x| x.is_finite())).then_some(change)
-}
-
-/// Largest tension or penetration as a traction, relative to the largest pressure.
-fn violation(solver: &ContactSolver, input: &ContactInput<'_>, modes: &[Mode]) -> f64 {
-    let size = 2 * modes.len();
-    let scale = solver.states.iter().fold(f64::MIN_POSITIVE, |m, s| m.max(s.pressure.abs()));
-    let worst = solver.states.iter().zip(modes).enumerate().map(|(e, (state, mode))| {
-        if mode.is_closed() {
-            (-state.pressure).max(0.0)
-        } else {
-            (-state.gap).max(0.0) / input.delassus[e * size + e]
-        }
-    });
-    worst.fold(0.0, f64::max) / scale
 }
 
 #[cfg(test)]

@@ -13,10 +13,12 @@ use super::ConvolutionHistory;
 use crate::bem::PatchKernel;
 use crate::error::{Error, Result, same_length};
 
-/// Steps that are summed directly before the smallest block is transformed (measured).
+/// Steps that are summed directly before the smallest block is transformed. With 10 elements, 32
+/// takes about as long, 128 a quarter longer in long runs.
 const LEAF: usize = 64;
 
-/// A coupling that reaches no further ahead than this is summed directly (measured).
+/// A coupling that reaches no further ahead than this is summed directly. Times hardly depend on
+/// it up to here; further on blocks are faster.
 const DIRECT_COUPLING: usize = 64;
 
 /// Longest hint that is followed at once; beyond, memory grows as steps come in.
