@@ -100,19 +100,24 @@ pub enum StepError {
     Contact {
         /// Trials made, fallbacks included.
         iterations: usize,
-        /// Largest tension or penetration (as a traction) of the last trial, relative to the
-        /// largest pressure. A law's other objections, to friction for instance, have no measure.
+        /// How far the tractions of these modes are from those of the modes that the laws ask for
+        /// instead, relative to the largest; 1 if either set of modes is singular.
         residual: f64,
         /// Modes of the last trial, left to right.
         modes: Vec<Mode>,
     },
     /// Newton's iteration for a nonlinear structure did not converge.
-    #[error("Newton's iteration not converged in {iterations} iterations, residual {residual:e}")]
+    #[error(
+        "Newton's iteration not converged in {iterations} iterations, residual {residual:e}, \
+         modes {modes:?}"
+    )]
     Newton {
         /// Iterations made.
         iterations: usize,
         /// Last out-of-balance force relative to the largest force.
         residual: f64,
+        /// Contact modes of the last iteration, left to right.
+        modes: Vec<Mode>,
     },
     /// The ground could not give its history.
     #[error("history of the ground: {0}")]

@@ -86,7 +86,7 @@
 //! ```
 //!
 //! The soil's term is the energy that the tractions put into a real half-plane, so it is never
-//! negative, and contact only takes energy away: nothing can blow up. [`coupled::Ledger`] computes
+//! negative, and contact without tensile strength only takes energy away: nothing can blow up. [`coupled::Ledger`] computes
 //! each term from its own definition, and its residual comes with every run. `docs/theory.md` in
 //! the repository has derivations and sources.
 //!

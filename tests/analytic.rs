@@ -134,8 +134,8 @@ fn sliding(shear_wave_speed: f64, friction: f64, time_step: f64, duration: f64) 
     let mut largest = 0.0_f64;
     let run = simulation
         .run(whole(duration / time_step), |state| {
-            error.add(state.mean_slip(), exact.slip(state.time));
-            largest = largest.max(state.mean_slip().abs());
+            error.add(state.mean_slip, exact.slip(state.time));
+            largest = largest.max(state.mean_slip.abs());
         })
         .unwrap();
     assert_eq!(run.uplifted_fraction.value, 0.0);

@@ -127,7 +127,7 @@ pub(crate) fn run(
         kept.base_moment.push(state.base_moment);
         kept.normal_force.push(state.normal_force);
         kept.uplifted_fraction.push(state.uplifted_fraction);
-        kept.mean_slip.push(state.mean_slip());
+        kept.mean_slip.push(state.mean_slip);
         kept.modes.push(state.modes.clone());
         if state.step % 256 == 0 {
             bar.set_position(state.step as u64);

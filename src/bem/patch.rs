@@ -18,6 +18,9 @@ pub struct Pair {
     pub sign: f64,
 }
 
+/// Shortest element over the length of the patch: shorter ones could not be told apart by class.
+const SHORTEST: f64 = 1e-8;
+
 /// Coefficients Gⁿ of a patch of surface elements for steps of one length.
 ///
 /// A traction of 1 Pa on element q during one step moves element p, n steps later (n = 1: at the
@@ -36,12 +39,21 @@ impl PatchKernel {
     /// Kernel for `elements` (left to right, not overlapping) and steps of `time_step` seconds.
     ///
     /// # Errors
-    /// [`Error::Input`] for a bad time step, lengths not positive, or elements out of order;
+    /// [`Error::Input`] for a bad time step, lengths not positive or shorter than 1e-8 of the patch,
+    /// or elements out of order;
     /// [`Error::Size`] for none.
     pub fn new(soil: Soil, elements: Vec<ContactElement>, time_step: f64) -> Result<Self> {
         check_order(&elements)?;
         let kernel = InfluenceKernel::new(&soil, time_step)?;
         let span = elements[elements.len() - 1].right - elements[0].left;
+        let shortest = elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min);
+        if shortest < SHORTEST * span {
+            return Err(Error::Input {
+                quantity: "length of the shortest contact element over that of the patch",
+                value: shortest / span,
+                needed: "at least 1e-8",
+            });
+        }
         let mut numbers = HashMap::new();
         let mut classes = Vec::new();
         let mut pairs = Vec::with_capacity(elements.len() * elements.len());

@@ -9,7 +9,7 @@
 //! jump = j₀ + W τ. Its normal components are gaps; slip of the structure is minus the tangential
 //! ones.
 
-use crate::interface::{Condition, ContactState, InterfaceLaw, Mode, StepStart, Tolerance};
+use crate::interface::{Condition, ContactState, InterfaceLaw, Mode, StepStart, Tolerance, law_of};
 use crate::linalg::{DenseFactor, dense_multiply_add};
 
 /// What a step gives to the contact problem.
@@ -32,7 +32,7 @@ pub(crate) struct ContactInput<'a> {
 impl ContactInput<'_> {
     /// The law of an element.
     pub(crate) fn law(&self, element: usize) -> &dyn InterfaceLaw {
-        self.laws[if self.laws.len() == 1 { 0 } else { element }].as_ref()
+        law_of(self.laws, element)
     }
 }
 

@@ -6,14 +6,15 @@ use super::model::Model;
 use super::modes::ModeSearch;
 use crate::bem::Ground;
 use crate::error::{Error, Result};
-use crate::interface::{ContactState, Coulomb, InterfaceLaw, Mode, StepStart};
+use crate::interface::{ContactState, Coulomb, InterfaceLaw, Mode, StepStart, law_of};
 use crate::linalg::{SparseFactor, SparseMatrix};
 
 /// What friction does while the structure is placed on the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Placement {
     /// The base is set down without friction and without adhesion, and sticks from then on. What
-    /// does not touch under weight alone starts open; a bonded law holds it at that gap.
+    /// does not touch under weight alone starts open. Where no element's law ever opens (bonded),
+    /// the base is cast on the ground instead and holds from the beginning.
     #[default]
     Frictionless,
     /// The interface law acts while the weight comes on, in one step.
@@ -64,8 +65,11 @@ pub(crate) fn solve(
     let size = 2 * count;
     let smooth: Vec<Box<dyn InterfaceLaw>> = vec![Box::new(Coulomb::new(0.0)?)];
     let laws = match placement {
-        Placement::Frictionless => &smooth,
-        Placement::WithInterfaceLaw => laws,
+        // A base that never opens is not set down, it is cast.
+        Placement::Frictionless if laws.iter().any(|law| law.modes().contains(&Mode::Open)) => {
+            &smooth
+        }
+        Placement::Frictionless | Placement::WithInterfaceLaw => laws,
     };
     let mut soil = vec![0.0; size * size];
     ground.static_compliance(&mut soil)?;
@@ -85,7 +89,7 @@ pub(crate) fn solve(
     let mut search = ModeSearch::new(count);
     let mut state = StaticState::weightless(count, n);
     for (e, mode) in state.modes.iter_mut().enumerate() {
-        *mode = laws[if laws.len() == 1 { 0 } else { e }].modes()[0];
+        *mode = law_of(laws, e).modes()[0];
     }
     let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let load_scale = largest(load).max(f64::MIN_POSITIVE);

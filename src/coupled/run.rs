@@ -141,7 +141,7 @@ impl Run {
             normal_force: [start.normal_force; 2],
             uplifted_fraction: Peak { value: start.uplifted_fraction, time: start.time },
             slip: Peak::default(),
-            residual_slip: start.mean_slip(),
+            residual_slip: start.mean_slip,
             base_rotation: Peak::default(),
             probes: probes.iter().map(|p| (p.name.clone(), Peak::default())).collect(),
             transitions: Vec::new(),
@@ -183,7 +183,7 @@ impl Run {
 
     pub(super) fn finish(&mut self, state: &State, wall: Duration) {
         self.time = state.time;
-        self.residual_slip = state.mean_slip();
+        self.residual_slip = state.mean_slip;
         self.ledger = state.ledger;
         self.wall = wall;
         let slip = self.slip.value.abs();

@@ -12,7 +12,7 @@ use super::scheme::SchemeCoefficients;
 use super::state::{Probe, State};
 use crate::bem::{ContactElement, Ground};
 use crate::error::Result;
-use crate::interface::{ContactState, InterfaceLaw, StepStart};
+use crate::interface::{ContactState, InterfaceLaw, StepStart, law_of};
 use crate::linalg::{SparseFactor, SparseMatrix};
 use crate::motion::FreeField;
 
@@ -152,7 +152,7 @@ impl Simulation {
                 shear: at.traction[count + e],
             })
             .collect();
-        let law = |e: usize| &parts.laws[if parts.laws.len() == 1 { 0 } else { e }];
+        let law = |e: usize| law_of(&parts.laws, e);
         // Whatever the placement did, what touches sticks from now on.
         let modes: Vec<_> = (0..count)
             .map(|e| {
@@ -214,6 +214,7 @@ impl Simulation {
                 base_moment: 0.0,
                 normal_force: 0.0,
                 uplifted_fraction: 0.0,
+                mean_slip: 0.0,
                 base_rotation: 0.0,
                 free_field: [0.0; 2],
                 ledger: Ledger::default(),

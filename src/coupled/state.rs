@@ -65,6 +65,8 @@ pub struct State {
     pub normal_force: f64,
     /// Length of open elements over the length of the base.
     pub uplifted_fraction: f64,
+    /// Slip averaged over the length of the base, m; positive when the structure moved to the right.
+    pub mean_slip: f64,
     /// Rotation of the base's chord, counter-clockwise, rad.
     pub base_rotation: f64,
     /// Mean horizontal and vertical (up) displacement of the free field under the base, m.
@@ -81,11 +83,6 @@ impl State {
     /// Largest |slip| of any element, m.
     pub fn largest_slip(&self) -> f64 {
         self.contact.iter().fold(0.0, |m, c| m.max(c.slip.abs()))
-    }
-
-    /// Slip averaged over the elements, m; positive when the structure moved to the right.
-    pub fn mean_slip(&self) -> f64 {
-        self.contact.iter().map(|c| c.slip).sum::<f64>() / self.contact.len() as f64
     }
 }
 

@@ -230,7 +230,11 @@ impl Simulation {
         if residual <= 1e3 * NEWTON_TOLERANCE {
             return Ok((trials, method));
         }
-        Err(StepError::Newton { iterations: NEWTON_ITERATIONS, residual })
+        Err(StepError::Newton {
+            iterations: NEWTON_ITERATIONS,
+            residual,
+            modes: self.work.modes.clone(),
+        })
     }
 
     /// f at u* for an increment, minus f at the static state, into `work.force`.
@@ -300,12 +304,14 @@ impl Simulation {
     /// Resultants and probes from the present state.
     pub(super) fn update_resultants(&mut self) {
         let state = &mut self.state;
-        let (mut shear, mut moment, mut normal, mut open, mut width) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        let (mut shear, mut moment, mut normal) = (0.0, 0.0, 0.0);
+        let (mut open, mut slip, mut width) = (0.0, 0.0, 0.0);
         for (e, contact) in state.contact.iter().enumerate() {
             let length = self.base.length(e);
             width += length;
             shear += length * contact.shear;
             normal += length * contact.pressure;
+            slip += length * contact.slip;
             moment -= length * contact.pressure * self.arms[e];
             if !state.modes[e].is_closed() {
                 open += length;
@@ -315,6 +321,7 @@ impl Simulation {
         state.normal_force = normal;
         state.base_moment = moment;
         state.uplifted_fraction = open / width;
+        state.mean_slip = slip / width;
         state.base_rotation = self.base.rotation(&state.displacement);
         for (value, probe) in state.probes.iter_mut().zip(&self.probes) {
             let [u, v, a] = probe.rows();

@@ -108,6 +108,11 @@ pub struct Tolerance {
     pub traction: f64,
 }
 
+/// The law of `element` from a list of one law for all, or one each.
+pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn InterfaceLaw {
+    laws[if laws.len() == 1 { 0 } else { element }].as_ref()
+}
+
 /// How base and soil touch: implement this for a law of your own.
 ///
 /// A law is a rule without memory: what it needs of the past is in [`StepStart`].
