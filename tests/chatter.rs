@@ -60,3 +60,15 @@ fn flexible_block_does_not_chatter() {
     let [_, change] = differences(&runs, |o| o.rms_above);
     assert!(change < 0.1 * runs[2].rms_above, "{change}");
 }
+
+#[test]
+fn rocking_block_does_not_chatter() {
+    let runs = [4e-3, 2e-3, 1e-3].map(|time_step| run(0.6, time_step, None));
+    // Landings put more above 20 Hz than sliding does; what alternates is halved with the step.
+    assert!(runs.iter().all(|o| o.uplift > 0.5 && o.rms_above < 0.06), "{runs:?}");
+    assert!(runs[2].alternating < 0.6 * runs[1].alternating, "{runs:?}");
+    let [_, change] = differences(&runs, |o| o.rms_above);
+    assert!(change < 0.1 * runs[2].rms_above, "{change}");
+    let [_, change] = differences(&runs, |o| o.rotation);
+    assert!(change < 0.02 * runs[2].rotation, "{change}");
+}
