@@ -99,8 +99,8 @@ fn slide(law: impl InterfaceLaw + 'static) -> basemat::Result<Run> {
 fn main() -> basemat::Result<()> {
     let cases = [
         ("Coulomb, 0.30", slide(Coulomb::new(0.3)?)?),
-        ("static 0.30, kinetic 0.15", slide(StaticKinetic { at_rest: 0.3, sliding: 0.15 })?),
-        ("Coulomb, 0.15", slide(Coulomb::new(0.15)?)?),
+        ("static 0.30, kinetic 0.25", slide(StaticKinetic { at_rest: 0.3, sliding: 0.25 })?),
+        ("Coulomb, 0.25", slide(Coulomb::new(0.25)?)?),
     ];
     println!("{:<28}{:>14}{:>14}{:>16}", "law", "largest slip", "residual slip", "ledger residual");
     for (name, run) in cases {

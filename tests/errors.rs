@@ -548,3 +548,34 @@ fn errors_are_ordinary_errors() {
     let (error, ..) = failing_step(good().interface(Fickle).build().unwrap());
     assert!(std::error::Error::source(&error).is_some());
 }
+
+/// A structure that claims more unknowns than any machine holds.
+struct Endless;
+
+impl Structure for Endless {
+    fn unknowns(&self) -> usize {
+        usize::MAX
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2])
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        matrix.add(0, 0, 1.0);
+    }
+
+    fn stiffness(&self, _matrix: &mut Triplets) {}
+}
+
+#[test]
+fn structures_without_end_are_refused() {
+    let scene =
+        Simulation::builder(1e-3).structure(Endless).ground(scene::bed(4)).interface(Bonded);
+    match scene.build().err() {
+        Some(Error::Input { quantity, .. }) => {
+            assert_eq!(quantity, "number of unknowns of the structure");
+        }
+        other => panic!("{other:?}"),
+    }
+}

@@ -12,6 +12,9 @@ use crate::interface::InterfaceLaw;
 use crate::motion::{AtRest, FreeField};
 use crate::structure::Structure;
 
+/// More unknowns than this are a mistake, or would not fit in memory.
+const MOST_UNKNOWNS: usize = 10_000_000;
+
 /// Parts of a [`Simulation`]: a structure, a ground and an interface law are needed, the rest has
 /// defaults (no motion, no weight, midpoint rule, no probes).
 pub struct SimulationBuilder {
@@ -155,6 +158,13 @@ impl SimulationBuilder {
             return Err(missing("interface law", "`modes` must name at least one mode"));
         }
         let unknowns = structure.unknowns();
+        if unknowns > MOST_UNKNOWNS {
+            return Err(Error::Input {
+                quantity: "number of unknowns of the structure",
+                value: unknowns as f64,
+                needed: "ten million or fewer",
+            });
+        }
         let base = Base::new(structure.contact_nodes(), &elements, unknowns)?;
         let mut model = Model::new(structure, &base)?;
         for probe in &self.probes {
