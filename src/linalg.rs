@@ -93,32 +93,22 @@ impl SparseMatrix {
         self.value.is_empty()
     }
 
+    /// (A x) of one row.
+    fn row_product(&self, row: usize, x: &[f64]) -> f64 {
+        let range = self.row_start[row]..self.row_start[row + 1];
+        self.column[range.clone()].iter().zip(&self.value[range]).map(|(&j, a)| a * x[j]).sum()
+    }
+
     /// y ← y + factor · A x.
     pub(crate) fn multiply_add(&self, factor: f64, x: &[f64], y: &mut [f64]) {
         for (row, y) in y.iter_mut().enumerate() {
-            let range = self.row_start[row]..self.row_start[row + 1];
-            let sum: f64 = self.column[range.clone()]
-                .iter()
-                .zip(&self.value[range])
-                .map(|(&j, a)| a * x[j])
-                .sum();
-            *y += factor * sum;
+            *y += factor * self.row_product(row, x);
         }
     }
 
     /// x·A y.
     pub(crate) fn form(&self, x: &[f64], y: &[f64]) -> f64 {
-        let mut total = 0.0;
-        for (row, x) in x.iter().enumerate() {
-            let range = self.row_start[row]..self.row_start[row + 1];
-            let sum: f64 = self.column[range.clone()]
-                .iter()
-                .zip(&self.value[range])
-                .map(|(&j, a)| a * y[j])
-                .sum();
-            total += x * sum;
-        }
-        total
+        x.iter().enumerate().map(|(row, x)| x * self.row_product(row, y)).sum()
     }
 
     /// Largest |a_ij − a_ji| relative to the largest |a_ij|.
@@ -321,6 +311,11 @@ pub(crate) fn dense_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut
     for (row, y) in matrix.chunks_exact(x.len()).zip(y) {
         *y += factor * dot(row, x);
     }
+}
+
+/// Largest magnitude; 0 for an empty slice.
+pub(crate) fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m, x| m.max(x.abs()))
 }
 
 /// Σ xᵢ yᵢ, in eight running sums so that the compiler can use vector registers.

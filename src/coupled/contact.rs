@@ -10,7 +10,7 @@
 //! ones.
 
 use crate::interface::{Condition, ContactState, InterfaceLaw, Mode, StepStart, Tolerance, law_of};
-use crate::linalg::{DenseFactor, dense_multiply_add};
+use crate::linalg::{DenseFactor, dense_multiply_add, largest};
 
 /// What a step gives to the contact problem.
 #[derive(Clone, Copy)]
@@ -146,7 +146,7 @@ impl ContactSolver {
                 self.matrix.push(value);
             }
             let row = &mut self.matrix[begin..];
-            let largest = row.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+            let largest = largest(row);
             if !(largest > 0.0 && largest.is_finite()) {
                 return false;
             }

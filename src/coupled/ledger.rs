@@ -80,7 +80,7 @@ impl Simulation {
             ledger.input -= dragged;
         }
 
-        if !c.conserves_energy(dt) {
+        if !self.conserves_energy {
             // Δu = Δt (v₀+v₁)/2 + r_d, a* = (v₁−v₀)/Δt + r_a, u* = (u₀+u₁)/2 + r_u
             let a0 = &state.acceleration;
             let (change, rest) = (&mut work.vector, &mut work.total);

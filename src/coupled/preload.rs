@@ -7,7 +7,7 @@ use super::modes::ModeSearch;
 use crate::bem::Ground;
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, Coulomb, InterfaceLaw, Mode, StepStart, law_of};
-use crate::linalg::{SparseFactor, SparseMatrix};
+use crate::linalg::{SparseFactor, SparseMatrix, largest};
 
 /// What friction does while the structure is placed on the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -91,7 +91,6 @@ pub(crate) fn solve(
     for (e, mode) in state.modes.iter_mut().enumerate() {
         *mode = law_of(laws, e).modes()[0];
     }
-    let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let load_scale = largest(load).max(f64::MIN_POSITIVE);
     let mut compliance: Option<Compliance> = None;
     let mut free_jump = vec![0.0; size];

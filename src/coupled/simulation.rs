@@ -28,6 +28,8 @@ pub struct Simulation {
     pub(super) laws: Vec<Box<dyn InterfaceLaw>>,
     pub(super) motion: Box<dyn FreeField>,
     pub(super) coefficients: SchemeCoefficients,
+    /// Whether the scheme takes no energy of its own.
+    pub(super) conserves_energy: bool,
     pub(super) static_state: StaticState,
     pub(super) static_load: Vec<f64>,
     /// f(u) at the static state, nonlinear structures only.
@@ -182,6 +184,7 @@ impl Simulation {
         let mut simulation = Self {
             time_step: parts.time_step,
             coefficients: parts.coefficients,
+            conserves_energy: parts.coefficients.conserves_energy(parts.time_step),
             static_load: parts.static_load,
             static_force,
             soil: parts.soil,

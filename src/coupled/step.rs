@@ -15,7 +15,7 @@ use super::simulation::{Operators, Simulation};
 use super::state::{State, Transition};
 use crate::error::{Error, Result, StepError};
 use crate::interface::StepStart;
-use crate::linalg::dot;
+use crate::linalg::{dot, largest};
 
 /// Newton iterations for a nonlinear structure.
 const NEWTON_ITERATIONS: usize = 40;
@@ -215,7 +215,6 @@ impl Simulation {
             if self.work.force.iter().any(|f| !f.is_finite()) {
                 return Err(StepError::NotFinite { quantity: "nonlinear force of the structure" });
             }
-            let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
             let scale = largest(&self.work.known).max(largest(&self.work.force));
             let open = linearised
                 .iter()
