@@ -1,0 +1,34 @@
+//! The full-plane boundary element method of Patel & Spyrakos: boundaries of any polygonal shape.
+//!
+//! # Boundary equation
+//!
+//! Collocation at the midpoints of E straight elements, values constant over each, gives for the
+//! step N
+//!
+//! ```text
+//! Σ_{m≤N} H^{N−m} u^m = Σ_{m≤N} G^{N−m} t^m ,   H⁰ with the free term ½ on its diagonal,
+//! ```
+//!
+//! with displacements u and tractions t on the soil. Vectors have 2E entries: first the E
+//! x-components (to the right), then the E z-components (**down**). What makes G and H out of the
+//! fundamental solution, in time or by convolution quadrature, is a [`BoundaryKernel`].
+
+mod segment;
+
+pub use segment::Segment;
+
+use crate::error::Result;
+
+/// The coefficients G^n and H^n of a boundary equation marched in time.
+pub trait BoundaryKernel: Send + Sync {
+    /// The elements.
+    fn segments(&self) -> &[Segment];
+
+    /// Overwrites `g` and `h` (each 2E × 2E, row-major: m/Pa, and pure numbers) with the
+    /// coefficients of `lag`: the answer at the end of a step to values held during the step that
+    /// ended `lag` steps before. `h` of lag 0 includes the free term ½.
+    ///
+    /// # Errors
+    /// For slices of the wrong length.
+    fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()>;
+}
