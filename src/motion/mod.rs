@@ -14,6 +14,7 @@ mod intensity;
 mod reader;
 mod record;
 mod ricker;
+mod spectrum;
 mod unit;
 mod vertical_incidence;
 
@@ -25,6 +26,7 @@ pub(crate) use integral::quadratic_roots_within;
 pub use reader::ColumnFormat;
 pub use record::Record;
 pub use ricker::RickerDisplacement;
+pub use spectrum::SpectralOrdinate;
 pub use unit::{AccelerationUnit, STANDARD_GRAVITY};
 pub use vertical_incidence::VerticalIncidence;
 
