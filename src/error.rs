@@ -195,6 +195,26 @@ pub enum RecordError {
         /// Samples asked for.
         needed: usize,
     },
+    /// The header lacks something.
+    #[error("the header has no {quantity}, or none that makes sense")]
+    Missing {
+        /// What is missing.
+        quantity: &'static str,
+    },
+    /// The file holds something else than an acceleration, or in a unit that is not known.
+    #[error("'{text}' is no acceleration in a known unit")]
+    NotAcceleration {
+        /// What the file says of its numbers, cut to 60 characters.
+        text: String,
+    },
+    /// There is no channel of this number.
+    #[error("{found} channels, but channel {needed} was asked for (they count from 1)")]
+    Channel {
+        /// Channels found.
+        found: usize,
+        /// Channel asked for.
+        needed: usize,
+    },
     /// A line is too long to be one of numbers.
     #[error("no line end in {bytes} bytes")]
     LineTooLong {

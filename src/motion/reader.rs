@@ -1,12 +1,10 @@
 //! Reader of text files with a column of time and one of acceleration.
 
-use std::io::{BufRead, BufReader, Read};
+use std::io::Read;
 
-use super::AccelerationUnit;
-use crate::error::{Error, RecordError, Result};
-
-/// Longest line, bytes: a file without line ends must not fill the memory.
-const LONGEST_LINE: u64 = 65_536;
+use super::lines::{Lines, Reason, number, record};
+use super::{AccelerationUnit, Record, RecordFormat};
+use crate::error::{RecordError, Result};
 
 /// Largest departure of a sample from equal steps, relative to the step.
 ///
@@ -68,63 +66,43 @@ struct Sample {
     acceleration: f64,
 }
 
+impl RecordFormat for ColumnFormat {
+    fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
+        record(name, read(&mut Lines::new(source), self))
+    }
+}
+
 /// Time step (s) and samples (m/s²).
-pub(super) fn read(
-    name: &str,
-    source: impl Read,
-    format: &ColumnFormat,
-) -> Result<(f64, Vec<f64>)> {
-    let refuse =
-        |line: usize, reason: RecordError| Error::Record { file: name.to_owned(), line, reason };
-    let samples = read_samples(source, format).map_err(|(line, reason)| refuse(line, reason))?;
+fn read(lines: &mut Lines, format: &ColumnFormat) -> Reason<(f64, Vec<f64>)> {
+    let samples = read_samples(lines, format)?;
     let last_line = samples.last().map_or(0, |sample| sample.line);
     let found = samples.len();
     if found < 2 {
-        return Err(refuse(last_line, RecordError::TooShort { found, needed: 2 }));
+        return Err((last_line, RecordError::TooShort { found, needed: 2 }));
     }
     if let Some(needed) = format.samples.filter(|&needed| needed != found) {
-        return Err(refuse(last_line, RecordError::SampleCount { found, needed }));
+        return Err((last_line, RecordError::SampleCount { found, needed }));
     }
-    let step = equal_step(&samples).map_err(|(line, reason)| refuse(line, reason))?;
+    let step = equal_step(&samples)?;
     let factor = format.unit.in_metres_per_second_squared();
     Ok((step, samples.iter().map(|sample| sample.acceleration * factor).collect()))
 }
 
-type Reason<T> = std::result::Result<T, (usize, RecordError)>;
-
 /// All lines of numbers.
-fn read_samples(source: impl Read, format: &ColumnFormat) -> Reason<Vec<Sample>> {
-    let mut source = BufReader::new(source);
+fn read_samples(lines: &mut Lines, format: &ColumnFormat) -> Reason<Vec<Sample>> {
     let mut samples = Vec::new();
-    let mut bytes = Vec::new();
     let mut header_may_come = true;
-    for line in 1.. {
-        bytes.clear();
-        let read = source.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut bytes);
-        match read {
-            Err(error) => return Err((line, RecordError::Unreadable(error.kind()))),
-            Ok(0) => break,
-            Ok(count) if count as u64 == LONGEST_LINE && bytes.last() != Some(&b'\n') => {
-                return Err((line, RecordError::LineTooLong { bytes: count }));
-            }
-            Ok(_) => {}
-        }
-        // bytes that are not UTF-8 become signs that are no number; in comments they do not matter
-        let lossy = String::from_utf8_lossy(&bytes);
-        let mut text = lossy.trim();
-        if line == 1 {
-            text = text.trim_start_matches('\u{feff}').trim_start();
-        }
+    while let Some(text) = lines.next()? {
         if text.is_empty() || text.starts_with('#') {
             continue;
         }
-        let fields = fields(text);
+        let fields = fields(&text);
         let is_header = header_may_come && fields.iter().all(|field| field.parse::<f64>().is_err());
         header_may_come = false;
         if !is_header {
-            let number = |column| number(&fields, column).map_err(|reason| (line, reason));
-            let (time, acceleration) = (number(format.time)?, number(format.acceleration)?);
-            samples.push(Sample { line, time, acceleration });
+            let value = |column| column_value(&fields, column).map_err(|why| lines.refuse(why));
+            let (time, acceleration) = (value(format.time)?, value(format.acceleration)?);
+            samples.push(Sample { line: lines.number, time, acceleration });
         }
     }
     Ok(samples)
@@ -144,13 +122,9 @@ fn fields(text: &str) -> Vec<&str> {
 }
 
 /// Finite number in a column, counted from 1.
-fn number(fields: &[&str], column: usize) -> std::result::Result<f64, RecordError> {
+fn column_value(fields: &[&str], column: usize) -> std::result::Result<f64, RecordError> {
     let missing = RecordError::Column { found: fields.len(), needed: column };
-    let field = column.checked_sub(1).and_then(|index| fields.get(index)).ok_or(missing)?;
-    match field.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => Err(RecordError::NotANumber { text: field.chars().take(40).collect() }),
-    }
+    number(column.checked_sub(1).and_then(|index| fields.get(index)).ok_or(missing)?)
 }
 
 /// The common time step.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::integral::{Instant, integrate};
-use super::{Baseline, ColumnFormat, reader};
+use super::{Baseline, RecordFormat};
 use crate::error::{Error, RecordError, Result, finite, positive};
 
 /// Most samples that [`Record::resample`] makes.
@@ -59,13 +59,12 @@ impl Record {
         Ok(Self { step: time_step, acceleration, velocity, displacement })
     }
 
-    /// Reads a text file with a column of time (s) and one of acceleration.
-    ///
-    /// See [`ColumnFormat`] for what is understood.
+    /// Reads a file: [`ColumnFormat`](super::ColumnFormat) for columns of time and acceleration,
+    /// [`PeerFormat`](super::PeerFormat) for `.AT2`, or any other [`RecordFormat`].
     ///
     /// # Errors
     /// [`Error::Record`] with the line and the reason.
-    pub fn read(path: impl AsRef<Path>, format: &ColumnFormat) -> Result<Self> {
+    pub fn read(path: impl AsRef<Path>, format: &dyn RecordFormat) -> Result<Self> {
         let path = path.as_ref();
         let name = path.display().to_string();
         match std::fs::File::open(path) {
@@ -94,11 +93,10 @@ impl Record {
     /// [`Error::Record`] with the line and the reason.
     pub fn from_reader(
         name: &str,
-        source: impl std::io::Read,
-        format: &ColumnFormat,
+        mut source: impl std::io::Read,
+        format: &dyn RecordFormat,
     ) -> Result<Self> {
-        let (step, samples) = reader::read(name, source, format)?;
-        Self::new(step, samples)
+        format.parse(name, &mut source)
     }
 
     /// Time step, s.

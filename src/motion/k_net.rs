@@ -1,0 +1,91 @@
+//! Records of K-NET and KiK-net.
+
+use std::io::Read;
+
+use super::lines::{Lines, Reason, number, number_after, push_numbers, record, scaled};
+use super::{AccelerationUnit, Record, RecordFormat};
+use crate::error::{RecordError, Result};
+
+/// The ASCII files of the Japanese networks K-NET and KiK-net.
+///
+/// Seventeen header lines with a key each, the last one `Memo.`, then counts of the recorder; the
+/// acceleration is the count times the `Scale Factor`, such as `3920(gal)/6182761`. The number of
+/// samples must be `Duration Time(s)` times `Sampling Freq(Hz)`. Counts have an offset: follow with
+/// [`Record::with_baseline`], at least
+/// [`Baseline::RemoveMean`](super::Baseline::RemoveMean).
+///
+/// ```
+/// use basemat::motion::{KNetFormat, Record};
+/// let text = "Origin Time       2011/03/11 14:46:00\nStation Code      MYG004\n\
+///     Sampling Freq(Hz) 2Hz\nDuration Time(s)  3\nDir.              N-S\n\
+///     Scale Factor      2000(gal)/1000\nMemo.\n 1 2 3 4\n 5 -6\n";
+/// let record = Record::from_reader("MYG004.NS", text.as_bytes(), &KNetFormat)?;
+/// assert_eq!((record.len(), record.time_step()), (6, 0.5));
+/// assert!((record.accelerations()[5] + 0.12).abs() < 1e-15);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct KNetFormat;
+
+impl RecordFormat for KNetFormat {
+    fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
+        record(name, read(&mut Lines::new(source)))
+    }
+}
+
+/// What the header must say.
+#[derive(Default)]
+struct Header {
+    frequency: Option<f64>,
+    duration: Option<f64>,
+    /// Gal in a count.
+    scale: Option<f64>,
+}
+
+fn read(lines: &mut Lines) -> Reason<(f64, Vec<f64>)> {
+    let mut header = Header::default();
+    loop {
+        let Some(line) = lines.next()? else {
+            return Err(lines.refuse(RecordError::Missing { quantity: "line `Memo.`" }));
+        };
+        if line.starts_with("Memo") {
+            break;
+        } else if line.starts_with("Sampling Freq") {
+            header.frequency = number_after(&line, "(Hz)").filter(|&f| f > 0.0);
+        } else if line.starts_with("Duration Time") {
+            header.duration = number_after(&line, "(s)").filter(|&t| t > 0.0);
+        } else if let Some(factor) = line.strip_prefix("Scale Factor") {
+            header.scale = scale(factor);
+        }
+    }
+    let need = |value: Option<f64>, quantity| {
+        value.ok_or_else(|| lines.refuse(RecordError::Missing { quantity }))
+    };
+    let frequency = need(header.frequency, "sampling frequency (`Sampling Freq(Hz)`)")?;
+    let duration = need(header.duration, "duration (`Duration Time(s)`)")?;
+    let scale = need(header.scale, "scale (`Scale Factor`, gal per count)")?;
+
+    let mut values = Vec::new();
+    while let Some(line) = lines.next()? {
+        push_numbers(&line, &mut values).map_err(|reason| lines.refuse(reason))?;
+    }
+    let found = values.len();
+    let needed = (duration * frequency).round();
+    if needed != found as f64 {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        let needed = needed as usize;
+        return Err(lines.refuse(RecordError::SampleCount { found, needed }));
+    }
+    if found < 2 {
+        return Err(lines.refuse(RecordError::TooShort { found, needed: 2 }));
+    }
+    let factor = scale * AccelerationUnit::Gal.in_metres_per_second_squared();
+    Ok((1.0 / frequency, scaled(values, factor)))
+}
+
+/// `3920(gal)/6182761`.
+fn scale(text: &str) -> Option<f64> {
+    let (range, counts) = text.split_once("(gal)/")?;
+    let scale = number(range.trim()).ok()? / number(counts.trim()).ok()?;
+    (scale.is_finite() && scale != 0.0).then_some(scale)
+}
