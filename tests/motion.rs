@@ -32,6 +32,25 @@ fn bad_samples_and_steps_are_refused() {
     assert!(Record::new(1.0, vec![0.0; 3]).unwrap().scaled_to_peak(1.0).is_err());
 }
 
+/// A constant acceleration gathers its intensity evenly, a ramp as the cube of time; El Centro's
+/// values are those of an independent sum.
+#[test]
+fn significant_times_are_where_the_intensity_is_reached() {
+    let even = Record::new(0.5, vec![-3e-200; 41]).unwrap();
+    let [from, to] = even.significant_times(0.05, 0.95).unwrap();
+    assert!((from - 1.0).abs() < 1e-12 && (to - 19.0).abs() < 1e-12);
+    let ramp = Record::new(1e-4, (0..=10_000).map(f64::from).collect()).unwrap();
+    let [from, to] = ramp.significant_times(0.05, 0.95).unwrap();
+    assert!((from - 0.05_f64.cbrt()).abs() < 1e-6 && (to - 0.95_f64.cbrt()).abs() < 1e-6);
+    let [from, to] = el_centro_1940().significant_times(0.05, 0.95).unwrap();
+    assert!((from - 1.668_760_52).abs() < 1e-8 && (to - 25.512_122_39).abs() < 1e-8);
+    assert_eq!(el_centro_1940().significant_times(0.0, 1.0).unwrap()[0], 0.0);
+    for [from, to] in [[-0.1, 0.5], [0.5, 0.4], [0.0, 1.1], [f64::NAN, 0.5], [0.1, f64::NAN]] {
+        assert!(even.significant_times(from, to).is_err(), "{from} {to}");
+    }
+    assert!(Record::new(1.0, vec![0.0; 3]).unwrap().significant_times(0.05, 0.95).is_err());
+}
+
 /// GOAL: peaks, end values and Arias intensity of El Centro, as tabulated with the record.
 #[test]
 fn el_centro_1940_peaks() {
