@@ -2,13 +2,14 @@
 
 use super::base::Base;
 use super::model::Model;
+use super::modes::ContactSearch;
 use super::preload::{Placement, StaticState};
 use super::scheme::{Midpoint, TimeScheme};
 use super::simulation::{Operators, Simulation};
 use super::state::Probe;
 use crate::bem::Ground;
 use crate::error::{Error, Result, finite, not_negative, positive};
-use crate::interface::InterfaceLaw;
+use crate::interface::{ContactScene, InterfaceLaw};
 use crate::motion::{AtRest, FreeField};
 use crate::structure::Structure;
 
@@ -24,6 +25,7 @@ pub struct SimulationBuilder {
     laws: Vec<Box<dyn InterfaceLaw>>,
     motion: Box<dyn FreeField>,
     scheme: Box<dyn TimeScheme>,
+    search: ContactSearch,
     gravity: f64,
     placement: Placement,
     probes: Vec<Probe>,
@@ -40,6 +42,7 @@ impl SimulationBuilder {
             laws: Vec::new(),
             motion: Box::new(AtRest),
             scheme: Box::new(Midpoint),
+            search: ContactSearch::default(),
             gravity: 0.0,
             placement: Placement::default(),
             probes: Vec::new(),
@@ -87,6 +90,13 @@ impl SimulationBuilder {
     #[must_use]
     pub fn scheme(mut self, scheme: impl TimeScheme + 'static) -> Self {
         self.scheme = Box::new(scheme);
+        self
+    }
+
+    /// How the contact modes of a step are searched for.
+    #[must_use]
+    pub fn contact_search(mut self, search: ContactSearch) -> Self {
+        self.search = search;
         self
     }
 
@@ -157,6 +167,11 @@ impl SimulationBuilder {
         if self.laws.iter().any(|law| law.modes().is_empty()) {
             return Err(missing("interface law", "`modes` must name at least one mode"));
         }
+        if self.search == (ContactSearch::FlowChart { iterations: 0 }) {
+            return Err(missing("contact search", "the flow chart needs one iteration or more"));
+        }
+        let scene = ContactScene { gravity: self.gravity, time_step };
+        self.laws.iter().try_for_each(|law| law.check(&scene))?;
         let unknowns = structure.unknowns();
         if unknowns > MOST_UNKNOWNS {
             return Err(Error::Input {
@@ -223,6 +238,7 @@ impl SimulationBuilder {
             ground,
             base,
             laws: self.laws,
+            search: self.search,
             motion: self.motion,
             coefficients,
             static_state,

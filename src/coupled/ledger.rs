@@ -5,12 +5,13 @@ use std::fmt;
 use super::scheme::SchemeCoefficients;
 use super::simulation::Simulation;
 use super::step::Ride;
+use crate::interface::law_of;
 use crate::linalg::{dense_multiply_add, dot};
 
 /// Energies since the start, J per metre of thickness.
 ///
 /// ```text
-/// kinetic + strain + damping + numerical + soil + contact + preload = input
+/// kinetic + strain + damping + numerical + soil + contact + layer + preload = input
 /// ```
 ///
 /// holds exactly for the discrete equations. Every term is computed from its own definition and
@@ -23,12 +24,17 @@ pub struct Ledger {
     pub strain: f64,
     /// Work of the dashpots, on displacements relative to the free field.
     pub damping: f64,
-    /// What the time scheme takes (zero for the midpoint rule).
+    /// What the time scheme takes: of the structure (zero for the midpoint rule), and of compliant
+    /// interfaces, whose traction is that of the end of the step all through it.
     pub numerical: f64,
     /// Work done on the soil by the changes of traction: radiated and stored.
     pub soil: f64,
-    /// What friction and impact take: total tractions times minus the change of the jump.
+    /// What friction and impact take: total tractions times minus the change of the jump, its
+    /// elastic part left out.
     pub contact: f64,
+    /// Elastic energy stored in compliant interfaces ([`crate::interface::InterfaceLaw::compliance`]),
+    /// as a change against the static state; zero for hard contact.
+    pub layer: f64,
     /// Potential of the static tractions against the change of the jump.
     pub preload: f64,
     /// Work of external loads and of the free field.
@@ -45,6 +51,7 @@ impl Ledger {
             self.numerical,
             self.soil,
             self.contact,
+            self.layer,
             self.preload,
         ];
         let scale = left.iter().fold(self.input.abs(), |m, x| m.max(x.abs()));
@@ -57,7 +64,7 @@ impl Simulation {
     pub(super) fn book(&mut self, ride: &Ride) {
         let c = self.coefficients;
         let dt = self.time_step;
-        let Self { model, work, memory, state, base, solver, .. } = self;
+        let Self { model, work, memory, state, base, solver, start, laws, .. } = self;
         let ledger = &mut state.ledger;
         let (v0, v1, du) = (&state.velocity, &work.new_velocity, &work.increment);
 
@@ -123,7 +130,20 @@ impl Simulation {
             memory.jump[i] = jump;
             ledger.soil +=
                 area * change * (work.soil_displacement[i] - memory.soil_displacement[i]);
-            ledger.contact -= area * (at_rest + change) * opening;
+            let mut elastic = 0.0;
+            if self.compliant {
+                let (e, k) = (i % count, i / count);
+                let law = law_of(laws, e);
+                let [c0, c1] = [start[e].mode, work.modes[e]].map(|mode| law.compliance(mode)[k]);
+                let t0 = [start[e].state.pressure, start[e].state.shear][k];
+                let t1 = at_rest + change;
+                elastic = c0 * t0 - c1 * t1;
+                ledger.layer += 0.5 * area * (c1 * t1 * t1 - c0 * t0 * t0);
+                // The work −t₁ Δ(elastic jump) is Δ(½ c t²) and this much more.
+                let lag = c0 * (t1 - t0).powi(2) + (c1 - c0) * t1 * t1;
+                ledger.numerical += 0.5 * area * lag;
+            }
+            ledger.contact -= area * (at_rest + change) * (opening - elastic);
             ledger.preload += area * at_rest * opening;
             ledger.input -= area * change * (work.free_field[i] - memory.free_field[i]);
         }
@@ -140,6 +160,9 @@ impl fmt::Display for Ledger {
             "  damping     {:>12.4e}    numerical   {:>12.4e}",
             self.damping, self.numerical
         )?;
+        if self.layer != 0.0 {
+            writeln!(f, "  layer       {:>12.4e}", self.layer)?;
+        }
         write!(f, "  preload     {:>12.4e}    residual    {:>12.1e}", self.preload, self.residual())
     }
 }

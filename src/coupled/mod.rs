@@ -53,7 +53,7 @@
 //! # Ledger
 //!
 //! ```text
-//! kinetic + strain + damping + numerical + soil + contact + preload = input
+//! kinetic + strain + damping + numerical + soil + contact + layer + preload = input
 //! ```
 //!
 //! holds exactly for the discrete equations; see [`Ledger`] for the terms. [`Run::ledger_residual`]
@@ -75,9 +75,9 @@ mod step;
 
 pub use builder::SimulationBuilder;
 pub use ledger::Ledger;
-pub use modes::SearchMethod;
+pub use modes::{ContactSearch, SearchMethod};
 pub use preload::Placement;
 pub use run::{Flow, Peak, Run, Warning};
-pub use scheme::{Midpoint, SchemeCoefficients, Theta, TimeScheme};
+pub use scheme::{HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme};
 pub use simulation::Simulation;
 pub use state::{Probe, State, Transition};

@@ -19,6 +19,22 @@ const SWEEPS: usize = 400;
 /// Paths followed.
 const PATHS: usize = 8;
 
+/// How the contact modes of a step are searched for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+pub enum ContactSearch {
+    /// Active set, then Gauss–Seidel, then path following: finds what there is to find.
+    #[default]
+    Robust,
+    /// The flow chart in the Appendix of Patel & Spyrakos alone: assume the modes of the step
+    /// before, solve, ask every element, change modes, repeat until nothing changes. Where it
+    /// comes back to modes it has tried, or needs more than `iterations` of them, the step is an
+    /// error.
+    FlowChart {
+        /// Solves per step, at most; one or more.
+        iterations: usize,
+    },
+}
+
 /// How the modes of a step were found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SearchMethod {
@@ -36,11 +52,13 @@ pub(crate) struct ModeSearch {
     next: Vec<Mode>,
     before: Vec<Mode>,
     path: Path,
+    search: ContactSearch,
 }
 
 impl ModeSearch {
-    pub(crate) fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize, search: ContactSearch) -> Self {
         Self {
+            search,
             visited: Vec::with_capacity(count * ACTIVE_SET_TRIALS),
             next: vec![Mode::Stick; count],
             before: vec![Mode::Stick; count],
@@ -60,14 +78,27 @@ impl ModeSearch {
         if self.active_set(solver, input, modes, &mut trials) {
             return Ok((trials, SearchMethod::ActiveSet));
         }
+        if self.search != ContactSearch::Robust {
+            return Err(self.failure(solver, input, modes, trials));
+        }
         if self.gauss_seidel(solver, input, modes, &mut trials) {
             return Ok((trials, SearchMethod::GaussSeidel));
         }
         if self.along_path(solver, input, modes, &mut trials) {
             return Ok((trials, SearchMethod::Path));
         }
+        Err(self.failure(solver, input, modes, trials))
+    }
+
+    fn failure(
+        &mut self,
+        solver: &mut ContactSolver,
+        input: &ContactInput<'_>,
+        modes: &[Mode],
+        iterations: usize,
+    ) -> StepError {
         let residual = self.disagreement(solver, input, modes);
-        Err(StepError::Contact { iterations: trials, residual, modes: modes.to_vec() })
+        StepError::Contact { iterations, residual, modes: modes.to_vec() }
     }
 
     /// How far the tractions of `modes` are from those of the modes that the laws ask for instead,
@@ -121,7 +152,11 @@ impl ModeSearch {
         trials: &mut usize,
     ) -> bool {
         self.visited.clear();
-        for _ in 0..ACTIVE_SET_TRIALS {
+        let most = match self.search {
+            ContactSearch::Robust => ACTIVE_SET_TRIALS,
+            ContactSearch::FlowChart { iterations } => iterations,
+        };
+        for _ in 0..most {
             *trials += 1;
             if !solver.trial(input, modes) {
                 return false;

@@ -174,7 +174,14 @@ fn begin(delassus: Vec<f64>, count: usize, random: &mut Random) -> Problem {
                 pressure: if open { 0.0 } else { static_traction[e] },
                 shear: 0.0,
             };
-            StepStart { state, mode, has_opened: open || random.chance(0.5), time_step: 1e-3 }
+            StepStart {
+                state,
+                mode,
+                has_opened: open || random.chance(0.5),
+                slip_rate: 0.0,
+                static_pressure: 0.0,
+                time_step: 1e-3,
+            }
         })
         .collect::<Vec<_>>();
     let modes = start.iter().map(|s| s.mode).collect();
@@ -201,7 +208,7 @@ fn brute_force(problem: &Problem, solver: &mut ContactSolver) -> Vec<(Vec<Mode>,
     let input = problem.input();
     let known = problem.laws[0].modes();
     let count = problem.start.len();
-    let mut search = ModeSearch::new(count);
+    let mut search = ModeSearch::new(count, ContactSearch::Robust);
     let mut found = Vec::new();
     let mut modes = vec![known[0]; count];
     for number in 0..known.len().pow(u32::try_from(count).unwrap()) {
@@ -269,7 +276,7 @@ impl Tally {
         let count = problem.start.len();
         let input = problem.input();
         let mut solver = ContactSolver::new(count);
-        let mut search = ModeSearch::new(count);
+        let mut search = ModeSearch::new(count, ContactSearch::Robust);
         self.problems += 1;
         let all = brute_force(problem, &mut solver);
         let solutions = distinct(&all);

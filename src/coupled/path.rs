@@ -157,8 +157,12 @@ impl Path {
             let mut wanted =
                 ContactState { gap: 0.0, slip: start.state.slip, pressure: pressed, shear: 0.0 };
             for condition in law.conditions(*mode, start) {
-                if condition.gap != 0.0 && condition.pressure == 0.0 {
-                    wanted.gap = condition.value / condition.gap;
+                if let Some(gap) = condition.gap_at(pressed) {
+                    wanted.gap = gap;
+                }
+                if condition.gap == 0.0 && condition.slip != 0.0 && condition.shear != 0.0 {
+                    let known = condition.slip * wanted.slip + condition.pressure * pressed;
+                    wanted.shear = (condition.value - known) / condition.shear;
                 }
             }
             // A law may not let an element close in this step, however hard it is pressed.
@@ -166,9 +170,11 @@ impl Path {
             let next = law.next_mode(*mode, start, &wanted, exact);
             if next != *mode {
                 *mode = next;
-                wanted = ContactState { gap: start.state.gap, pressure: 0.0, ..wanted };
+                wanted =
+                    ContactState { gap: start.state.gap, pressure: 0.0, shear: 0.0, ..wanted };
             }
             change[e] += wanted.pressure;
+            change[count + e] += wanted.shear;
             self.offset[e] = wanted.gap;
             self.offset[count + e] = -wanted.slip;
         }

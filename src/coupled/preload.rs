@@ -3,10 +3,10 @@
 use super::base::Base;
 use super::contact::{ContactInput, ContactSolver};
 use super::model::Model;
-use super::modes::ModeSearch;
+use super::modes::{ContactSearch, ModeSearch};
 use crate::bem::Ground;
 use crate::error::{Error, Result};
-use crate::interface::{ContactState, Coulomb, InterfaceLaw, Mode, StepStart, law_of};
+use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, law_of};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 
 /// What friction does while the structure is placed on the ground.
@@ -25,7 +25,7 @@ pub enum Placement {
 #[derive(Debug, Clone)]
 pub(crate) struct StaticState {
     pub(crate) traction: Vec<f64>,
-    /// Gaps of uplifted elements; closed ones have zero.
+    /// Gaps: of uplifted elements, and (negative) of compressed layers; hard contact has zero.
     pub(crate) gap: Vec<f64>,
     pub(crate) displacement: Vec<f64>,
     pub(crate) modes: Vec<Mode>,
@@ -63,7 +63,7 @@ pub(crate) fn solve(
 ) -> Result<StaticState> {
     let (n, count) = (model.unknowns, base.lengths().len());
     let size = 2 * count;
-    let smooth: Vec<Box<dyn InterfaceLaw>> = vec![Box::new(Coulomb::new(0.0)?)];
+    let smooth: Vec<_> = laws.iter().map(|law| law.smooth()).collect();
     let laws = match placement {
         // A base that never opens is not set down, it is cast.
         Placement::Frictionless if laws.iter().any(|law| law.modes().contains(&Mode::Open)) => {
@@ -81,12 +81,14 @@ pub(crate) fn solve(
             state: ContactState::default(),
             mode: Mode::Stick,
             has_opened: false,
+            slip_rate: 0.0,
+            static_pressure: 0.0,
             time_step: 1.0,
         };
         count
     ];
     let mut solver = ContactSolver::new(count);
-    let mut search = ModeSearch::new(count);
+    let mut search = ModeSearch::new(count, ContactSearch::Robust);
     let mut state = StaticState::weightless(count, n);
     for (e, mode) in state.modes.iter_mut().enumerate() {
         *mode = law_of(laws, e).modes()[0];
@@ -151,7 +153,9 @@ pub(crate) fn solve(
         state.traction.copy_from_slice(&solver.traction);
         if change <= 1e-13 || (change <= 1e-10 && change >= 0.5 * previous) {
             for (e, gap) in state.gap.iter_mut().enumerate() {
-                *gap = if state.modes[e].is_closed() { 0.0 } else { solver.states[e].gap };
+                let conditions = law_of(laws, e).conditions(state.modes[e], &start[e]);
+                let pinned = conditions.iter().find_map(|c| c.gap_at(state.traction[e]));
+                *gap = pinned.unwrap_or(solver.states[e].gap);
             }
             return Ok(state);
         }

@@ -5,7 +5,7 @@ use super::builder::SimulationBuilder;
 use super::contact::ContactSolver;
 use super::ledger::Ledger;
 use super::model::Model;
-use super::modes::{ModeSearch, SearchMethod};
+use super::modes::{ContactSearch, ModeSearch, SearchMethod};
 use super::preload::{StaticState, condense};
 use super::run::{Flow, Run};
 use super::scheme::SchemeCoefficients;
@@ -28,6 +28,8 @@ pub struct Simulation {
     pub(super) laws: Vec<Box<dyn InterfaceLaw>>,
     pub(super) motion: Box<dyn FreeField>,
     pub(super) coefficients: SchemeCoefficients,
+    /// Whether any law stores energy in its elements.
+    pub(super) compliant: bool,
     /// Whether the scheme takes no energy of its own.
     pub(super) conserves_energy: bool,
     pub(super) static_state: StaticState,
@@ -125,6 +127,7 @@ pub(super) struct Parts {
     pub(super) ground: Box<dyn Ground>,
     pub(super) base: Base,
     pub(super) laws: Vec<Box<dyn InterfaceLaw>>,
+    pub(super) search: ContactSearch,
     pub(super) motion: Box<dyn FreeField>,
     pub(super) coefficients: SchemeCoefficients,
     pub(super) static_state: StaticState,
@@ -171,6 +174,8 @@ impl Simulation {
                 state: contact[e],
                 mode: modes[e],
                 has_opened: !modes[e].is_closed(),
+                slip_rate: 0.0,
+                static_pressure: contact[e].pressure,
                 time_step: parts.time_step,
             })
             .collect();
@@ -184,6 +189,9 @@ impl Simulation {
         let mut simulation = Self {
             time_step: parts.time_step,
             coefficients: parts.coefficients,
+            compliant: parts.laws.iter().any(|law| {
+                law.modes().iter().any(|&mode| law.compliance(mode) != [0.0; 2])
+            }),
             conserves_energy: parts.coefficients.conserves_energy(parts.time_step),
             static_load: parts.static_load,
             static_force,
@@ -191,7 +199,7 @@ impl Simulation {
             operators: parts.operators,
             arms: parts.arms,
             solver: ContactSolver::new(count),
-            search: ModeSearch::new(count),
+            search: ModeSearch::new(count, parts.search),
             start,
             memory: Memory {
                 ride_velocity: [0.0; 2],

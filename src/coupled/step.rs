@@ -278,11 +278,13 @@ impl Simulation {
             }
         }
         for (e, start) in self.start.iter_mut().enumerate() {
+            let slip_rate = (state.contact[e].slip - start.state.slip) / self.time_step;
             *start = StepStart {
                 state: state.contact[e],
                 mode: state.modes[e],
                 has_opened: start.has_opened || !state.modes[e].is_closed(),
-                time_step: self.time_step,
+                slip_rate,
+                ..*start
             };
         }
         self.memory.ride_velocity = ride.new_velocity;

@@ -59,6 +59,11 @@ impl Coulomb {
         Self { friction: f64::INFINITY, tensile_strength: 0.0, activation: Activation::Gap }
     }
 
+    /// Law without friction.
+    pub(super) fn smooth() -> Self {
+        Self { friction: 0.0, tensile_strength: 0.0, activation: Activation::Gap }
+    }
+
     /// With a tensile strength (Pa) that holds an element until it first opens; friction is then
     /// limited by friction · (p + strength).
     ///
@@ -177,7 +182,14 @@ mod tests {
     const TOLERANCE: Tolerance = Tolerance { length: 1e-12, traction: 1e-9 };
 
     fn start(mode: Mode) -> StepStart {
-        StepStart { state: ContactState::default(), mode, has_opened: false, time_step: 0.01 }
+        StepStart {
+            state: ContactState::default(),
+            mode,
+            has_opened: false,
+            slip_rate: 0.0,
+            static_pressure: 0.0,
+            time_step: 0.01,
+        }
     }
 
     #[test]

@@ -6,9 +6,13 @@
 
 mod bonded;
 mod coulomb;
+mod thin_layer;
 
 pub use bonded::Bonded;
 pub use coulomb::{Activation, Coulomb};
+pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
+
+use crate::error::Result;
 
 /// What a contact element does during a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -57,6 +61,10 @@ pub struct StepStart {
     pub mode: Mode,
     /// Whether the element has been open at any time since the start of the run.
     pub has_opened: bool,
+    /// Slip velocity of the step before, m/s: its change of slip over its length.
+    pub slip_rate: f64,
+    /// Pressure of the static state, Pa.
+    pub static_pressure: f64,
     /// Time step, s.
     pub time_step: f64,
 }
@@ -81,6 +89,12 @@ impl Condition {
     /// The gap is `value`.
     pub fn gap_is(value: f64) -> Self {
         Self { gap: 1.0, value, ..Self::default() }
+    }
+
+    /// The gap that this condition gives for a pressure, if it relates nothing else.
+    pub(crate) fn gap_at(&self, pressure: f64) -> Option<f64> {
+        (self.gap != 0.0 && self.slip == 0.0 && self.shear == 0.0)
+            .then(|| (self.value - self.pressure * pressure) / self.gap)
     }
 
     /// The slip is `value`.
@@ -108,6 +122,16 @@ pub struct Tolerance {
     pub traction: f64,
 }
 
+/// What a law can check of the scene it is to act in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct ContactScene {
+    /// Gravity, m/s²; zero if the base starts unpressed.
+    pub gravity: f64,
+    /// Time step, s.
+    pub time_step: f64,
+}
+
 /// The law of `element` from a list of one law for all, or one each.
 pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn InterfaceLaw {
     laws[if laws.len() == 1 { 0 } else { element }].as_ref()
@@ -132,4 +156,25 @@ pub trait InterfaceLaw: Send {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode;
+
+    /// Elastic opening per traction in `mode`, m/Pa: gap per tension and slip per shear traction.
+    /// Zero (the default) for hard contact. The energy ledger books what so much elasticity
+    /// stores; only the rest of gap and slip can be lost to friction and impact.
+    fn compliance(&self, _mode: Mode) -> [f64; 2] {
+        [0.0; 2]
+    }
+
+    /// This law without friction and adhesion, for setting the structure down on the ground; hard
+    /// and smooth contact unless the law says otherwise.
+    fn smooth(&self) -> Box<dyn InterfaceLaw> {
+        Box::new(Coulomb::smooth())
+    }
+
+    /// Asked once, when a simulation is put together: whether this law makes sense in it.
+    ///
+    /// # Errors
+    /// With the reason if it does not.
+    fn check(&self, _scene: &ContactScene) -> Result<()> {
+        Ok(())
+    }
 }

@@ -1,5 +1,11 @@
 //! Time schemes of the structure.
 
+mod hht;
+mod newmark;
+
+pub use hht::HhtAlpha;
+pub use newmark::Newmark;
+
 use crate::error::{Error, Result};
 
 /// Where in the step the equation of motion is written, and how the step ends.

@@ -1,0 +1,71 @@
+//! Newmark's method.
+
+use super::{SchemeCoefficients, TimeScheme};
+use crate::error::{Error, Result};
+
+/// Newmark's method (1959), equation of motion at the end of the step.
+///
+/// u₁ = u₀ + Δt v₀ + Δt² ((½−β) a₀ + β a₁), v₁ = v₀ + Δt ((1−γ) a₀ + γ a₁). Contact tractions of the
+/// step enter at its end with their full value, which is how Patel & Spyrakos couple soil and
+/// structure. The default, average acceleration (γ = ½, β = ¼), neither damps nor feeds a linear
+/// structure; but the work of its forces is booked where they act, and the difference between
+/// equilibrium at the ends of steps and within them goes to [`Ledger::numerical`](crate::coupled::Ledger),
+/// which is then bounded and not zero. Loads present at t = 0 belong to the static state: the
+/// method starts from zero acceleration.
+///
+/// ```
+/// use basemat::coupled::Newmark;
+/// assert_eq!(Newmark::new(0.5, 0.25)?, Newmark::default());
+/// assert!(Newmark::new(0.5, 1.0 / 6.0).is_err()); // stable for short steps only
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Newmark {
+    gamma: f64,
+    beta: f64,
+}
+
+impl Newmark {
+    /// Method with γ ≥ ½ and β ≥ γ/2, for which it is stable with steps of any length.
+    ///
+    /// # Errors
+    /// [`Error::Input`] outside this range, and for γ > 2 or β > 10.
+    pub fn new(gamma: f64, beta: f64) -> Result<Self> {
+        if !(0.5..=2.0).contains(&gamma) {
+            return Err(Error::Input { quantity: "gamma", value: gamma, needed: "from 0.5 to 2" });
+        }
+        if !(0.5 * gamma..=10.0).contains(&beta) {
+            let needed = "from gamma/2 (stable for any step) to 10";
+            return Err(Error::Input { quantity: "beta", value: beta, needed });
+        }
+        Ok(Self { gamma, beta })
+    }
+}
+
+impl Default for Newmark {
+    /// Average acceleration: γ = ½, β = ¼.
+    fn default() -> Self {
+        Self { gamma: 0.5, beta: 0.25 }
+    }
+}
+
+impl TimeScheme for Newmark {
+    fn coefficients(&self, time_step: f64) -> SchemeCoefficients {
+        let (acceleration, velocity) = end_of_step(self.gamma, self.beta, time_step);
+        SchemeCoefficients {
+            displacement: [1.0, 0.0, 0.0],
+            velocity,
+            acceleration,
+            new_velocity: velocity,
+            new_acceleration: acceleration,
+            load_fraction: 1.0,
+        }
+    }
+}
+
+/// a₁ and v₁ from (Δu, v₀, a₀).
+pub(super) fn end_of_step(gamma: f64, beta: f64, h: f64) -> ([f64; 3], [f64; 3]) {
+    let acceleration = [1.0 / (beta * h * h), -1.0 / (beta * h), 1.0 - 0.5 / beta];
+    let velocity = [gamma / (beta * h), 1.0 - gamma / beta, h * (1.0 - 0.5 * gamma / beta)];
+    (acceleration, velocity)
+}

@@ -1,0 +1,317 @@
+//! A thin elastic layer between base and soil, as Patel & Spyrakos have it.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | t | thickness of the layer: ratio × height of the element beside it |
+//! | k_n = D₂₂/t, k_s = μ/t | stiffness per unit length; D₂₂ = λ + 2μ, plane strain |
+//! | g, s, p, τ | gap, slip, pressure, shear traction; ₀ at the start of the step |
+//!
+//! A four-node element of length L and thickness t, integrated at its centre, knows the mean
+//! strains ε_yy = g/t and γ = s/t of its two long sides (and ε_xx, which is of the order of t/L
+//! beside them). Its nodal forces are those of tractions D₂₂ g/t and μ s/t on L: a law of one
+//! element's means, with no unknowns of its own.
+
+use super::{Condition, ContactScene, ContactState, InterfaceLaw, Mode, StepStart, Tolerance};
+use crate::error::{Error, Result, not_negative, positive};
+use crate::soil::Soil;
+
+/// Which pressure limits friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FrictionLimit {
+    /// The total pressure of this step.
+    #[default]
+    Total,
+    /// The total pressure of the step before.
+    Lagged,
+    /// The pressure of the static state, for good.
+    Static,
+    /// The magnitude of what the shaking added to it, at the end of the step before.
+    Dynamic,
+}
+
+/// What tells the sense of slip, and whether it goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SlipSense {
+    /// Slip beyond the elastic one, as in plasticity: it starts in the sense of the shear traction
+    /// and goes on while it grows.
+    #[default]
+    Inelastic,
+    /// The relative velocity of this step, elastic part included [PS eq. 10].
+    Velocity,
+    /// The relative velocity of the step before.
+    LastVelocity,
+}
+
+/// Thin-layer interface elements [PS, eqs. 6–13]: elastic in stick and debonding, Coulomb friction
+/// in slip, rebonding when the gap has closed.
+///
+/// | mode | pressure | shear traction |
+/// |---|---|---|
+/// | stick | p = −k_n g | τ = τ₀ + k_s (s − s₀) |
+/// | slip | p = −k_n g | τ = ± friction · p |
+/// | debonding | p = −r k_n g | τ = r k_s × slip since it opened |
+///
+/// with r = 0.001, so that an open element still pulls a little. Tractions and slip are continued
+/// from the step before: what has slipped stays slipped. A layer of no thickness is
+/// [`Coulomb`](super::Coulomb).
+///
+/// ```
+/// use basemat::{Soil, interface::ThinLayer};
+/// let soil = Soil::new(80.0e6, 1.0 / 3.0, 1900.0)?;
+/// // Under finite elements 2 m high: a layer of 0.2 m.
+/// let layer = ThinLayer::new(&soil, 2.0, 0.4)?;
+/// assert!((layer.stiffness()[1] / (80.0e6 / 0.2) - 1.0).abs() < 1e-12);
+/// assert!((layer.stiffness()[0] / (320.0e6 / 0.2) - 1.0).abs() < 1e-12);
+/// assert!(layer.with_thickness_ratio(0.0).is_err());
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThinLayer {
+    /// k_n and k_s of a layer as thick as the element beside it.
+    reference: [f64; 2],
+    ratio: f64,
+    friction: f64,
+    debonded: f64,
+    limit: FrictionLimit,
+    sense: SlipSense,
+    slip_stiffness: f64,
+}
+
+impl ThinLayer {
+    /// Layer of `soil` beside elements of height `neighbour_height` (m), a tenth as thick, with a
+    /// friction coefficient of zero or more; infinity means that nothing ever slides.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a height that is not finite and above zero, or a friction coefficient
+    /// that is NaN or negative.
+    pub fn new(soil: &Soil, neighbour_height: f64, friction: f64) -> Result<Self> {
+        positive("height of the element beside the thin layer", neighbour_height)?;
+        let (shear, nu) = (soil.shear_modulus(), soil.poisson());
+        let normal = 2.0 * shear * (1.0 - nu) / (1.0 - 2.0 * nu);
+        Self::from_stiffness(normal / neighbour_height, shear / neighbour_height, friction)?
+            .with_thickness_ratio(0.1)
+    }
+
+    /// Layer with the stiffness k_n and k_s (Pa/m) for a thickness ratio of one.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless both are finite and above zero and `friction` is not negative.
+    pub fn from_stiffness(normal: f64, shear: f64, friction: f64) -> Result<Self> {
+        positive("normal stiffness of the thin layer", normal)?;
+        positive("shear stiffness of the thin layer", shear)?;
+        if friction.is_nan() || friction < 0.0 {
+            return Err(Error::Input {
+                quantity: "friction coefficient",
+                value: friction,
+                needed: "zero or more (infinite: no sliding)",
+            });
+        }
+        Ok(Self {
+            reference: [normal, shear],
+            ratio: 1.0,
+            friction,
+            debonded: 1e-3,
+            limit: FrictionLimit::Total,
+            sense: SlipSense::Inelastic,
+            slip_stiffness: 0.0,
+        })
+    }
+
+    /// With another thickness, as a share of the height of the element beside the layer.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless finite, above zero, and the stiffness it gives is finite.
+    pub fn with_thickness_ratio(mut self, ratio: f64) -> Result<Self> {
+        self.ratio = positive("thickness ratio of the thin layer", ratio)?;
+        for stiffness in self.stiffness() {
+            positive("stiffness of the thin layer", stiffness)?;
+        }
+        Ok(self)
+    }
+
+    /// With another share of the stiffness left in debonding; 0.001 unless given.
+    ///
+    /// # Errors
+    /// [`Error::Input`] outside 0 to 1.
+    pub fn with_debonded_share(mut self, share: f64) -> Result<Self> {
+        self.debonded = share_of_one("share of stiffness left in debonding", share)?;
+        Ok(self)
+    }
+
+    /// With another pressure in the friction limit.
+    #[must_use]
+    pub fn with_friction_limit(mut self, limit: FrictionLimit) -> Self {
+        self.limit = limit;
+        self
+    }
+
+    /// With another rule for the sense of slip.
+    #[must_use]
+    pub fn with_slip_sense(mut self, sense: SlipSense) -> Self {
+        self.sense = sense;
+        self
+    }
+
+    /// With a share of the shear stiffness that resists the slip of each step, beyond friction;
+    /// none unless given. It acts as a viscosity does, since the next step knows nothing of it.
+    ///
+    /// # Errors
+    /// [`Error::Input`] outside 0 to 1.
+    pub fn with_slip_stiffness_share(mut self, share: f64) -> Result<Self> {
+        self.slip_stiffness = share_of_one("share of shear stiffness left in slip", share)?;
+        Ok(self)
+    }
+
+    /// k_n and k_s, Pa/m.
+    pub fn stiffness(&self) -> [f64; 2] {
+        self.reference.map(|k| k / self.ratio)
+    }
+
+    /// The friction coefficient.
+    pub fn friction(&self) -> f64 {
+        self.friction
+    }
+
+    /// Friction's limit of the shear traction, if it is known before the step.
+    fn known_limit(&self, start: &StepStart) -> Option<f64> {
+        let pressure = match self.limit {
+            FrictionLimit::Total => return None,
+            _ if self.friction == f64::INFINITY => return None,
+            FrictionLimit::Lagged => start.state.pressure.max(0.0),
+            FrictionLimit::Static => start.static_pressure,
+            FrictionLimit::Dynamic => (start.state.pressure - start.static_pressure).abs(),
+        };
+        Some(self.friction * pressure)
+    }
+
+    /// ± τ = limit + share · k_s (±Δs), written so that infinite friction has its limit (see
+    /// [`super::Coulomb`]).
+    fn slip_condition(&self, direction: f64, start: &StepStart) -> Condition {
+        let drag = self.slip_stiffness * self.stiffness()[1];
+        let moved = drag * start.state.slip;
+        if let Some(limit) = self.known_limit(start) {
+            let value = direction * limit - moved;
+            return Condition { shear: 1.0, slip: -drag, value, ..Condition::default() };
+        }
+        let scale = 1.0 / self.friction.max(1.0);
+        let pressure = if self.friction > 1.0 { -1.0 } else { -self.friction };
+        Condition {
+            shear: direction * scale,
+            slip: -direction * scale * drag,
+            pressure,
+            value: -direction * scale * moved,
+            ..Condition::default()
+        }
+    }
+
+    /// How far the structure slid in this step, as [`SlipSense`] sees it.
+    fn advance(&self, start: &StepStart, trial: &ContactState) -> f64 {
+        let moved = trial.slip - start.state.slip;
+        match self.sense {
+            SlipSense::Inelastic => moved - (trial.shear - start.state.shear) / self.stiffness()[1],
+            SlipSense::Velocity => moved,
+            SlipSense::LastVelocity => start.slip_rate,
+        }
+    }
+}
+
+/// `value` if it is from 0 to 1.
+fn share_of_one(quantity: &'static str, value: f64) -> Result<f64> {
+    not_negative(quantity, value)?;
+    if value <= 1.0 {
+        Ok(value)
+    } else {
+        Err(Error::Input { quantity, value, needed: "from 0 to 1" })
+    }
+}
+
+impl InterfaceLaw for ThinLayer {
+    fn modes(&self) -> &[Mode] {
+        if self.friction == 0.0 {
+            &[Mode::SlipRight, Mode::Open]
+        } else {
+            &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
+        }
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        let share = if mode == Mode::Open { self.debonded } else { 1.0 };
+        let [normal, shear] = self.stiffness().map(|k| share * k);
+        let layer = Condition { gap: normal, ..Condition::pressure_is(0.0) };
+        let along = match mode {
+            Mode::SlipRight => self.slip_condition(1.0, start),
+            Mode::SlipLeft => self.slip_condition(-1.0, start),
+            Mode::Stick | Mode::Open => {
+                // What a closed layer carried along the base is gone when it opens.
+                let gone = mode == Mode::Open && start.mode.is_closed();
+                let before = if gone { 0.0 } else { start.state.shear };
+                Condition { slip: -shear, ..Condition::shear_is(before - shear * start.state.slip) }
+            }
+        };
+        [layer, along]
+    }
+
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &StepStart,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        let slack = tolerance.traction;
+        if mode == Mode::Open {
+            return if trial.gap < -tolerance.length { self.modes()[0] } else { Mode::Open };
+        }
+        if trial.pressure < -slack {
+            return Mode::Open;
+        }
+        let known = self.known_limit(start);
+        let limit = known.unwrap_or(self.friction * trial.pressure.max(0.0));
+        let slides = |direction: f64| {
+            let still = tolerance.length + slack / self.stiffness()[1];
+            let pulled = known.is_none() && self.slip_stiffness == 0.0;
+            if self.friction == 0.0 {
+                mode
+            } else if pulled && direction * trial.shear < -slack {
+                Mode::Open
+            } else if direction * self.advance(start, trial) < -still {
+                Mode::Stick
+            } else {
+                mode
+            }
+        };
+        match mode {
+            Mode::SlipRight => slides(1.0),
+            Mode::SlipLeft => slides(-1.0),
+            // Infinite friction times no pressure is no limit.
+            _ if self.friction == f64::INFINITY || trial.shear.abs() <= limit + slack => Mode::Stick,
+            _ if self.sense == SlipSense::LastVelocity && start.slip_rate < 0.0 => Mode::SlipLeft,
+            _ if self.sense == SlipSense::LastVelocity && start.slip_rate > 0.0 => Mode::SlipRight,
+            _ if trial.shear > 0.0 => Mode::SlipRight,
+            _ => Mode::SlipLeft,
+        }
+    }
+
+    fn compliance(&self, mode: Mode) -> [f64; 2] {
+        match mode {
+            Mode::Open if self.debonded == 0.0 => [0.0; 2],
+            Mode::Open => self.stiffness().map(|k| 1.0 / (self.debonded * k)),
+            _ => self.stiffness().map(f64::recip),
+        }
+    }
+
+    fn smooth(&self) -> Box<dyn InterfaceLaw> {
+        let smooth = Self { friction: 0.0, limit: FrictionLimit::Total, ..*self };
+        Box::new(Self { slip_stiffness: 0.0, ..smooth })
+    }
+
+    fn check(&self, scene: &ContactScene) -> Result<()> {
+        if self.limit == FrictionLimit::Static && scene.gravity == 0.0 {
+            return Err(Error::Scene {
+                quantity: "friction limited by the static pressure",
+                needed: "there is none without gravity",
+            });
+        }
+        Ok(())
+    }
+}
