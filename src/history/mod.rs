@@ -2,6 +2,7 @@
 
 mod direct;
 mod relaxed_fft;
+mod source;
 
 pub use direct::DirectHistory;
 pub use relaxed_fft::RelaxedFftHistory;

@@ -1,7 +1,7 @@
 //! How elements talk to each other, and over short lags.
 
-use crate::bem::PatchKernel;
 use crate::error::Result;
+use crate::history::source::CoefficientSource;
 
 /// Pairs of a patch and its coefficients over short delays.
 ///
@@ -39,26 +39,26 @@ impl Class {
     }
 
     /// Coefficients of `class`.
-    pub(super) fn fill(&mut self, kernel: &PatchKernel, class: usize) -> Result<()> {
+    pub(super) fn fill(&mut self, source: &dyn CoefficientSource, class: usize) -> Result<()> {
         let Self { normal, tangential, coupling } = self;
         // The first is the instantaneous coefficient, no part of the history.
-        kernel.coefficients(class, 2, &mut normal[1..], &mut tangential[1..], &mut coupling[1..])
+        source.coefficients(class, 2, [normal, tangential, coupling].map(|values| &mut values[1..]))
     }
 }
 
 impl Coefficients {
     /// For leaves of `leaf` steps; a coupling that reaches no further than `direct` is summed.
-    pub(super) fn new(kernel: &PatchKernel, leaf: usize, direct: usize) -> Result<Self> {
-        let classes = kernel.classes();
+    pub(super) fn new(source: &dyn CoefficientSource, leaf: usize, direct: usize) -> Result<Self> {
+        let classes = source.classes();
         let reaches = (0..classes)
-            .map(|class| Ok(kernel.last_coupling_lag(class)?.saturating_sub(1)))
+            .map(|class| Ok(source.last_coupling_lag(class)?.saturating_sub(1)))
             .collect::<Result<Vec<_>>>()?;
         let coupling_reach = reaches.iter().copied().max().unwrap_or(0);
         let coupling_direct = if coupling_reach <= direct { coupling_reach } else { leaf - 1 };
         let mut values = Class::new(leaf.max(coupling_direct + 1));
         let mut near = Self {
-            pairs: kernel.pairs().iter().map(|pair| (pair.class, pair.sign)).collect(),
-            scales: kernel.elements().iter().map(|e| 1.0 / e.length()).collect(),
+            pairs: source.pairs().iter().map(|pair| (pair.class, pair.sign)).collect(),
+            scales: source.elements().iter().map(|e| 1.0 / e.length()).collect(),
             classes,
             coupling_reach,
             coupling_direct,
@@ -67,7 +67,7 @@ impl Coefficients {
             coupling: Vec::with_capacity(classes),
         };
         for (class, reach) in reaches.into_iter().enumerate() {
-            values.fill(kernel, class)?;
+            values.fill(source, class)?;
             near.normal.push(values.normal[..leaf].to_vec());
             near.tangential.push(values.tangential[..leaf].to_vec());
             near.coupling.push(values.coupling[..=reach.min(coupling_direct)].to_vec());

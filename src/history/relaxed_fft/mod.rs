@@ -10,6 +10,7 @@ use realfft::RealFftPlanner;
 use self::coefficients::{Class, Coefficients};
 use self::level::{Block, Level, Part, Work};
 use super::ConvolutionHistory;
+use super::source::CoefficientSource;
 use crate::bem::PatchKernel;
 use crate::error::{Error, Result, same_length};
 
@@ -59,7 +60,7 @@ const LONGEST_HINT: usize = 1 << 22;
 /// it nothing is allocated. Results may differ in the last digits between processors, as the
 /// transforms use the widest instructions found at run time.
 pub struct RelaxedFftHistory {
-    kernel: Arc<PatchKernel>,
+    source: Arc<dyn CoefficientSource>,
     coefficients: Option<Coefficients>,
     levels: Vec<Level>,
     planner: RealFftPlanner<f64>,
@@ -79,8 +80,13 @@ pub struct RelaxedFftHistory {
 impl RelaxedFftHistory {
     /// History of `kernel`, empty.
     pub fn new(kernel: Arc<PatchKernel>) -> Self {
+        Self::of(kernel)
+    }
+
+    /// History of any coefficients, empty.
+    pub(crate) fn of(source: Arc<dyn CoefficientSource>) -> Self {
         Self {
-            kernel,
+            source,
             coefficients: None,
             levels: Vec::new(),
             planner: RealFftPlanner::new(),
@@ -111,7 +117,7 @@ impl RelaxedFftHistory {
         }
         let coefficients = match self.coefficients.take() {
             Some(coefficients) => coefficients,
-            None => Coefficients::new(&self.kernel, LEAF, DIRECT_COUPLING)?,
+            None => Coefficients::new(&*self.source, LEAF, DIRECT_COUPLING)?,
         };
         let coefficients = self.coefficients.insert(coefficients);
         let count = coefficients.scales.len();
@@ -129,7 +135,7 @@ impl RelaxedFftHistory {
         if !levels.is_empty() {
             let mut values = Class::new(capacity);
             for class in 0..coefficients.classes {
-                values.fill(&self.kernel, class)?;
+                values.fill(&*self.source, class)?;
                 let values = [&values.normal[..], &values.tangential, &values.coupling];
                 for (level, couples) in &mut levels {
                     level.add_class(values, *couples, &mut self.work);
@@ -198,7 +204,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let count = self.kernel.elements().len();
+        let count = self.source.elements().len();
         same_length("displacement of the history", displacement.len(), 2 * count)?;
         if let Some(error) = &self.failed {
             return Err(error.clone());
