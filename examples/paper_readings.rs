@@ -197,7 +197,12 @@ struct Row {
 }
 
 impl Reading {
-    fn law(&self, friction: f64, soil: &Soil, weight: f64) -> Result<Box<dyn InterfaceLaw>, AnyError> {
+    fn law(
+        &self,
+        friction: f64,
+        soil: &Soil,
+        weight: f64,
+    ) -> Result<Box<dyn InterfaceLaw>, AnyError> {
         if self.law == Law::Hard {
             return Ok(Box::new(Coulomb::new(friction)?));
         }
@@ -346,7 +351,8 @@ impl InterfaceLaw for Glue {
 }
 
 /// Every reading of the table, as command lines.
-const READINGS: &[&str] = &["--name paper's_parts", "--name hard_contact,_midpoint --law hard --scheme midpoint"];
+const READINGS: &[&str] =
+    &["--name paper's_parts", "--name hard_contact,_midpoint --law hard --scheme midpoint"];
 
 fn main() -> Result<(), AnyError> {
     println!(

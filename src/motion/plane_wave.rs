@@ -1,0 +1,179 @@
+//! Plane waves that meet the free surface at an angle, and the Rayleigh wave.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | p | horizontal slowness, 1/apparent velocity |
+//! | a = √(1/c₁² − p²), b = √(1/c₂² − p²) | vertical slownesses of P and S, imaginary part ≥ 0 |
+//! | g = b² − p² | |
+//! | R = g² + 4p²ab | Rayleigh's function |
+//!
+//! For e^{iω(px−t)} and z down, an incident wave of unit displacement and the two that the surface
+//! sends back leave it free of traction if it moves by
+//!
+//! * SV: u_x = 2bg/(c₂R), u_up = −4pab/(c₂R)
+//! * P: u_x = 4pab c₁/(c₂²R), u_up = 2ag c₁/(c₂²R)
+//!
+//! (Achenbach, *Wave Propagation in Elastic Solids*, 1973, § 5.6; Aki & Richards, *Quantitative
+//! Seismology*, 2nd ed., § 5.2). Rayleigh's wave is R = 0: u_up/u_x = −2pa/g. An imaginary part
+//! means a quarter of a period: i is the Hilbert transform, which takes cos to sin.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::{Record, TravellingWave, VerticalIncidence};
+use crate::error::{Error, Result};
+use crate::fundamental::Rayleigh;
+use crate::fundamental::complex::Complex;
+use crate::soil::Soil;
+
+/// Component below this share of the other cannot be prescribed.
+const SMALLEST: f64 = 1e-9;
+
+/// A plane harmonic wave, and how the free surface of the half-plane moves under it.
+///
+/// ```
+/// use basemat::{Soil, motion::{FreeField, PlaneWave, el_centro_1940}};
+/// let soil = Soil::new(80.0e6, 0.25, 1900.0)?;
+/// // SV at 20° from the vertical, running to the right; horizontal motion is El Centro's.
+/// let wave = PlaneWave::sv(&soil, 20.0_f64.to_radians())?;
+/// let field = wave.with_horizontal(&el_centro_1940(), -10.0)?;
+/// let [horizontal, vertical] = field.displacement(-10.0, 5.0);
+/// assert!((horizontal - el_centro_1940().displacement_at(5.0)).abs() < 1e-15);
+/// assert!((vertical / horizontal + 0.41535).abs() < 1e-5);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlaneWave {
+    slowness: f64,
+    horizontal: Complex,
+    vertical: Complex,
+}
+
+impl PlaneWave {
+    /// SV wave from below, its direction at `angle` (rad) from the vertical, to the right if
+    /// positive. Beyond the critical angle, sin θ = c₂/c₁, the two components are out of phase.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless |`angle`| < π/2.
+    pub fn sv(soil: &Soil, angle: f64) -> Result<Self> {
+        let speed = soil.shear_wave_speed();
+        let (p, a, b, g, rayleigh) = slownesses(soil, angle, speed)?;
+        let scale = Complex::real(1.0 / speed) / rayleigh;
+        Ok(Self {
+            slowness: p,
+            horizontal: b.scale(2.0 * g) * scale,
+            vertical: (a * b).scale(-4.0 * p) * scale,
+        })
+    }
+
+    /// P wave from below, as for [`PlaneWave::sv`].
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless |`angle`| < π/2.
+    pub fn p(soil: &Soil, angle: f64) -> Result<Self> {
+        let (speed, shear) = (soil.pressure_wave_speed(), soil.shear_wave_speed());
+        let (p, a, b, g, rayleigh) = slownesses(soil, angle, speed)?;
+        let scale = Complex::real(speed / (shear * shear)) / rayleigh;
+        Ok(Self {
+            slowness: p,
+            horizontal: (a * b).scale(4.0 * p) * scale,
+            vertical: a.scale(2.0 * g) * scale,
+        })
+    }
+
+    /// Rayleigh wave to the right, of unit horizontal displacement.
+    pub fn rayleigh(soil: &Soil) -> Self {
+        let shear = soil.shear_wave_speed();
+        let slowness = Rayleigh::new(soil).arrival() / shear;
+        let decay = (slowness * slowness - soil.pressure_wave_speed().powi(-2)).sqrt();
+        let g = shear.powi(-2) - 2.0 * slowness * slowness;
+        let vertical = Complex::new(0.0, -2.0 * slowness * decay / g);
+        Self { slowness, horizontal: Complex::real(1.0), vertical }
+    }
+
+    /// The same wave running the other way.
+    #[must_use]
+    pub fn reversed(self) -> Self {
+        Self { slowness: -self.slowness, vertical: self.vertical.scale(-1.0), ..self }
+    }
+
+    /// Velocity (m/s) with which the wave runs along the surface, positive to the right; infinite
+    /// at vertical incidence.
+    pub fn apparent_velocity(&self) -> f64 {
+        1.0 / self.slowness
+    }
+
+    /// Surface displacement per unit displacement of the incident wave (of the horizontal component
+    /// for Rayleigh's), horizontal and up, each `[in phase, a quarter of a period late]`.
+    pub fn amplification(&self) -> [[f64; 2]; 2] {
+        [self.horizontal, self.vertical].map(|c| [c.re, c.im])
+    }
+
+    /// The free field in which `record` is the horizontal motion at `origin` (m), the edge of the
+    /// base that the wave reaches first; the vertical motion follows.
+    ///
+    /// Where the components are out of phase, the vertical one is a Hilbert transform, which
+    /// precedes its cause: give the record some quiet time before and after it with
+    /// [`Record::padded`], and a baseline that ends at rest.
+    ///
+    /// # Errors
+    /// [`Error::Input`] if the wave has no horizontal component.
+    pub fn with_horizontal(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
+        let ratio = ratio("horizontal component of the wave", self.vertical, self.horizontal)?;
+        let field = VerticalIncidence::new(record.clone()).with_vertical(follow(record, ratio)?);
+        TravellingWave::new(field, self.apparent_velocity(), origin)
+    }
+
+    /// The free field in which `record` is the vertical motion at `origin`, as for
+    /// [`PlaneWave::with_horizontal`].
+    ///
+    /// # Errors
+    /// [`Error::Input`] if the wave has no vertical component.
+    pub fn with_vertical(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
+        let ratio = ratio("vertical component of the wave", self.horizontal, self.vertical)?;
+        let field = VerticalIncidence::new(follow(record, ratio)?).with_vertical(record.clone());
+        TravellingWave::new(field, self.apparent_velocity(), origin)
+    }
+}
+
+/// p, a, b, g and R of the file's head, for a wave of this speed.
+fn slownesses(
+    soil: &Soil,
+    angle: f64,
+    speed: f64,
+) -> Result<(f64, Complex, Complex, f64, Complex)> {
+    if angle.is_nan() || angle.abs() >= FRAC_PI_2 {
+        let quantity = "angle of incidence";
+        return Err(Error::Input { quantity, value: angle, needed: "between -pi/2 and pi/2" });
+    }
+    let p = angle.sin() / speed;
+    let vertical = |c: f64| {
+        // Of the wave itself without cancellation.
+        let own = angle.cos() / speed;
+        if c == speed { Complex::real(own) } else { Complex::real(c.powi(-2) - p * p).sqrt() }
+    };
+    let (a, b) = (vertical(soil.pressure_wave_speed()), vertical(soil.shear_wave_speed()));
+    let g = soil.shear_wave_speed().powi(-2) - 2.0 * p * p;
+    let rayleigh = Complex::real(g * g) + (a * b).scale(4.0 * p * p);
+    Ok((p, a, b, g, rayleigh))
+}
+
+/// `other` over `given`, if that is not too small.
+fn ratio(quantity: &'static str, other: Complex, given: Complex) -> Result<Complex> {
+    let share = given.abs() / other.abs().max(given.abs());
+    if share > SMALLEST {
+        Ok(other / given)
+    } else {
+        Err(Error::Input { quantity, value: given.abs(), needed: "not zero at this angle" })
+    }
+}
+
+/// The component that is `ratio` times `record`.
+fn follow(record: &Record, ratio: Complex) -> Result<Record> {
+    let direct = record.scaled(ratio.re)?;
+    if ratio.im == 0.0 {
+        return Ok(direct);
+    }
+    let late = record.hilbert_transform()?;
+    let sum = direct.accelerations().iter().zip(late.accelerations());
+    Record::new(record.time_step(), sum.map(|(a, b)| a + ratio.im * b).collect())
+}
