@@ -13,9 +13,24 @@
 //! x-components (to the right), then the E z-components (**down**). What makes G and H out of the
 //! fundamental solution, in time or by convolution quadrature, is a [`BoundaryKernel`].
 
+mod boundary;
+mod convolution;
+mod ground;
+mod incident;
+mod march;
+mod pairs;
 mod segment;
+mod smooth_integrals;
+mod static_limit;
+mod step_integrals;
+mod time_kernel;
 
+pub use boundary::Boundary;
+pub use ground::FullPlaneGround;
+pub use incident::{IncidentField, VerticalWaves};
+pub use march::{BoundaryMarch, Given};
 pub use segment::Segment;
+pub use time_kernel::TimeKernel;
 
 use crate::error::Result;
 
