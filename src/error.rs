@@ -77,6 +77,28 @@ pub enum Error {
         /// Last change, relative to the load.
         residual: f64,
     },
+    /// A history by exponentials is not as accurate as was asked for.
+    #[error("history by exponentials: relative error {reached:e}, but {tolerance:e} was asked for")]
+    Accuracy {
+        /// Relative error that was asked for.
+        tolerance: f64,
+        /// Relative error with as many poles as were tried.
+        reached: f64,
+    },
+    /// A history by exponentials could give energy away, and runs with it could grow.
+    #[error(
+        "history by exponentials is not passive: least eigenvalue {margin:e} of its instantaneous \
+         part, at {frequency} radians per step (a smaller tolerance helps)"
+    )]
+    NotPassive {
+        /// Least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ), over that of the instantaneous part.
+        margin: f64,
+        /// Where it is on the unit circle, radians per step.
+        frequency: f64,
+    },
+    /// A run could not be saved or resumed.
+    #[error("checkpoint: {0}")]
+    Checkpoint(CheckpointError),
     /// A time step that could not be solved; the simulation stays at the last accepted step.
     #[error("step {step} (t = {time} s): {source}")]
     Step {
@@ -87,6 +109,44 @@ pub enum Error {
         /// What failed.
         source: StepError,
     },
+}
+
+/// Why a run could not be saved or resumed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CheckpointError {
+    /// A part of the scene cannot save its state.
+    #[error("the {part} cannot save or restore its state")]
+    Unsupported {
+        /// The part.
+        part: &'static str,
+    },
+    /// The checkpoint was made with another format than this version's.
+    #[error("format {found}, but this version reads {needed}")]
+    Format {
+        /// Format of the checkpoint.
+        found: u32,
+        /// Format of this version.
+        needed: u32,
+    },
+    /// The checkpoint belongs to another scene.
+    #[error("made in another scene: the {quantity} differs")]
+    OtherScene {
+        /// What differs.
+        quantity: &'static str,
+    },
+    /// Numbers are missing, too many or not finite.
+    #[error("{quantity}: wrong number of values, or not finite")]
+    Corrupt {
+        /// What cannot be.
+        quantity: &'static str,
+    },
+}
+
+impl From<CheckpointError> for Error {
+    fn from(error: CheckpointError) -> Self {
+        Self::Checkpoint(error)
+    }
 }
 
 /// Why a step failed.

@@ -148,7 +148,7 @@ mod soil;
 pub mod structure;
 
 pub use coupled::Simulation;
-pub use error::{Error, RecordError, Result, StepError};
+pub use error::{CheckpointError, Error, RecordError, Result, StepError};
 pub use soil::Soil;
 
 /// The README's program is compiled and run.

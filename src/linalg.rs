@@ -303,6 +303,17 @@ impl DenseFactor {
     }
 }
 
+/// Least eigenvalue of a symmetric row-major matrix; NaN if it cannot be had.
+pub(crate) fn least_eigenvalue(matrix: &[f64], order: usize) -> f64 {
+    let matrix = MatRef::from_row_major_slice(matrix, order, order);
+    match matrix.self_adjoint_eigenvalues(Side::Lower) {
+        Ok(values) if values.iter().all(|value| value.is_finite()) => {
+            values.into_iter().fold(f64::INFINITY, f64::min)
+        }
+        _ => f64::NAN,
+    }
+}
+
 /// y ← y + factor · A x for a dense row-major matrix with `x.len()` columns.
 pub(crate) fn dense_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
     if x.is_empty() {

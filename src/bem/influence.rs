@@ -124,6 +124,31 @@ impl InfluenceKernel {
     }
 }
 
+/// How the kernel falls behind the Rayleigh wave: 1/(πμ) ∫ Σ `c_k` x^(2k) t^(−2k−1) dt.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LateSeries<'a> {
+    /// `c_k` of zz and xx.
+    pub(crate) terms: &'a [[f64; TERMS]; 2],
+    /// `c_S` Δt, m.
+    pub(crate) step: f64,
+    /// 1/(πμ), 1/Pa.
+    pub(crate) unit: f64,
+    /// `τ_R`, below which nothing of this holds.
+    pub(crate) arrival: f64,
+}
+
+impl InfluenceKernel {
+    /// The series that [`PairInfluence::at`] sums at late lags.
+    pub(crate) fn late_series(&self) -> LateSeries<'_> {
+        LateSeries {
+            terms: &self.late,
+            step: self.step,
+            unit: 1.0 / (std::f64::consts::PI * self.modulus),
+            arrival: self.branches.arrival,
+        }
+    }
+}
+
 /// A pair of elements and its step influence coefficients.
 #[derive(Debug, Clone)]
 pub struct PairInfluence<'a> {

@@ -19,6 +19,7 @@ mod strip;
 
 pub use choice::History;
 pub use half_plane::HalfPlaneGround;
+pub(crate) use influence::LateSeries;
 pub use influence::{Influence, InfluenceKernel, PairInfluence};
 pub(crate) use patch::check_order;
 pub use patch::{Pair, PatchKernel};

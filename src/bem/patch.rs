@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::influence::LateSeries;
 use super::{ContactElement, InfluenceKernel};
 use crate::error::{Error, Result};
 use crate::soil::Soil;
@@ -128,6 +129,11 @@ impl PatchKernel {
     pub fn last_coupling_lag(&self, class: usize) -> Result<usize> {
         let (source, receiver) = self.class(class)?;
         Ok(self.kernel.pair(receiver, source)?.coupling_ends() - 1)
+    }
+
+    /// How all coefficients fall behind the Rayleigh wave.
+    pub(crate) fn late_series(&self) -> LateSeries<'_> {
+        self.kernel.late_series()
     }
 
     fn class(&self, class: usize) -> Result<(ContactElement, ContactElement)> {

@@ -140,4 +140,20 @@ impl ConvolutionHistory for DirectHistory {
         }
         self.steps += 1;
     }
+
+    /// All tractions, step by step.
+    fn checkpoint(&self) -> Result<Vec<f64>> {
+        Ok((0..self.steps).flat_map(|m| self.traction.iter().map(move |row| row[m])).collect())
+    }
+
+    fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
+        let size = self.traction.len();
+        super::check_inputs(steps, size, values)?;
+        for row in &mut self.traction {
+            row.clear();
+        }
+        self.steps = 0;
+        values.chunks_exact(size).for_each(|traction| self.push(traction));
+        Ok(())
+    }
 }

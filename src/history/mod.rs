@@ -1,13 +1,15 @@
 //! Convolution histories: what all past tractions give at the end of the next step.
 
 mod direct;
+mod exponentials;
 mod relaxed_fft;
 mod source;
 
 pub use direct::DirectHistory;
+pub use exponentials::ExponentialHistory;
 pub use relaxed_fft::RelaxedFftHistory;
 
-use crate::error::Result;
+use crate::error::{CheckpointError, Result};
 
 /// Discrete convolution h^N = Σ_{m<N} G^{N−m+1} τ^m, with the inputs known only up to now.
 ///
@@ -30,4 +32,39 @@ pub trait ConvolutionHistory: Send {
 
     /// Accepts the tractions of the step that ends now (2Q, Pa; missing entries count as zero).
     fn push(&mut self, traction: &[f64]);
+
+    /// Bound on what is wrong with the change of any element's history displacement over the next
+    /// step, m, for the tractions so far; zero (the default) for an exact history.
+    fn increment_error_bound(&self) -> f64 {
+        0.0
+    }
+
+    /// All that the tractions so far have left behind, for [`ConvolutionHistory::restore`].
+    ///
+    /// # Errors
+    /// [`CheckpointError::Unsupported`], unless a history implements it.
+    fn checkpoint(&self) -> Result<Vec<f64>> {
+        Err(CheckpointError::Unsupported { part: "convolution history" }.into())
+    }
+
+    /// Goes back (or on) to where `steps` inputs had been accepted and [`checkpoint`] returned
+    /// `values`; all that follows is then the same to the last bit. Unchanged on an error.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Corrupt`] for values that cannot be those of `steps` inputs,
+    /// [`CheckpointError::Unsupported`] unless a history implements it.
+    ///
+    /// [`checkpoint`]: ConvolutionHistory::checkpoint
+    fn restore(&mut self, _steps: usize, _values: &[f64]) -> Result<()> {
+        Err(CheckpointError::Unsupported { part: "convolution history" }.into())
+    }
+}
+
+/// Error unless `values` are `steps` inputs of `size` each.
+fn check_inputs(steps: usize, size: usize, values: &[f64]) -> Result<()> {
+    if steps.checked_mul(size) == Some(values.len()) {
+        Ok(())
+    } else {
+        Err(CheckpointError::Corrupt { quantity: "tractions of the history" }.into())
+    }
 }

@@ -230,4 +230,23 @@ impl ConvolutionHistory for RelaxedFftHistory {
         }
         self.steps += 1;
     }
+
+    /// All tractions, step by step: what they give to coming steps is worked out again.
+    fn checkpoint(&self) -> Result<Vec<f64>> {
+        if let Some(error) = &self.failed {
+            return Err(error.clone());
+        }
+        let rows = || self.rows.chunks_exact(self.stride.max(1));
+        Ok((0..self.steps).flat_map(|m| rows().map(move |row| row[m])).collect())
+    }
+
+    fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
+        let size = 2 * self.kernel.elements().len();
+        super::check_inputs(steps, size, values)?;
+        self.grow(steps)?;
+        self.rows.fill(0.0);
+        (self.steps, self.pending, self.failed) = (0, false, None);
+        values.chunks_exact(size).for_each(|traction| self.push(traction));
+        Ok(())
+    }
 }

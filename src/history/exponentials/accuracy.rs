@@ -1,0 +1,96 @@
+//! How far the exponentials are from the coefficients that they stand for, over the whole horizon.
+
+use super::tail::Tail;
+use crate::bem::PatchKernel;
+use crate::error::Result;
+
+/// Lags looked at per octave: about two per period of the trapezoidal rule's error, which goes up
+/// and down with ln t, at places that do not repeat.
+const PER_OCTAVE: f64 = 7.3;
+/// Classes of pairs looked at; more are sampled evenly. The error is a polynomial in space.
+const CLASSES: usize = 150;
+
+/// Measured errors.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Accuracy {
+    /// Largest error of any coefficient over the largest coefficient of the same lag.
+    pub(super) relative: f64,
+    /// Σ over lags of the largest change of an error from lag to lag, m/Pa.
+    pub(super) increments: f64,
+    /// Largest coefficient at the end of the horizon, m/Pa.
+    pub(super) last: f64,
+}
+
+/// Errors at one lag and the next, and the largest coefficient, per component.
+struct Sample {
+    error: f64,
+    change: f64,
+    relative: f64,
+    largest: f64,
+}
+
+impl Accuracy {
+    /// Lags from `window` + 1 to `horizon`.
+    pub(super) fn measure(
+        kernel: &PatchKernel,
+        tail: &Tail,
+        window: usize,
+        horizon: usize,
+    ) -> Result<Self> {
+        let count = kernel.elements().len();
+        let mut first_pair = vec![None; kernel.classes()];
+        for (place, pair) in kernel.pairs().iter().enumerate() {
+            first_pair[pair.class].get_or_insert(place);
+        }
+        let stride = kernel.classes().div_ceil(CLASSES);
+        let places: Vec<usize> = first_pair
+            .iter()
+            .flatten()
+            .copied()
+            .enumerate()
+            .filter(|(k, _)| k % stride == 0 || k + 1 == first_pair.len())
+            .map(|(_, place)| place)
+            .collect();
+        let sample = |lag: usize| -> Result<Sample> {
+            let age = (lag - window - 1) as f64;
+            let fits = [tail.at_age(age), tail.at_age(age + 1.0)];
+            let mut sample = Sample { error: 0.0, change: 0.0, relative: 0.0, largest: 0.0 };
+            let mut worst = [[0.0_f64; 2]; 2];
+            for &place in &places {
+                let pair = kernel.pairs()[place];
+                let (p, q) = (place / count, place % count);
+                let [mut zz, mut xx, mut zx] = [[0.0; 2]; 3];
+                kernel.coefficients(pair.class, lag, &mut zz, &mut xx, &mut zx)?;
+                for (part, exact) in [zz, xx].iter().enumerate() {
+                    let error = [0, 1]
+                        .map(|k| pair.scale * (tail.of_pair(&fits[k][part], p, q) - exact[k]));
+                    let [worst_error, largest] = &mut worst[part];
+                    *worst_error = worst_error.max(error[0].abs());
+                    *largest = largest.max((pair.scale * exact[0]).abs());
+                    sample.change = sample.change.max((error[1] - error[0]).abs());
+                }
+            }
+            for [error, largest] in worst {
+                sample.error = sample.error.max(error);
+                sample.largest = sample.largest.max(largest);
+                sample.relative = sample.relative.max(error / largest);
+            }
+            Ok(sample)
+        };
+        let mut lag = window + 1;
+        let mut before = sample(lag)?;
+        let mut found =
+            Self { relative: before.relative, increments: before.error, last: before.largest };
+        while lag < horizon {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a lag")]
+            let next = (lag as f64 * (1.0 / PER_OCTAVE).exp2()).ceil() as usize;
+            let next = next.clamp(lag + 1, horizon.max(lag + 1));
+            let now = sample(next)?;
+            found.increments += before.change.max(now.change) * (next - lag) as f64;
+            found.relative = found.relative.max(now.relative);
+            found.last = now.largest;
+            (lag, before) = (next, now);
+        }
+        Ok(found)
+    }
+}

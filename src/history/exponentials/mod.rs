@@ -1,0 +1,287 @@
+//! The history as a window of exact lags and a sum of exponentials: memory that does not grow.
+
+mod accuracy;
+mod basis;
+mod passivity;
+mod tail;
+mod window;
+
+use std::sync::Arc;
+
+use self::accuracy::Accuracy;
+use self::basis::Basis;
+use self::tail::Tail;
+use self::window::{Lags, Window};
+use super::ConvolutionHistory;
+use crate::bem::PatchKernel;
+use crate::error::{CheckpointError, Error, Result, same_length};
+
+/// Times that the Rayleigh wave has crossed the patch when exponentials take over. Behind three,
+/// the coefficients themselves are summed from the same series.
+const CROSSINGS: f64 = 3.0;
+/// Tolerances that can be reached.
+const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
+/// Longest window: the step is so short that all of a run may lie in it.
+const LONGEST_WINDOW: f64 = 1e6;
+/// Largest block of the window, and smallest.
+const BLOCKS: [usize; 2] = [16, 512];
+/// Times that the poles are put closer together, each by a tenth, before giving up.
+const ATTEMPTS: usize = 20;
+
+/// Window of exact lags and a sum of exponentials behind it: O(1) memory and time per step.
+///
+/// The step coefficients of the lags 2 to W are used as they are. After W steps the Rayleigh wave
+/// has crossed the patch three times, only zz and xx are left, and these are integrals of
+/// decaying exponentials: the trapezoidal rule in the logarithm of the rate turns them into
+/// sums with a common set of poles. In space a few Legendre polynomials over the patch carry them. So
+/// what is kept of all earlier tractions are a few hundred numbers, however many steps there were.
+///
+/// # Accuracy
+///
+/// Every coefficient is within `tolerance` of the exact one, relative to the largest coefficient of
+/// the same lag, up to a horizon: 2²⁰ steps, unless another one is asked for. The number of steps
+/// need not be known; beyond the horizon the relative error grows in proportion to the lag, as the
+/// slowest pole stays what it is. The error is measured against the exact coefficients when the
+/// history is made ([`ExponentialHistory::error_bound`]), poles are put closer together until it is small enough, and
+/// what it can do to a run's energies is bounded in the ledger
+/// ([`Ledger::soil_error_bound`](crate::coupled::Ledger::soil_error_bound)).
+///
+/// # Passivity
+///
+/// The exact operator gives no energy away, and a fit that did could make a run unstable. When the
+/// history is made, the least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, window and
+/// exponentials in closed form, is looked for; a fit that has a negative one is refused
+/// ([`Error::NotPassive`]). The discrete operator has plenty to spare (see
+/// [`ExponentialHistory::passivity_margin`]), so that only tolerances near 1e-2 could come near zero.
+pub struct ExponentialHistory {
+    kernel: Arc<PatchKernel>,
+    window: Window,
+    tail: Tail,
+    /// W, and steps of a block.
+    lags: usize,
+    block: usize,
+    horizon: usize,
+    tolerance: f64,
+    accuracy: Accuracy,
+    margin: f64,
+    /// The last W + b inputs, input m in slot m mod (W + b).
+    recent: Vec<f64>,
+    steps: usize,
+    /// Largest Σ|τ| of any step so far, Pa.
+    largest: f64,
+}
+
+impl ExponentialHistory {
+    /// Accuracy unless another one is asked for.
+    pub const TOLERANCE: f64 = 1e-9;
+    /// Steps over which `tolerance` holds, unless others are asked for.
+    pub const HORIZON: usize = 1 << 20;
+
+    /// History of `kernel`, empty, with every coefficient within `tolerance` of the largest
+    /// one of its lag.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a tolerance not between 1e-12 and 1e-2, or a time step so short that the
+    /// window would have more than a million steps; [`Error::Accuracy`] if the tolerance was not reached;
+    /// [`Error::NotPassive`] if the fit gives energy away.
+    pub fn new(kernel: Arc<PatchKernel>, tolerance: f64) -> Result<Self> {
+        Self::with_horizon(kernel, tolerance, Self::HORIZON)
+    }
+
+    /// The same, with a `tolerance` that holds up to `horizon` steps.
+    ///
+    /// # Errors
+    /// As for [`ExponentialHistory::new`].
+    pub fn with_horizon(kernel: Arc<PatchKernel>, tolerance: f64, horizon: usize) -> Result<Self> {
+        if !TOLERANCES.contains(&tolerance) {
+            return Err(Error::Input {
+                quantity: "tolerance of the history",
+                value: tolerance,
+                needed: "from 1e-12 to 1e-2",
+            });
+        }
+        let elements = kernel.elements();
+        let series = kernel.late_series();
+        let basis = Basis::new(elements, tail::DEGREES);
+        let [block, parts] = blocks(&kernel)?;
+        let lags = block * parts;
+        let horizon = horizon.clamp(2 * lags, 1 << 40);
+        // The error of the trapezoidal rule is about e^(3−π²/h), the strip narrowed by the
+        // Rayleigh wave included.
+        let mut h = std::f64::consts::PI.powi(2) / (3.0 - tolerance.ln());
+        let mut reached = f64::INFINITY;
+        for _ in 0..ATTEMPTS {
+            let range = [lags as f64, horizon as f64];
+            let tail = Tail::new(&series, basis.clone(), range, h, tolerance);
+            let accuracy = Accuracy::measure(&kernel, &tail, lags, horizon)?;
+            reached = accuracy.relative;
+            if reached <= tolerance {
+                let exact = Lags::new(&kernel, lags)?;
+                let margin = passivity::margin(&kernel, &exact, &tail, horizon as f64);
+                // A NaN is refused as well.
+                if !(margin.least >= 0.0) {
+                    return Err(Error::NotPassive {
+                        margin: margin.least,
+                        frequency: margin.frequency,
+                    });
+                }
+                return Ok(Self {
+                    window: Window::new(&kernel, &exact, block, parts),
+                    recent: vec![0.0; (lags + block) * 2 * elements.len()],
+                    tail,
+                    lags,
+                    block,
+                    horizon,
+                    tolerance,
+                    accuracy,
+                    margin: margin.least,
+                    steps: 0,
+                    largest: 0.0,
+                    kernel,
+                });
+            }
+            h *= 0.9;
+        }
+        Err(Error::Accuracy { tolerance, reached })
+    }
+
+    /// Largest error of any coefficient up to the horizon over the largest coefficient of its
+    /// lag, measured when the history was made; at most the tolerance that was asked for.
+    pub fn error_bound(&self) -> f64 {
+        self.accuracy.relative
+    }
+
+    /// The tolerance that was asked for.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// Least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, over that of a
+    /// displacement that comes at once (G¹ alone, element by element): not negative.
+    pub fn passivity_margin(&self) -> f64 {
+        self.margin
+    }
+
+    /// Lags that are exact.
+    pub fn window(&self) -> usize {
+        self.lags
+    }
+
+    /// Exponentials that carry the rest.
+    pub fn poles(&self) -> usize {
+        self.tail.poles()
+    }
+
+    /// Polynomials over the patch that carry it in space.
+    pub fn degrees(&self) -> usize {
+        self.tail.degrees()
+    }
+
+    /// Bytes held in coefficients, state and scratch.
+    pub fn memory(&self) -> usize {
+        self.window.memory() + self.tail.memory() + self.recent.len() * size_of::<f64>()
+    }
+
+    fn size(&self) -> usize {
+        2 * self.kernel.elements().len()
+    }
+
+    /// Where input `m` is kept.
+    fn slot(&self, m: usize) -> std::ops::Range<usize> {
+        let size = self.size();
+        let slot = m % (self.lags + self.block);
+        slot * size..(slot + 1) * size
+    }
+
+    /// Inputs kept after `steps`: those that the window needs, from the beginning of a block on.
+    fn kept(&self, steps: usize) -> std::ops::Range<usize> {
+        let block = steps / self.block * self.block;
+        block.saturating_sub(self.lags)..steps
+    }
+}
+
+/// Steps of a block and blocks of the window.
+fn blocks(kernel: &PatchKernel) -> Result<[usize; 2]> {
+    let elements = kernel.elements();
+    let series = kernel.late_series();
+    let span = elements[elements.len() - 1].right - elements[0].left;
+    let lags = (CROSSINGS * series.arrival * span / series.step).ceil();
+    if !(lags <= LONGEST_WINDOW) {
+        return Err(Error::Input {
+            quantity: "steps that the Rayleigh wave needs for three times the patch",
+            value: lags,
+            needed: "a million or fewer for a history by exponentials",
+        });
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a million at most")]
+    let lags = lags as usize;
+    // Direct sums of b lags on average, and 16 W/b for the products of spectra.
+    let block = (16 * lags).isqrt().next_power_of_two().clamp(BLOCKS[0], BLOCKS[1]);
+    Ok([block, lags.div_ceil(block).max(1)])
+}
+
+impl ConvolutionHistory for ExponentialHistory {
+    fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// Nothing needs to be reserved.
+    fn reserve(&mut self, _steps: usize) -> Result<()> {
+        Ok(())
+    }
+
+    fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
+        same_length("displacement of the history", displacement.len(), self.size())?;
+        self.window.evaluate(displacement);
+        self.tail.add(displacement);
+        Ok(())
+    }
+
+    fn push(&mut self, traction: &[f64]) {
+        let slot = self.slot(self.steps);
+        let kept = &mut self.recent[slot.clone()];
+        for (i, kept) in kept.iter_mut().enumerate() {
+            *kept = traction.get(i).copied().unwrap_or(0.0);
+        }
+        self.largest = self.largest.max(kept.iter().map(|t| t.abs()).sum());
+        self.window.push(kept);
+        self.steps += 1;
+        let leaving = self.steps.checked_sub(self.lags).map(|m| self.slot(m));
+        self.tail.advance(leaving.map(|slot| &self.recent[slot]));
+    }
+
+    fn increment_error_bound(&self) -> f64 {
+        // Beyond the horizon the error may be as large as what is left of the coefficients.
+        let beyond = if self.steps > self.horizon { 2.0 * self.accuracy.last } else { 0.0 };
+        (self.accuracy.increments + beyond) * self.largest
+    }
+
+    /// Largest traction, the exponentials' state, and the last inputs.
+    fn checkpoint(&self) -> Result<Vec<f64>> {
+        let mut values = vec![self.largest];
+        values.extend(self.tail.state());
+        for m in self.kept(self.steps) {
+            values.extend_from_slice(&self.recent[self.slot(m)]);
+        }
+        Ok(values)
+    }
+
+    fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
+        let state = self.tail.state_length();
+        let kept = self.kept(steps);
+        if values.len() != 1 + state + kept.len() * self.size() {
+            return Err(CheckpointError::Corrupt { quantity: "history by exponentials" }.into());
+        }
+        self.steps = steps;
+        self.largest = values[0];
+        self.tail.set_state(&values[1..=state]);
+        self.window.clear(kept.start / self.block);
+        let size = self.size();
+        for (m, input) in kept.zip(values[state + 1..].chunks_exact(size)) {
+            let slot = self.slot(m);
+            self.recent[slot].copy_from_slice(input);
+            self.window.push(input);
+        }
+        Ok(())
+    }
+}

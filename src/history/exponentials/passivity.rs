@@ -1,0 +1,99 @@
+//! Whether window and exponentials together can give energy away.
+//!
+//! Over any run the work of tractions is Σ τ·L Δs, s = Ĝ τ. By Parseval it is never negative if
+//! H(ω) = Re[(1−ζ) L Ĝ(ζ)], ζ = e^(iω), has no negative eigenvalue at any ω; L Gⁿ is symmetric by
+//! reciprocity, so H is the Hermitian part. Near ω = 0 everything but a translation radiates like
+//! ω², so eigenvalues are taken over (1−cos ω) times the diagonal of L G¹, the coefficient of a
+//! displacement that comes at once. The window is a finite sum, and each pole a geometric series:
+//! nothing is cut off.
+
+use super::tail::Tail;
+use super::window::Lags;
+use crate::bem::PatchKernel;
+use crate::linalg::least_eigenvalue;
+
+/// Frequencies per decade below one radian per step.
+const PER_DECADE: f64 = 8.0;
+/// Equally spaced frequencies up to π.
+const EVEN: usize = 48;
+/// Lowest frequency over that of the horizon.
+const LOWEST: f64 = 0.1;
+/// Order of H above which a third of the frequencies must do.
+const LARGE: usize = 100;
+
+/// Least eigenvalue and where it is, radians per step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Margin {
+    pub(super) least: f64,
+    pub(super) frequency: f64,
+}
+
+/// Least eigenvalue of H/(1−cos ω), scaled by the diagonal of L G¹, over all frequencies tried.
+pub(super) fn margin(kernel: &PatchKernel, lags: &Lags, tail: &Tail, horizon: f64) -> Margin {
+    let order = 2 * kernel.elements().len();
+    let thin = if order > LARGE { 3.0 } else { 1.0 };
+    let mut frequencies = Vec::new();
+    let mut omega = LOWEST / horizon;
+    while omega < 1.0 {
+        frequencies.push(omega);
+        omega *= 10.0_f64.powf(thin / PER_DECADE);
+    }
+    let mut even = 1.0;
+    while even <= EVEN as f64 {
+        frequencies.push(std::f64::consts::PI * even / EVEN as f64);
+        even += thin;
+    }
+    let mut found = Margin { least: f64::INFINITY, frequency: 0.0 };
+    for frequency in frequencies {
+        let least = least_at(kernel, lags, tail, frequency);
+        // NaN must not pass.
+        if !(least >= found.least) {
+            found = Margin { least, frequency };
+        }
+        if least.is_nan() {
+            break;
+        }
+    }
+    found
+}
+
+/// The same at one frequency.
+fn least_at(kernel: &PatchKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
+    let count = kernel.elements().len();
+    let order = 2 * count;
+    let window = lags.normal.first().map_or(0, Vec::len);
+    // Re (1−ζ) ζ^d = cos dω − cos (d+1)ω over 1 − cos ω = 2 sin² ω/2.
+    let half = 0.5 * omega;
+    let steps: Vec<f64> =
+        (0..window).map(|d| ((d as f64 + 0.5) * omega).sin() / half.sin()).collect();
+    let sum = |lags: &[f64]| lags.iter().zip(&steps).map(|(g, c)| g * c).sum::<f64>();
+    let square = 2.0 * half.sin() * half.sin();
+    let tails = tail.at_frequency(window as f64, omega);
+    let classes: Vec<[f64; 3]> = (0..kernel.classes())
+        .map(|k| [sum(&lags.normal[k]), sum(&lags.tangential[k]), sum(&lags.coupling[k])])
+        .collect();
+    let pairs = kernel.pairs();
+    let scales: Vec<f64> = (0..order)
+        .map(|i| {
+            let own = pairs[i % count * (count + 1)].class;
+            let at_once = if i < count { lags.normal[own][0] } else { lags.tangential[own][0] };
+            1.0 / at_once.sqrt()
+        })
+        .collect();
+    let mut matrix = vec![0.0; order * order];
+    for (place, pair) in pairs.iter().enumerate() {
+        let (p, q) = (place / count, place % count);
+        let mut own = classes[pair.class];
+        for part in 0..2 {
+            own[part] += tail.of_pair(&tails[part], p, q) / square;
+        }
+        let mut set = |row: usize, column: usize, value: f64| {
+            matrix[row * order + column] = value * scales[row] * scales[column];
+        };
+        set(p, q, own[0]);
+        set(count + p, count + q, own[1]);
+        set(p, count + q, pair.sign * own[2]);
+        set(count + q, p, pair.sign * own[2]);
+    }
+    least_eigenvalue(&matrix, order)
+}
