@@ -1,14 +1,17 @@
 //! The history by transforms of blocks: exact to rounding, O(log² N) per step.
 
 mod coefficients;
+mod lattice;
 mod level;
+mod pairs;
+mod wave_level;
+mod waves;
 
 use std::sync::Arc;
 
-use realfft::RealFftPlanner;
-
-use self::coefficients::{Class, Coefficients};
-use self::level::{Block, Level, Part, Work};
+use self::lattice::Lattice;
+use self::pairs::Pairs;
+use self::waves::Waves;
 use super::ConvolutionHistory;
 use super::source::CoefficientSource;
 use crate::bem::PatchKernel;
@@ -18,9 +21,11 @@ use crate::error::{Error, Result, same_length};
 /// takes about as long, 128 a quarter longer in long runs.
 const LEAF: usize = 64;
 
-/// A coupling that reaches no further ahead than this is summed directly. Times hardly depend on
-/// it up to here; further on blocks are faster.
-const DIRECT_COUPLING: usize = 64;
+/// The same with a transform along the surface.
+const LEAF_OF_WAVES: usize = 32;
+
+/// Elements from which on the transform along the surface pays.
+const WAVES_FROM: usize = 16;
 
 /// Longest hint that is followed at once; beyond, memory grows as steps come in.
 const LONGEST_HINT: usize = 1 << 22;
@@ -28,7 +33,7 @@ const LONGEST_HINT: usize = 1 << 22;
 /// Relaxed blocked convolution: equal to [`DirectHistory`](super::DirectHistory) to rounding, for
 /// any number of steps not known in advance.
 ///
-/// Time is cut into leaves of 64 steps. Within a leaf, pairs of input and output are summed as
+/// Time is cut into leaves of 32 or 64 steps. Within a leaf, pairs of input and output are summed as
 /// they are. After i steps, i a multiple of the leaf, let b be the leaf times the largest power of
 /// two with which b divides i: what the last b inputs give at the next b outputs is one
 /// convolution of length 2b, done by transforms (Hairer, Lubich & Schlichte 1985, SIAM J. Sci.
@@ -41,17 +46,21 @@ const LONGEST_HINT: usize = 1 << 22;
 /// crossed the patch: it is summed directly where that takes few steps, and otherwise by blocks no
 /// larger than its reach.
 ///
+/// Equal elements on a lattice (a uniform strip, or several of one pitch) are transformed along the
+/// surface too, where they are many: step by step, zero-padded, so that every wavenumber is a
+/// convolution in time by itself and no products over pairs are left.
+///
 /// # Cost
 ///
 /// Q elements, N steps, C classes (Q on a uniform strip, about Q²/4 on a graded one), and
 /// log₂(N/64) sizes of blocks:
 ///
-/// | | direct sum | relaxed transforms |
-/// |---|---|---|
-/// | multiply–adds per step | 2Q² · N/2 on average | 2Q² · 32 in the leaf; per size 4Q² for products and about 5Q log₂ 2b for transforms |
-/// | coefficients, bytes | 16 C N | 32 C M, M the power of two at or above N |
-/// | tractions, bytes | 16 Q N | 16 Q M |
-/// | scratch, bytes | none | 8 (Q + 2) M |
+/// | | direct sum | relaxed transforms | with wavenumbers |
+/// |---|---|---|---|
+/// | multiply–adds per step | 2Q² · N/2 on average | 2Q² · 32 in the leaf; per size 4Q² for products and about 5Q log₂ 2b for transforms | 8Q · 16 in the leaf; per size 8Q for products and about 10Q log₂ 2b for transforms |
+/// | coefficients, bytes | 16 C N | 32 C M, M the power of two at or above N | 32 Q M |
+/// | tractions, bytes | 16 Q N | 16 Q M | 32 Q M |
+/// | scratch, bytes | none | 8 (Q + 2) M | 32 M |
 ///
 /// Steps are of unequal cost: the one that completes a block of b pays for all of it, 4Q
 /// transforms of length 2b.
@@ -61,20 +70,39 @@ const LONGEST_HINT: usize = 1 << 22;
 /// transforms use the widest instructions found at run time.
 pub struct RelaxedFftHistory {
     source: Arc<dyn CoefficientSource>,
-    coefficients: Option<Coefficients>,
-    levels: Vec<Level>,
-    planner: RealFftPlanner<f64>,
-    work: Work,
-    /// 2Q rows of `stride`: inputs before `steps`, outputs as far as known from there on.
-    rows: Vec<f64>,
-    stride: usize,
-    /// Steps for which there are rows and levels: the leaf times a power of two.
-    capacity: usize,
+    /// Made when it is first needed.
+    blocks: Option<Box<dyn Blocks>>,
+    /// Whether to transform along the surface: `None` where it pays.
+    along_surface: Option<bool>,
+    leaf: Option<usize>,
     steps: usize,
     /// Whether the last input still has to be worked in.
     pending: bool,
+    /// Tractions with missing entries.
+    padded: Vec<f64>,
     /// Why inputs could not be accepted.
     failed: Option<Error>,
+}
+
+/// Inputs and outputs so far, and how blocks of one give blocks of the other.
+trait Blocks: Send {
+    /// Steps for which there is room and for which all levels are ready.
+    fn capacity(&self) -> usize;
+
+    /// Real numbers held.
+    fn numbers(&self) -> usize;
+
+    /// Makes ready for at least `steps` steps. Inputs and outputs stay as they are on an error.
+    fn grow(&mut self, source: &dyn CoefficientSource, steps: usize) -> Result<()>;
+
+    /// Works the input of step `now` − 1 in, so that the output of `now` is complete.
+    fn work_in(&mut self, now: usize);
+
+    /// Accepts the input of step `now`.
+    fn write(&mut self, now: usize, traction: &[f64]);
+
+    /// Overwrites `displacement` with the output of step `now`.
+    fn read(&mut self, now: usize, displacement: &mut [f64]);
 }
 
 impl RelaxedFftHistory {
@@ -85,113 +113,74 @@ impl RelaxedFftHistory {
 
     /// History of any coefficients, empty.
     pub(crate) fn of(source: Arc<dyn CoefficientSource>) -> Self {
+        let padded = vec![0.0; 2 * source.elements().len()];
         Self {
             source,
-            coefficients: None,
-            levels: Vec::new(),
-            planner: RealFftPlanner::new(),
-            work: Work::default(),
-            rows: Vec::new(),
-            stride: 0,
-            capacity: 0,
+            blocks: None,
+            along_surface: None,
+            leaf: None,
             steps: 0,
             pending: false,
+            padded,
             failed: None,
         }
     }
 
-    /// Bytes held in coefficients, tractions and scratch.
-    pub fn memory(&self) -> usize {
-        let numbers = self.rows.capacity()
-            + self.coefficients.as_ref().map_or(0, Coefficients::numbers)
-            + self.levels.iter().map(Level::numbers).sum::<usize>()
-            + self.work.numbers();
-        numbers * size_of::<f64>()
+    /// With (or without) the transform along the surface wherever elements are equal and on a
+    /// lattice; without this call, where it was measured to pay. To be called before the first step.
+    #[must_use]
+    pub fn with_surface_transform(mut self, wanted: bool) -> Self {
+        self.along_surface = Some(wanted);
+        self
     }
 
-    /// Makes ready for at least `steps` steps. Nothing is changed on an error.
-    fn grow(&mut self, steps: usize) -> Result<()> {
-        let capacity = steps.div_ceil(LEAF).next_power_of_two() * LEAF;
-        if capacity <= self.capacity {
-            return Ok(());
-        }
-        let coefficients = match self.coefficients.take() {
-            Some(coefficients) => coefficients,
-            None => Coefficients::new(&*self.source, LEAF, DIRECT_COUPLING)?,
-        };
-        let coefficients = self.coefficients.insert(coefficients);
-        let count = coefficients.scales.len();
-        let from = self.levels.len();
-        let mut levels = Vec::new();
-        let mut size = LEAF << from;
-        while size < capacity {
-            let mut level = Level::new(size, &mut self.planner);
-            let couples = couples(coefficients, size);
-            level.reserve(coefficients.classes, couples);
-            self.work.grow(&level, if couples { 2 * count } else { count });
-            levels.push((level, couples));
-            size *= 2;
-        }
-        if !levels.is_empty() {
-            let mut values = Class::new(capacity);
-            for class in 0..coefficients.classes {
-                values.fill(&*self.source, class)?;
-                let values = [&values.normal[..], &values.tangential, &values.coupling];
-                for (level, couples) in &mut levels {
-                    level.add_class(values, *couples, &mut self.work);
+    /// With leaves of `steps` (rounded up to a power of two, from 4 to 1024) instead of the length
+    /// that was measured to be best. To be called before the first step.
+    #[must_use]
+    pub fn with_leaf(mut self, steps: usize) -> Self {
+        self.leaf = Some(steps.clamp(4, 1024).next_power_of_two());
+        self
+    }
+
+    /// Bytes held in coefficients, tractions and scratch.
+    pub fn memory(&self) -> usize {
+        self.blocks.as_ref().map_or(0, |blocks| blocks.numbers()) * size_of::<f64>()
+    }
+
+    /// Makes ready for at least `steps` steps.
+    fn grow(&mut self, steps: usize) -> Result<&mut dyn Blocks> {
+        let source = &*self.source;
+        let blocks: Box<dyn Blocks> = match self.blocks.take() {
+            Some(blocks) => blocks,
+            None => {
+                let wanted = self.along_surface.unwrap_or(source.elements().len() >= WAVES_FROM);
+                match Lattice::of(source).filter(|_| wanted) {
+                    Some(lattice) => {
+                        let leaf = self.leaf.unwrap_or(LEAF_OF_WAVES);
+                        Box::new(Waves::new(lattice, source, leaf)?)
+                    }
+                    None => Box::new(Pairs::new(source, self.leaf.unwrap_or(LEAF))?),
                 }
             }
+        };
+        let blocks = self.blocks.insert(blocks);
+        if blocks.capacity() < steps {
+            blocks.grow(source, steps)?;
         }
-        // Inputs reach past the end of the capacity only by a coupling that is summed directly.
-        let stride = capacity + coefficients.coupling_direct;
-        let mut rows = vec![0.0; 2 * count * stride];
-        if self.stride > 0 {
-            for (new, old) in rows.chunks_exact_mut(stride).zip(self.rows.chunks_exact(self.stride))
-            {
-                new[..self.stride].copy_from_slice(old);
-            }
-        }
-        self.levels.extend(levels.into_iter().map(|(level, _)| level));
-        (self.rows, self.stride, self.capacity) = (rows, stride, capacity);
-        Ok(())
+        Ok(&mut **blocks)
     }
 
     /// Works the last input in, so that the next output is complete.
-    fn settle(&mut self) -> Result<()> {
-        if self.steps >= self.capacity {
-            self.grow(self.steps + 1)?;
-        }
-        let Some(coefficients) = self.coefficients.as_ref().filter(|_| self.pending) else {
-            return Ok(());
-        };
-        let (now, last) = (self.steps, self.steps - 1);
-        let ahead = LEAF - 1 - last % LEAF;
-        let coupled = if coefficients.couples_far() { ahead } else { coefficients.coupling_direct };
-        coefficients.scatter(&mut self.rows, self.stride, last, ahead, coupled);
-        if now.is_multiple_of(LEAF) {
-            let number = (now / LEAF).trailing_zeros() as usize;
-            let (rows, stride) = (&mut self.rows[..], self.stride);
-            let mut block = Block { rows, stride, now, coefficients };
-            let level = &self.levels[number];
-            if couples(coefficients, level.size) {
-                level.apply(&mut block, Part::All, &mut self.work);
-            } else {
-                level.apply(&mut block, Part::Normal, &mut self.work);
-                level.apply(&mut block, Part::Tangential, &mut self.work);
-                let far = |level: &&Level| couples(coefficients, level.size);
-                if let Some(level) = self.levels.iter().rfind(far) {
-                    level.apply(&mut block, Part::Coupling, &mut self.work);
-                }
-            }
-        }
+    fn settle(&mut self) -> Result<&mut dyn Blocks> {
+        let (now, pending) = (self.steps, self.pending);
+        self.grow(now.saturating_add(1))?;
         self.pending = false;
-        Ok(())
+        let blocks = self.grow(0)?;
+        if pending {
+            blocks.work_in(now);
+        }
+        Ok(blocks)
     }
-}
-
-/// Whether blocks of `size` have spectra of the coupling: up to the first that covers its reach.
-fn couples(coefficients: &Coefficients, size: usize) -> bool {
-    coefficients.couples_far() && (size == LEAF || size / 2 < coefficients.coupling_reach)
 }
 
 impl ConvolutionHistory for RelaxedFftHistory {
@@ -200,7 +189,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     fn reserve(&mut self, steps: usize) -> Result<()> {
-        self.grow(steps.min(self.steps.saturating_add(LONGEST_HINT)))
+        self.grow(steps.min(self.steps.saturating_add(LONGEST_HINT))).map(|_| ())
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
@@ -209,24 +198,26 @@ impl ConvolutionHistory for RelaxedFftHistory {
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
-        self.settle()?;
-        for (value, row) in displacement.iter_mut().zip(self.rows.chunks_exact(self.stride)) {
-            *value = row[self.steps];
-        }
+        let now = self.steps;
+        self.settle()?.read(now, displacement);
         Ok(())
     }
 
     fn push(&mut self, traction: &[f64]) {
-        let settled = if self.failed.is_none() { self.settle() } else { Ok(()) };
-        match settled {
-            Ok(()) if self.failed.is_none() => {
-                for (i, row) in self.rows.chunks_exact_mut(self.stride).enumerate() {
-                    row[self.steps] = traction.get(i).copied().unwrap_or(0.0);
+        if self.failed.is_none() {
+            let now = self.steps;
+            let mut padded = std::mem::take(&mut self.padded);
+            let given = traction.len().min(padded.len());
+            padded[..given].copy_from_slice(&traction[..given]);
+            padded[given..].fill(0.0);
+            match self.settle() {
+                Ok(blocks) => {
+                    blocks.write(now, &padded);
+                    self.pending = true;
                 }
-                self.pending = true;
+                Err(error) => self.failed = Some(error),
             }
-            Ok(()) => {}
-            Err(error) => self.failed = Some(error),
+            self.padded = padded;
         }
         self.steps += 1;
     }

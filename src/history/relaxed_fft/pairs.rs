@@ -1,0 +1,146 @@
+//! Blocks over pairs of elements of any lengths and places.
+
+use realfft::RealFftPlanner;
+
+use super::Blocks;
+use super::coefficients::{Class, Coefficients};
+use super::level::{Block, Level, Part, Work};
+use crate::error::Result;
+use crate::history::source::CoefficientSource;
+
+/// A coupling that reaches no further ahead than this is summed directly. Times hardly depend on
+/// it up to here; further on blocks are faster.
+const DIRECT_COUPLING: usize = 64;
+
+/// Rows begin at different places of a page: else equal places of all fall into one cache set.
+const PAGE_OF_NUMBERS: usize = 512;
+const LINE_OF_NUMBERS: usize = 8;
+
+/// Steps of a leaf over pairs, all levels of blocks, and what has come in so far.
+pub(super) struct Pairs {
+    coefficients: Coefficients,
+    /// Steps that are summed directly.
+    leaf: usize,
+    levels: Vec<Level>,
+    planner: RealFftPlanner<f64>,
+    work: Work,
+    /// 2Q rows of `stride`: inputs before the present step, outputs as far as known from there on.
+    rows: Vec<f64>,
+    stride: usize,
+    /// Steps for which there are rows and levels: the leaf times a power of two.
+    capacity: usize,
+}
+
+impl Pairs {
+    /// Blocks of `source`, empty.
+    pub(super) fn new(source: &dyn CoefficientSource, leaf: usize) -> Result<Self> {
+        Ok(Self {
+            coefficients: Coefficients::new(source, leaf, DIRECT_COUPLING)?,
+            leaf,
+            levels: Vec::new(),
+            planner: RealFftPlanner::new(),
+            work: Work::default(),
+            rows: Vec::new(),
+            stride: 0,
+            capacity: 0,
+        })
+    }
+
+    /// Whether blocks of `size` have spectra of the coupling: up to the first that covers its reach.
+    fn couples(&self, size: usize) -> bool {
+        let coefficients = &self.coefficients;
+        coefficients.couples_far() && (size == self.leaf || size / 2 < coefficients.coupling_reach)
+    }
+}
+
+impl Blocks for Pairs {
+    fn capacity(&self) -> usize {
+        self.capacity
+    }
+
+    fn numbers(&self) -> usize {
+        self.rows.capacity()
+            + self.coefficients.numbers()
+            + self.levels.iter().map(Level::numbers).sum::<usize>()
+            + self.work.numbers()
+    }
+
+    fn grow(&mut self, source: &dyn CoefficientSource, steps: usize) -> Result<()> {
+        let capacity = steps.div_ceil(self.leaf).next_power_of_two() * self.leaf;
+        if capacity <= self.capacity {
+            return Ok(());
+        }
+        let (count, classes) = (self.coefficients.scales.len(), self.coefficients.classes);
+        let mut levels = Vec::new();
+        let mut size = self.leaf << self.levels.len();
+        while size < capacity {
+            let mut level = Level::new(size, &mut self.planner);
+            let couples = self.couples(size);
+            level.reserve(classes, couples);
+            self.work.grow(&level, if couples { 2 * count } else { count });
+            levels.push((level, couples));
+            size *= 2;
+        }
+        if !levels.is_empty() {
+            let mut values = Class::new(capacity);
+            for class in 0..classes {
+                values.fill(source, class)?;
+                let values = [&values.normal[..], &values.tangential, &values.coupling];
+                for (level, couples) in &mut levels {
+                    level.add_class(values, *couples, &mut self.work);
+                }
+            }
+        }
+        // Inputs reach past the end of the capacity only by a coupling that is summed directly.
+        let needed = capacity + self.coefficients.coupling_direct;
+        let stride = needed.next_multiple_of(PAGE_OF_NUMBERS) + LINE_OF_NUMBERS;
+        let mut rows = vec![0.0; 2 * count * stride];
+        if self.stride > 0 {
+            for (new, old) in rows.chunks_exact_mut(stride).zip(self.rows.chunks_exact(self.stride))
+            {
+                new[..self.stride].copy_from_slice(old);
+            }
+        }
+        self.levels.extend(levels.into_iter().map(|(level, _)| level));
+        (self.rows, self.stride, self.capacity) = (rows, stride, capacity);
+        Ok(())
+    }
+
+    fn work_in(&mut self, now: usize) {
+        let Some(last) = now.checked_sub(1) else { return };
+        let coefficients = &self.coefficients;
+        let ahead = self.leaf - 1 - last % self.leaf;
+        let coupled = if coefficients.couples_far() { ahead } else { coefficients.coupling_direct };
+        coefficients.scatter(&mut self.rows, self.stride, last, ahead, coupled);
+        if !now.is_multiple_of(self.leaf) {
+            return;
+        }
+        let number = (now / self.leaf).trailing_zeros() as usize;
+        let Some(level) = self.levels.get(number) else { return };
+        let couples = self.couples(level.size);
+        let far = self.levels.iter().rfind(|level| self.couples(level.size));
+        let (rows, stride) = (&mut self.rows[..], self.stride);
+        let mut block = Block { rows, stride, now, coefficients };
+        if couples {
+            level.apply(&mut block, Part::All, &mut self.work);
+        } else {
+            level.apply(&mut block, Part::Normal, &mut self.work);
+            level.apply(&mut block, Part::Tangential, &mut self.work);
+            if let Some(level) = far {
+                level.apply(&mut block, Part::Coupling, &mut self.work);
+            }
+        }
+    }
+
+    fn write(&mut self, now: usize, traction: &[f64]) {
+        for (row, value) in self.rows.chunks_exact_mut(self.stride).zip(traction) {
+            row[now] = *value;
+        }
+    }
+
+    fn read(&mut self, now: usize, displacement: &mut [f64]) {
+        for (value, row) in displacement.iter_mut().zip(self.rows.chunks_exact(self.stride)) {
+            *value = row[now];
+        }
+    }
+}

@@ -1,0 +1,266 @@
+//! Blocks over the wavenumbers of a lattice: no pairs of elements are left, only one convolution in
+//! time per wavenumber and kind.
+
+use realfft::RealFftPlanner;
+use realfft::num_complex::Complex;
+use rustfft::FftPlanner;
+
+use super::Blocks;
+use super::lattice::Lattice;
+use super::wave_level::{Part, WaveLevel};
+use crate::error::Result;
+use crate::history::source::CoefficientSource;
+
+/// Normal, tangential, coupling.
+const KINDS: usize = 3;
+
+/// Between the ends of rows, so that equal places of all rows do not fall into one cache set.
+const PADDING: usize = 4;
+
+/// Steps of a leaf over wavenumbers, all levels of blocks, and what has come in so far.
+///
+/// Within a leaf, a step's contact vector over B wavenumbers is held as four slices of B: real and
+/// imaginary parts of the normal components, then of the tangential ones.
+pub(super) struct Waves {
+    lattice: Lattice,
+    /// Steps that are summed directly.
+    leaf: usize,
+    /// Last d at which any coupling is not zero.
+    reach: usize,
+    /// Per kind, d = 0 … leaf − 1 times B.
+    near: [Vec<f64>; KINDS],
+    levels: Vec<WaveLevel>,
+    planner: FftPlanner<f64>,
+    /// 2B rows of `stride`: inputs before the present leaf, outputs as far as known from there on.
+    rows: Vec<Complex<f64>>,
+    stride: usize,
+    capacity: usize,
+    /// Inputs of this leaf, and what all earlier leaves give at its outputs.
+    inputs: Vec<f64>,
+    far: Vec<f64>,
+    sum: Vec<f64>,
+    /// Two blocks of the largest level, and scratch of the transforms.
+    blocks: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+}
+
+impl Waves {
+    /// Blocks of elements on `lattice`, empty.
+    pub(super) fn new(
+        lattice: Lattice,
+        source: &dyn CoefficientSource,
+        leaf: usize,
+    ) -> Result<Self> {
+        let size = 4 * lattice.waves();
+        Ok(Self {
+            reach: lattice.last_coupling_lag(source)?.saturating_sub(1),
+            lattice,
+            leaf,
+            near: [const { Vec::new() }; KINDS],
+            levels: Vec::new(),
+            planner: FftPlanner::new(),
+            rows: Vec::new(),
+            stride: 0,
+            capacity: 0,
+            inputs: vec![0.0; leaf * size],
+            far: vec![0.0; leaf * size],
+            sum: vec![0.0; size],
+            blocks: Vec::new(),
+            scratch: Vec::new(),
+        })
+    }
+
+    /// Whether blocks of `size` have spectra of the coupling: up to the first that covers its reach.
+    fn couples(&self, size: usize) -> bool {
+        self.reach > 0 && (size == self.leaf || size / 2 < self.reach)
+    }
+
+    /// Spectra of `levels`, the next ones, for a capacity of twice the largest.
+    fn fill(&mut self, source: &dyn CoefficientSource, levels: &mut [WaveLevel]) -> Result<()> {
+        let waves = self.lattice.waves();
+        let near = self.near[0].is_empty().then_some(self.leaf);
+        let mut lags = [near.unwrap_or(0); KINDS];
+        // Coefficients wait in the place of the largest spectra that are made of them.
+        for (kind, lags) in lags.iter_mut().enumerate() {
+            if let Some(level) = levels.iter().rfind(|level| level.has(kind)) {
+                *lags = 2 * level.size;
+            }
+        }
+        let mut table: [_; KINDS] = std::array::from_fn(|_| vec![0.0; near.unwrap_or(0) * waves]);
+        let largest: [_; KINDS] =
+            std::array::from_fn(|kind| levels.iter().rposition(|level| level.has(kind)));
+        let coupled = lags[2].min(self.reach + 1);
+        self.lattice.coefficients(source, lags[0], coupled, |kind, d, values| {
+            if near.is_some_and(|leaf| d < leaf) {
+                table[kind][d * waves..(d + 1) * waves].copy_from_slice(values);
+            }
+            if let Some(level) = largest[kind].and_then(|number| levels.get_mut(number)) {
+                level.keep(kind, d, values);
+            }
+        })?;
+        if near.is_some() {
+            self.near = table;
+        }
+        let mut planner = RealFftPlanner::new();
+        let (mut time, mut real) = (vec![0.0; lags[0]], vec![0.0; lags[0]]);
+        for kind in 0..KINDS {
+            let Some(from) = largest[kind] else { continue };
+            for wave in 0..waves {
+                levels[from].kept(kind, wave, &mut time);
+                for level in levels.iter_mut().filter(|level| level.has(kind)) {
+                    let real = &mut real[..2 * level.size];
+                    real.copy_from_slice(&time[..2 * level.size]);
+                    level.transform(kind, wave, real, &mut planner, &mut self.scratch);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves the leaf that ends before `now` to the rows, works it in, and takes up the next one.
+    fn turn(&mut self, now: usize) {
+        let waves = self.lattice.waves();
+        for (row, values) in self.rows.chunks_exact_mut(self.stride).enumerate() {
+            let re = 2 * waves * (row / waves) + row % waves;
+            let inputs = self.inputs.chunks_exact(4 * waves);
+            for (value, input) in values[now - self.leaf..now].iter_mut().zip(inputs) {
+                *value = Complex::new(input[re], input[re + waves]);
+            }
+        }
+        let number = (now / self.leaf).trailing_zeros() as usize;
+        let size = self.levels[number].size;
+        let part = if self.couples(size) { Part::All } else { Part::Even };
+        let Self { levels, rows, blocks, scratch, stride, .. } = self;
+        levels[number].apply(rows, *stride, now, part, blocks, scratch);
+        if part == Part::Even
+            && let Some(level) = levels.iter().rfind(|level| level.has(2))
+        {
+            level.apply(rows, *stride, now, Part::Coupling, blocks, scratch);
+        }
+        for (row, values) in self.rows.chunks_exact(self.stride).enumerate() {
+            let re = 2 * waves * (row / waves) + row % waves;
+            let far = self.far.chunks_exact_mut(4 * waves);
+            for (value, far) in values[now..now + self.leaf].iter().zip(far) {
+                (far[re], far[re + waves]) = (value.re, value.im);
+            }
+        }
+    }
+}
+
+impl Blocks for Waves {
+    fn capacity(&self) -> usize {
+        self.capacity
+    }
+
+    fn numbers(&self) -> usize {
+        let near: usize = self.near.iter().map(Vec::len).sum();
+        near + self.levels.iter().map(WaveLevel::numbers).sum::<usize>()
+            + 2 * (self.rows.len() + self.blocks.len() + self.scratch.len())
+            + self.inputs.len()
+            + self.far.len()
+            + self.sum.len()
+            + self.lattice.numbers()
+    }
+
+    fn grow(&mut self, source: &dyn CoefficientSource, steps: usize) -> Result<()> {
+        let capacity = steps.div_ceil(self.leaf).next_power_of_two() * self.leaf;
+        if capacity <= self.capacity {
+            return Ok(());
+        }
+        let waves = self.lattice.waves();
+        let mut levels = Vec::new();
+        let mut size = self.leaf << self.levels.len();
+        while size < capacity {
+            levels.push(WaveLevel::new(size, waves, self.couples(size), &mut self.planner));
+            size *= 2;
+        }
+        let zero = Complex::default();
+        if let Some(level) = levels.last() {
+            self.blocks.resize(4 * level.size, zero);
+            self.scratch.resize(self.scratch.len().max(level.scratch()), zero);
+        }
+        self.fill(source, &mut levels)?;
+        self.levels.append(&mut levels);
+        if capacity > self.leaf {
+            let stride = capacity + PADDING;
+            let mut rows = vec![zero; 2 * waves * stride];
+            if self.stride > 0 {
+                let old = self.rows.chunks_exact(self.stride);
+                for (new, old) in rows.chunks_exact_mut(stride).zip(old) {
+                    new[..self.capacity].copy_from_slice(&old[..self.capacity]);
+                }
+            }
+            (self.rows, self.stride) = (rows, stride);
+        }
+        self.capacity = capacity;
+        Ok(())
+    }
+
+    fn work_in(&mut self, now: usize) {
+        if now.is_multiple_of(self.leaf) {
+            self.turn(now);
+        }
+    }
+
+    fn write(&mut self, now: usize, traction: &[f64]) {
+        let waves = self.lattice.waves();
+        let (normal, tangential) = traction.split_at(traction.len() / 2);
+        let input = &mut self.inputs[now % self.leaf * 4 * waves..][..4 * waves];
+        for (values, part) in
+            [normal, tangential].into_iter().zip(input.chunks_exact_mut(2 * waves))
+        {
+            self.lattice.forward(values, part.split_at_mut(waves).into());
+        }
+    }
+
+    fn read(&mut self, now: usize, displacement: &mut [f64]) {
+        let waves = self.lattice.waves();
+        let size = 4 * waves;
+        let place = now % self.leaf;
+        self.sum.copy_from_slice(&self.far[place * size..(place + 1) * size]);
+        for (m, input) in self.inputs.chunks_exact(size).take(place).enumerate() {
+            let d = place - m;
+            let [normal, tangential, coupling] =
+                self.near.each_ref().map(|values| &values[d * waves..(d + 1) * waves]);
+            if d <= self.reach {
+                add_coupled(&mut self.sum, input, [normal, tangential, coupling]);
+            } else {
+                add(&mut self.sum, input, [normal, tangential]);
+            }
+        }
+        let (down, along) = displacement.split_at_mut(displacement.len() / 2);
+        for (values, sum) in [down, along].into_iter().zip(self.sum.chunks_exact(2 * waves)) {
+            self.lattice.inverse(sum.split_at(waves).into(), values);
+        }
+    }
+}
+
+/// sum ← sum + ĝ · input.
+fn add(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 2]) {
+    let waves = coefficients[0].len();
+    let parts = sum.chunks_exact_mut(waves).zip(input.chunks_exact(waves));
+    for (number, (sum, input)) in parts.enumerate() {
+        for ((sum, input), g) in sum.iter_mut().zip(input).zip(coefficients[number / 2]) {
+            *sum += g * input;
+        }
+    }
+}
+
+/// The same with coupling, which is i times a real number and of either sign.
+fn add_coupled(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 3]) {
+    let waves = coefficients[0].len();
+    let [normal, tangential, coupling] = coefficients.map(|values| &values[..waves]);
+    let (down, along) = sum.split_at_mut(2 * waves);
+    let ((down_re, down_im), (along_re, along_im)) =
+        (down.split_at_mut(waves), along.split_at_mut(waves));
+    let (along_re, along_im) = (&mut along_re[..waves], &mut along_im[..waves]);
+    let part = |k: usize| &input[k * waves..(k + 1) * waves];
+    let [p_re, p_im, s_re, s_im] = [part(0), part(1), part(2), part(3)];
+    for k in 0..waves {
+        let (g, h, c) = (normal[k], tangential[k], coupling[k]);
+        down_re[k] += g * p_re[k] - c * s_im[k];
+        down_im[k] += g * p_im[k] + c * s_re[k];
+        along_re[k] += h * s_re[k] + c * p_im[k];
+        along_im[k] += h * s_im[k] - c * p_re[k];
+    }
+}
