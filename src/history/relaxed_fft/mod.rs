@@ -101,6 +101,18 @@ trait Blocks: Send {
     /// Accepts the input of step `now`.
     fn write(&mut self, now: usize, traction: &[f64]);
 
+    /// Numbers in which the input of a step is kept.
+    fn width(&self) -> usize;
+
+    /// Appends what is kept of the input of `step`; inputs before `worked_in` were worked in.
+    fn input(&self, step: usize, worked_in: usize, values: &mut Vec<f64>);
+
+    /// Accepts for step `now` what [`Blocks::input`] gave.
+    fn write_input(&mut self, now: usize, input: &[f64]);
+
+    /// Forgets all inputs and outputs.
+    fn clear(&mut self);
+
     /// Overwrites `displacement` with the output of step `now`.
     fn read(&mut self, now: usize, displacement: &mut [f64]);
 }
@@ -222,22 +234,29 @@ impl ConvolutionHistory for RelaxedFftHistory {
         self.steps += 1;
     }
 
-    /// All tractions, step by step: what they give to coming steps is worked out again.
+    /// All inputs, step by step: what they give to coming steps is worked out again.
     fn checkpoint(&self) -> Result<Vec<f64>> {
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
-        let rows = || self.rows.chunks_exact(self.stride.max(1));
-        Ok((0..self.steps).flat_map(|m| rows().map(move |row| row[m])).collect())
+        let mut values = Vec::new();
+        if let Some(blocks) = &self.blocks {
+            let worked_in = self.steps - usize::from(self.pending);
+            (0..self.steps).for_each(|step| blocks.input(step, worked_in, &mut values));
+        }
+        Ok(values)
     }
 
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
-        let size = 2 * self.kernel.elements().len();
-        super::check_inputs(steps, size, values)?;
-        self.grow(steps)?;
-        self.rows.fill(0.0);
+        let width = self.grow(steps.max(1))?.width();
+        super::check_inputs(steps, width, values)?;
+        self.grow(0)?.clear();
         (self.steps, self.pending, self.failed) = (0, false, None);
-        values.chunks_exact(size).for_each(|traction| self.push(traction));
+        for input in values.chunks_exact(width) {
+            let now = self.steps;
+            self.settle()?.write_input(now, input);
+            (self.steps, self.pending) = (now + 1, true);
+        }
         Ok(())
     }
 }

@@ -138,6 +138,22 @@ impl Blocks for Pairs {
         }
     }
 
+    fn width(&self) -> usize {
+        2 * self.coefficients.scales.len()
+    }
+
+    fn input(&self, step: usize, _worked_in: usize, values: &mut Vec<f64>) {
+        values.extend(self.rows.chunks_exact(self.stride).map(|row| row[step]));
+    }
+
+    fn write_input(&mut self, now: usize, input: &[f64]) {
+        self.write(now, input);
+    }
+
+    fn clear(&mut self) {
+        self.rows.fill(0.0);
+    }
+
     fn read(&mut self, now: usize, displacement: &mut [f64]) {
         for (value, row) in displacement.iter_mut().zip(self.rows.chunks_exact(self.stride)) {
             *value = row[now];

@@ -213,6 +213,34 @@ impl Blocks for Waves {
         }
     }
 
+    fn width(&self) -> usize {
+        4 * self.lattice.waves()
+    }
+
+    fn input(&self, step: usize, worked_in: usize, values: &mut Vec<f64>) {
+        let waves = self.lattice.waves();
+        if step >= worked_in - worked_in % self.leaf {
+            let begin = step % self.leaf * 4 * waves;
+            values.extend_from_slice(&self.inputs[begin..begin + 4 * waves]);
+        } else {
+            let row = |row: usize| self.rows[row * self.stride + step];
+            for of in [0..waves, waves..2 * waves] {
+                values.extend(of.clone().map(|k| row(k).re));
+                values.extend(of.map(|k| row(k).im));
+            }
+        }
+    }
+
+    fn write_input(&mut self, now: usize, input: &[f64]) {
+        self.inputs[now % self.leaf * input.len()..][..input.len()].copy_from_slice(input);
+    }
+
+    fn clear(&mut self) {
+        self.rows.fill(Complex::default());
+        self.inputs.fill(0.0);
+        self.far.fill(0.0);
+    }
+
     fn read(&mut self, now: usize, displacement: &mut [f64]) {
         let waves = self.lattice.waves();
         let size = 4 * waves;
