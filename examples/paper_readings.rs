@@ -63,6 +63,12 @@ struct Reading {
     /// Height of the element beside the layer, ft; a layer of the mesh unless given.
     #[arg(long)]
     neighbour: Option<f64>,
+    /// Share of the static pressure that friction feels, with `--limit lagged`.
+    #[arg(long, default_value_t = 1.0)]
+    static_share: f64,
+    /// Change modes by what the step before ended with, without iteration.
+    #[arg(long)]
+    lag_modes: bool,
     /// Gravity over standard gravity.
     #[arg(long, default_value_t = 1.0)]
     gravity: f64,
@@ -139,6 +145,8 @@ struct Read {
     limit: Limit,
     slip_normal: f64,
     mean_pressure: f64,
+    static_share: f64,
+    lag_modes: bool,
 }
 
 impl Read {
@@ -146,10 +154,21 @@ impl Read {
         let mut start = *start;
         match self.limit {
             Limit::Compression => start.state.pressure -= start.static_pressure,
+            Limit::Lagged => {
+                start.state.pressure -= (1.0 - self.static_share) * start.static_pressure;
+            }
             Limit::Weight => start.static_pressure = self.mean_pressure,
             _ => {}
         }
         start
+    }
+
+    /// The mode that the end of the step before asks for.
+    fn lagged_mode(&self, start: &StepStart) -> Mode {
+        let mut before = self.seen(start);
+        before.state.slip -= start.slip_rate * start.time_step;
+        let tolerance = Tolerance { length: 1e-12, traction: 1e-6 };
+        self.layer.next_mode(start.mode, &before, &start.state, tolerance)
     }
 }
 
@@ -159,6 +178,7 @@ impl InterfaceLaw for Read {
     }
 
     fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        let mode = if self.lag_modes { self.lagged_mode(start) } else { mode };
         let mut conditions = self.layer.conditions(mode, &self.seen(start));
         if mode.is_slip() {
             conditions[0].gap *= self.slip_normal;
@@ -173,6 +193,9 @@ impl InterfaceLaw for Read {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
+        if self.lag_modes {
+            return self.lagged_mode(start);
+        }
         self.layer.next_mode(mode, &self.seen(start), trial, tolerance)
     }
 
@@ -197,7 +220,12 @@ struct Row {
 }
 
 impl Reading {
-    fn law(&self, friction: f64, soil: &Soil, weight: f64) -> Result<Box<dyn InterfaceLaw>, AnyError> {
+    fn law(
+        &self,
+        friction: f64,
+        soil: &Soil,
+        weight: f64,
+    ) -> Result<Box<dyn InterfaceLaw>, AnyError> {
         if self.law == Law::Hard {
             return Ok(Box::new(Coulomb::new(friction)?));
         }
@@ -220,8 +248,14 @@ impl Reading {
             .with_slip_sense(sense)
             .with_slip_stiffness_share(self.slip_shear)?;
         let mean_pressure = weight / (self.width * FOOT);
-        let (limit, slip_normal) = (self.limit, self.slip_normal);
-        Ok(Box::new(Read { layer, limit, slip_normal, mean_pressure }))
+        Ok(Box::new(Read {
+            layer,
+            limit: self.limit,
+            slip_normal: self.slip_normal,
+            mean_pressure,
+            static_share: self.static_share,
+            lag_modes: self.lag_modes,
+        }))
     }
 
     fn run(&self, row: usize) -> Result<Row, AnyError> {
@@ -346,7 +380,8 @@ impl InterfaceLaw for Glue {
 }
 
 /// Every reading of the table, as command lines.
-const READINGS: &[&str] = &["--name paper's_parts", "--name hard_contact,_midpoint --law hard --scheme midpoint"];
+const READINGS: &[&str] =
+    &["--name paper's_parts", "--name hard_contact,_midpoint --law hard --scheme midpoint"];
 
 fn main() -> Result<(), AnyError> {
     println!(

@@ -170,8 +170,7 @@ impl Path {
             let next = law.next_mode(*mode, start, &wanted, exact);
             if next != *mode {
                 *mode = next;
-                wanted =
-                    ContactState { gap: start.state.gap, pressure: 0.0, shear: 0.0, ..wanted };
+                wanted = ContactState { gap: start.state.gap, pressure: 0.0, shear: 0.0, ..wanted };
             }
             change[e] += wanted.pressure;
             change[count + e] += wanted.shear;

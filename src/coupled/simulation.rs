@@ -189,9 +189,10 @@ impl Simulation {
         let mut simulation = Self {
             time_step: parts.time_step,
             coefficients: parts.coefficients,
-            compliant: parts.laws.iter().any(|law| {
-                law.modes().iter().any(|&mode| law.compliance(mode) != [0.0; 2])
-            }),
+            compliant: parts
+                .laws
+                .iter()
+                .any(|law| law.modes().iter().any(|&mode| law.compliance(mode) != [0.0; 2])),
             conserves_energy: parts.coefficients.conserves_energy(parts.time_step),
             static_load: parts.static_load,
             static_force,

@@ -284,7 +284,9 @@ impl InterfaceLaw for ThinLayer {
             Mode::SlipRight => slides(1.0),
             Mode::SlipLeft => slides(-1.0),
             // Infinite friction times no pressure is no limit.
-            _ if self.friction == f64::INFINITY || trial.shear.abs() <= limit + slack => Mode::Stick,
+            _ if self.friction == f64::INFINITY || trial.shear.abs() <= limit + slack => {
+                Mode::Stick
+            }
             _ if self.sense == SlipSense::LastVelocity && start.slip_rate < 0.0 => Mode::SlipLeft,
             _ if self.sense == SlipSense::LastVelocity && start.slip_rate > 0.0 => Mode::SlipRight,
             _ if trial.shear > 0.0 => Mode::SlipRight,
