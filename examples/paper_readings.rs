@@ -2,7 +2,7 @@
 //! peak base shears?
 //!
 //! ```text
-//! cargo run --release --example paper_readings                     # the table of docs/paper.md
+//! cargo run --release --example paper_readings                     # a table of many
 //! cargo run --release --example paper_readings -- --limit lagged   # one reading
 //! ```
 //!
@@ -34,8 +34,6 @@ const PAPER: [f64; 5] = [28_970.0, 20_130.0, 10_233.0, 6_415.0, 5_958.0];
 /// One reading; without options, the table of all that were tried.
 #[derive(Debug, Clone, Parser)]
 struct Reading {
-    #[arg(long, default_value = "")]
-    name: String,
     /// Interface.
     #[arg(long, value_enum, default_value = "layer")]
     law: Law,
@@ -335,8 +333,8 @@ impl Reading {
         })
     }
 
-    fn print(&self) {
-        print!("| {} |", self.name);
+    fn print(&self, name: &str) {
+        print!("| {} |", if name.is_empty() { "the paper's parts" } else { name });
         for &row in &self.rows {
             match self.run(row.min(4)) {
                 Ok(r) => print!(
@@ -380,8 +378,48 @@ impl InterfaceLaw for Glue {
 }
 
 /// Every reading of the table, as command lines.
-const READINGS: &[&str] =
-    &["--name paper's_parts", "--name hard_contact,_midpoint --law hard --scheme midpoint"];
+const READINGS: &[&str] = &[
+    "",
+    "--law hard --scheme midpoint",
+    "--law hard",
+    "--law hard --scheme hht",
+    "--scheme midpoint",
+    "--scheme hht",
+    "--flow-chart",
+    "--debonded 0",
+    "--ratio 0.001",
+    "--ratio 0.001 --debonded 0",
+    "--ratio 0.01",
+    "--ratio 1",
+    "--ratio 1 --debonded 0",
+    "--one-point",
+    "--limit lagged",
+    "--limit dynamic",
+    "--limit compression",
+    "--limit static",
+    "--limit static --lag-modes",
+    "--limit weight --lag-modes",
+    "--sense velocity",
+    "--sense last-velocity",
+    "--lag-modes",
+    "--slip-shear 0.001 --debonded 0",
+    "--slip-normal 0.001",
+    "--gravity 0",
+    "--gravity 0 --limit weight --lag-modes",
+    "--gravity 0.3",
+    "--gravity 0.5",
+    "--friction-factor 0.5",
+    "--friction-factor 0.3333",
+    "--friction-factor 0.31",
+    "--friction-factor 0.25",
+    "--friction-factor 0.31 --law hard --scheme midpoint",
+    "--friction-factor 0.3 --limit weight --lag-modes",
+    "--limit lagged --static-share 0.25",
+    "--foundation-density 0.3333",
+    "--record 0.5",
+    "--width 28 --height 80.6",
+    "--width 40 --height 79.2",
+];
 
 fn main() -> Result<(), AnyError> {
     println!(
@@ -390,11 +428,13 @@ fn main() -> Result<(), AnyError> {
     );
     println!("| reading | bonded | uplift only | 0.4 | 0.3 | 0.2 |\n|---|---|---|---|---|---|");
     if std::env::args().len() > 1 {
-        Reading::parse().print();
+        let words: Vec<_> = std::env::args().skip(1).collect();
+        Reading::parse().print(&words.join(" "));
         return Ok(());
     }
     for line in READINGS {
-        Reading::try_parse_from(std::iter::once("").chain(line.split(' ')))?.print();
+        let words = line.split(' ').filter(|word| !word.is_empty());
+        Reading::try_parse_from(std::iter::once("").chain(words))?.print(line);
     }
     Ok(())
 }

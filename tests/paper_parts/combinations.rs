@@ -1,7 +1,7 @@
 //! Every ground with every law, scheme and search.
 
 use super::scenes::{GRAVITY, SI, friction, ground, shake, soil, tower};
-use basemat::bem::{Grading, SpringGround};
+use basemat::bem::{ContactElement, Grading, SpringGround};
 use basemat::coupled::{ContactSearch, HhtAlpha, Midpoint, Newmark, SimulationBuilder, Theta};
 use basemat::interface::{Activation, Bonded, FrictionLimit, InterfaceLaw, ThinLayer};
 use basemat::{Error, Simulation, StepError};
@@ -110,7 +110,7 @@ fn layer_stores_energy() {
         };
         contact.iter().zip(lengths).map(|(c, length)| length * stored(c)).sum()
     };
-    let lengths: Vec<_> = simulation.elements().iter().map(|e| e.length()).collect();
+    let lengths: Vec<_> = simulation.elements().iter().map(ContactElement::length).collect();
     let at_rest = energy(&simulation.state().contact, &lengths);
     let run = simulation
         .run(250, |state| {
@@ -145,4 +145,18 @@ fn combinations_without_sense_are_refused() {
         assert!(ThinLayer::new(&soil(SI), 1.0, friction).is_err());
     }
     assert!(ThinLayer::new(&soil(SI), 1.0, f64::INFINITY).is_ok());
+}
+
+/// What is left of the shear stiffness in slip means nothing where nothing slips.
+#[test]
+fn slip_stiffness_without_slip_changes_nothing() {
+    let run = |share| {
+        let layer = ThinLayer::new(&soil(SI), 1.0, f64::INFINITY).unwrap();
+        let layer = layer.with_slip_stiffness_share(share).unwrap();
+        let mut simulation = start(true).interface(layer).gravity(GRAVITY).build().unwrap();
+        let run = simulation.run(300, |_| {}).unwrap();
+        assert!(run.uplifted_fraction.value > 0.1);
+        simulation.state().clone()
+    };
+    assert_eq!(run(0.0), run(0.5));
 }
