@@ -2,7 +2,7 @@
 //! peak base shears?
 //!
 //! ```text
-//! cargo run --release --example paper_readings                     # the table of docs/paper.md
+//! cargo run --release --example paper_readings                     # a table of many
 //! cargo run --release --example paper_readings -- --limit lagged   # one reading
 //! ```
 //!
@@ -34,8 +34,6 @@ const PAPER: [f64; 5] = [28_970.0, 20_130.0, 10_233.0, 6_415.0, 5_958.0];
 /// One reading; without options, the table of all that were tried.
 #[derive(Debug, Clone, Parser)]
 struct Reading {
-    #[arg(long, default_value = "")]
-    name: String,
     /// Interface.
     #[arg(long, value_enum, default_value = "layer")]
     law: Law,
@@ -63,6 +61,12 @@ struct Reading {
     /// Height of the element beside the layer, ft; a layer of the mesh unless given.
     #[arg(long)]
     neighbour: Option<f64>,
+    /// Share of the static pressure that friction feels, with `--limit lagged`.
+    #[arg(long, default_value_t = 1.0)]
+    static_share: f64,
+    /// Change modes by what the step before ended with, without iteration.
+    #[arg(long)]
+    lag_modes: bool,
     /// Gravity over standard gravity.
     #[arg(long, default_value_t = 1.0)]
     gravity: f64,
@@ -139,6 +143,8 @@ struct Read {
     limit: Limit,
     slip_normal: f64,
     mean_pressure: f64,
+    static_share: f64,
+    lag_modes: bool,
 }
 
 impl Read {
@@ -146,10 +152,21 @@ impl Read {
         let mut start = *start;
         match self.limit {
             Limit::Compression => start.state.pressure -= start.static_pressure,
+            Limit::Lagged => {
+                start.state.pressure -= (1.0 - self.static_share) * start.static_pressure;
+            }
             Limit::Weight => start.static_pressure = self.mean_pressure,
             _ => {}
         }
         start
+    }
+
+    /// The mode that the end of the step before asks for.
+    fn lagged_mode(&self, start: &StepStart) -> Mode {
+        let mut before = self.seen(start);
+        before.state.slip -= start.slip_rate * start.time_step;
+        let tolerance = Tolerance { length: 1e-12, traction: 1e-6 };
+        self.layer.next_mode(start.mode, &before, &start.state, tolerance)
     }
 }
 
@@ -159,6 +176,7 @@ impl InterfaceLaw for Read {
     }
 
     fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        let mode = if self.lag_modes { self.lagged_mode(start) } else { mode };
         let mut conditions = self.layer.conditions(mode, &self.seen(start));
         if mode.is_slip() {
             conditions[0].gap *= self.slip_normal;
@@ -173,6 +191,9 @@ impl InterfaceLaw for Read {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
+        if self.lag_modes {
+            return self.lagged_mode(start);
+        }
         self.layer.next_mode(mode, &self.seen(start), trial, tolerance)
     }
 
@@ -225,8 +246,14 @@ impl Reading {
             .with_slip_sense(sense)
             .with_slip_stiffness_share(self.slip_shear)?;
         let mean_pressure = weight / (self.width * FOOT);
-        let (limit, slip_normal) = (self.limit, self.slip_normal);
-        Ok(Box::new(Read { layer, limit, slip_normal, mean_pressure }))
+        Ok(Box::new(Read {
+            layer,
+            limit: self.limit,
+            slip_normal: self.slip_normal,
+            mean_pressure,
+            static_share: self.static_share,
+            lag_modes: self.lag_modes,
+        }))
     }
 
     fn run(&self, row: usize) -> Result<Row, AnyError> {
@@ -306,8 +333,8 @@ impl Reading {
         })
     }
 
-    fn print(&self) {
-        print!("| {} |", self.name);
+    fn print(&self, name: &str) {
+        print!("| {} |", if name.is_empty() { "the paper's parts" } else { name });
         for &row in &self.rows {
             match self.run(row.min(4)) {
                 Ok(r) => print!(
@@ -351,8 +378,48 @@ impl InterfaceLaw for Glue {
 }
 
 /// Every reading of the table, as command lines.
-const READINGS: &[&str] =
-    &["--name paper's_parts", "--name hard_contact,_midpoint --law hard --scheme midpoint"];
+const READINGS: &[&str] = &[
+    "",
+    "--law hard --scheme midpoint",
+    "--law hard",
+    "--law hard --scheme hht",
+    "--scheme midpoint",
+    "--scheme hht",
+    "--flow-chart",
+    "--debonded 0",
+    "--ratio 0.001",
+    "--ratio 0.001 --debonded 0",
+    "--ratio 0.01",
+    "--ratio 1",
+    "--ratio 1 --debonded 0",
+    "--one-point",
+    "--limit lagged",
+    "--limit dynamic",
+    "--limit compression",
+    "--limit static",
+    "--limit static --lag-modes",
+    "--limit weight --lag-modes",
+    "--sense velocity",
+    "--sense last-velocity",
+    "--lag-modes",
+    "--slip-shear 0.001 --debonded 0",
+    "--slip-normal 0.001",
+    "--gravity 0",
+    "--gravity 0 --limit weight --lag-modes",
+    "--gravity 0.3",
+    "--gravity 0.5",
+    "--friction-factor 0.5",
+    "--friction-factor 0.3333",
+    "--friction-factor 0.31",
+    "--friction-factor 0.25",
+    "--friction-factor 0.31 --law hard --scheme midpoint",
+    "--friction-factor 0.3 --limit weight --lag-modes",
+    "--limit lagged --static-share 0.25",
+    "--foundation-density 0.3333",
+    "--record 0.5",
+    "--width 28 --height 80.6",
+    "--width 40 --height 79.2",
+];
 
 fn main() -> Result<(), AnyError> {
     println!(
@@ -361,11 +428,13 @@ fn main() -> Result<(), AnyError> {
     );
     println!("| reading | bonded | uplift only | 0.4 | 0.3 | 0.2 |\n|---|---|---|---|---|---|");
     if std::env::args().len() > 1 {
-        Reading::parse().print();
+        let words: Vec<_> = std::env::args().skip(1).collect();
+        Reading::parse().print(&words.join(" "));
         return Ok(());
     }
     for line in READINGS {
-        Reading::try_parse_from(std::iter::once("").chain(line.split(' ')))?.print();
+        let words = line.split(' ').filter(|word| !word.is_empty());
+        Reading::try_parse_from(std::iter::once("").chain(words))?.print(line);
     }
     Ok(())
 }

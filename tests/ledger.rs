@@ -4,11 +4,11 @@
 mod scenes;
 
 use basemat::bem::SpringGround;
-use basemat::coupled::{Ledger, Run, SimulationBuilder, Theta};
+use basemat::coupled::{Ledger, Newmark, Run, SimulationBuilder, Theta};
 use basemat::fem::{Layer, Material, Mesh};
-use basemat::interface::{Activation, Bonded};
+use basemat::interface::{Activation, Bonded, ThinLayer};
 use basemat::structure::{FemModel, RayleighDamping};
-use scenes::{Rider, SI, block, friction, scene, shake, tower};
+use scenes::{Rider, SI, block, friction, scene, shake, soil, tower};
 
 fn run(builder: SimulationBuilder, steps: usize) -> Run {
     builder.build().unwrap().run(steps, |_| {}).unwrap()
@@ -20,6 +20,7 @@ fn kinds() -> Vec<(&'static str, Run)> {
     let rate = friction(0.4).with_activation(Activation::Rate { closed_below: 1e-9 }).unwrap();
     let theta = Theta::new(0.6).unwrap();
     let base = || scene(SI, 0.6);
+    let layer = ThinLayer::new(&soil(SI), 1.0, 0.3).unwrap();
     vec![
         ("bonded", run(base().structure(tower(SI, None)).interface(Bonded), 300)),
         ("uplift", run(base().structure(block(SI)).interface(friction(f64::INFINITY)), 400)),
@@ -30,6 +31,11 @@ fn kinds() -> Vec<(&'static str, Run)> {
         (
             "θ and Rayleigh damping, bonded",
             run(base().structure(damped()).interface(Bonded).scheme(theta), 300),
+        ),
+        ("thin layer", run(base().structure(block(SI)).interface(layer), 400)),
+        (
+            "thin layer, Newmark",
+            run(base().structure(tower(SI, None)).interface(layer).scheme(Newmark::default()), 300),
         ),
         ("rate", run(base().structure(block(SI)).interface(rate), 400)),
         (
@@ -45,7 +51,7 @@ fn kinds() -> Vec<(&'static str, Run)> {
 }
 
 /// The terms of a ledger, those of its left-hand side first.
-fn terms(ledger: &mut Ledger) -> [(&'static str, &mut f64); 8] {
+fn terms(ledger: &mut Ledger) -> [(&'static str, &mut f64); 9] {
     [
         ("kinetic", &mut ledger.kinetic),
         ("strain", &mut ledger.strain),
@@ -53,6 +59,7 @@ fn terms(ledger: &mut Ledger) -> [(&'static str, &mut f64); 8] {
         ("numerical", &mut ledger.numerical),
         ("soil", &mut ledger.soil),
         ("contact", &mut ledger.contact),
+        ("layer", &mut ledger.layer),
         ("preload", &mut ledger.preload),
         ("input", &mut ledger.input),
     ]
@@ -60,12 +67,12 @@ fn terms(ledger: &mut Ledger) -> [(&'static str, &mut f64); 8] {
 
 #[test]
 fn ledger_closes_and_every_term_counts() {
-    let mut seen = [false; 8];
+    let mut seen = [false; 9];
     for (name, run) in kinds() {
         let residual = run.ledger.residual();
         println!("{name}: largest {:.1e}, end {residual:.1e}", run.ledger_residual);
         assert!(run.ledger_residual < 1e-10, "{name}: {:e}", run.ledger_residual);
-        for k in 0..8 {
+        for k in 0..9 {
             let mut ledger = run.ledger;
             let (term, value) = terms(&mut ledger).into_iter().nth(k).unwrap();
             let size = value.abs();
@@ -79,7 +86,7 @@ fn ledger_closes_and_every_term_counts() {
             }
         }
     }
-    assert_eq!(seen, [true; 8], "a term was never put to the test");
+    assert_eq!(seen, [true; 9], "a term was never put to the test");
 }
 
 /// A stiff structure that rides far with the ground: K u and ½ u·K u are those of a deformation of

@@ -151,27 +151,11 @@ impl SimulationBuilder {
             .ok_or(missing("structure", "give one to the builder with `structure`"))?;
         let mut ground =
             self.ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
-        if self.laws.is_empty() {
-            return Err(missing("interface law", "give one to the builder with `interface`"));
-        }
         let elements = ground.elements().to_vec();
         crate::bem::check_order(&elements)?;
         let count = elements.len();
-        if self.laws.len() != 1 && self.laws.len() != count {
-            return Err(Error::Size {
-                quantity: "list of interface laws",
-                found: self.laws.len(),
-                needed: count,
-            });
-        }
-        if self.laws.iter().any(|law| law.modes().is_empty()) {
-            return Err(missing("interface law", "`modes` must name at least one mode"));
-        }
-        if self.search == (ContactSearch::FlowChart { iterations: 0 }) {
-            return Err(missing("contact search", "the flow chart needs one iteration or more"));
-        }
         let scene = ContactScene { gravity: self.gravity, time_step };
-        self.laws.iter().try_for_each(|law| law.check(&scene))?;
+        check_contact(&self.laws, self.search, &scene, count)?;
         let unknowns = structure.unknowns();
         if unknowns > MOST_UNKNOWNS {
             return Err(Error::Input {
@@ -250,4 +234,28 @@ impl SimulationBuilder {
             start_motion,
         }))
     }
+}
+
+/// Whether the laws fit the ground's `count` elements, and laws and contact search the scene.
+fn check_contact(
+    laws: &[Box<dyn InterfaceLaw>],
+    search: ContactSearch,
+    scene: &ContactScene,
+    count: usize,
+) -> Result<()> {
+    let refuse = |quantity, needed| Err(Error::Scene { quantity, needed });
+    if laws.is_empty() {
+        return refuse("interface law", "give one to the builder with `interface`");
+    }
+    if laws.len() != 1 && laws.len() != count {
+        let quantity = "list of interface laws";
+        return Err(Error::Size { quantity, found: laws.len(), needed: count });
+    }
+    if laws.iter().any(|law| law.modes().is_empty()) {
+        return refuse("interface law", "`modes` must name at least one mode");
+    }
+    if search == (ContactSearch::FlowChart { iterations: 0 }) {
+        return refuse("contact search", "the flow chart needs one iteration or more");
+    }
+    laws.iter().try_for_each(|law| law.check(scene))
 }

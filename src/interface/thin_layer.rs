@@ -269,7 +269,8 @@ impl InterfaceLaw for ThinLayer {
         let limit = known.unwrap_or(self.friction * trial.pressure.max(0.0));
         let slides = |direction: f64| {
             let still = tolerance.length + slack / self.stiffness()[1];
-            let pulled = known.is_none() && self.slip_stiffness == 0.0;
+            let dragged = self.slip_stiffness > 0.0 && self.friction.is_finite();
+            let pulled = known.is_none() && !dragged;
             if self.friction == 0.0 {
                 mode
             } else if pulled && direction * trial.shear < -slack {
