@@ -13,9 +13,20 @@
 //! x-components (to the right), then the E z-components (**down**). What makes G and H out of the
 //! fundamental solution, in time or by convolution quadrature, is a [`BoundaryKernel`].
 
+mod convolution_quadrature;
+mod laplace;
+mod laplace_bessel;
+mod laplace_element;
+mod laplace_late;
 mod segment;
+mod stability;
+mod stability_passivity;
+mod stability_symbol;
+mod stability_zeros;
 
+pub use convolution_quadrature::{ConvolutionQuadrature, CqMethod};
 pub use segment::Segment;
+pub use stability::{BoundaryCondition, Stability};
 
 use crate::error::Result;
 
@@ -31,4 +42,15 @@ pub trait BoundaryKernel: Send + Sync {
     /// # Errors
     /// For slices of the wrong length.
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()>;
+
+    /// Overwrites `g` and `h` (each 2E × 2E complex numbers, row-major, real and imaginary part by
+    /// turns) with the power series Σ Gⁿζⁿ and Σ Hⁿζⁿ at `zeta`, |ζ| ≤ 1 and ζ ≠ 1, if they are
+    /// known as transforms at some s, and returns that s (1/s, real and imaginary part). The
+    /// default knows none.
+    ///
+    /// # Errors
+    /// For slices of the wrong length.
+    fn symbol(&self, _zeta: [f64; 2], _g: &mut [f64], _h: &mut [f64]) -> Result<Option<[f64; 2]>> {
+        Ok(None)
+    }
 }
