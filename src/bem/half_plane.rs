@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::patch::check_order;
 use super::{ContactElement, Grading, Ground, History, PatchKernel, StaticKernel, Strip};
-use crate::error::{Error, Result, same_length};
+use crate::error::{Error, Result};
 use crate::history::ConvolutionHistory;
 use crate::soil::Soil;
 
@@ -141,21 +141,7 @@ impl Ground for HalfPlaneGround {
     }
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        let count = self.elements.len();
-        same_length("static compliance", matrix.len(), 4 * count * count)?;
-        for (p, receiver) in self.elements.iter().enumerate() {
-            for (q, source) in self.elements.iter().enumerate() {
-                let mean = self.statics.coefficients(*receiver, *source)?;
-                let mut set = |row: usize, column: usize, value: f64| {
-                    matrix[row * 2 * count + column] = value;
-                };
-                set(p, q, mean.zz);
-                set(count + p, count + q, mean.xx);
-                set(p, count + q, mean.zx);
-                set(count + p, q, -mean.zx);
-            }
-        }
-        Ok(())
+        self.statics.compliance(&self.elements, matrix)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::bem::overlap::Overlap;
 use crate::bem::{ContactElement, Influence};
-use crate::error::{Result, positive};
+use crate::error::{Result, positive, same_length};
 use crate::fundamental::gauss;
 use crate::soil::Soil;
 
@@ -50,6 +50,25 @@ impl StaticKernel {
         }
         let diagonal = self.logarithm * even / overlap.length;
         Ok(Influence { zz: diagonal, xx: diagonal, zx: self.jump * odd / overlap.length })
+    }
+
+    /// Overwrites `matrix` (2Q × 2Q, row-major) with the means of all pairs of elements.
+    pub(super) fn compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
+        let count = elements.len();
+        same_length("static compliance", matrix.len(), 4 * count * count)?;
+        for (p, receiver) in elements.iter().enumerate() {
+            for (q, source) in elements.iter().enumerate() {
+                let mean = self.coefficients(*receiver, *source)?;
+                let mut set = |row: usize, column: usize, value: f64| {
+                    matrix[row * 2 * count + column] = value;
+                };
+                set(p, q, mean.zz);
+                set(count + p, count + q, mean.xx);
+                set(p, count + q, mean.zx);
+                set(count + p, q, -mean.zx);
+            }
+        }
+        Ok(())
     }
 
     /// ∫ w ln(x/L₀) dx for w linear between `low` and `high`.

@@ -19,7 +19,7 @@ pub(crate) enum Contact {
 /// Motions are `[right, down, rotation]`, forces on the soil are `[right, down, moment]`; a
 /// positive rotation or moment lowers the right side.
 pub(crate) struct RigidStrip {
-    ground: HalfPlaneGround,
+    ground: Box<dyn Ground>,
     /// Of the instantaneous operator.
     inverse: Vec<f64>,
     /// Element means of the three rigid motions, and the same times element lengths.
@@ -40,8 +40,14 @@ impl RigidStrip {
     ) -> Self {
         let soil = Soil::new(1.0, poisson, 1.0).unwrap();
         let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
-        let mut ground = HalfPlaneGround::new(soil, &[strip]).unwrap();
+        let ground = HalfPlaneGround::new(soil, &[strip]).unwrap();
+        Self::on(Box::new(ground), time_step, contact)
+    }
+
+    /// The strip on any ground whose elements are those of the strip.
+    pub(crate) fn on(mut ground: Box<dyn Ground>, time_step: f64, contact: Contact) -> Self {
         ground.prepare(time_step).unwrap();
+        let elements = ground.elements().len();
         let size = 2 * elements;
         let mut matrix = vec![0.0; size * size];
         ground.instantaneous(&mut matrix).unwrap();

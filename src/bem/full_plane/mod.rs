@@ -13,20 +13,35 @@
 //! x-components (to the right), then the E z-components (**down**). What makes G and H out of the
 //! fundamental solution, in time or by convolution quadrature, is a [`BoundaryKernel`].
 
+mod boundary;
+mod convolution;
 mod convolution_quadrature;
+mod ground;
+mod incident;
 mod laplace;
 mod laplace_bessel;
 mod laplace_element;
 mod laplace_late;
+mod march;
+mod pairs;
 mod segment;
+mod smooth_integrals;
 mod stability;
 mod stability_passivity;
 mod stability_symbol;
 mod stability_zeros;
+mod static_limit;
+mod step_integrals;
+mod time_kernel;
 
+pub use boundary::Boundary;
 pub use convolution_quadrature::{ConvolutionQuadrature, CqMethod};
+pub use ground::FullPlaneGround;
+pub use incident::{IncidentField, VerticalWaves};
+pub use march::{BoundaryMarch, Given};
 pub use segment::Segment;
 pub use stability::{BoundaryCondition, Stability};
+pub use time_kernel::TimeKernel;
 
 use crate::error::Result;
 

@@ -1,5 +1,7 @@
 //! Straight boundary elements.
 
+use crate::error::{Error, Result, finite, positive};
+
 /// A straight boundary element, with the soil on the right-hand side of the way from `from` to
 /// `to` as seen with x to the right and z **down** (on a flat surface: from left to right).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,4 +34,48 @@ impl Segment {
         let [along, down] = self.direction();
         [down, -along]
     }
+
+    /// Distance (m) of a point (x, z) from the element.
+    fn distance(&self, point: [f64; 2]) -> f64 {
+        let (d, n, y) = (self.direction(), self.normal(), self.center());
+        let offset = [point[0] - y[0], point[1] - y[1]];
+        let along = (offset[0] * d[0] + offset[1] * d[1]).abs() - 0.5 * self.length();
+        along.max(0.0).hypot(offset[0] * n[0] + offset[1] * n[1])
+    }
+}
+
+/// Most elements of a boundary: two dense operators of this size take 1 GB.
+const MOST_SEGMENTS: usize = 4_000;
+
+/// Error unless there are elements, all have length, and none passes through a midpoint of another.
+pub(super) fn check_segments(segments: &[Segment]) -> Result<()> {
+    if segments.is_empty() {
+        return Err(Error::Size { quantity: "list of boundary elements", found: 0, needed: 1 });
+    }
+    if segments.len() > MOST_SEGMENTS {
+        return Err(Error::Input {
+            quantity: "number of boundary elements",
+            value: segments.len() as f64,
+            needed: "at most 4000",
+        });
+    }
+    for segment in segments {
+        for coordinate in segment.from.into_iter().chain(segment.to) {
+            finite("end of a boundary element", coordinate)?;
+        }
+        positive("length of a boundary element", segment.length())?;
+    }
+    for (q, source) in segments.iter().enumerate() {
+        for (p, receiver) in segments.iter().enumerate() {
+            let distance = source.distance(receiver.center());
+            if p != q && distance < 1e-6 * source.length().min(receiver.length()) {
+                return Err(Error::Input {
+                    quantity: "distance of a boundary element from the midpoint of another",
+                    value: distance,
+                    needed: "at least 1e-6 of the shorter",
+                });
+            }
+        }
+    }
+    Ok(())
 }

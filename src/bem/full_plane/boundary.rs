@@ -1,0 +1,125 @@
+//! The boundary of the soil: contact elements and traction-free ones.
+
+use super::Segment;
+use super::segment::check_segments;
+use crate::bem::{ContactElement, Strip, check_order};
+use crate::error::{Error, Result};
+
+/// A polygonal boundary of the soil, with the elements on which the structure stands.
+///
+/// ```
+/// use basemat::bem::Strip;
+/// use basemat::bem::full_plane::Boundary;
+/// // The paper's: five free elements on either side of the footing.
+/// let boundary = Boundary::flat(&[Strip::uniform(-5.0..5.0, 10)?], 5)?;
+/// assert_eq!(boundary.segments().len(), 20);
+/// assert!((boundary.segments()[0].from[0] + 10.0).abs() < 1e-12);
+/// assert!(boundary.is_flat());
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Boundary {
+    segments: Vec<Segment>,
+    contact: Vec<usize>,
+    elements: Vec<ContactElement>,
+}
+
+impl Boundary {
+    /// Flat surface z = 0: strips from left to right, `free` traction-free elements on either side,
+    /// as long as the mean element of the strip beside them, and gaps between strips filled.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for no strips, [`Error::Input`] for strips out of order or too many elements.
+    pub fn flat(strips: &[Strip], free: usize) -> Result<Self> {
+        let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
+        check_order(&elements)?;
+        let mean = |strip: &Strip| {
+            let nodes = strip.nodes();
+            (nodes[nodes.len() - 1] - nodes[0]) / (nodes.len() - 1) as f64
+        };
+        let (first, last) = (&strips[0], &strips[strips.len() - 1]);
+        let mut nodes: Vec<f64> =
+            (1..=free).rev().map(|k| elements[0].left - k as f64 * mean(first)).collect();
+        let mut contact = Vec::with_capacity(elements.len());
+        for (k, strip) in strips.iter().enumerate() {
+            if k > 0 {
+                let (begin, end) = (nodes.pop().unwrap_or_default(), strip.nodes()[0]);
+                nodes.push(begin);
+                let size = mean(&strips[k - 1]).max(mean(strip));
+                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "≥ 0")]
+                let pieces = ((end - begin) / size - 1e-9).ceil().max(0.0).min(1e6) as usize;
+                for piece in 1..pieces {
+                    nodes.push(begin + (end - begin) * piece as f64 / pieces as f64);
+                }
+                if pieces == 0 {
+                    nodes.pop();
+                }
+            }
+            let from = nodes.len();
+            contact.extend((0..strip.nodes().len() - 1).map(|e| from + e));
+            nodes.extend_from_slice(strip.nodes());
+        }
+        let right = elements[elements.len() - 1].right;
+        nodes.extend((1..=free).map(|k| right + k as f64 * mean(last)));
+        let segments =
+            nodes.windows(2).map(|n| Segment { from: [n[0], 0.0], to: [n[1], 0.0] }).collect();
+        Self::new(segments, &contact)
+    }
+
+    /// Any boundary: `contact` are the indices of the elements under the structure, from left to
+    /// right; they must be horizontal with the soil below. All others are free of traction.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for no elements, [`Error::Index`] for an index out of range,
+    /// [`Error::Input`] for elements without length, one that passes through the midpoint of
+    /// another, or contact elements that are not horizontal or out of order.
+    pub fn new(segments: Vec<Segment>, contact: &[usize]) -> Result<Self> {
+        check_segments(&segments)?;
+        let mut elements = Vec::with_capacity(contact.len());
+        for &index in contact {
+            let segment = segments.get(index).ok_or(Error::Index {
+                quantity: "contact element",
+                index,
+                bound: segments.len(),
+            })?;
+            let rise = (segment.to[1] - segment.from[1]).abs();
+            if rise > 1e-9 * segment.length() {
+                return Err(Error::Input {
+                    quantity: "rise of a contact element",
+                    value: rise,
+                    needed: "none: contact elements are horizontal",
+                });
+            }
+            elements.push(ContactElement { left: segment.from[0], right: segment.to[0] });
+        }
+        check_order(&elements)?;
+        Ok(Self { segments, contact: contact.to_vec(), elements })
+    }
+
+    /// All elements.
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// Which of them are in contact.
+    pub fn contact(&self) -> &[usize] {
+        &self.contact
+    }
+
+    /// The contact elements as intervals of x.
+    pub fn contact_elements(&self) -> &[ContactElement] {
+        &self.elements
+    }
+
+    /// Whether all elements lie on one horizontal line with the soil below.
+    pub fn is_flat(&self) -> bool {
+        let level = self.segments[0].from[1];
+        let on = |segment: &Segment| {
+            let tolerance = 1e-9 * segment.length();
+            (segment.from[1] - level).abs() <= tolerance
+                && (segment.to[1] - level).abs() <= tolerance
+                && segment.to[0] > segment.from[0]
+        };
+        self.segments.iter().all(on)
+    }
+}

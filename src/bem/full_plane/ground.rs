@@ -1,0 +1,333 @@
+//! The paper's soil as a ground.
+
+use std::cell::Cell;
+
+use super::convolution::BoundaryHistory;
+use super::static_limit::static_compliance;
+use super::{Boundary, BoundaryKernel, IncidentField, Segment, TimeKernel};
+use crate::bem::{ContactElement, Ground, StaticKernel, Strip};
+use crate::error::{Error, Result, same_length};
+use crate::linalg::{DenseFactor, dense_multiply_add};
+use crate::motion::FreeField;
+use crate::soil::Soil;
+
+/// Makes the coefficients for a boundary and a time step.
+type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel>> + Send;
+
+/// The soil of Patel & Spyrakos: full-plane boundary elements, the free surface beside the base
+/// discretised.
+///
+/// In every step the displacements of the traction-free elements are eliminated from
+/// H⁰ u = G⁰ t + history (eqs. 17–18, 21), which leaves the contact elements. The instantaneous
+/// operator is not symmetric, and the scheme not stable for every step: see
+/// [the module](super). Beside [`HalfPlaneGround`](crate::bem::HalfPlaneGround), which needs no
+/// free surface and is always stable, it serves for comparison with the paper and for boundaries
+/// that are not flat.
+///
+/// Displacements are those at the midpoints of the contact elements.
+///
+/// ```
+/// use basemat::{Soil, bem::{Ground, full_plane::FullPlaneGround}};
+/// let soil = Soil::new(80.0e6, 0.25, 2000.0)?;
+/// // Ten elements of 1 m and five free ones on either side, as in the paper.
+/// let mut ground = FullPlaneGround::strip(soil, -5.0..5.0, 10, 5)?;
+/// ground.prepare(1.0e-3)?;
+/// let mut matrix = vec![0.0; 20 * 20];
+/// ground.instantaneous(&mut matrix)?;
+/// // Waves have not reached the edges of the element: p·t/(ρ c₁).
+/// let plane_wave = 1.0e-3 / (2000.0 * soil.pressure_wave_speed());
+/// assert!((matrix[0] / plane_wave - 1.0).abs() < 1e-12);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub struct FullPlaneGround {
+    soil: Soil,
+    boundary: Boundary,
+    make_kernel: Box<MakeKernel>,
+    incident: Option<Box<dyn IncidentField>>,
+    /// Whether the scene moves the ground beside its incident field.
+    conflict: Cell<bool>,
+    prepared: Option<Prepared>,
+}
+
+/// What a time step brings with it.
+struct Prepared {
+    history: BoundaryHistory,
+    time_step: f64,
+    /// H⁰.
+    factor: DenseFactor,
+    /// G⁰, where an incident field loads the boundary.
+    first: Vec<f64>,
+    /// Displacement of every element per contact traction: 2Q columns of 2E.
+    mobility: Vec<f64>,
+    /// Displacements at the end of the next step without tractions of that step on the contact.
+    free: Vec<f64>,
+    /// Whether `free` belongs to the next step.
+    current: bool,
+    displacement: Vec<f64>,
+    /// Tractions that the incident field leaves for the scattered one to take away.
+    scattering: Vec<f64>,
+    traction: Vec<f64>,
+}
+
+/// Where component `k` of a contact vector (2Q, down first) is in vectors of the boundary
+/// (2E, x first).
+pub(super) fn component(contact: &[usize], count: usize, k: usize) -> usize {
+    let elements = contact.len();
+    if k < elements { count + contact[k] } else { contact[k - elements] }
+}
+
+impl FullPlaneGround {
+    /// One strip over `range` (m) of `count` equal elements on a flat surface, with `free`
+    /// traction-free elements of the same length on either side (the paper has 5).
+    ///
+    /// # Errors
+    /// As for [`Strip::new`] and [`Boundary::flat`].
+    pub fn strip(
+        soil: Soil,
+        range: std::ops::Range<f64>,
+        count: usize,
+        free: usize,
+    ) -> Result<Self> {
+        let boundary = Boundary::flat(&[Strip::uniform(range, count)?], free)?;
+        Ok(Self::new(soil, boundary))
+    }
+
+    /// Any boundary. One that is not flat needs [`FullPlaneGround::with_incident_field`] before it
+    /// can be prepared: it scatters the ground motion.
+    pub fn new(soil: Soil, boundary: Boundary) -> Self {
+        let make_kernel = Box::new(|segments: &[Segment], soil, time_step| {
+            Ok(Box::new(TimeKernel::new(soil, segments, time_step)?) as Box<dyn BoundaryKernel>)
+        });
+        let conflict = Cell::new(false);
+        Self { soil, boundary, make_kernel, incident: None, conflict, prepared: None }
+    }
+
+    /// With other coefficients than [`TimeKernel`]'s: `make` is called with the elements, the soil
+    /// and the time step once that is known.
+    #[must_use]
+    pub fn with_kernel(
+        mut self,
+        make: impl Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel>> + Send + 'static,
+    ) -> Self {
+        self.make_kernel = Box::new(make);
+        self
+    }
+
+    /// With waves from below, which the boundary scatters (eq. 21). They take the place of the
+    /// scene's ground motion, which must then be at rest.
+    #[must_use]
+    pub fn with_incident_field(mut self, field: impl IncidentField + 'static) -> Self {
+        self.incident = Some(Box::new(field));
+        self
+    }
+
+    /// The soil.
+    pub fn soil(&self) -> &Soil {
+        &self.soil
+    }
+
+    /// The boundary.
+    pub fn boundary(&self) -> &Boundary {
+        &self.boundary
+    }
+
+    /// Displacements (2E, m; x first, then z down) of all elements at the end of the last step,
+    /// against the incident field; empty before [`Ground::prepare`].
+    pub fn displacement(&self) -> &[f64] {
+        self.prepared.as_ref().map_or(&[], |prepared| &prepared.displacement)
+    }
+}
+
+impl Prepared {
+    fn new(
+        boundary: &Boundary,
+        kernel: Box<dyn BoundaryKernel>,
+        time_step: f64,
+        incident: bool,
+    ) -> Result<Self> {
+        let (count, contact) = (boundary.segments().len(), boundary.contact());
+        same_length("elements of the boundary kernel", kernel.segments().len(), count)?;
+        let size = 2 * count;
+        let (mut g, mut h) = (vec![0.0; size * size], vec![0.0; size * size]);
+        kernel.coefficients(0, &mut g, &mut h)?;
+        let mut factor = DenseFactor::with_capacity(size);
+        if !factor.factor(&h, size) {
+            return Err(Error::Singular { matrix: "boundary operator", order: size });
+        }
+        let mut mobility = vec![0.0; 2 * contact.len() * size];
+        let mut loaded = vec![incident; size];
+        for (k, column) in mobility.chunks_exact_mut(size).enumerate() {
+            let source = component(contact, count, k);
+            loaded[source] = true;
+            for (i, value) in column.iter_mut().enumerate() {
+                *value = g[i * size + source];
+            }
+            factor.solve(column);
+        }
+        Ok(Self {
+            history: BoundaryHistory::new(kernel, loaded),
+            time_step,
+            factor,
+            first: if incident { g } else { Vec::new() },
+            mobility,
+            free: vec![0.0; size],
+            current: false,
+            displacement: vec![0.0; size],
+            scattering: vec![0.0; size],
+            traction: vec![0.0; size],
+        })
+    }
+
+    /// Makes `free` the one of the next step.
+    fn advance(&mut self, boundary: &Boundary, incident: Option<&dyn IncidentField>) -> Result<()> {
+        if self.current {
+            return Ok(());
+        }
+        self.history.evaluate(&mut self.free)?;
+        if let Some(field) = incident {
+            let time = (self.history.steps() as f64 + 0.5) * self.time_step;
+            scattering(boundary, field, time, &mut self.scattering);
+            dense_multiply_add(&self.first, 1.0, &self.scattering, &mut self.free);
+        }
+        self.factor.solve(&mut self.free);
+        self.current = true;
+        Ok(())
+    }
+
+    fn commit(&mut self, contact: &[usize], traction: &[f64]) {
+        let size = self.displacement.len();
+        self.displacement.copy_from_slice(&self.free);
+        self.traction.copy_from_slice(&self.scattering);
+        for (k, column) in self.mobility.chunks_exact(size).enumerate() {
+            let value = traction.get(k).copied().unwrap_or(0.0);
+            self.traction[component(contact, size / 2, k)] += value;
+            for (u, m) in self.displacement.iter_mut().zip(column) {
+                *u += m * value;
+            }
+        }
+        self.history.push(&self.displacement, &self.traction);
+        self.current = false;
+    }
+}
+
+/// Minus the tractions of the incident field at the midpoints.
+fn scattering(boundary: &Boundary, field: &dyn IncidentField, time: f64, out: &mut [f64]) {
+    let (along, down) = out.split_at_mut(boundary.segments().len());
+    for ((segment, x), z) in boundary.segments().iter().zip(along).zip(down) {
+        let [xx, zz, xz] = field.stress(segment.center(), time);
+        let n = segment.normal();
+        *x = -(xx * n[0] + xz * n[1]);
+        *z = -(xz * n[0] + zz * n[1]);
+    }
+}
+
+impl Ground for FullPlaneGround {
+    fn elements(&self) -> &[ContactElement] {
+        self.boundary.contact_elements()
+    }
+
+    fn prepare(&mut self, time_step: f64) -> Result<()> {
+        if self.incident.is_none() && !self.boundary.is_flat() {
+            return Err(Error::Scene {
+                quantity: "full-plane ground",
+                needed: "a boundary that is not flat scatters the ground motion and needs \
+                         `with_incident_field`",
+            });
+        }
+        let kernel = (self.make_kernel)(self.boundary.segments(), self.soil, time_step)?;
+        let incident = self.incident.is_some();
+        self.prepared = Some(Prepared::new(&self.boundary, kernel, time_step, incident)?);
+        self.conflict.set(false);
+        Ok(())
+    }
+
+    fn reserve(&mut self, steps: usize) -> Result<()> {
+        match &mut self.prepared {
+            Some(prepared) => prepared.history.reserve(steps),
+            None => Err(NOT_PREPARED),
+        }
+    }
+
+    /// Not symmetric.
+    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+        let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
+        let (count, contact) = (self.boundary.segments().len(), self.boundary.contact());
+        let width = 2 * contact.len();
+        same_length("instantaneous operator", matrix.len(), width * width)?;
+        for (k, column) in prepared.mobility.chunks_exact(2 * count).enumerate() {
+            for i in 0..width {
+                matrix[i * width + k] = column[component(contact, count, i)];
+            }
+        }
+        Ok(())
+    }
+
+    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
+        let Some(prepared) = &mut self.prepared else { return Err(NOT_PREPARED) };
+        if self.conflict.get() {
+            return Err(TWO_MOTIONS);
+        }
+        let (count, contact) = (self.boundary.segments().len(), self.boundary.contact());
+        same_length("displacement of the history", displacement.len(), 2 * contact.len())?;
+        prepared.advance(&self.boundary, self.incident.as_deref())?;
+        for (k, value) in displacement.iter_mut().enumerate() {
+            *value = prepared.free[component(contact, count, k)];
+        }
+        Ok(())
+    }
+
+    fn commit(&mut self, traction: &[f64]) {
+        if let Some(prepared) = &mut self.prepared {
+            // After a failure here, the next history fails in the same way.
+            if prepared.advance(&self.boundary, self.incident.as_deref()).is_ok() {
+                prepared.commit(self.boundary.contact(), traction);
+            }
+        }
+    }
+
+    /// On a flat boundary that of the half-plane, whose free surface has no end; otherwise from the
+    /// static limit of the same boundary equation (not symmetric).
+    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        let elements = self.elements();
+        let count = elements.len();
+        same_length("static compliance", matrix.len(), 4 * count * count)?;
+        let datum = 10.0 * (elements[count - 1].right - elements[0].left);
+        if self.boundary.is_flat() {
+            return StaticKernel::new(&self.soil, datum)?.compliance(elements, matrix);
+        }
+        let (segments, contact) = (self.boundary.segments(), self.boundary.contact());
+        static_compliance(&self.soil, segments, contact, datum, matrix)
+    }
+
+    /// The incident field at the midpoints, if there is one; the scene's own motion otherwise.
+    /// Both at once are refused: the values are not finite, and the next history is an error.
+    fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
+        let (contact, segments) = (self.boundary.contact(), self.boundary.segments());
+        let (down, along) = displacement.split_at_mut(contact.len().min(displacement.len()));
+        for ((&e, down), along) in contact.iter().zip(down).zip(along) {
+            let center = segments[e].center();
+            let [horizontal, vertical] = motion.displacement(center[0], time);
+            (*along, *down) = (horizontal, -vertical);
+            if let Some(field) = &self.incident {
+                let moves = horizontal != 0.0 || vertical != 0.0;
+                if moves {
+                    self.conflict.set(true);
+                }
+                [*along, *down] = field.displacement(center, time);
+                if moves {
+                    (*along, *down) = (f64::NAN, f64::NAN);
+                }
+            }
+        }
+    }
+}
+
+const NOT_PREPARED: Error = Error::Scene {
+    quantity: "full-plane ground",
+    needed: "`prepare` must be called with the time step first",
+};
+
+const TWO_MOTIONS: Error = Error::Scene {
+    quantity: "ground motion",
+    needed: "none in the scene: the full-plane ground has an incident field of its own",
+};

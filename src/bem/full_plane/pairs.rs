@@ -1,0 +1,115 @@
+//! Pairs of elements that see each other in the same way, each kind once.
+
+use std::collections::HashMap;
+
+use super::Segment;
+
+/// Coefficients of a pair in G and in H: `[row][column]`, row the receiver's component.
+pub(super) type PairBlocks = [[[f64; 2]; 2]; 2];
+
+/// Which pairs of midpoint and element are translations of each other; for horizontal elements
+/// also those that are mirror images.
+#[derive(Debug, Clone)]
+pub(super) struct PairClasses {
+    /// One (receiver, source) per class.
+    pub(super) classes: Vec<(usize, usize)>,
+    /// Receiver by receiver: class, and whether the mirror image is meant: xz and zx change sign.
+    pub(super) pairs: Vec<(usize, bool)>,
+}
+
+impl PairClasses {
+    pub(super) fn new(segments: &[Segment]) -> Self {
+        let far = |s: &Segment| s.from.iter().chain(&s.to).fold(0.0_f64, |m, x| m.max(x.abs()));
+        let span = segments.iter().map(far).fold(f64::MIN_POSITIVE, f64::max);
+        // Rounding of the nodes must not split a class: 1e-12 of the boundary is nothing.
+        #[allow(clippy::cast_possible_truncation, reason = "at most 2e12")]
+        let key = |length: f64| (length / span * 1e12).round() as i64;
+        let mut numbers = HashMap::new();
+        let mut classes = Vec::new();
+        let mut pairs = Vec::with_capacity(segments.len() * segments.len());
+        for (p, receiver) in segments.iter().enumerate() {
+            for (q, source) in segments.iter().enumerate() {
+                let (x, y) = (receiver.center(), source.center());
+                let across =
+                    [key(source.to[0] - source.from[0]), key(source.to[1] - source.from[1])];
+                let offset = [key(y[0] - x[0]), key(y[1] - x[1])];
+                let mirrored = across[1] == 0 && offset[0] < 0;
+                let place = [if mirrored { -offset[0] } else { offset[0] }, offset[1]];
+                let (class, other) = *numbers.entry((across, place)).or_insert_with(|| {
+                    classes.push((p, q));
+                    (classes.len() - 1, mirrored)
+                });
+                pairs.push((class, mirrored != other));
+            }
+        }
+        Self { classes, pairs }
+    }
+
+    /// Overwrites G and H with what `local` says of each class in the axes (d, n) of the source,
+    /// given its ends along d and its height along n as seen from the receiver's midpoint.
+    pub(super) fn fill(
+        &self,
+        segments: &[Segment],
+        g: &mut [f64],
+        h: &mut [f64],
+        free_term: f64,
+        local: impl Fn([f64; 2], f64) -> PairBlocks,
+    ) {
+        let count = segments.len();
+        let blocks: Vec<PairBlocks> = self
+            .classes
+            .iter()
+            .map(|&(p, q)| {
+                let (ends, height) = view(segments[p].center(), &segments[q], p == q);
+                let axes = [segments[q].direction(), segments[q].normal()];
+                local(ends, height).map(|block| turn(block, axes))
+            })
+            .collect();
+        for (p, pairs) in self.pairs.chunks_exact(count).enumerate() {
+            for (q, &(class, mirrored)) in pairs.iter().enumerate() {
+                for (block, matrix) in blocks[class].iter().zip([&mut *g, &mut *h]) {
+                    for i in 0..2 {
+                        for j in 0..2 {
+                            let value = if mirrored && i != j { -block[i][j] } else { block[i][j] };
+                            matrix[(i * count + p) * 2 * count + j * count + q] = value;
+                        }
+                    }
+                }
+            }
+        }
+        for k in 0..2 * count {
+            h[k * 2 * count + k] += free_term;
+        }
+    }
+}
+
+/// Ends along the element's direction and height along its normal, as seen from `point`.
+pub(super) fn view(point: [f64; 2], element: &Segment, itself: bool) -> ([f64; 2], f64) {
+    let half = 0.5 * element.length();
+    if itself {
+        return ([-half, half], 0.0);
+    }
+    let (d, n, y) = (element.direction(), element.normal(), element.center());
+    let offset = [y[0] - point[0], y[1] - point[1]];
+    let along = offset[0] * d[0] + offset[1] * d[1];
+    let height = offset[0] * n[0] + offset[1] * n[1];
+    // Points on the element's line are so but for rounding.
+    let size = offset[0].hypot(offset[1]);
+    let height = if height.abs() < 1e-13 * size { 0.0 } else { height };
+    ([along - half, along + half], height)
+}
+
+/// Components (x, z) of a block in the axes (d, n).
+fn turn(block: [[f64; 2]; 2], axes: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    let mut out = [[0.0; 2]; 2];
+    for (i, row) in out.iter_mut().enumerate() {
+        for (j, value) in row.iter_mut().enumerate() {
+            for a in 0..2 {
+                for b in 0..2 {
+                    *value += axes[a][i] * block[a][b] * axes[b][j];
+                }
+            }
+        }
+    }
+    out
+}

@@ -1,0 +1,79 @@
+//! The static limit of the boundary equation (Kelvin's solution).
+//!
+//! With time the functions of [`super::step_integrals`] tend to D = (c₂⁻²−c₁⁻²)/2, Q = c⁻², and
+//! L₁ + L₂ to −(c₁⁻²+c₂⁻²) ln(r/L₀), L₀ a length that no static plane fixes.
+
+use super::Segment;
+use super::pairs::PairClasses;
+use crate::error::{Error, Result};
+use crate::linalg::DenseFactor;
+use crate::soil::Soil;
+
+/// The primitives of displacement (dd, dn, nn; 1/2πρ) and traction (μ/2πρ) at one end.
+fn primitive(square: [f64; 2], lame: f64, s: f64, h: f64, datum: f64) -> [f64; 7] {
+    let r = s.hypot(h);
+    let d = 0.5 * (square[1] - square[0]);
+    let growth = -(square[0] + square[1]);
+    let log = (r / datum).ln();
+    let angle = if h == 0.0 { 0.0 } else { (s / h).atan() };
+    let logs = s * log - s + h * angle;
+    let middle = 0.5 * (growth * logs - d * s);
+    let dd = middle + d * (s - h * angle);
+    let nn = middle + d * h * angle;
+    let dn = d * h * log;
+    // ∫ h/r², s/r², s h²/r⁴, h³/r⁴; D and Q are constants.
+    let (one, two) = (angle, log);
+    let three = -0.5 * (h / r).powi(2);
+    let four = 0.5 * (h * s / (r * r) + angle);
+    let bend = 8.0 * d + 2.0 * (square[0] - square[1]);
+    let across = 2.0 * d * two - bend * three;
+    [
+        dd,
+        dn,
+        nn,
+        (2.0 * d - square[1]) * one - bend * (one - four),
+        across - square[1] * two,
+        across - lame * square[0] * two,
+        (6.0 * d - 2.0 * square[1] - lame * square[0]) * one - bend * four,
+    ]
+}
+
+/// Static displacements of the elements `contact` per unit traction on them, 2Q × 2Q in the order
+/// of contact vectors; all other elements free.
+pub(super) fn static_compliance(
+    soil: &Soil,
+    segments: &[Segment],
+    contact: &[usize],
+    datum: f64,
+    matrix: &mut [f64],
+) -> Result<()> {
+    let count = segments.len();
+    let size = 2 * count;
+    let square = [soil.pressure_wave_speed(), soil.shear_wave_speed()].map(|c| 1.0 / (c * c));
+    let lame = 2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson());
+    let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density());
+    let (mut g, mut h) = (vec![0.0; size * size], vec![0.0; size * size]);
+    PairClasses::new(segments).fill(segments, &mut g, &mut h, 0.5, |ends, height| {
+        let [low, high] = ends.map(|s| primitive(square, lame, s, height, datum));
+        let at = |k: usize| unit * (high[k] - low[k]);
+        let mu = soil.shear_modulus();
+        [[[at(0), at(1)], [at(1), at(2)]], [[mu * at(3), mu * at(5)], [mu * at(4), mu * at(6)]]]
+    });
+    let mut factor = DenseFactor::with_capacity(size);
+    if !factor.factor(&h, size) {
+        return Err(Error::Singular { matrix: "static boundary operator", order: size });
+    }
+    let width = 2 * contact.len();
+    let mut column = vec![0.0; size];
+    for k in 0..width {
+        let source = super::ground::component(contact, count, k);
+        for (i, value) in column.iter_mut().enumerate() {
+            *value = g[i * size + source];
+        }
+        factor.solve(&mut column);
+        for i in 0..width {
+            matrix[i * width + k] = column[super::ground::component(contact, count, i)];
+        }
+    }
+    Ok(())
+}

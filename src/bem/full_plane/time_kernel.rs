@@ -1,0 +1,168 @@
+//! Coefficients in time: the formulation of the paper, with exact integrals.
+
+use super::pairs::PairClasses;
+use super::segment::check_segments;
+use super::smooth_integrals::smooth_integrals;
+use super::step_integrals::{Integrals, Medium, step_integrals};
+use super::{BoundaryKernel, Segment};
+use crate::error::{Error, Result, positive, same_length};
+use crate::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
+use crate::soil::Soil;
+
+/// Boundary coefficients of Patel & Spyrakos (eqs. 2–4): displacements and tractions constant over
+/// element and step, collocation at midpoints and step ends.
+///
+/// Integrals over element and step are exact: differences in time of closed forms for a load H(t),
+/// and Gauss rules where no wave front is inside, so that late coefficients keep their digits.
+///
+/// The scheme is not stable for every step: see [the module](super).
+///
+/// ```
+/// use basemat::Soil;
+/// use basemat::bem::full_plane::{BoundaryKernel, Segment, TimeKernel};
+/// let soil = Soil::new(80.0e6, 0.25, 2000.0)?;
+/// let element = Segment { from: [-0.5, 0.0], to: [0.5, 0.0] };
+/// let kernel = TimeKernel::new(soil, &[element], 1.0e-4)?;
+/// let (mut g, mut h) = ([0.0; 4], [0.0; 4]);
+/// kernel.coefficients(0, &mut g, &mut h)?;
+/// // Before waves reach its ends, an element moves by t/(2 ρ c) either side of the plane.
+/// let plane_wave = 1.0e-4 / (2.0 * 2000.0 * soil.pressure_wave_speed());
+/// assert!((g[3] / plane_wave - 1.0).abs() < 1e-12);
+/// assert_eq!(h, [0.5, 0.0, 0.0, 0.5]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct TimeKernel {
+    segments: Vec<Segment>,
+    pairs: PairClasses,
+    soil: Soil,
+    medium: Medium,
+    time_step: f64,
+    subelements: Option<usize>,
+}
+
+impl TimeKernel {
+    /// Kernel for a soil, elements and steps of `time_step` seconds.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for no elements, [`Error::Input`] for an element without length, one that
+    /// passes through the midpoint of another, or a bad time step.
+    pub fn new(soil: Soil, segments: &[Segment], time_step: f64) -> Result<Self> {
+        check_segments(segments)?;
+        positive("time step", time_step)?;
+        positive("shear wave travel in a step", soil.shear_wave_speed() * time_step)?;
+        let poisson = soil.poisson();
+        let medium = Medium {
+            speeds: [soil.pressure_wave_speed(), soil.shear_wave_speed()],
+            lame: 2.0 * poisson / (1.0 - 2.0 * poisson),
+        };
+        let pairs = PairClasses::new(segments);
+        Ok(Self { segments: segments.to_vec(), pairs, soil, medium, time_step, subelements: None })
+    }
+
+    /// With midpoint rules over `count` sub-elements in place of exact integrals in space, as
+    /// printed in the paper (which takes five); sub-elements next to the load remain exact. For
+    /// comparison only: it is slower and less accurate.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for 0.
+    pub fn with_subelements(mut self, count: usize) -> Result<Self> {
+        if count == 0 {
+            return Err(Error::Input {
+                quantity: "number of sub-elements",
+                value: 0.0,
+                needed: "at least 1",
+            });
+        }
+        self.subelements = Some(count);
+        Ok(self)
+    }
+
+    /// The soil.
+    pub fn soil(&self) -> &Soil {
+        &self.soil
+    }
+
+    /// Seconds per step.
+    pub fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// Integrals of one element over one step, in its axes.
+    fn local(&self, ends: [f64; 2], h: f64, lag: usize) -> Integrals {
+        let (begin, end) = (lag as f64 * self.time_step, (lag as f64 + 1.0) * self.time_step);
+        if let Some(count) = self.subelements {
+            return self.by_subelements(ends, h, [begin, end], count);
+        }
+        self.exact(ends, h, [begin, end])
+    }
+
+    fn exact(&self, ends: [f64; 2], h: f64, [begin, end]: [f64; 2]) -> Integrals {
+        if let Some(integrals) = smooth_integrals(&self.medium, ends, h, [begin, end]) {
+            return integrals;
+        }
+        let mut integrals = step_integrals(&self.medium, ends, h, end);
+        if begin > 0.0 {
+            integrals.add(-1.0, &step_integrals(&self.medium, ends, h, begin));
+        }
+        integrals
+    }
+
+    fn by_subelements(
+        &self,
+        ends: [f64; 2],
+        h: f64,
+        [begin, end]: [f64; 2],
+        count: usize,
+    ) -> Integrals {
+        let plane = FullPlane::new(self.soil);
+        let length = (ends[1] - ends[0]) / count as f64;
+        let unit = 2.0 * std::f64::consts::PI * self.soil.density() * length;
+        let mut sum = Integrals::default();
+        for k in 0..count {
+            let first = ends[0] + k as f64 * length;
+            let middle = first + 0.5 * length;
+            if middle.hypot(h) < length {
+                sum.add(1.0, &self.exact([first, first + length], h, [begin, end]));
+                continue;
+            }
+            for (sign, time) in [(1.0, end), (-1.0, begin)] {
+                let (offset, step) = ([middle, h], LoadHistory::Step);
+                let (Ok(u), Ok(t)) = (
+                    plane.displacement(offset, time, step),
+                    plane.traction(offset, [0.0, 1.0], time, step),
+                ) else {
+                    continue;
+                };
+                let scale = sign * unit;
+                let t = t.map(|row| row.map(|t| t / self.soil.shear_modulus()));
+                let value = Integrals { displacement: [u[0][0], u[0][1], u[1][1]], traction: t };
+                sum.add(scale, &value);
+            }
+        }
+        sum
+    }
+}
+
+impl BoundaryKernel for TimeKernel {
+    fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
+        let size = 2 * self.segments.len();
+        same_length("displacement coefficients", g.len(), size * size)?;
+        same_length("traction coefficients", h.len(), size * size)?;
+        let unit = 1.0 / (2.0 * std::f64::consts::PI * self.soil.density());
+        let scales = [unit, unit * self.soil.shear_modulus()];
+        let free = if lag == 0 { 0.5 } else { 0.0 };
+        self.pairs.fill(&self.segments, g, h, free, |ends, height| {
+            let local = self.local(ends, height, lag);
+            let [dd, dn, nn] = local.displacement.map(|u| u * scales[0]);
+            let t = local.traction.map(|row| row.map(|t| t * scales[1]));
+            // The load of the boundary equation belongs to the row.
+            [[[dd, dn], [dn, nn]], [[t[0][0], t[1][0]], [t[0][1], t[1][1]]]]
+        });
+        Ok(())
+    }
+}
