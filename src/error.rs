@@ -99,6 +99,17 @@ pub enum Error {
     /// A run could not be saved or resumed.
     #[error("checkpoint: {0}")]
     Checkpoint(CheckpointError),
+    /// A boundary equation whose perturbations grow from step to step.
+    #[error(
+        "the boundary equation is unstable with this time step: {growing_modes} modes grow, the \
+         fastest by {growth_per_step:.1e} per step (take a longer step, or another kernel)"
+    )]
+    Unstable {
+        /// Factor minus one by which the fastest mode grows in a step.
+        growth_per_step: f64,
+        /// Number of growing modes.
+        growing_modes: usize,
+    },
     /// A time step that could not be solved; the simulation stays at the last accepted step.
     #[error("step {step} (t = {time} s): {source}")]
     Step {

@@ -15,21 +15,32 @@
 
 mod boundary;
 mod convolution;
+mod convolution_quadrature;
 mod ground;
 mod incident;
+mod laplace;
+mod laplace_bessel;
+mod laplace_element;
+mod laplace_late;
 mod march;
 mod pairs;
 mod segment;
 mod smooth_integrals;
+mod stability;
+mod stability_passivity;
+mod stability_symbol;
+mod stability_zeros;
 mod static_limit;
 mod step_integrals;
 mod time_kernel;
 
 pub use boundary::Boundary;
+pub use convolution_quadrature::{ConvolutionQuadrature, CqMethod};
 pub use ground::FullPlaneGround;
 pub use incident::{IncidentField, VerticalWaves};
 pub use march::{BoundaryMarch, Given};
 pub use segment::Segment;
+pub use stability::{BoundaryCondition, Stability};
 pub use time_kernel::TimeKernel;
 
 use crate::error::Result;
@@ -46,4 +57,15 @@ pub trait BoundaryKernel: Send + Sync {
     /// # Errors
     /// For slices of the wrong length.
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()>;
+
+    /// Overwrites `g` and `h` (each 2E × 2E complex numbers, row-major, real and imaginary part by
+    /// turns) with the power series Σ Gⁿζⁿ and Σ Hⁿζⁿ at `zeta`, |ζ| ≤ 1 and ζ ≠ 1, if they are
+    /// known as transforms at some s, and returns that s (1/s, real and imaginary part). The
+    /// default knows none.
+    ///
+    /// # Errors
+    /// For slices of the wrong length.
+    fn symbol(&self, _zeta: [f64; 2], _g: &mut [f64], _h: &mut [f64]) -> Result<Option<[f64; 2]>> {
+        Ok(None)
+    }
 }

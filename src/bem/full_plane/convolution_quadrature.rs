@@ -1,0 +1,325 @@
+//! Convolution quadrature of the boundary equation [Lubich 1988].
+//!
+//! With the generating function δ(ζ) of a backward-differentiation formula, the coefficients of
+//! a transformed operator K(s) are those of the power series K(δ(ζ)/Δt) = Σ ωₙ ζⁿ. Early lags come
+//! from Cauchy's integral over |ζ| = λ by an FFT of L points,
+//!
+//! ```text
+//! ωₙ = λ^{−n}/L Σ_l K(δ(λ e^{2πil/L})/Δt) e^{−2πiln/L} − Σ_{j≥1} λ^{jL} ω_{n+jL} ,
+//! ```
+//!
+//! where the second sum, the trapezoidal rule's alias, is known: L is chosen so that all lags
+//! beyond it are late ones in the closed form of [`super::laplace_late`]. So λ need not be small
+//! (λ^L = 1/100 here instead of the usual √ε^…), at most two digits are lost to rounding, and the
+//! number of frequencies, L/2 + 1 by symmetry, depends on how long waves cross the boundary and
+//! not on how long the march is.
+
+use std::collections::HashMap;
+use std::f64::consts::TAU;
+
+use realfft::RealFftPlanner;
+
+use crate::error::{Error, Result, positive, same_length};
+use crate::soil::Soil;
+
+use super::laplace::LaplacePlane;
+use super::laplace_bessel::Complex64;
+use super::laplace_element::{Block, View, integrate};
+use super::laplace_late::{LogTerms, TERMS, first_lag, log_terms, weights};
+use super::{BoundaryKernel, Segment};
+
+/// Backward-differentiation formula behind a convolution quadrature.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CqMethod {
+    /// δ = 1 − ζ: first order, strongly damped.
+    Bdf1,
+    /// δ = (1 − ζ) + (1 − ζ)²/2: second order.
+    #[default]
+    Bdf2,
+}
+
+impl CqMethod {
+    /// δ(ζ).
+    pub(super) fn symbol(self, zeta: Complex64) -> Complex64 {
+        let difference = 1.0 - zeta;
+        match self {
+            Self::Bdf1 => difference,
+            Self::Bdf2 => difference * (1.0 + 0.5 * difference),
+        }
+    }
+}
+
+/// The full-plane boundary equation by convolution quadrature.
+///
+/// Coefficients multiply **point values**: Σ ω_{N−m} f(mΔt) approximates the convolution at NΔt at
+/// the method's order for smooth f that starts smoothly from rest, where a time-domain kernel
+/// takes values as held over whole steps. For n well beyond the waves' travel time, ωₙ is Δt times
+/// the impulse response at nΔt up to the relative order n⁻² (BDF2) or n⁻¹ (BDF1).
+///
+/// Early coefficients are good to about 1e-13 of the largest one; late ones to as many relative
+/// digits, at any lag.
+///
+/// ```
+/// use basemat::Soil;
+/// use basemat::bem::full_plane::{BoundaryKernel, ConvolutionQuadrature, CqMethod, Segment};
+///
+/// let soil = Soil::new(80.0e6, 1.0 / 3.0, 1900.0)?;
+/// let flat: Vec<_> =
+///     (0..4).map(|i| f64::from(i)).map(|x| Segment { from: [x, 0.0], to: [x + 1.0, 0.0] }).collect();
+/// let step = 1.0 / soil.shear_wave_speed();
+/// let kernel = ConvolutionQuadrature::new(soil, &flat, step, CqMethod::Bdf2)?;
+///
+/// let (mut g, mut h) = ([0.0; 64], [0.0; 64]);
+/// kernel.coefficients(0, &mut g, &mut h)?;
+/// assert!((h[0] - 0.5).abs() < 1e-12);
+/// // Once the waves have passed, G decays like 1/n.
+/// kernel.coefficients(10_000, &mut g, &mut h)?;
+/// let before = g[0];
+/// kernel.coefficients(20_000, &mut g, &mut h)?;
+/// assert!((before / g[0] - 2.0).abs() < 1e-6);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct ConvolutionQuadrature {
+    soil: Soil,
+    segments: Vec<Segment>,
+    time_step: f64,
+    method: CqMethod,
+    /// Different views of an element from a midpoint, and which one each pair (i, j) is.
+    views: Vec<View>,
+    view_of: Vec<usize>,
+    /// Closed form of the late lags of each view, for distances up to ρ c₂ Δt.
+    late: Vec<LogTerms>,
+    rho: f64,
+    /// Early lags: blocks of all views, lag after lag.
+    early: Vec<[f64; 8]>,
+    lags: usize,
+}
+
+impl ConvolutionQuadrature {
+    /// The equation on `segments` with steps of `time_step` seconds.
+    ///
+    /// Costs L/2 + 1 evaluations of the Laplace-domain matrices, L about three times the steps
+    /// that an S wave needs across the boundary; pairs that look alike are evaluated once.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a step or an element's length that is not finite and above zero, or
+    /// coordinates that are not finite; [`Error::Size`] without elements.
+    pub fn new(soil: Soil, segments: &[Segment], time_step: f64, method: CqMethod) -> Result<Self> {
+        positive("time step", time_step)?;
+        if segments.is_empty() {
+            return Err(Error::Size { quantity: "segments", found: 0, needed: 1 });
+        }
+        for segment in segments {
+            positive("length of a boundary element", segment.length())?;
+        }
+        let (views, view_of) = views(segments);
+        let reach = views.iter().map(View::reach).fold(0.0, f64::max);
+        let rho = positive("boundary over wave travel in a step", reach)?
+            / (soil.shear_wave_speed() * time_step);
+        if !(rho < LARGEST_RHO) {
+            return Err(Error::Input {
+                quantity: "steps that an S wave needs across the boundary",
+                value: rho,
+                needed: "below 1e5",
+            });
+        }
+        let late = views.iter().map(|view| log_terms(&soil, view, reach)).collect();
+        let lags = first_lag(method, rho).next_power_of_two();
+        let segments = segments.to_vec();
+        let early = vec![];
+        let mut kernel =
+            Self { soil, segments, time_step, method, views, view_of, late, rho, early, lags };
+        kernel.early = kernel.contour();
+        Ok(kernel)
+    }
+
+    /// The formula.
+    pub fn method(&self) -> CqMethod {
+        self.method
+    }
+
+    /// Step, s.
+    pub fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// Number of lags from Lubich's contour; later ones are in closed form.
+    pub fn contour_lags(&self) -> usize {
+        self.lags
+    }
+
+    /// Blocks of all views at δ(ζ)/Δt, with the free term.
+    fn blocks(&self, zeta: Complex64) -> impl Iterator<Item = Block> {
+        let plane = LaplacePlane::new(&self.soil, self.method.symbol(zeta) / self.time_step);
+        self.views.iter().map(move |view| {
+            let mut block = integrate(&plane, view);
+            if view.own {
+                block[4] += 0.5;
+                block[7] += 0.5;
+            }
+            block
+        })
+    }
+
+    /// Early lags by Cauchy's integral, alias taken away.
+    fn contour(&self) -> Vec<[f64; 8]> {
+        let (lags, count) = (self.lags, self.views.len());
+        let points = lags as f64;
+        let radius = CONTOUR.powf(1.0 / points);
+        let frequencies = lags / 2 + 1;
+        let mut spectra = vec![Complex64::default(); 8 * count * frequencies];
+        for l in 0..frequencies {
+            let zeta = Complex64::from_polar(radius, TAU * l as f64 / points);
+            for (view, block) in self.blocks(zeta).enumerate() {
+                for (k, value) in block.iter().enumerate() {
+                    // The inverse transform has the other sign in its exponent.
+                    spectra[(8 * view + k) * frequencies + l] = value.conj();
+                }
+            }
+        }
+        let inverse = RealFftPlanner::new().plan_fft_inverse(lags);
+        let mut series = inverse.make_output_vec();
+        let mut scratch = inverse.make_scratch_vec();
+        let mut early = vec![[0.0; 8]; count * lags];
+        for (index, spectrum) in spectra.chunks_exact_mut(frequencies).enumerate() {
+            if spectrum.iter().all(|value| *value == Complex64::default()) {
+                continue;
+            }
+            spectrum[0].im = 0.0;
+            spectrum[frequencies - 1].im = 0.0;
+            // Lengths are those of the plan.
+            if inverse.process_with_scratch(spectrum, &mut series, &mut scratch).is_err() {
+                continue;
+            }
+            for (n, value) in series.iter().enumerate() {
+                early[n * count + index / 8][index % 8] = value * radius.powf(-(n as f64)) / points;
+            }
+        }
+        let mut alias = CONTOUR;
+        for j in 1..=ALIASES {
+            for n in 0..lags {
+                let weights = weights(self.method, n + j * lags, self.rho);
+                for (view, block) in early[n * count..][..count].iter_mut().enumerate() {
+                    let late = self.late(view, &weights);
+                    for (entry, late) in block.iter_mut().zip(late) {
+                        *entry -= alias * late;
+                    }
+                }
+            }
+            alias *= CONTOUR;
+        }
+        early
+    }
+
+    /// Late coefficients of a view, from the weights of their lag.
+    fn late(&self, view: usize, weights: &[f64; TERMS]) -> [f64; 8] {
+        let mut block = [0.0; 8];
+        for (terms, weight) in self.late[view].iter().zip(weights) {
+            for (entry, term) in block.iter_mut().zip(terms) {
+                *entry += weight * term;
+            }
+        }
+        block
+    }
+
+    fn check<T>(&self, g: &[T], h: &[T]) -> Result<()> {
+        let needed = 4 * self.segments.len() * self.segments.len();
+        same_length("coefficients g", g.len(), needed)?;
+        same_length("coefficients h", h.len(), needed)
+    }
+}
+
+/// λ^L.
+const CONTOUR: f64 = 0.01;
+
+/// Alias terms: λ^{jL}/(jL) beyond is below rounding.
+const ALIASES: usize = 7;
+
+/// Largest number of steps across the boundary: more would need too much memory.
+const LARGEST_RHO: f64 = 1e5;
+
+/// Different views among all pairs, up to rounding, and which one each pair (row, column) is.
+fn views(segments: &[Segment]) -> (Vec<View>, Vec<usize>) {
+    let extent = segments
+        .iter()
+        .flat_map(|segment| [segment.from, segment.to])
+        .flat_map(|[x, z]| [x - segments[0].from[0], z - segments[0].from[1]])
+        .fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    // Offsets that agree to so many units in the last place are equal.
+    let grid = 1e-12 * extent;
+    let mut known = HashMap::new();
+    let mut views = vec![];
+    let mut view_of = Vec::with_capacity(segments.len() * segments.len());
+    for (row, point) in segments.iter().enumerate() {
+        let [x, z] = point.center();
+        for (column, segment) in segments.iter().enumerate() {
+            let view = View {
+                from: [segment.from[0] - x, segment.from[1] - z],
+                to: [segment.to[0] - x, segment.to[1] - z],
+                own: row == column,
+            };
+            let [a, b] = [view.from, view.to];
+            #[allow(clippy::cast_possible_truncation, reason = "below 1e13 by the grid's choice")]
+            let key = [a[0], a[1], b[0], b[1]].map(|offset| (offset / grid).round() as i64);
+            view_of.push(*known.entry((key, view.own)).or_insert_with(|| {
+                views.push(view);
+                views.len() - 1
+            }));
+        }
+    }
+    (views, view_of)
+}
+
+/// Writes the blocks of all pairs into matrices whose entries hold `width` numbers.
+fn scatter<const WIDTH: usize>(
+    count: usize,
+    view_of: &[usize],
+    block: impl Fn(usize) -> [[f64; WIDTH]; 8],
+    g: &mut [f64],
+    h: &mut [f64],
+) {
+    for row in 0..count {
+        for column in 0..count {
+            let block = block(view_of[row * count + column]);
+            for i in 0..2 {
+                for j in 0..2 {
+                    let place = WIDTH * ((i * count + row) * 2 * count + j * count + column);
+                    g[place..place + WIDTH].copy_from_slice(&block[2 * i + j]);
+                    h[place..place + WIDTH].copy_from_slice(&block[4 + 2 * i + j]);
+                }
+            }
+        }
+    }
+}
+
+impl BoundaryKernel for ConvolutionQuadrature {
+    fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
+        self.check(g, h)?;
+        let (count, views) = (self.segments.len(), self.views.len());
+        if lag < self.lags {
+            let early = &self.early[lag * views..][..views];
+            scatter(count, &self.view_of, |view| early[view].map(|x| [x]), g, h);
+        } else {
+            let weights = weights(self.method, lag, self.rho);
+            let late: Vec<_> = (0..views).map(|view| self.late(view, &weights)).collect();
+            scatter(count, &self.view_of, |view| late[view].map(|x| [x]), g, h);
+        }
+        Ok(())
+    }
+
+    fn symbol(&self, zeta: [f64; 2], g: &mut [f64], h: &mut [f64]) -> Result<Option<[f64; 2]>> {
+        let count = self.segments.len();
+        same_length("symbol of g", g.len(), 8 * count * count)?;
+        same_length("symbol of h", h.len(), 8 * count * count)?;
+        let zeta = Complex64::new(zeta[0], zeta[1]);
+        let s = self.method.symbol(zeta) / self.time_step;
+        let blocks: Vec<_> = self.blocks(zeta).collect();
+        scatter(count, &self.view_of, |view| blocks[view].map(|x| [x.re, x.im]), g, h);
+        Ok(Some([s.re, s.im]))
+    }
+}

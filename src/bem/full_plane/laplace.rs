@@ -1,0 +1,111 @@
+//! Fundamental solution of the full elastic plane in the Laplace domain.
+//!
+//! A line load e^{st} in direction j at the origin (Cruse & Rizzo 1968; Eringen & Suhubi 1975,
+//! § 5.10 transformed):
+//!
+//! * `U_ij` = (1/2πρ) {`δ_ij` K₀(z₂)/c₂² + s⁻² ∂ᵢ∂ⱼ [K₀(z₁) − K₀(z₂)]} = ψ `δ_ij` − χ `e_i` `e_j`
+//! * 2πρ ψ = K₀(z₂)/c₂² + K₁(z₂)/(z₂c₂²) − K₁(z₁)/(z₁c₁²)
+//! * 2πρ χ = K₂(z₂)/c₂² − K₂(z₁)/c₁²
+//! * 2πρ rψ' = −z₂K₁(z₂)/c₂² − 2πρ χ
+//! * 2πρ rχ' = −4πρ χ − z₂K₁(z₂)/c₂² + z₁K₁(z₁)/c₁²
+//!
+//! Near the load the poles 1/z² of K₁/z, and 2/z² of K₂ = K₀ + 2K₁/z, cancel between both waves:
+//! there they are left out beforehand.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | s | Laplace's variable, Re s > 0, 1/s |
+//! | r, e | distance from the load and unit vector of the offset |
+//! | c₁, c₂ | P and S wave speeds |
+//! | z₁, z₂ | s r/c₁, s r/c₂ |
+
+use std::f64::consts::PI;
+
+use crate::soil::Soil;
+
+use super::laplace_bessel::{Complex64, SERIES_REACH, modified};
+
+/// The full plane of a soil at one s.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LaplacePlane {
+    /// s/c₁, 1/m.
+    pub(super) pressure: Complex64,
+    /// s/c₂, 1/m.
+    pub(super) shear: Complex64,
+    /// 1/c₁² and 1/c₂² over 2πρ.
+    pub(super) weights: [f64; 2],
+    shear_modulus: f64,
+    /// λ/μ.
+    lame: f64,
+}
+
+/// ψ, χ, rψ' and rχ'.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Radial {
+    pub(super) psi: Complex64,
+    pub(super) chi: Complex64,
+    pub(super) psi_slope: Complex64,
+    pub(super) chi_slope: Complex64,
+}
+
+/// Displacements and tractions at a point.
+pub(super) type Pair = ([[Complex64; 2]; 2], [[Complex64; 2]; 2]);
+
+impl LaplacePlane {
+    pub(super) fn new(soil: &Soil, s: Complex64) -> Self {
+        let (fast, slow) = (soil.pressure_wave_speed(), soil.shear_wave_speed());
+        let unit = 1.0 / (2.0 * PI * soil.density());
+        let nu = soil.poisson();
+        Self {
+            pressure: s / fast,
+            shear: s / slow,
+            weights: [unit / (fast * fast), unit / (slow * slow)],
+            shear_modulus: soil.shear_modulus(),
+            lame: 2.0 * nu / (1.0 - 2.0 * nu),
+        }
+    }
+
+    pub(super) fn radial(&self, r: f64) -> Radial {
+        let z = self.shear * r;
+        let regular = z.norm() <= SERIES_REACH;
+        let shear = modified(z, regular);
+        let pressure = modified(self.pressure * r, regular);
+        let [fast, slow] = self.weights;
+        let psi = slow * (shear.zeroth + shear.quotient) - fast * pressure.quotient;
+        let chi = slow * (shear.zeroth + 2.0 * shear.quotient)
+            - fast * (pressure.zeroth + 2.0 * pressure.quotient);
+        let front = slow * shear.product;
+        Radial {
+            psi,
+            chi,
+            psi_slope: -front - chi,
+            chi_slope: -2.0 * chi - front + fast * pressure.product,
+        }
+    }
+
+    /// `u[i][j]` and `t[i][j]`, components i at `offset` with unit normal `normal`, load j.
+    pub(super) fn kernels(&self, offset: [f64; 2], normal: [f64; 2]) -> Pair {
+        let r = offset[0].hypot(offset[1]);
+        let e = [offset[0] / r, offset[1] / r];
+        let f = self.radial(r);
+        let along = e[0] * normal[0] + e[1] * normal[1];
+        let scale = self.shear_modulus / r;
+        let shear = scale * (f.psi_slope - f.chi);
+        let chi = 2.0 * scale * f.chi;
+        let triple = 2.0 * (chi - scale * f.chi_slope) * along;
+        let pressure = self.lame * (shear - scale * f.chi_slope);
+        let mut u = [[Complex64::default(); 2]; 2];
+        let mut t = u;
+        for i in 0..2 {
+            for j in 0..2 {
+                let (same, delta) =
+                    if i == j { (f.psi, along) } else { (Complex64::default(), 0.0) };
+                u[i][j] = same - f.chi * (e[i] * e[j]);
+                t[i][j] = shear * (delta + e[i] * normal[j]) + pressure * (e[j] * normal[i])
+                    - chi * (normal[i] * e[j])
+                    + triple * (e[i] * e[j]);
+            }
+        }
+        (u, t)
+    }
+}

@@ -1,0 +1,331 @@
+//! The symbols Σ Gⁿζⁿ and Σ Hⁿζⁿ of any kernel: early lags summed, late ones interpolated in 1/n.
+//!
+//! n·(Gⁿ, Hⁿ) of an elastic plane is analytic in x = N/n for n beyond the waves' travel time; its
+//! polynomial through Chebyshev points of 0 < x < 1 is summed in closed form,
+//!
+//! ```text
+//! Σ_{n≥N} ζⁿ (N/n)^p = 1/Γ(p) ∫₀^∞ y^{p−1} e^{−y} ζ^N / (1 − ζ e^{−y/N}) dy ,
+//! ```
+//!
+//! the integral by the trapezoidal rule in ln y, which converges exponentially: for |ζ| ≤ 1 the
+//! pole y = N ln ζ stays a quarter turn or more away.
+
+use std::f64::consts::{PI, TAU};
+
+use realfft::RealFftPlanner;
+use realfft::num_complex::Complex64;
+
+use crate::error::{Error, Result, same_length};
+use crate::linalg::{DenseFactor, largest};
+
+use super::BoundaryKernel;
+use super::stability::BoundaryCondition;
+
+/// Powers p = 1 … POWERS of N/n.
+const POWERS: usize = 10;
+
+/// Early lags tried, first and last.
+const FIRST: usize = 64;
+const LAST: usize = 4096;
+
+/// The interpolation is good enough once checked lags agree to this.
+const TAIL_TOLERANCE: f64 = 1e-9;
+
+/// Symbols of G and H, and the operator that they form.
+pub(super) struct Symbol<'a> {
+    kernel: &'a dyn BoundaryKernel,
+    prescribed: Vec<bool>,
+    /// Size of tractions that makes columns of G as large as those of H.
+    scale: f64,
+    /// Gⁿ and Hⁿ side by side (each 2E × 2E), early lags one after the other.
+    early: Vec<f64>,
+    /// Coefficients of (N/n)^p, p = 1 …, in the same layout.
+    late: Vec<f64>,
+    lags: usize,
+    tail_error: f64,
+}
+
+impl<'a> Symbol<'a> {
+    pub(super) fn new(
+        kernel: &'a dyn BoundaryKernel,
+        conditions: &[BoundaryCondition],
+    ) -> Result<Self> {
+        let count = kernel.segments().len();
+        same_length("boundary conditions", conditions.len(), count)?;
+        if count == 0 {
+            return Err(Error::Size { quantity: "segments", found: 0, needed: 1 });
+        }
+        let prescribed: Vec<_> = conditions
+            .iter()
+            .map(|condition| *condition == BoundaryCondition::PrescribedDisplacement)
+            .collect();
+        let prescribed = [prescribed.clone(), prescribed].concat();
+        let size = 4 * count * count;
+        let mut symbol = Self {
+            kernel,
+            prescribed,
+            scale: 1.0,
+            early: vec![0.0; 2 * size],
+            late: vec![],
+            lags: FIRST,
+            tail_error: 0.0,
+        };
+        symbol.read(0)?;
+        let (g, h) = symbol.early.split_at(size);
+        symbol.scale = largest(h) / largest(g);
+        if !symbol.scale.is_finite() {
+            return Err(Error::Singular { matrix: "coefficients of lag 0", order: 2 * count });
+        }
+        loop {
+            symbol.fit_tail()?;
+            if symbol.tail_error < TAIL_TOLERANCE || symbol.lags >= LAST {
+                break;
+            }
+            symbol.lags *= 2;
+        }
+        symbol.early.resize(2 * size * symbol.lags, 0.0);
+        for lag in 1..symbol.lags {
+            symbol.read(lag)?;
+        }
+        Ok(symbol)
+    }
+
+    /// Order 2E of the matrices.
+    pub(super) fn order(&self) -> usize {
+        self.prescribed.len()
+    }
+
+    pub(super) fn summed_lags(&self) -> usize {
+        self.lags
+    }
+
+    pub(super) fn tail_error(&self) -> f64 {
+        self.tail_error
+    }
+
+    /// For each of the 2E components, whether its displacement is prescribed.
+    pub(super) fn prescribed(&self) -> &[bool] {
+        &self.prescribed
+    }
+
+    /// Length of the element of each component.
+    pub(super) fn length(&self, component: usize) -> f64 {
+        let segments = self.kernel.segments();
+        segments[component % segments.len()].length()
+    }
+
+    fn stride(&self) -> usize {
+        2 * self.order() * self.order()
+    }
+
+    fn read(&mut self, lag: usize) -> Result<()> {
+        let stride = self.stride();
+        let (g, h) = self.early[lag * stride..][..stride].split_at_mut(stride / 2);
+        self.kernel.coefficients(lag, g, h)
+    }
+
+    /// n·(Gⁿ, Hⁿ), G scaled.
+    fn scaled(&self, lag: usize) -> Result<Vec<f64>> {
+        let stride = self.stride();
+        let mut values = vec![0.0; stride];
+        let (g, h) = values.split_at_mut(stride / 2);
+        self.kernel.coefficients(lag, g, h)?;
+        for value in g.iter_mut() {
+            *value *= self.scale;
+        }
+        for value in &mut values {
+            *value *= lag as f64;
+        }
+        Ok(values)
+    }
+
+    /// Interpolates n·(Gⁿ, Hⁿ) as a polynomial in N/n and checks it between its points.
+    fn fit_tail(&mut self) -> Result<()> {
+        let first = self.lags as f64;
+        let point = |k: f64| 0.5 + 0.5 * (PI * (k + 0.5) / POWERS as f64).cos();
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "n ≥ N")]
+        let lag_at = |k: f64| (first / point(k)).ceil() as usize;
+        let stride = self.stride();
+        let mut matrix = vec![0.0; POWERS * POWERS];
+        let mut samples = vec![];
+        for (k, row) in matrix.chunks_exact_mut(POWERS).enumerate() {
+            let lag = lag_at(k as f64);
+            let x = first / lag as f64;
+            let mut power = 1.0;
+            for entry in row {
+                *entry = power;
+                power *= x;
+            }
+            samples.push(self.scaled(lag)?);
+        }
+        let mut factor = DenseFactor::with_capacity(POWERS);
+        if !factor.factor(&matrix, POWERS) {
+            return Err(Error::Singular { matrix: "interpolation of late lags", order: POWERS });
+        }
+        self.late = vec![0.0; POWERS * stride];
+        let mut column = [0.0; POWERS];
+        for entry in 0..stride {
+            for (value, sample) in column.iter_mut().zip(&samples) {
+                *value = sample[entry];
+            }
+            factor.solve(&mut column);
+            for (p, value) in column.iter().enumerate() {
+                self.late[p * stride + entry] = *value;
+            }
+        }
+        let largest = samples.iter().map(|sample| largest(sample)).fold(0.0, f64::max);
+        let mut error = 0.0_f64;
+        for k in [0.5, 3.5, 6.5] {
+            let lag = lag_at(k);
+            let x = first / lag as f64;
+            for (entry, wanted) in self.scaled(lag)?.iter().enumerate() {
+                let found =
+                    (0..POWERS).rev().fold(0.0, |sum, p| sum * x + self.late[p * stride + entry]);
+                error = error.max((found - wanted).abs());
+            }
+        }
+        // A kernel without late lags has nothing to interpolate.
+        self.tail_error = if largest > 0.0 { error / largest } else { 0.0 };
+        // Back to (Gⁿ, Hⁿ) = Σ c_p (N/n)^p /N, and G as it is.
+        for (index, value) in self.late.iter_mut().enumerate() {
+            *value /= if index % stride < stride / 2 { first * self.scale } else { first };
+        }
+        Ok(())
+    }
+
+    /// Adds the late lags' share to `sum`, as laid out in `early`.
+    fn add_late(&self, zeta: Complex64, sum: &mut [Complex64]) {
+        let tails = tail_sums(zeta, self.lags as f64);
+        let stride = self.stride();
+        for (tail, late) in tails.iter().zip(self.late.chunks_exact(stride)) {
+            for (sum, late) in sum.iter_mut().zip(late) {
+                *sum += tail * late;
+            }
+        }
+    }
+
+    /// Overwrites `sum` with the symbols of G and H (2E × 2E each) at one ζ; returns the
+    /// transform's s if the kernel knows it.
+    pub(super) fn at(
+        &self,
+        zeta: Complex64,
+        sum: &mut Vec<Complex64>,
+    ) -> Result<Option<Complex64>> {
+        let stride = self.stride();
+        let mut exact = vec![0.0; 2 * stride];
+        let (g, h) = exact.split_at_mut(stride);
+        if let Some([re, im]) = self.kernel.symbol([zeta.re, zeta.im], g, h)? {
+            sum.clear();
+            sum.extend(exact.chunks_exact(2).map(|x| Complex64::new(x[0], x[1])));
+            return Ok(Some(Complex64::new(re, im)));
+        }
+        sum.clear();
+        sum.resize(stride, Complex64::default());
+        let mut power = Complex64::new(1.0, 0.0);
+        for lag in self.early.chunks_exact(stride) {
+            for (sum, value) in sum.iter_mut().zip(lag) {
+                *sum += power * value;
+            }
+            power *= zeta;
+        }
+        self.add_late(zeta, sum);
+        Ok(None)
+    }
+
+    /// The operator F from the symbols of G and H, columns as the unknowns.
+    pub(super) fn operator(&self, sum: &[Complex64], operator: &mut Vec<Complex64>) {
+        let order = self.order();
+        let (g, h) = sum.split_at(order * order);
+        operator.clear();
+        operator.extend(g.iter().zip(h).enumerate().map(|(place, (g, h))| {
+            if self.prescribed[place % order] { -g * self.scale } else { *h }
+        }));
+    }
+
+    /// Operators at ζ = `radius` e^{iθ}, θ = 2πk/`points` for k = 0 … `points`/2, by FFT.
+    pub(super) fn operators_on(&self, radius: f64, points: usize) -> Vec<Vec<Complex64>> {
+        let (order, stride) = (self.order(), self.stride());
+        let forward = RealFftPlanner::new().plan_fft_forward(points);
+        let mut series = forward.make_input_vec();
+        let mut spectrum = forward.make_output_vec();
+        let mut scratch = forward.make_scratch_vec();
+        let frequencies = points / 2 + 1;
+        let zetas: Vec<_> = (0..frequencies)
+            .map(|k| Complex64::from_polar(radius, TAU * k as f64 / points as f64))
+            .collect();
+        let tails: Vec<_> = zetas.iter().map(|zeta| tail_sums(*zeta, self.lags as f64)).collect();
+        let mut operators = vec![vec![Complex64::default(); order * order]; frequencies];
+        for place in 0..order * order {
+            let prescribed = self.prescribed[place % order];
+            let entry = if prescribed { place } else { stride / 2 + place };
+            let factor = if prescribed { -self.scale } else { 1.0 };
+            series.fill(0.0);
+            let mut power = factor;
+            for n in 0..self.lags {
+                // Lags beyond one turn fold onto earlier ones.
+                series[n % points] += power * self.early[n * stride + entry];
+                power *= radius;
+            }
+            if series.iter().all(|value| *value == 0.0) {
+                continue;
+            }
+            // Lengths are those of the plan.
+            if forward.process_with_scratch(&mut series, &mut spectrum, &mut scratch).is_err() {
+                continue;
+            }
+            for (k, operator) in operators.iter_mut().enumerate() {
+                let late: Complex64 = tails[k]
+                    .iter()
+                    .enumerate()
+                    .map(|(p, tail)| tail * (factor * self.late[p * stride + entry]))
+                    .sum();
+                // The transform's exponent has the other sign.
+                operator[place] = spectrum[k].conj() + late;
+            }
+        }
+        operators
+    }
+}
+
+/// Σ_{n≥first} ζⁿ (first/n)^p for p = 1 … [`POWERS`].
+fn tail_sums(zeta: Complex64, first: f64) -> [Complex64; POWERS] {
+    const STEP: f64 = 0.25;
+    let mut sums = [Complex64::default(); POWERS];
+    let front = (zeta.ln() * first).exp() * STEP;
+    for k in -140..=16 {
+        let y = (STEP * f64::from(k)).exp();
+        // dy = y d(ln y)
+        let mut term = front * (-y).exp() * y / (1.0 - zeta * (-y / first).exp());
+        for (p, sum) in sums.iter_mut().enumerate() {
+            *sum += term;
+            term *= y / (p + 1) as f64;
+        }
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// GOAL: the closed sum against adding up, where |ζ| < 1, and on the circle against Abel's
+    /// summation by parts, exact to (1−ζ)^{−1} N^{−2} terms there.
+    #[test]
+    fn tails_are_sums() {
+        for (radius, angle) in [(0.99, 0.0), (0.99, 1.0), (0.98, 3.1), (0.995, 0.01)] {
+            let zeta = Complex64::from_polar(radius, angle);
+            let tails = tail_sums(zeta, 64.0);
+            for (p, tail) in tails.iter().enumerate() {
+                let power = i32::try_from(p + 1).unwrap();
+                let sum: Complex64 =
+                    (64..9000).map(|n| zeta.powi(n) * (64.0 / f64::from(n)).powi(power)).sum();
+                assert!((tail - sum).norm() < 1e-12, "{zeta} {p}: {tail} {sum}");
+            }
+        }
+        // On the circle: Σ_{n≥1} ζⁿ/n = −ln(1−ζ).
+        let zeta = Complex64::from_polar(1.0, 0.3);
+        let early: Complex64 = (1..64).map(|n| zeta.powi(n) / f64::from(n)).sum();
+        let sum = early + tail_sums(zeta, 64.0)[0] / 64.0;
+        assert!((sum + (1.0 - zeta).ln()).norm() < 1e-13);
+    }
+}

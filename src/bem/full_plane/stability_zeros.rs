@@ -1,0 +1,176 @@
+//! Zeros of det F(ζ) inside the unit circle, by the argument principle.
+
+use std::f64::consts::{PI, TAU};
+
+use realfft::num_complex::Complex64;
+
+use crate::error::{Error, Result};
+use crate::linalg::ComplexFactor;
+
+use super::stability_symbol::Symbol;
+
+/// Points of a whole circle to begin with.
+const POINTS: usize = 1024;
+
+/// Largest turn of the determinant between neighbours, rad, before more points are put between.
+const TURN: f64 = 0.7;
+
+/// Halvings of the distance of neighbours.
+const HALVINGS: u32 = 24;
+
+/// Halvings of ln |ζ| in the search of the smallest zero.
+const BISECTIONS: usize = 10;
+
+/// What was found inside a circle.
+pub(super) struct Zeros {
+    /// Zeros inside.
+    pub(super) count: usize,
+    /// The smallest.
+    pub(super) zero: Option<Complex64>,
+}
+
+/// Counts zeros with 1/|ζ| > 1 + `smallest_growth` and finds the smallest one.
+pub(super) fn smallest_zero(symbol: &Symbol, smallest_growth: f64) -> Result<Zeros> {
+    let mut search = Search {
+        symbol,
+        factor: ComplexFactor::new(symbol.order()),
+        sum: vec![],
+        operator: vec![],
+    };
+    // At ζ = 0 the operator is that of lag 0.
+    search.log_determinant(Complex64::default())?;
+    let (count, mut seed) = search.zeros_inside(1.0 / (1.0 + smallest_growth))?;
+    if count == 0 {
+        return Ok(Zeros { count, zero: None });
+    }
+    let (mut low, mut high) = (-LARGEST_GROWTH, -smallest_growth.ln_1p());
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        let (inside, near) = search.zeros_inside(middle.exp())?;
+        if inside == 0 {
+            (low, seed) = (middle, near);
+        } else {
+            high = middle;
+        }
+        // Near enough for the secant to find the zero from the worst point of the inner circle.
+        if high - low < 0.1
+            && let Some(zero) = search.secant(seed)
+            && search.is_smallest(zero)?
+        {
+            return Ok(Zeros { count, zero: Some(zero) });
+        }
+    }
+    // Not refined: the bracket's middle, to within half a percent a step.
+    let size = (0.5 * (low + high)).exp();
+    Ok(Zeros { count, zero: Some(Complex64::from_polar(size, seed.arg())) })
+}
+
+/// ln of the largest growth factor that is looked for.
+const LARGEST_GROWTH: f64 = 4.0;
+
+struct Search<'a> {
+    symbol: &'a Symbol<'a>,
+    factor: ComplexFactor,
+    sum: Vec<Complex64>,
+    operator: Vec<Complex64>,
+}
+
+impl Search<'_> {
+    /// ln det F at one ζ.
+    fn log_determinant(&mut self, zeta: Complex64) -> Result<Complex64> {
+        self.symbol.at(zeta, &mut self.sum)?;
+        self.symbol.operator(&self.sum, &mut self.operator);
+        if self.factor.factor(&self.operator) {
+            Ok(self.factor.log_determinant())
+        } else {
+            let order = self.symbol.order();
+            Err(Error::Singular { matrix: "symbol of the boundary equation", order })
+        }
+    }
+
+    /// Zeros inside |ζ| < `radius`, and the point of the circle where |det F| is smallest.
+    ///
+    /// F is real on the real axis, so that half the circle tells.
+    fn zeros_inside(&mut self, radius: f64) -> Result<(usize, Complex64)> {
+        let operators = self.symbol.operators_on(radius, POINTS);
+        let mut values = Vec::with_capacity(operators.len());
+        for operator in &operators {
+            if !self.factor.factor(operator) {
+                let order = self.symbol.order();
+                return Err(Error::Singular { matrix: "symbol of the boundary equation", order });
+            }
+            values.push(self.factor.log_determinant());
+        }
+        let step = TAU / POINTS as f64;
+        let (mut turn, mut worst) = (0.0, (f64::INFINITY, 0.0));
+        for (k, ends) in values.windows(2).enumerate() {
+            let angle = step * k as f64;
+            turn += self.turn(radius, [angle, angle + step], [ends[0], ends[1]], 0, &mut worst)?;
+        }
+        let count = (turn / PI).round();
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counted")]
+        let count = if count > 0.0 { count as usize } else { 0 };
+        Ok((count, Complex64::from_polar(radius, worst.1)))
+    }
+
+    /// Turn of the determinant between two angles; halves the way until it is unmistakable.
+    fn turn(
+        &mut self,
+        radius: f64,
+        angles: [f64; 2],
+        values: [Complex64; 2],
+        depth: u32,
+        worst: &mut (f64, f64),
+    ) -> Result<f64> {
+        let turn = wrapped(values[1].im - values[0].im);
+        for (angle, value) in angles.iter().zip(values) {
+            if value.re < worst.0 {
+                *worst = (value.re, *angle);
+            }
+        }
+        let quiet = turn.abs() < TURN && (values[1].re - values[0].re).abs() < 2.0 * TURN;
+        if quiet || depth == HALVINGS {
+            return Ok(turn);
+        }
+        let middle = 0.5 * (angles[0] + angles[1]);
+        let value = self.log_determinant(Complex64::from_polar(radius, middle))?;
+        Ok(self.turn(radius, [angles[0], middle], [values[0], value], depth + 1, worst)?
+            + self.turn(radius, [middle, angles[1]], [value, values[1]], depth + 1, worst)?)
+    }
+
+    /// Zero of det F near `seed` by the secant method.
+    fn secant(&mut self, seed: Complex64) -> Option<Complex64> {
+        let (mut before, mut now) = (seed, seed * (1.0 + 1e-4));
+        let reference = self.log_determinant(before).ok()?;
+        let mut value_before = Complex64::new(1.0, 0.0);
+        for _ in 0..40 {
+            // A pivot that vanishes: `now` is the zero.
+            let Ok(log) = self.log_determinant(now) else { return Some(now) };
+            let value = (log - reference).exp();
+            let change = (now - before) * value / (value - value_before);
+            if !change.is_finite() {
+                return None;
+            }
+            (before, value_before) = (now, value);
+            now -= change;
+            if now.norm() >= 1.0 {
+                return None;
+            }
+            if change.norm() < 1e-11 {
+                return Some(now);
+            }
+        }
+        None
+    }
+
+    /// Whether `zero` is one and no other is smaller by a thousandth.
+    fn is_smallest(&mut self, zero: Complex64) -> Result<bool> {
+        let margin = 1e-3 * (1.0 - zero.norm());
+        Ok(self.zeros_inside(zero.norm() - margin)?.0 == 0)
+    }
+}
+
+/// An angle brought to (−π, π].
+fn wrapped(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
+}
