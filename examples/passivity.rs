@@ -10,6 +10,7 @@ mod passivity;
 #[path = "../tests/support/random.rs"]
 mod random;
 
+use basemat::bem::History;
 use clap::Parser;
 use passivity::Scene;
 
@@ -31,6 +32,9 @@ struct Options {
     /// Elements graded towards the edges too (many times slower to evaluate)
     #[arg(long)]
     graded: bool,
+    /// History by exponentials of this relative accuracy, 1e-12 to 1e-2
+    #[arg(long)]
+    tolerance: Option<f64>,
 }
 
 fn main() {
@@ -45,7 +49,12 @@ fn main() {
     for &beta in &options.beta {
         for &poisson in &options.poisson {
             for &graded in meshes {
-                let scene = Scene { poisson, beta, graded, elements, steps, seed: 1 };
+                let (history, tolerance) = match options.tolerance {
+                    Some(tolerance) => (History::Exponentials, tolerance),
+                    None => (History::Auto, 0.0),
+                };
+                let scene =
+                    Scene { poisson, beta, graded, elements, steps, seed: 1, history, tolerance };
                 let begin = std::time::Instant::now();
                 let (work, growth) = (scene.least_work(), scene.growth_of_tractions());
                 let mesh = if graded { "graded" } else { "uniform" };

@@ -3,10 +3,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::choice::{HistoryChoice, HistoryOptions};
 use super::patch::check_order;
 use super::{ContactElement, Grading, Ground, History, PatchKernel, StaticKernel, Strip};
 use crate::error::{Error, Result};
-use crate::history::ConvolutionHistory;
+use crate::history::{ConvolutionHistory, ExponentialHistory};
 use crate::soil::Soil;
 
 /// Homogeneous elastic half-plane with one or several strips on its surface.
@@ -32,7 +33,8 @@ pub struct HalfPlaneGround {
     soil: Soil,
     elements: Vec<ContactElement>,
     statics: StaticKernel,
-    make_history: Box<MakeHistory>,
+    options: HistoryOptions,
+    own_history: Option<Box<MakeHistory>>,
     prepared: Option<Prepared>,
 }
 
@@ -42,7 +44,28 @@ type MakeHistory = dyn Fn(Arc<PatchKernel>) -> Box<dyn ConvolutionHistory> + Sen
 /// What a time step brings with it.
 struct Prepared {
     kernel: Arc<PatchKernel>,
-    history: Box<dyn ConvolutionHistory>,
+    /// Left open until the number of steps is known or the first step is made.
+    history: Option<Box<dyn ConvolutionHistory>>,
+    choice: Option<HistoryChoice>,
+}
+
+impl Prepared {
+    /// The history, made now if it has not been.
+    fn history(
+        &mut self,
+        options: HistoryOptions,
+        steps: Option<usize>,
+    ) -> Result<&mut dyn ConvolutionHistory> {
+        let history = match self.history.take() {
+            Some(history) => history,
+            None => {
+                let (history, choice) = options.make(&self.kernel, steps)?;
+                self.choice = Some(choice);
+                history
+            }
+        };
+        Ok(self.history.insert(history).as_mut())
+    }
 }
 
 impl HalfPlaneGround {
@@ -73,14 +96,35 @@ impl HalfPlaneGround {
         // static matrix positive definite, and the settlement it stands for cancels in all results.
         let span = elements[elements.len() - 1].right - elements[0].left;
         let statics = StaticKernel::new(&soil, 10.0 * span)?;
-        let make_history = Box::new(|kernel| History::default().make(kernel));
-        Ok(Self { soil, elements, statics, make_history, prepared: None })
+        let options = HistoryOptions::default();
+        Ok(Self { soil, elements, statics, options, own_history: None, prepared: None })
     }
 
     /// With a history of this kind; [`History::Auto`] unless called.
     #[must_use]
     pub fn with_history_kind(mut self, history: History) -> Self {
-        self.make_history = Box::new(move |kernel| history.make(kernel));
+        (self.options.kind, self.own_history) = (history, None);
+        self
+    }
+
+    /// Allows a history whose coefficients are within `tolerance` (relative, 1e-12 to 1e-2) of the
+    /// exact ones: [`History::Auto`] may then take the exponentials, and [`History::Exponentials`]
+    /// takes this tolerance instead of its own.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a tolerance outside this range.
+    pub fn with_history_tolerance(mut self, tolerance: f64) -> Result<Self> {
+        self.options.tolerance = Some(ExponentialHistory::check_tolerance(tolerance)?);
+        Ok(self)
+    }
+
+    /// With a limit (bytes) on the memory of the history that [`History::Auto`] chooses; 1 GiB
+    /// unless called. It goes by [`Ground::reserve`] (of a simulation,
+    /// [`expected_steps`](crate::coupled::SimulationBuilder::expected_steps) or the steps of the
+    /// first run), and is no limit where the number of steps is not known.
+    #[must_use]
+    pub fn with_history_memory(mut self, bytes: usize) -> Self {
+        self.options.memory = bytes;
         self
     }
 
@@ -91,7 +135,7 @@ impl HalfPlaneGround {
         mut self,
         make: impl Fn(Arc<PatchKernel>) -> Box<dyn ConvolutionHistory> + Send + 'static,
     ) -> Self {
-        self.make_history = Box::new(make);
+        self.own_history = Some(Box::new(make));
         self
     }
 
@@ -108,14 +152,18 @@ impl Ground for HalfPlaneGround {
 
     fn prepare(&mut self, time_step: f64) -> Result<()> {
         let kernel = Arc::new(PatchKernel::new(self.soil, self.elements.clone(), time_step)?);
-        let history = (self.make_history)(Arc::clone(&kernel));
-        self.prepared = Some(Prepared { kernel, history });
+        let history = self.own_history.as_ref().map(|make| make(Arc::clone(&kernel)));
+        let mut prepared = Prepared { kernel, history, choice: None };
+        if self.options.kind != History::Auto {
+            prepared.history(self.options, None)?;
+        }
+        self.prepared = Some(prepared);
         Ok(())
     }
 
     fn reserve(&mut self, steps: usize) -> Result<()> {
         match &mut self.prepared {
-            Some(prepared) => prepared.history.reserve(steps),
+            Some(prepared) => prepared.history(self.options, Some(steps))?.reserve(steps),
             None => Err(NOT_PREPARED),
         }
     }
@@ -129,14 +177,43 @@ impl Ground for HalfPlaneGround {
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
         match &mut self.prepared {
-            Some(prepared) => prepared.history.evaluate(displacement),
+            Some(prepared) => prepared.history(self.options, None)?.evaluate(displacement),
             None => Err(NOT_PREPARED),
         }
     }
 
     fn commit(&mut self, traction: &[f64]) {
-        if let Some(prepared) = &mut self.prepared {
-            prepared.history.push(traction);
+        let Some(prepared) = &mut self.prepared else { return };
+        // Where Auto has nothing to go by, it takes a history that can always be made.
+        if let Ok(history) = prepared.history(self.options, None) {
+            history.push(traction);
+        }
+    }
+
+    fn history_choice(&self) -> Option<HistoryChoice> {
+        self.prepared.as_ref()?.choice
+    }
+
+    fn increment_error_bound(&self) -> f64 {
+        let history = self.prepared.as_ref().and_then(|prepared| prepared.history.as_ref());
+        history.map_or(0.0, |history| history.increment_error_bound())
+    }
+
+    /// What its history says.
+    fn checkpoint(&self) -> Result<Vec<f64>> {
+        match &self.prepared {
+            Some(prepared) => match &prepared.history {
+                Some(history) => history.checkpoint(),
+                None => Ok(Vec::new()),
+            },
+            None => Err(NOT_PREPARED),
+        }
+    }
+
+    fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
+        match &mut self.prepared {
+            Some(prepared) => prepared.history(self.options, None)?.restore(steps, values),
+            None => Err(NOT_PREPARED),
         }
     }
 

@@ -17,7 +17,7 @@ mod spring;
 mod static_kernel;
 mod strip;
 
-pub use choice::History;
+pub use choice::{ChoiceReason, History, HistoryChoice};
 pub use half_plane::HalfPlaneGround;
 pub(crate) use influence::LateSeries;
 pub use influence::{Influence, InfluenceKernel, PairInfluence};
@@ -27,7 +27,7 @@ pub use spring::SpringGround;
 pub use static_kernel::StaticKernel;
 pub use strip::{Grading, Strip};
 
-use crate::error::Result;
+use crate::error::{CheckpointError, Result};
 use crate::motion::FreeField;
 
 /// One boundary element of the base: the interval from `left` to `right` of the flat surface, m.
@@ -98,6 +98,35 @@ pub trait Ground: Send {
     /// # Errors
     /// If the slice has the wrong length.
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
+
+    /// Which history it keeps and why; `None` (the default) if there is nothing to choose.
+    fn history_choice(&self) -> Option<HistoryChoice> {
+        None
+    }
+
+    /// Bound on what is wrong with the change of any element's displacement over the next step,
+    /// m; zero (the default) for a ground that answers exactly.
+    fn increment_error_bound(&self) -> f64 {
+        0.0
+    }
+
+    /// All that the committed tractions have left behind, for [`Ground::restore`].
+    ///
+    /// # Errors
+    /// [`CheckpointError::Unsupported`], unless a ground implements it.
+    fn checkpoint(&self) -> Result<Vec<f64>> {
+        Err(CheckpointError::Unsupported { part: "ground" }.into())
+    }
+
+    /// Goes to where `steps` steps had been committed and [`Ground::checkpoint`] returned
+    /// `values`, all finite. Unchanged on an error.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Corrupt`] for values that cannot be a checkpoint of this ground,
+    /// [`CheckpointError::Unsupported`] unless a ground implements it.
+    fn restore(&mut self, _steps: usize, _values: &[f64]) -> Result<()> {
+        Err(CheckpointError::Unsupported { part: "ground" }.into())
+    }
 
     /// Overwrites `displacement` (2Q, m; normal components **down**) with the motion of the soil
     /// without structure at `time`. The default samples `motion` at the element midpoints.

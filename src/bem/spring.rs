@@ -1,7 +1,7 @@
 //! Winkler's spring bed: a ground without memory.
 
 use super::{ContactElement, Ground};
-use crate::error::{Error, Result, not_negative, positive, same_length};
+use crate::error::{CheckpointError, Error, Result, not_negative, positive, same_length};
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
@@ -144,6 +144,19 @@ impl Ground for SpringGround {
             let kept = (impedance - self.stiffness[k]) / impedance * self.displacement[i];
             self.displacement[i] = kept + traction / impedance;
         }
+    }
+
+    /// The displacement at the end of the last step.
+    fn checkpoint(&self) -> Result<Vec<f64>> {
+        Ok(self.displacement.clone())
+    }
+
+    fn restore(&mut self, _steps: usize, values: &[f64]) -> Result<()> {
+        if values.len() != self.displacement.len() {
+            return Err(CheckpointError::Corrupt { quantity: "spring bed" }.into());
+        }
+        self.displacement.copy_from_slice(values);
+        Ok(())
     }
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {

@@ -39,6 +39,10 @@ pub struct Ledger {
     pub preload: f64,
     /// Work of external loads and of the free field.
     pub input: f64,
+    /// Bound on what is wrong with `soil`, Σ A |τ| |error of Δs|: zero unless the ground's history is
+    /// approximate. The terms above balance with the history as it is, so nothing of the residual
+    /// is due to it; but the soil of the equations may have taken this much more or less than it did here.
+    pub soil_error_bound: f64,
 }
 
 impl Ledger {
@@ -120,6 +124,7 @@ impl Simulation {
         dense_multiply_add(&self.soil, 1.0, &solver.traction, &mut work.soil_displacement);
         base.means(&work.vector, &mut work.means);
         let count = base.lengths().len();
+        let doubt = self.ground.increment_error_bound();
         for i in 0..2 * count {
             let area = base.length(i);
             let change = solver.traction[i];
@@ -130,6 +135,7 @@ impl Simulation {
             memory.jump[i] = jump;
             ledger.soil +=
                 area * change * (work.soil_displacement[i] - memory.soil_displacement[i]);
+            ledger.soil_error_bound += area * change.abs() * doubt;
             let mut elastic = 0.0;
             if self.compliant {
                 let (e, k) = (i % count, i / count);
@@ -163,6 +169,15 @@ impl fmt::Display for Ledger {
         if self.layer != 0.0 {
             writeln!(f, "  layer       {:>12.4e}", self.layer)?;
         }
-        write!(f, "  preload     {:>12.4e}    residual    {:>12.1e}", self.preload, self.residual())
+        write!(
+            f,
+            "  preload     {:>12.4e}    residual    {:>12.1e}",
+            self.preload,
+            self.residual()
+        )?;
+        if self.soil_error_bound > 0.0 {
+            write!(f, "\n  soil within {:>12.1e}    (approximate history)", self.soil_error_bound)?;
+        }
+        Ok(())
     }
 }

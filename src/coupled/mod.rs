@@ -61,6 +61,7 @@
 
 mod base;
 mod builder;
+mod checkpoint;
 mod contact;
 mod ledger;
 mod model;
@@ -74,6 +75,7 @@ mod state;
 mod step;
 
 pub use builder::SimulationBuilder;
+pub use checkpoint::Checkpoint;
 pub use ledger::Ledger;
 pub use modes::{ContactSearch, SearchMethod};
 pub use preload::Placement;

@@ -200,6 +200,12 @@ impl Run {
         }
     }
 
+    /// Bound on what the ledger's `soil` owes to an approximate history, J/m since the start; zero
+    /// for exact histories. See [`Ledger::soil_error_bound`].
+    pub fn history_error_bound(&self) -> f64 {
+        self.ledger.soil_error_bound
+    }
+
     /// Largest value of the probe called `name`.
     pub fn probe(&self, name: &str) -> Option<Peak> {
         self.probes.iter().find(|(probe, _)| probe == name).map(|(_, peak)| *peak)

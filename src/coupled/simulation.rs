@@ -10,7 +10,7 @@ use super::preload::{StaticState, condense};
 use super::run::{Flow, Run};
 use super::scheme::SchemeCoefficients;
 use super::state::{Probe, State};
-use crate::bem::{ContactElement, Ground};
+use crate::bem::{ContactElement, Ground, HistoryChoice};
 use crate::error::Result;
 use crate::interface::{ContactState, InterfaceLaw, StepStart, law_of};
 use crate::linalg::{SparseFactor, SparseMatrix};
@@ -89,6 +89,7 @@ impl Operators {
 }
 
 /// What one step needs of the one before, besides the public state.
+#[derive(Clone)]
 pub(super) struct Memory {
     /// Mean velocity and acceleration of the free field, as the time scheme sees them.
     pub(super) ride_velocity: [f64; 2],
@@ -259,6 +260,11 @@ impl Simulation {
     /// The contact elements, from left to right.
     pub fn elements(&self) -> &[ContactElement] {
         &self.elements
+    }
+
+    /// Which history the ground keeps and why, if it has chosen one yet.
+    pub fn history_choice(&self) -> Option<HistoryChoice> {
+        self.ground.history_choice()
     }
 
     /// The probes, in the order of [`State::probes`].

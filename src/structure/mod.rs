@@ -16,6 +16,8 @@ pub use section::{Section, SectionRows};
 pub use shear_building::{ShearBuilding, Storey};
 pub use triplets::Triplets;
 
+use crate::error::{CheckpointError, Result};
+
 /// What the integrator needs of a structure: implement this for your own model.
 ///
 /// A structure has `n` unknowns, which are **absolute** displacements and rotations (m, rad;
@@ -65,4 +67,22 @@ pub trait Structure: Send {
 
     /// Accepts a step that ended with `displacement`: internal variables may change here only.
     fn commit(&mut self, _displacement: &[f64]) {}
+
+    /// The internal variables that [`Structure::commit`] changes, for a checkpoint. A structure
+    /// that has some must implement this and [`Structure::restore`] if runs are to be resumed.
+    fn save(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Takes back what [`Structure::save`] returned; all values are finite. Unchanged on an error.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Corrupt`] for values that cannot be such. The default takes none.
+    fn restore(&mut self, values: &[f64]) -> Result<()> {
+        if values.is_empty() {
+            Ok(())
+        } else {
+            Err(CheckpointError::Corrupt { quantity: "state of the structure" }.into())
+        }
+    }
 }

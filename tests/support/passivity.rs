@@ -1,7 +1,7 @@
 //! What the energy argument promises of the half-plane, tried on random tractions.
 
 use basemat::Soil;
-use basemat::bem::{Ground, HalfPlaneGround};
+use basemat::bem::{Ground, HalfPlaneGround, History};
 
 use crate::random::Random;
 
@@ -15,6 +15,9 @@ pub(crate) struct Scene {
     pub(crate) elements: usize,
     pub(crate) steps: usize,
     pub(crate) seed: u64,
+    pub(crate) history: History,
+    /// Allowed tolerance of the history; 0 for none.
+    pub(crate) tolerance: f64,
 }
 
 impl Scene {
@@ -22,7 +25,11 @@ impl Scene {
         let soil = Soil::new(1.0, self.poisson, 1.0).unwrap();
         let strip =
             if self.graded { HalfPlaneGround::graded_strip } else { HalfPlaneGround::strip };
-        let mut ground = strip(soil, -1.0..1.0, self.elements).unwrap();
+        let mut ground =
+            strip(soil, -1.0..1.0, self.elements).unwrap().with_history_kind(self.history);
+        if self.tolerance > 0.0 {
+            ground = ground.with_history_tolerance(self.tolerance).unwrap();
+        }
         let length = 2.0 / self.elements as f64;
         ground.prepare(self.beta * length / soil.pressure_wave_speed()).unwrap();
         ground.reserve(self.steps).unwrap();

@@ -73,7 +73,7 @@ pub struct ExponentialHistory {
 
 impl ExponentialHistory {
     /// Accuracy unless another one is asked for.
-    pub const TOLERANCE: f64 = 1e-9;
+    pub const TOLERANCE: f64 = 1e-10;
     /// Steps over which `tolerance` holds, unless others are asked for.
     pub const HORIZON: usize = 1 << 20;
 
@@ -93,13 +93,7 @@ impl ExponentialHistory {
     /// # Errors
     /// As for [`ExponentialHistory::new`].
     pub fn with_horizon(kernel: Arc<PatchKernel>, tolerance: f64, horizon: usize) -> Result<Self> {
-        if !TOLERANCES.contains(&tolerance) {
-            return Err(Error::Input {
-                quantity: "tolerance of the history",
-                value: tolerance,
-                needed: "from 1e-12 to 1e-2",
-            });
-        }
+        Self::check_tolerance(tolerance)?;
         let elements = kernel.elements();
         let series = kernel.late_series();
         let basis = Basis::new(elements, tail::DEGREES);
@@ -182,6 +176,26 @@ impl ExponentialHistory {
         self.window.memory() + self.tail.memory() + self.recent.len() * size_of::<f64>()
     }
 
+    /// `tolerance` if it can be reached.
+    pub(crate) fn check_tolerance(tolerance: f64) -> Result<f64> {
+        if TOLERANCES.contains(&tolerance) {
+            return Ok(tolerance);
+        }
+        Err(Error::Input {
+            quantity: "tolerance of the history",
+            value: tolerance,
+            needed: "from 1e-12 to 1e-2",
+        })
+    }
+
+    /// Steps in which the Rayleigh wave crosses the patch three times.
+    pub(crate) fn window_of(kernel: &PatchKernel) -> f64 {
+        let elements = kernel.elements();
+        let series = kernel.late_series();
+        let span = elements[elements.len() - 1].right - elements[0].left;
+        (CROSSINGS * series.arrival * span / series.step).ceil()
+    }
+
     fn size(&self) -> usize {
         2 * self.kernel.elements().len()
     }
@@ -202,10 +216,7 @@ impl ExponentialHistory {
 
 /// Steps of a block and blocks of the window.
 fn blocks(kernel: &PatchKernel) -> Result<[usize; 2]> {
-    let elements = kernel.elements();
-    let series = kernel.late_series();
-    let span = elements[elements.len() - 1].right - elements[0].left;
-    let lags = (CROSSINGS * series.arrival * span / series.step).ceil();
+    let lags = ExponentialHistory::window_of(kernel);
     if !(lags <= LONGEST_WINDOW) {
         return Err(Error::Input {
             quantity: "steps that the Rayleigh wave needs for three times the patch",

@@ -97,3 +97,61 @@ fn least_at(kernel: &PatchKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
     }
     least_eigenvalue(&matrix, order)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::basis::Basis;
+    use super::super::tail::{DEGREES, Tail};
+    use super::*;
+    use crate::bem::Strip;
+    use crate::soil::Soil;
+
+    fn patch() -> PatchKernel {
+        let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
+        PatchKernel::new(soil, Strip::uniform(-1.0..1.0, 4).unwrap().elements(), 0.2).unwrap()
+    }
+
+    /// With a tail that is `factor` times what it should be.
+    fn tail(kernel: &PatchKernel, window: usize, factor: f64) -> Tail {
+        let mut series = kernel.late_series();
+        series.unit *= factor;
+        let basis = Basis::new(kernel.elements(), DEGREES);
+        Tail::new(&series, basis, [window as f64, 1e6], 0.4, 1e-9)
+    }
+
+    #[test]
+    fn a_tail_that_does_not_fit_the_window_is_found_out() {
+        let kernel = patch();
+        let window = 48;
+        let lags = Lags::new(&kernel, window).unwrap();
+        let least = |factor| margin(&kernel, &lags, &tail(&kernel, window, factor), 1e6).least;
+        println!("{} {} {}", least(1.0), least(3.0), least(-1.0));
+        assert!(least(1.0) > 1e-3);
+        assert!(least(3.0) < 0.0);
+        assert!(least(-1.0) < 0.0);
+    }
+
+    /// The closed form in ζ against the sum over the ages, by parts so that it converges.
+    #[test]
+    fn closed_form_is_the_sum() {
+        let kernel = patch();
+        let window = 48;
+        let tail = tail(&kernel, window, 1.0);
+        let ages: Vec<_> = (0..20_000).map(|age| tail.at_age(f64::from(age))).collect();
+        for omega in [0.02, 0.3, 3.0] {
+            let closed = tail.at_frequency(window as f64, omega);
+            for (part, closed) in closed.iter().enumerate() {
+                for (place, closed) in closed.iter().enumerate() {
+                    let value = |age: usize| ages[age][part][place];
+                    let mut sum = value(0) * (window as f64 * omega).cos();
+                    for age in 1..ages.len() {
+                        let angle = (window + age) as f64 * omega;
+                        sum += (value(age) - value(age - 1)) * angle.cos();
+                    }
+                    let scale = ages[0][part][0].abs();
+                    assert!((sum - closed).abs() < 1e-5 * scale, "{omega}: {sum} {closed}");
+                }
+            }
+        }
+    }
+}

@@ -136,12 +136,6 @@ impl Tail {
         (products + self.state_length() + basis + 2 * self.poles()) * size_of::<f64>()
     }
 
-    /// Multiply–adds of a step.
-    pub(super) fn cost(&self) -> usize {
-        let products: usize = self.products.iter().map(|p| 4 * p.weights[0].len()).sum();
-        products + self.state_length() + 4 * self.degrees() * self.basis.lengths.len()
-    }
-
     /// The state, to be saved.
     pub(super) fn state(&self) -> impl Iterator<Item = f64> {
         self.states.iter().flatten().flatten().copied()
