@@ -8,6 +8,7 @@
 mod at_rest;
 mod baseline;
 mod closure;
+mod content;
 mod el_centro;
 mod integral;
 mod intensity;
@@ -20,6 +21,7 @@ mod vertical_incidence;
 pub use at_rest::AtRest;
 pub use baseline::Baseline;
 pub use closure::FreeFieldFn;
+pub use content::FrequencyContent;
 pub use el_centro::el_centro_1940;
 pub(crate) use integral::quadratic_roots_within;
 pub use reader::ColumnFormat;
