@@ -4,11 +4,11 @@ mod support;
 
 use basemat::bem::{Grading, HalfPlaneGround, Strip};
 use basemat::coupled::State;
-use basemat::fem::{Beam, Element, MassKind};
 use basemat::interface::Bonded;
 use basemat::motion::RickerDisplacement;
-use basemat::structure::{ContactNode, RigidBlock, ShearBuilding, Storey, Structure, Triplets};
+use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
 use basemat::{Simulation, Soil};
+use support::cantilever::Cantilever;
 use support::rigid_strip::{Contact, RigidStrip};
 use support::series::{Error, Series, whole, within};
 use support::table;
@@ -221,67 +221,6 @@ fn block_errors(
             ("M", &moment, true),
         ],
     )
-}
-
-/// Beam on a rigid base with mass and rotary inertia: node 0 is the middle of the base.
-struct Cantilever {
-    beams: Vec<Beam>,
-    heights: Vec<[f64; 2]>,
-}
-
-impl Cantilever {
-    fn new(elements: usize) -> Self {
-        // EI = 20, mass per length 1, and an area that keeps the axial mode out of the way.
-        let beam = |k| Beam::new([k, k + 1], 20.0, 1.0, 1.0, 1.0).unwrap();
-        let height = |k| [0.0, 4.0 * k as f64 / elements as f64];
-        Self {
-            beams: (0..elements).map(beam).collect(),
-            heights: (0..=elements).map(height).collect(),
-        }
-    }
-
-    fn top(&self) -> usize {
-        3 * self.beams.len()
-    }
-
-    fn add(
-        &self,
-        factor: f64,
-        matrix: &mut Triplets,
-        fill: impl Fn(&Beam, &[[f64; 2]], &mut [f64]),
-    ) {
-        for (k, beam) in self.beams.iter().enumerate() {
-            let mut block = [0.0; 36];
-            fill(beam, &self.heights[k..k + 2], &mut block);
-            let unknowns: Vec<usize> = (3 * k..3 * k + 6).collect();
-            matrix.add_block(&unknowns, &block.map(|x| factor * x));
-        }
-    }
-}
-
-impl Structure for Cantilever {
-    fn unknowns(&self) -> usize {
-        3 * self.heights.len()
-    }
-
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        ContactNode::rigid_base(-1.0, 1.0, [0, 1, 2])
-    }
-
-    fn mass(&self, matrix: &mut Triplets) {
-        matrix.add(0, 0, 1.0);
-        matrix.add(1, 1, 1.0);
-        matrix.add(2, 2, 1.0 / 3.0);
-        self.add(1.0, matrix, |beam, at, block| beam.mass(at, MassKind::Consistent, block));
-    }
-
-    fn stiffness(&self, matrix: &mut Triplets) {
-        self.add(1.0, matrix, Beam::stiffness);
-    }
-
-    fn damping(&self, matrix: &mut Triplets) {
-        self.add(0.02, matrix, Beam::stiffness);
-    }
 }
 
 fn cantilever_errors(mesh: (Grading, usize, f64), beams: usize) -> [f64; 6] {

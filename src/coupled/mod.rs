@@ -59,6 +59,7 @@
 //! holds exactly for the discrete equations; see [`Ledger`] for the terms. [`Run::ledger_residual`]
 //! is the largest violation of a run, relative to the largest term.
 
+mod advice;
 mod base;
 mod builder;
 mod checkpoint;
@@ -68,12 +69,14 @@ mod model;
 mod modes;
 mod path;
 mod preload;
+mod response_estimate;
 mod run;
 mod scheme;
 mod simulation;
 mod state;
 mod step;
 
+pub use advice::{Advice, Outline, advise};
 pub use builder::SimulationBuilder;
 pub use checkpoint::Checkpoint;
 pub use ledger::Ledger;

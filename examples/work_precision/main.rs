@@ -1,0 +1,74 @@
+//! Error of the base shear against processor time: rigid blocks with reference tables, and the
+//! containment of the example of that name cut to five seconds, bonded and sliding.
+//!
+//! Swept are elements, grading, time step, history and time scheme. Then the library's advice is
+//! put to the test. What is in `docs/accuracy.md` comes from
+//!
+//! ```text
+//! cargo run --release --example work_precision -- --docs docs
+//! ```
+
+mod advice;
+mod catalogue;
+mod force;
+mod options;
+mod plots;
+mod report;
+mod scene;
+mod settings;
+mod sweep;
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use options::Options;
+use sweep::Sweep;
+
+type AnyError = Box<dyn std::error::Error + Send + Sync>;
+
+fn main() -> Result<(), AnyError> {
+    let options = Options::parse();
+    std::fs::create_dir_all(&options.out)?;
+    let sweeps = Sweep::list(options.short)?;
+    let runs = sweeps.iter().map(|sweep| sweep.settings.len() as u64).sum();
+    let bar = ProgressBar::new(runs);
+    bar.set_style(ProgressStyle::with_template("{prefix:>26} {bar:40} {pos}/{len} runs")?);
+
+    // One run at a time: two would share caches and memory, and slow each other down.
+    let mut outcomes = Vec::with_capacity(sweeps.len());
+    for sweep in sweeps {
+        bar.set_prefix(sweep.scene.name);
+        outcomes.push(sweep.run(options.repeats, &bar)?);
+    }
+    bar.set_prefix("advice");
+    let advice = advice::check(options.short, &bar)?;
+    bar.finish_and_clear();
+
+    let tables = report::tables(&outcomes, &advice)?;
+    println!("{tables}");
+    report::write_points(&options.out.join("points.csv"), &outcomes)?;
+    report::write_advice(&options.out.join("advice.csv"), &advice)?;
+    std::fs::write(options.out.join("tables.md"), &tables)?;
+    let mut folders = vec![options.out.clone()];
+    if let Some(docs) = &options.docs {
+        report::splice(&docs.join("accuracy.md"), &tables)?;
+        folders.push(docs.join("images"));
+    }
+    for folder in folders {
+        for outcome in &outcomes {
+            plots::draw(&folder.join(format!("{}.svg", file_stem(outcome.scene))), outcome)?;
+        }
+    }
+    println!("files in {}", options.out.display());
+    Ok(())
+}
+
+/// File name of a sweep: letters and digits only.
+fn file_stem(scene: &str) -> String {
+    let name = scene.replace("ν = 1/", "nu_").replace("0.", "0_");
+    let words: Vec<&str> = name
+        .split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+        .filter(|w| !w.is_empty())
+        .collect();
+    format!("work_precision_{}", words.join("_"))
+}

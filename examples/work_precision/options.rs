@@ -1,0 +1,25 @@
+//! Command line.
+
+use std::path::PathBuf;
+
+use clap::Parser;
+
+/// Error of the base shear against processor time, over meshes, time steps, histories and schemes.
+///
+/// Prints tables, and writes points.csv, advice.csv, tables.md and SVG plots.
+#[derive(Debug, Clone, Parser)]
+pub(crate) struct Options {
+    /// Folder for the files.
+    #[arg(long, default_value = "target/work_precision")]
+    pub(crate) out: PathBuf,
+    /// Folder of the documentation: its accuracy.md gets the tables between its markers, its
+    /// images/ the plots.
+    #[arg(long)]
+    pub(crate) docs: Option<PathBuf>,
+    /// Small sweeps, in seconds: to see that all works, not to be quoted.
+    #[arg(long)]
+    pub(crate) short: bool,
+    /// Runs of each setting, of which the fastest counts; one only where a run takes over a second.
+    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
+    pub(crate) repeats: u8,
+}

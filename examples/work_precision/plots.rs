@@ -1,0 +1,185 @@
+//! Error against time, in logarithms.
+
+use std::path::Path;
+
+use basemat::bem::{Grading, History};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use super::AnyError;
+use super::settings::{HISTORIES, Scheme};
+use super::sweep::{Outcome, Point};
+
+const SIZE: (u32, u32) = (1280, 620);
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Chart<'a, 'b> = ChartContext<
+    'a,
+    SVGBackend<'b>,
+    Cartesian2d<
+        plotters::coord::combinators::LogCoord<f64>,
+        plotters::coord::combinators::LogCoord<f64>,
+    >,
+>;
+
+/// A family of points with its name, colour and shape.
+struct Family {
+    name: String,
+    color: RGBColor,
+    shape: Shape,
+    grading: Grading,
+    history: History,
+    scheme: Scheme,
+}
+
+#[derive(Clone, Copy)]
+enum Shape {
+    Circle,
+    Triangle,
+    Cross,
+}
+
+fn families() -> Vec<Family> {
+    let colors = [RGBColor(31, 119, 180), RGBColor(148, 103, 189), RGBColor(44, 160, 44)];
+    let mut list = Vec::new();
+    for (k, &(name, history)) in HISTORIES.iter().enumerate() {
+        for (grading, word, shape) in [
+            (Grading::Uniform, "uniform", Shape::Circle),
+            (Grading::Cosine, "cosine", Shape::Triangle),
+        ] {
+            list.push(Family {
+                name: format!("{word}, {name}"),
+                color: colors[k % colors.len()],
+                shape,
+                grading,
+                history,
+                scheme: Scheme::Midpoint,
+            });
+        }
+    }
+    for (grading, word) in [(Grading::Uniform, "uniform"), (Grading::Cosine, "cosine")] {
+        list.push(Family {
+            name: format!("{word}, {}, θ = 0.55", HISTORIES[0].0),
+            color: if grading == Grading::Uniform {
+                RGBColor(255, 140, 0)
+            } else {
+                RGBColor(140, 86, 75)
+            },
+            shape: Shape::Cross,
+            grading,
+            history: HISTORIES[0].1,
+            scheme: Scheme::Theta(0.55),
+        });
+    }
+    list
+}
+
+/// One file: the history's error on the left, the peak's on the right.
+pub(crate) fn draw(path: &Path, sweep: &Outcome) -> Result<(), AnyError> {
+    let root = SVGBackend::new(path, SIZE).into_drawing_area();
+    root.fill(&WHITE)?;
+    let title = format!("Base shear, {}: error against processor time", sweep.scene);
+    let body = root.titled(&title, ("sans-serif", 24))?;
+    let halves = body.split_evenly((1, 2));
+    panel(&halves[0], "error of the history (relative L2)", sweep, true, |p| p.errors.history)?;
+    panel(&halves[1], "error of the peak (relative)", sweep, false, |p| p.errors.peak)?;
+    root.present()?;
+    Ok(())
+}
+
+fn panel(
+    area: &Area,
+    label: &str,
+    sweep: &Outcome,
+    front: bool,
+    value: impl Fn(&Point) -> f64,
+) -> Result<(), AnyError> {
+    // Peaks can agree by chance to any digit.
+    let place = |point: &Point| (point.seconds, value(point).max(1e-5));
+    let range = |pick: &dyn Fn(&Point) -> f64| {
+        let values = || sweep.points.iter().map(pick);
+        let low = values().fold(f64::INFINITY, f64::min);
+        0.6 * low..1.8 * values().fold(0.0, f64::max)
+    };
+    let mut chart: Chart = ChartBuilder::on(area)
+        .margin(14)
+        .x_label_area_size(48)
+        .y_label_area_size(76)
+        .build_cartesian_2d(
+            range(&|p| place(p).0).log_scale(),
+            range(&|p| place(p).1).log_scale(),
+        )?;
+    chart
+        .configure_mesh()
+        .x_desc("processor time, s")
+        .y_desc(label)
+        .x_label_formatter(&|x| power(*x))
+        .y_label_formatter(&|y| power(*y))
+        .label_style(("sans-serif", 15))
+        .axis_desc_style(("sans-serif", 17))
+        .light_line_style(WHITE)
+        .draw()?;
+    if front {
+        let mut line: Vec<_> = sweep.points.iter().filter(|point| point.front).map(place).collect();
+        line.sort_by(|a, b| a.0.total_cmp(&b.0));
+        chart
+            .draw_series(LineSeries::new(line, RGBColor(214, 39, 40).stroke_width(2)))?
+            .label("front: none faster and closer")
+            .legend(|(x, y)| {
+                let style = RGBColor(214, 39, 40).stroke_width(2);
+                PathElement::new(vec![(x, y), (x + 18, y)], style)
+            });
+    }
+    for family in families() {
+        let points: Vec<_> =
+            sweep.points.iter().filter(|point| family.holds(point)).map(place).collect();
+        if !points.is_empty() {
+            family.draw(&mut chart, points)?;
+        }
+    }
+    if front {
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::LowerLeft)
+            .background_style(WHITE.mix(0.85))
+            .border_style(BLACK.mix(0.3))
+            .label_font(("sans-serif", 14))
+            .draw()?;
+    }
+    Ok(())
+}
+
+impl Family {
+    fn holds(&self, point: &Point) -> bool {
+        let s = &point.settings;
+        s.grading == self.grading && s.history == self.history && s.scheme == self.scheme
+    }
+
+    fn draw(&self, chart: &mut Chart, points: Vec<(f64, f64)>) -> Result<(), AnyError> {
+        let style = self.color.filled();
+        // Each shape is a type of its own.
+        match self.shape {
+            Shape::Circle => chart
+                .draw_series(points.into_iter().map(|at| Circle::new(at, 4, style)))?
+                .label(&self.name)
+                .legend(move |(x, y)| Circle::new((x + 9, y), 4, style)),
+            Shape::Triangle => chart
+                .draw_series(points.into_iter().map(|at| TriangleMarker::new(at, 5, style)))?
+                .label(&self.name)
+                .legend(move |(x, y)| TriangleMarker::new((x + 9, y), 5, style)),
+            Shape::Cross => chart
+                .draw_series(points.into_iter().map(|at| Cross::new(at, 4, self.color)))?
+                .label(&self.name)
+                .legend({
+                    let color = self.color;
+                    move |(x, y)| Cross::new((x + 9, y), 4, color)
+                }),
+        };
+        Ok(())
+    }
+}
+
+/// 1e-3 and the like.
+fn power(value: f64) -> String {
+    format!("{value:.0e}")
+}

@@ -1,0 +1,209 @@
+//! CSV files and tables in Markdown.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use super::AnyError;
+use super::advice::Checked;
+use super::force::Errors;
+use super::sweep::{Outcome, Point};
+
+/// Tolerances of the summary.
+const TOLERANCES: [f64; 3] = [0.1, 0.01, 0.001];
+
+/// Writes every point of every sweep.
+pub(crate) fn write_points(path: &Path, sweeps: &[Outcome]) -> Result<(), AnyError> {
+    let mut writer = csv::Writer::from_path(path)?;
+    writer.write_record([
+        "scene",
+        "elements",
+        "grading",
+        "time_step_s",
+        "steps_per_crossing",
+        "history",
+        "scheme",
+        "error_of_history",
+        "error_of_peak",
+        "processor_s",
+        "front",
+    ])?;
+    for sweep in sweeps {
+        for point in &sweep.points {
+            let s = &point.settings;
+            writer.write_record([
+                sweep.scene.to_owned(),
+                s.elements.to_string(),
+                s.grading_name().to_owned(),
+                s.time_step.to_string(),
+                (sweep.crossing / s.time_step).to_string(),
+                s.history_name().to_owned(),
+                s.scheme.name(),
+                format!("{:.4e}", point.errors.history),
+                format!("{:.4e}", point.errors.peak),
+                format!("{:.4e}", point.seconds),
+                point.front.to_string(),
+            ])?;
+        }
+    }
+    Ok(writer.flush()?)
+}
+
+/// Writes what came of the advice.
+pub(crate) fn write_advice(path: &Path, list: &[Checked]) -> Result<(), AnyError> {
+    let mut writer = csv::Writer::from_path(path)?;
+    writer.write_record([
+        "scene",
+        "tolerance",
+        "elements",
+        "time_step_s",
+        "expected_by_mesh",
+        "expected_by_step",
+        "expected_of_peak",
+        "error_of_history",
+        "error_of_peak",
+        "processor_s",
+    ])?;
+    for checked in list {
+        let a = &checked.advice;
+        let numbers = [
+            a.mesh_error,
+            a.step_error,
+            a.peak_error,
+            checked.errors.history,
+            checked.errors.peak,
+            checked.seconds,
+        ];
+        let mut row = vec![
+            checked.scene.to_owned(),
+            a.tolerance.to_string(),
+            a.elements.to_string(),
+            a.time_step.to_string(),
+        ];
+        row.extend(numbers.map(|x| format!("{x:.4e}")));
+        writer.write_record(row)?;
+    }
+    Ok(writer.flush()?)
+}
+
+/// All tables.
+pub(crate) fn tables(sweeps: &[Outcome], advice: &[Checked]) -> Result<String, AnyError> {
+    let mut text = format!("Machine: {}; {}.\n\n", processor(), compiler());
+    text.push_str("### The fastest settings for a tolerance\n\n");
+    text.push_str(
+        "Of all that were tried, the fastest with both errors within the tolerance:\n\n\
+         | scene | tolerance | elements | Δt/crossing | history, scheme | error: history | peak | \
+         time |\n|---|---|---|---|---|---|---|---|\n",
+    );
+    for sweep in sweeps {
+        for tolerance in TOLERANCES {
+            let good = |errors: &Errors| errors.history.max(errors.peak) <= tolerance;
+            let points = sweep.points.iter().filter(|point| good(&point.errors));
+            let best = points.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+            write!(text, "| {} | {} % ", sweep.scene, 100.0 * tolerance)?;
+            match best {
+                Some(point) => writeln!(text, "{}", row(point, sweep.crossing))?,
+                None => writeln!(text, "| none that was tried | | | | | |")?,
+            }
+        }
+    }
+    for sweep in sweeps {
+        writeln!(text, "\n### {}: the front\n", capitalised(sweep.scene))?;
+        if let Some(doubt) = sweep.doubt {
+            writeln!(
+                text,
+                "Half the elements and twice the step of the reference differ from it by {:.1e} \
+                 (history) and {:.1e} (peak).\n",
+                doubt.history, doubt.peak
+            )?;
+        }
+        text.push_str(
+            "| elements | Δt/crossing | history, scheme | error: history | peak | time |\n\
+             |---|---|---|---|---|---|\n",
+        );
+        let mut front: Vec<&Point> = sweep.points.iter().filter(|point| point.front).collect();
+        front.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+        for point in front {
+            writeln!(text, "{}", row(point, sweep.crossing))?;
+        }
+    }
+    text.push_str(
+        "\n### Advice put to the test\n\n\
+         | scene | tolerance | elements | Δt, s | expected: mesh | step | peak | met: history | \
+         peak | larger/tolerance | time |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for checked in advice {
+        let (a, e) = (&checked.advice, &checked.errors);
+        writeln!(
+            text,
+            "| {} | {} % | {} | {:.2e} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.2} | {} |",
+            checked.scene,
+            100.0 * a.tolerance,
+            a.elements,
+            a.time_step,
+            a.mesh_error,
+            a.step_error,
+            a.peak_error,
+            e.history,
+            e.peak,
+            e.history.max(e.peak) / a.tolerance,
+            time(checked.seconds),
+        )?;
+    }
+    Ok(text)
+}
+
+/// A point as cells of a table.
+fn row(point: &Point, crossing: f64) -> String {
+    let s = &point.settings;
+    format!(
+        "| {} {} | 1/{:.0} | {}, {} | {:.1e} | {:.1e} | {} |",
+        s.grading_name(),
+        s.elements,
+        crossing / s.time_step,
+        s.history_name(),
+        s.scheme.name(),
+        point.errors.history,
+        point.errors.peak,
+        time(point.seconds)
+    )
+}
+
+fn time(seconds: f64) -> String {
+    if seconds < 0.1 { format!("{:.2} ms", 1e3 * seconds) } else { format!("{seconds:.2} s") }
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |c| c.to_uppercase().chain(letters).collect())
+}
+
+/// The processor's name.
+fn processor() -> String {
+    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let line = text.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
+    let name = line.map_or(std::env::consts::ARCH, |(_, name)| name.trim());
+    format!("{name}, one thread of {}", std::thread::available_parallelism().map_or(1, usize::from))
+}
+
+/// The compiler's version.
+fn compiler() -> String {
+    let output = std::process::Command::new("rustc").arg("--version").output();
+    output.map_or_else(
+        |_| "compiler unknown".into(),
+        |out| {
+            let text = String::from_utf8_lossy(&out.stdout).into_owned();
+            text.split(" (").next().unwrap_or_default().trim().to_owned()
+        },
+    )
+}
+
+/// Puts `text` between the markers of `path`.
+pub(crate) fn splice(path: &Path, text: &str) -> Result<(), AnyError> {
+    const MARKERS: [&str; 2] = ["<!-- work_precision: begin -->", "<!-- work_precision: end -->"];
+    let old = std::fs::read_to_string(path)?;
+    let missing = || format!("{}: no markers '{}'", path.display(), MARKERS.join("', '"));
+    let (before, rest) = old.split_once(MARKERS[0]).ok_or_else(missing)?;
+    let (_, after) = rest.split_once(MARKERS[1]).ok_or_else(missing)?;
+    let new = format!("{before}{}\n\n{}\n\n{}{after}", MARKERS[0], text.trim(), MARKERS[1]);
+    Ok(std::fs::write(path, new)?)
+}
