@@ -153,7 +153,11 @@ impl Simulation {
             scene: self.scene(),
             steps: state.step,
             modes,
-            state: numbers(&mut state, &mut memory).into_iter().map(|value| *value).collect(),
+            state: numbers(&mut state, &mut memory)
+                .into_iter()
+                .map(|value| *value)
+                .chain(self.start.iter().map(|start| start.slip_rate))
+                .collect(),
             ground: self.ground.checkpoint()?,
             structure: self.model.structure.save(),
         })
@@ -191,7 +195,9 @@ impl Simulation {
             }
         }
         let (mut state, mut memory) = (self.state.clone(), self.memory.clone());
-        let own = numbers(&mut state, &mut memory);
+        let mut rates = vec![0.0; self.start.len()];
+        let mut own = numbers(&mut state, &mut memory);
+        own.extend(&mut rates);
         if own.len() != checkpoint.state.len() {
             return Err(corrupt("state").into());
         }
@@ -205,8 +211,8 @@ impl Simulation {
         }
         for (e, (start, (mode, has_opened))) in self.start.iter_mut().zip(modes).enumerate() {
             state.modes[e] = mode;
-            let (state, time_step) = (state.contact[e], self.time_step);
-            *start = StepStart { state, mode, has_opened, time_step };
+            let (state, slip_rate) = (state.contact[e], rates[e]);
+            *start = StepStart { state, mode, has_opened, slip_rate, ..*start };
         }
         state.step = checkpoint.steps;
         state.time = state.step as f64 * self.time_step;
@@ -274,12 +280,13 @@ fn numbers<'a>(state: &'a mut State, memory: &'a mut Memory) -> Vec<&'a mut f64>
         numerical,
         soil,
         contact,
+        layer,
         preload,
         input,
         soil_error_bound,
     } = &mut state.ledger;
     let mut all = vec![nonlinear_work, kinetic, strain, damping, numerical, soil, contact];
-    all.extend([preload, input, soil_error_bound]);
+    all.extend([layer, preload, input, soil_error_bound]);
     all.extend(ride_velocity.iter_mut().chain(ride_acceleration).chain(&mut state.free_field));
     for values in [&mut state.displacement, &mut state.velocity, &mut state.acceleration] {
         all.extend(values.iter_mut());
