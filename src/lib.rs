@@ -142,6 +142,7 @@ pub mod fundamental;
 pub mod history;
 pub mod interface;
 mod linalg;
+mod matrix;
 pub mod motion;
 pub mod reference;
 mod soil;

@@ -62,9 +62,11 @@
 mod base;
 mod builder;
 mod contact;
+mod coordinates;
 mod ledger;
 mod model;
 mod modes;
+mod operators;
 mod path;
 mod preload;
 mod run;
@@ -74,6 +76,7 @@ mod state;
 mod step;
 
 pub use builder::SimulationBuilder;
+pub use coordinates::Coordinates;
 pub use ledger::Ledger;
 pub use modes::SearchMethod;
 pub use preload::Placement;
