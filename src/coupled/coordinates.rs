@@ -43,9 +43,10 @@ pub(crate) struct Modes {
 
 /// Residual of the eigenproblem, and of damping taken for diagonal, relative to its terms.
 const DECOUPLED: f64 = 1e-10;
-/// Smallest eigenvalue besides zero, relative to the largest: the eigenvalues' absolute error is
-/// a few roundings of the largest.
-const NARROWEST: f64 = 1e-8;
+/// Eigenvalues below this, relative to the largest, are zeros with the error of their computation.
+const ZERO: f64 = 1e-11;
+/// Smallest eigenvalue besides zero, relative to the largest: between the two nothing is certain.
+const SMALLEST: f64 = 1e-8;
 /// Rigid motions in a plane.
 const RIGID_MOTIONS: usize = 3;
 
@@ -68,11 +69,11 @@ impl Modes {
         }
         let (mut values, vectors) = generalised_modes(stiffness, mass)?;
         let top = largest(&values);
-        let noise = n as f64 * f64::EPSILON * top;
+        let noise = ZERO * top;
         let rigid = values.iter().filter(|value| value.abs() <= noise).count();
         // Below its noise an eigenvalue is a rigid motion's, unless there are too many of them.
         let smallest = values.iter().map(|v| v.abs()).filter(|v| *v > noise);
-        if rigid > RIGID_MOTIONS || smallest.fold(top, f64::min) < NARROWEST * top {
+        if rigid > RIGID_MOTIONS || smallest.fold(top, f64::min) < SMALLEST * top {
             return None;
         }
         for value in &mut values {
