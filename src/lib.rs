@@ -109,6 +109,7 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy ledger |
+//! | [`Sweep`] | many simulations, on all processors with the feature `rayon` |
 //! | [`structure`] | finite-element model, rigid block, shear building, and the trait for your own |
 //! | [`fem`] | meshes and elements |
 //! | [`interface`] | bonded and Coulomb contact, and the trait for your own law |
@@ -142,14 +143,17 @@ pub mod fundamental;
 pub mod history;
 pub mod interface;
 mod linalg;
+mod matrix;
 pub mod motion;
 pub mod reference;
 mod soil;
 pub mod structure;
+mod sweep;
 
 pub use coupled::Simulation;
 pub use error::{CheckpointError, Error, RecordError, Result, StepError};
 pub use soil::Soil;
+pub use sweep::{Sweep, SweepCase};
 
 /// The README's program is compiled and run.
 #[cfg(doctest)]

@@ -5,7 +5,12 @@
 use faer::diag::DiagMut;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd;
+use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
 use faer::linalg::lu::partial_pivoting::{factor as dense_factor, solve as dense_solve};
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
 use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
@@ -15,122 +20,14 @@ use faer::sparse::linalg::lu::{
     LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
 };
 use faer::sparse::{SparseColMat, Triplet};
-use faer::{Conj, MatMut, MatRef, Par, Side, Spec};
+use faer::diag::Diag;
+use faer::{Accum, Conj, Mat, MatMut, MatRef, Par, Side, Spec};
 
 use realfft::num_complex::Complex64;
 
 use crate::error::{Error, Result};
+pub(crate) use crate::matrix::SparseMatrix;
 use crate::structure::Triplets;
-
-/// Square sparse matrix, compressed by rows.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct SparseMatrix {
-    order: usize,
-    row_start: Vec<usize>,
-    column: Vec<usize>,
-    value: Vec<f64>,
-}
-
-impl SparseMatrix {
-    /// Sums the entries of `triplets` by place.
-    pub(crate) fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
-        let order = triplets.order();
-        let mut row_start = vec![0; order + 1];
-        for &(row, column, value) in triplets.entries() {
-            let index = row.max(column);
-            if index >= order {
-                return Err(Error::Index { quantity: name, index, bound: order });
-            }
-            if !value.is_finite() {
-                return Err(Error::Input { quantity: name, value, needed: "finite" });
-            }
-            row_start[row + 1] += 1;
-        }
-        for row in 0..order {
-            row_start[row + 1] += row_start[row];
-        }
-        let mut entries = vec![(0, 0.0); triplets.entries().len()];
-        let mut next = row_start.clone();
-        for &(row, column, value) in triplets.entries() {
-            entries[next[row]] = (column, value);
-            next[row] += 1;
-        }
-        let mut matrix = Self { order, row_start: vec![0], column: vec![], value: vec![] };
-        for row in 0..order {
-            let entries = &mut entries[row_start[row]..row_start[row + 1]];
-            entries.sort_by_key(|&(column, _)| column);
-            let start = matrix.column.len();
-            for &(column, value) in entries.iter() {
-                if matrix.column.len() > start && matrix.column.last() == Some(&column) {
-                    *matrix.value.last_mut().unwrap_or(&mut 0.0) += value;
-                } else {
-                    matrix.column.push(column);
-                    matrix.value.push(value);
-                }
-            }
-            matrix.row_start.push(matrix.column.len());
-        }
-        Ok(matrix)
-    }
-
-    /// Σ factor·matrix, all of one order.
-    pub(crate) fn combine(order: usize, terms: &[(f64, &SparseMatrix)]) -> Triplets {
-        let mut sum = Triplets::new(order);
-        for &(factor, matrix) in terms {
-            for (row, column, value) in matrix.entries() {
-                sum.add(row, column, factor * value);
-            }
-        }
-        sum
-    }
-
-    /// All stored entries: (row, column, value).
-    pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
-        (0..self.order).flat_map(move |row| {
-            (self.row_start[row]..self.row_start[row + 1])
-                .map(move |k| (row, self.column[k], self.value[k]))
-        })
-    }
-
-    /// Whether no entry is stored.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.value.is_empty()
-    }
-
-    /// (A x) of one row.
-    fn row_product(&self, row: usize, x: &[f64]) -> f64 {
-        let range = self.row_start[row]..self.row_start[row + 1];
-        self.column[range.clone()].iter().zip(&self.value[range]).map(|(&j, a)| a * x[j]).sum()
-    }
-
-    /// y ← y + factor · A x.
-    pub(crate) fn multiply_add(&self, factor: f64, x: &[f64], y: &mut [f64]) {
-        for (row, y) in y.iter_mut().enumerate() {
-            *y += factor * self.row_product(row, x);
-        }
-    }
-
-    /// x·A y.
-    pub(crate) fn form(&self, x: &[f64], y: &[f64]) -> f64 {
-        x.iter().enumerate().map(|(row, x)| x * self.row_product(row, y)).sum()
-    }
-
-    /// Largest |a_ij − a_ji| relative to the largest |a_ij|.
-    fn asymmetry(&self) -> f64 {
-        let mut largest = 0.0_f64;
-        let mut difference = 0.0_f64;
-        for (row, column, value) in self.entries() {
-            largest = largest.max(value.abs());
-            let range = self.row_start[column]..self.row_start[column + 1];
-            let twin = match self.column[range.clone()].binary_search(&row) {
-                Ok(k) => self.value[range.start + k],
-                Err(_) => 0.0,
-            };
-            difference = difference.max((value - twin).abs());
-        }
-        if largest > 0.0 { difference / largest } else { 0.0 }
-    }
-}
 
 /// Factors of a square sparse matrix, with the workspace of their solves.
 pub(crate) struct SparseFactor {
@@ -148,7 +45,7 @@ impl SparseFactor {
     /// Cholesky where the matrix is symmetric positive definite, else LU with partial pivoting.
     pub(crate) fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
         let matrix = SparseMatrix::new(name, triplets)?;
-        let order = matrix.order;
+        let order = matrix.order();
         let singular = || Error::Singular { matrix: name, order };
         let entries: Vec<_> =
             matrix.entries().map(|(row, col, val)| Triplet { row, col, val }).collect();
@@ -207,6 +104,14 @@ impl SparseFactor {
             .ok()?;
         let buffer = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
         Some(Self { order: matrix.nrows(), kind: Kind::Lu { symbolic, numeric }, buffer })
+    }
+
+    /// Numbers that a solve reads, about.
+    pub(crate) fn stored(&self) -> usize {
+        match &self.kind {
+            Kind::Cholesky { values, .. } => values.len(),
+            Kind::Lu { .. } => self.order * self.order,
+        }
     }
 
     /// Overwrites `rhs` with A⁻¹ rhs.
@@ -424,6 +329,90 @@ pub(crate) fn hermitian_range(matrix: &[Complex64], order: usize) -> Option<[f64
         .iter()
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x.re), high.max(x.re)]);
     Some(range)
+}
+
+/// Eigenvalues λ, ascending, and eigenvectors of K φ = λ M φ with Φᵀ M Φ = 1, for symmetric K and
+/// positive definite M. Eigenvectors are columns of the row-major matrix returned. `None` if M is
+/// not positive definite or the iteration fails.
+///
+/// With M = L Lᵀ these are the eigenvalues of L⁻¹ K L⁻ᵀ, and Φ = L⁻ᵀ times its eigenvectors.
+pub(crate) fn generalised_modes(
+    stiffness: &SparseMatrix,
+    mass: &SparseMatrix,
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    let n = mass.order();
+    let dense = |matrix: &SparseMatrix| {
+        let mut dense = Mat::<f64>::zeros(n, n);
+        for (row, column, value) in matrix.entries() {
+            dense[(row, column)] = value;
+        }
+        dense
+    };
+    let factor = dense(mass).llt(Side::Lower).ok()?;
+    let mut reduced = dense(stiffness);
+    solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
+    solve_lower_triangular_in_place(factor.L(), reduced.as_mut().transpose_mut(), Par::Seq);
+    let (mut values, mut vectors) = (Diag::<f64>::zeros(n), Mat::<f64>::zeros(n, n));
+    let scratch = self_adjoint_evd_scratch::<f64>(
+        n,
+        ComputeEigenvectors::Yes,
+        Par::Seq,
+        Spec::default(),
+    );
+    self_adjoint_evd(
+        reduced.as_ref(),
+        values.as_mut(),
+        Some(vectors.as_mut()),
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        Spec::default(),
+    )
+    .ok()?;
+    solve_upper_triangular_in_place(factor.L().transpose(), vectors.as_mut(), Par::Seq);
+    let values: Vec<f64> = (0..n).map(|j| values.column_vector()[j]).collect();
+    let rows = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+    let vectors: Vec<f64> = rows.map(|place| vectors[place]).collect();
+    let finite = values.iter().chain(&vectors).all(|x| x.is_finite());
+    finite.then_some((values, vectors))
+}
+
+/// Columns below which the call of a library costs more than it saves.
+const NARROW: usize = 24;
+
+/// y ← y + factor · A x for a large dense row-major matrix with `x.len()` columns, with the widest
+/// vector registers found at run time.
+pub(crate) fn wide_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
+    let (rows, columns) = (y.len(), x.len());
+    if columns < NARROW {
+        return dense_multiply_add(matrix, factor, x, y);
+    }
+    matmul(
+        MatMut::from_column_major_slice_mut(y, rows, 1),
+        Accum::Add,
+        MatRef::from_row_major_slice(matrix, rows, columns),
+        MatRef::from_column_major_slice(x, columns, 1),
+        factor,
+        Par::Seq,
+    );
+}
+
+/// y ← y + factor · Aᵀ x, likewise, for a matrix with `y.len()` columns.
+pub(crate) fn wide_transposed_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
+    let (rows, columns) = (x.len(), y.len());
+    if columns < NARROW {
+        for (row, x) in matrix.chunks_exact(columns.max(1)).zip(x) {
+            y.iter_mut().zip(row).for_each(|(y, a)| *y += factor * x * a);
+        }
+        return;
+    }
+    matmul(
+        MatMut::from_column_major_slice_mut(y, columns, 1),
+        Accum::Add,
+        MatRef::from_column_major_slice(matrix, columns, rows),
+        MatRef::from_column_major_slice(x, rows, 1),
+        factor,
+        Par::Seq,
+    );
 }
 
 /// y ← y + factor · A x for a dense row-major matrix with `x.len()` columns.

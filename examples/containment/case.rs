@@ -6,8 +6,7 @@ use basemat::fem::{Layer, Material, Mesh, QuadFormulation};
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::{Record, STANDARD_GRAVITY};
 use basemat::structure::{FemModel, RayleighDamping};
-use basemat::{Simulation, Soil};
-use indicatif::ProgressBar;
+use basemat::{Simulation, Soil, SweepCase};
 
 use super::AnyError;
 use super::options::{FOOT, Options, PSF, Quadrilateral, SLUG_PER_CUBIC_FOOT};
@@ -86,7 +85,7 @@ pub(crate) fn run(
     options: &Options,
     record: &Record,
     steps: usize,
-    bar: &ProgressBar,
+    now: &SweepCase<'_>,
 ) -> Result<Outcome, AnyError> {
     let soil = Soil::from_wave_speeds(
         options.shear_speed_fts * FOOT,
@@ -109,6 +108,7 @@ pub(crate) fn run(
         .ground(HalfPlaneGround::strip(soil, -half..half, usize::from(options.elements))?)
         .motion(record.clone())
         .gravity(STANDARD_GRAVITY)
+        .expected_steps(steps)
         .probe(Probe::displacement("roof x", roof_x))
         .probe(Probe::displacement("roof y", roof_y))
         .probe(Probe::section("base shear", &section.shear));
@@ -130,7 +130,7 @@ pub(crate) fn run(
         kept.mean_slip.push(state.mean_slip);
         kept.modes.push(state.modes.clone());
         if state.step % 256 == 0 {
-            bar.set_position(state.step as u64);
+            now.report(state.step as f64 / steps as f64);
         }
     })?;
     Ok(Outcome { case: case.clone(), run, histories: kept, width: 2.0 * half })

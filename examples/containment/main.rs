@@ -6,7 +6,7 @@
 //! reconstruction, and the soil's density is an assumption. All are options:
 //!
 //! ```text
-//! cargo run --release --example containment -- --help
+//! cargo run --release --features rayon --example containment -- --help
 //! ```
 
 mod case;
@@ -14,9 +14,7 @@ mod options;
 mod plots;
 mod report;
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
+use basemat::Sweep;
 use clap::Parser;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
@@ -54,32 +52,21 @@ fn main() -> Result<(), AnyError> {
         })
         .collect();
 
-    // Cases are independent: as many at a time as there are processors.
-    let next = AtomicUsize::new(0);
-    let outcomes: Vec<Mutex<Option<Result<Outcome, AnyError>>>> =
-        cases.iter().map(|_| Mutex::new(None)).collect();
-    let workers = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    std::thread::scope(|scope| {
-        for _ in 0..workers.min(cases.len()) {
-            scope.spawn(|| {
-                loop {
-                    let k = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(case) = cases.get(k) else { break };
-                    let outcome = case::run(case, &options, &record, steps, &bars[k]);
-                    bars[k].finish();
-                    if let Ok(mut slot) = outcomes[k].lock() {
-                        *slot = Some(outcome);
-                    }
-                }
-            });
-        }
-    });
+    // Cases are independent: with the feature `rayon`, as many at a time as there are processors.
+    let mut outcomes: Vec<Option<Result<Outcome, AnyError>>> = cases.iter().map(|_| None).collect();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to the steps")]
+    let set_bar = |k: usize, fraction: f64| bars[k].set_position((fraction * steps as f64) as u64);
+    Sweep::new(cases.len()).on_progress(set_bar).run(
+        |now| case::run(&cases[now.index()], &options, &record, steps, now),
+        |k, outcome| {
+            bars[k].finish();
+            outcomes[k] = Some(outcome);
+        },
+    );
     let mut results = Vec::new();
-    for (case, slot) in cases.iter().zip(outcomes) {
-        match slot.into_inner() {
-            Ok(Some(outcome)) => results.push(outcome.map_err(|e| format!("{}: {e}", case.name))?),
-            _ => return Err(format!("{}: the run did not end", case.name).into()),
-        }
+    for (case, outcome) in cases.iter().zip(outcomes) {
+        let outcome = outcome.ok_or_else(|| format!("{}: the run did not end", case.name))?;
+        results.push(outcome.map_err(|e| format!("{}: {e}", case.name))?);
     }
 
     report::print_table(&results);

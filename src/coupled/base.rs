@@ -1,11 +1,13 @@
 //! The base as the ground sees it: element means of the base displacement, and their transpose.
 
+use super::coordinates::{Modes, Row};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, finite};
+use crate::linalg::wide_multiply_add;
 use crate::structure::{ContactNode, Triplets};
 
-/// Sparse row: (unknown, weight) pairs.
-type Row = Vec<(usize, f64)>;
+/// (unknown, weight) pairs.
+type Terms = Vec<(usize, f64)>;
 
 /// B, which takes unknowns to element means of the base displacement (normal components down),
 /// and BᵀA, which takes tractions to forces on the structure's unknowns.
@@ -15,7 +17,10 @@ type Row = Vec<(usize, f64)>;
 #[derive(Debug, Clone)]
 pub(crate) struct Base {
     /// Normal rows, then tangential rows.
-    rows: Vec<Row>,
+    rows: Vec<Terms>,
+    /// The same in modes, row-major; empty if the coordinates are the unknowns.
+    modal: Vec<f64>,
+    rotation: Row,
     lengths: Vec<f64>,
     nodes: Vec<ContactNode>,
 }
@@ -52,7 +57,7 @@ impl Base {
             });
         }
         let count = elements.len();
-        let mut rows = vec![Row::new(); 2 * count];
+        let mut rows = vec![Terms::new(); 2 * count];
         for (e, element) in elements.iter().enumerate() {
             let slack = 1e-9 * element.length();
             let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
@@ -71,7 +76,19 @@ impl Base {
             }
         }
         let lengths = elements.iter().map(ContactElement::length).collect();
-        Ok(Self { rows, lengths, nodes })
+        let rotation = Row::new(&chord_rotation(&nodes), None);
+        Ok(Self { rows, modal: Vec::new(), rotation, lengths, nodes })
+    }
+
+    /// Goes over to modal coordinates.
+    pub(crate) fn decouple(&mut self, modes: &Modes) {
+        self.modal.clear();
+        for terms in &self.rows {
+            if let Row::Modes(weights) = Row::new(terms, Some(modes)) {
+                self.modal.extend(weights);
+            }
+        }
+        self.rotation = Row::new(&chord_rotation(&self.nodes), Some(modes));
     }
 
     /// Lengths A of the elements.
@@ -86,6 +103,10 @@ impl Base {
 
     /// out ← B u.
     pub(crate) fn means(&self, u: &[f64], out: &mut [f64]) {
+        if !self.modal.is_empty() {
+            out.fill(0.0);
+            return wide_multiply_add(&self.modal, 1.0, u, out);
+        }
         for (row, out) in self.rows.iter().zip(out) {
             *out = row.iter().map(|&(j, weight)| weight * u[j]).sum();
         }
@@ -95,6 +116,12 @@ impl Base {
     pub(crate) fn add_forces(&self, factor: f64, traction: &[f64], force: &mut [f64]) {
         for (i, (row, traction)) in self.rows.iter().zip(traction).enumerate() {
             let scaled = factor * self.length(i) * traction;
+            if !self.modal.is_empty() {
+                let n = force.len();
+                let row = &self.modal[i * n..(i + 1) * n];
+                force.iter_mut().zip(row).for_each(|(f, weight)| *f += weight * scaled);
+                continue;
+            }
             for &(j, weight) in row {
                 force[j] += weight * scaled;
             }
@@ -103,9 +130,7 @@ impl Base {
 
     /// Rotation of the base (counter-clockwise), from the chord between its ends.
     pub(crate) fn rotation(&self, u: &[f64]) -> f64 {
-        let (first, last) = (&self.nodes[0], &self.nodes[self.nodes.len() - 1]);
-        let up = |node: &ContactNode| node.vertical.iter().map(|&(j, w)| w * u[j]).sum::<f64>();
-        (up(last) - up(first)) / (last.x - first.x)
+        self.rotation.of(u)
     }
 
     /// Adds γ NᵀN to `matrix` and γ Nᵀ1 to the two right-hand sides (horizontal, vertical up),
@@ -125,7 +150,16 @@ impl Base {
     }
 }
 
-fn accumulate(row: &mut Row, terms: &[(usize, f64)], factor: f64) {
+/// Rise of the last node over the first, per distance.
+fn chord_rotation(nodes: &[ContactNode]) -> Terms {
+    let (first, last) = (&nodes[0], &nodes[nodes.len() - 1]);
+    let mut terms = Terms::new();
+    accumulate(&mut terms, &last.vertical, 1.0 / (last.x - first.x));
+    accumulate(&mut terms, &first.vertical, -1.0 / (last.x - first.x));
+    terms
+}
+
+fn accumulate(row: &mut Terms, terms: &[(usize, f64)], factor: f64) {
     for &(index, weight) in terms {
         match row.iter_mut().find(|(j, _)| *j == index) {
             Some((_, sum)) => *sum += factor * weight,

@@ -1,17 +1,22 @@
 //! Putting a simulation together.
 
 use super::base::Base;
+use super::coordinates::{Coordinates, Modes};
 use super::model::Model;
 use super::modes::ContactSearch;
+use super::operators::Operators;
 use super::preload::{Placement, StaticState};
 use super::scheme::{Midpoint, TimeScheme};
-use super::simulation::{Operators, Simulation};
+use super::simulation::Simulation;
 use super::state::Probe;
 use crate::bem::Ground;
 use crate::error::{Error, Result, finite, not_negative, positive};
 use crate::interface::{ContactScene, InterfaceLaw};
 use crate::motion::{AtRest, FreeField};
 use crate::structure::Structure;
+
+/// Steps that modes have to pay for themselves in, if not told otherwise.
+const STEPS: usize = 10_000;
 
 /// More unknowns than this are a mistake, or would not fit in memory.
 const MOST_UNKNOWNS: usize = 10_000_000;
@@ -31,6 +36,7 @@ pub struct SimulationBuilder {
     probes: Vec<Probe>,
     moment_center: Option<f64>,
     steps: usize,
+    coordinates: Coordinates,
 }
 
 impl SimulationBuilder {
@@ -48,6 +54,7 @@ impl SimulationBuilder {
             probes: Vec::new(),
             moment_center: None,
             steps: 0,
+            coordinates: Coordinates::default(),
         }
     }
 
@@ -130,10 +137,18 @@ impl SimulationBuilder {
         self
     }
 
-    /// About how many steps will be made: kernels and memory are then ready before the first.
+    /// About how many steps will be made: kernels and memory are then ready before the first, and
+    /// the structure's coordinates are chosen for this number (10 000 if not given).
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
         self.steps = steps;
+        self
+    }
+
+    /// In which coordinates a linear structure is stepped; [`Coordinates::Auto`] unless given.
+    #[must_use]
+    pub fn coordinates(mut self, coordinates: Coordinates) -> Self {
+        self.coordinates = coordinates;
         self
     }
 
@@ -164,7 +179,7 @@ impl SimulationBuilder {
                 needed: "ten million or fewer",
             });
         }
-        let base = Base::new(structure.contact_nodes(), &elements, unknowns)?;
+        let mut base = Base::new(structure.contact_nodes(), &elements, unknowns)?;
         let mut model = Model::new(structure, &base)?;
         for probe in &self.probes {
             for &(index, weight) in probe.rows().into_iter().flatten() {
@@ -204,7 +219,26 @@ impl SimulationBuilder {
             finite("instantaneous operator of the ground", *bad)?;
         }
         let tangent = model.tangent(&static_state.displacement)?;
-        let operators = Operators::new(&model, &base, &soil, &coefficients, tangent)?;
+        let mut operators = Operators::new(&model, &base, &soil, &coefficients, tangent)?;
+        let steps = if self.steps > 0 { self.steps } else { STEPS };
+        let modes = match self.coordinates {
+            Coordinates::Unknowns => None,
+            Coordinates::Auto => {
+                let saves = model.modes_save_time(operators.stored(), 2 * count, steps);
+                if saves { Modes::of(&model) } else { None }
+            }
+            Coordinates::Modes => Some(Modes::of(&model).ok_or(missing(
+                "modal coordinates",
+                "a linear structure with symmetric matrices, a positive definite mass and a \
+                 damping that the modes decouple",
+            ))?),
+        };
+        if let Some(modes) = modes {
+            base.decouple(&modes);
+            model.decouple(std::sync::Arc::new(modes));
+            let tangent = std::mem::take(&mut operators.tangent);
+            operators = Operators::new(&model, &base, &soil, &coefficients, tangent)?;
+        }
         let middle = 0.5 * (elements[0].left + elements[count - 1].right);
         let moment_center = finite("moment center", self.moment_center.unwrap_or(middle))?;
         let arms = elements.iter().map(|e| e.center() - moment_center).collect();

@@ -6,7 +6,6 @@ use super::state::State;
 use crate::bem::History;
 use crate::error::{CheckpointError, Result};
 use crate::interface::{ContactState, Mode, StepStart, law_of};
-use crate::linalg::SparseMatrix;
 
 /// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
 const FORMAT: u32 = 1;
@@ -49,7 +48,7 @@ struct Scene {
     /// Ends of the elements.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     elements: Vec<f64>,
-    /// Sums over the structure's matrices.
+    /// Sums over the structure's matrices, and one that knows the signs of its modes.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     structure: Vec<f64>,
     /// Sum over the ground's instantaneous operator.
@@ -217,6 +216,7 @@ impl Simulation {
         state.step = checkpoint.steps;
         state.time = state.step as f64 * self.time_step;
         state.transitions.clear();
+        state.motion.changed();
         (self.state, self.memory) = (state, memory);
         self.update_resultants();
         Ok(())
@@ -236,8 +236,10 @@ impl Simulation {
     }
 
     fn scene(&self) -> Scene {
-        let size = |matrix: &SparseMatrix| -> f64 { matrix.entries().map(|e| e.2.abs()).sum() };
         let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
+        // Modes may come with either sign.
+        let columns = self.operators.columns.iter().enumerate();
+        let signed = columns.map(|(k, value)| (k as f64).cos() * value).sum();
         let c = self.coefficients;
         let mut steps = vec![self.time_step];
         for row in [c.acceleration, c.velocity, c.displacement] {
@@ -252,9 +254,10 @@ impl Simulation {
             steps,
             elements: self.elements().iter().flat_map(|e| [e.left, e.right]).collect(),
             structure: vec![
-                size(&self.model.mass),
-                size(&self.model.damping),
-                size(&self.model.stiffness),
+                sum(self.model.mass.values()),
+                sum(self.model.damping.values()),
+                sum(self.model.stiffness.values()),
+                signed,
             ],
             ground: vec![sum(&self.soil)],
             preload: vec![sum(&self.static_state.traction)],
@@ -288,7 +291,8 @@ fn numbers<'a>(state: &'a mut State, memory: &'a mut Memory) -> Vec<&'a mut f64>
     let mut all = vec![nonlinear_work, kinetic, strain, damping, numerical, soil, contact];
     all.extend([layer, preload, input, soil_error_bound]);
     all.extend(ride_velocity.iter_mut().chain(ride_acceleration).chain(&mut state.free_field));
-    for values in [&mut state.displacement, &mut state.velocity, &mut state.acceleration] {
+    let motion = &mut state.motion;
+    for values in [&mut motion.displacement, &mut motion.velocity, &mut motion.acceleration] {
         all.extend(values.iter_mut());
     }
     for values in [free_field, soil_displacement, jump] {

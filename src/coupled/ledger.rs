@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::coordinates::Motion;
 use super::scheme::SchemeCoefficients;
 use super::simulation::Simulation;
 use super::step::Ride;
@@ -70,7 +71,8 @@ impl Simulation {
         let dt = self.time_step;
         let Self { model, work, memory, state, base, solver, start, laws, .. } = self;
         let ledger = &mut state.ledger;
-        let (v0, v1, du) = (&state.velocity, &work.new_velocity, &work.increment);
+        let Motion { displacement: u0, velocity: v0, acceleration: a0, .. } = &state.motion;
+        let (v1, du) = (&work.new_velocity, &work.increment);
 
         ledger.kinetic = 0.5 * model.mass.form(v1, v1);
         let work_of_load: f64 = dot(&work.load, du);
@@ -79,7 +81,7 @@ impl Simulation {
         if !model.damping.is_empty() {
             let [horizontal, vertical] = &model.ride;
             for (i, x) in work.vector.iter_mut().enumerate() {
-                *x = SchemeCoefficients::apply(c.velocity, du[i], v0[i], state.acceleration[i])
+                *x = SchemeCoefficients::apply(c.velocity, du[i], v0[i], a0[i])
                     - horizontal[i] * ride.velocity[0]
                     - vertical[i] * ride.velocity[1];
             }
@@ -93,7 +95,6 @@ impl Simulation {
 
         if !self.conserves_energy {
             // Δu = Δt (v₀+v₁)/2 + r_d, a* = (v₁−v₀)/Δt + r_a, u* = (u₀+u₁)/2 + r_u
-            let a0 = &state.acceleration;
             let (change, rest) = (&mut work.vector, &mut work.total);
             for i in 0..du.len() {
                 change[i] = (v1[i] - v0[i]) / dt;
@@ -114,15 +115,16 @@ impl Simulation {
         if !model.linear {
             memory.nonlinear_work += dot(&work.force, du);
         }
-        for (i, x) in work.vector.iter_mut().enumerate() {
-            *x = state.displacement[i] + du[i];
+        for ((x, u), du) in work.vector.iter_mut().zip(u0).zip(du) {
+            *x = u + du;
         }
+        base.means(&work.vector, &mut work.means);
+        model.spare(&mut work.vector, ride.displacement);
         ledger.strain =
             0.5 * model.stiffness.form(&work.vector, &work.vector) + memory.nonlinear_work;
 
         work.soil_displacement.copy_from_slice(&work.history);
         dense_multiply_add(&self.soil, 1.0, &solver.traction, &mut work.soil_displacement);
-        base.means(&work.vector, &mut work.means);
         let count = base.lengths().len();
         let doubt = self.ground.increment_error_bound();
         for i in 0..2 * count {

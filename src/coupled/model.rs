@@ -1,20 +1,40 @@
-//! The structure's matrices, assembled once.
+//! The structure's matrices, assembled once, in the coordinates in which they are stepped.
+
+use std::sync::Arc;
 
 use super::base::Base;
+use super::coordinates::Modes;
 use crate::error::{Error, Result, same_length};
-use crate::linalg::{SparseFactor, SparseMatrix};
+use crate::linalg::{SparseFactor, SparseMatrix, largest};
+use crate::matrix::Matrix;
 use crate::structure::{Structure, Triplets};
+
+/// Times in nanoseconds that choose the coordinates, as measured by `benches/step.rs`.
+mod cost {
+    /// Per entry of a sparse factor or matrix and use.
+    pub(super) const SPARSE_ENTRY: f64 = 1.0;
+    /// Per mode and step, more than an unknown costs.
+    pub(super) const MODE: f64 = 1.0;
+    /// Per mode, contact component and step, more than unknowns cost.
+    pub(super) const MODE_AND_CONTACT: f64 = 0.2;
+    /// Per cubed number of modes, once.
+    pub(super) const MODES: f64 = 3.0;
+}
 
 /// Assembled matrices of a structure, and how it rides with the ground.
 pub(crate) struct Model {
     pub(crate) structure: Box<dyn Structure>,
     pub(crate) unknowns: usize,
-    pub(crate) mass: SparseMatrix,
-    pub(crate) damping: SparseMatrix,
-    pub(crate) stiffness: SparseMatrix,
+    pub(crate) mass: Matrix,
+    pub(crate) damping: Matrix,
+    pub(crate) stiffness: Matrix,
     pub(crate) linear: bool,
-    /// Unknowns when base and structure ride 1 m to the right and 1 m up.
+    /// Coordinates when base and structure ride 1 m to the right and 1 m up.
     pub(crate) ride: [Vec<f64>; 2],
+    /// The modes, if they are the coordinates.
+    pub(crate) modes: Option<Arc<Modes>>,
+    /// Whether K must be spared the displacement of the ride: see [`Model::spare`].
+    rides_freely: bool,
     tangent: Triplets,
 }
 
@@ -37,25 +57,115 @@ impl Model {
         let mut model = Self {
             structure,
             unknowns,
-            mass,
-            damping,
-            stiffness,
+            mass: Matrix::Sparse(mass),
+            damping: Matrix::Sparse(damping),
+            stiffness: Matrix::Sparse(stiffness),
             linear,
             ride: [vec![0.0; unknowns], vec![0.0; unknowns]],
+            modes: None,
+            rides_freely: false,
             tangent: Triplets::new(unknowns),
         };
         model.ride = model.rigid_ride(base)?;
+        model.rides_freely = model.ride.iter().all(|ride| {
+            let mut force = vec![0.0; unknowns];
+            model.stiffness.multiply_add(1.0, ride, &mut force);
+            largest(&force) <= 1e-9 * model.stiffness.largest() * largest(ride)
+        });
         Ok(model)
     }
 
-    /// K + ∂f/∂u at `u` with weights, for the caller to add to.
+    /// The three matrices, while they are sparse: mass, damping, stiffness.
+    pub(crate) fn sparse(&self) -> Option<[&SparseMatrix; 3]> {
+        match (&self.mass, &self.damping, &self.stiffness) {
+            (Matrix::Sparse(mass), Matrix::Sparse(damping), Matrix::Sparse(stiffness)) => {
+                Some([mass, damping, stiffness])
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether stepping in modes takes less time, their computation included. `factor` is the
+    /// number of entries of the sparse factor, `contact` that of contact components.
+    pub(crate) fn modes_save_time(&self, factor: usize, contact: usize, steps: usize) -> bool {
+        let Some([mass, damping, stiffness]) = self.sparse() else { return false };
+        let n = self.unknowns as f64;
+        let matrices = 2 * (mass.stored() + damping.stored() + stiffness.stored());
+        let sparse = cost::SPARSE_ENTRY * (2 * factor + matrices) as f64;
+        let modal = cost::MODE * n + cost::MODE_AND_CONTACT * n * contact as f64;
+        self.linear && modal * steps as f64 + cost::MODES * n.powi(3) < sparse * steps as f64
+    }
+
+    /// Goes over to modal coordinates.
+    pub(crate) fn decouple(&mut self, modes: Arc<Modes>) {
+        for ride in &mut self.ride {
+            // u = Φ q and Φᵀ M Φ = 1: q = Φᵀ M u.
+            let mut momentum = vec![0.0; self.unknowns];
+            self.mass.multiply_add(1.0, ride, &mut momentum);
+            ride.fill(0.0);
+            modes.project(&momentum, ride);
+        }
+        self.mass = Matrix::Diagonal(vec![1.0; self.unknowns]);
+        self.damping = Matrix::Diagonal(modes.damping.clone());
+        self.stiffness = Matrix::Diagonal(modes.stiffness.clone());
+        self.modes = Some(modes);
+    }
+
+    /// Takes the ride off a displacement before K acts on it. A ride strains nothing, but in
+    /// unknowns K would only find that out by cancellation, with an error that grows with the
+    /// stiffness times the displacement. In modes it has no stiffness to begin with.
+    pub(crate) fn spare(&self, displacement: &mut [f64], ride: [f64; 2]) {
+        if self.rides_freely && self.modes.is_none() {
+            let [horizontal, vertical] = &self.ride;
+            for ((u, h), v) in displacement.iter_mut().zip(horizontal).zip(vertical) {
+                *u -= h * ride[0] + v * ride[1];
+            }
+        }
+    }
+
+    /// Adds the external load at `time`, weight excepted, minus `at_start`, to `load`; `scratch`
+    /// has an entry for every unknown.
+    pub(crate) fn load(
+        &self,
+        time: f64,
+        at_start: &[f64],
+        scratch: &mut [f64],
+        load: &mut [f64],
+    ) {
+        scratch.fill(0.0);
+        self.structure.load(time, scratch);
+        for (now, at_start) in scratch.iter_mut().zip(at_start) {
+            *now -= at_start;
+        }
+        match &self.modes {
+            Some(modes) => modes.project(scratch, load),
+            None => load.iter_mut().zip(scratch).for_each(|(load, now)| *load += *now),
+        }
+    }
+
+    /// ∂f/∂u at a displacement.
     pub(crate) fn tangent(&mut self, displacement: &[f64]) -> Result<SparseMatrix> {
+        let mut tangent = SparseMatrix::default();
+        self.refill_tangent(displacement, &mut tangent)?;
+        Ok(tangent)
+    }
+
+    /// Overwrites `tangent` with ∂f/∂u at a displacement; allocates only for entries at new places.
+    pub(crate) fn refill_tangent(
+        &mut self,
+        displacement: &[f64],
+        tangent: &mut SparseMatrix,
+    ) -> Result<()> {
+        const NAME: &str = "tangent of the nonlinear force";
         self.tangent.clear();
         if !self.linear {
             self.structure.nonlinear_tangent(displacement, &mut self.tangent);
-            same_length("tangent of the nonlinear force", self.tangent.order(), self.unknowns)?;
+            same_length(NAME, self.tangent.order(), self.unknowns)?;
         }
-        SparseMatrix::new("tangent of the nonlinear force", &self.tangent)
+        if tangent.order() != self.unknowns || !tangent.refill(&self.tangent) {
+            *tangent = SparseMatrix::new(NAME, &self.tangent)?;
+        }
+        Ok(())
     }
 
     /// A rigid ride leaves K u = 0 and moves the contact nodes by one: (K + γ NᵀN) r = γ Nᵀ 1 has
@@ -64,7 +174,9 @@ impl Model {
         let n = self.unknowns;
         let at_rest = vec![0.0; n];
         let tangent = self.tangent(&at_rest)?;
-        let mut matrix = SparseMatrix::combine(n, &[(1.0, &self.stiffness), (1.0, &tangent)]);
+        let mut matrix = Triplets::new(n);
+        self.stiffness.add_to(1.0, &mut matrix);
+        tangent.add_to(1.0, &mut matrix);
         let diagonal = |m: &Triplets| {
             m.entries().iter().filter(|(i, j, _)| i == j).fold(0.0_f64, |a, e| a.max(e.2.abs()))
         };

@@ -75,6 +75,11 @@ impl ModeSearch {
         modes: &mut [Mode],
     ) -> Result<(usize, SearchMethod), StepError> {
         let mut trials = 0;
+        // Laws of one mode have nothing to be asked: one solve, with factors made once.
+        let bonded = input.laws.iter().all(|law| law.modes().len() == 1 && modes_fit(law.as_ref(), modes));
+        if bonded && solver.trial(input, modes) {
+            return Ok((1, SearchMethod::ActiveSet));
+        }
         if self.active_set(solver, input, modes, &mut trials) {
             return Ok((trials, SearchMethod::ActiveSet));
         }
@@ -217,6 +222,11 @@ impl ModeSearch {
         }
         false
     }
+}
+
+/// Whether all `modes` are the first of `law`.
+fn modes_fit(law: &dyn crate::interface::InterfaceLaw, modes: &[Mode]) -> bool {
+    modes.iter().all(|mode| law.modes().first() == Some(mode))
 }
 
 /// Solves element `e` alone, the tractions of the others held, and returns its mode.

@@ -5,7 +5,7 @@ use crate::bem::{Ground, HalfPlaneGround};
 use crate::coupled::base::Base;
 use crate::coupled::model::Model;
 use crate::coupled::scheme::{Midpoint, TimeScheme};
-use crate::coupled::simulation::Operators;
+use crate::coupled::operators::Operators;
 use crate::fem::{Layer, Material, Mesh};
 use crate::interface::{Activation, Coulomb, InterfaceLaw, StepStart};
 use crate::linalg::dense_multiply_add;

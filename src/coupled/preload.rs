@@ -8,6 +8,7 @@ use crate::bem::Ground;
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, law_of};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
+use crate::structure::Triplets;
 
 /// What friction does while the structure is placed on the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -182,19 +183,19 @@ impl Compliance {
         epsilon: f64,
     ) -> Result<Self> {
         let n = model.unknowns;
-        let matrix = SparseMatrix::combine(
-            n,
-            &[(1.0, &model.stiffness), (1.0, tangent), (epsilon, &model.mass)],
-        );
+        let mut matrix = Triplets::new(n);
+        model.stiffness.add_to(1.0, &mut matrix);
+        tangent.add_to(1.0, &mut matrix);
+        model.mass.add_to(epsilon, &mut matrix);
         let mut factor = SparseFactor::new("static stiffness matrix", &matrix)?;
-        let (columns, delassus) = condense(&mut factor, base, soil, n);
+        let (columns, delassus) = condense(|rhs| factor.solve(rhs), base, soil, n);
         Ok(Self { factor, columns, delassus })
     }
 }
 
 /// Columns of K⁻¹BᵀA and the Delassus operator `soil` + B K⁻¹BᵀA.
 pub(crate) fn condense(
-    factor: &mut SparseFactor,
+    mut solve: impl FnMut(&mut [f64]),
     base: &Base,
     soil: &[f64],
     unknowns: usize,
@@ -208,7 +209,7 @@ pub(crate) fn condense(
         unit[i] = 1.0;
         base.add_forces(1.0, &unit, column);
         unit[i] = 0.0;
-        factor.solve(column);
+        solve(column);
         base.means(column, &mut means);
         for (row, mean) in means.iter().enumerate() {
             delassus[row * size + i] += mean;

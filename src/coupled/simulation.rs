@@ -3,17 +3,19 @@
 use super::base::Base;
 use super::builder::SimulationBuilder;
 use super::contact::ContactSolver;
+use super::coordinates::{Motion, Row};
 use super::ledger::Ledger;
 use super::model::Model;
 use super::modes::{ContactSearch, ModeSearch, SearchMethod};
-use super::preload::{StaticState, condense};
+use super::operators::Operators;
+use super::preload::StaticState;
 use super::run::{Flow, Run};
 use super::scheme::SchemeCoefficients;
 use super::state::{Probe, State};
 use crate::bem::{ContactElement, Ground, HistoryChoice};
 use crate::error::Result;
 use crate::interface::{ContactState, InterfaceLaw, StepStart, law_of};
-use crate::linalg::{SparseFactor, SparseMatrix};
+use crate::linalg::SparseMatrix;
 use crate::motion::FreeField;
 
 /// A structure on a ground, ready to march.
@@ -40,6 +42,8 @@ pub struct Simulation {
     pub(super) soil: Vec<f64>,
     pub(super) operators: Operators,
     pub(super) probes: Vec<Probe>,
+    /// Displacement, velocity and acceleration of each probe.
+    pub(super) probe_rows: Vec<[Row; 3]>,
     /// Element midpoints relative to the point of the base moment.
     pub(super) arms: Vec<f64>,
     pub(super) solver: ContactSolver,
@@ -54,39 +58,6 @@ pub struct Simulation {
 
 /// Steps that a run prepares for, at most; beyond, memory grows as it goes.
 const RESERVED_STEPS: usize = 100_000;
-
-/// What stays constant while the tangent does.
-pub(super) struct Operators {
-    pub(super) tangent: SparseMatrix,
-    pub(super) factor: SparseFactor,
-    /// Columns of K_eff⁻¹BᵀA, one after the other.
-    pub(super) columns: Vec<f64>,
-    pub(super) delassus: Vec<f64>,
-}
-
-impl Operators {
-    /// Factors K_eff = M, C, K + ∂f/∂u, each with the scheme's coefficient of Δu, and condenses it.
-    pub(super) fn new(
-        model: &Model,
-        base: &Base,
-        soil: &[f64],
-        coefficients: &SchemeCoefficients,
-        tangent: SparseMatrix,
-    ) -> Result<Self> {
-        let matrix = SparseMatrix::combine(
-            model.unknowns,
-            &[
-                (coefficients.acceleration[0], &model.mass),
-                (coefficients.velocity[0], &model.damping),
-                (coefficients.displacement[0], &model.stiffness),
-                (coefficients.displacement[0], &tangent),
-            ],
-        );
-        let mut factor = SparseFactor::new("effective stiffness matrix", &matrix)?;
-        let (columns, delassus) = condense(&mut factor, base, soil, model.unknowns);
-        Ok(Self { tangent, factor, columns, delassus })
-    }
-}
 
 /// What one step needs of the one before, besides the public state.
 #[derive(Clone)]
@@ -120,6 +91,10 @@ pub(super) struct Workspace {
     pub(super) vector: Vec<f64>,
     pub(super) force: Vec<f64>,
     pub(super) total: Vec<f64>,
+    /// Newton's iterate and its linearised force.
+    pub(super) guess: Vec<f64>,
+    pub(super) linearised: Vec<f64>,
+    pub(super) tangent: SparseMatrix,
 }
 
 pub(super) struct Parts {
@@ -187,6 +162,9 @@ impl Simulation {
             parts.model.structure.nonlinear_force(&at.displacement, &mut static_force);
         }
         let elements = parts.ground.elements().to_vec();
+        let modes_of = parts.model.modes.as_deref();
+        let probe_rows =
+            parts.probes.iter().map(|p| p.rows().map(|row| Row::new(row, modes_of))).collect();
         let mut simulation = Self {
             time_step: parts.time_step,
             coefficients: parts.coefficients,
@@ -216,9 +194,7 @@ impl Simulation {
             state: State {
                 step: 0,
                 time: 0.0,
-                displacement: vec![0.0; n],
-                velocity: vec![0.0; n],
-                acceleration: vec![0.0; n],
+                motion: Motion::new(n, parts.model.modes.clone()),
                 contact,
                 modes,
                 transitions: Vec::with_capacity(count),
@@ -234,6 +210,7 @@ impl Simulation {
                 trials: 0,
                 method: SearchMethod::ActiveSet,
             },
+            probe_rows,
             model: parts.model,
             ground: parts.ground,
             base: parts.base,
@@ -325,6 +302,9 @@ impl Workspace {
             vector: structure(),
             force: structure(),
             total: structure(),
+            guess: structure(),
+            linearised: structure(),
+            tangent: SparseMatrix::default(),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What a step leaves behind.
 
+use super::coordinates::Motion;
 use super::ledger::Ledger;
 use super::modes::SearchMethod;
 use crate::interface::{ContactState, Mode};
@@ -42,12 +43,6 @@ pub struct State {
     pub step: usize,
     /// Time, s.
     pub time: f64,
-    /// Unknowns of the structure, m and rad (absolute, not relative to the ground).
-    pub displacement: Vec<f64>,
-    /// Their rates at the end of the step.
-    pub velocity: Vec<f64>,
-    /// Their accelerations; for the midpoint and θ rules the mean over the step.
-    pub acceleration: Vec<f64>,
     /// Opening and total traction of each element.
     pub contact: Vec<ContactState>,
     /// Mode of each element.
@@ -77,9 +72,29 @@ pub struct State {
     pub trials: usize,
     /// How the modes were found; in a nonlinear step, the farthest that any iteration had to go.
     pub method: SearchMethod,
+    pub(crate) motion: Motion,
 }
 
 impl State {
+    /// Unknowns of the structure, m and rad (absolute, not relative to the ground).
+    ///
+    /// These three are worked out when they are first asked for in a step: a structure that is
+    /// stepped in its modes pays for all n² of them then, and nothing otherwise. A few quantities
+    /// at every step are cheaper as a [`Probe`].
+    pub fn displacement(&self) -> &[f64] {
+        self.motion.unknowns(0)
+    }
+
+    /// Rates of the unknowns at the end of the step.
+    pub fn velocity(&self) -> &[f64] {
+        self.motion.unknowns(1)
+    }
+
+    /// Accelerations of the unknowns; for the midpoint and θ rules the mean over the step.
+    pub fn acceleration(&self) -> &[f64] {
+        self.motion.unknowns(2)
+    }
+
     /// Largest |slip| of any element, m.
     pub fn largest_slip(&self) -> f64 {
         self.contact.iter().fold(0.0, |m, c| m.max(c.slip.abs()))
@@ -125,7 +140,7 @@ impl Probe {
         }
     }
 
-    pub(crate) fn rows(&self) -> [&[(usize, f64)]; 3] {
+    pub(super) fn rows(&self) -> [&[(usize, f64)]; 3] {
         [&self.displacement, &self.velocity, &self.acceleration]
     }
 }

@@ -9,13 +9,15 @@
 //! | B, A | element means of the base displacement, element lengths |
 
 use super::contact::ContactInput;
+use super::coordinates::Motion;
 use super::modes::SearchMethod;
 use super::scheme::SchemeCoefficients;
-use super::simulation::{Operators, Simulation};
+use super::operators::Operators;
+use super::simulation::Simulation;
 use super::state::{State, Transition};
 use crate::error::{Error, Result, StepError};
 use crate::interface::StepStart;
-use crate::linalg::{dot, largest};
+use crate::linalg::{dot, largest, wide_transposed_multiply_add};
 
 /// Newton iterations for a nonlinear structure.
 const NEWTON_ITERATIONS: usize = 40;
@@ -73,14 +75,11 @@ impl Simulation {
     fn known_forces(&mut self) -> Ride {
         let c = self.coefficients;
         let ride = self.ride();
-        let State { displacement: u, velocity: v, acceleration: a, time, .. } = &self.state;
+        let Motion { displacement: u, velocity: v, acceleration: a, .. } = &self.state.motion;
         let work = &mut self.work;
         work.load.fill(0.0);
-        let load_time = time + c.load_fraction * self.time_step;
-        self.model.structure.load(load_time, &mut work.load);
-        for (load, at_start) in work.load.iter_mut().zip(&self.static_load) {
-            *load -= at_start;
-        }
+        let load_time = self.state.time + c.load_fraction * self.time_step;
+        self.model.load(load_time, &self.static_load, &mut work.vector, &mut work.load);
         work.known.copy_from_slice(&work.load);
         let [horizontal, vertical] = &self.model.ride;
         for (i, x) in work.vector.iter_mut().enumerate() {
@@ -98,6 +97,7 @@ impl Simulation {
         for (i, x) in work.vector.iter_mut().enumerate() {
             *x = u[i] + SchemeCoefficients::apply(c.displacement, 0.0, v[i], a[i]);
         }
+        self.model.spare(&mut work.vector, self.state.free_field);
         self.model.stiffness.multiply_add(-1.0, &work.vector, &mut work.known);
         ride
     }
@@ -138,9 +138,10 @@ impl Simulation {
     /// Takes the right-hand side in `work.increment` and leaves the increment there.
     fn solve_contact(&mut self) -> std::result::Result<Solved, StepError> {
         let work = &mut self.work;
-        self.operators.factor.solve(&mut work.increment);
-        for (i, x) in work.vector.iter_mut().enumerate() {
-            *x = self.state.displacement[i] + work.increment[i];
+        self.operators.solve(&mut work.increment);
+        let displacement = &self.state.motion.displacement;
+        for ((x, u), du) in work.vector.iter_mut().zip(displacement).zip(&work.increment) {
+            *x = u + du;
         }
         self.base.means(&work.vector, &mut work.means);
         let mut length_scale = 0.0_f64;
@@ -167,51 +168,59 @@ impl Simulation {
         };
         work.modes.copy_from_slice(&self.state.modes);
         let solved = self.search.solve(&mut self.solver, &input, &mut work.modes)?;
-        let n = self.model.unknowns;
-        for (column, traction) in
-            self.operators.columns.chunks_exact(n.max(1)).zip(&self.solver.traction)
-        {
-            for (du, c) in work.increment.iter_mut().zip(column) {
-                *du -= c * traction;
-            }
-        }
+        let columns = &self.operators.columns;
+        wide_transposed_multiply_add(columns, -1.0, &self.solver.traction, &mut work.increment);
         Ok(solved)
     }
 
     /// Nonlinear structure: Newton's method around the whole step, contact inside.
     fn solve_newton(&mut self) -> std::result::Result<Solved, StepError> {
+        let mut guess = std::mem::take(&mut self.work.guess);
+        let mut linearised = std::mem::take(&mut self.work.linearised);
+        let solved = self.iterate(&mut guess, &mut linearised);
+        (self.work.guess, self.work.linearised) = (guess, linearised);
+        solved
+    }
+
+    /// Newton's iterations, with the increment and its linearised force as scratch.
+    fn iterate(
+        &mut self,
+        guess: &mut [f64],
+        linearised: &mut [f64],
+    ) -> std::result::Result<Solved, StepError> {
         let c = self.coefficients;
         let weight = c.displacement[0];
         let n = self.model.unknowns;
         // The increment that the last velocity suggests.
-        let mut guess: Vec<f64> = self.state.velocity.iter().map(|v| v * self.time_step).collect();
+        for (guess, v) in guess.iter_mut().zip(&self.state.motion.velocity) {
+            *guess = v * self.time_step;
+        }
         let mut residual = f64::INFINITY;
         let (mut trials, mut method) = (0, SearchMethod::ActiveSet);
-        let mut linearised = vec![0.0; n];
         for iteration in 0..NEWTON_ITERATIONS {
-            self.evaluate_nonlinear(&guess);
-            let tangent = self
-                .model
-                .tangent(&self.work.total)
+            self.evaluate_nonlinear(guess);
+            self.model
+                .refill_tangent(&self.work.total, &mut self.work.tangent)
                 .map_err(|_| StepError::NotFinite { quantity: "tangent of the structure" })?;
-            if !tangent.entries().eq(self.operators.tangent.entries()) {
+            if !self.work.tangent.entries().eq(self.operators.tangent.entries()) {
                 let (model, base, soil) = (&self.model, &self.base, &self.soil);
+                let tangent = self.work.tangent.clone();
                 self.operators = Operators::new(model, base, soil, &c, tangent)
                     .map_err(|_| StepError::Singular { matrix: "effective stiffness matrix" })?;
                 self.solver.invalidate();
             }
             // K_eff Δu + f(u*) linearised at the guess: f + D weight (Δu − guess).
             linearised.copy_from_slice(&self.work.force);
-            self.operators.tangent.multiply_add(-weight, &guess, &mut linearised);
+            self.operators.tangent.multiply_add(-weight, guess, linearised);
             for i in 0..n {
                 self.work.increment[i] = self.work.known[i] - linearised[i];
             }
             let (more, last_method) = self.solve_contact()?;
             trials += more;
             method = method.max(last_method);
-            self.operators.tangent.multiply_add(weight, &self.work.increment, &mut linearised);
+            self.operators.tangent.multiply_add(weight, &self.work.increment, linearised);
             guess.copy_from_slice(&self.work.increment);
-            self.evaluate_nonlinear(&guess);
+            self.evaluate_nonlinear(guess);
             if self.work.force.iter().any(|f| !f.is_finite()) {
                 return Err(StepError::NotFinite { quantity: "nonlinear force of the structure" });
             }
@@ -239,7 +248,7 @@ impl Simulation {
     /// f at u* for an increment, minus f at the static state, into `work.force`.
     fn evaluate_nonlinear(&mut self, increment: &[f64]) {
         let c = self.coefficients.displacement;
-        let State { displacement: u, velocity: v, acceleration: a, .. } = &self.state;
+        let Motion { displacement: u, velocity: v, acceleration: a, .. } = &self.state.motion;
         let work = &mut self.work;
         for (i, total) in work.total.iter_mut().enumerate() {
             *total = self.static_state.displacement[i]
@@ -256,19 +265,21 @@ impl Simulation {
     /// Accepts the step: books it, then moves state, soil and structure to its end.
     fn commit(&mut self, step: usize, time: f64, ride: &Ride) {
         let c = self.coefficients;
-        for i in 0..self.model.unknowns {
-            let (du, v, a) =
-                (self.work.increment[i], self.state.velocity[i], self.state.acceleration[i]);
-            self.work.new_velocity[i] = SchemeCoefficients::apply(c.new_velocity, du, v, a);
-            self.work.new_acceleration[i] = SchemeCoefficients::apply(c.new_acceleration, du, v, a);
+        let Motion { velocity, acceleration, .. } = &self.state.motion;
+        for (i, (v, a)) in velocity.iter().zip(acceleration).enumerate() {
+            let du = self.work.increment[i];
+            self.work.new_velocity[i] = SchemeCoefficients::apply(c.new_velocity, du, *v, *a);
+            self.work.new_acceleration[i] =
+                SchemeCoefficients::apply(c.new_acceleration, du, *v, *a);
         }
         self.book(ride);
         let state = &mut self.state;
-        for (u, du) in state.displacement.iter_mut().zip(&self.work.increment) {
+        for (u, du) in state.motion.displacement.iter_mut().zip(&self.work.increment) {
             *u += du;
         }
-        state.velocity.copy_from_slice(&self.work.new_velocity);
-        state.acceleration.copy_from_slice(&self.work.new_acceleration);
+        std::mem::swap(&mut state.motion.velocity, &mut self.work.new_velocity);
+        std::mem::swap(&mut state.motion.acceleration, &mut self.work.new_acceleration);
+        state.motion.changed();
         state.contact.copy_from_slice(&self.solver.states);
         state.transitions.clear();
         for (element, (from, &to)) in state.modes.iter_mut().zip(&self.work.modes).enumerate() {
@@ -295,10 +306,12 @@ impl Simulation {
         state.step = step;
         state.time = time;
         self.ground.commit(&self.solver.traction);
-        for (i, total) in self.work.total.iter_mut().enumerate() {
-            *total = self.static_state.displacement[i] + self.state.displacement[i];
+        if !self.model.linear {
+            for (i, total) in self.work.total.iter_mut().enumerate() {
+                *total = self.static_state.displacement[i] + self.state.motion.displacement[i];
+            }
+            self.model.structure.commit(&self.work.total);
         }
-        self.model.structure.commit(&self.work.total);
         self.update_resultants();
     }
 
@@ -323,14 +336,10 @@ impl Simulation {
         state.base_moment = moment;
         state.uplifted_fraction = open / width;
         state.mean_slip = slip / width;
-        state.base_rotation = self.base.rotation(&state.displacement);
-        for (value, probe) in state.probes.iter_mut().zip(&self.probes) {
-            let [u, v, a] = probe.rows();
-            let sum = |row: &[(usize, f64)], x: &[f64]| -> f64 {
-                row.iter().map(|&(i, weight)| weight * x[i]).sum()
-            };
-            *value =
-                sum(u, &state.displacement) + sum(v, &state.velocity) + sum(a, &state.acceleration);
+        let Motion { displacement, velocity, acceleration, .. } = &state.motion;
+        state.base_rotation = self.base.rotation(displacement);
+        for (value, [u, v, a]) in state.probes.iter_mut().zip(&self.probe_rows) {
+            *value = u.of(displacement) + v.of(velocity) + a.of(acceleration);
         }
     }
 }
@@ -340,7 +349,7 @@ type Solved = (usize, SearchMethod);
 
 /// The mean free field over a step: `[horizontal, vertical up]`.
 pub(super) struct Ride {
-    displacement: [f64; 2],
+    pub(super) displacement: [f64; 2],
     pub(super) increment: [f64; 2],
     pub(super) velocity: [f64; 2],
     new_velocity: [f64; 2],

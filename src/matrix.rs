@@ -1,0 +1,251 @@
+//! Matrices of a structure: sparse in its unknowns, diagonal in its modes.
+
+use crate::error::{Error, Result};
+use crate::linalg::largest;
+use crate::structure::Triplets;
+
+/// Square sparse matrix, compressed by rows.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct SparseMatrix {
+    order: usize,
+    row_start: Vec<usize>,
+    column: Vec<usize>,
+    value: Vec<f64>,
+}
+
+impl SparseMatrix {
+    /// Sums the entries of `triplets` by place.
+    pub(crate) fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
+        let order = triplets.order();
+        let mut row_start = vec![0; order + 1];
+        for &(row, column, value) in triplets.entries() {
+            let index = row.max(column);
+            if index >= order {
+                return Err(Error::Index { quantity: name, index, bound: order });
+            }
+            if !value.is_finite() {
+                return Err(Error::Input { quantity: name, value, needed: "finite" });
+            }
+            row_start[row + 1] += 1;
+        }
+        for row in 0..order {
+            row_start[row + 1] += row_start[row];
+        }
+        let mut entries = vec![(0, 0.0); triplets.entries().len()];
+        let mut next = row_start.clone();
+        for &(row, column, value) in triplets.entries() {
+            entries[next[row]] = (column, value);
+            next[row] += 1;
+        }
+        let mut matrix = Self { order, row_start: vec![0], column: vec![], value: vec![] };
+        for row in 0..order {
+            let entries = &mut entries[row_start[row]..row_start[row + 1]];
+            entries.sort_by_key(|&(column, _)| column);
+            let start = matrix.column.len();
+            for &(column, value) in entries.iter() {
+                if matrix.column.len() > start && matrix.column.last() == Some(&column) {
+                    *matrix.value.last_mut().unwrap_or(&mut 0.0) += value;
+                } else {
+                    matrix.column.push(column);
+                    matrix.value.push(value);
+                }
+            }
+            matrix.row_start.push(matrix.column.len());
+        }
+        Ok(matrix)
+    }
+
+    /// Puts the sums of `triplets` in the place of the values, without allocating. False, with
+    /// undefined values, if an entry has no place here or is not finite.
+    pub(crate) fn refill(&mut self, triplets: &Triplets) -> bool {
+        self.value.fill(0.0);
+        triplets.entries().iter().all(|&(row, column, value)| {
+            let start = self.row_start.get(row).copied().unwrap_or(0);
+            let end = self.row_start.get(row + 1).copied().unwrap_or(0);
+            let Ok(k) = self.column[start..end.max(start)].binary_search(&column) else {
+                return false;
+            };
+            self.value[start + k] += value;
+            value.is_finite()
+        })
+    }
+
+    /// Number of entries stored.
+    pub(crate) fn stored(&self) -> usize {
+        self.value.len()
+    }
+
+    /// Adds factor · A to `sum`.
+    pub(crate) fn add_to(&self, factor: f64, sum: &mut Triplets) {
+        for (row, column, value) in self.entries() {
+            sum.add(row, column, factor * value);
+        }
+    }
+
+    /// All stored entries: (row, column, value).
+    pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        (0..self.order).flat_map(move |row| {
+            (self.row_start[row]..self.row_start[row + 1])
+                .map(move |k| (row, self.column[k], self.value[k]))
+        })
+    }
+
+    /// Whether no entry is stored.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.value.is_empty()
+    }
+
+    /// Rows and columns.
+    pub(crate) fn order(&self) -> usize {
+        self.order
+    }
+
+    /// (A x) of one row.
+    fn row_product(&self, row: usize, x: &[f64]) -> f64 {
+        let range = self.row_start[row]..self.row_start[row + 1];
+        self.column[range.clone()].iter().zip(&self.value[range]).map(|(&j, a)| a * x[j]).sum()
+    }
+
+    /// y ← y + factor · A x.
+    pub(crate) fn multiply_add(&self, factor: f64, x: &[f64], y: &mut [f64]) {
+        for (row, y) in y.iter_mut().enumerate() {
+            *y += factor * self.row_product(row, x);
+        }
+    }
+
+    /// x·A y.
+    pub(crate) fn form(&self, x: &[f64], y: &[f64]) -> f64 {
+        x.iter().enumerate().map(|(row, x)| x * self.row_product(row, y)).sum()
+    }
+
+    /// Largest |a_ij − a_ji| relative to the largest |a_ij|.
+    pub(crate) fn asymmetry(&self) -> f64 {
+        let mut largest = 0.0_f64;
+        let mut difference = 0.0_f64;
+        for (row, column, value) in self.entries() {
+            largest = largest.max(value.abs());
+            let range = self.row_start[column]..self.row_start[column + 1];
+            let twin = match self.column[range.clone()].binary_search(&row) {
+                Ok(k) => self.value[range.start + k],
+                Err(_) => 0.0,
+            };
+            difference = difference.max((value - twin).abs());
+        }
+        if largest > 0.0 { difference / largest } else { 0.0 }
+    }
+}
+
+/// A matrix of the equations of motion in the coordinates in which they are stepped.
+#[derive(Debug, Clone)]
+pub(crate) enum Matrix {
+    /// In the structure's own unknowns.
+    Sparse(SparseMatrix),
+    /// In its modes.
+    Diagonal(Vec<f64>),
+}
+
+impl Matrix {
+    /// Whether there is nothing to multiply.
+    pub(crate) fn is_empty(&self) -> bool {
+        match self {
+            Self::Sparse(matrix) => matrix.is_empty(),
+            Self::Diagonal(values) => values.iter().all(|d| *d == 0.0),
+        }
+    }
+
+    /// Adds factor · A to `sum`.
+    pub(crate) fn add_to(&self, factor: f64, sum: &mut Triplets) {
+        match self {
+            Self::Sparse(matrix) => matrix.add_to(factor, sum),
+            Self::Diagonal(values) => {
+                values.iter().enumerate().for_each(|(i, d)| sum.add(i, i, factor * d));
+            }
+        }
+    }
+
+    /// y ← y + factor · A x.
+    pub(crate) fn multiply_add(&self, factor: f64, x: &[f64], y: &mut [f64]) {
+        match self {
+            Self::Sparse(matrix) => matrix.multiply_add(factor, x, y),
+            Self::Diagonal(values) => {
+                for ((y, x), d) in y.iter_mut().zip(x).zip(values) {
+                    *y += factor * (d * x);
+                }
+            }
+        }
+    }
+
+    /// All entries that are stored.
+    pub(crate) fn values(&self) -> &[f64] {
+        match self {
+            Self::Sparse(matrix) => &matrix.value,
+            Self::Diagonal(values) => values,
+        }
+    }
+
+    /// Largest entry's magnitude.
+    pub(crate) fn largest(&self) -> f64 {
+        largest(self.values())
+    }
+
+    /// x·A y.
+    pub(crate) fn form(&self, x: &[f64], y: &[f64]) -> f64 {
+        match self {
+            Self::Sparse(matrix) => matrix.form(x, y),
+            Self::Diagonal(values) => dot_three(x, values, y),
+        }
+    }
+}
+
+/// Σ xᵢ dᵢ yᵢ, in four running sums so that the compiler can use vector registers.
+fn dot_three(x: &[f64], d: &[f64], y: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let chunks = |v: &[f64]| v.len() - v.len() % 4;
+    let whole = chunks(d).min(chunks(x)).min(chunks(y));
+    for k in (0..whole).step_by(4) {
+        let (x, d, y) = (&x[k..k + 4], &d[k..k + 4], &y[k..k + 4]);
+        for i in 0..4 {
+            sums[i] += x[i] * d[i] * y[i];
+        }
+    }
+    let rest = x[whole..].iter().zip(&d[whole..]).zip(&y[whole..]);
+    rest.map(|((x, d), y)| x * d * y).sum::<f64>() + ((sums[0] + sums[1]) + (sums[2] + sums[3]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refill_sums_in_place_or_refuses() {
+        let mut triplets = Triplets::new(2);
+        triplets.add(0, 1, 1.0);
+        triplets.add(0, 1, 2.0);
+        let mut matrix = SparseMatrix::new("test", &triplets).unwrap();
+        triplets.add(0, 1, 0.5);
+        assert!(matrix.refill(&triplets));
+        assert_eq!(matrix.entries().collect::<Vec<_>>(), [(0, 1, 3.5)]);
+        for (row, column, value) in [(1, 1, 1.0), (5, 1, 1.0), (0, 1, f64::NAN)] {
+            let mut more = triplets.clone();
+            more.add(row, column, value);
+            assert!(!matrix.refill(&more));
+        }
+    }
+
+    #[test]
+    fn diagonal_and_sparse_agree() {
+        let d: Vec<f64> = (0..11).map(|i| 1.0 + f64::from(i)).collect();
+        let mut triplets = Triplets::new(11);
+        d.iter().enumerate().for_each(|(i, d)| triplets.add(i, i, *d));
+        let sparse = Matrix::Sparse(SparseMatrix::new("test", &triplets).unwrap());
+        let diagonal = Matrix::Diagonal(d);
+        let x: Vec<f64> = (0..11).map(|i| f64::from(i).sin()).collect();
+        let y: Vec<f64> = (0..11).map(|i| f64::from(i).cos()).collect();
+        assert!((sparse.form(&x, &y) - diagonal.form(&x, &y)).abs() < 1e-13);
+        let (mut a, mut b) = (y.clone(), y.clone());
+        sparse.multiply_add(-2.0, &x, &mut a);
+        diagonal.multiply_add(-2.0, &x, &mut b);
+        assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-13));
+        assert!(Matrix::Diagonal(vec![0.0]).is_empty() && !diagonal.is_empty());
+    }
+}

@@ -1,0 +1,127 @@
+//! No step allocates once it is warm, whatever the scene.
+#![allow(unsafe_code, reason = "an allocator that counts has to be one")]
+
+#[path = "support/scenes.rs"]
+mod scenes;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use basemat::bem::{HalfPlaneGround, History, SpringGround};
+use basemat::coupled::{Coordinates, Probe, SimulationBuilder, Theta};
+use basemat::interface::Bonded;
+use basemat::structure::{ContactNode, RayleighDamping, RigidBlock, Structure, Triplets};
+use scenes::{SI, block, friction, scene, soil, tower};
+
+/// The system's allocator, with a count for each thread.
+struct Counting;
+
+thread_local! {
+    static COUNT: Cell<usize> = const { Cell::new(0) };
+}
+
+fn count() {
+    // A thread that ends may allocate after its count is gone.
+    let _ = COUNT.try_with(|count| count.set(count.get() + 1));
+}
+
+// SAFETY: every call is handed to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        // SAFETY: as for the caller.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: as for the caller.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        // SAFETY: as for the caller.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// A block with a damper that pulls back with −(1 + u₀²) f₀: its force is nonlinear, its tangent is
+/// written as a constant.
+struct Quadratic(RigidBlock);
+
+impl Structure for Quadratic {
+    fn unknowns(&self) -> usize {
+        3
+    }
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.0.contact_nodes()
+    }
+    fn mass(&self, matrix: &mut Triplets) {
+        self.0.mass(matrix);
+    }
+    fn stiffness(&self, _: &mut Triplets) {}
+    fn is_linear(&self) -> bool {
+        false
+    }
+    fn nonlinear_force(&self, u: &[f64], force: &mut [f64]) {
+        force[2] += 1e5 * u[2] + 1e3 * u[2] * u[2];
+    }
+    fn nonlinear_tangent(&self, _: &[f64], matrix: &mut Triplets) {
+        matrix.add(2, 2, 1e5);
+    }
+}
+
+/// Steps before counting: two leaves of the history's transforms, so that every path was taken.
+const WARM: usize = 128;
+const STEPS: usize = 640;
+
+fn allocations(builder: SimulationBuilder) -> (usize, usize) {
+    let builder = builder.probe(Probe::displacement("u", vec![(0, 1.0)]));
+    let mut simulation = builder.expected_steps(WARM + STEPS).build().unwrap();
+    for _ in 0..WARM {
+        simulation.step().unwrap();
+    }
+    let (before, mut changes) = (COUNT.get(), 0);
+    for _ in 0..STEPS {
+        changes += simulation.step().unwrap().transitions.len();
+    }
+    (COUNT.get() - before, changes)
+}
+
+#[test]
+fn steps_do_not_allocate() {
+    // The counter counts.
+    let before = COUNT.get();
+    drop(std::hint::black_box(vec![0_u8; 100]));
+    assert_eq!(COUNT.get() - before, 1);
+
+    let base = || scene(SI, 0.6);
+    let damped = || tower(SI, Some(RayleighDamping::from_ratios([2.0, 20.0], [0.05; 2]).unwrap()));
+    let direct = || {
+        let ground = HalfPlaneGround::strip(soil(SI), -2.0..2.0, 8).unwrap();
+        base().ground(ground.with_history_kind(History::Direct))
+    };
+    let bed = || SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap();
+    let modes = Coordinates::Modes;
+    let theta = Theta::new(0.6).unwrap();
+    let scenes = [
+        ("bonded", base().structure(tower(SI, None)).interface(Bonded)),
+        ("bonded, modes", base().structure(tower(SI, None)).interface(Bonded).coordinates(modes)),
+        ("sliding", base().structure(damped()).interface(friction(0.2)).scheme(theta)),
+        ("sliding, modes", base().structure(damped()).interface(friction(0.2)).coordinates(modes)),
+        ("uplift", base().structure(block(SI)).interface(friction(f64::INFINITY))),
+        ("smooth", base().structure(block(SI)).interface(friction(0.0))),
+        ("direct history", direct().structure(block(SI)).interface(friction(0.3))),
+        ("spring bed", base().ground(bed()).structure(block(SI)).interface(friction(0.3))),
+        ("Newton", base().structure(Quadratic(block(SI))).interface(friction(0.3))),
+    ];
+    for (name, builder) in scenes {
+        let (allocations, changes) = allocations(builder);
+        println!("{name}: {allocations} allocations, {changes} changes of mode");
+        assert_eq!(allocations, 0, "{name}");
+        assert!(name.starts_with("bonded") || changes > 0, "{name}: the modes never changed");
+    }
+}
