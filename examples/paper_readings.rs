@@ -17,7 +17,7 @@ use basemat::interface::{
     StepStart, ThinLayer, Tolerance,
 };
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
-use basemat::structure::FemModel;
+use basemat::structure::{FemModel, RayleighDamping};
 use basemat::{Simulation, Soil};
 use clap::{Parser, ValueEnum};
 
@@ -88,6 +88,12 @@ struct Reading {
     /// Soil density, slug/ft³.
     #[arg(long, default_value_t = 3.5)]
     soil_density: f64,
+    /// Damping ratio of the structure at 1 and 10 Hz (Rayleigh).
+    #[arg(long, default_value_t = 0.0)]
+    damping: f64,
+    /// Newmark's gamma; beta = (gamma + 1/2)²/4.
+    #[arg(long, default_value_t = 0.5)]
+    gamma: f64,
     /// Elements integrated at their centre, as the paper's are.
     #[arg(long)]
     one_point: bool,
@@ -276,6 +282,12 @@ impl Reading {
             ],
         )?;
         let model = FemModel::on_base(mesh)?;
+        let ratios = [self.damping; 2];
+        let model = if self.damping > 0.0 {
+            model.with_damping(RayleighDamping::from_ratios([1.0, 10.0], ratios)?)
+        } else {
+            model
+        };
         let section = model.section(layer, 0.0)?;
         let mass = 2.0 * half * layer * (foundation.density() + 12.0 * superstructure.density());
         let time_step = 0.1 * half / fast;
@@ -322,7 +334,10 @@ impl Reading {
 
     fn with_scheme(&self, builder: SimulationBuilder) -> Result<SimulationBuilder, AnyError> {
         let builder = match self.scheme {
-            Scheme::Newmark => builder.scheme(Newmark::default()),
+            Scheme::Newmark => {
+                let beta = 0.25 * (self.gamma + 0.5).powi(2);
+                builder.scheme(Newmark::new(self.gamma, beta)?)
+            }
             Scheme::Hht => builder.scheme(HhtAlpha::new(-0.1)?),
             Scheme::Midpoint => builder.scheme(Midpoint),
         };
@@ -416,6 +431,9 @@ const READINGS: &[&str] = &[
     "--friction-factor 0.3 --limit weight --lag-modes",
     "--limit lagged --static-share 0.25",
     "--foundation-density 0.3333",
+    "--damping 0.05",
+    "--gamma 0.6",
+    "--gamma 1",
     "--record 0.5",
     "--width 28 --height 80.6",
     "--width 40 --height 79.2",

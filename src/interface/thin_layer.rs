@@ -55,6 +55,14 @@ pub enum SlipSense {
 /// from the step before: what has slipped stays slipped. A layer of no thickness is
 /// [`Coulomb`](super::Coulomb).
 ///
+/// The share r counts against the layer's own thickness: a layer a hundred times thinner pulls a
+/// hundred times harder while it is open, so that r must shrink with the thickness.
+///
+/// With the default [`FrictionLimit`] and [`SlipSense`] and no stiffness left in slip, shear
+/// vanishes with pressure, as friction's limit does. The other readings let an element carry shear
+/// up to its opening, or slide against its traction; a step may then have no solution, and is a
+/// [`StepError::Contact`](crate::StepError::Contact).
+///
 /// ```
 /// use basemat::{Soil, interface::ThinLayer};
 /// let soil = Soil::new(80.0e6, 1.0 / 3.0, 1900.0)?;
