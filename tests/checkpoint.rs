@@ -147,7 +147,10 @@ fn resumed_runs_are_the_same_to_the_last_bit() {
             for other in [&mut build(), &mut used] {
                 other.resume(&checkpoint).unwrap();
                 assert_eq!(lasting(other.state()), lasting(&whole[step]), "{name}, {step}");
-                assert_eq!(other.checkpoint().unwrap(), checkpoint, "{name}, {step}");
+                // Before the first step, Auto has not chosen its history yet.
+                if step > 0 {
+                    assert_eq!(other.checkpoint().unwrap(), checkpoint, "{name}, {step}");
+                }
                 for wanted in &whole[step + 1..] {
                     assert_eq!(other.step().unwrap(), wanted, "{name}, saved after {step}");
                 }
@@ -327,7 +330,8 @@ mod text {
             let mut value = serde_json::to_value(simulation.checkpoint().unwrap()).unwrap();
             let mut leaves = leaves(&mut value);
             for (place, bits) in changes {
-                *leaves[place.index(leaves.len())] = Value::from(bits);
+                let place = place.index(leaves.len());
+                *leaves[place] = Value::from(bits);
             }
             if let Ok(checkpoint) = serde_json::from_value::<Checkpoint>(value) {
                 if simulation.resume(&checkpoint).is_ok() {
