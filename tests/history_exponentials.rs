@@ -102,7 +102,7 @@ fn stays_within_its_tolerance_of_the_direct_sum() {
                 let March { difference, increment, work } = march(&kernel, tolerance);
                 println!(
                     "{name}, ν = {poisson}, β = {beta}, {tolerance:e}: {difference:.1e}, \
-                     {increment:.1e} {work:.1e?}"
+                     {increment:.1e} {work:?}"
                 );
                 assert!(difference <= tolerance, "{name}: {difference:e} for {tolerance:e}");
                 assert!(increment <= 1.0, "{name}: {increment} times what was promised");

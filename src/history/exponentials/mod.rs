@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use self::accuracy::Accuracy;
 use self::basis::Basis;
+use self::passivity::Margin;
 use self::tail::Tail;
 use self::window::{Lags, Window};
 use super::ConvolutionHistory;
@@ -25,8 +26,10 @@ const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
 const LONGEST_WINDOW: f64 = 1e6;
 /// Largest block of the window, and smallest.
 const BLOCKS: [usize; 2] = [16, 512];
-/// Times that the poles are put closer together, each by a tenth, before giving up.
-const ATTEMPTS: usize = 20;
+/// Error aimed at in the next attempt over that of the one before.
+const CLOSER: f64 = 0.2;
+/// Attempts before giving up: down to rounding from any tolerance.
+const ATTEMPTS: usize = 10;
 
 /// Window of exact lags and a sum of exponentials behind it: O(1) memory and time per step.
 ///
@@ -50,9 +53,11 @@ const ATTEMPTS: usize = 20;
 ///
 /// The exact operator gives no energy away, and a fit that did could make a run unstable. When the
 /// history is made, the least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, window and
-/// exponentials in closed form, is looked for; a fit that has a negative one is refused
-/// ([`Error::NotPassive`]). The discrete operator has plenty to spare (see
-/// [`ExponentialHistory::passivity_margin`]), so that only tolerances near 1e-2 could come near zero.
+/// exponentials in closed form, is looked for. If it is negative, more poles are taken, closer
+/// together, until it is not; a fit that stays active is refused ([`Error::NotPassive`]). The
+/// discrete operator has plenty to spare (see [`ExponentialHistory::passivity_margin`]): a tenth or
+/// so of what comes at once. Only coarse tolerances with windows of thousands of steps (nearly
+/// incompressible soil, very short steps) need the additional poles.
 pub struct ExponentialHistory {
     kernel: Arc<PatchKernel>,
     window: Window,
@@ -100,43 +105,44 @@ impl ExponentialHistory {
         let [block, parts] = blocks(&kernel)?;
         let lags = block * parts;
         let horizon = horizon.clamp(2 * lags, 1 << 40);
-        // The error of the trapezoidal rule is about e^(3−π²/h), the strip narrowed by the
-        // Rayleigh wave included.
-        let mut h = std::f64::consts::PI.powi(2) / (3.0 - tolerance.ln());
-        let mut reached = f64::INFINITY;
+        let exact = Lags::new(&kernel, lags)?;
+        let range = [lags as f64, horizon as f64];
+        let (mut aim, mut refusal) = (tolerance, None);
         for _ in 0..ATTEMPTS {
-            let range = [lags as f64, horizon as f64];
-            let tail = Tail::new(&series, basis.clone(), range, h, tolerance);
+            // The error of the trapezoidal rule is about e^(3−π²/h), the strip narrowed by the
+            // Rayleigh wave included.
+            let h = std::f64::consts::PI.powi(2) / (3.0 - aim.ln());
+            let tail = Tail::new(&series, basis.clone(), range, h, aim);
             let accuracy = Accuracy::measure(&kernel, &tail, lags, horizon)?;
-            reached = accuracy.relative;
-            if reached <= tolerance {
-                let exact = Lags::new(&kernel, lags)?;
-                let margin = passivity::margin(&kernel, &exact, &tail, horizon as f64);
-                // A NaN is refused as well.
-                if !(margin.least >= 0.0) {
-                    return Err(Error::NotPassive {
-                        margin: margin.least,
-                        frequency: margin.frequency,
-                    });
-                }
-                return Ok(Self {
-                    window: Window::new(&kernel, &exact, block, parts),
-                    recent: vec![0.0; (lags + block) * 2 * elements.len()],
-                    tail,
-                    lags,
-                    block,
-                    horizon,
-                    tolerance,
-                    accuracy,
-                    margin: margin.least,
-                    steps: 0,
-                    largest: 0.0,
-                    kernel,
-                });
+            aim *= CLOSER;
+            if accuracy.relative > tolerance {
+                let reached = accuracy.relative;
+                refusal.get_or_insert(Error::Accuracy { tolerance, reached });
+                continue;
             }
-            h *= 0.9;
+            let Margin { least, frequency } =
+                passivity::margin(&kernel, &exact, &tail, horizon as f64);
+            // A NaN is refused as well.
+            if !(least >= 0.0) {
+                refusal = Some(Error::NotPassive { margin: least, frequency });
+                continue;
+            }
+            return Ok(Self {
+                window: Window::new(&kernel, &exact, block, parts),
+                recent: vec![0.0; (lags + block) * 2 * elements.len()],
+                tail,
+                lags,
+                block,
+                horizon,
+                tolerance,
+                accuracy,
+                margin: least,
+                steps: 0,
+                largest: 0.0,
+                kernel,
+            });
         }
-        Err(Error::Accuracy { tolerance, reached })
+        Err(refusal.unwrap_or(Error::Accuracy { tolerance, reached: f64::INFINITY }))
     }
 
     /// Largest error of any coefficient up to the horizon over the largest coefficient of its

@@ -1,0 +1,350 @@
+//! A run that is saved and resumed is the run that was never interrupted, to the last bit.
+
+#[path = "support/scenes.rs"]
+mod scenes;
+
+use basemat::bem::{ContactElement, Ground, HalfPlaneGround, History, SpringGround};
+use basemat::coupled::{Checkpoint, SimulationBuilder, State};
+use basemat::interface::Bonded;
+use basemat::structure::{ContactNode, RigidBlock, Structure, Triplets};
+use basemat::{CheckpointError, Error, Result, Simulation};
+use scenes::{Rider, SI, block, friction, scene, soil, states, tower};
+
+/// Longer than the window of the exponentials and several leaves of the transforms.
+const STEPS: usize = 260;
+
+fn half_plane(history: History) -> HalfPlaneGround {
+    HalfPlaneGround::graded_strip(soil(SI), -2.0..2.0, 6).unwrap().with_history_kind(history)
+}
+
+fn spring_bed() -> SpringGround {
+    SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap().with_dashpots(4e5, 3e5).unwrap()
+}
+
+/// Rigid block whose weak spring to its first position slips: it has a memory of its own.
+struct Sticky {
+    block: RigidBlock,
+    anchor: f64,
+}
+
+impl Structure for Sticky {
+    fn unknowns(&self) -> usize {
+        self.block.unknowns()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.block.contact_nodes()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        self.block.mass(matrix);
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        self.block.stiffness(matrix);
+    }
+
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    fn nonlinear_force(&self, u: &[f64], force: &mut [f64]) {
+        force[0] += 1e5 * (u[0] - self.anchor);
+    }
+
+    fn nonlinear_tangent(&self, _: &[f64], matrix: &mut Triplets) {
+        matrix.add(0, 0, 1e5);
+    }
+
+    fn commit(&mut self, u: &[f64]) {
+        self.anchor += 0.1 * (u[0] - self.anchor);
+    }
+
+    fn save(&self) -> Vec<f64> {
+        vec![self.anchor]
+    }
+
+    fn restore(&mut self, values: &[f64]) -> Result<()> {
+        match values {
+            [anchor] => self.anchor = *anchor,
+            _ => return Err(CheckpointError::Corrupt { quantity: "anchor" }.into()),
+        }
+        Ok(())
+    }
+}
+
+/// Scenes by name; each is built anew at every call.
+fn kinds() -> Vec<(&'static str, Box<dyn Fn() -> Simulation>)> {
+    fn kind(
+        name: &'static str,
+        builder: impl Fn() -> SimulationBuilder + 'static,
+    ) -> (&'static str, Box<dyn Fn() -> Simulation>) {
+        (name, Box::new(move || builder().build().unwrap()))
+    }
+    let base = || scene(SI, 0.6).interface(friction(0.3));
+    vec![
+        kind("direct", move || base().structure(block(SI)).ground(half_plane(History::Direct))),
+        kind("transforms", move || {
+            base().structure(tower(SI, None)).ground(half_plane(History::RelaxedFft))
+        }),
+        kind("exponentials", move || {
+            base().structure(tower(SI, None)).ground(half_plane(History::Exponentials))
+        }),
+        kind("exponentials, bonded", move || {
+            let base = scene(SI, 0.6).interface(Bonded);
+            base.structure(block(SI)).ground(half_plane(History::Exponentials))
+        }),
+        kind("auto", move || base().structure(block(SI)).ground(half_plane(History::Auto))),
+        kind("spring bed", move || base().structure(block(SI)).ground(spring_bed())),
+        kind("nonlinear", move || {
+            base().structure(Rider { block: block(SI) }).ground(spring_bed())
+        }),
+        kind("memory of its own", move || {
+            let sticky = Sticky { block: block(SI), anchor: 0.0 };
+            base().structure(sticky).ground(spring_bed())
+        }),
+    ]
+}
+
+/// Through a text format where the crate is built to do so.
+#[cfg(feature = "serde")]
+fn carried(checkpoint: &Checkpoint) -> Checkpoint {
+    let text = serde_json::to_string(checkpoint).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+#[cfg(not(feature = "serde"))]
+fn carried(checkpoint: &Checkpoint) -> Checkpoint {
+    checkpoint.clone()
+}
+
+/// Everything but what belongs to the last step alone.
+fn lasting(state: &State) -> State {
+    let fresh = State { transitions: Vec::new(), trials: 0, ..state.clone() };
+    State { method: basemat::coupled::SearchMethod::ActiveSet, ..fresh }
+}
+
+#[test]
+fn resumed_runs_are_the_same_to_the_last_bit() {
+    for (name, build) in kinds() {
+        let whole = states(&mut build(), STEPS);
+        let mut first = build();
+        let mut saved = Vec::new();
+        for step in 0..=STEPS {
+            if [0, 1, 31, 64, 77, 128, 200].contains(&step) {
+                saved.push((step, first.checkpoint().unwrap()));
+            }
+            first.step().unwrap();
+        }
+        // Saving changes nothing.
+        assert_eq!(lasting(first.state()).step, STEPS + 1);
+        let mut used = build();
+        used.run(90, |_| {}).unwrap();
+        for (step, checkpoint) in saved {
+            assert_eq!(checkpoint.steps(), step);
+            let checkpoint = carried(&checkpoint);
+            // In a new simulation, and in one that has gone on in some other way.
+            for other in [&mut build(), &mut used] {
+                other.resume(&checkpoint).unwrap();
+                assert_eq!(lasting(other.state()), lasting(&whole[step]), "{name}, {step}");
+                // Before the first step, Auto has not chosen its history yet.
+                if step > 0 {
+                    assert_eq!(other.checkpoint().unwrap(), checkpoint, "{name}, {step}");
+                }
+                for wanted in &whole[step + 1..] {
+                    assert_eq!(other.step().unwrap(), wanted, "{name}, saved after {step}");
+                }
+            }
+        }
+        let moved = whole[STEPS].displacement.iter().any(|u| *u != 0.0);
+        assert!(
+            moved && whole[STEPS].contact[0] != whole[0].contact[0],
+            "{name}: nothing happened"
+        );
+    }
+}
+
+fn refusal(simulation: &mut Simulation, checkpoint: &Checkpoint) -> CheckpointError {
+    let before = simulation.checkpoint().unwrap();
+    let error = simulation.resume(checkpoint).unwrap_err();
+    assert_eq!(simulation.checkpoint().unwrap(), before, "a refusal must change nothing");
+    match error {
+        Error::Checkpoint(error) => error,
+        other => panic!("{other}"),
+    }
+}
+
+#[test]
+fn other_scenes_are_refused() {
+    let base = || scene(SI, 0.6).interface(friction(0.3));
+    let plain = || base().structure(block(SI)).ground(spring_bed());
+    let mut simulation = plain().build().unwrap();
+    simulation.run(20, |_| {}).unwrap();
+    let bed = |count, stiffness| SpringGround::new(-2.0..2.0, count, stiffness, 4e7).unwrap();
+    let heavier = || RigidBlock::new(4.0, 6.0, 1600.0).unwrap();
+    let probe = basemat::coupled::Probe::displacement("top", vec![(0, 1.0)]);
+    for (quantity, other) in [
+        ("number of unknowns", base().structure(Rider { block: block(SI) }).ground(spring_bed())),
+        ("list of contact elements", base().structure(block(SI)).ground(bed(6, 5e7))),
+        ("list of probes", plain().probe(probe)),
+        ("structure", base().structure(heavier()).ground(spring_bed())),
+        ("ground", base().structure(block(SI)).ground(bed(8, 6e7))),
+        ("static state", plain().gravity(5.0)),
+        ("time step or scheme", plain().scheme(basemat::coupled::Theta::new(0.6).unwrap())),
+    ] {
+        let checkpoint = other.build().unwrap().checkpoint().unwrap();
+        let found = refusal(&mut simulation, &checkpoint);
+        assert_eq!(found, CheckpointError::OtherScene { quantity });
+    }
+    let with = |history| base().structure(block(SI)).ground(half_plane(history)).build().unwrap();
+    let direct = with(History::Direct).checkpoint().unwrap();
+    let quantity = "kind of history";
+    let found = refusal(&mut with(History::Exponentials), &direct);
+    assert_eq!(found, CheckpointError::OtherScene { quantity });
+}
+
+/// A ground that says nothing of checkpoints.
+struct Silent(SpringGround);
+
+impl Ground for Silent {
+    fn elements(&self) -> &[ContactElement] {
+        self.0.elements()
+    }
+
+    fn prepare(&mut self, time_step: f64) -> Result<()> {
+        self.0.prepare(time_step)
+    }
+
+    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+        self.0.instantaneous(matrix)
+    }
+
+    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
+        self.0.history(displacement)
+    }
+
+    fn commit(&mut self, traction: &[f64]) {
+        self.0.commit(traction);
+    }
+
+    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        self.0.static_compliance(matrix)
+    }
+}
+
+#[test]
+fn grounds_that_cannot_be_saved_say_so() {
+    let base = || scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+    let mut silent = base().ground(Silent(spring_bed())).build().unwrap();
+    silent.run(5, |_| {}).unwrap();
+    let unsupported = Error::Checkpoint(CheckpointError::Unsupported { part: "ground" });
+    assert_eq!(silent.checkpoint().unwrap_err(), unsupported);
+    let other = base().ground(spring_bed()).build().unwrap().checkpoint().unwrap();
+    assert_eq!(silent.resume(&other).unwrap_err(), unsupported);
+    silent.run(5, |_| {}).unwrap();
+}
+
+#[test]
+fn an_approximate_history_is_in_the_ledger() {
+    let run = |history, tolerance| {
+        let ground = half_plane(history).with_history_tolerance(tolerance).unwrap();
+        let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+        base.ground(ground).build().unwrap().run(STEPS, |_| {}).unwrap()
+    };
+    let exact = run(History::Direct, 1e-3);
+    assert_eq!(exact.history_error_bound(), 0.0);
+    let mut last = f64::INFINITY;
+    for tolerance in [1e-3, 1e-6, 1e-9] {
+        let run = run(History::Exponentials, tolerance);
+        let bound = run.history_error_bound();
+        println!("{tolerance:e}: soil {:e} within {bound:e}", run.ledger.soil);
+        assert!(bound > 0.0 && bound < 100.0 * tolerance * run.ledger.soil);
+        assert!(bound < 0.1 * last);
+        assert!(run.ledger_residual < 1e-10, "{:e}", run.ledger_residual);
+        assert!(run.to_string().contains("soil within"));
+        last = bound;
+    }
+}
+
+#[cfg(feature = "serde")]
+mod text {
+    use super::*;
+    use proptest::prelude::*;
+    use serde_json::Value;
+
+    fn simulation(history: History) -> Simulation {
+        let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+        base.ground(half_plane(history)).build().unwrap()
+    }
+
+    /// Places of all leaves of a value.
+    fn leaves(value: &mut Value) -> Vec<&mut Value> {
+        match value {
+            Value::Array(list) => list.iter_mut().flat_map(leaves).collect(),
+            Value::Object(map) => map.values_mut().flat_map(leaves).collect(),
+            leaf => vec![leaf],
+        }
+    }
+
+    #[test]
+    fn numbers_missing_or_not_finite_are_refused() {
+        for history in [History::Direct, History::RelaxedFft, History::Exponentials] {
+            let mut simulation = simulation(history);
+            simulation.run(70, |_| {}).unwrap();
+            let good = serde_json::to_value(simulation.checkpoint().unwrap()).unwrap();
+            for name in ["state", "ground"] {
+                for damage in 0..3 {
+                    let mut value = good.clone();
+                    let list = value[name].as_array_mut().unwrap();
+                    match damage {
+                        0 => list.truncate(list.len() - 1),
+                        1 => list.push(Value::from(0_u64)),
+                        _ => list[1] = Value::from(f64::NAN.to_bits()),
+                    }
+                    let bad: Checkpoint = serde_json::from_value(value).unwrap();
+                    let found = refusal(&mut simulation, &bad);
+                    assert!(matches!(found, CheckpointError::Corrupt { .. }), "{found}");
+                }
+            }
+            for (name, wrong) in [("format", 99_u64), ("steps", 71), ("steps", u64::MAX / 2)] {
+                let mut value = good.clone();
+                value[name] = Value::from(wrong);
+                let bad: Checkpoint = serde_json::from_value(value).unwrap();
+                refusal(&mut simulation, &bad);
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(60))]
+
+        /// Whatever a file says, it is read, refused, or marched from, without a panic.
+        #[test]
+        fn damaged_checkpoints_do_not_panic(
+            which in 0_usize..3,
+            changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u64>()), 1..6),
+        ) {
+            let history = [History::Direct, History::RelaxedFft, History::Exponentials][which];
+            let mut simulation = simulation(history);
+            simulation.run(40, |_| {}).unwrap();
+            let mut value = serde_json::to_value(simulation.checkpoint().unwrap()).unwrap();
+            let mut leaves = leaves(&mut value);
+            for (place, bits) in changes {
+                let place = place.index(leaves.len());
+                *leaves[place] = Value::from(bits);
+            }
+            if let Ok(checkpoint) = serde_json::from_value::<Checkpoint>(value) {
+                if simulation.resume(&checkpoint).is_ok() {
+                    let _ = simulation.step();
+                }
+            }
+        }
+
+        #[test]
+        fn any_bytes_do_not_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+            if let Ok(checkpoint) = serde_json::from_slice::<Checkpoint>(&bytes) {
+                let _ = simulation(History::Direct).resume(&checkpoint);
+            }
+        }
+    }
+}
