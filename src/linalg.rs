@@ -276,7 +276,7 @@ impl ComplexFactor {
 
     /// ln det A: its imaginary part up to multiples of 2π.
     pub(crate) fn log_determinant(&self) -> Complex64 {
-        let sign = if self.transpositions % 2 == 0 { 0.0 } else { std::f64::consts::PI };
+        let sign = if self.transpositions.is_multiple_of(2) { 0.0 } else { std::f64::consts::PI };
         self.pivots().map(Complex64::ln).sum::<Complex64>() + Complex64::new(0.0, sign)
     }
 

@@ -50,7 +50,7 @@ fn laplace_integrals_agree_with_the_table() {
     let b = table.rows(["b0", "b1", "b2", "b3"]);
     let s = table.rows(["s_re", "s_im"]);
     let names = table.text("view");
-    assert!(table.len() >= 18);
+    assert!(table.len() >= 7);
     for row in 0..table.len() {
         let own = names[row].starts_with("own");
         let ends = |x: [f64; 4]| Segment { from: [x[0], x[1]], to: [x[2], x[3]] };
@@ -249,9 +249,9 @@ fn convolution_converges_at_the_order_of_the_method() {
                 .sum();
             (sum / wanted - 1.0).abs()
         };
-        let (coarse, fine) = (error(40), error(80));
+        let (coarse, fine) = (error(80), error(160));
         close("order", (coarse / fine).log2(), order, 0.2, 0.0);
-        assert!(fine < if order > 1.5 { 5e-3 } else { 0.2 }, "{fine:e}");
+        assert!(fine < if order > 1.5 { 5e-3 } else { 0.1 }, "{fine:e}");
     }
 }
 

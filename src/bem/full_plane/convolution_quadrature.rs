@@ -117,7 +117,7 @@ impl ConvolutionQuadrature {
         let reach = views.iter().map(View::reach).fold(0.0, f64::max);
         let rho = positive("boundary over wave travel in a step", reach)?
             / (soil.shear_wave_speed() * time_step);
-        if !(rho < LARGEST_RHO) {
+        if rho.is_nan() || rho >= LARGEST_RHO {
             return Err(Error::Input {
                 quantity: "steps that an S wave needs across the boundary",
                 value: rho,

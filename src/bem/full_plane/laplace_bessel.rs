@@ -51,17 +51,13 @@ pub(super) fn modified(z: Complex64, regular: bool) -> Modified {
     if z.re > NOTHING {
         return Modified::default();
     }
-    match besselk_seq(0.0, z, 2, Scaling::Unscaled) {
-        Ok(found) => {
-            let (zeroth, first) = (found.values[0], found.values[1]);
-            Modified { zeroth, quotient: first / z, product: first * z }
-        }
-        // Only arguments that are not finite come here: they must not pass for numbers.
-        Err(_) => {
-            let nan = Complex64::new(f64::NAN, f64::NAN);
-            Modified { zeroth: nan, quotient: nan, product: nan }
-        }
+    if let Ok(found) = besselk_seq(0.0, z, 2, Scaling::Unscaled) {
+        let (zeroth, first) = (found.values[0], found.values[1]);
+        return Modified { zeroth, quotient: first / z, product: first * z };
     }
+    // Only arguments that are not finite come here: they must not pass for numbers.
+    let nan = Complex64::new(f64::NAN, f64::NAN);
+    Modified { zeroth: nan, quotient: nan, product: nan }
 }
 
 /// K₀ and κ at `z`, or with `mean` their means over the way from 0 to `z`.

@@ -29,7 +29,7 @@ pub enum BoundaryCondition {
 #[non_exhaustive]
 pub struct Stability {
     /// Factor minus one by which the worst perturbation grows in a step, if any grows faster than
-    /// [`Stability::smallest_growth`]; else 0.
+    /// [`Stability::smallest_growth`]; else 0. To one percent where several modes grow alike.
     pub growth_per_step: f64,
     /// Turn of the growing perturbation in a step, rad, from 0 (monotonic) to π (alternating).
     pub turn_per_step: f64,

@@ -18,8 +18,13 @@ const TURN: f64 = 0.7;
 /// Halvings of the distance of neighbours.
 const HALVINGS: u32 = 24;
 
-/// Halvings of ln |ζ| in the search of the smallest zero.
-const BISECTIONS: usize = 10;
+/// Halvings of ln |ζ| in the search of the smallest zero, at most.
+const BISECTIONS: usize = 30;
+
+/// Half width of the bracket over its middle below which the secant method is tried, and that
+/// with which the search ends all the same.
+const COARSE: f64 = 0.25;
+const FINE: f64 = 0.01;
 
 /// What was found inside a circle.
 pub(super) struct Zeros {
@@ -52,15 +57,19 @@ pub(super) fn smallest_zero(symbol: &Symbol, smallest_growth: f64) -> Result<Zer
         } else {
             high = middle;
         }
-        // Near enough for the secant to find the zero from the worst point of the inner circle.
-        if high - low < 0.1
+        // The secant method begins on the inner circle where the determinant turns fastest.
+        let width = (high - low) / (low + high).abs();
+        if width < COARSE
             && let Some(zero) = search.secant(seed)
             && search.is_smallest(zero)?
         {
             return Ok(Zeros { count, zero: Some(zero) });
         }
+        if width < FINE {
+            break;
+        }
     }
-    // Not refined: the bracket's middle, to within half a percent a step.
+    // Several zeros of nearly one size, or a multiple one: the bracket's middle.
     let size = (0.5 * (low + high)).exp();
     Ok(Zeros { count, zero: Some(Complex64::from_polar(size, seed.arg())) })
 }
@@ -88,7 +97,8 @@ impl Search<'_> {
         }
     }
 
-    /// Zeros inside |ζ| < `radius`, and the point of the circle where |det F| is smallest.
+    /// Zeros inside |ζ| < `radius`, and the point of the circle where det F turns fastest: next
+    /// to the nearest zero.
     ///
     /// F is real on the real axis, so that half the circle tells.
     fn zeros_inside(&mut self, radius: f64) -> Result<(usize, Complex64)> {
@@ -102,15 +112,16 @@ impl Search<'_> {
             values.push(self.factor.log_determinant());
         }
         let step = TAU / POINTS as f64;
-        let (mut turn, mut worst) = (0.0, (f64::INFINITY, 0.0));
+        let (mut turn, mut fastest) = (0.0, (0.0, 0.0));
         for (k, ends) in values.windows(2).enumerate() {
             let angle = step * k as f64;
-            turn += self.turn(radius, [angle, angle + step], [ends[0], ends[1]], 0, &mut worst)?;
+            turn +=
+                self.turn(radius, [angle, angle + step], [ends[0], ends[1]], 0, &mut fastest)?;
         }
         let count = (turn / PI).round();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counted")]
         let count = if count > 0.0 { count as usize } else { 0 };
-        Ok((count, Complex64::from_polar(radius, worst.1)))
+        Ok((count, Complex64::from_polar(radius, fastest.1)))
     }
 
     /// Turn of the determinant between two angles; halves the way until it is unmistakable.
@@ -120,22 +131,21 @@ impl Search<'_> {
         angles: [f64; 2],
         values: [Complex64; 2],
         depth: u32,
-        worst: &mut (f64, f64),
+        fastest: &mut (f64, f64),
     ) -> Result<f64> {
         let turn = wrapped(values[1].im - values[0].im);
-        for (angle, value) in angles.iter().zip(values) {
-            if value.re < worst.0 {
-                *worst = (value.re, *angle);
-            }
-        }
         let quiet = turn.abs() < TURN && (values[1].re - values[0].re).abs() < 2.0 * TURN;
         if quiet || depth == HALVINGS {
+            let rate = turn.abs() / (angles[1] - angles[0]);
+            if rate > fastest.0 {
+                *fastest = (rate, 0.5 * (angles[0] + angles[1]));
+            }
             return Ok(turn);
         }
         let middle = 0.5 * (angles[0] + angles[1]);
         let value = self.log_determinant(Complex64::from_polar(radius, middle))?;
-        Ok(self.turn(radius, [angles[0], middle], [values[0], value], depth + 1, worst)?
-            + self.turn(radius, [middle, angles[1]], [value, values[1]], depth + 1, worst)?)
+        Ok(self.turn(radius, [angles[0], middle], [values[0], value], depth + 1, fastest)?
+            + self.turn(radius, [middle, angles[1]], [value, values[1]], depth + 1, fastest)?)
     }
 
     /// Zero of det F near `seed` by the secant method.
