@@ -1,6 +1,7 @@
 //! Helpers shared by the test binaries.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
+pub(crate) mod impedance;
 pub(crate) mod rigid_strip;
 pub(crate) mod series;
 
