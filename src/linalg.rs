@@ -2,6 +2,7 @@
 //!
 //! Everything runs sequentially, and solves use workspace made when the factor was made.
 
+use faer::diag::Diag;
 use faer::diag::DiagMut;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd;
@@ -20,7 +21,6 @@ use faer::sparse::linalg::lu::{
     LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
 };
 use faer::sparse::{SparseColMat, Triplet};
-use faer::diag::Diag;
 use faer::{Accum, Conj, Mat, MatMut, MatRef, Par, Side, Spec};
 
 use realfft::num_complex::Complex64;
@@ -353,12 +353,8 @@ pub(crate) fn generalised_modes(
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut().transpose_mut(), Par::Seq);
     let (mut values, mut vectors) = (Diag::<f64>::zeros(n), Mat::<f64>::zeros(n, n));
-    let scratch = self_adjoint_evd_scratch::<f64>(
-        n,
-        ComputeEigenvectors::Yes,
-        Par::Seq,
-        Spec::default(),
-    );
+    let scratch =
+        self_adjoint_evd_scratch::<f64>(n, ComputeEigenvectors::Yes, Par::Seq, Spec::default());
     self_adjoint_evd(
         reduced.as_ref(),
         values.as_mut(),

@@ -25,11 +25,7 @@ fn march(builder: SimulationBuilder, coordinates: Coordinates) -> Vec<State> {
 }
 
 /// Largest difference of a quantity over a run, relative to its largest value.
-fn apart<'a>(
-    one: &'a [State],
-    two: &'a [State],
-    quantity: impl Fn(&'a State) -> Vec<f64>,
-) -> f64 {
+fn apart<'a>(one: &'a [State], two: &'a [State], quantity: impl Fn(&'a State) -> Vec<f64>) -> f64 {
     let (mut scale, mut apart) = (f64::MIN_POSITIVE, 0.0_f64);
     for (a, b) in one.iter().zip(two) {
         for (a, b) in quantity(a).into_iter().zip(quantity(b)) {
@@ -112,9 +108,8 @@ fn modes_and_unknowns_agree() {
             };
             let modes = march(scheme(make()), Coordinates::Modes);
             let unknowns = march(scheme(make()), Coordinates::Unknowns);
-            let all_modes = |states: &[State]| -> Vec<_> {
-                states.iter().map(|s| s.modes.clone()).collect()
-            };
+            let all_modes =
+                |states: &[State]| -> Vec<_> { states.iter().map(|s| s.modes.clone()).collect() };
             assert!(all_modes(&modes) == all_modes(&unknowns), "{name}: modes of contact differ");
             let ledger = |s: &State| {
                 let l = &s.ledger;

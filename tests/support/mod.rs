@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 pub(crate) mod cantilever;
+pub(crate) mod impedance;
 pub(crate) mod rigid_strip;
 pub(crate) mod series;
 

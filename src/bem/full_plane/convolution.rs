@@ -1,21 +1,23 @@
 //! What all past displacements and tractions of a boundary give at the end of the next step.
+//!
+//! Relaxed blocked convolution, exact to rounding (Hairer, Lubich & Schlichte 1985, SIAM J. Sci.
+//! Stat. Comput. 6, 532–541), as in [`crate::history::RelaxedFftHistory`]: pairs of input and
+//! output within a leaf of 64 steps are summed as they are; after i steps, i a multiple of the
+//! leaf, what the last b inputs give at the next b outputs is one convolution of length 2b by
+//! transforms, b being the leaf times the largest power of two with which b divides i.
+
+use realfft::RealFftPlanner;
 
 use super::BoundaryKernel;
+use super::block::{Level, Link, Work};
 use super::pairs::PairClasses;
 use crate::error::{Result, same_length};
-use crate::linalg::dot;
 
-/// Steps of the sum that are taken together, so that inputs and coefficients stay in cache.
-const CHUNK: usize = 512;
+/// Steps that are summed directly before the smallest block is transformed.
+const LEAF: usize = 64;
 
-/// A series of coefficients between one input and one output.
-#[derive(Debug, Clone, Copy)]
-struct Link {
-    output: usize,
-    input: usize,
-    series: usize,
-    sign: f64,
-}
+/// Longest hint that is followed at once; beyond, memory grows as steps come in.
+const LONGEST_HINT: usize = 1 << 17;
 
 /// Σ_{m<N} G^{N−m} t^m − H^{N−m} u^m, coefficients once per class of pairs.
 ///
@@ -23,138 +25,242 @@ struct Link {
 pub(super) struct BoundaryHistory {
     kernel: Box<dyn BoundaryKernel>,
     pairs: PairClasses,
-    /// Which tractions may differ from zero, 2E.
-    loaded: Vec<bool>,
-    /// Lags for which coefficients are stored.
-    capacity: usize,
-    /// Per class, matrix and component: the coefficient of lag n at `capacity − n`; empty if zero.
-    series: Vec<Vec<f64>>,
     links: Vec<Link>,
-    inputs: Vec<Vec<f64>>,
+    /// Per class, matrix and component: coefficients of the lags below [`LEAF`]; empty if zero.
+    near: Vec<Vec<f64>>,
+    levels: Vec<Level>,
+    planner: RealFftPlanner<f64>,
+    work: Work,
+    /// 4E rows of `capacity`.
+    inputs: Vec<f64>,
+    /// 2E rows of `capacity`: outputs as far as known.
+    outputs: Vec<f64>,
+    /// Steps for which there are rows and levels: the leaf times a power of two.
+    capacity: usize,
     steps: usize,
+    /// Whether the last input still has to be worked in.
+    pending: bool,
 }
 
 impl BoundaryHistory {
-    pub(super) fn new(kernel: Box<dyn BoundaryKernel>, loaded: Vec<bool>) -> Self {
+    /// Empty history; `loaded` says which tractions (2E) may differ from zero.
+    pub(super) fn new(kernel: Box<dyn BoundaryKernel>, loaded: &[bool]) -> Self {
         let pairs = PairClasses::new(kernel.segments());
-        let count = kernel.segments().len();
         Self {
-            series: vec![Vec::new(); 8 * pairs.classes.len()],
+            links: links(&pairs, kernel.segments().len(), loaded),
+            near: Vec::new(),
             pairs,
             kernel,
-            loaded,
+            levels: Vec::new(),
+            planner: RealFftPlanner::new(),
+            work: Work::default(),
+            inputs: Vec::new(),
+            outputs: Vec::new(),
             capacity: 0,
-            links: Vec::new(),
-            inputs: vec![Vec::new(); 4 * count],
             steps: 0,
+            pending: false,
         }
     }
 
-    /// Makes lags up to `lags` available.
-    fn grow(&mut self, lags: usize) -> Result<()> {
-        if lags <= self.capacity {
-            return Ok(());
-        }
-        let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
-        let count = self.kernel.segments().len();
-        let size = 2 * count;
+    fn size(&self) -> usize {
+        2 * self.kernel.segments().len()
+    }
+
+    /// Coefficients of all series for the lags below `lags`, that of lag 0 (no history) left out.
+    fn series(&self, lags: usize) -> Result<Vec<Vec<f64>>> {
+        let size = self.size();
+        let count = size / 2;
         let (mut g, mut h) = (vec![0.0; size * size], vec![0.0; size * size]);
-        let mut grown = vec![vec![0.0; new]; self.series.len()];
-        for lag in old + 1..=new {
+        let mut series = vec![Vec::new(); 8 * self.pairs.classes.len()];
+        for lag in 1..lags {
             self.kernel.coefficients(lag, &mut g, &mut h)?;
             for (class, &(p, q)) in self.pairs.classes.iter().enumerate() {
                 for (k, matrix) in [&g, &h].into_iter().enumerate() {
                     for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                        grown[8 * class + 4 * k + 2 * i + j][new - lag] =
-                            matrix[(i * count + p) * size + j * count + q];
+                        let value = matrix[(i * count + p) * size + j * count + q];
+                        let list = &mut series[8 * class + 4 * k + 2 * i + j];
+                        // Many series stay zero for ever, on flat boundaries half of them.
+                        if value != 0.0 || !list.is_empty() {
+                            list.resize(lag, 0.0);
+                            list.push(value);
+                        }
                     }
                 }
             }
         }
-        for (grown, stored) in grown.iter_mut().zip(&mut self.series) {
-            if stored.is_empty() {
-                if grown.iter().all(|value| *value == 0.0) {
+        for list in series.iter_mut().filter(|list| !list.is_empty()) {
+            list.resize(lags, 0.0);
+        }
+        Ok(series)
+    }
+
+    /// Makes ready for at least `steps` steps. Nothing is changed on an error.
+    fn grow(&mut self, steps: usize) -> Result<()> {
+        if steps <= self.capacity {
+            return Ok(());
+        }
+        let capacity = steps.div_ceil(LEAF).next_power_of_two() * LEAF;
+        let series = self.series(capacity)?;
+        if self.near.is_empty() {
+            let first = |list: &Vec<f64>| list[..LEAF.min(list.len())].to_vec();
+            self.near = series.iter().map(first).collect();
+        }
+        let mut size = LEAF << self.levels.len();
+        while size < capacity {
+            let level = Level::new(size, &series, &mut self.planner, &mut self.work);
+            self.levels.push(level);
+            size *= 2;
+        }
+        if let Some(level) = self.levels.last() {
+            self.work.grow(level, 2 * self.size());
+        }
+        let longer = |rows: &[f64], old: usize, count: usize| {
+            let mut grown = vec![0.0; count * capacity];
+            for (new, row) in grown.chunks_exact_mut(capacity).zip(rows.chunks_exact(old.max(1))) {
+                new[..old].copy_from_slice(row);
+            }
+            grown
+        };
+        self.inputs = longer(&self.inputs, self.capacity, 2 * self.size());
+        self.outputs = longer(&self.outputs, self.capacity, self.size());
+        self.capacity = capacity;
+        Ok(())
+    }
+
+    /// Makes ready for `steps` further steps, 131 072 at most: a larger hint may stand for a run
+    /// without end.
+    pub(super) fn reserve(&mut self, steps: usize) -> Result<()> {
+        self.grow(self.steps.saturating_add(steps.min(LONGEST_HINT)))
+    }
+
+    /// Works the last input in, so that the next output is complete.
+    fn settle(&mut self) {
+        let (now, stride) = (self.steps, self.capacity);
+        let last = now - 1;
+        let ahead = LEAF - 1 - last % LEAF;
+        if ahead > 0 {
+            for link in &self.links {
+                let near = &self.near[link.series];
+                let value = link.sign * self.inputs[link.input * stride + last];
+                if near.is_empty() || value == 0.0 {
                     continue;
                 }
-            } else {
-                grown[new - old..].copy_from_slice(stored);
-            }
-            *stored = std::mem::take(grown);
-        }
-        self.capacity = new;
-        self.link();
-        Ok(())
-    }
-
-    fn link(&mut self) {
-        let count = self.kernel.segments().len();
-        self.links.clear();
-        for (p, pairs) in self.pairs.pairs.chunks_exact(count).enumerate() {
-            for (i, j, k) in [
-                (0, 0, 0),
-                (0, 0, 1),
-                (0, 1, 0),
-                (0, 1, 1),
-                (1, 0, 0),
-                (1, 0, 1),
-                (1, 1, 0),
-                (1, 1, 1),
-            ] {
-                for (q, &(class, mirrored)) in pairs.iter().enumerate() {
-                    let series = 8 * class + 4 * k + 2 * i + j;
-                    let channel = j * count + q;
-                    if self.series[series].is_empty() || (k == 0 && !self.loaded[channel]) {
-                        continue;
-                    }
-                    let sign = if mirrored && i != j { -1.0 } else { 1.0 };
-                    let (input, sign) =
-                        if k == 0 { (2 * count + channel, sign) } else { (channel, -sign) };
-                    self.links.push(Link { output: i * count + p, input, series, sign });
+                let output = &mut self.outputs[link.output * stride + now..][..ahead];
+                for (output, coefficient) in output.iter_mut().zip(&near[1..]) {
+                    *output += coefficient * value;
                 }
             }
-        }
-    }
-
-    pub(super) fn reserve(&mut self, steps: usize) -> Result<()> {
-        self.grow(steps)?;
-        for input in &mut self.inputs {
-            input.reserve(steps.saturating_sub(input.len()));
-        }
-        Ok(())
-    }
-
-    /// Overwrites `output` (2E).
-    pub(super) fn evaluate(&mut self, output: &mut [f64]) -> Result<()> {
-        same_length("history of the boundary", output.len(), self.inputs.len() / 2)?;
-        output.fill(0.0);
-        let past = self.steps;
-        self.grow(past)?;
-        // Input m (from 0) is seen with lag past − m.
-        for begin in (0..past).step_by(CHUNK) {
-            let end = (begin + CHUNK).min(past);
-            let lags = self.capacity - (past - begin)..self.capacity - (past - end);
-            for link in &self.links {
-                let sum = dot(
-                    &self.series[link.series][lags.clone()],
-                    &self.inputs[link.input][begin..end],
+        } else {
+            let number = (now / LEAF).trailing_zeros() as usize;
+            if let Some(level) = self.levels.get(number) {
+                level.apply(
+                    &self.links,
+                    &self.inputs,
+                    &mut self.outputs,
+                    stride,
+                    now,
+                    &mut self.work,
                 );
-                output[link.output] += link.sign * sum;
             }
         }
+        self.pending = false;
+    }
+
+    /// Overwrites `output` (2E) with the history at the end of the next step.
+    pub(super) fn evaluate(&mut self, output: &mut [f64]) -> Result<()> {
+        same_length("history of the boundary", output.len(), self.size())?;
+        self.grow(self.steps + 1)?;
+        if self.pending {
+            self.settle();
+        }
+        for (value, row) in output.iter_mut().zip(self.outputs.chunks_exact(self.capacity)) {
+            *value = row[self.steps];
+        }
         Ok(())
     }
 
-    /// Accepts the displacements and tractions (2E each) at the end of the step.
+    /// Accepts the displacements and tractions (2E each) at the end of the step; to be called once
+    /// after each evaluation.
     pub(super) fn push(&mut self, displacement: &[f64], traction: &[f64]) {
         let values = displacement.iter().chain(traction);
-        for (input, value) in self.inputs.iter_mut().zip(values) {
-            input.push(*value);
+        for (row, value) in self.inputs.chunks_exact_mut(self.capacity.max(1)).zip(values) {
+            row[self.steps] = *value;
         }
         self.steps += 1;
+        self.pending = true;
     }
 
     /// Steps accepted.
     pub(super) fn steps(&self) -> usize {
         self.steps
+    }
+}
+
+/// All pairs of components, G with tractions and −H with displacements.
+fn links(pairs: &PairClasses, count: usize, loaded: &[bool]) -> Vec<Link> {
+    let mut links = Vec::new();
+    for (p, pairs) in pairs.pairs.chunks_exact(count).enumerate() {
+        for i in 0..2 {
+            for (k, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                for (q, &(class, mirrored)) in pairs.iter().enumerate() {
+                    let channel = j * count + q;
+                    if k == 0 && !loaded[channel] {
+                        continue;
+                    }
+                    let sign = if mirrored && i != j { -1.0 } else { 1.0 };
+                    let (input, sign) =
+                        if k == 0 { (2 * count + channel, sign) } else { (channel, -sign) };
+                    let series = 8 * class + 4 * k + 2 * i + j;
+                    links.push(Link { output: i * count + p, input, series, sign });
+                }
+            }
+        }
+    }
+    links
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Soil;
+    use crate::bem::full_plane::{Segment, TimeKernel};
+
+    /// Transforms against the sum as it is, over several sizes of blocks and without a hint.
+    #[test]
+    fn blocks_equal_the_direct_sum() {
+        let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
+        let nodes = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.5, 0.8], [3.5, 0.8]];
+        let segments: Vec<Segment> =
+            nodes.windows(2).map(|n| Segment { from: n[0], to: n[1] }).collect();
+        let kernel = TimeKernel::new(soil, &segments, 0.4).unwrap();
+        let loaded = [true, true, false, true, true, true, true, true];
+        let mut history = BoundaryHistory::new(Box::new(kernel.clone()), &loaded);
+        let mut past: Vec<[Vec<f64>; 2]> = Vec::new();
+        let coefficients: Vec<_> = (0..400)
+            .map(|lag| {
+                let (mut g, mut h) = (vec![0.0; 64], vec![0.0; 64]);
+                kernel.coefficients(lag, &mut g, &mut h).unwrap();
+                [g, h]
+            })
+            .collect();
+        let mut found = [7.0; 8];
+        for n in 0..400 {
+            history.evaluate(&mut found).unwrap();
+            let mut wanted = [0.0; 8];
+            for (m, [u, t]) in past.iter().enumerate() {
+                let [g, h] = &coefficients[n - m];
+                crate::linalg::dense_multiply_add(g, 1.0, t, &mut wanted);
+                crate::linalg::dense_multiply_add(h, -1.0, u, &mut wanted);
+            }
+            for (a, b) in found.iter().zip(wanted) {
+                assert!((a - b).abs() < 1e-13, "step {n}: {a} {b}");
+            }
+            let wave = |k: usize, rate: f64| ((n * 8 + k) as f64 * rate).sin();
+            let u: Vec<f64> = (0..8).map(|k| wave(k, 1.7)).collect();
+            let t: Vec<f64> = (0..8).map(|k| if loaded[k] { wave(k, 2.3) } else { 0.0 }).collect();
+            history.push(&u, &t);
+            past.push([u, t]);
+        }
+        assert_eq!(history.steps(), 400);
     }
 }

@@ -165,7 +165,7 @@ impl Prepared {
             factor.solve(column);
         }
         Ok(Self {
-            history: BoundaryHistory::new(kernel, loaded),
+            history: BoundaryHistory::new(kernel, &loaded),
             time_step,
             factor,
             first: if incident { g } else { Vec::new() },

@@ -68,9 +68,8 @@ impl BoundaryMarch {
         if !factor.factor(&matrix, size) {
             return Err(Error::Singular { matrix: "boundary operator", order: size });
         }
-        let loaded = vec![true; size];
         Ok(Self {
-            history: BoundaryHistory::new(kernel, loaded),
+            history: BoundaryHistory::new(kernel, &vec![true; size]),
             given: given.to_vec(),
             factor,
             known,

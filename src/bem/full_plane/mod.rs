@@ -13,6 +13,7 @@
 //! x-components (to the right), then the E z-components (**down**). What makes G and H out of the
 //! fundamental solution, in time or by convolution quadrature, is a [`BoundaryKernel`].
 
+mod block;
 mod boundary;
 mod convolution;
 mod convolution_quadrature;

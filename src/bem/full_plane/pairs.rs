@@ -13,6 +13,10 @@ pub(super) type PairBlocks = [[[f64; 2]; 2]; 2];
 pub(super) struct PairClasses {
     /// One (receiver, source) per class.
     pub(super) classes: Vec<(usize, usize)>,
+    /// Per class, how its element looks from the midpoint: which of `views`.
+    view_of: Vec<usize>,
+    /// Ends along the element and height: on a circle E of them for E² classes.
+    views: Vec<([f64; 2], f64)>,
     /// Receiver by receiver: class, and whether the mirror image is meant: xz and zx change sign.
     pub(super) pairs: Vec<(usize, bool)>,
 }
@@ -42,7 +46,19 @@ impl PairClasses {
                 pairs.push((class, mirrored != other));
             }
         }
-        Self { classes, pairs }
+        let (mut numbers, mut views) = (HashMap::new(), Vec::new());
+        let view_of = classes
+            .iter()
+            .map(|&(p, q): &(usize, usize)| {
+                let seen = view(segments[p].center(), &segments[q], p == q);
+                let place = (key(seen.0[0]), key(seen.0[1]), key(seen.1));
+                *numbers.entry(place).or_insert_with(|| {
+                    views.push(seen);
+                    views.len() - 1
+                })
+            })
+            .collect();
+        Self { classes, view_of, views, pairs }
     }
 
     /// Overwrites G and H with what `local` says of each class in the axes (d, n) of the source,
@@ -56,13 +72,15 @@ impl PairClasses {
         local: impl Fn([f64; 2], f64) -> PairBlocks,
     ) {
         let count = segments.len();
+        let seen: Vec<PairBlocks> =
+            self.views.iter().map(|&(ends, height)| local(ends, height)).collect();
         let blocks: Vec<PairBlocks> = self
             .classes
             .iter()
-            .map(|&(p, q)| {
-                let (ends, height) = view(segments[p].center(), &segments[q], p == q);
+            .zip(&self.view_of)
+            .map(|(&(_, q), &view)| {
                 let axes = [segments[q].direction(), segments[q].normal()];
-                local(ends, height).map(|block| turn(block, axes))
+                seen[view].map(|block| turn(block, axes))
             })
             .collect();
         for (p, pairs) in self.pairs.chunks_exact(count).enumerate() {

@@ -1,0 +1,389 @@
+//! Full-plane boundary elements: coefficients, cavities, and the ground against the half-plane.
+
+mod support;
+#[path = "support/truncation.rs"]
+mod truncation;
+
+use basemat::bem::full_plane::{
+    Boundary, BoundaryKernel, BoundaryMarch, FullPlaneGround, Given, IncidentField, Segment,
+    TimeKernel, VerticalWaves,
+};
+use basemat::bem::{Ground, HalfPlaneGround, Strip};
+use basemat::motion::{AtRest, FreeFieldFn, RickerDisplacement};
+use basemat::{Error, Soil};
+use std::f64::consts::PI;
+use support::series::{whole, within};
+use support::{close, table};
+use truncation::{block_errors, impedance_errors};
+
+fn soil(poisson: f64) -> Soil {
+    Soil::new(1.0, poisson, 1.0).unwrap()
+}
+
+/// G and H of a lag.
+fn coefficients(kernel: &TimeKernel, lag: usize) -> [Vec<f64>; 2] {
+    let size = 2 * kernel.segments().len();
+    let (mut g, mut h) = (vec![7.0; size * size], vec![7.0; size * size]);
+    kernel.coefficients(lag, &mut g, &mut h).unwrap();
+    [g, h]
+}
+
+/// Polygon around a hole of area π, the soil outside (or inside).
+fn circle(count: usize, outside: bool) -> Vec<Segment> {
+    let angle = 2.0 * PI / count as f64;
+    let radius = (PI / (0.5 * count as f64 * angle.sin())).sqrt();
+    let node = |k: usize| {
+        let a = (k % count) as f64 * angle;
+        [radius * a.sin(), radius * a.cos()]
+    };
+    (0..count)
+        .map(|k| {
+            let (from, to) = (node(k), node(k + 1));
+            if outside { Segment { from, to } } else { Segment { from: to, to: from } }
+        })
+        .collect()
+}
+
+/// GOAL: coefficients keep their relative precision at early, middle and late lags.
+/// REFERENCE: quadrature of the fundamental solution with 40 digits; elements on the receiver's
+/// line and above it, dd, dn, nn of G and traction components dd, dn, nd, nn of H.
+#[test]
+fn coefficients_match_forty_digits() {
+    let mut count = 0;
+    for row in table("full_plane_coefficients.csv").rows([
+        "nu", "s1", "s2", "h", "lag", "u_dd", "u_dn", "u_nn", "t_dd", "t_dn", "t_nd", "t_nn",
+    ]) {
+        let [nu, low, high, height, lag, wanted @ ..] = row;
+        // d to the right, n up (−z): the receiver is at the origin, the source `height` above it.
+        let source = Segment { from: [low, -height], to: [high, -height] };
+        let receiver = Segment { from: [-0.01, 0.0], to: [0.01, 0.0] };
+        let kernel = TimeKernel::new(soil(nu), &[receiver, source], 0.5).unwrap();
+        let [g, h] = coefficients(&kernel, whole(lag));
+        let at = |m: &[f64], i: usize, j: usize| m[(2 * i) * 4 + 2 * j + 1];
+        let found = [
+            at(&g, 0, 0),
+            -at(&g, 0, 1),
+            at(&g, 1, 1),
+            at(&h, 0, 0),
+            -at(&h, 1, 0),
+            -at(&h, 0, 1),
+            at(&h, 1, 1),
+        ];
+        // Components of one kind, displacement or traction, are of one size.
+        for kind in [0..3, 3..7] {
+            let size = wanted[kind.clone()].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            for k in kind {
+                close("coefficient", found[k], wanted[k], 2e-13 * size, 0.0);
+                count += 1;
+            }
+        }
+    }
+    assert_eq!(count, 70);
+}
+
+/// GOAL: the paper's sub-elements tend to the exact integrals, slowly where a front is inside.
+#[test]
+fn subelements_tend_to_the_exact_integrals() {
+    let ends = |low, high| Segment { from: [low, 0.0], to: [high, 0.0] };
+    let pair = [ends(-0.5, 0.5), ends(2.5, 3.5)];
+    let make = || TimeKernel::new(soil(0.25), &pair, 0.47).unwrap();
+    // The shear wave is inside the element at lag 6; both waves are past at lag 12.
+    for (lag, order) in [(6, 0.4), (12, 1.9)] {
+        let exact = coefficients(&make(), lag);
+        let error = |count: usize| {
+            let rough = coefficients(&make().with_subelements(count).unwrap(), lag);
+            let size = exact[1].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            exact[1].iter().zip(&rough[1]).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / size
+        };
+        let errors = [error(5), error(5000)];
+        println!("lag {lag}: {errors:?}");
+        assert!(errors[1] < errors[0] / 1000.0_f64.powf(order));
+    }
+    assert!(matches!(make().with_subelements(0), Err(Error::Input { .. })));
+}
+
+/// GOAL: rigid translations: Σ H over lags and a closed polygon is 1 outside and 0 inside.
+#[test]
+fn rigid_motion_of_closed_polygons() {
+    for (outside, wanted) in [(true, 1.0), (false, 0.0)] {
+        let kernel = TimeKernel::new(soil(0.3), &circle(9, outside), 0.7).unwrap();
+        let mut sum = vec![0.0; 18];
+        for lag in 0..600 {
+            let [_, h] = coefficients(&kernel, lag);
+            for (sum, row) in sum.chunks_exact_mut(9).zip(h.chunks_exact(18 * 9)) {
+                for (sum, row) in sum.iter_mut().zip(row.chunks_exact(18)) {
+                    *sum += row[..9].iter().sum::<f64>();
+                }
+            }
+        }
+        // x-components of all elements move: the x rows see it, the z rows do not. What is left
+        // after a time t falls like (r/ct)².
+        for (k, sum) in sum.iter().enumerate() {
+            close("row sum", *sum, if k < 9 { wanted } else { 0.0 }, 3e-5, 0.0);
+        }
+    }
+}
+
+#[test]
+fn nothing_moves_before_the_pressure_wave() {
+    let far = [
+        Segment { from: [-0.5, 0.0], to: [0.5, 0.0] },
+        Segment { from: [4.0, 3.0], to: [5.0, 3.5] },
+    ];
+    let kernel = TimeKernel::new(soil(0.0), &far, 0.1).unwrap();
+    // 5 m at √2 m/s: 3.53 s.
+    for lag in [0, 1, 20, 34] {
+        let [g, h] = coefficients(&kernel, lag);
+        for (i, j) in [(0, 1), (1, 0), (0, 3), (3, 0), (2, 3), (3, 2)] {
+            assert_eq!([g[i * 4 + j], h[i * 4 + j]], [0.0; 2]);
+        }
+    }
+    assert!(coefficients(&kernel, 36)[0][1] != 0.0);
+}
+
+/// Largest error of the radial displacement over 0 < t ≤ 8, relative to the static value ½, and
+/// the largest departure of an element from the mean.
+fn cavity_errors(poisson: f64, count: usize, time_step: f64) -> [f64; 2] {
+    let segments = circle(count, true);
+    let kernel = TimeKernel::new(soil(poisson), &segments, time_step).unwrap();
+    let mut march =
+        BoundaryMarch::new(Box::new(kernel), &vec![Given::Traction; 2 * count]).unwrap();
+    // Pressure on the wall is a traction against the outward normal.
+    let values: Vec<f64> =
+        (0..2).flat_map(|k| segments.iter().map(move |s| -s.normal()[k])).collect();
+    let table = table("cavity_step_pressure.csv");
+    let column = table.column(if poisson == 0.0 { "u_nu0" } else { "u_nu025" });
+    let (mut worst, mut uneven, mut seen) = (0.0_f64, 0.0_f64, 0);
+    for n in 1..=whole(8.0 / time_step) {
+        march.step(&values).unwrap();
+        let u = march.displacement();
+        let radial: Vec<f64> = segments
+            .iter()
+            .enumerate()
+            .map(|(k, s)| -(u[k] * s.normal()[0] + u[count + k] * s.normal()[1]))
+            .collect();
+        let mean = radial.iter().sum::<f64>() / count as f64;
+        uneven = radial.iter().fold(uneven, |m, r| m.max((r - mean).abs() / 0.5));
+        let place = n as f64 * time_step / 0.2;
+        if (place - place.round()).abs() < 1e-9 {
+            worst = worst.max((mean - column[whole(place) - 1]).abs() / 0.5);
+            seen += 1;
+        }
+    }
+    assert!(seen >= 20);
+    [worst, uneven]
+}
+
+/// GOAL: curved boundaries, first order in the step.
+/// SCENE: cavity under a pressure switched on at once, β ≈ 2.6.
+/// REFERENCE: closed form in the Laplace domain (K₀, K₁).
+#[test]
+fn cavity_under_a_sudden_pressure() {
+    for (poisson, limits) in [(0.0, [0.5, 0.5, 0.5]), (0.25, [0.5, 0.5, 0.5])] {
+        let runs = [(24, 0.4), (48, 0.2), (96, 0.1)]
+            .map(|(count, step)| cavity_errors(poisson, count, step));
+        println!("uneven {:?}", runs.map(|r| r[1]));
+        let errors = runs.map(|run| run[0]);
+        within(&format!("cavity {poisson}"), &["24", "48", "96"], &errors, &limits);
+    }
+}
+
+/// GOAL: the flat boundary is the half-plane, but for its truncated surface.
+/// SCENE: bonded massless rigid strip of 8 elements, β = 1.15.
+/// REFERENCE: impedances by a spectral method.
+#[test]
+fn impedances_of_the_bonded_strip() {
+    for (free, limits) in [(5, [0.5; 4]), (20, [0.5; 4])] {
+        let errors = impedance_errors("0333", 1.0 / 3.0, 8, free, 1.15);
+        within(&format!("{free} free"), &["khh", "kvv", "krr", "khr"], &errors, &limits);
+    }
+}
+
+/// GOAL: both soils give the same answer in a coupled run.
+/// SCENE: bonded rigid block under a Ricker pulse; 5 and 20 free elements on either side.
+#[test]
+fn rigid_block_on_both_grounds() {
+    for (count, free, limits) in [(8, 5, [0.5; 3]), (8, 20, [0.5; 3])] {
+        let errors = block_errors(count, free, 1.0);
+        within(&format!("{count}, {free}"), &["u_base", "theta", "V"], &errors, &limits);
+    }
+}
+
+/// GOAL: the static limit of the boundary equation is the half-plane's.
+/// SCENE: a surface of which the last element dips by a millionth, so that it counts as uneven.
+/// REFERENCE: the half-plane's static compliance, between two elements (no datum).
+#[test]
+fn static_compliance_tends_to_the_half_planes() {
+    let difference = |matrix: &[f64], row: usize| {
+        let width = 8;
+        let at = |i: usize, j: usize| matrix[i * width + j];
+        at(row, row) - at(row + 2, row)
+    };
+    let mut half = HalfPlaneGround::strip(soil(0.3), -1.0..1.0, 4).unwrap();
+    half.prepare(0.1).unwrap();
+    let mut wanted = [0.0; 64];
+    half.static_compliance(&mut wanted).unwrap();
+    let errors = [5, 20, 80].map(|free| {
+        let flat = Boundary::flat(&[Strip::uniform(-1.0..1.0, 4).unwrap()], free).unwrap();
+        let mut segments = flat.segments().to_vec();
+        segments.last_mut().unwrap().to[1] += 1e-6;
+        let boundary = Boundary::new(segments, flat.contact()).unwrap();
+        assert!(!boundary.is_flat());
+        let ground = FullPlaneGround::new(soil(0.3), boundary);
+        let mut found = [0.0; 64];
+        ground.static_compliance(&mut found).unwrap();
+        let at = |row: usize| difference(&found, row) / difference(&wanted, row) - 1.0;
+        at(1).abs().max(at(5).abs())
+    });
+    println!("static: {errors:?}");
+    assert!(errors[2] < 0.1 && errors[2] < errors[0]);
+}
+
+/// A box of soil, of elements of length `size`, its top at z = 0.
+fn soil_box(size: f64) -> Vec<Segment> {
+    let (wide, deep) = (whole(2.0 / size), whole(1.0 / size));
+    let mut nodes = Vec::new();
+    nodes.extend((0..wide).map(|k| [k as f64 * size, 0.0]));
+    nodes.extend((0..deep).map(|k| [2.0, k as f64 * size]));
+    nodes.extend((0..wide).map(|k| [2.0 - k as f64 * size, 1.0]));
+    nodes.extend((0..deep).map(|k| [0.0, 1.0 - k as f64 * size]));
+    let count = nodes.len();
+    (0..count).map(|k| Segment { from: nodes[k], to: nodes[(k + 1) % count] }).collect()
+}
+
+/// GOAL: displacement and stress of the incident field belong together, in sign and size.
+/// SCENE: a box of soil, its boundary moved and loaded as S and P waves do it.
+/// REFERENCE: the boundary equation, by what its two sides differ.
+#[test]
+fn incident_waves_satisfy_the_boundary_equation() {
+    let surface = FreeFieldFn::new(
+        |_, t: f64| {
+            let a = (t - 4.0) / 1.2;
+            [(-a * a).exp() - (-(4.0 / 1.2_f64).powi(2)).exp(), 0.5 * (-a * a).exp()]
+        },
+        |_, t: f64| {
+            let a = (t - 4.0) / 1.2;
+            let v = -2.0 * a / 1.2 * (-a * a).exp();
+            [v, 0.5 * v]
+        },
+    );
+    let waves = VerticalWaves::new(soil(0.25), surface, 1.0).unwrap();
+    assert_eq!(waves.delay(), 1.0);
+    let errors = [(0.25, 0.2), (0.125, 0.1)].map(|(size, step)| {
+        let segments = soil_box(size);
+        let count = segments.len();
+        let kernel = TimeKernel::new(soil(0.25), &segments, step).unwrap();
+        let steps = whole(5.0 / step);
+        let (mut difference, mut side) = (vec![0.0; 2 * count], vec![0.0; 2 * count]);
+        for lag in 0..steps {
+            let [g, h] = coefficients(&kernel, lag);
+            let time = 5.0 - lag as f64 * step;
+            let (mut u, mut t) = (vec![0.0; 2 * count], vec![0.0; 2 * count]);
+            for (e, s) in segments.iter().enumerate() {
+                [u[e], u[count + e]] = waves.displacement(s.center(), time - 0.5 * step);
+                let [xx, zz, xz] = waves.stress(s.center(), time - 0.5 * step);
+                let n = s.normal();
+                [t[e], t[count + e]] = [xx * n[0] + xz * n[1], xz * n[0] + zz * n[1]];
+                if lag == 0 {
+                    // The free term asks for the displacement at the end.
+                    let end = waves.displacement(s.center(), time);
+                    difference[e] += 0.5 * (end[0] - u[e]);
+                    difference[count + e] += 0.5 * (end[1] - u[count + e]);
+                }
+            }
+            for i in 0..2 * count {
+                let row = i * 2 * count..(i + 1) * 2 * count;
+                let sum = |m: &[f64], x: &[f64]| -> f64 {
+                    m[row.clone()].iter().zip(x).map(|(a, b)| a * b).sum()
+                };
+                let load = sum(&g, &t);
+                difference[i] += sum(&h, &u) - load;
+                side[i] += load;
+            }
+        }
+        let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        norm(&difference) / norm(&side)
+    });
+    within("incident waves", &["0.25", "0.125"], &errors, &[0.1, 0.05]);
+}
+
+/// Surface with a trench right of a strip of four elements.
+fn trench() -> Boundary {
+    let mut nodes = vec![[-2.0, 0.0]];
+    nodes.extend((1..=8).map(|k| [-2.0 + 0.5 * f64::from(k), 0.0]));
+    nodes.extend([[2.0, 0.5], [2.0, 1.0], [2.5, 1.0], [2.5, 0.5], [2.5, 0.0], [3.0, 0.0]]);
+    let segments = nodes.windows(2).map(|n| Segment { from: n[0], to: n[1] }).collect();
+    Boundary::new(segments, &[2, 3, 4, 5]).unwrap()
+}
+
+/// GOAL: an incident field moves a flat ground as a record in the scene does, a trench scatters it,
+/// and both motions at once are refused.
+#[test]
+fn incident_fields_and_trenches() {
+    let pulse = || RickerDisplacement::new(1.0, 0.8, 4.0).unwrap();
+    let motion = |boundary: Boundary| {
+        let waves = VerticalWaves::new(soil(0.25), pulse(), 2.0).unwrap();
+        let mut ground = FullPlaneGround::new(soil(0.25), boundary).with_incident_field(waves);
+        ground.prepare(0.5).unwrap();
+        let (mut history, mut free, mut largest) = ([9.0; 8], [9.0; 8], [0.0_f64; 2]);
+        for n in 1..=40 {
+            ground.history(&mut history).unwrap();
+            ground.free_field(&AtRest, f64::from(n) * 0.5, &mut free);
+            ground.commit(&[]);
+            for (h, f) in history.iter().zip(free) {
+                largest = [largest[0].max(h.abs()), largest[1].max(f.abs())];
+            }
+        }
+        largest
+    };
+    let strip = Strip::uniform(-1.0..1.0, 4).unwrap();
+    let [scattered, free] = motion(Boundary::flat(&[strip], 3).unwrap());
+    assert_eq!(scattered, 0.0);
+    assert!(free > 0.9);
+    let [scattered, _] = motion(trench());
+    println!("scattered by the trench: {scattered}");
+    assert!((0.01..1.0).contains(&scattered));
+
+    let mut ground = FullPlaneGround::new(soil(0.25), trench());
+    assert!(matches!(ground.prepare(0.5), Err(Error::Scene { .. })));
+    let waves = VerticalWaves::new(soil(0.25), pulse(), 2.0).unwrap();
+    let mut ground = ground.with_incident_field(waves);
+    ground.prepare(0.5).unwrap();
+    let mut out = [0.0; 8];
+    ground.free_field(&pulse(), 4.0, &mut out);
+    assert!(out.iter().all(|x| x.is_nan()));
+    assert!(matches!(ground.history(&mut out), Err(Error::Scene { .. })));
+}
+
+#[test]
+fn bad_input_is_refused() {
+    let soil = soil(0.25);
+    let flat = |x: f64| Segment { from: [x, 0.0], to: [x + 1.0, 0.0] };
+    let mut ground = FullPlaneGround::strip(soil, -1.0..1.0, 2, 2).unwrap();
+    assert!(matches!(ground.history(&mut [0.0; 4]), Err(Error::Scene { .. })));
+    assert!(matches!(ground.instantaneous(&mut [0.0; 16]), Err(Error::Scene { .. })));
+    assert!(matches!(ground.reserve(9), Err(Error::Scene { .. })));
+    for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(ground.prepare(step), Err(Error::Input { .. })));
+    }
+    ground.prepare(0.5).unwrap();
+    assert!(matches!(ground.history(&mut [0.0; 3]), Err(Error::Size { .. })));
+    assert!(matches!(ground.instantaneous(&mut [0.0; 15]), Err(Error::Size { .. })));
+    assert!(matches!(ground.static_compliance(&mut [0.0; 15]), Err(Error::Size { .. })));
+    ground.commit(&[]);
+    let [empty, nan, point] =
+        [vec![], vec![flat(f64::NAN)], vec![Segment { from: [1.0; 2], to: [1.0; 2] }]];
+    assert!(matches!(Boundary::new(empty, &[]), Err(Error::Size { .. })));
+    assert!(matches!(Boundary::new(nan, &[0]), Err(Error::Input { .. })));
+    assert!(matches!(Boundary::new(point, &[0]), Err(Error::Input { .. })));
+    assert!(matches!(Boundary::new(vec![flat(0.0)], &[1]), Err(Error::Index { .. })));
+    assert!(matches!(Boundary::new(vec![flat(0.0)], &[]), Err(Error::Size { .. })));
+    assert!(matches!(Boundary::new(vec![flat(0.0), flat(0.3)], &[0]), Err(Error::Input { .. })));
+    let slope = vec![Segment { from: [0.0, 0.0], to: [1.0, 0.1] }];
+    assert!(matches!(Boundary::new(slope, &[0]), Err(Error::Input { .. })));
+    let kernel = || Box::new(TimeKernel::new(soil, &[flat(0.0)], 0.5).unwrap());
+    assert!(matches!(BoundaryMarch::new(kernel(), &[]), Err(Error::Size { .. })));
+    let mut march = BoundaryMarch::new(kernel(), &[Given::Traction; 2]).unwrap();
+    assert!(matches!(march.step(&[1.0]), Err(Error::Size { .. })));
+    assert!(matches!(VerticalWaves::new(soil, AtRest, f64::NAN), Err(Error::Input { .. })));
+}

@@ -1,0 +1,67 @@
+//! Impedances of the rigid strip from its response to pulses.
+
+use super::rigid_strip::{Contact, RigidStrip};
+use super::series::whole;
+
+/// Ricker pulse of peak 1.
+pub(crate) fn ricker(time: f64, sigma: f64, center: f64) -> f64 {
+    let a = ((time - center) / sigma).powi(2);
+    (1.0 - 2.0 * a) * (-a).exp()
+}
+
+/// Sum of `values`(k) e^(−iωt(k)): its real and imaginary part.
+fn transform(values: &[f64], omega: f64, time: impl Fn(usize) -> f64) -> [f64; 2] {
+    values.iter().enumerate().fold([0.0; 2], |[re, im], (k, v)| {
+        let phase = omega * time(k);
+        [re + v * phase.cos(), im - v * phase.sin()]
+    })
+}
+
+fn divide([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
+    let square = c * c + d * d;
+    [(a * c + b * d) / square, (b * c - a * d) / square]
+}
+
+/// Impedances `[hh, vv, rr, hr]` at each of `frequencies`, of strips marched with `time_step`.
+pub(crate) fn impedances(
+    make: impl Fn(Contact) -> RigidStrip,
+    time_step: f64,
+    bonded: bool,
+    frequencies: &[f64],
+) -> Vec<[[f64; 2]; 4]> {
+    let steps = whole(60.0 / time_step);
+    let pulse: Vec<f64> = (1..=steps).map(|n| ricker(n as f64 * time_step, 0.5, 3.0)).collect();
+    // By symmetry vertical and horizontal, or vertical and rocking, do not mix.
+    let run = |contact, motion: [f64; 3]| -> [Vec<f64>; 3] {
+        let mut strip = make(contact);
+        let mut forces = [const { Vec::new() }; 3];
+        for p in &pulse {
+            for (list, force) in forces.iter_mut().zip(strip.drive(motion.map(|m| m * p))) {
+                list.push(force);
+            }
+        }
+        forces
+    };
+    let forces = if bonded {
+        let [hh, vv, _] = run(Contact::Bonded, [1.0, 1.0, 0.0]);
+        let [hr, _, rr] = run(Contact::Bonded, [0.0, 0.0, 1.0]);
+        [hh, vv, rr, hr]
+    } else {
+        let [hr, vv, rr] = run(Contact::Normal, [0.0, 1.0, 1.0]);
+        let [hh, _, _] = run(Contact::Tangential, [1.0, 0.0, 0.0]);
+        [hh, vv, rr, hr]
+    };
+    frequencies
+        .iter()
+        .map(|&omega| {
+            let motion = transform(&pulse, omega, |k| (k + 1) as f64 * time_step);
+            // Forces are means over the step, whose transform has this factor.
+            let phase = 0.5 * omega * time_step;
+            let mean = phase.sin() / phase;
+            std::array::from_fn(|k| {
+                let force = transform(&forces[k], omega, |k| (k as f64 + 0.5) * time_step);
+                divide(force, motion).map(|x| x / mean)
+            })
+        })
+        .collect()
+}

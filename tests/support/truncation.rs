@@ -1,0 +1,88 @@
+//! What the truncated free surface of the full-plane ground leaves, in two scenes.
+
+use basemat::bem::full_plane::FullPlaneGround;
+use basemat::bem::{Grading, Ground, HalfPlaneGround, Strip};
+use basemat::interface::Bonded;
+use basemat::motion::RickerDisplacement;
+use basemat::structure::RigidBlock;
+use basemat::{Simulation, Soil};
+
+use crate::support::impedance::impedances;
+use crate::support::rigid_strip::RigidStrip;
+use crate::support::series::{Error, whole};
+use crate::support::table;
+
+/// Errors of `[hh, vv, rr, hr]` of the bonded strip of half width 1 over 0.1 ≤ a₀ ≤ 4, root mean
+/// square over that of the modulus; β = c₁Δt/l.
+pub(crate) fn impedance_errors(
+    name: &str,
+    poisson: f64,
+    elements: usize,
+    free: usize,
+    beta: f64,
+) -> [f64; 4] {
+    let soil = Soil::new(1.0, poisson, 1.0).unwrap();
+    let time_step = beta * 2.0 / elements as f64 / soil.pressure_wave_speed();
+    let columns =
+        ["a0", "re_khh", "im_khh", "re_kvv", "im_kvv", "re_krr", "im_krr", "re_khr", "im_khr"];
+    let rows = table(&format!("strip_bonded_nu{name}_xi00.csv")).rows(columns).into_iter();
+    let rows: Vec<_> = rows.filter(|row| (0.0999..4.0001).contains(&row[0])).collect();
+    let frequencies: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    let strip = |contact| {
+        let ground = FullPlaneGround::strip(soil, -1.0..1.0, elements, free).unwrap();
+        RigidStrip::on(Box::new(ground), time_step, contact)
+    };
+    let found = impedances(strip, time_step, true, &frequencies);
+    let mut errors = [Error::default(); 4];
+    for (row, found) in rows.iter().zip(&found) {
+        for k in 0..4 {
+            for part in 0..2 {
+                errors[k].add(found[k][part], row[2 * k + 1 + part]);
+            }
+        }
+    }
+    errors.map(Error::relative)
+}
+
+/// Base displacement, rotation and base shear (means over `every` steps) of a bonded rigid block
+/// of width and height 2 and density 1 under a Ricker pulse, every `every` steps.
+fn block(ground: impl Ground + 'static, time_step: f64, every: usize) -> [Vec<f64>; 3] {
+    let mut simulation = Simulation::builder(time_step)
+        .structure(RigidBlock::new(2.0, 2.0, 1.0).unwrap())
+        .ground(ground)
+        .interface(Bonded)
+        .motion(RickerDisplacement::new(1.0, 1.0, 5.0).unwrap())
+        .gravity(0.0)
+        .build()
+        .unwrap();
+    let mut history = [const { Vec::new() }; 3];
+    let mut shear = 0.0;
+    simulation
+        .run(whole(20.0 / time_step), |state| {
+            shear += state.base_shear / every as f64;
+            if state.step % every == 0 {
+                history[0].push(state.displacement[0]);
+                history[1].push(state.displacement[2]);
+                history[2].push(shear);
+                shear = 0.0;
+            }
+        })
+        .unwrap();
+    history
+}
+
+/// Relative distance of the block's `[u_base, theta, V]` on the full plane from that on a fine
+/// half-plane (32 graded elements, an eighth of the step).
+pub(crate) fn block_errors(elements: usize, free: usize, beta: f64) -> [f64; 3] {
+    let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
+    let time_step = beta * 2.0 / elements as f64 / soil.pressure_wave_speed();
+    let full = FullPlaneGround::strip(soil, -1.0..1.0, elements, free).unwrap();
+    let strip = Strip::new(-1.0..1.0, 32, Grading::Cosine).unwrap();
+    let half = HalfPlaneGround::new(soil, &[strip]).unwrap();
+    let (found, wanted) = (block(full, time_step, 1), block(half, time_step / 8.0, 8));
+    std::array::from_fn(|k| {
+        let mut error = Error::default();
+        found[k].iter().zip(&wanted[k]).for_each(|(a, b)| error.add(*a, *b));
+        error.relative()
+    })
+}
