@@ -245,6 +245,7 @@ fn energy_is_where_the_motion_is() {
 }
 
 #[track_caller]
+#[expect(clippy::needless_pass_by_value, reason = "takes results as they come")]
 fn refused<T: std::fmt::Debug>(outcome: basemat::Result<T>) {
     assert!(matches!(outcome, Err(Error::Input { .. })), "{outcome:?}");
 }

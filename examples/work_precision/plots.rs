@@ -101,14 +101,16 @@ fn panel(
         let low = values().fold(f64::INFINITY, f64::min);
         0.6 * low..1.8 * values().fold(0.0, f64::max)
     };
+    // Room for the legend below the points.
+    let mut errors = range(&|p| place(p).1);
+    if front {
+        errors.start *= 0.15;
+    }
     let mut chart: Chart = ChartBuilder::on(area)
         .margin(14)
         .x_label_area_size(48)
         .y_label_area_size(76)
-        .build_cartesian_2d(
-            range(&|p| place(p).0).log_scale(),
-            range(&|p| place(p).1).log_scale(),
-        )?;
+        .build_cartesian_2d(range(&|p| place(p).0).log_scale(), errors.log_scale())?;
     chart
         .configure_mesh()
         .x_desc("processor time, s")

@@ -111,7 +111,8 @@ fn mark_front(points: &mut [Point]) {
     let mut best = f64::INFINITY;
     for index in order {
         let point = &mut points[index];
-        if point.errors.history < best {
+        // By a percent at least: histories that are equal but for rounding would share the front.
+        if point.errors.history < 0.99 * best {
             best = point.errors.history;
             point.front = true;
         }
