@@ -156,7 +156,7 @@ fn resumed_runs_are_the_same_to_the_last_bit() {
                 }
             }
         }
-        let moved = whole[STEPS].displacement.iter().any(|u| *u != 0.0);
+        let moved = whole[STEPS].displacement().iter().any(|u| *u != 0.0);
         assert!(
             moved && whole[STEPS].contact[0] != whole[0].contact[0],
             "{name}: nothing happened"

@@ -166,12 +166,12 @@ fn traction_enters_at_the_end_of_the_step() {
             let state = simulation.step().unwrap().clone();
             // The block's first unknown shifts it to the right: its row is the horizontal balance.
             let row = mass.entries().iter().filter(|entry| entry.0 == 0);
-            let inertia: f64 = row.map(|&(_, j, m)| m * state.acceleration[j]).sum();
+            let inertia: f64 = row.map(|&(_, j, m)| m * state.acceleration()[j]).sum();
             assert!((inertia + state.base_shear).abs() < 1e-10 * weight);
             // Newmark's rule, not the mean of the step.
             let (gamma, h) = (0.5 - alpha, simulation.time_step());
-            let mean = (1.0 - gamma) * before.acceleration[0] + gamma * state.acceleration[0];
-            let gained = state.velocity[0] - before.velocity[0];
+            let mean = (1.0 - gamma) * before.acceleration()[0] + gamma * state.acceleration()[0];
+            let gained = state.velocity()[0] - before.velocity()[0];
             assert!((gained - h * mean).abs() < 1e-9 * (1e-3 + gained.abs()));
             before = state;
         }
