@@ -73,12 +73,12 @@ impl Structure for Sticky {
     }
 }
 
+/// A scene's name, and how it is built.
+type Kind = (&'static str, Box<dyn Fn() -> Simulation>);
+
 /// Scenes by name; each is built anew at every call.
-fn kinds() -> Vec<(&'static str, Box<dyn Fn() -> Simulation>)> {
-    fn kind(
-        name: &'static str,
-        builder: impl Fn() -> SimulationBuilder + 'static,
-    ) -> (&'static str, Box<dyn Fn() -> Simulation>) {
+fn kinds() -> Vec<Kind> {
+    fn kind(name: &'static str, builder: impl Fn() -> SimulationBuilder + 'static) -> Kind {
         (name, Box::new(move || builder().build().unwrap()))
     }
     let base = || scene(SI, 0.6).interface(friction(0.3));
@@ -333,10 +333,10 @@ mod text {
                 let place = place.index(leaves.len());
                 *leaves[place] = Value::from(bits);
             }
-            if let Ok(checkpoint) = serde_json::from_value::<Checkpoint>(value) {
-                if simulation.resume(&checkpoint).is_ok() {
-                    let _ = simulation.step();
-                }
+            if let Ok(checkpoint) = serde_json::from_value::<Checkpoint>(value)
+                && simulation.resume(&checkpoint).is_ok()
+            {
+                let _ = simulation.step();
             }
         }
 

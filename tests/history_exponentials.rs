@@ -235,6 +235,11 @@ fn bad_input_is_an_error() {
 
 #[test]
 fn the_choice_is_made_and_explained() {
+    use ChoiceReason::{
+        Exact, FewSteps, MemoryLimit, NoExponentials, ToleranceAllowed, UnknownLength,
+    };
+    use History::{Direct, Exponentials, RelaxedFft};
+
     let soil = Soil::new(80.0e6, 0.3, 1900.0).unwrap();
     let choose = |tolerance: Option<f64>, memory: Option<usize>, steps: Option<usize>, dt| {
         let mut ground = HalfPlaneGround::strip(soil, -2.0..2.0, 6).unwrap();
@@ -255,10 +260,6 @@ fn the_choice_is_made_and_explained() {
         assert!(choice.to_string().contains(&choice.reason.to_string()));
         (choice.kind, choice.reason)
     };
-    use ChoiceReason::{
-        Exact, FewSteps, MemoryLimit, NoExponentials, ToleranceAllowed, UnknownLength,
-    };
-    use History::{Direct, Exponentials, RelaxedFft};
     assert_eq!(choose(None, None, Some(40), 1e-3), (Direct, FewSteps));
     assert_eq!(choose(None, None, Some(20_000), 1e-3), (RelaxedFft, Exact));
     assert_eq!(choose(None, None, None, 1e-3), (RelaxedFft, UnknownLength));

@@ -56,13 +56,12 @@ impl Prepared {
         options: HistoryOptions,
         steps: Option<usize>,
     ) -> Result<&mut dyn ConvolutionHistory> {
-        let history = match self.history.take() {
-            Some(history) => history,
-            None => {
-                let (history, choice) = options.make(&self.kernel, steps)?;
-                self.choice = Some(choice);
-                history
-            }
+        let history = if let Some(history) = self.history.take() {
+            history
+        } else {
+            let (history, choice) = options.make(&self.kernel, steps)?;
+            self.choice = Some(choice);
+            history
         };
         Ok(self.history.insert(history).as_mut())
     }

@@ -123,7 +123,7 @@ impl ExponentialHistory {
             let Margin { least, frequency } =
                 passivity::margin(&kernel, &exact, &tail, horizon as f64);
             // A NaN is refused as well.
-            if !(least >= 0.0) {
+            if least.is_nan() || least < 0.0 {
                 refusal = Some(Error::NotPassive { margin: least, frequency });
                 continue;
             }
@@ -223,7 +223,7 @@ impl ExponentialHistory {
 /// Steps of a block and blocks of the window.
 fn blocks(kernel: &PatchKernel) -> Result<[usize; 2]> {
     let lags = ExponentialHistory::window_of(kernel);
-    if !(lags <= LONGEST_WINDOW) {
+    if lags.is_nan() || lags > LONGEST_WINDOW {
         return Err(Error::Input {
             quantity: "steps that the Rayleigh wave needs for three times the patch",
             value: lags,

@@ -47,7 +47,7 @@ pub(super) fn margin(kernel: &PatchKernel, lags: &Lags, tail: &Tail, horizon: f6
     for frequency in frequencies {
         let least = least_at(kernel, lags, tail, frequency);
         // NaN must not pass.
-        if !(least >= found.least) {
+        if least.is_nan() || least < found.least {
             found = Margin { least, frequency };
         }
         if least.is_nan() {
