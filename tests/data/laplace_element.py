@@ -52,7 +52,7 @@ VIEWS = {
 S = [mpc("0.001", "0.002"), mpc("0.4", "0"), mpc("0.05", "3"), mpc("2", "-1"), mpc("0.5", "50"), mpc("30", "40")]
 
 # Which values of S each view is evaluated at.
-AT = {"own": [0, 2, 5], "next": [1, 4], "far": [2], "corner": [2], "near": [2], "skew": [5], "ownskew": [2]}
+AT = {"own": [0, 2, 5], "next": [1], "far": [2], "corner": [2], "near": [2], "skew": [5], "ownskew": [2]}
 
 print("# Element integrals of the transformed full-plane kernels, nu = 1/3, mu = rho = c2 = 1.")
 print("# Collocation at the midpoint of a; integrals over b; z down. h without the free term.")

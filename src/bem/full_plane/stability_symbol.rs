@@ -289,10 +289,10 @@ impl<'a> Symbol<'a> {
 
 /// Σ_{n≥first} ζⁿ (first/n)^p for p = 1 … [`POWERS`].
 fn tail_sums(zeta: Complex64, first: f64) -> [Complex64; POWERS] {
-    const STEP: f64 = 0.25;
+    const STEP: f64 = 0.125;
     let mut sums = [Complex64::default(); POWERS];
     let front = (zeta.ln() * first).exp() * STEP;
-    for k in -140..=16 {
+    for k in -280..=32 {
         let y = (STEP * f64::from(k)).exp();
         // dy = y d(ln y)
         let mut term = front * (-y).exp() * y / (1.0 - zeta * (-y / first).exp());
