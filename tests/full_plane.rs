@@ -9,7 +9,7 @@ use basemat::bem::full_plane::{
     TimeKernel, VerticalWaves,
 };
 use basemat::bem::{Ground, HalfPlaneGround, Strip};
-use basemat::motion::{AtRest, FreeFieldFn, RickerDisplacement};
+use basemat::motion::{AtRest, FreeField, FreeFieldFn, RickerDisplacement};
 use basemat::{Error, Soil};
 use std::f64::consts::PI;
 use support::series::{Error as SeriesError, whole, within};
@@ -219,8 +219,8 @@ fn rocking_and_sliding_on_both_grounds() {
     println!("uplift {uplift} {other_uplift}, slip {:?} {:?}", slip.last(), other_slip.last());
     let mut error = SeriesError::default();
     slip.iter().zip(&other_slip).for_each(|(a, b)| error.add(*a, *b));
-    within("rocking", &["slip"], &[error.relative()], &[0.5]);
-    assert!(uplift > 0.0 && (uplift - other_uplift).abs() < 0.3);
+    within("rocking", &["slip"], &[error.relative()], &[1e-2]);
+    assert!(uplift > 0.0 && (uplift - other_uplift).abs() < 0.13);
 }
 
 /// GOAL: the static limit of the boundary equation is the half-plane's.
@@ -386,6 +386,35 @@ fn canyons_scatter_incident_waves() {
     println!("largest {largest:.3}");
     assert!((0.1..0.5).contains(&largest), "{largest}");
     within("canyon", &["down", "along"], &errors, &[0.29, 0.19]);
+}
+
+/// GOAL: incident and scattered field together are the motion of the new surface, in sign and size.
+/// SCENE: the soil taken away down to 0.5 over a width of 24, until waves come in from the ends.
+/// REFERENCE: a free surface at depth d moves as the wave from below does, twice: s(t − t₀ + d/c₂).
+#[test]
+fn excavated_half_plane_moves_as_its_own_surface() {
+    let pulse = || RickerDisplacement::new(1.0, 0.5, 2.0).unwrap();
+    let at = |k: f64| [0.25 * k - 12.0, 0.5];
+    let segments =
+        (0..96).map(|k| Segment { from: at(f64::from(k)), to: at(f64::from(k + 1)) }).collect();
+    let errors = [0.1, 0.05].map(|step| {
+        let waves = VerticalWaves::new(soil(0.25), pulse(), 0.5).unwrap();
+        let boundary = Boundary::new(Vec::clone(&segments), &[47, 48]).unwrap();
+        let mut ground = FullPlaneGround::new(soil(0.25), boundary).with_incident_field(waves);
+        ground.prepare(step).unwrap();
+        let (mut history, mut free) = ([0.0; 4], [0.0; 4]);
+        let mut worst = 0.0_f64;
+        for n in 1..=whole(5.0 / step) {
+            let time = n as f64 * step;
+            ground.history(&mut history).unwrap();
+            ground.free_field(&AtRest, time, &mut free);
+            ground.commit(&[]);
+            let wanted = pulse().displacement(0.0, time)[0];
+            worst = worst.max((history[2] + free[2] - wanted).abs());
+        }
+        worst
+    });
+    within("excavated", &["0.1", "0.05"], &errors, &[5e-3, 1.3e-3]);
 }
 
 /// GOAL: no silent answers: a boundary that is not flat needs its incident field, and that one does
