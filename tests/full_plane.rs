@@ -9,12 +9,12 @@ use basemat::bem::full_plane::{
     TimeKernel, VerticalWaves,
 };
 use basemat::bem::{Ground, HalfPlaneGround, Strip};
-use basemat::motion::{AtRest, FreeFieldFn, RickerDisplacement};
+use basemat::motion::{AtRest, FreeField, FreeFieldFn, RickerDisplacement};
 use basemat::{Error, Soil};
 use std::f64::consts::PI;
-use support::series::{whole, within};
+use support::series::{Error as SeriesError, whole, within};
 use support::{close, table};
-use truncation::{block_errors, impedance_errors};
+use truncation::{block_errors, impedance_errors, rocking};
 
 fn soil(poisson: f64) -> Soil {
     Soil::new(1.0, poisson, 1.0).unwrap()
@@ -107,7 +107,7 @@ fn subelements_tend_to_the_exact_integrals() {
 fn rigid_motion_of_closed_polygons() {
     for (outside, wanted) in [(true, 1.0), (false, 0.0)] {
         let kernel = TimeKernel::new(soil(0.3), &circle(9, outside), 0.7).unwrap();
-        let mut sum = vec![0.0; 18];
+        let mut sum = [0.0; 18];
         for lag in 0..600 {
             let [_, h] = coefficients(&kernel, lag);
             for (sum, row) in sum.chunks_exact_mut(9).zip(h.chunks_exact(18 * 9)) {
@@ -174,56 +174,71 @@ fn cavity_errors(poisson: f64, count: usize, time_step: f64) -> [f64; 2] {
     [worst, uneven]
 }
 
-/// GOAL: curved boundaries, first order in the step.
-/// SCENE: cavity under a pressure switched on at once, β ≈ 2.6.
+/// GOAL: curved boundaries, first order in element and step.
+/// SCENE: cavity under a pressure switched on at once, β from 1.3 to 2.6, where nothing grows.
 /// REFERENCE: closed form in the Laplace domain (K₀, K₁).
 #[test]
 fn cavity_under_a_sudden_pressure() {
-    for (poisson, limits) in [(0.0, [0.5, 0.5, 0.5]), (0.25, [0.5, 0.5, 0.5])] {
-        let runs = [(24, 0.4), (48, 0.2), (96, 0.1)]
-            .map(|(count, step)| cavity_errors(poisson, count, step));
-        println!("uneven {:?}", runs.map(|r| r[1]));
-        let errors = runs.map(|run| run[0]);
-        within(&format!("cavity {poisson}"), &["24", "48", "96"], &errors, &limits);
-    }
+    let runs =
+        [(24, 0.2), (48, 0.1), (96, 0.1)].map(|(count, step)| cavity_errors(0.25, count, step));
+    let [even, odd] = [0, 1].map(|k| runs.map(|run| run[k]));
+    within("cavity", &["24", "48", "96"], &even, &[9.5e-2, 3.3e-2, 2.6e-2]);
+    within("cavity, unevenness", &["24", "48", "96"], &odd, &[1e-9; 3]);
 }
 
 /// GOAL: the flat boundary is the half-plane, but for its truncated surface.
 /// SCENE: bonded massless rigid strip of 8 elements, β = 1.15.
-/// REFERENCE: impedances by a spectral method.
+/// REFERENCE: impedances by a spectral method. The coupling comes from H alone, whose displacements
+/// are constant over steps: first order in the step.
 #[test]
 fn impedances_of_the_bonded_strip() {
-    for (free, limits) in [(5, [0.5; 4]), (20, [0.5; 4])] {
+    for (free, limits) in
+        [(5, [4.2e-2, 4.6e-2, 1.5e-1, 5.2e-1]), (10, [4.2e-2, 4.6e-2, 1.5e-1, 4.2e-1])]
+    {
         let errors = impedance_errors("0333", 1.0 / 3.0, 8, free, 1.15);
         within(&format!("{free} free"), &["khh", "kvv", "krr", "khr"], &errors, &limits);
     }
 }
 
-/// GOAL: both soils give the same answer in a coupled run.
-/// SCENE: bonded rigid block under a Ricker pulse; 5 and 20 free elements on either side.
+/// GOAL: both soils tend to the same answer in a coupled run.
+/// SCENE: bonded rigid block under a Ricker pulse, 5 free elements on either side, β = 1.
 #[test]
 fn rigid_block_on_both_grounds() {
-    for (count, free, limits) in [(8, 5, [0.5; 3]), (8, 20, [0.5; 3])] {
+    for (count, free, limits) in [(8, 5, [6.2e-2, 7.6e-2, 3e-2]), (16, 5, [2.2e-2, 3.8e-2, 3.2e-2])]
+    {
         let errors = block_errors(count, free, 1.0);
         within(&format!("{count}, {free}"), &["u_base", "theta", "V"], &errors, &limits);
     }
 }
 
+/// GOAL: contact with friction copes with an operator that is not symmetric.
+/// SCENE: a block that rocks and slides, 5 free elements on either side, β = 2.
+#[test]
+fn rocking_and_sliding_on_both_grounds() {
+    let [(slip, uplift), (other_slip, other_uplift)] = rocking(8, 5, 2.0);
+    println!("uplift {uplift} {other_uplift}, slip {:?} {:?}", slip.last(), other_slip.last());
+    let mut error = SeriesError::default();
+    slip.iter().zip(&other_slip).for_each(|(a, b)| error.add(*a, *b));
+    within("rocking", &["slip"], &[error.relative()], &[1e-2]);
+    assert!(uplift > 0.0 && (uplift - other_uplift).abs() < 0.13);
+}
+
 /// GOAL: the static limit of the boundary equation is the half-plane's.
 /// SCENE: a surface of which the last element dips by a millionth, so that it counts as uneven.
-/// REFERENCE: the half-plane's static compliance, between two elements (no datum).
+/// REFERENCE: the half-plane's static compliance; between two elements, as there is no datum.
 #[test]
 fn static_compliance_tends_to_the_half_planes() {
-    let difference = |matrix: &[f64], row: usize| {
-        let width = 8;
-        let at = |i: usize, j: usize| matrix[i * width + j];
-        at(row, row) - at(row + 2, row)
-    };
     let mut half = HalfPlaneGround::strip(soil(0.3), -1.0..1.0, 4).unwrap();
     half.prepare(0.1).unwrap();
     let mut wanted = [0.0; 64];
     half.static_compliance(&mut wanted).unwrap();
-    let errors = [5, 20, 80].map(|free| {
+    // From the left element: z and x displacements between the two on the right, and how z and x
+    // move each other.
+    let measures = |matrix: &[f64]| {
+        let at = |i: usize, j: usize| matrix[i * 8 + j];
+        [at(2, 0) - at(3, 0), at(6, 4) - at(7, 4), at(3, 4), at(7, 0)]
+    };
+    let errors: [[f64; 4]; 3] = [5, 20, 80].map(|free| {
         let flat = Boundary::flat(&[Strip::uniform(-1.0..1.0, 4).unwrap()], free).unwrap();
         let mut segments = flat.segments().to_vec();
         segments.last_mut().unwrap().to[1] += 1e-6;
@@ -232,11 +247,14 @@ fn static_compliance_tends_to_the_half_planes() {
         let ground = FullPlaneGround::new(soil(0.3), boundary);
         let mut found = [0.0; 64];
         ground.static_compliance(&mut found).unwrap();
-        let at = |row: usize| difference(&found, row) / difference(&wanted, row) - 1.0;
-        at(1).abs().max(at(5).abs())
+        let [found, wanted] = [measures(&found), measures(&wanted)];
+        std::array::from_fn(|k| (found[k] / wanted[k] - 1.0).abs())
     });
-    println!("static: {errors:?}");
-    assert!(errors[2] < 0.1 && errors[2] < errors[0]);
+    // Midpoints against means, and elements as long as a quarter of the strip, leave a few percent.
+    for (errors, coupling) in errors.iter().zip([1.2e-1, 1.1e-1, 8.5e-2]) {
+        let limits = [1.7e-2, 1.7e-2, coupling, coupling];
+        within("static", &["zz", "xx", "zx", "xz"], errors, &limits);
+    }
 }
 
 /// A box of soil, of elements of length `size`, its top at z = 0.
@@ -304,53 +322,111 @@ fn incident_waves_satisfy_the_boundary_equation() {
         let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
         norm(&difference) / norm(&side)
     });
-    within("incident waves", &["0.25", "0.125"], &errors, &[0.1, 0.05]);
+    within("incident waves", &["0.25", "0.125"], &errors, &[0.22, 0.115]);
+    assert!(errors[0] / errors[1] > 1.8, "not of first order");
 }
 
-/// Surface with a trench right of a strip of four elements.
-fn trench() -> Boundary {
-    let mut nodes = vec![[-2.0, 0.0]];
-    nodes.extend((1..=8).map(|k| [-2.0 + 0.5 * f64::from(k), 0.0]));
-    nodes.extend([[2.0, 0.5], [2.0, 1.0], [2.5, 1.0], [2.5, 0.5], [2.5, 0.0], [3.0, 0.0]]);
-    let segments = nodes.windows(2).map(|n| Segment { from: n[0], to: n[1] }).collect();
-    Boundary::new(segments, &[2, 3, 4, 5]).unwrap()
+/// Surface with a canyon right of a strip, elements about `size` long.
+fn canyon(size: f64) -> Boundary {
+    let corners: [[f64; 2]; 5] = [[-4.0, 0.0], [2.0, 0.0], [4.0, 1.0], [6.0, 0.0], [9.0, 0.0]];
+    let mut segments = Vec::new();
+    for pair in corners.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        let pieces = whole((to[0] - from[0]).hypot(to[1] - from[1]) / size);
+        let at = |k: usize| {
+            let part = k as f64 / pieces as f64;
+            [from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1])]
+        };
+        segments.extend((0..pieces).map(|k| Segment { from: at(k), to: at(k + 1) }));
+    }
+    let under = |s: &Segment| s.from[0] > -1.0 - 1e-9 && s.to[0] < 1.0 + 1e-9;
+    let contact: Vec<usize> = (0..segments.len()).filter(|&e| under(&segments[e])).collect();
+    Boundary::new(segments, &contact).unwrap()
 }
 
-/// GOAL: an incident field moves a flat ground as a record in the scene does, a trench scatters it,
-/// and both motions at once are refused.
-#[test]
-fn incident_fields_and_trenches() {
-    let pulse = || RickerDisplacement::new(1.0, 0.8, 4.0).unwrap();
-    let motion = |boundary: Boundary| {
-        let waves = VerticalWaves::new(soil(0.25), pulse(), 2.0).unwrap();
-        let mut ground = FullPlaneGround::new(soil(0.25), boundary).with_incident_field(waves);
-        ground.prepare(0.5).unwrap();
-        let (mut history, mut free, mut largest) = ([9.0; 8], [9.0; 8], [0.0_f64; 2]);
-        for n in 1..=40 {
+fn waves() -> VerticalWaves {
+    VerticalWaves::new(soil(0.25), RickerDisplacement::new(1.0, 0.8, 4.0).unwrap(), 2.0).unwrap()
+}
+
+/// Mean scattered and largest incident displacement of the contact, down and along, per step.
+fn scattered(boundary: Boundary, time_step: f64, steps: usize) -> Vec<[f64; 3]> {
+    let mut ground = FullPlaneGround::new(soil(0.25), boundary).with_incident_field(waves());
+    ground.prepare(time_step).unwrap();
+    let count = ground.elements().len();
+    let (mut history, mut free) = (vec![9.0; 2 * count], vec![9.0; 2 * count]);
+    (1..=steps)
+        .map(|n| {
             ground.history(&mut history).unwrap();
-            ground.free_field(&AtRest, f64::from(n) * 0.5, &mut free);
+            ground.free_field(&AtRest, n as f64 * time_step, &mut free);
             ground.commit(&[]);
-            for (h, f) in history.iter().zip(free) {
-                largest = [largest[0].max(h.abs()), largest[1].max(f.abs())];
-            }
-        }
-        largest
-    };
-    let strip = Strip::uniform(-1.0..1.0, 4).unwrap();
-    let [scattered, free] = motion(Boundary::flat(&[strip], 3).unwrap());
-    assert_eq!(scattered, 0.0);
-    assert!(free > 0.9);
-    let [scattered, _] = motion(trench());
-    println!("scattered by the trench: {scattered}");
-    assert!((0.01..1.0).contains(&scattered));
+            let mean = |x: &[f64]| x.iter().sum::<f64>() / count as f64;
+            let largest = free.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            [mean(&history[..count]), mean(&history[count..]), largest]
+        })
+        .collect()
+}
 
-    let mut ground = FullPlaneGround::new(soil(0.25), trench());
+/// GOAL: a flat ground scatters nothing, a canyon does, and the answer settles with the mesh.
+/// SCENE: canyon 4 wide and 1 deep beside a strip without structure, SV Ricker pulse, β = 0.75.
+#[test]
+fn canyons_scatter_incident_waves() {
+    let strip = Strip::uniform(-1.0..1.0, 4).unwrap();
+    let flat = scattered(Boundary::flat(&[strip], 3).unwrap(), 0.25, 80);
+    assert!(flat.iter().all(|[down, along, _]| *down == 0.0 && *along == 0.0));
+    assert!(flat.iter().any(|[.., free]| *free > 0.95));
+    let step = 0.75 * 0.25 / soil(0.25).pressure_wave_speed();
+    let (coarse, fine) =
+        (scattered(canyon(0.5), 2.0 * step, 80), scattered(canyon(0.25), step, 160));
+    let errors = [0, 1].map(|k| {
+        let mut error = SeriesError::default();
+        coarse.iter().zip(fine.iter().skip(1).step_by(2)).for_each(|(a, b)| error.add(a[k], b[k]));
+        error.relative()
+    });
+    let largest = fine.iter().fold(0.0_f64, |m, x| m.max(x[0].abs()).max(x[1].abs()));
+    println!("largest {largest:.3}");
+    assert!((0.1..0.5).contains(&largest), "{largest}");
+    within("canyon", &["down", "along"], &errors, &[0.29, 0.19]);
+}
+
+/// GOAL: incident and scattered field together are the motion of the new surface, in sign and size.
+/// SCENE: the soil taken away down to 0.5 over a width of 24, until waves come in from the ends.
+/// REFERENCE: a free surface at depth d moves as the wave from below does, twice: s(t − t₀ + d/c₂).
+#[test]
+fn excavated_half_plane_moves_as_its_own_surface() {
+    let pulse = || RickerDisplacement::new(1.0, 0.5, 2.0).unwrap();
+    let at = |k: f64| [0.25 * k - 12.0, 0.5];
+    let segments =
+        (0..96).map(|k| Segment { from: at(f64::from(k)), to: at(f64::from(k + 1)) }).collect();
+    let errors = [0.1, 0.05].map(|step| {
+        let waves = VerticalWaves::new(soil(0.25), pulse(), 0.5).unwrap();
+        let boundary = Boundary::new(Vec::clone(&segments), &[47, 48]).unwrap();
+        let mut ground = FullPlaneGround::new(soil(0.25), boundary).with_incident_field(waves);
+        ground.prepare(step).unwrap();
+        let (mut history, mut free) = ([0.0; 4], [0.0; 4]);
+        let mut worst = 0.0_f64;
+        for n in 1..=whole(5.0 / step) {
+            let time = n as f64 * step;
+            ground.history(&mut history).unwrap();
+            ground.free_field(&AtRest, time, &mut free);
+            ground.commit(&[]);
+            let wanted = pulse().displacement(0.0, time)[0];
+            worst = worst.max((history[2] + free[2] - wanted).abs());
+        }
+        worst
+    });
+    within("excavated", &["0.1", "0.05"], &errors, &[5e-3, 1.3e-3]);
+}
+
+/// GOAL: no silent answers: a boundary that is not flat needs its incident field, and that one does
+/// not go with a motion of the scene.
+#[test]
+fn two_motions_are_refused() {
+    let mut ground = FullPlaneGround::new(soil(0.25), canyon(0.5));
     assert!(matches!(ground.prepare(0.5), Err(Error::Scene { .. })));
-    let waves = VerticalWaves::new(soil(0.25), pulse(), 2.0).unwrap();
-    let mut ground = ground.with_incident_field(waves);
+    let mut ground = ground.with_incident_field(waves());
     ground.prepare(0.5).unwrap();
     let mut out = [0.0; 8];
-    ground.free_field(&pulse(), 4.0, &mut out);
+    ground.free_field(&RickerDisplacement::new(1.0, 0.8, 4.0).unwrap(), 4.0, &mut out);
     assert!(out.iter().all(|x| x.is_nan()));
     assert!(matches!(ground.history(&mut out), Err(Error::Scene { .. })));
 }

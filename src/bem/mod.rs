@@ -76,7 +76,8 @@ pub trait Ground: Send {
     }
 
     /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the displacement at the end of a step
-    /// due to unit tractions during it. Symmetric when rows are weighted by element lengths.
+    /// due to unit tractions during it. Symmetric when rows are weighted by element lengths if
+    /// the ground is an energy method; nothing here relies on it.
     ///
     /// # Errors
     /// If the ground is not prepared or the slice has the wrong length.
@@ -93,7 +94,7 @@ pub trait Ground: Send {
     fn commit(&mut self, traction: &[f64]);
 
     /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the static displacement due to unit
-    /// tractions, up to a rigid settlement. Symmetric when rows are weighted by element lengths.
+    /// tractions, up to a rigid settlement. Symmetric in the same sense, or not.
     ///
     /// # Errors
     /// If the slice has the wrong length.

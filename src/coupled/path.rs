@@ -9,7 +9,8 @@
 //!
 //! Begun with all elements open and a d that widens gaps only, the path cannot run off to λ = −∞:
 //! there j = d + W r with p·g = 0 and τ·Δjₜ ≤ 0 would give r·A W r + p·A dₙ ≤ 0, hence r = 0, which
-//! is the beginning. This holds for any friction coefficient (A W symmetric, positive definite).
+//! is the beginning. This holds for any friction coefficient if r·A W r > 0 for r ≠ 0; A W need
+//! not be symmetric.
 //! With tensile strength the law is not monotone and the path may break; then it is begun
 //! elsewhere, also with all elements pressed shut.
 

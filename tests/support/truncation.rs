@@ -1,8 +1,10 @@
-//! What the truncated free surface of the full-plane ground leaves, in two scenes.
+//! What the truncated free surface of the full-plane ground leaves.
+#![allow(dead_code, reason = "each binary uses its own part")]
 
 use basemat::bem::full_plane::FullPlaneGround;
 use basemat::bem::{Grading, Ground, HalfPlaneGround, Strip};
-use basemat::interface::Bonded;
+use basemat::coupled::SimulationBuilder;
+use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::RickerDisplacement;
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
@@ -85,4 +87,38 @@ pub(crate) fn block_errors(elements: usize, free: usize, beta: f64) -> [f64; 3] 
         found[k].iter().zip(&wanted[k]).for_each(|(a, b)| error.add(*a, *b));
         error.relative()
     })
+}
+
+/// Mean slip and largest uplifted fraction of a block of height 4 under its weight that rocks and
+/// slides, on the full plane and on a half-plane with the same elements and step.
+pub(crate) fn rocking(elements: usize, free: usize, beta: f64) -> [(Vec<f64>, f64); 2] {
+    let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
+    let time_step = beta * 2.0 / elements as f64 / soil.pressure_wave_speed();
+    let full = FullPlaneGround::strip(soil, -1.0..1.0, elements, free).unwrap();
+    let half = HalfPlaneGround::strip(soil, -1.0..1.0, elements).unwrap();
+    let run = |builder: SimulationBuilder| {
+        let mut simulation = builder
+            .structure(RigidBlock::new(2.0, 4.0, 0.5).unwrap())
+            .interface(Coulomb::new(0.5).unwrap())
+            .motion(RickerDisplacement::new(1.0, 1.5, 6.0).unwrap())
+            .gravity(0.1)
+            .build()
+            .unwrap();
+        let mut slip = Vec::new();
+        let run = simulation
+            .run(whole(14.0 / time_step), |state| {
+                slip.push(state.mean_slip);
+                for contact in &state.contact {
+                    assert!(contact.pressure >= -1e-9 && contact.gap >= -1e-9);
+                    assert!(contact.shear.abs() <= 0.5 * contact.pressure + 1e-9);
+                }
+            })
+            .unwrap();
+        assert!(run.ledger_residual < 1e-9, "ledger open by {:.1e}", run.ledger_residual);
+        (slip, run.uplifted_fraction.value)
+    };
+    [
+        run(Simulation::builder(time_step).ground(full)),
+        run(Simulation::builder(time_step).ground(half)),
+    ]
 }

@@ -1,7 +1,7 @@
 //! The boundary of the soil: contact elements and traction-free ones.
 
 use super::Segment;
-use super::segment::check_segments;
+use super::segment::{check_count, check_segments};
 use crate::bem::{ContactElement, Strip, check_order};
 use crate::error::{Error, Result};
 
@@ -33,6 +33,7 @@ impl Boundary {
     pub fn flat(strips: &[Strip], free: usize) -> Result<Self> {
         let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
         check_order(&elements)?;
+        check_count(free)?;
         let mean = |strip: &Strip| {
             let nodes = strip.nodes();
             (nodes[nodes.len() - 1] - nodes[0]) / (nodes.len() - 1) as f64
@@ -47,7 +48,7 @@ impl Boundary {
                 nodes.push(begin);
                 let size = mean(&strips[k - 1]).max(mean(strip));
                 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "≥ 0")]
-                let pieces = ((end - begin) / size - 1e-9).ceil().max(0.0).min(1e6) as usize;
+                let pieces = ((end - begin) / size - 1e-9).ceil().clamp(0.0, 1e6) as usize;
                 for piece in 1..pieces {
                     nodes.push(begin + (end - begin) * piece as f64 / pieces as f64);
                 }

@@ -103,7 +103,8 @@ impl FullPlaneGround {
     }
 
     /// With other coefficients than [`TimeKernel`]'s: `make` is called with the elements, the soil
-    /// and the time step once that is known.
+    /// and the time step once that is known. The soil being homogeneous, coefficients may depend on
+    /// where two elements are to each other only: one pair of each kind is asked for.
     #[must_use]
     pub fn with_kernel(
         mut self,

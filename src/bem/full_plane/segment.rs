@@ -47,18 +47,24 @@ impl Segment {
 /// Most elements of a boundary: two dense operators of this size take 1 GB.
 const MOST_SEGMENTS: usize = 4_000;
 
+/// Error for more elements than that.
+pub(super) fn check_count(count: usize) -> Result<()> {
+    if count <= MOST_SEGMENTS {
+        return Ok(());
+    }
+    Err(Error::Input {
+        quantity: "number of boundary elements",
+        value: count as f64,
+        needed: "at most 4000",
+    })
+}
+
 /// Error unless there are elements, all have length, and none passes through a midpoint of another.
 pub(super) fn check_segments(segments: &[Segment]) -> Result<()> {
     if segments.is_empty() {
         return Err(Error::Size { quantity: "list of boundary elements", found: 0, needed: 1 });
     }
-    if segments.len() > MOST_SEGMENTS {
-        return Err(Error::Input {
-            quantity: "number of boundary elements",
-            value: segments.len() as f64,
-            needed: "at most 4000",
-        });
-    }
+    check_count(segments.len())?;
     for segment in segments {
         for coordinate in segment.from.into_iter().chain(segment.to) {
             finite("end of a boundary element", coordinate)?;

@@ -77,3 +77,32 @@ pub(super) fn static_compliance(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bem::full_plane::step_integrals::{Medium, step_integrals};
+
+    /// The answer to a load that was switched on long ago, but for its growth in time.
+    #[test]
+    fn a_held_load_tends_to_the_static_limit() {
+        let soil = Soil::new(1.0, 0.2, 1.0).unwrap();
+        let speeds = [soil.pressure_wave_speed(), soil.shear_wave_speed()];
+        let square = speeds.map(|c| 1.0 / (c * c));
+        let medium = Medium { speeds, lame: 0.4 / 0.6 };
+        for (ends, h) in [([0.3, 1.1], 0.0), ([-0.4, 0.9], 0.6), ([1.0, 2.0], -0.5)] {
+            let [low, high] = ends.map(|s| primitive(square, medium.lame, s, h, 1.0));
+            let late = step_integrals(&medium, ends, h, 1e4);
+            let t = late.traction.as_flattened();
+            let [dd, dn, nn] = late.displacement;
+            // ½ Σ c⁻² ln(2 c t) of each displacement.
+            let growth: f64 = (0..2).map(|k| 0.5 * square[k] * (2e4 * speeds[k]).ln()).sum();
+            let rise = growth * (ends[1] - ends[0]);
+            let found = [dd - rise, dn, nn - rise, t[0], t[1], t[2], t[3]];
+            for k in 0..7 {
+                let wanted = high[k] - low[k];
+                assert!((found[k] - wanted).abs() < 2e-7, "{ends:?} {k}: {} {wanted}", found[k]);
+            }
+        }
+    }
+}
