@@ -2,8 +2,11 @@
 //!
 //! Everything runs sequentially, and solves use workspace made when the factor was made.
 
+use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
+use faer::linalg::evd::{
+    ComputeEigenvectors, SelfAdjointEvdParams, self_adjoint_evd, self_adjoint_evd_scratch,
+};
 use faer::linalg::lu::partial_pivoting::{factor as dense_factor, solve as dense_solve};
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
@@ -18,7 +21,6 @@ use faer::sparse::linalg::lu::{
     LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
 };
 use faer::sparse::{SparseColMat, Triplet};
-use faer::diag::Diag;
 use faer::{Accum, Conj, Mat, MatMut, MatRef, Par, Side, Spec};
 
 use crate::error::{Error, Result};
@@ -230,19 +232,19 @@ pub(crate) fn generalised_modes(
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut().transpose_mut(), Par::Seq);
     let (mut values, mut vectors) = (Diag::<f64>::zeros(n), Mat::<f64>::zeros(n, n));
-    let scratch = self_adjoint_evd_scratch::<f64>(
-        n,
-        ComputeEigenvectors::Yes,
-        Par::Seq,
-        Spec::default(),
-    );
+    // Divide and conquer, faer's way from order 128 on, left residuals of 6e-7 of the largest force
+    // (order 308, the containment of the examples); the QR iteration leaves none above rounding.
+    let mut parameters = Spec::<SelfAdjointEvdParams, f64>::default();
+    parameters.recursion_threshold = usize::MAX;
+    let scratch =
+        self_adjoint_evd_scratch::<f64>(n, ComputeEigenvectors::Yes, Par::Seq, parameters);
     self_adjoint_evd(
         reduced.as_ref(),
         values.as_mut(),
         Some(vectors.as_mut()),
         Par::Seq,
         MemStack::new(&mut MemBuffer::new(scratch)),
-        Spec::default(),
+        parameters,
     )
     .ok()?;
     solve_upper_triangular_in_place(factor.L().transpose(), vectors.as_mut(), Par::Seq);

@@ -58,11 +58,7 @@ impl Modes {
     }
 
     /// Modes that diagonalise all three matrices; `None` if there are none, or not well enough.
-    fn new(
-        mass: &SparseMatrix,
-        damping: &SparseMatrix,
-        stiffness: &SparseMatrix,
-    ) -> Option<Self> {
+    fn new(mass: &SparseMatrix, damping: &SparseMatrix, stiffness: &SparseMatrix) -> Option<Self> {
         let n = mass.order();
         if [mass, damping, stiffness].iter().any(|matrix| matrix.asymmetry() > 1e-13) {
             return None;

@@ -125,13 +125,7 @@ impl Model {
 
     /// Adds the external load at `time`, weight excepted, minus `at_start`, to `load`; `scratch`
     /// has an entry for every unknown.
-    pub(crate) fn load(
-        &self,
-        time: f64,
-        at_start: &[f64],
-        scratch: &mut [f64],
-        load: &mut [f64],
-    ) {
+    pub(crate) fn load(&self, time: f64, at_start: &[f64], scratch: &mut [f64], load: &mut [f64]) {
         scratch.fill(0.0);
         self.structure.load(time, scratch);
         for (now, at_start) in scratch.iter_mut().zip(at_start) {

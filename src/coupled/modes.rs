@@ -58,7 +58,8 @@ impl ModeSearch {
     ) -> Result<(usize, SearchMethod), StepError> {
         let mut trials = 0;
         // Laws of one mode have nothing to be asked: one solve, with factors made once.
-        let bonded = input.laws.iter().all(|law| law.modes().len() == 1 && modes_fit(law.as_ref(), modes));
+        let bonded =
+            input.laws.iter().all(|law| law.modes().len() == 1 && modes_fit(law.as_ref(), modes));
         if bonded && solver.trial(input, modes) {
             return Ok((1, SearchMethod::ActiveSet));
         }

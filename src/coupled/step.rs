@@ -11,8 +11,8 @@
 use super::contact::ContactInput;
 use super::coordinates::Motion;
 use super::modes::SearchMethod;
-use super::scheme::SchemeCoefficients;
 use super::operators::Operators;
+use super::scheme::SchemeCoefficients;
 use super::simulation::Simulation;
 use super::state::{State, Transition};
 use crate::error::{Error, Result, StepError};
