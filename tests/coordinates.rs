@@ -76,7 +76,7 @@ impl Structure for Pulled {
     }
     fn load(&self, time: f64, load: &mut [f64]) {
         let last = load.len() - 2;
-        load[last] += 2e4 * (1.0 + (20.0 * time).sin());
+        load[last] += 2e4 * (20.0 * time).sin();
     }
 }
 
