@@ -13,6 +13,9 @@ use basemat::structure::{FemModel, RigidBlock};
 use basemat::{Simulation, Soil};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
+/// Makes a scene, as often as it is called.
+type Make<'a> = &'a dyn Fn() -> SimulationBuilder;
+
 fn soil() -> Soil {
     Soil::new(80.0e6, 1.0 / 3.0, 1900.0).expect("a valid soil")
 }
@@ -75,7 +78,6 @@ fn kinds(criterion: &mut Criterion) {
     let vertical =
         |law: SimulationBuilder| law.motion(VerticalIncidence::vertical(el_centro_1940()));
     let block = || RigidBlock::new(10.4, 24.4, 400.0).expect("a valid block");
-    type Make<'a> = &'a dyn Fn() -> SimulationBuilder;
     let scenes: [(&str, Make<'_>); 7] = [
         ("bonded", &|| flexible(Bonded)),
         ("bonded, symmetric load", &|| vertical(flexible(Bonded))),

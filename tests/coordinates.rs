@@ -14,6 +14,9 @@ use basemat::structure::{
 };
 use scenes::{Rider, SI, block, friction, scene, shake, states, tower};
 
+/// Makes a scene, as often as it is called.
+type Make<'a> = &'a dyn Fn() -> SimulationBuilder;
+
 const STEPS: usize = 300;
 
 fn march(builder: SimulationBuilder, coordinates: Coordinates) -> Vec<State> {
@@ -88,7 +91,6 @@ fn modes_and_unknowns_agree() {
         ShearBuilding::new(4.0, 5e3, 1e4, &storeys).unwrap().with_damping_ratio(0.03).unwrap()
     };
     let base = || scene(SI, 0.6);
-    type Make<'a> = &'a dyn Fn() -> SimulationBuilder;
     let scenes: [(&str, Make<'_>); 8] = [
         ("bonded", &|| base().structure(tower(SI, None)).interface(Bonded)),
         ("sliding", &|| base().structure(tower(SI, None)).interface(friction(0.3))),
