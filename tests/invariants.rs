@@ -95,7 +95,7 @@ fn contact_conditions_hold_at_every_step() {
         let pressure =
             states.iter().flat_map(|s| &s.contact).fold(0.0_f64, |m, c| m.max(c.pressure));
         let length =
-            states.iter().flat_map(|s| s.displacement()).fold(0.0_f64, |m, u| m.max(u.abs()));
+            states.iter().flat_map(State::displacement).fold(0.0_f64, |m, u| m.max(u.abs()));
         let input = states.iter().fold(0.0_f64, |m, s| m.max(s.ledger.input.abs()));
         for pair in states.windows(2) {
             for (e, (before, now)) in pair[0].contact.iter().zip(&pair[1].contact).enumerate() {
@@ -179,7 +179,7 @@ fn eccentric_preload_balances_moments() {
 fn standing_still_stays_still() {
     let simulation = scene(SI, 0.0).structure(tower(SI, None)).interface(friction(0.3)).build();
     let states = states(&mut simulation.unwrap(), 50);
-    let moved = states.iter().flat_map(|s| s.displacement()).fold(0.0_f64, |m, u| m.max(u.abs()));
+    let moved = states.iter().flat_map(State::displacement).fold(0.0_f64, |m, u| m.max(u.abs()));
     println!("moved {moved:e}");
     assert!(moved < 1e-13, "{moved:e}");
 }

@@ -45,7 +45,7 @@ fn run(builder: SimulationBuilder) -> (Run, Simulation) {
 
 #[track_caller]
 fn assert_same_motion(a: &Simulation, b: &Simulation, tolerance: f64) {
-    let (a, b) = (&a.state().displacement, &b.state().displacement);
+    let (a, b) = (a.state().displacement(), b.state().displacement());
     let largest = a.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
     assert!(largest > 0.0);
     for (x, y) in a.iter().zip(b) {
@@ -157,7 +157,7 @@ fn own_structure_linear_and_nonlinear() {
     assert_eq!(commits.load(Ordering::Relaxed), 600, "once per accepted step");
     assert_same_motion(&linear, &soft, 1e-7);
     let (run, hard) = run(scene().structure(structure(1.0e4 * SPRING)));
-    let drift = |simulation: &Simulation| Hardening::drift(&simulation.state().displacement);
+    let drift = |simulation: &Simulation| Hardening::drift(simulation.state().displacement());
     assert!((drift(&hard) - drift(&soft)).abs() > 1e-5, "the cubic term acts: {run}");
 }
 
@@ -206,7 +206,7 @@ fn own_element() {
     let tip = model.unknown(top, Direction::X).unwrap();
     let scene = shaken().structure(model).ground(bed(4)).interface(Coulomb::new(0.6).unwrap());
     let (_, simulation) = run(scene);
-    assert!(simulation.state().displacement[tip].is_finite());
+    assert!(simulation.state().displacement()[tip].is_finite());
 }
 
 /// Sticks until it once slid; from then on there is no friction at all.

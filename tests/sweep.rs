@@ -31,6 +31,7 @@ fn sweep_is_bitwise_sequential_and_outlives_errors() {
         },
         |index, result| assert!(results[index].replace(result).is_none(), "{index} came twice"),
     );
+    drop(sweep);
     for (index, result) in results.into_iter().enumerate() {
         match (result.unwrap(), case(index)) {
             (Ok(found), Ok(wanted)) => assert!(found == wanted, "case {index} differs"),

@@ -220,19 +220,7 @@ impl SimulationBuilder {
         }
         let tangent = model.tangent(&static_state.displacement)?;
         let mut operators = Operators::new(&model, &base, &soil, &coefficients, tangent)?;
-        let steps = if self.steps > 0 { self.steps } else { STEPS };
-        let modes = match self.coordinates {
-            Coordinates::Unknowns => None,
-            Coordinates::Auto => {
-                let saves = model.modes_save_time(operators.stored(), 2 * count, steps);
-                if saves { Modes::of(&model) } else { None }
-            }
-            Coordinates::Modes => Some(Modes::of(&model).ok_or(missing(
-                "modal coordinates",
-                "a linear structure with symmetric matrices, a positive definite mass and a \
-                 damping that the modes decouple",
-            ))?),
-        };
+        let modes = choose_modes(self.coordinates, self.steps, &model, &operators, 2 * count)?;
         if let Some(modes) = modes {
             base.decouple(&modes);
             model.decouple(std::sync::Arc::new(modes));
@@ -242,14 +230,7 @@ impl SimulationBuilder {
         let middle = 0.5 * (elements[0].left + elements[count - 1].right);
         let moment_center = finite("moment center", self.moment_center.unwrap_or(middle))?;
         let arms = elements.iter().map(|e| e.center() - moment_center).collect();
-        let start_motion = {
-            let mut motion = vec![0.0; 2 * count];
-            ground.free_field(self.motion.as_ref(), 0.0, &mut motion);
-            if let Some(bad) = motion.iter().find(|u| !u.is_finite()) {
-                finite("free field at t = 0", *bad)?;
-            }
-            motion
-        };
+        let start_motion = motion_at_start(ground.as_ref(), self.motion.as_ref(), count)?;
         Ok(Simulation::assemble(super::simulation::Parts {
             time_step,
             model,
@@ -292,4 +273,36 @@ fn check_contact(
         return refuse("contact search", "the flow chart needs one iteration or more");
     }
     laws.iter().try_for_each(|law| law.check(scene))
+}
+
+/// The modes, if the structure is to be stepped in them.
+fn choose_modes(
+    coordinates: Coordinates,
+    steps: usize,
+    model: &Model,
+    operators: &Operators,
+    contact: usize,
+) -> Result<Option<Modes>> {
+    let steps = if steps > 0 { steps } else { STEPS };
+    match coordinates {
+        Coordinates::Auto if model.modes_save_time(operators.stored(), contact, steps) => {
+            Ok(Modes::of(model))
+        }
+        Coordinates::Auto | Coordinates::Unknowns => Ok(None),
+        Coordinates::Modes => Modes::of(model).map(Some).ok_or(Error::Scene {
+            quantity: "modal coordinates",
+            needed: "a linear structure with symmetric matrices, a positive definite mass \
+                     and a damping that the modes decouple",
+        }),
+    }
+}
+
+/// The free field at t = 0, from which it is measured.
+fn motion_at_start(ground: &dyn Ground, motion: &dyn FreeField, count: usize) -> Result<Vec<f64>> {
+    let mut start = vec![0.0; 2 * count];
+    ground.free_field(motion, 0.0, &mut start);
+    match start.iter().find(|u| !u.is_finite()) {
+        Some(bad) => finite("free field at t = 0", *bad).map(|_| start),
+        None => Ok(start),
+    }
 }

@@ -65,7 +65,8 @@ pub trait Structure: Send {
     /// Adds the tangent ∂f/∂u to `matrix`, with the same sparsity at every call or less.
     fn nonlinear_tangent(&self, _displacement: &[f64], _matrix: &mut Triplets) {}
 
-    /// Accepts a step that ended with `displacement`: internal variables may change here only.
+    /// Accepts a step that ended with `displacement`: internal variables may change here only. Not
+    /// called for a linear structure, which has none.
     fn commit(&mut self, _displacement: &[f64]) {}
 
     /// The internal variables that [`Structure::commit`] changes, for a checkpoint. A structure

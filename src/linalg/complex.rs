@@ -1,0 +1,162 @@
+//! Dense complex matrices.
+
+use faer::diag::DiagMut;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::evd;
+use faer::linalg::lu::partial_pivoting::{factor as dense_factor, solve as dense_solve};
+use faer::perm::PermRef;
+use faer::{Conj, MatMut, MatRef, Par, Spec};
+use realfft::num_complex::Complex64;
+
+/// LU factors of a dense complex matrix with partial pivoting.
+pub(crate) struct ComplexFactor {
+    order: usize,
+    values: Vec<Complex64>,
+    forward: Vec<usize>,
+    inverse: Vec<usize>,
+    transpositions: usize,
+    buffer: MemBuffer,
+}
+
+impl ComplexFactor {
+    /// Room for matrices of `order`.
+    pub(crate) fn new(order: usize) -> Self {
+        let factor = dense_factor::lu_in_place_scratch::<usize, Complex64>(
+            order,
+            order,
+            Par::Seq,
+            Spec::default(),
+        );
+        let solve = dense_solve::solve_in_place_scratch::<usize, Complex64>(order, order, Par::Seq);
+        Self {
+            order,
+            values: vec![],
+            forward: vec![0; order],
+            inverse: vec![0; order],
+            transpositions: 0,
+            buffer: MemBuffer::new(factor.or(solve)),
+        }
+    }
+
+    /// Factors the row-major `matrix`; false if it is singular or not finite.
+    pub(crate) fn factor(&mut self, matrix: &[Complex64]) -> bool {
+        let order = self.order;
+        self.values.clear();
+        self.values.extend_from_slice(&matrix[..order * order]);
+        let (info, _) = dense_factor::lu_in_place(
+            MatMut::from_row_major_slice_mut(&mut self.values, order, order),
+            &mut self.forward,
+            &mut self.inverse,
+            Par::Seq,
+            MemStack::new(&mut self.buffer),
+            Spec::default(),
+        );
+        self.transpositions = info.transposition_count;
+        self.pivots().all(|pivot| pivot.is_finite() && pivot != Complex64::default())
+    }
+
+    fn pivots(&self) -> impl Iterator<Item = Complex64> {
+        (0..self.order).map(|k| self.values[k * (self.order + 1)])
+    }
+
+    /// ln det A: its imaginary part up to multiples of 2π.
+    pub(crate) fn log_determinant(&self) -> Complex64 {
+        let sign = if self.transpositions.is_multiple_of(2) { 0.0 } else { std::f64::consts::PI };
+        self.pivots().map(Complex64::ln).sum::<Complex64>() + Complex64::new(0.0, sign)
+    }
+
+    /// Overwrites the `columns` columns of the row-major `rhs` with A⁻¹ rhs.
+    pub(crate) fn solve(&mut self, rhs: &mut [Complex64], columns: usize) {
+        let lu = MatRef::from_row_major_slice(&self.values, self.order, self.order);
+        let permutation = PermRef::new_checked(&self.forward, &self.inverse, self.order);
+        dense_solve::solve_in_place_with_conj(
+            lu,
+            lu,
+            permutation,
+            Conj::No,
+            MatMut::from_row_major_slice_mut(rhs, self.order, columns),
+            Par::Seq,
+            MemStack::new(&mut self.buffer),
+        );
+    }
+}
+
+/// Smallest and largest eigenvalue of the Hermitian part (A + Aᴴ)/2 of a row-major matrix; nothing
+/// if it is empty or not finite.
+pub(crate) fn hermitian_range(matrix: &[Complex64], order: usize) -> Option<[f64; 2]> {
+    let mut part = vec![Complex64::default(); order * order];
+    for row in 0..order {
+        for column in 0..order {
+            let twin = matrix[column * order + row].conj();
+            part[row * order + column] = 0.5 * (matrix[row * order + column] + twin);
+        }
+    }
+    if order == 0 || !part.iter().all(|entry| entry.is_finite()) {
+        return None;
+    }
+    let mut values = vec![Complex64::default(); order];
+    let mut buffer = MemBuffer::new(evd::self_adjoint_evd_scratch::<Complex64>(
+        order,
+        evd::ComputeEigenvectors::No,
+        Par::Seq,
+        Spec::default(),
+    ));
+    evd::self_adjoint_evd(
+        MatRef::from_row_major_slice(&part, order, order),
+        DiagMut::from_slice_mut(&mut values),
+        None,
+        Par::Seq,
+        MemStack::new(&mut buffer),
+        Spec::default(),
+    )
+    .ok()?;
+    let range = values
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x.re), high.max(x.re)]);
+    Some(range)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn complex_factor_solves_and_knows_its_determinant() {
+        let c = Complex64::new;
+        let matrix = [
+            c(0.0, 0.0),
+            c(2.0, 1.0),
+            c(0.0, 0.0),
+            c(1.0, -1.0),
+            c(0.0, 0.0),
+            c(0.5, 0.0),
+            c(0.0, 1.0),
+            c(0.0, 0.0),
+            c(3.0, 0.0),
+        ];
+        let mut factor = ComplexFactor::new(3);
+        assert!(factor.factor(&matrix));
+        // −(2+i)·[(1−i)·3 − ½·i]
+        let wanted = -c(2.0, 1.0) * (c(3.0, -3.0) - c(0.0, 0.5));
+        assert!((factor.log_determinant().exp() - wanted).norm() < 1e-14);
+        // Two columns: A x for x = (1, i, 2) and (0, 1, −i).
+        let x = [c(1.0, 0.0), c(0.0, 0.0), c(0.0, 1.0), c(1.0, 0.0), c(2.0, 0.0), c(0.0, -1.0)];
+        let mut rhs: Vec<_> = (0..6)
+            .map(|k| (0..3).map(|j| matrix[k / 2 * 3 + j] * x[2 * j + k % 2]).sum::<Complex64>())
+            .collect();
+        factor.solve(&mut rhs, 2);
+        assert!(rhs.iter().zip(&x).all(|(a, b)| (a - b).norm() < 1e-14));
+        assert!(!factor.factor(&[c(1.0, 0.0); 9]));
+    }
+
+    #[test]
+    fn hermitian_range_of_a_matrix_with_known_eigenvalues() {
+        let c = Complex64::new;
+        // Hermitian part [[1, 2i], [−2i, 1]]: eigenvalues 1 ± 2; the rest is skew.
+        let matrix = [c(1.0, 5.0), c(0.7, 2.0), c(-0.7, -2.0), c(1.0, -3.0)];
+        let [low, high] = hermitian_range(&matrix, 2).unwrap();
+        assert!((low + 1.0).abs() < 1e-14 && (high - 3.0).abs() < 1e-14);
+        assert!(hermitian_range(&[c(f64::NAN, 0.0)], 1).is_none());
+        assert!(hermitian_range(&[], 0).is_none());
+    }
+}

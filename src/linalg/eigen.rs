@@ -1,0 +1,69 @@
+//! Eigenvalues of symmetric matrices.
+
+use faer::diag::Diag;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::evd::{
+    ComputeEigenvectors, SelfAdjointEvdParams, self_adjoint_evd, self_adjoint_evd_scratch,
+};
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
+use faer::{Mat, MatRef, Par, Side, Spec};
+
+use crate::matrix::SparseMatrix;
+
+/// Least eigenvalue of a symmetric row-major matrix; NaN if it cannot be had.
+pub(crate) fn least_eigenvalue(matrix: &[f64], order: usize) -> f64 {
+    let matrix = MatRef::from_row_major_slice(matrix, order, order);
+    match matrix.self_adjoint_eigenvalues(Side::Lower) {
+        Ok(values) if values.iter().all(|value| value.is_finite()) => {
+            values.into_iter().fold(f64::INFINITY, f64::min)
+        }
+        _ => f64::NAN,
+    }
+}
+
+/// Eigenvalues λ, ascending, and eigenvectors of K φ = λ M φ with Φᵀ M Φ = 1, for symmetric K and
+/// positive definite M. Eigenvectors are columns of the row-major matrix returned. `None` if M is
+/// not positive definite or the iteration fails.
+///
+/// With M = L Lᵀ these are the eigenvalues of L⁻¹ K L⁻ᵀ, and Φ = L⁻ᵀ times its eigenvectors.
+pub(crate) fn generalised_modes(
+    stiffness: &SparseMatrix,
+    mass: &SparseMatrix,
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    let n = mass.order();
+    let dense = |matrix: &SparseMatrix| {
+        let mut dense = Mat::<f64>::zeros(n, n);
+        for (row, column, value) in matrix.entries() {
+            dense[(row, column)] = value;
+        }
+        dense
+    };
+    let factor = dense(mass).llt(Side::Lower).ok()?;
+    let mut reduced = dense(stiffness);
+    solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
+    solve_lower_triangular_in_place(factor.L(), reduced.as_mut().transpose_mut(), Par::Seq);
+    let (mut values, mut vectors) = (Diag::<f64>::zeros(n), Mat::<f64>::zeros(n, n));
+    // Divide and conquer, faer's way from order 128 on, left residuals of 6e-7 of the largest force
+    // (order 308, the containment of the examples); the QR iteration leaves none above rounding.
+    let mut parameters = Spec::<SelfAdjointEvdParams, f64>::default();
+    parameters.recursion_threshold = usize::MAX;
+    let scratch =
+        self_adjoint_evd_scratch::<f64>(n, ComputeEigenvectors::Yes, Par::Seq, parameters);
+    self_adjoint_evd(
+        reduced.as_ref(),
+        values.as_mut(),
+        Some(vectors.as_mut()),
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        parameters,
+    )
+    .ok()?;
+    solve_upper_triangular_in_place(factor.L().transpose(), vectors.as_mut(), Par::Seq);
+    let values: Vec<f64> = (0..n).map(|j| values.column_vector()[j]).collect();
+    let rows = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+    let vectors: Vec<f64> = rows.map(|place| vectors[place]).collect();
+    let finite = values.iter().chain(&vectors).all(|x| x.is_finite());
+    finite.then_some((values, vectors))
+}

@@ -1,0 +1,19 @@
+//! Linear algebra: the only module that names faer.
+//!
+//! Everything runs sequentially, and solves use workspace made when the factor was made.
+
+mod complex;
+mod dense;
+mod eigen;
+mod product;
+mod sparse;
+
+pub(crate) use complex::{ComplexFactor, hermitian_range};
+pub(crate) use dense::DenseFactor;
+pub(crate) use eigen::{generalised_modes, least_eigenvalue};
+pub(crate) use product::{
+    dense_multiply_add, dot, largest, wide_multiply_add, wide_transposed_multiply_add,
+};
+pub(crate) use sparse::SparseFactor;
+
+pub(crate) use crate::matrix::SparseMatrix;

@@ -1,0 +1,173 @@
+//! Factors of sparse matrices.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::linalg::lu::{
+    LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
+};
+use faer::sparse::{SparseColMat, Triplet};
+use faer::{Conj, MatMut, Par, Side, Spec};
+
+use crate::error::{Error, Result};
+use crate::matrix::SparseMatrix;
+use crate::structure::Triplets;
+
+/// Factors of a square sparse matrix, with the workspace of their solves.
+pub(crate) struct SparseFactor {
+    order: usize,
+    kind: Kind,
+    buffer: MemBuffer,
+}
+
+enum Kind {
+    Cholesky { symbolic: SymbolicCholesky<usize>, values: Vec<f64> },
+    Lu { symbolic: SymbolicLu<usize>, numeric: NumericLu<usize, f64> },
+}
+
+impl SparseFactor {
+    /// Cholesky where the matrix is symmetric positive definite, else LU with partial pivoting.
+    pub(crate) fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
+        let matrix = SparseMatrix::new(name, triplets)?;
+        let order = matrix.order();
+        let singular = || Error::Singular { matrix: name, order };
+        let entries: Vec<_> =
+            matrix.entries().map(|(row, col, val)| Triplet { row, col, val }).collect();
+        let csc = SparseColMat::<usize, f64>::try_new_from_triplets(order, order, &entries)
+            .map_err(|_| singular())?;
+        let symmetric = matrix.asymmetry() <= 1e-13;
+        let factor = if symmetric { Self::cholesky(&csc) } else { None };
+        let mut factor = factor.or_else(|| Self::lu(&csc)).ok_or_else(singular)?;
+        // A singular matrix may pass LU with a pivot of rounding size: it shows in a solve.
+        let mut probe = vec![1.0; order];
+        factor.solve(&mut probe);
+        if probe.iter().all(|x| x.is_finite()) { Ok(factor) } else { Err(singular()) }
+    }
+
+    fn cholesky(matrix: &SparseColMat<usize, f64>) -> Option<Self> {
+        let symbolic = factorize_symbolic_cholesky(
+            matrix.symbolic(),
+            Side::Lower,
+            SymmetricOrdering::Amd,
+            CholeskySymbolicParams::default(),
+        )
+        .ok()?;
+        let mut values = vec![0.0; symbolic.len_val()];
+        let mut buffer = MemBuffer::new(
+            symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default()),
+        );
+        symbolic
+            .factorize_numeric_llt(
+                &mut values,
+                matrix.as_ref(),
+                Side::Lower,
+                faer::linalg::cholesky::llt::factor::LltRegularization::default(),
+                Par::Seq,
+                MemStack::new(&mut buffer),
+                Spec::default(),
+            )
+            .ok()?;
+        let buffer = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
+        Some(Self { order: matrix.nrows(), kind: Kind::Cholesky { symbolic, values }, buffer })
+    }
+
+    fn lu(matrix: &SparseColMat<usize, f64>) -> Option<Self> {
+        let symbolic =
+            factorize_symbolic_lu(matrix.symbolic(), LuSymbolicParams::default()).ok()?;
+        let mut numeric = NumericLu::new();
+        let mut buffer =
+            MemBuffer::new(symbolic.factorize_numeric_lu_scratch::<f64>(Par::Seq, Spec::default()));
+        symbolic
+            .factorize_numeric_lu(
+                &mut numeric,
+                matrix.as_ref(),
+                Par::Seq,
+                MemStack::new(&mut buffer),
+                Spec::default(),
+            )
+            .ok()?;
+        let buffer = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
+        Some(Self { order: matrix.nrows(), kind: Kind::Lu { symbolic, numeric }, buffer })
+    }
+
+    /// Numbers that a solve reads, about.
+    pub(crate) fn stored(&self) -> usize {
+        match &self.kind {
+            Kind::Cholesky { values, .. } => values.len(),
+            Kind::Lu { .. } => self.order * self.order,
+        }
+    }
+
+    /// Overwrites `rhs` with A⁻¹ rhs.
+    pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
+        let stack = MemStack::new(&mut self.buffer);
+        let rhs = MatMut::from_column_major_slice_mut(rhs, self.order, 1);
+        match &self.kind {
+            Kind::Cholesky { symbolic, values } => {
+                LltRef::new(symbolic, values).solve_in_place_with_conj(
+                    Conj::No,
+                    rhs,
+                    Par::Seq,
+                    stack,
+                );
+            }
+            Kind::Lu { symbolic, numeric } => {
+                LuRef::new_unchecked(symbolic, numeric).solve_in_place_with_conj(
+                    Conj::No,
+                    rhs,
+                    Par::Seq,
+                    stack,
+                );
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ladder(order: usize, skew: f64) -> Triplets {
+        let mut matrix = Triplets::new(order);
+        for i in 0..order {
+            matrix.add(i, i, 3.0 + i as f64);
+            if i > 0 {
+                matrix.add(i, i - 1, -1.0 + skew);
+                matrix.add(i - 1, i, -0.5);
+                matrix.add(i - 1, i, -0.5 - skew);
+            }
+        }
+        matrix
+    }
+
+    #[test]
+    fn sparse_factors_solve_symmetric_and_unsymmetric() {
+        for skew in [0.0, 0.3] {
+            let triplets = ladder(40, skew);
+            let matrix = SparseMatrix::new("test", &triplets).unwrap();
+            let x: Vec<f64> = (0..40).map(|i| f64::from(i).sin()).collect();
+            let mut rhs = vec![0.0; 40];
+            matrix.multiply_add(1.0, &x, &mut rhs);
+            let mut factor = SparseFactor::new("test", &triplets).unwrap();
+            assert_eq!(matches!(factor.kind, Kind::Cholesky { .. }), skew == 0.0);
+            factor.solve(&mut rhs);
+            for (a, b) in rhs.iter().zip(&x) {
+                assert!((a - b).abs() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn singular_and_bad_matrices_are_errors() {
+        let mut zero = Triplets::new(2);
+        zero.add(0, 0, 1.0);
+        assert!(matches!(SparseFactor::new("k", &zero), Err(Error::Singular { .. })));
+        zero.add(1, 2, 1.0);
+        assert!(matches!(SparseMatrix::new("k", &zero), Err(Error::Index { index: 2, .. })));
+        let mut nan = Triplets::new(1);
+        nan.add(0, 0, f64::NAN);
+        assert!(matches!(SparseMatrix::new("k", &nan), Err(Error::Input { .. })));
+    }
+}
