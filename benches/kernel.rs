@@ -51,7 +51,7 @@ fn patches(criterion: &mut Criterion) {
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).expect("valid soil");
     let mut group = criterion.benchmark_group("coefficients of a patch, 1000 lags");
     group.sample_size(20);
-    let mut slices = [[0.0; LAGS]; 3];
+    let mut slices = [(); 3].map(|()| vec![0.0; LAGS]);
     for count in [10_u32, 40, 200] {
         let elements = Strip::uniform(0.0..f64::from(count), count as usize)
             .expect("a valid strip")

@@ -228,14 +228,14 @@ fn history_rows(short: bool) -> Result<(), AnyError> {
     );
 
     let longest = if short { 100_000 } else { 1_000_000 };
-    let (mut points, mut list) = (Vec::new(), String::new());
+    let (mut points, mut list) = (Vec::new(), Vec::new());
     for steps in [1_000, 3_000, 10_000, 30_000, 100_000, 300_000, 1_000_000] {
         if steps <= longest {
             let repeats = (200_000 / steps).clamp(1, 200);
             let [_, total, slowest] = relaxed(10, steps, repeats)?;
             points.push([(steps as f64).ln(), total.ln()]);
             let each = 1e6 * total / steps as f64;
-            list += &format!("{steps}: {each:.2} µs, {:.1} ms; ", 1e3 * slowest);
+            list.push(format!("{steps}: {each:.2} µs, {:.1} ms", 1e3 * slowest));
         }
     }
     let count = points.len() as f64;
@@ -246,7 +246,7 @@ fn history_rows(short: bool) -> Result<(), AnyError> {
     row(
         &format!("growth of marching time with N, 10³ to {longest}, setup apart: exponent"),
         "≤ 1.15",
-        &format!("{slope:.3} (time per step and slowest step: {})", list.trim_end_matches("; ")),
+        &format!("{slope:.3} (time per step and slowest step: {})", list.join("; ")),
         slope <= 1.15,
     );
     Ok(())
