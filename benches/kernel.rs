@@ -1,10 +1,12 @@
 //! Kernel evaluations: closed forms, step coefficients early and late, the full plane.
 
 use basemat::Soil;
-use basemat::bem::{ContactElement, InfluenceKernel};
+use basemat::bem::{ContactElement, InfluenceKernel, PatchKernel, Strip};
 use basemat::fundamental::{FullPlane, FundamentalSolution, HalfPlane, LoadHistory};
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use basemat::history::{ConvolutionHistory, RelaxedFftHistory};
+use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
+use std::sync::Arc;
 
 fn kernels(criterion: &mut Criterion) {
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).expect("valid soil");
@@ -43,5 +45,65 @@ fn kernels(criterion: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, kernels);
+/// All that a history of 1000 steps asks of a uniform patch.
+fn patches(criterion: &mut Criterion) {
+    const LAGS: usize = 1_000;
+    let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).expect("valid soil");
+    let mut group = criterion.benchmark_group("coefficients of a patch, 1000 lags");
+    group.sample_size(20);
+    let mut slices = [(); 3].map(|()| vec![0.0; LAGS]);
+    for count in [10_u32, 40, 200] {
+        let elements = Strip::uniform(0.0..f64::from(count), count as usize)
+            .expect("a valid strip")
+            .elements();
+        let kernel = PatchKernel::new(soil, elements, 0.25).expect("a valid patch");
+        let [zz, xx, zx] = &mut slices;
+        group.throughput(Throughput::Elements(u64::from(count) * LAGS as u64));
+        group.bench_function(format!("{count} elements"), |b| {
+            b.iter(|| {
+                (0..kernel.classes())
+                    .try_for_each(|class| kernel.coefficients(class, black_box(1), zz, xx, zx))
+            });
+        });
+    }
+    group.finish();
+}
+
+/// Steps of the relaxed history: by pairs, and by wavenumbers.
+fn relaxed_history(criterion: &mut Criterion) {
+    const STEPS: usize = 2_048;
+    let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).expect("valid soil");
+    let mut group = criterion.benchmark_group("relaxed history, 2048 steps");
+    group.throughput(Throughput::Elements(STEPS as u64)).sample_size(10);
+    for (count, waves) in [(10_u32, false), (10, true), (40, false), (40, true), (200, true)] {
+        let elements = Strip::uniform(0.0..f64::from(count), count as usize)
+            .expect("a valid strip")
+            .elements();
+        let kernel = Arc::new(PatchKernel::new(soil, elements, 0.25).expect("a valid patch"));
+        let mut displacement = vec![0.0; 2 * count as usize];
+        let traction: Vec<f64> = (0..2 * count).map(|i| f64::from(i).sin()).collect();
+        let kind = if waves { "wavenumbers" } else { "pairs" };
+        group.bench_function(format!("{count} elements by {kind}"), |b| {
+            b.iter_batched(
+                || {
+                    let mut history =
+                        RelaxedFftHistory::new(Arc::clone(&kernel)).with_surface_transform(waves);
+                    history.reserve(STEPS).expect("kernels");
+                    history
+                },
+                |mut history| {
+                    for _ in 0..STEPS {
+                        history.evaluate(&mut displacement).expect("a valid history");
+                        history.push(black_box(&traction));
+                    }
+                    displacement[0]
+                },
+                BatchSize::LargeInput,
+            );
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, kernels, patches, relaxed_history);
 criterion_main!(benches);

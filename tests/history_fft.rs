@@ -98,16 +98,16 @@ fn equals_the_direct_sum() {
         ("hint much too large", strip(-5.0..5.0, 3, Grading::Uniform), 5e-4, 150, 4000),
     ] {
         let found = difference(&kernel(elements, time_step), steps, reserved);
-        println!("{name}: {found:.1e?}");
-        assert!(found.iter().all(|x| *x < 1e-12), "{name}: {found:e?} of the largest value");
+        println!("{name}: {found:?}");
+        assert!(found.iter().all(|x| *x < 1e-12), "{name}: {found:?} of the largest value");
     }
 }
 
 #[test]
 fn long_march() {
     let found = difference(&kernel(strip(0.0..2.0, 2, Grading::Uniform), 1e-3), 10_000, 5_000);
-    println!("10 000 steps: {found:.1e?}");
-    assert!(found.iter().all(|x| *x < 1e-12), "{found:e?} of the largest value");
+    println!("10 000 steps: {found:?}");
+    assert!(found.iter().all(|x| *x < 1e-12), "{found:?} of the largest value");
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn memory() {
     history.reserve(54_000).unwrap();
     let held = history.memory();
     println!("{:.1} MB", held as f64 / 1e6);
-    assert!(held > 54_000 * 20 * 8 && held < 45_000_000, "{held} bytes");
+    assert!(held > 54_000 * 20 * 8 && held < 52_000_000, "{held} bytes");
 }
 
 #[test]

@@ -56,7 +56,7 @@ pub struct Simulation {
     elements: Vec<ContactElement>,
 }
 
-/// Steps that a run prepares for, at most; beyond, memory grows as it goes.
+/// Longest run that is prepared for at once; in longer ones, memory grows as they go.
 const RESERVED_STEPS: usize = 100_000;
 
 /// What one step needs of the one before, besides the public state.
@@ -268,8 +268,11 @@ impl Simulation {
         mut observe: impl FnMut(&State) -> R,
     ) -> Result<Run> {
         let begin = std::time::Instant::now();
-        // An observer may be meant to stop a run without end: what it will need is not known.
-        self.ground.reserve(self.state.step.saturating_add(steps.min(RESERVED_STEPS)))?;
+        // More steps than any record asks for: an observer is meant to stop the run, and what it
+        // will need is not known. Histories grow by doubling then.
+        if steps <= RESERVED_STEPS {
+            self.ground.reserve(self.state.step.saturating_add(steps))?;
+        }
         let mut run = Run::new(&self.probes, &self.elements, &self.state);
         for _ in 0..steps {
             self.step()?;

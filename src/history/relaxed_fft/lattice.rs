@@ -45,7 +45,7 @@ impl Lattice {
         let (first, last) = (elements.first()?, elements.last()?);
         let pitch = first.length();
         let most = EMPTY * elements.len();
-        if !((last.right - first.left) / pitch < most as f64 + 0.5) {
+        if (last.right - first.left) / pitch >= most as f64 + 0.5 {
             return None;
         }
         #[allow(

@@ -57,8 +57,7 @@ impl WaveLevel {
     /// Length of the scratch that transforms need.
     pub(super) fn scratch(&self) -> usize {
         let (forward, inverse) = (&self.forward, &self.inverse);
-        // Those of real numbers, at most as long, are served too.
-        forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len()).max(4 * self.size)
+        forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len())
     }
 
     /// Whether there are spectra of this kind.
@@ -115,30 +114,57 @@ impl WaveLevel {
     ) {
         let (size, bins) = (self.size, self.size + 1);
         let (normal, tangential) = rows.split_at_mut(rows.len() / 2);
+        if part == Part::Even {
+            // One component at a time: the largest blocks are the coupling's, or half as many.
+            let block = &mut blocks[..2 * size];
+            for (kind, rows) in [normal, tangential].into_iter().enumerate() {
+                for (wave, row) in rows.chunks_exact_mut(stride).enumerate() {
+                    self.take(&row[now - size..now], block, scratch);
+                    multiply(block, &self.spectra[kind][wave * bins..][..bins]);
+                    self.give(block, &mut row[now..now + size], scratch);
+                }
+            }
+            return;
+        }
         let (one, two) = blocks[..4 * size].split_at_mut(2 * size);
         let rows = normal.chunks_exact_mut(stride).zip(tangential.chunks_exact_mut(stride));
         for (wave, (normal, tangential)) in rows.enumerate() {
             let spectrum = |kind: usize| &self.spectra[kind][wave * bins..][..bins];
-            for (row, block) in [(&mut *normal, &mut *one), (&mut *tangential, &mut *two)] {
-                block[..size].copy_from_slice(&row[now - size..now]);
-                block[size..].fill(Complex::default());
-                self.forward.process_with_scratch(block, scratch);
+            self.take(&normal[now - size..now], one, scratch);
+            self.take(&tangential[now - size..now], two, scratch);
+            if part == Part::All {
+                multiply_all(one, two, [spectrum(0), spectrum(1), spectrum(2)]);
+            } else {
+                exchange(one, two, spectrum(2));
             }
-            match part {
-                Part::Even => {
-                    multiply(one, spectrum(0));
-                    multiply(two, spectrum(1));
-                }
-                Part::Coupling => exchange(one, two, spectrum(2)),
-                Part::All => multiply_all(one, two, [spectrum(0), spectrum(1), spectrum(2)]),
-            }
-            let scale = 0.5 / size as f64;
-            for (row, block) in [(normal, &mut *one), (tangential, &mut *two)] {
-                self.inverse.process_with_scratch(block, scratch);
-                for (output, value) in row[now..now + size].iter_mut().zip(&block[size..]) {
-                    *output += value.scale(scale);
-                }
-            }
+            self.give(one, &mut normal[now..now + size], scratch);
+            self.give(two, &mut tangential[now..now + size], scratch);
+        }
+    }
+
+    /// Transforms b inputs, as many zeros behind them.
+    fn take(
+        &self,
+        inputs: &[Complex<f64>],
+        block: &mut [Complex<f64>],
+        scratch: &mut [Complex<f64>],
+    ) {
+        block[..self.size].copy_from_slice(inputs);
+        block[self.size..].fill(Complex::default());
+        self.forward.process_with_scratch(block, scratch);
+    }
+
+    /// Transforms back, and adds the later half to b outputs.
+    fn give(
+        &self,
+        block: &mut [Complex<f64>],
+        outputs: &mut [Complex<f64>],
+        scratch: &mut [Complex<f64>],
+    ) {
+        self.inverse.process_with_scratch(block, scratch);
+        let scale = 0.5 / self.size as f64;
+        for (output, value) in outputs.iter_mut().zip(&block[self.size..]) {
+            *output += value.scale(scale);
         }
     }
 }

@@ -39,7 +39,7 @@ pub(super) struct Waves {
     inputs: Vec<f64>,
     far: Vec<f64>,
     sum: Vec<f64>,
-    /// Two blocks of the largest level, and scratch of the transforms.
+    /// Blocks that are being transformed, and scratch of the transforms.
     blocks: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
 }
@@ -176,7 +176,10 @@ impl Blocks for Waves {
         }
         let zero = Complex::default();
         if let Some(level) = levels.last() {
-            self.blocks.resize(4 * level.size, zero);
+            // Where components couple, both are transformed before they are multiplied.
+            let coupled = levels.iter().rfind(|level| level.has(2)).map_or(0, |l| 4 * l.size);
+            let length = self.blocks.len().max(coupled).max(2 * level.size);
+            self.blocks.resize(length, zero);
             self.scratch.resize(self.scratch.len().max(level.scratch()), zero);
         }
         self.fill(source, &mut levels)?;
