@@ -120,8 +120,11 @@ fn carried(checkpoint: &Checkpoint) -> Checkpoint {
 
 /// Everything but what belongs to the last step alone.
 fn lasting(state: &State) -> State {
-    let fresh = State { transitions: Vec::new(), trials: 0, ..state.clone() };
-    State { method: basemat::coupled::SearchMethod::ActiveSet, ..fresh }
+    let mut lasting = state.clone();
+    lasting.transitions.clear();
+    lasting.trials = 0;
+    lasting.method = basemat::coupled::SearchMethod::ActiveSet;
+    lasting
 }
 
 #[test]

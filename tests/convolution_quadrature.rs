@@ -240,7 +240,7 @@ fn convolution_converges_at_the_order_of_the_method() {
         let error = |steps: u32| {
             let step = end / f64::from(steps);
             let kernel = ConvolutionQuadrature::new(unit_soil(), &segments, step, method).unwrap();
-            let place = (3 + 0) * 6 + 3 + 2;
+            let place = 3 * 6 + 3 + 2;
             let sum: f64 = (0..=steps)
                 .map(|m| {
                     let lag = usize::try_from(steps - m).unwrap();

@@ -36,19 +36,20 @@ struct Quadrature {
 impl Quadrature {
     fn new(count: usize, step: f64) -> Self {
         // Gauss–Legendre rule of 24 points by Newton's iteration.
-        let size = 24;
+        let size = 24_u32;
         let rule = (0..size)
             .map(|k| {
-                let mut x = (std::f64::consts::PI * (k as f64 + 0.75) / (size as f64 + 0.5)).cos();
+                let mut x =
+                    (std::f64::consts::PI * (f64::from(k) + 0.75) / (f64::from(size) + 0.5)).cos();
                 let mut slope = 1.0;
                 for _ in 0..8 {
                     let (mut before, mut value) = (1.0, x);
                     for n in 2..=size {
-                        let n = n as f64;
+                        let n = f64::from(n);
                         (before, value) =
                             (value, ((2.0 * n - 1.0) * x * value - (n - 1.0) * before) / n);
                     }
-                    slope = size as f64 * (x * value - before) / (x * x - 1.0);
+                    slope = f64::from(size) * (x * value - before) / (x * x - 1.0);
                     x -= value / slope;
                 }
                 [x, 2.0 / ((1.0 - x * x) * slope * slope)]
