@@ -148,7 +148,7 @@ fn resumed_runs_are_the_same_to_the_last_bit() {
             let checkpoint = carried(&checkpoint);
             // In a new simulation, and in one that has gone on in some other way.
             for other in [&mut build(), &mut used] {
-                other.resume(&checkpoint).unwrap();
+                other.resume(&checkpoint).unwrap_or_else(|e| panic!("{name}, {step}: {e}"));
                 assert_eq!(lasting(other.state()), lasting(&whole[step]), "{name}, {step}");
                 // Before the first step, Auto has not chosen its history yet.
                 if step > 0 {

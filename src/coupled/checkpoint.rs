@@ -237,8 +237,8 @@ impl Simulation {
 
     fn scene(&self) -> Scene {
         let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
-        // Modes may come with either sign.
-        let columns = self.operators.columns.iter().enumerate();
+        // Modes may come with either sign. A nonlinear structure has none, and columns that change.
+        let columns = self.operators.columns.iter().enumerate().filter(|_| self.model.linear);
         let signed = columns.map(|(k, value)| (k as f64).cos() * value).sum();
         let c = self.coefficients;
         let mut steps = vec![self.time_step];

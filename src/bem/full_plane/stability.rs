@@ -73,8 +73,8 @@ impl Stability {
     ///
     /// let soil = Soil::new(80.0e6, 1.0 / 3.0, 1900.0)?;
     /// let flat: Vec<_> =
-    ///     (0..6).map(f64::from).map(|x| Segment { from: [x, 0.0], to: [x + 1.0, 0.0] }).collect();
-    /// let conditions = [BoundaryCondition::TractionFree; 6];
+    ///     (0..20).map(f64::from).map(|x| Segment { from: [x, 0.0], to: [x + 1.0, 0.0] }).collect();
+    /// let conditions = [BoundaryCondition::TractionFree; 20];
     /// let assess = |beta: f64| {
     ///     let step = beta / soil.pressure_wave_speed();
     ///     let kernel = ConvolutionQuadrature::new(soil, &flat, step, CqMethod::Bdf2)?;
