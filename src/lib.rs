@@ -86,9 +86,9 @@
 //! ```
 //!
 //! The soil's term is the energy that the tractions put into a real half-plane, so it is never
-//! negative, and contact without tensile strength only takes energy away: nothing can blow up. [`coupled::Ledger`] computes
-//! each term from its own definition, and its residual comes with every run. `docs/theory.md` in
-//! the repository has derivations and sources.
+//! negative, and contact without tensile strength only takes energy away: nothing can blow up.
+//! [`coupled::Ledger`] computes each term from its own definition, and its residual comes with
+//! every run. `docs/theory.md` in the repository has derivations and sources.
 //!
 //! # Conventions
 //!
@@ -112,11 +112,12 @@
 //! | [`Sweep`] | many simulations, on all processors with the feature `rayon` |
 //! | [`structure`] | finite-element model, rigid block, shear building, and the trait for your own |
 //! | [`fem`] | meshes and elements |
-//! | [`interface`] | bonded and Coulomb contact, and the trait for your own law |
+//! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
 //! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], influence coefficients |
+//! | [`bem::full_plane`] | boundaries that are not flat, and the paper's own scheme |
 //! | [`history`] | the convolution with all past tractions |
 //! | [`fundamental`] | elastodynamic fundamental solutions |
-//! | [`motion`] | records, baselines, free fields, El Centro 1940 |
+//! | [`motion`] | records and their files, spectra, baselines, free fields, El Centro 1940 |
 //! | [`reference`](mod@reference) | closed forms from the literature, to check against |
 //!
 //! # Bring your own
@@ -130,6 +131,8 @@
 //! | soil | [`bem::Ground`] | 6 |
 //! | time scheme | [`coupled::TimeScheme`] | 1 |
 //! | convolution algorithm | [`history::ConvolutionHistory`] | 4 |
+//! | file of a record | [`motion::RecordFormat`] | 1 |
+//! | boundary operator | [`bem::full_plane::BoundaryKernel`] | 2 |
 //! | fundamental solution | [`fundamental::FundamentalSolution`] | 3 |
 //!
 //! The examples `your_own_structure`, `your_own_law` and `your_own_ground` do it.
