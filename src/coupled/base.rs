@@ -1,10 +1,12 @@
 //! The base as the ground sees it: element means of the base displacement, and their transpose.
 
+use std::ops::Range;
+
 use super::coordinates::{Modes, Row};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, finite};
 use crate::linalg::wide_multiply_add;
-use crate::structure::{ContactNode, Triplets};
+use crate::structure::{ContactNode, Structure, Triplets};
 
 /// (unknown, weight) pairs.
 type Terms = Vec<(usize, f64)>;
@@ -20,64 +22,80 @@ pub(crate) struct Base {
     rows: Vec<Terms>,
     /// The same in modes, row-major; empty if the coordinates are the unknowns.
     modal: Vec<f64>,
-    rotation: Row,
+    foundations: Vec<Footing>,
     lengths: Vec<f64>,
     nodes: Vec<ContactNode>,
 }
 
+/// One foundation: its nodes, its elements, and the rotation of its chord.
+#[derive(Debug, Clone)]
+struct Footing {
+    nodes: Range<usize>,
+    elements: Range<usize>,
+    rotation: Row,
+}
+
 impl Base {
-    /// Averages the piecewise straight base over each element.
-    pub(crate) fn new(
+    /// The base of `structure`.
+    pub(crate) fn of(structure: &dyn Structure, elements: &[ContactElement]) -> Result<Self> {
+        let ends = structure.foundation_ends();
+        Self::new(structure.contact_nodes(), &ends, elements, structure.unknowns())
+    }
+
+    /// Averages the piecewise straight base over each element. A foundation ends at each of `ends`,
+    /// and at the last node.
+    fn new(
         nodes: Vec<ContactNode>,
+        ends: &[usize],
         elements: &[ContactElement],
         unknowns: usize,
     ) -> Result<Self> {
-        if nodes.len() < 2 {
-            return Err(Error::Size {
-                quantity: "list of contact nodes",
-                found: nodes.len(),
-                needed: 2,
-            });
-        }
-        for node in &nodes {
-            finite("coordinate of a contact node", node.x)?;
-            for &(index, weight) in node.horizontal.iter().chain(&node.vertical) {
-                finite("weight of a contact node", weight)?;
-                if index >= unknowns {
-                    let quantity = "unknown of a contact node";
-                    return Err(Error::Index { quantity, index, bound: unknowns });
-                }
+        check_nodes(&nodes, unknowns)?;
+        let mut foundations = Vec::with_capacity(ends.len() + 1);
+        let (mut node, mut element) = (0, 0);
+        for last in ends.iter().copied().chain([nodes.len() - 1]) {
+            if last >= nodes.len() {
+                let quantity = "last contact node of a foundation";
+                return Err(Error::Index { quantity, index: last, bound: nodes.len() });
             }
-        }
-        if let Some(pair) = nodes.windows(2).find(|pair| pair[1].x <= pair[0].x) {
-            return Err(Error::Input {
-                quantity: "coordinate of a contact node",
-                value: pair[1].x,
-                needed: "to the right of the node before it",
+            if last <= node {
+                let quantity = "list of contact nodes of a foundation";
+                return Err(Error::Size {
+                    quantity,
+                    found: (last + 1).saturating_sub(node),
+                    needed: 2,
+                });
+            }
+            let end = nodes.get(last + 1).map_or(elements.len(), |next| {
+                let middle = 0.5 * (nodes[last].x + next.x);
+                elements.partition_point(|element| element.center() < middle)
             });
+            let footing = Footing {
+                elements: element..end,
+                rotation: Row::new(&chord_rotation(&nodes[node..=last]), None),
+                nodes: node..last + 1,
+            };
+            if end <= element {
+                let quantity = "list of contact elements under a foundation";
+                return Err(Error::Size { quantity, found: 0, needed: 1 });
+            }
+            foundations.push(footing);
+            (node, element) = (last + 1, end);
         }
         let count = elements.len();
         let mut rows = vec![Terms::new(); 2 * count];
-        for (e, element) in elements.iter().enumerate() {
-            let slack = 1e-9 * element.length();
-            let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
-            for value in [element.left + slack - first, last - element.right + slack] {
-                if value < 0.0 {
-                    return Err(Error::Input {
-                        quantity: "overlap of the base with a contact element",
-                        value,
-                        needed: "not negative: every element must lie under the structure's base",
-                    });
+        for footing in &foundations {
+            let own = &nodes[footing.nodes.clone()];
+            for e in footing.elements.clone() {
+                check_overlap(own, &elements[e])?;
+                for (node, weight) in mean_weights(own, &elements[e]) {
+                    accumulate(&mut rows[e], &own[node].vertical, -weight);
+                    accumulate(&mut rows[count + e], &own[node].horizontal, weight);
                 }
-            }
-            for (node, weight) in mean_weights(&nodes, element) {
-                accumulate(&mut rows[e], &nodes[node].vertical, -weight);
-                accumulate(&mut rows[count + e], &nodes[node].horizontal, weight);
             }
         }
         let lengths = elements.iter().map(ContactElement::length).collect();
-        let rotation = Row::new(&chord_rotation(&nodes), None);
-        Ok(Self { rows, modal: Vec::new(), rotation, lengths, nodes })
+        Ok(Self { rows, modal: Vec::new(), foundations, lengths, nodes })
     }
 
     /// Goes over to modal coordinates.
@@ -88,7 +106,15 @@ impl Base {
                 self.modal.extend(weights);
             }
         }
-        self.rotation = Row::new(&chord_rotation(&self.nodes), Some(modes));
+        for footing in &mut self.foundations {
+            let terms = chord_rotation(&self.nodes[footing.nodes.clone()]);
+            footing.rotation = Row::new(&terms, Some(modes));
+        }
+    }
+
+    /// The elements of each foundation.
+    pub(crate) fn foundations(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        self.foundations.iter().map(|footing| footing.elements.clone())
     }
 
     /// Lengths A of the elements.
@@ -128,9 +154,9 @@ impl Base {
         }
     }
 
-    /// Rotation of the base (counter-clockwise), from the chord between its ends.
-    pub(crate) fn rotation(&self, u: &[f64]) -> f64 {
-        self.rotation.of(u)
+    /// Rotation of a foundation (counter-clockwise), from the chord between its ends.
+    pub(crate) fn rotation(&self, foundation: usize, u: &[f64]) -> f64 {
+        self.foundations[foundation].rotation.of(u)
     }
 
     /// Adds γ NᵀN to `matrix` and γ Nᵀ1 to the two right-hand sides (horizontal, vertical up),
@@ -148,6 +174,48 @@ impl Base {
             }
         }
     }
+}
+
+/// Refuses too few nodes, nodes out of order, and unknowns that there are not.
+fn check_nodes(nodes: &[ContactNode], unknowns: usize) -> Result<()> {
+    if nodes.len() < 2 {
+        let quantity = "list of contact nodes";
+        return Err(Error::Size { quantity, found: nodes.len(), needed: 2 });
+    }
+    for node in nodes {
+        finite("coordinate of a contact node", node.x)?;
+        for &(index, weight) in node.horizontal.iter().chain(&node.vertical) {
+            finite("weight of a contact node", weight)?;
+            if index >= unknowns {
+                let quantity = "unknown of a contact node";
+                return Err(Error::Index { quantity, index, bound: unknowns });
+            }
+        }
+    }
+    match nodes.windows(2).find(|pair| pair[1].x <= pair[0].x) {
+        None => Ok(()),
+        Some(pair) => Err(Error::Input {
+            quantity: "coordinate of a contact node",
+            value: pair[1].x,
+            needed: "to the right of the node before it",
+        }),
+    }
+}
+
+/// Refuses an element that is not wholly under the foundation with these nodes.
+fn check_overlap(nodes: &[ContactNode], element: &ContactElement) -> Result<()> {
+    let slack = 1e-9 * element.length();
+    let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
+    for value in [element.left + slack - first, last - element.right + slack] {
+        if value < 0.0 {
+            return Err(Error::Input {
+                quantity: "overlap of the base with a contact element",
+                value,
+                needed: "not negative: every element must lie under the structure's base",
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Rise of the last node over the first, per distance.
@@ -196,7 +264,7 @@ mod tests {
         let elements: Vec<_> = (0..3)
             .map(|k| ContactElement { left: f64::from(k), right: f64::from(k + 1) })
             .collect();
-        let base = Base::new(nodes, &elements, 8).unwrap();
+        let base = Base::new(nodes, &[], &elements, 8).unwrap();
         assert_eq!(base.rows[1], vec![(3, -0.5), (5, -0.5)]);
         assert_eq!(base.rows[3 + 2], vec![(4, 0.5), (6, 0.5)]);
     }
@@ -209,7 +277,7 @@ mod tests {
         let ends = [-1.0, -0.8, 0.1, 1.3, 2.0];
         let elements: Vec<_> =
             ends.windows(2).map(|w| ContactElement { left: w[0], right: w[1] }).collect();
-        let base = Base::new(nodes, &elements, 8).unwrap();
+        let base = Base::new(nodes, &[], &elements, 8).unwrap();
         let u: Vec<f64> = xs.iter().flat_map(|x| [2.0 + 3.0 * x, 1.0 - 0.5 * x]).collect();
         let mut means = vec![0.0; 8];
         base.means(&u, &mut means);
@@ -218,7 +286,7 @@ mod tests {
             assert!((means[e] + (1.0 - 0.5 * x)).abs() < 1e-14);
             assert!((means[4 + e] - (2.0 + 3.0 * x)).abs() < 1e-14);
         }
-        assert!((base.rotation(&u) + 0.5).abs() < 1e-14);
+        assert!((base.rotation(0, &u) + 0.5).abs() < 1e-14);
         // The transpose does the same work: (BᵀAτ)·u = Σ A τ·(B u).
         let traction: Vec<f64> = (0..8).map(|i| f64::from(i).cos()).collect();
         let mut force = vec![0.0; 8];
@@ -232,11 +300,11 @@ mod tests {
     fn bad_bases_are_errors() {
         let element = [ContactElement { left: 0.0, right: 1.0 }];
         let node = |x| ContactNode::free(x, 0, 1);
-        assert!(Base::new(vec![node(0.0)], &element, 2).is_err());
-        assert!(Base::new(vec![node(0.0), node(0.0)], &element, 2).is_err());
-        assert!(Base::new(vec![node(0.0), node(f64::NAN)], &element, 2).is_err());
-        assert!(Base::new(vec![node(0.0), node(0.9)], &element, 2).is_err());
-        assert!(Base::new(vec![node(0.0), node(1.0)], &element, 1).is_err());
-        assert!(Base::new(vec![node(0.0), node(1.0)], &element, 2).is_ok());
+        assert!(Base::new(vec![node(0.0)], &[], &element, 2).is_err());
+        assert!(Base::new(vec![node(0.0), node(0.0)], &[], &element, 2).is_err());
+        assert!(Base::new(vec![node(0.0), node(f64::NAN)], &[], &element, 2).is_err());
+        assert!(Base::new(vec![node(0.0), node(0.9)], &[], &element, 2).is_err());
+        assert!(Base::new(vec![node(0.0), node(1.0)], &[], &element, 1).is_err());
+        assert!(Base::new(vec![node(0.0), node(1.0)], &[], &element, 2).is_ok());
     }
 }

@@ -179,7 +179,7 @@ impl SimulationBuilder {
                 needed: "ten million or fewer",
             });
         }
-        let mut base = Base::new(structure.contact_nodes(), &elements, unknowns)?;
+        let mut base = Base::of(structure.as_ref(), &elements)?;
         let mut model = Model::new(structure, &base)?;
         for probe in &self.probes {
             for &(index, weight) in probe.rows().into_iter().flatten() {

@@ -69,7 +69,8 @@ impl Modes {
         let rigid = values.iter().filter(|value| value.abs() <= noise).count();
         // Below its noise an eigenvalue is a rigid motion's, unless there are too many of them.
         let smallest = values.iter().map(|v| v.abs()).filter(|v| *v > noise);
-        if rigid > RIGID_MOTIONS || smallest.fold(top, f64::min) < SMALLEST * top {
+        let most = RIGID_MOTIONS * parts(&[mass, damping, stiffness]);
+        if rigid > most || smallest.fold(top, f64::min) < SMALLEST * top {
             return None;
         }
         for value in &mut values {
@@ -130,6 +131,25 @@ impl Modes {
     fn unknowns(&self, modal: &[f64]) -> Vec<f64> {
         self.vectors.chunks_exact(self.count()).map(|row| dot(row, modal)).collect()
     }
+}
+
+/// Number of parts of the structure that no matrix connects.
+fn parts(matrices: &[&SparseMatrix]) -> usize {
+    let n = matrices[0].order();
+    let mut leader: Vec<usize> = (0..n).collect();
+    let find = |leader: &[usize], mut i: usize| {
+        while leader[i] != i {
+            i = leader[i];
+        }
+        i
+    };
+    for matrix in matrices {
+        for (row, column, _) in matrix.entries() {
+            let (a, b) = (find(&leader, row), find(&leader, column));
+            leader[a.max(b)] = a.min(b);
+        }
+    }
+    (0..n).filter(|&i| leader[i] == i).count()
 }
 
 /// A weighted sum of unknowns, in the coordinates that are stepped.

@@ -88,4 +88,4 @@ pub use preload::Placement;
 pub use run::{Flow, Peak, Run, Warning};
 pub use scheme::{HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme};
 pub use simulation::Simulation;
-pub use state::{Probe, State, Transition};
+pub use state::{Foundation, Probe, State, Transition};

@@ -118,7 +118,7 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
         Box::new(FemModel::on_base(mesh).unwrap())
     };
     let unknowns = structure.unknowns();
-    let base = Base::new(structure.contact_nodes(), ground.elements(), unknowns).unwrap();
+    let base = Base::of(structure.as_ref(), ground.elements()).unwrap();
     let mut model = Model::new(structure, &base).unwrap();
     let tangent = model.tangent(&vec![0.0; unknowns]).unwrap();
     let coefficients = Midpoint.coefficients(time_step);

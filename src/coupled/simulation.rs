@@ -11,7 +11,7 @@ use super::operators::Operators;
 use super::preload::StaticState;
 use super::run::{Flow, Run};
 use super::scheme::SchemeCoefficients;
-use super::state::{Probe, State};
+use super::state::{Foundation, Probe, State};
 use crate::bem::{ContactElement, Ground, HistoryChoice};
 use crate::error::Result;
 use crate::interface::{ContactState, InterfaceLaw, StepStart, law_of};
@@ -205,6 +205,7 @@ impl Simulation {
                 uplifted_fraction: 0.0,
                 mean_slip: 0.0,
                 base_rotation: 0.0,
+                foundations: parts.base.foundations().map(Foundation::new).collect(),
                 free_field: [0.0; 2],
                 ledger: Ledger::default(),
                 trials: 0,

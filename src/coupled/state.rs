@@ -33,6 +33,41 @@ impl Transition {
     }
 }
 
+/// What stands on one foundation gives to the soil, and how its base moves.
+///
+/// Most structures have one. See [`crate::structure::Structure::foundation_ends`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Foundation {
+    /// Its elements, as indices of [`State::contact`].
+    pub elements: std::ops::Range<usize>,
+    /// Horizontal force on the soil, positive to the right, N/m.
+    pub shear: f64,
+    /// Moment on the soil about the middle of its elements, counter-clockwise, N·m/m.
+    pub moment: f64,
+    /// Total pressure on the soil, positive in compression, N/m.
+    pub normal_force: f64,
+    /// Length of its open elements over that of all its elements.
+    pub uplifted_fraction: f64,
+    /// Slip averaged over its elements, m.
+    pub mean_slip: f64,
+    /// Rotation of its chord, counter-clockwise, rad.
+    pub rotation: f64,
+}
+
+impl Foundation {
+    pub(super) fn new(elements: std::ops::Range<usize>) -> Self {
+        Self {
+            elements,
+            shear: 0.0,
+            moment: 0.0,
+            normal_force: 0.0,
+            uplifted_fraction: 0.0,
+            mean_slip: 0.0,
+            rotation: 0.0,
+        }
+    }
+}
+
 /// The simulation at the end of an accepted step.
 ///
 /// Displacements are changes against the static state under weight. Forces are those of the
@@ -62,8 +97,10 @@ pub struct State {
     pub uplifted_fraction: f64,
     /// Slip averaged over the length of the base, m; positive when the structure moved to the right.
     pub mean_slip: f64,
-    /// Rotation of the base's chord, counter-clockwise, rad.
+    /// Rotation of the base's chord, counter-clockwise, rad; of several foundations the largest.
     pub base_rotation: f64,
+    /// Each foundation by itself, from left to right.
+    pub foundations: Vec<Foundation>,
     /// Mean horizontal and vertical (up) displacement of the free field under the base, m.
     pub free_field: [f64; 2],
     /// The energy ledger.

@@ -318,26 +318,45 @@ impl Simulation {
     /// Resultants and probes from the present state.
     pub(super) fn update_resultants(&mut self) {
         let state = &mut self.state;
-        let (mut shear, mut moment, mut normal) = (0.0, 0.0, 0.0);
-        let (mut open, mut slip, mut width) = (0.0, 0.0, 0.0);
-        for (e, contact) in state.contact.iter().enumerate() {
-            let length = self.base.length(e);
-            width += length;
-            shear += length * contact.shear;
-            normal += length * contact.pressure;
-            slip += length * contact.slip;
-            moment -= length * contact.pressure * self.arms[e];
-            if !state.modes[e].is_closed() {
-                open += length;
+        let Motion { displacement, velocity, acceleration, .. } = &state.motion;
+        let (mut total, mut open, mut slip, mut width) = ([0.0; 3], 0.0, 0.0, 0.0);
+        state.base_rotation = 0.0;
+        for (k, foundation) in state.foundations.iter_mut().enumerate() {
+            let (first, last) = (foundation.elements.start, foundation.elements.end - 1);
+            let [mut shear, mut normal, mut moment] = [0.0; 3];
+            let [mut own_open, mut own_slip, mut own_width] = [0.0; 3];
+            for e in first..=last {
+                let (contact, length) = (&state.contact[e], self.base.length(e));
+                own_width += length;
+                shear += length * contact.shear;
+                normal += length * contact.pressure;
+                own_slip += length * contact.slip;
+                moment -= length * contact.pressure * self.arms[e];
+                if !state.modes[e].is_closed() {
+                    own_open += length;
+                }
+            }
+            for (sum, own) in total.iter_mut().zip([shear, normal, moment]) {
+                *sum += own;
+            }
+            open += own_open;
+            slip += own_slip;
+            width += own_width;
+            let left = self.arms[first] - 0.5 * self.base.length(first);
+            let right = self.arms[last] + 0.5 * self.base.length(last);
+            foundation.shear = shear;
+            foundation.normal_force = normal;
+            foundation.moment = moment + normal * 0.5 * (left + right);
+            foundation.uplifted_fraction = own_open / own_width;
+            foundation.mean_slip = own_slip / own_width;
+            foundation.rotation = self.base.rotation(k, displacement);
+            if foundation.rotation.abs() > state.base_rotation.abs() {
+                state.base_rotation = foundation.rotation;
             }
         }
-        state.base_shear = shear;
-        state.normal_force = normal;
-        state.base_moment = moment;
+        [state.base_shear, state.normal_force, state.base_moment] = total;
         state.uplifted_fraction = open / width;
         state.mean_slip = slip / width;
-        let Motion { displacement, velocity, acceleration, .. } = &state.motion;
-        state.base_rotation = self.base.rotation(displacement);
         for (value, [u, v, a]) in state.probes.iter_mut().zip(&self.probe_rows) {
             *value = u.of(displacement) + v.of(velocity) + a.of(acceleration);
         }

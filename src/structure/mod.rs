@@ -2,6 +2,7 @@
 
 mod contact_node;
 mod fem_model;
+mod group;
 mod rayleigh;
 mod rigid_block;
 mod section;
@@ -10,6 +11,7 @@ mod triplets;
 
 pub use contact_node::ContactNode;
 pub use fem_model::FemModel;
+pub use group::StructureGroup;
 pub use rayleigh::RayleighDamping;
 pub use rigid_block::RigidBlock;
 pub use section::{Section, SectionRows};
@@ -41,6 +43,12 @@ pub trait Structure: Send {
     /// Points of the base that touch the ground, from left to right; between neighbours the base
     /// is straight. A rigid base needs two.
     fn contact_nodes(&self) -> Vec<ContactNode>;
+
+    /// Contact nodes that are the last of a foundation, the structure's last one excepted: between
+    /// such a node and the next there is no base. Default: none, one foundation.
+    fn foundation_ends(&self) -> Vec<usize> {
+        Vec::new()
+    }
 
     /// Adds the mass matrix (n × n, kg/m) to `matrix`. Symmetric, positive semi-definite.
     fn mass(&self, matrix: &mut Triplets);

@@ -8,12 +8,14 @@
 pub struct Triplets {
     order: usize,
     entries: Vec<(usize, usize, f64)>,
+    /// What is added to indices, while a member of a group writes its block.
+    shift: usize,
 }
 
 impl Triplets {
     /// Empty matrix of `order` rows and columns.
     pub fn new(order: usize) -> Self {
-        Self { order, entries: Vec::new() }
+        Self { order, entries: Vec::new(), shift: 0 }
     }
 
     /// Number of rows and columns.
@@ -23,7 +25,9 @@ impl Triplets {
 
     /// Adds `value` at (`row`, `column`).
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
-        self.entries.push((row, column, value));
+        // An index beyond the block stays out of range whatever the shift.
+        let place = |index: usize| if index < self.order { index + self.shift } else { usize::MAX };
+        self.entries.push((place(row), place(column), value));
     }
 
     /// Adds a dense block (row-major, `indices.len()` squared) at rows and columns `indices`.
@@ -57,6 +61,14 @@ impl Triplets {
     /// The entries so far, in the order they came: (row, column, value).
     pub fn entries(&self) -> &[(usize, usize, f64)] {
         &self.entries
+    }
+
+    /// Lets `write` fill the diagonal block of `order` rows that begins at row `first`.
+    pub(crate) fn block(&mut self, first: usize, order: usize, write: impl FnOnce(&mut Self)) {
+        let outer = (self.order, self.shift);
+        (self.order, self.shift) = (order, self.shift + first);
+        write(self);
+        (self.order, self.shift) = outer;
     }
 
     /// Forgets all entries, keeping the memory.

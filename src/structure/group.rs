@@ -1,0 +1,243 @@
+//! Several structures on one ground.
+
+use super::{ContactNode, Structure, Triplets};
+use crate::error::{CheckpointError, Error, Result, finite};
+
+/// A structure of the group and where it stands.
+struct Member {
+    structure: Box<dyn Structure>,
+    /// Added to the coordinates of its contact nodes, m.
+    shift: f64,
+    first_unknown: usize,
+    unknowns: usize,
+    /// Coordinates of its contact nodes in the group, left and right, and their number.
+    span: [f64; 2],
+    nodes: usize,
+}
+
+/// Structures side by side, each on foundations of its own, that feel each other through the soil.
+///
+/// To the simulation they are one structure with several foundations; the ground needs a strip
+/// under each. [`State::foundations`](crate::coupled::State::foundations) has forces and motions of
+/// each by itself.
+///
+/// ```
+/// use basemat::bem::{HalfPlaneGround, Strip};
+/// use basemat::interface::Coulomb;
+/// use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+/// use basemat::structure::{RigidBlock, StructureGroup};
+/// use basemat::{Simulation, Soil};
+///
+/// // A block 4 m wide with its middle at 0, and one 3 m wide with its middle at 6 m.
+/// let group = StructureGroup::new()
+///     .with(RigidBlock::new(4.0, 8.0, 1500.0)?, 0.0)?
+///     .with(RigidBlock::new(3.0, 4.0, 1500.0)?, 6.0)?;
+/// assert_eq!(group.row(1, &[(RigidBlock::HORIZONTAL, 1.0)]), [(3 + RigidBlock::HORIZONTAL, 1.0)]);
+/// let strips = [Strip::uniform(-2.0..2.0, 6)?, Strip::uniform(4.5..7.5, 5)?];
+/// let mut simulation = Simulation::builder(0.005)
+///     .structure(group)
+///     .ground(HalfPlaneGround::new(Soil::new(40.0e6, 0.33, 1800.0)?, &strips)?)
+///     .interface(Coulomb::new(0.5)?)
+///     .motion(el_centro_1940())
+///     .gravity(STANDARD_GRAVITY)
+///     .build()?;
+/// let run = simulation.run(400, |_| {})?;
+/// let [high, low] = &simulation.state().foundations[..] else { unreachable!() };
+/// assert_eq!((high.elements.clone(), low.elements.clone()), (0..6, 6..11));
+/// assert!(run.ledger_residual < 1e-9 && high.rotation != low.rotation);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Default)]
+pub struct StructureGroup {
+    members: Vec<Member>,
+}
+
+impl StructureGroup {
+    /// Group without members.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds `structure`, moved to the right by `shift` (m), to the right of all members so far.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a shift that is not finite, or a base that begins to the left of where the
+    /// one before ends; [`Error::Size`] for a structure without contact nodes.
+    pub fn with(mut self, structure: impl Structure + 'static, shift: f64) -> Result<Self> {
+        finite("shift of a structure", shift)?;
+        let nodes = structure.contact_nodes();
+        let (Some(left), Some(right)) = (nodes.first(), nodes.last()) else {
+            let quantity = "list of contact nodes";
+            return Err(Error::Size { quantity, found: 0, needed: 2 });
+        };
+        let span = [left.x + shift, right.x + shift];
+        let end = self.members.last().map_or(f64::NEG_INFINITY, |before| before.span[1]);
+        if span[0].partial_cmp(&end) != Some(std::cmp::Ordering::Greater) {
+            return Err(Error::Input {
+                quantity: "left end of the base of a structure",
+                value: span[0],
+                needed: "to the right of the structure before it",
+            });
+        }
+        self.members.push(Member {
+            shift,
+            first_unknown: self.unknowns(),
+            unknowns: structure.unknowns(),
+            span,
+            nodes: nodes.len(),
+            structure: Box::new(structure),
+        });
+        Ok(self)
+    }
+
+    /// Number of structures.
+    pub fn len(&self) -> usize {
+        self.members.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.members.is_empty()
+    }
+
+    /// A weighted sum of the unknowns of structure `member` in those of the group; empty if there is
+    /// no such structure.
+    pub fn row(&self, member: usize, row: &[(usize, f64)]) -> Vec<(usize, f64)> {
+        let first = self.members.get(member).map(|member| member.first_unknown);
+        first.map_or_else(Vec::new, |first| row.iter().map(|&(i, w)| (first + i, w)).collect())
+    }
+
+    fn write(&self, matrix: &mut Triplets, write: impl Fn(&dyn Structure, &mut Triplets)) {
+        for member in &self.members {
+            matrix.block(member.first_unknown, member.unknowns, |block| {
+                write(member.structure.as_ref(), block);
+            });
+        }
+    }
+}
+
+impl Member {
+    fn range(&self) -> std::ops::Range<usize> {
+        self.first_unknown..self.first_unknown.saturating_add(self.unknowns)
+    }
+}
+
+impl Structure for StructureGroup {
+    fn unknowns(&self) -> usize {
+        self.members.last().map_or(0, |last| last.range().end)
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        let mut all = Vec::new();
+        for member in &self.members {
+            for mut node in member.structure.contact_nodes() {
+                node.x += member.shift;
+                for (index, _) in node.horizontal.iter_mut().chain(&mut node.vertical) {
+                    // What is not an unknown of the member must not be one of the group.
+                    let own = *index < member.unknowns;
+                    *index = if own { *index + member.first_unknown } else { usize::MAX };
+                }
+                all.push(node);
+            }
+        }
+        all
+    }
+
+    fn foundation_ends(&self) -> Vec<usize> {
+        let (mut ends, mut nodes) = (Vec::new(), 0);
+        for member in &self.members {
+            ends.extend(member.structure.foundation_ends().iter().map(|end| nodes + end));
+            nodes += member.nodes;
+            ends.push(nodes - 1);
+        }
+        ends.pop();
+        ends
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        self.write(matrix, |structure, block| structure.mass(block));
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        self.write(matrix, |structure, block| structure.stiffness(block));
+    }
+
+    fn damping(&self, matrix: &mut Triplets) {
+        self.write(matrix, |structure, block| structure.damping(block));
+    }
+
+    fn load(&self, time: f64, load: &mut [f64]) {
+        for member in &self.members {
+            if let Some(load) = load.get_mut(member.range()) {
+                member.structure.load(time, load);
+            }
+        }
+    }
+
+    fn is_linear(&self) -> bool {
+        self.members.iter().all(|member| member.structure.is_linear())
+    }
+
+    fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]) {
+        for member in self.members.iter().filter(|member| !member.structure.is_linear()) {
+            let range = member.range();
+            if let (Some(u), Some(f)) = (displacement.get(range.clone()), force.get_mut(range)) {
+                member.structure.nonlinear_force(u, f);
+            }
+        }
+    }
+
+    fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets) {
+        for member in self.members.iter().filter(|member| !member.structure.is_linear()) {
+            if let Some(u) = displacement.get(member.range()) {
+                matrix.block(member.first_unknown, member.unknowns, |block| {
+                    member.structure.nonlinear_tangent(u, block);
+                });
+            }
+        }
+    }
+
+    fn commit(&mut self, displacement: &[f64]) {
+        for member in self.members.iter_mut().filter(|member| !member.structure.is_linear()) {
+            if let Some(u) = displacement.get(member.range()) {
+                member.structure.commit(u);
+            }
+        }
+    }
+
+    fn save(&self) -> Vec<f64> {
+        let mut all = Vec::new();
+        for member in &self.members {
+            let own = member.structure.save();
+            all.push(own.len() as f64);
+            all.extend(own);
+        }
+        all
+    }
+
+    fn restore(&mut self, values: &[f64]) -> Result<()> {
+        let corrupt = || CheckpointError::Corrupt { quantity: "state of the structures" };
+        let mut rest = values;
+        let mut parts = Vec::with_capacity(self.members.len());
+        for _ in &self.members {
+            let (&count, after) = rest.split_first().ok_or_else(corrupt)?;
+            let length = (0..=after.len()).find(|n| *n as f64 == count).ok_or_else(corrupt)?;
+            let (own, after) = after.split_at(length);
+            parts.push(own);
+            rest = after;
+        }
+        if !rest.is_empty() {
+            return Err(corrupt().into());
+        }
+        let before: Vec<_> = self.members.iter().map(|member| member.structure.save()).collect();
+        for k in 0..parts.len() {
+            if let Err(error) = self.members[k].structure.restore(parts[k]) {
+                for (member, before) in self.members[..k].iter_mut().zip(&before) {
+                    member.structure.restore(before)?;
+                }
+                return Err(error);
+            }
+        }
+        Ok(())
+    }
+}
