@@ -4,9 +4,7 @@
 mod scenes;
 
 use basemat::Error;
-use basemat::coupled::{
-    Coordinates, Midpoint, Probe, SchemeCoefficients, SimulationBuilder, State, Theta, TimeScheme,
-};
+use basemat::coupled::{Coordinates, Midpoint, Newmark, Probe, SimulationBuilder, State, Theta};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::structure::{
@@ -37,25 +35,6 @@ fn apart<'a>(one: &'a [State], two: &'a [State], quantity: impl Fn(&'a State) ->
         }
     }
     apart / scale
-}
-
-/// Constant average acceleration, whose coefficients use all of (Δu, v₀, a₀).
-struct Average;
-
-impl TimeScheme for Average {
-    fn coefficients(&self, time_step: f64) -> SchemeCoefficients {
-        let h = time_step;
-        let acceleration = [4.0 / (h * h), -4.0 / h, -1.0];
-        let velocity = [2.0 / h, -1.0, 0.0];
-        SchemeCoefficients {
-            displacement: [1.0, 0.0, 0.0],
-            velocity,
-            acceleration,
-            new_velocity: velocity,
-            new_acceleration: acceleration,
-            load_fraction: 1.0,
-        }
-    }
 }
 
 /// A tower that somebody pulls at the top.
@@ -106,7 +85,7 @@ fn modes_and_unknowns_agree() {
             let scheme = |builder: SimulationBuilder| match scheme {
                 0 => builder.scheme(Midpoint),
                 1 => builder.scheme(Theta::new(0.6).unwrap()),
-                _ => builder.scheme(Average),
+                _ => builder.scheme(Newmark::default()),
             };
             let modes = march(scheme(make()), Coordinates::Modes);
             let unknowns = march(scheme(make()), Coordinates::Unknowns);

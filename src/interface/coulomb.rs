@@ -118,12 +118,7 @@ impl Coulomb {
 
 impl InterfaceLaw for Coulomb {
     fn modes(&self) -> &[Mode] {
-        if self.friction == 0.0 {
-            // Either slip mode says the same when there is no friction: one is enough.
-            &[Mode::SlipRight, Mode::Open]
-        } else {
-            &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
-        }
+        Mode::with_friction(self.friction)
     }
 
     fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {

@@ -37,6 +37,16 @@ impl Mode {
     pub fn is_slip(self) -> bool {
         matches!(self, Mode::SlipLeft | Mode::SlipRight)
     }
+
+    /// The modes of contact with uplift and Coulomb friction.
+    fn with_friction(friction: f64) -> &'static [Self] {
+        if friction == 0.0 {
+            // Either slip mode says the same when there is no friction: one is enough.
+            &[Self::SlipRight, Self::Open]
+        } else {
+            &[Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Open]
+        }
+    }
 }
 
 /// Opening and **total** traction (static part included) of one contact element, as means over it.

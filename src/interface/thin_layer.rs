@@ -235,11 +235,7 @@ fn share_of_one(quantity: &'static str, value: f64) -> Result<f64> {
 
 impl InterfaceLaw for ThinLayer {
     fn modes(&self) -> &[Mode] {
-        if self.friction == 0.0 {
-            &[Mode::SlipRight, Mode::Open]
-        } else {
-            &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
-        }
+        Mode::with_friction(self.friction)
     }
 
     fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
