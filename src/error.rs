@@ -57,6 +57,16 @@ pub enum Error {
         /// What is wrong there.
         reason: RecordError,
     },
+    /// A file, of a mesh or a matrix, that cannot be used.
+    #[error("{file}, line {line}: {reason}")]
+    File {
+        /// File or source.
+        file: String,
+        /// Line number, from 1 (0: the file as a whole).
+        line: usize,
+        /// What is wrong there.
+        reason: FileError,
+    },
     /// A matrix that cannot be factored.
     #[error("{matrix} of order {order} is singular or not finite")]
     Singular {
@@ -285,6 +295,47 @@ pub enum RecordError {
         found: usize,
         /// Channel asked for.
         needed: usize,
+    },
+    /// A line is too long to be one of numbers.
+    #[error("no line end in {bytes} bytes")]
+    LineTooLong {
+        /// Bytes read without a line end.
+        bytes: usize,
+    },
+}
+
+/// What is wrong with a line of a file.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FileError {
+    /// The file could not be read.
+    #[error("cannot be read: {0}")]
+    Unreadable(std::io::ErrorKind),
+    /// Something that is needed is not there.
+    #[error("there is no {what}")]
+    Missing {
+        /// What is missing.
+        what: String,
+    },
+    /// Something is there twice.
+    #[error("{what} is given twice")]
+    Twice {
+        /// What is there twice.
+        what: String,
+    },
+    /// A field is not what it must be.
+    #[error("'{text}' is no {what}")]
+    NotA {
+        /// What it must be.
+        what: &'static str,
+        /// The field, cut to 40 characters.
+        text: String,
+    },
+    /// Something that the crate does not read.
+    #[error("cannot use {text}")]
+    Unsupported {
+        /// What it is.
+        text: String,
     },
     /// A line is too long to be one of numbers.
     #[error("no line end in {bytes} bytes")]

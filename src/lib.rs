@@ -154,7 +154,7 @@ pub mod structure;
 mod sweep;
 
 pub use coupled::Simulation;
-pub use error::{CheckpointError, Error, RecordError, Result, StepError};
+pub use error::{CheckpointError, Error, FileError, RecordError, Result, StepError};
 pub use soil::Soil;
 pub use sweep::{Sweep, SweepCase};
 

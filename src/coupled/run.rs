@@ -125,7 +125,7 @@ pub struct Run {
     pub fallbacks: [usize; 2],
     /// Warnings.
     pub warnings: Vec<Warning>,
-    /// Wall time, observers included.
+    /// Wall time, observers included; zero where there is no clock (WebAssembly).
     pub wall: Duration,
     shortest: f64,
     static_moment: f64,

@@ -1,0 +1,212 @@
+//! Meshes from Gmsh.
+
+mod parse;
+
+use std::collections::BTreeMap;
+use std::io::Read;
+use std::path::Path;
+
+use super::{Material, Mesh, Quad4, QuadFormulation};
+use crate::error::{Error, FileError, Result};
+
+/// A mesh of quadrilaterals as Gmsh writes it: file format 4.1, ASCII (`gmsh -2 -format msh41`).
+///
+/// Quadrilaterals get their material, and lines their meaning, from the names of physical groups.
+/// An element that belongs to several groups counts with the first of them; one in none has the
+/// name "". Points and lines that nobody asks for are passed over; triangles, elements of higher
+/// order and nodes outside the plane z = 0 are refused. Clockwise quadrilaterals are turned round.
+///
+/// ```
+/// use basemat::fem::{GmshMesh, Material};
+/// use basemat::structure::{FemModel, Structure};
+///
+/// // The example of Gmsh's manual: two squares side by side; here with a named line below.
+/// let text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n\
+///     $PhysicalNames\n2\n1 7 \"base\"\n2 9 \"wall\"\n$EndPhysicalNames\n\
+///     $Entities\n0 1 1 0\n1 0 0 0 2 0 0 1 7 0\n1 0 0 0 2 1 0 1 9 0\n$EndEntities\n\
+///     $Nodes\n1 6 1 6\n2 1 0 6\n1\n2\n3\n4\n5\n6\n\
+///     0. 0. 0.\n1. 0. 0.\n1. 1. 0.\n0. 1. 0.\n2. 0. 0.\n2. 1. 0.\n$EndNodes\n\
+///     $Elements\n2 4 1 4\n1 1 1 2\n1 1 2\n2 2 5\n2 1 3 2\n3 1 2 3 4\n4 2 5 6 3\n$EndElements\n";
+/// let gmsh = GmshMesh::from_reader("wall.msh", text.as_bytes())?;
+/// assert_eq!(gmsh.surfaces(), ["wall"]);
+/// let concrete = Material::new(30.0e9, 0.2, 2400.0)?;
+/// let mesh = gmsh.mesh(&[("wall", concrete)])?;
+/// let model = FemModel::new(mesh, &gmsh.line("base")?)?;
+/// assert_eq!((model.unknowns(), model.contact_nodes().len()), (12, 3));
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct GmshMesh {
+    file: String,
+    /// Coordinates of the nodes that quadrilaterals use, in the order of the file.
+    nodes: Vec<[f64; 2]>,
+    quads: Vec<Cell<4>>,
+    lines: Vec<Cell<2>>,
+}
+
+/// An element: the name of its group, and its nodes as indices.
+#[derive(Debug, Clone, PartialEq)]
+struct Cell<const N: usize> {
+    group: String,
+    nodes: [usize; N],
+}
+
+impl GmshMesh {
+    /// Reads a `.msh` file.
+    ///
+    /// # Errors
+    /// [`Error::File`] with the line and the reason.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self> {
+        let path = path.as_ref();
+        let name = path.display().to_string();
+        match std::fs::File::open(path) {
+            Ok(file) => Self::from_reader(&name, file),
+            Err(error) => Err(Error::File {
+                file: name,
+                line: 0,
+                reason: FileError::Unreadable(error.kind()),
+            }),
+        }
+    }
+
+    /// Reads the same from any source of bytes; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// [`Error::File`] with the line and the reason.
+    pub fn from_reader(name: &str, source: impl Read) -> Result<Self> {
+        let refuse = |(line, reason)| Error::File { file: name.to_owned(), line, reason };
+        let raw = parse::read(source).map_err(refuse)?;
+        let mut used = BTreeMap::new();
+        let quads = raw.cells.iter().filter(|cell| cell.nodes.len() == 4);
+        for cell in quads.clone() {
+            for &tag in &cell.nodes {
+                let place =
+                    raw.places.get(&tag).ok_or_else(|| refuse((cell.line, no_node(tag))))?;
+                used.insert(*place, tag);
+            }
+        }
+        // In the order of the file, whatever the tags.
+        let index: BTreeMap<u64, usize> =
+            used.values().enumerate().map(|(k, &tag)| (tag, k)).collect();
+        let mut nodes = Vec::with_capacity(index.len());
+        for &place in used.keys() {
+            let [x, y, z] = raw.coordinates[place].values;
+            if z != 0.0 {
+                let text = format!("a node at z = {z}");
+                let line = raw.coordinates[place].line;
+                return Err(refuse((line, FileError::Unsupported { text })));
+            }
+            nodes.push([x, y]);
+        }
+        let mut mesh = Self { file: name.to_owned(), nodes, quads: Vec::new(), lines: Vec::new() };
+        for cell in &raw.cells {
+            let group = raw.group(cell);
+            let place = |k: usize| index.get(&cell.nodes[k]).copied();
+            match cell.nodes.len() {
+                4 => {
+                    let Some(all) = four(place) else { continue };
+                    mesh.quads.push(Cell { group, nodes: mesh.counter_clockwise(all) });
+                }
+                _ => {
+                    // Lines of the geometry that no quadrilateral touches mean nothing here.
+                    if let (Some(from), Some(to)) = (place(0), place(1)) {
+                        mesh.lines.push(Cell { group, nodes: [from, to] });
+                    }
+                }
+            }
+        }
+        Ok(mesh)
+    }
+
+    /// Coordinates of the nodes of quadrilaterals, m.
+    pub fn nodes(&self) -> &[[f64; 2]] {
+        &self.nodes
+    }
+
+    /// Names of the groups of quadrilaterals, sorted.
+    pub fn surfaces(&self) -> Vec<&str> {
+        names(&self.quads)
+    }
+
+    /// Names of the groups of lines, sorted.
+    pub fn lines(&self) -> Vec<&str> {
+        names(&self.lines)
+    }
+
+    /// The quadrilaterals, each with the material of its group; more elements can be added. Nodes
+    /// keep their indices.
+    ///
+    /// # Errors
+    /// [`Error::File`] for a group without a material here, or a material without a group; errors of
+    /// [`Mesh::add`] for quadrilaterals without area or with a reflex corner.
+    pub fn mesh(&self, materials: &[(&str, Material)]) -> Result<Mesh> {
+        self.mesh_of(materials, QuadFormulation::default())
+    }
+
+    /// [`GmshMesh::mesh`] with another formulation of the quadrilaterals.
+    ///
+    /// # Errors
+    /// As for [`GmshMesh::mesh`].
+    pub fn mesh_of(
+        &self,
+        materials: &[(&str, Material)],
+        formulation: QuadFormulation,
+    ) -> Result<Mesh> {
+        let surfaces = self.surfaces();
+        if let Some((name, _)) = materials.iter().find(|(name, _)| !surfaces.contains(name)) {
+            return Err(self.missing(format!("surface '{name}'")));
+        }
+        let mut mesh = Mesh::new();
+        for &[x, y] in &self.nodes {
+            mesh.add_node(x, y)?;
+        }
+        for quad in &self.quads {
+            let Some((_, material)) = materials.iter().find(|(name, _)| *name == quad.group) else {
+                return Err(self.missing(format!("material for its surface '{}'", quad.group)));
+            };
+            mesh.add(Quad4::new(quad.nodes, *material, formulation))?;
+        }
+        Ok(mesh)
+    }
+
+    /// Nodes of the lines of group `name`, from left to right: the contact nodes of a base.
+    ///
+    /// # Errors
+    /// [`Error::File`] if there is no such group.
+    pub fn line(&self, name: &str) -> Result<Vec<usize>> {
+        let own = self.lines.iter().filter(|line| line.group == name);
+        let mut nodes: Vec<usize> = own.flat_map(|line| line.nodes).collect();
+        if nodes.is_empty() {
+            return Err(self.missing(format!("line '{name}'")));
+        }
+        let x = |node: usize| self.nodes[node][0];
+        nodes.sort_by(|&a, &b| x(a).total_cmp(&x(b)).then(a.cmp(&b)));
+        nodes.dedup();
+        Ok(nodes)
+    }
+
+    fn missing(&self, what: String) -> Error {
+        Error::File { file: self.file.clone(), line: 0, reason: FileError::Missing { what } }
+    }
+
+    fn counter_clockwise(&self, nodes: [usize; 4]) -> [usize; 4] {
+        let [a, b, c, d] = nodes.map(|node| self.nodes[node]);
+        let area = (c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]);
+        let [p, q, r, s] = nodes;
+        if area < 0.0 { [p, s, r, q] } else { nodes }
+    }
+}
+
+fn four(place: impl Fn(usize) -> Option<usize>) -> Option<[usize; 4]> {
+    Some([place(0)?, place(1)?, place(2)?, place(3)?])
+}
+
+fn no_node(tag: u64) -> FileError {
+    FileError::Missing { what: format!("node {tag}") }
+}
+
+fn names<const N: usize>(cells: &[Cell<N>]) -> Vec<&str> {
+    let all: std::collections::BTreeSet<&str> =
+        cells.iter().map(|cell| cell.group.as_str()).collect();
+    all.into_iter().collect()
+}

@@ -1,0 +1,312 @@
+//! The sections of a `.msh` file, version 4.1 (Gmsh reference manual, "MSH file format").
+
+use std::collections::BTreeMap;
+use std::io::{BufRead, BufReader, Read};
+use std::str::FromStr;
+
+use crate::error::FileError;
+
+/// Why a line is refused, and which.
+type Reason<T> = Result<T, (usize, FileError)>;
+
+/// Longest line, bytes: a file without line ends must not fill the memory.
+const LONGEST_LINE: u64 = 65_536;
+
+/// A point, and where it stands in the file.
+#[derive(Debug)]
+pub(super) struct Point {
+    pub(super) values: [f64; 3],
+    pub(super) line: usize,
+}
+
+/// An element of the file: 2 or 4 nodes by their tags, and where it stands.
+#[derive(Debug)]
+pub(super) struct RawCell {
+    /// Dimension and tag of its entity.
+    entity: (u8, i64),
+    pub(super) nodes: Vec<u64>,
+    pub(super) line: usize,
+}
+
+/// What of a file matters here.
+#[derive(Debug, Default)]
+pub(super) struct Raw {
+    pub(super) coordinates: Vec<Point>,
+    /// Place of each node tag in `coordinates`.
+    pub(super) places: BTreeMap<u64, usize>,
+    pub(super) cells: Vec<RawCell>,
+    /// First physical group of each entity, and the groups' names.
+    groups: BTreeMap<(u8, i64), i64>,
+    names: BTreeMap<(u8, i64), String>,
+}
+
+impl Raw {
+    /// Name of the physical group of `cell`; a group without a name is called by its number.
+    pub(super) fn group(&self, cell: &RawCell) -> String {
+        let Some(&tag) = self.groups.get(&cell.entity) else { return String::new() };
+        // A minus sign says that the entity's direction is reversed in its group.
+        let key = (cell.entity.0, tag.abs());
+        self.names.get(&key).cloned().unwrap_or_else(|| key.1.to_string())
+    }
+}
+
+pub(super) fn read(source: impl Read) -> Reason<Raw> {
+    let mut fields = Fields::new(source);
+    let mut raw = Raw::default();
+    let mut seen = Vec::new();
+    while let Some(section) = fields.section()? {
+        match section.as_str() {
+            "MeshFormat" => format(&mut fields)?,
+            "PhysicalNames" => physical_names(&mut fields, &mut raw)?,
+            "Entities" => entities(&mut fields, &mut raw)?,
+            "Nodes" => nodes(&mut fields, &mut raw)?,
+            "Elements" => elements(&mut fields, &mut raw)?,
+            _ => {
+                fields.pass_over(&section)?;
+                continue;
+            }
+        }
+        fields.end(&section)?;
+        seen.push(section);
+    }
+    for needed in ["MeshFormat", "Nodes", "Elements"] {
+        if !seen.iter().any(|section| section == needed) {
+            let what = format!("section ${needed}");
+            return Err((0, FileError::Missing { what }));
+        }
+    }
+    Ok(raw)
+}
+
+fn format(fields: &mut Fields<impl Read>) -> Reason<()> {
+    let version: String = fields.next("version of the format")?;
+    let binary: u8 = fields.next("0 for ASCII")?;
+    let _: u8 = fields.next("size of a number")?;
+    if version != "4.1" || binary != 0 {
+        let kind = if binary == 0 { "ASCII" } else { "binary" };
+        let text = format!("format {version} {kind}; 4.1 ASCII is needed");
+        return Err(fields.refuse(FileError::Unsupported { text }));
+    }
+    Ok(())
+}
+
+fn physical_names(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
+    let count: usize = fields.next("number of names")?;
+    for _ in 0..count {
+        let key = (fields.next("dimension")?, fields.next("tag of a group")?);
+        raw.names.insert(key, fields.quoted()?);
+    }
+    Ok(())
+}
+
+fn entities(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
+    let mut counts = [0_usize; 4];
+    for count in &mut counts {
+        *count = fields.next("number of entities")?;
+    }
+    for (dimension, count) in (0_u8..).zip(counts) {
+        for _ in 0..count {
+            let tag: i64 = fields.next("tag of an entity")?;
+            // A point has its coordinates, the others the corners of a box.
+            for _ in 0..if dimension == 0 { 3 } else { 6 } {
+                let _: f64 = fields.next("coordinate of an entity")?;
+            }
+            let groups: usize = fields.next("number of groups")?;
+            for k in 0..groups {
+                let group = fields.next("tag of a group")?;
+                if k == 0 {
+                    raw.groups.insert((dimension, tag), group);
+                }
+            }
+            if dimension > 0 {
+                let bounds: usize = fields.next("number of bounding entities")?;
+                for _ in 0..bounds {
+                    let _: i64 = fields.next("tag of a bounding entity")?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn nodes(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
+    let blocks: usize = fields.next("number of blocks")?;
+    for what in ["number of nodes", "smallest tag", "largest tag"] {
+        let _: u64 = fields.next(what)?;
+    }
+    for _ in 0..blocks {
+        let dimension: usize = fields.next("dimension of an entity")?;
+        let _: i64 = fields.next("tag of an entity")?;
+        let parametric: usize = fields.next("0 or 1")?;
+        let count: usize = fields.next("number of nodes")?;
+        let first = raw.coordinates.len();
+        for k in 0..count {
+            let tag = fields.next("tag of a node")?;
+            if raw.places.insert(tag, first + k).is_some() {
+                return Err(fields.refuse(FileError::Twice { what: format!("node {tag}") }));
+            }
+        }
+        for _ in 0..count {
+            let mut values = [0.0; 3];
+            for value in &mut values {
+                *value = fields.number()?;
+            }
+            raw.coordinates.push(Point { values, line: fields.line });
+            for _ in 0..if parametric == 0 { 0 } else { dimension.min(3) } {
+                fields.number()?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn elements(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
+    let blocks: usize = fields.next("number of blocks")?;
+    for what in ["number of elements", "smallest tag", "largest tag"] {
+        let _: u64 = fields.next(what)?;
+    }
+    for _ in 0..blocks {
+        let entity = (fields.next("dimension of an entity")?, fields.next("tag of an entity")?);
+        let kind: u32 = fields.next("type of elements")?;
+        let count: usize = fields.next("number of elements")?;
+        // Lines, quadrilaterals and points of the first order.
+        let size = match kind {
+            1 => 2,
+            3 => 4,
+            15 => 1,
+            _ => {
+                let text = format!("elements of type {kind}; needed are quadrilaterals (3)");
+                return Err(fields.refuse(FileError::Unsupported { text }));
+            }
+        };
+        for _ in 0..count {
+            let _: u64 = fields.next("tag of an element")?;
+            let mut nodes = Vec::with_capacity(size);
+            for _ in 0..size {
+                nodes.push(fields.next("tag of a node")?);
+            }
+            if size > 1 {
+                raw.cells.push(RawCell { entity, nodes, line: fields.line });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The fields of a text, one after the other, with the line that they stand in.
+struct Fields<R: Read> {
+    source: BufReader<R>,
+    bytes: Vec<u8>,
+    text: String,
+    /// Where the next field begins in `text`.
+    at: usize,
+    /// Number of the line in `text`, from 1.
+    line: usize,
+}
+
+impl<R: Read> Fields<R> {
+    fn new(source: R) -> Self {
+        let source = BufReader::new(source);
+        Self { source, bytes: Vec::new(), text: String::new(), at: 0, line: 0 }
+    }
+
+    fn refuse(&self, reason: FileError) -> (usize, FileError) {
+        (self.line, reason)
+    }
+
+    /// Goes to the next line; `false` at the end.
+    fn advance(&mut self) -> Reason<bool> {
+        self.bytes.clear();
+        self.line += 1;
+        let read = self.source.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.bytes);
+        match read {
+            Err(error) => return Err(self.refuse(FileError::Unreadable(error.kind()))),
+            Ok(0) => return Ok(false),
+            Ok(count) if count as u64 == LONGEST_LINE && self.bytes.last() != Some(&b'\n') => {
+                return Err(self.refuse(FileError::LineTooLong { bytes: count }));
+            }
+            Ok(_) => {}
+        }
+        self.text.clear();
+        self.text.push_str(&String::from_utf8_lossy(&self.bytes));
+        self.at = 0;
+        Ok(true)
+    }
+
+    /// The next field as it is, or none at the end.
+    fn field(&mut self) -> Reason<Option<&str>> {
+        loop {
+            let rest = &self.text[self.at..];
+            let begin = self.at + (rest.len() - rest.trim_start().len());
+            if begin < self.text.len() {
+                let rest = &self.text[begin..];
+                let end = begin + rest.find(char::is_whitespace).unwrap_or(rest.len());
+                self.at = end;
+                return Ok(Some(&self.text[begin..end]));
+            }
+            if !self.advance()? {
+                return Ok(None);
+            }
+        }
+    }
+
+    fn next<T: FromStr>(&mut self, what: &'static str) -> Reason<T> {
+        let Some(field) = self.field()? else {
+            return Err((self.line, FileError::Missing { what: what.to_owned() }));
+        };
+        let parsed = field.parse();
+        let text = field.chars().take(40).collect();
+        parsed.map_err(|_| self.refuse(FileError::NotA { what, text }))
+    }
+
+    fn number(&mut self) -> Reason<f64> {
+        let value: f64 = self.next("number")?;
+        if value.is_finite() {
+            return Ok(value);
+        }
+        let text = value.to_string();
+        Err(self.refuse(FileError::NotA { what: "finite number", text }))
+    }
+
+    /// Text between quotation marks, on the present line.
+    fn quoted(&mut self) -> Reason<String> {
+        let mut parts = self.text[self.at..].splitn(3, '"');
+        let (before, name, after) = (parts.next(), parts.next(), parts.next());
+        match (before, name, after) {
+            (Some(before), Some(name), Some(after)) if before.trim().is_empty() => {
+                let name = name.to_owned();
+                self.at = self.text.len() - after.len();
+                Ok(name)
+            }
+            _ => Err(self.refuse(FileError::Missing { what: "name in quotation marks".into() })),
+        }
+    }
+
+    /// Name of the section that begins next, or none at the end.
+    fn section(&mut self) -> Reason<Option<String>> {
+        let Some(field) = self.field()? else { return Ok(None) };
+        if let Some(name) = field.strip_prefix('$') {
+            return Ok(Some(name.to_owned()));
+        }
+        let text = field.chars().take(40).collect();
+        Err(self.refuse(FileError::NotA { what: "beginning of a section", text }))
+    }
+
+    /// The end of `section`.
+    fn end(&mut self, section: &str) -> Reason<()> {
+        let end = self.field()?.map(|field| field.strip_prefix("$End") == Some(section));
+        if end == Some(true) {
+            return Ok(());
+        }
+        Err(self.refuse(FileError::Missing { what: format!("$End{section}") }))
+    }
+
+    fn pass_over(&mut self, section: &str) -> Reason<()> {
+        while let Some(field) = self.field()? {
+            if field.strip_prefix("$End") == Some(section) {
+                return Ok(());
+            }
+        }
+        Err(self.refuse(FileError::Missing { what: format!("$End{section}") }))
+    }
+}
