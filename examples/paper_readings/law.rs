@@ -6,6 +6,7 @@ use basemat::interface::{
     ThinLayer, Tolerance,
 };
 
+use super::glue::Glue;
 use super::options::{Law, Limit, Reading, Sense};
 
 impl Reading {
@@ -120,26 +121,5 @@ impl InterfaceLaw for Read {
 
     fn smooth(&self) -> Box<dyn InterfaceLaw> {
         self.layer.smooth()
-    }
-}
-
-/// The stick mode of a thin layer, for good.
-struct Glue(ThinLayer);
-
-impl InterfaceLaw for Glue {
-    fn modes(&self) -> &[Mode] {
-        &[Mode::Stick]
-    }
-
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
-        self.0.conditions(mode, start)
-    }
-
-    fn next_mode(&self, _: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
-        Mode::Stick
-    }
-
-    fn compliance(&self, mode: Mode) -> [f64; 2] {
-        self.0.compliance(mode)
     }
 }

@@ -11,6 +11,8 @@
 
 #[path = "../common/containment.rs"]
 mod containment;
+#[path = "../common/glue.rs"]
+mod glue;
 mod law;
 mod options;
 mod run;
