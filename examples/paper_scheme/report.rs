@@ -66,7 +66,9 @@ fn measures(row: &Row, outcome: &Outcome) -> Option<Measures> {
 pub(crate) fn print_peaks(rows: &[Row]) {
     println!("\nPeak base shear, lb/ft (of runs that end early: until then)\n");
     print!("| case | printed |");
-    SCHEMES.iter().for_each(|scheme| print!(" {} |", scheme.name()));
+    for scheme in SCHEMES {
+        print!(" {} |", scheme.name());
+    }
     println!("\n|---|---|---|---|---|---|");
     for row in rows {
         print!("| {} | {:.0} |", row.name, row.printed);
@@ -95,18 +97,23 @@ pub(crate) fn print_marches(rows: &[Row]) {
         for (scheme, outcome) in &row.outcomes {
             let Some(found) = measures(row, outcome) else { continue };
             println!(
-                "| {} | {} | {:.2} | {} | {} | {:.3} | {:.3} | {:.2} |",
+                "| {} | {} | {:.2} | {} | {} | {} | {} | {:.2} |",
                 row.name,
                 scheme.name(),
                 outcome.time(),
                 ending(outcome.end),
                 found.growth.map_or_else(|| "–".to_owned(), |growth| format!("{growth:.1e}")),
-                found.differences[0],
-                found.differences[1],
+                share(found.differences[0]),
+                share(found.differences[1]),
                 outcome.processor.as_secs_f64(),
             );
         }
     }
+}
+
+/// A difference in percent, if any.
+fn share(difference: f64) -> String {
+    if difference == 0.0 { "–".to_owned() } else { format!("{:.1} %", 100.0 * difference) }
 }
 
 fn ending(end: End) -> &'static str {
