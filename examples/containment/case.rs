@@ -2,14 +2,13 @@
 
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::{Probe, Run};
-use basemat::fem::{Layer, Material, Mesh, QuadFormulation};
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::{Record, STANDARD_GRAVITY};
-use basemat::structure::{FemModel, RayleighDamping};
-use basemat::{Simulation, Soil, SweepCase};
+use basemat::{Simulation, SweepCase};
 
 use super::AnyError;
-use super::options::{FOOT, Options, PSF, Quadrilateral, SLUG_PER_CUBIC_FOOT};
+use super::containment::FOOT;
+use super::options::Options;
 
 /// What the interface does.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,15 +86,11 @@ pub(crate) fn run(
     steps: usize,
     now: &SweepCase<'_>,
 ) -> Result<Outcome, AnyError> {
-    let soil = Soil::from_wave_speeds(
-        options.shear_speed_fts * FOOT,
-        options.pressure_speed_fts * FOOT,
-        options.soil_density * SLUG_PER_CUBIC_FOOT,
-    )?;
-    let half = 0.5 * options.width_ft * FOOT;
-    let (model, foundation_height, roof_height) = structure(options)?;
-    let corner = model.nearest_node(-half, roof_height);
-    let section = model.section(foundation_height, 0.0)?;
+    let scene = options.containment();
+    let model = scene.structure()?;
+    let [left, roof] = scene.corner();
+    let corner = model.nearest_node(left, roof);
+    let base_shear = scene.base_shear(&model)?;
     let unknown = |direction| {
         let index = model.unknown(corner, direction).ok_or("the roof corner has no unknowns")?;
         Ok::<_, AnyError>(vec![(index, 1.0)])
@@ -105,13 +100,13 @@ pub(crate) fn run(
 
     let builder = Simulation::builder(options.time_step_s())
         .structure(model)
-        .ground(HalfPlaneGround::strip(soil, -half..half, usize::from(options.elements))?)
+        .ground(HalfPlaneGround::strip(scene.soil()?, scene.base(), scene.elements)?)
         .motion(record.clone())
         .gravity(STANDARD_GRAVITY)
         .expected_steps(steps)
         .probe(Probe::displacement("roof x", roof_x))
         .probe(Probe::displacement("roof y", roof_y))
-        .probe(Probe::section("base shear", &section.shear));
+        .probe(base_shear);
     let mut simulation = match case.kind {
         Kind::Bonded => builder.interface(Bonded),
         Kind::Coulomb(friction) => builder.interface(Coulomb::new(friction)?),
@@ -133,38 +128,5 @@ pub(crate) fn run(
             now.report(state.step as f64 / steps as f64);
         }
     })?;
-    Ok(Outcome { case: case.clone(), run, histories: kept, width: 2.0 * half })
-}
-
-/// The paper's model: layers of rectangles, the lowest one the basemat. Returns it with the heights
-/// of the foundation's top and of the roof, m.
-fn structure(options: &Options) -> Result<(FemModel, f64, f64), AnyError> {
-    let solid = |young_psf: f64, density: f64| {
-        Material::new(young_psf * PSF, 1.0 / 3.0, density * SLUG_PER_CUBIC_FOOT)
-    };
-    let foundation = solid(106_560_369.0, 3.043_48)?;
-    let superstructure = solid(106_577_648.0, 0.590_06)?;
-    let formulation = match options.quadrilateral {
-        Quadrilateral::Full => QuadFormulation::Full,
-        Quadrilateral::Incompatible => QuadFormulation::IncompatibleModes,
-    };
-    let rows = usize::from(options.layers) - 1;
-    let layer = options.height_ft * FOOT / f64::from(options.layers);
-    let half = 0.5 * options.width_ft * FOOT;
-    let height = layer * rows as f64;
-    let mesh = Mesh::layered_block(
-        -half..half,
-        usize::from(options.elements),
-        &[
-            Layer::new(layer, 1, foundation).with_formulation(formulation),
-            Layer::new(height, rows, superstructure).with_formulation(formulation),
-        ],
-    )?;
-    let mut model = FemModel::on_base(mesh)?;
-    if options.damping > 0.0 {
-        let frequencies = [1.0, 10.0];
-        model =
-            model.with_damping(RayleighDamping::from_ratios(frequencies, [options.damping; 2])?);
-    }
-    Ok((model, layer, layer + height))
+    Ok(Outcome { case: case.clone(), run, histories: kept, width: scene.width * FOOT })
 }

@@ -10,6 +10,10 @@
 //! ```
 
 mod case;
+#[path = "../common/chart.rs"]
+mod chart;
+#[path = "../common/containment.rs"]
+mod containment;
 mod options;
 mod plots;
 mod report;

@@ -2,15 +2,12 @@
 
 use std::path::PathBuf;
 
+use basemat::fem::QuadFormulation;
 use basemat::motion::{AccelerationUnit, Baseline, ColumnFormat, Record, el_centro_1940};
 use clap::{Parser, ValueEnum};
 
 use super::AnyError;
-
-pub(crate) const FOOT: f64 = 0.3048;
-pub(crate) const POUND_FORCE_PER_FOOT: f64 = 14.593_902_937_206_364;
-pub(crate) const PSF: f64 = 47.880_258_980_335_84;
-pub(crate) const SLUG_PER_CUBIC_FOOT: f64 = 515.378_818_393_229_5;
+use super::containment::Containment;
 
 /// El Centro on a containment that may uplift and slide (Patel & Spyrakos).
 ///
@@ -45,13 +42,13 @@ pub(crate) struct Options {
     pub(crate) height_ft: f64,
     /// Layers of elements, the lowest of them the basemat.
     #[arg(long, default_value_t = 13, value_parser = clap::value_parser!(u16).range(2..=200))]
-    pub(crate) layers: u16,
+    layers: u16,
     /// Elements along the base.
     #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..=400))]
-    pub(crate) elements: u16,
+    elements: u16,
     /// How the rectangles are integrated.
     #[arg(long, value_enum, default_value = "full")]
-    pub(crate) quadrilateral: Quadrilateral,
+    quadrilateral: Quadrilateral,
     /// Shear wave speed of the soil, ft/s.
     #[arg(long = "shear-speed", default_value_t = 650.0, value_parser = positive)]
     pub(crate) shear_speed_fts: f64,
@@ -60,10 +57,10 @@ pub(crate) struct Options {
     pub(crate) pressure_speed_fts: f64,
     /// Density of the soil, slug/ft³ (not printed in the paper: an assumption).
     #[arg(long = "soil-density", default_value_t = 3.5, value_parser = positive)]
-    pub(crate) soil_density: f64,
+    soil_density: f64,
     /// Damping ratio of the structure at 1 and 10 Hz (Rayleigh).
     #[arg(long, default_value_t = 0.0, value_parser = not_negative)]
-    pub(crate) damping: f64,
+    damping: f64,
     /// Time step, ms; half an element's length over the pressure wave speed unless given.
     #[arg(long = "time-step", value_parser = positive)]
     time_step_ms: Option<f64>,
@@ -90,7 +87,7 @@ enum Treatment {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-pub(crate) enum Quadrilateral {
+enum Quadrilateral {
     /// Two by two Gauss points.
     Full,
     /// With incompatible modes, good in bending.
@@ -118,17 +115,27 @@ impl Options {
         })
     }
 
-    /// Length of a contact element, ft.
-    pub(crate) fn element_ft(&self) -> f64 {
-        self.width_ft / f64::from(self.elements)
+    /// What is to be built.
+    pub(crate) fn containment(&self) -> Containment {
+        Containment {
+            width: self.width_ft,
+            height: self.height_ft,
+            layers: usize::from(self.layers),
+            elements: usize::from(self.elements),
+            formulation: match self.quadrilateral {
+                Quadrilateral::Full => QuadFormulation::Full,
+                Quadrilateral::Incompatible => QuadFormulation::IncompatibleModes,
+            },
+            damping: self.damping,
+            wave_speeds: [self.shear_speed_fts, self.pressure_speed_fts],
+            soil_density: self.soil_density,
+            ..Containment::default()
+        }
     }
 
-    /// The paper's step: a P wave crosses half an element.
+    /// The paper's step, unless another is given: a P wave crosses half an element.
     pub(crate) fn time_step_s(&self) -> f64 {
-        match self.time_step_ms {
-            Some(ms) => 1e-3 * ms,
-            None => 0.5 * self.element_ft() / self.pressure_speed_fts,
-        }
+        self.time_step_ms.map_or_else(|| self.containment().time_step(0.5), |ms| 1e-3 * ms)
     }
 
     /// Steps of a run.

@@ -7,19 +7,8 @@ use plotters::prelude::*;
 
 use super::AnyError;
 use super::case::{Kind, Outcome};
+use super::chart::{self, SIZE};
 use super::report::file_stem;
-
-const SIZE: (u32, u32) = (1200, 640);
-/// Points per curve: more than pixels help nobody.
-const POINTS: usize = 4000;
-const COLORS: [RGBColor; 6] = [
-    RGBColor(40, 40, 40),
-    RGBColor(31, 119, 180),
-    RGBColor(214, 39, 40),
-    RGBColor(44, 160, 44),
-    RGBColor(255, 140, 0),
-    RGBColor(148, 103, 189),
-];
 
 /// Draws everything into `folder`.
 pub(crate) fn draw_all(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
@@ -59,56 +48,11 @@ fn curves(
     results: &[Outcome],
     value: impl Fn(&Outcome, usize) -> f64,
 ) -> Result<(), AnyError> {
-    let lines: Vec<Vec<(f64, f64)>> = results
-        .iter()
-        .map(|outcome| {
-            let time = &outcome.histories.time;
-            let every = time.len().div_ceil(POINTS).max(1);
-            (0..time.len()).step_by(every).map(|k| (time[k], value(outcome, k))).collect()
-        })
-        .collect();
-    let points = || lines.iter().flatten();
-    let end = points().fold(0.0_f64, |m, p| m.max(p.0));
-    let low = points().fold(0.0_f64, |m, p| m.min(p.1));
-    let high = points().fold(0.0_f64, |m, p| m.max(p.1));
-    let margin = 0.05 * (high - low).max(f64::MIN_POSITIVE);
-
-    let root = SVGBackend::new(path, SIZE).into_drawing_area();
-    root.fill(&WHITE)?;
-    let mut chart = ChartBuilder::on(&root)
-        .caption(title, ("sans-serif", 24))
-        .margin(16)
-        .x_label_area_size(48)
-        .y_label_area_size(76)
-        .build_cartesian_2d(0.0..end, low - margin..high + margin)?;
-    chart
-        .configure_mesh()
-        .x_desc("time, s")
-        .y_desc(unit)
-        .x_label_formatter(&|x| format!("{x:.0}"))
-        .y_label_formatter(&|y| format!("{y:.0}"))
-        .label_style(("sans-serif", 16))
-        .axis_desc_style(("sans-serif", 18))
-        .light_line_style(WHITE)
-        .draw()?;
-    for (k, (line, outcome)) in lines.into_iter().zip(results).enumerate() {
-        let color = COLORS[k % COLORS.len()];
-        chart
-            .draw_series(LineSeries::new(line, color.stroke_width(1)))?
-            .label(outcome.case.name.clone())
-            .legend(move |(x, y)| {
-                PathElement::new(vec![(x, y), (x + 24, y)], color.stroke_width(3))
-            });
-    }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .background_style(WHITE.mix(0.85))
-        .border_style(BLACK.mix(0.3))
-        .label_font(("sans-serif", 16))
-        .draw()?;
-    root.present()?;
-    Ok(())
+    let curve = |outcome: &Outcome| {
+        let time = outcome.histories.time.iter().enumerate();
+        (outcome.case.name.clone(), time.map(|(k, &t)| (t, value(outcome, k))).collect())
+    };
+    chart::draw(path, title, unit, results.iter().map(curve).collect())
 }
 
 fn color(mode: Mode) -> RGBColor {

@@ -4,18 +4,19 @@ use std::path::Path;
 
 use super::AnyError;
 use super::case::{Kind, Outcome};
-use super::options::POUND_FORCE_PER_FOOT;
+use super::containment::{PAPER_SHEARS, pounds_per_foot};
 
 /// Peak base shear of the paper's Table 1, lb/ft, for the cases it has.
 fn paper_shear(kind: Kind) -> Option<f64> {
-    match kind {
-        Kind::Bonded => Some(28_970.0),
-        Kind::Coulomb(f64::INFINITY) => Some(20_130.0),
-        Kind::Coulomb(0.4) => Some(10_233.0),
-        Kind::Coulomb(0.3) => Some(6_415.0),
-        Kind::Coulomb(0.2) => Some(5_958.0),
-        Kind::Coulomb(_) => None,
-    }
+    let row = match kind {
+        Kind::Bonded => 0,
+        Kind::Coulomb(f64::INFINITY) => 1,
+        Kind::Coulomb(0.4) => 2,
+        Kind::Coulomb(0.3) => 3,
+        Kind::Coulomb(0.2) => 4,
+        Kind::Coulomb(_) => return None,
+    };
+    Some(PAPER_SHEARS[row])
 }
 
 /// Prints the table of all cases beside the paper's ratios.
@@ -42,12 +43,12 @@ pub(crate) fn print_table(results: &[Outcome]) {
     for outcome in results {
         let run = &outcome.run;
         let paper = paper_shear(outcome.case.kind)
-            .map_or_else(|| "–".to_owned(), |shear| format!("({:.3})", shear / 28_970.0));
+            .map_or_else(|| "–".to_owned(), |shear| format!("({:.3})", shear / PAPER_SHEARS[0]));
         println!(
             "{:<14}{:>11.1}{:>11.0}{:>12.1}{:>8.3}{:>8}{:>9.0}{:>10.3}{:>10.3}{:>10.2}{:>10.1e}{:>9.1}{:>9.1}",
             outcome.case.name,
             1e-3 * outcome.peak_shear(),
-            outcome.peak_shear() / POUND_FORCE_PER_FOOT,
+            pounds_per_foot(outcome.peak_shear()),
             1e-3 * run.base_shear.value.abs(),
             outcome.peak_shear() / bonded,
             paper,

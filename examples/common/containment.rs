@@ -1,0 +1,137 @@
+//! The containment of Patel & Spyrakos: soil, structure and time step, in the paper's units.
+//!
+//! Contact length, height and the soil's density are not printed in the paper: see
+//! docs/containment.md.
+#![allow(dead_code, reason = "each example uses its own part")]
+
+use std::ops::Range;
+
+use basemat::Soil;
+use basemat::coupled::Probe;
+use basemat::fem::{Layer, Material, Mesh, QuadFormulation};
+use basemat::structure::{FemModel, RayleighDamping};
+
+pub(crate) const FOOT: f64 = 0.3048;
+pub(crate) const POUND_FORCE_PER_FOOT: f64 = 14.593_902_937_206_364;
+pub(crate) const PSF: f64 = 47.880_258_980_335_84;
+pub(crate) const SLUG_PER_CUBIC_FOOT: f64 = 515.378_818_393_229_5;
+
+/// Peak base shears of the paper's Table 1, lb/ft: bonded, uplift only, friction 0.4, 0.3, 0.2.
+pub(crate) const PAPER_SHEARS: [f64; 5] = [28_970.0, 20_130.0, 10_233.0, 6_415.0, 5_958.0];
+
+/// What is to be chosen; the defaults are the paper's, or assumed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Containment {
+    /// Contact length, ft.
+    pub(crate) width: f64,
+    /// Height, ft.
+    pub(crate) height: f64,
+    /// Layers of rectangles, the lowest of them the basemat.
+    pub(crate) layers: usize,
+    /// Elements along the base.
+    pub(crate) elements: usize,
+    pub(crate) formulation: QuadFormulation,
+    /// Density of the basemat, slug/ft³.
+    pub(crate) foundation_density: f64,
+    /// Damping ratio of the structure at 1 and 10 Hz (Rayleigh).
+    pub(crate) damping: f64,
+    /// Shear and pressure wave speed of the soil, ft/s.
+    pub(crate) wave_speeds: [f64; 2],
+    /// Density of the soil, slug/ft³.
+    pub(crate) soil_density: f64,
+}
+
+impl Default for Containment {
+    fn default() -> Self {
+        Self {
+            width: 34.0,
+            height: 80.0,
+            layers: 13,
+            elements: 10,
+            formulation: QuadFormulation::Full,
+            foundation_density: 3.043_48,
+            damping: 0.0,
+            wave_speeds: [650.0, 1300.0],
+            soil_density: 3.5,
+        }
+    }
+}
+
+const SUPERSTRUCTURE_DENSITY: f64 = 0.590_06;
+
+impl Containment {
+    pub(crate) fn soil(&self) -> basemat::Result<Soil> {
+        let [shear, pressure] = self.wave_speeds.map(|speed| speed * FOOT);
+        Soil::from_wave_speeds(shear, pressure, self.soil_density * SLUG_PER_CUBIC_FOOT)
+    }
+
+    /// The base, m.
+    pub(crate) fn base(&self) -> Range<f64> {
+        let half = 0.5 * self.width * FOOT;
+        -half..half
+    }
+
+    /// Height of a layer, m.
+    pub(crate) fn layer_height(&self) -> f64 {
+        self.height * FOOT / self.layers as f64
+    }
+
+    /// Height of all layers but the basemat, m.
+    fn superstructure_height(&self) -> f64 {
+        self.layer_height() * (self.layers - 1) as f64
+    }
+
+    /// The time in which a P wave crosses `beta` of an element, s; the paper has ½.
+    pub(crate) fn time_step(&self, beta: f64) -> f64 {
+        beta * (self.width / self.elements as f64) / self.wave_speeds[1]
+    }
+
+    /// The finite elements.
+    pub(crate) fn structure(&self) -> basemat::Result<FemModel> {
+        let solid = |young_psf: f64, density: f64| {
+            Material::new(young_psf * PSF, 1.0 / 3.0, density * SLUG_PER_CUBIC_FOOT)
+        };
+        let layer = |height, rows, material| {
+            Layer::new(height, rows, material).with_formulation(self.formulation)
+        };
+        let foundation = solid(106_560_369.0, self.foundation_density)?;
+        let superstructure = solid(106_577_648.0, SUPERSTRUCTURE_DENSITY)?;
+        let mesh = Mesh::layered_block(
+            self.base(),
+            self.elements,
+            &[
+                layer(self.layer_height(), 1, foundation),
+                layer(self.superstructure_height(), self.layers - 1, superstructure),
+            ],
+        )?;
+        let model = FemModel::on_base(mesh)?;
+        if self.damping > 0.0 {
+            let damping = RayleighDamping::from_ratios([1.0, 10.0], [self.damping; 2])?;
+            return Ok(model.with_damping(damping));
+        }
+        Ok(model)
+    }
+
+    /// Mass per metre of thickness, kg/m.
+    pub(crate) fn mass(&self) -> f64 {
+        let above = (self.layers - 1) as f64 * SUPERSTRUCTURE_DENSITY;
+        let density = (self.foundation_density + above) * SLUG_PER_CUBIC_FOOT;
+        self.width * FOOT * self.layer_height() * density
+    }
+
+    /// A roof corner: its place, m.
+    pub(crate) fn corner(&self) -> [f64; 2] {
+        [self.base().start, self.layer_height() + self.superstructure_height()]
+    }
+
+    /// Horizontal force of the superstructure on the foundation, where the paper takes its base
+    /// shear.
+    pub(crate) fn base_shear(&self, model: &FemModel) -> basemat::Result<Probe> {
+        Ok(Probe::section("base shear", &model.section(self.layer_height(), 0.0)?.shear))
+    }
+}
+
+/// Newtons per metre as pounds per foot.
+pub(crate) fn pounds_per_foot(force: f64) -> f64 {
+    force / POUND_FORCE_PER_FOOT
+}
