@@ -1,0 +1,138 @@
+//! What the crate promises of every run, as properties over random scenes: structures, grounds,
+//! interface laws, time schemes, histories, coordinates and ground motions.
+//!
+//! A failing scene is shrunk to a small one and printed. `PROPTEST_CASES=2000 cargo test --release
+//! --test guarantees` asks for more scenes, other ones each time.
+
+#[path = "../support/scenes.rs"]
+mod scenes;
+
+mod recipe;
+mod run_checks;
+mod shaking;
+mod tally;
+
+use basemat::coupled::State;
+use proptest::prelude::*;
+use recipe::{Recipe, recipes};
+use run_checks::Scales;
+use scenes::{Frame, SI};
+use tally::{Tally, accepted, for_all};
+
+/// Friction up to which a solution does not depend on where the search begins: see
+/// `docs/stability.md`.
+const UNIQUE: f64 = 0.6;
+
+#[test]
+fn every_run_is_finite_balanced_and_admissible() {
+    let tally = for_all("runs", 40, &recipes(10.0), |recipe, tally| {
+        let Some(states) = accepted(recipe.run(SI, 0), tally)? else { return Ok(()) };
+        tally.see(&states);
+        run_checks::numbers_are_finite(&states)?;
+        run_checks::energy_is_kept(recipe, &states, tally)?;
+        run_checks::contact_conditions_hold(recipe, &states, tally)?;
+        preload_is_in_equilibrium(recipe, &states[0], tally)
+    });
+    // A property over scenes in which nothing happens would say nothing.
+    let scenes = tally.counted("scenes");
+    assert!(tally.counted("refused") < scenes / 4, "{tally}");
+    assert!(tally.counted("changes of mode") > 10 * scenes, "{tally}");
+}
+
+/// Forces and moments of the static state, against the weight that the pressures carry.
+fn preload_is_in_equilibrium(
+    recipe: &Recipe,
+    state: &State,
+    tally: &mut Tally,
+) -> Result<(), TestCaseError> {
+    let weight = recipe.weight();
+    tally.within("preload: vertical force", (state.normal_force / weight - 1.0).abs(), 1e-10)?;
+    tally.within("preload: horizontal force", state.base_shear.abs() / weight, 1e-10)?;
+    tally.within("preload: moment", state.base_moment.abs() / (weight * recipe::WIDTH), 1e-10)
+}
+
+#[test]
+fn runs_repeat_to_the_bit() {
+    for_all("repetition", 12, &recipes(10.0), |recipe, tally| {
+        let Some(first) = accepted(recipe.run(SI, 0), tally)? else { return Ok(()) };
+        tally.see(&first);
+        let second = recipe.run(SI, 0).unwrap();
+        prop_assert!(first == second);
+        Ok(())
+    });
+}
+
+/// Pressures, shear tractions, slips and rotations of two runs, the second one's times `factors`,
+/// relative to the largest traction and length of the first.
+fn compare(
+    names: [&'static str; 4],
+    one: &[State],
+    other: &[State],
+    factors: [f64; 4],
+    mirrored: bool,
+    tally: &mut Tally,
+) -> Result<(), TestCaseError> {
+    let Scales { traction, length, .. } = Scales::of(one);
+    let scales = [traction, traction, length, length / recipe::WIDTH];
+    let count = one[0].contact.len();
+    for (a, b) in one.iter().zip(other) {
+        for e in 0..count {
+            let twin = if mirrored { count - 1 - e } else { e };
+            let (at, to) = (&a.contact[e], &b.contact[twin]);
+            let pairs = [
+                (at.pressure, to.pressure),
+                (at.shear, to.shear),
+                (at.slip, to.slip),
+                (a.base_rotation, b.base_rotation),
+            ];
+            for (k, (at, to)) in pairs.into_iter().enumerate() {
+                tally.within(names[k], (at - factors[k] * to).abs() / scales[k], 1e-8)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn mirrored_scenes_respond_as_mirror_images() {
+    let mirror = Frame { mirrored: true, ..SI };
+    let names = ["mirror: pressure", "mirror: shear", "mirror: slip", "mirror: rotation"];
+    for_all("mirror", 12, &recipes(UNIQUE), |recipe, tally| {
+        let Some(plain) = accepted(recipe.run(SI, 0), tally)? else { return Ok(()) };
+        tally.see(&plain);
+        let other = recipe.run(mirror, 0).unwrap();
+        compare(names, &plain, &other, [1.0, -1.0, -1.0, -1.0], true, tally)
+    });
+}
+
+#[test]
+fn units_do_not_matter_over_twelve_orders_of_magnitude() {
+    let powers = || (-6.0..6.0, -6.0..6.0, -6.0..6.0);
+    let names = ["units: pressure", "units: shear", "units: slip", "units: rotation"];
+    let strategy = (recipes(UNIQUE), powers());
+    for_all("units", 12, &strategy, |(recipe, (length, time, mass)), tally| {
+        let ten = |power: f64| 10.0_f64.powf(power);
+        let frame =
+            Frame { length: ten(*length), time: ten(*time), mass: ten(*mass), mirrored: false };
+        let Some(plain) = accepted(recipe.run(SI, 0), tally)? else { return Ok(()) };
+        tally.see(&plain);
+        let Some(other) = accepted(recipe.run(frame, 0), tally)? else {
+            return Err(TestCaseError::fail("refused in other units"));
+        };
+        let traction = 1.0 / frame.pressure();
+        let factors = [traction, traction, 1.0 / frame.length, 1.0];
+        compare(names, &plain, &other, factors, false, tally)
+    });
+}
+
+#[test]
+fn later_shaking_gives_the_same_response_later() {
+    let names = ["shift: pressure", "shift: shear", "shift: slip", "shift: rotation"];
+    let strategy = (recipes(UNIQUE), 1_usize..40);
+    for_all("shift", 12, &strategy, |(recipe, delay), tally| {
+        let Some(plain) = accepted(recipe.run(SI, 0), tally)? else { return Ok(()) };
+        tally.see(&plain);
+        let Some(other) = accepted(recipe.run(SI, *delay), tally)? else { return Ok(()) };
+        compare(names, &plain, &other[*delay..], [1.0; 4], false, tally)
+    });
+}
