@@ -36,7 +36,8 @@ pub(crate) enum Law {
     Coulomb(f64),
     UpliftOnly,
     Bonded,
-    ThinLayer(f64),
+    /// Friction, and share of the stiffness left in debonding.
+    ThinLayer(f64, f64),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,7 +86,7 @@ impl Recipe {
     /// Friction coefficient, infinite where nothing slides.
     pub(crate) fn friction(&self) -> f64 {
         match self.law {
-            Law::Coulomb(friction) | Law::ThinLayer(friction) => friction,
+            Law::Coulomb(friction) | Law::ThinLayer(friction, _) => friction,
             Law::UpliftOnly | Law::Bonded => f64::INFINITY,
         }
     }
@@ -103,6 +104,11 @@ impl Recipe {
     /// Whether pressure and friction obey Signorini and Coulomb exactly.
     pub(crate) fn is_hard(&self) -> bool {
         matches!(self.law, Law::Coulomb(_) | Law::UpliftOnly)
+    }
+
+    /// Whether elements carry shear while they are open.
+    pub(crate) fn pulls_while_open(&self) -> bool {
+        matches!(self.law, Law::ThinLayer(_, share) if share > 0.0)
     }
 
     /// Simulation whose ground motion begins `delay` steps late.
@@ -128,8 +134,9 @@ impl Recipe {
             Law::Coulomb(friction) => builder.interface(Coulomb::new(friction)?),
             Law::UpliftOnly => builder.interface(Coulomb::uplift_only()),
             Law::Bonded => builder.interface(Bonded),
-            Law::ThinLayer(friction) => {
-                builder.interface(ThinLayer::new(&self.soil(frame), frame.length, friction)?)
+            Law::ThinLayer(friction, share) => {
+                let layer = ThinLayer::new(&self.soil(frame), frame.length, friction)?;
+                builder.interface(layer.with_debonded_share(share)?)
             }
         };
         let builder = match self.scheme {
@@ -256,9 +263,11 @@ fn law(most_friction: f64) -> impl Strategy<Value = Law> {
         1 => Just(Law::Coulomb(0.0)),
         4 => (0.05..low).prop_map(Law::Coulomb),
         2 => (0.5 * low..most_friction).prop_map(Law::Coulomb),
-        2 => Just(Law::UpliftOnly),
+        // Friction without bound does not decide where the shear goes.
+        if most_friction < 1.0 { 0 } else { 2 } => Just(Law::UpliftOnly),
         1 => Just(Law::Bonded),
-        2 => (0.0..most_friction).prop_map(Law::ThinLayer),
+        2 => (0.0..most_friction, prop::sample::select(vec![0.0, 1e-3]))
+            .prop_map(|(friction, share)| Law::ThinLayer(friction, share)),
     ]
 }
 
