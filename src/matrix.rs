@@ -175,6 +175,22 @@ impl Matrix {
         }
     }
 
+    /// The diagonal of a matrix of order `order`.
+    pub(crate) fn diagonal(&self, order: usize) -> Vec<f64> {
+        let mut diagonal = vec![0.0; order];
+        match self {
+            Self::Sparse(matrix) => {
+                for (row, column, value) in matrix.entries() {
+                    if row == column {
+                        diagonal[row] = value;
+                    }
+                }
+            }
+            Self::Diagonal(values) => diagonal.copy_from_slice(values),
+        }
+        diagonal
+    }
+
     /// All entries that are stored.
     pub(crate) fn values(&self) -> &[f64] {
         match self {

@@ -30,8 +30,9 @@ pub struct Ledger {
     pub numerical: f64,
     /// Work done on the soil by the changes of traction: radiated and stored.
     pub soil: f64,
-    /// What friction and impact take: total tractions times minus the change of the jump, its
-    /// elastic part left out.
+    /// What friction and impact take, and what is lost with the springs of a compliant interface
+    /// when its elements open and close: total tractions times minus the change of the jump, its
+    /// elastic part left out. Never less from step to step, with any law of the crate.
     pub contact: f64,
     /// Elastic energy stored in compliant interfaces ([`crate::interface::InterfaceLaw::compliance`]),
     /// as a change against the static state; zero for hard contact.
@@ -147,9 +148,14 @@ impl Simulation {
                 let t1 = at_rest + change;
                 elastic = c0 * t0 - c1 * t1;
                 ledger.layer += 0.5 * area * (c1 * t1 * t1 - c0 * t0 * t0);
-                // The work −t₁ Δ(elastic jump) is Δ(½ c t²) and this much more.
-                let lag = c0 * (t1 - t0).powi(2) + (c1 - c0) * t1 * t1;
-                ledger.numerical += 0.5 * area * lag;
+                // The work −t₁ Δ(elastic jump) is Δ(½ c t²) and this much more: what the step takes of
+                // a spring that stays, what is lost with one that goes.
+                let lag = 0.5 * area * (c0 * (t1 - t0).powi(2) + (c1 - c0) * t1 * t1);
+                if c0 == c1 {
+                    ledger.numerical += lag;
+                } else {
+                    ledger.contact += lag;
+                }
             }
             ledger.contact -= area * (at_rest + change) * (opening - elastic);
             ledger.preload += area * at_rest * opening;

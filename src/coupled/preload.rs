@@ -94,7 +94,7 @@ pub(crate) fn solve(
     for (e, mode) in state.modes.iter_mut().enumerate() {
         *mode = law_of(laws, e).modes()[0];
     }
-    let load_scale = largest(load).max(f64::MIN_POSITIVE);
+    let measure = Measure::new(model, load);
     let mut compliance: Option<Compliance> = None;
     let mut free_jump = vec![0.0; size];
     let mut change = f64::INFINITY;
@@ -149,7 +149,7 @@ pub(crate) fn solve(
         let mut pull = vec![0.0; n];
         model.mass.multiply_add(epsilon, &moved, &mut pull);
         let previous = change;
-        change = largest(&pull) / load_scale;
+        change = measure.of(&pull);
         state.displacement = displacement;
         state.traction.copy_from_slice(&solver.traction);
         if change <= 1e-13 || (change <= 1e-10 && change >= 0.5 * previous) {
@@ -165,6 +165,38 @@ pub(crate) fn solve(
         }
     }
     Err(Error::Preload { iterations, residual: change })
+}
+
+/// How large a force is, relative to the load: each component over the square root of its mass, so
+/// that forces and moments compare in any units.
+struct Measure {
+    weights: Vec<f64>,
+    scale: f64,
+}
+
+impl Measure {
+    fn new(model: &Model, load: &[f64]) -> Self {
+        let mut weights = model.mass.diagonal(model.unknowns);
+        for weight in &mut weights {
+            *weight = if *weight > 0.0 { weight.sqrt().recip() } else { 0.0 };
+        }
+        let largest_of =
+            |w: &[f64]| w.iter().zip(load).fold(0.0_f64, |m, (w, f)| m.max(w * f.abs()));
+        let scale = largest_of(&weights);
+        if scale > 0.0 && scale.is_finite() {
+            return Self { weights, scale };
+        }
+        // Nothing but massless unknowns is loaded.
+        let weights = vec![1.0; load.len()];
+        Self { scale: largest(load).max(f64::MIN_POSITIVE), weights }
+    }
+
+    fn of(&self, force: &[f64]) -> f64 {
+        let weighted = self.weights.iter().zip(force).map(|(w, f)| w * f.abs());
+        // Unlike `max`, the sum does not lose NaN.
+        let sum: f64 = force.iter().sum();
+        if sum.is_finite() { weighted.fold(0.0, f64::max) / self.scale } else { f64::INFINITY }
+    }
 }
 
 /// Factors of K + D + εM, its answer to unit tractions, and the static Delassus operator.

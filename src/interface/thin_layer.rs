@@ -58,10 +58,14 @@ pub enum SlipSense {
 /// The share r counts against the layer's own thickness: a layer a hundred times thinner pulls a
 /// hundred times harder while it is open, so that r must shrink with the thickness.
 ///
-/// With the default [`FrictionLimit`] and [`SlipSense`] and no stiffness left in slip, shear
-/// vanishes with pressure, as friction's limit does. The other readings let an element carry shear
-/// up to its opening, or slide against its traction; a step may then have no solution, and is a
+/// With the default [`FrictionLimit`] and [`SlipSense`] and no stiffness left in slip, shear of a
+/// closed element vanishes with its pressure, as friction's limit does. An open element with r > 0
+/// carries some up to the moment it lands, when nothing is left of it: a few steps in a hundred
+/// thousand then have no solution, closed or open, and are a
 /// [`StepError::Contact`](crate::StepError::Contact).
+/// [`with_debonded_share(0.0)`](ThinLayer::with_debonded_share) has none of them. The other
+/// readings let a closed element carry shear up to its opening, or slide against its traction, and
+/// meet such steps more often.
 ///
 /// ```
 /// use basemat::{Soil, interface::ThinLayer};
