@@ -6,9 +6,7 @@ use super::AnyError;
 use super::chart::Figure;
 use super::outcome::{Case, Outcome};
 use super::support::cantilever::Cantilever;
-use super::transient::{
-    Quantity, base_motion, checks, histories, moment, panel, rotation, shear,
-};
+use super::transient::{Quantity, base_motion, checks, histories, moment, panel, rotation, shear};
 
 pub(crate) const CASE: Case = Case {
     name: "cantilever",

@@ -13,7 +13,12 @@ use super::AnyError;
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Points of a curve: more than pixels help nobody.
-const POINTS: usize = 900;
+const POINTS: usize = 700;
+
+/// Pixels of the drawing to one of the picture: coordinates in SVG files are whole numbers here.
+const SCALE: i32 = 4;
+/// Width of a thin line in it.
+const WIDTH: u32 = 4;
 
 pub(crate) const BLUE: RGBColor = RGBColor(31, 119, 180);
 pub(crate) const RED: RGBColor = RGBColor(214, 39, 40);
@@ -72,7 +77,7 @@ impl Panel {
         }
     }
 
-    /// With logarithmic axes.
+    /// With a logarithmic vertical axis.
     pub(crate) fn logarithmic(mut self) -> Self {
         self.logarithmic = true;
         self
@@ -138,49 +143,41 @@ impl Panel {
     fn range(
         &self,
         [below, above]: [f64; 2],
+        logarithmic: bool,
         pick: impl Fn(&(f64, f64)) -> f64,
     ) -> Range<f64> {
         let values = || self.series.iter().flat_map(|series| &series.points).map(&pick);
-        let mut low = values().fold(f64::INFINITY, f64::min);
-        let mut high = values().fold(f64::NEG_INFINITY, f64::max);
-        if self.logarithmic {
+        let low = values().fold(f64::INFINITY, f64::min);
+        let high = values().fold(f64::NEG_INFINITY, f64::max);
+        if logarithmic {
             let span = (high / low).ln();
             return low * (-below * span).exp()..high * (above * span).exp();
         }
         let span = (high - low).max(f64::MIN_POSITIVE);
-        low -= below * span;
-        high += above * span;
-        low..high
+        low - below * span..high + above * span
     }
 
     fn draw(&self, area: &Area) -> Result<(), AnyError> {
-        let sides = if self.logarithmic || !self.categories.is_empty() { 0.08 } else { 0.0 };
-        let (x, y) = (self.range([sides; 2], |p| p.0), self.range(self.room, |p| p.1));
+        // Signs reach beyond their place.
+        let signs = |s: &Series| matches!(s.style, Style::Circles | Style::Crosses);
+        let sides = if self.series.iter().any(signs) { 0.06 } else { 0.0 };
+        let x = self.range([sides; 2], false, |p| p.0);
+        let y = self.range(self.room, self.logarithmic, |p| p.1);
         let mut builder = ChartBuilder::on(area);
-        builder.margin(12).x_label_area_size(48).y_label_area_size(78);
-        if self.logarithmic {
-            let format = |value: &f64| format!("{value:.0e}");
-            let chart = builder.build_cartesian_2d(x.log_scale(), y.log_scale())?;
-            return self.fill(chart, &format, &format);
-        }
-        let label = |range: &Range<f64>| {
-            let step = (range.end - range.start) / 10.0;
-            let digits = (-step.log10()).ceil().clamp(0.0, 6.0);
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 6")]
-            let digits = digits as usize;
-            move |value: &f64| format!("{:.digits$}", if value.abs() < 1e-12 { 0.0 } else { *value })
-        };
-        let (format_x, format_y) = (label(&x), label(&y));
+        builder.margin(SCALE * 12).x_label_area_size(SCALE * 48).y_label_area_size(SCALE * 78);
         let names = |value: &f64| {
             let place = self.categories.iter().enumerate();
             let mut near = place.filter(|(k, _)| (*k as f64 - value).abs() < 0.01);
             near.next().map_or_else(String::new, |(_, name)| name.clone())
         };
-        let chart = builder.build_cartesian_2d(x, y)?;
-        if self.categories.is_empty() {
-            self.fill(chart, &format_x, &format_y)
+        let (plain_x, plain_y) = (plain(&x), plain(&y));
+        let format_x: &dyn Fn(&f64) -> String =
+            if self.categories.is_empty() { &plain_x } else { &names };
+        if self.logarithmic {
+            let chart = builder.build_cartesian_2d(x, y.log_scale())?;
+            self.fill(chart, format_x, &|value| format!("{value:.0e}"))
         } else {
-            self.fill(chart, &names, &format_y)
+            self.fill(builder.build_cartesian_2d(x, y)?, format_x, &plain_y)
         }
     }
 
@@ -201,9 +198,13 @@ impl Panel {
             .y_desc(&self.y)
             .x_label_formatter(&|x| format_x(x))
             .y_label_formatter(&|y| format_y(y))
-            .label_style(("sans-serif", 14))
-            .axis_desc_style(("sans-serif", 16))
-            .light_line_style(WHITE)
+            .label_style(("sans-serif", SCALE * 14))
+            .axis_desc_style(("sans-serif", SCALE * 16))
+            .x_labels(if self.categories.is_empty() { 11 } else { self.categories.len() })
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(BLACK.mix(0.15).stroke_width(WIDTH))
+            .axis_style(BLACK.stroke_width(WIDTH))
+            .set_all_tick_mark_size(SCALE * 5)
             .draw()?;
         for series in &self.series {
             series.draw(&mut chart)?;
@@ -213,8 +214,10 @@ impl Panel {
                 .configure_series_labels()
                 .position(self.legend.clone())
                 .background_style(WHITE.mix(0.85))
-                .border_style(BLACK.mix(0.3))
-                .label_font(("sans-serif", 14))
+                .border_style(BLACK.mix(0.3).stroke_width(WIDTH))
+                .margin(SCALE * 8)
+                .legend_area_size(SCALE * 30)
+                .label_font(("sans-serif", SCALE * 14))
                 .draw()?;
         }
         Ok(())
@@ -222,9 +225,9 @@ impl Panel {
 }
 
 impl Series {
-    fn draw<X, Y>(
+    fn draw<'a, 'b: 'a, X, Y>(
         &self,
-        chart: &mut ChartContext<SVGBackend, Cartesian2d<X, Y>>,
+        chart: &mut ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>,
     ) -> Result<(), AnyError>
     where
         X: Ranged<ValueType = f64>,
@@ -232,36 +235,42 @@ impl Series {
     {
         let (color, points) = (self.color, self.points.iter().copied());
         let stroke = match self.style {
-            Style::Wide => color.mix(0.35).stroke_width(6),
-            Style::Crosses => color.stroke_width(2),
-            Style::Thin | Style::Dashed | Style::Circles => color.stroke_width(1),
+            Style::Wide => color.mix(0.35).stroke_width(6 * WIDTH),
+            Style::Crosses => color.stroke_width(2 * WIDTH),
+            Style::Thin | Style::Dashed | Style::Circles => color.stroke_width(WIDTH + WIDTH / 2),
         };
+        let (radius, arm) = (SCALE * 4, SCALE * 5);
         let drawn = match self.style {
             Style::Wide | Style::Thin => chart.draw_series(LineSeries::new(points, stroke))?,
             Style::Dashed => {
-                let size = |pixels: i32| pixels.in_pixels(&(1, 1));
+                let size = |pixels: i32| (SCALE * pixels).in_pixels(&(1, 1));
                 chart.draw_series(DashedLineSeries::new(points, size(5), size(4), stroke))?
             }
-            Style::Circles => chart.draw_series(points.map(|at| Circle::new(at, 4, stroke)))?,
-            Style::Crosses => chart.draw_series(points.map(|at| Cross::new(at, 5, stroke)))?,
+            Style::Circles => {
+                chart.draw_series(points.map(|at| Circle::new(at, radius, stroke)))?
+            }
+            Style::Crosses => chart.draw_series(points.map(|at| Cross::new(at, arm, stroke)))?,
         };
         if self.name.is_empty() {
             return Ok(());
         }
+        let to = |x: i32, pixels: i32| x + SCALE * pixels;
+        let drawn = drawn.label(&self.name);
         // Each sign is a type of its own.
         match self.style {
-            Style::Wide | Style::Thin => drawn.label(&self.name).legend(move |(x, y)| {
-                PathElement::new(vec![(x, y), (x + 22, y)], stroke)
-            }),
-            Style::Dashed => drawn.label(&self.name).legend(move |(x, y)| {
-                PathElement::new(vec![(x, y), (x + 6, y), (x + 6, y)], stroke)
-            }),
-            Style::Circles => drawn
-                .label(&self.name)
-                .legend(move |(x, y)| Circle::new((x + 11, y), 4, stroke)),
-            Style::Crosses => {
-                drawn.label(&self.name).legend(move |(x, y)| Cross::new((x + 11, y), 5, stroke))
+            Style::Wide | Style::Thin => {
+                drawn.legend(move |(x, y)| PathElement::new(vec![(x, y), (to(x, 22), y)], stroke))
             }
+            Style::Dashed => drawn.legend(move |at| {
+                let dash = |from| {
+                    PathElement::new(vec![(SCALE * from, 0), (SCALE * (from + 5), 0)], stroke)
+                };
+                EmptyElement::at(at) + dash(0) + dash(9) + dash(18)
+            }),
+            Style::Circles => {
+                drawn.legend(move |(x, y)| Circle::new((to(x, 11), y), radius, stroke))
+            }
+            Style::Crosses => drawn.legend(move |(x, y)| Cross::new((to(x, 11), y), arm, stroke)),
         };
         Ok(())
     }
@@ -275,14 +284,32 @@ impl Figure {
     /// Writes the SVG.
     pub(crate) fn draw(&self, path: &Path) -> Result<(), AnyError> {
         let rows = self.panels.len().div_ceil(self.columns);
-        let height = if rows == 1 { 460 } else { 60 + 290 * rows };
-        let root = SVGBackend::new(path, (1200, u32::try_from(height)?)).into_drawing_area();
-        root.fill(&WHITE)?;
-        let body = root.titled(&self.title, ("sans-serif", 22))?;
-        for (area, panel) in body.split_evenly((rows, self.columns)).iter().zip(&self.panels) {
-            panel.draw(area)?;
+        let (width, height) = (1200, if rows == 1 { 460 } else { 60 + 290 * rows });
+        let scale = usize::try_from(SCALE)?;
+        let size = (u32::try_from(scale * width)?, u32::try_from(scale * height)?);
+        let mut text = String::new();
+        {
+            let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
+            root.fill(&WHITE)?;
+            let body =
+                root.margin(SCALE * 10, 0, 0, 0).titled(&self.title, ("sans-serif", SCALE * 22))?;
+            for (area, panel) in body.split_evenly((rows, self.columns)).iter().zip(&self.panels) {
+                panel.draw(area)?;
+            }
+            root.present()?;
         }
-        root.present()?;
-        Ok(())
+        // The view box keeps the drawing's pixels.
+        let large = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
+        let small = format!("width=\"{width}\" height=\"{height}\"");
+        Ok(std::fs::write(path, text.replacen(&large, &small, 1))?)
     }
+}
+
+/// Decimal numbers with as many digits as a tenth of the range needs.
+fn plain(range: &Range<f64>) -> impl Fn(&f64) -> String + use<> {
+    let step = (range.end - range.start) / 10.0;
+    let digits = (-step.log10()).ceil().clamp(0.0, 6.0);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 6")]
+    let digits = digits as usize;
+    move |value| format!("{:.digits$}", if value.abs() < 1e-12 { 0.0 } else { *value })
 }

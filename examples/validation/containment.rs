@@ -41,13 +41,18 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     let ledger = computed.iter().fold(0.0_f64, |m, outcome| m.max(outcome.run.ledger_residual));
     let mut checks = vec![
         Check::below("bonded: peak base shear, relative", (shear[0] / PAPER[0] - 1.0).abs(), 1e-2),
-        Check::below("uplift only: peak base shear, relative", (shear[1] / PAPER[1] - 1.0).abs(), 4e-2),
+        Check::below(
+            "uplift only: peak base shear, relative",
+            (shear[1] / PAPER[1] - 1.0).abs(),
+            4e-2,
+        ),
     ];
     let ratios = [(2, 0.4, 0.68..=0.74), (3, 0.3, 0.61..=0.67), (4, 0.2, 0.47..=0.52)];
     for (k, friction, range) in ratios {
         let ratio = shear[k] / shear[0];
         let paper = PAPER[k] / PAPER[0];
-        let name = format!("friction {friction}: shear over bonded (no reference; paper {paper:.3})");
+        let name =
+            format!("friction {friction}: shear over bonded (no reference; paper {paper:.3})");
         checks.push(Check::within(name, ratio, range));
     }
     checks.push(Check::below("energy ledger, residual", ledger, 1e-9));

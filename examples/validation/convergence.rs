@@ -122,8 +122,9 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     let mut checks = Vec::new();
     let counts = if short { &[4, 8, 16][..] } else { &[4, 8, 16, 32][..] };
     let wanted = exact();
-    let mut left =
-        Panel::new("number of elements", "error of the rotation, relative L2").logarithmic();
+    let mut left = Panel::new("number of elements", "error of the rotation, relative L2")
+        .categories(&["4", "8", "16", "32"])
+        .logarithmic();
     for (grading, name, color, range) in [
         (Grading::Uniform, "uniform elements", RED, [0.8, 1.2]),
         (Grading::Cosine, "cosine-graded elements", BLUE, [1.7, 2.3]),
@@ -134,19 +135,19 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
             errors.push(distance(&found, &wanted));
         }
         add(&mut checks, name, orders(&errors, 1), range);
-        let points = counts.iter().zip(&errors).map(|(n, e)| (*n as f64, e[1]));
-        left = left.circles(name, color, points.collect());
-        let end = counts[counts.len() - 1] as f64;
+        left = left.circles(name, color, points(0, &errors));
         let power = if grading == Grading::Uniform { 1 } else { 2 };
-        let at = |n: f64| errors[errors.len() - 1][1] * (end / n).powi(power);
-        let slope = format!("order {power}");
-        left = left.dashed(&slope, color, vec![(4.0, at(4.0)), (end, at(end))]);
+        let last = errors.len() - 1;
+        let end = (last as f64, errors[last][1]);
+        let start = (0.0, end.1 * 2.0_f64.powf(f64::from(power) * end.0));
+        left = left.dashed(&format!("order {power}"), color, vec![start, end]);
     }
 
     let mesh = (Grading::Cosine, 8);
     let mut right = Panel::new("time step Δt c_S/b", "error of the rotation, relative L2")
-        .legend(SeriesLabelPosition::LowerRight)
-        .room(0.35, 0.08)
+        .legend(SeriesLabelPosition::LowerLeft)
+        .categories(&["0.2", "0.1", "0.05", "0.025", "0.0125"])
+        .room(0.1, 0.08)
         .logarithmic();
     let finest = history(BONDED, mesh, 0.003_125)?;
     let steps = [0.2, 0.1, 0.05, 0.025];
@@ -155,11 +156,11 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         errors.push(distance(&history(BONDED, mesh, step)?, &finest));
     }
     add(&mut checks, "time step, bonded", orders(&errors, 2), [1.8, 2.2]);
-    right = right.circles("bonded", BLUE, points(&steps, &errors));
-    let line = |power: i32, start: f64| {
-        [0.2, 0.0125].map(|step: f64| (step, start * (step / 0.2).powi(power))).to_vec()
-    };
-    right = right.dashed("order 2", GRAY, line(2, errors[0][1]));
+    right = right.circles("bonded", BLUE, points(0, &errors));
+    for (power, color, start) in [(2, BLUE, errors[0][1]), (1, GRAY, 0.09)] {
+        let end = start * 0.5_f64.powi(4 * power);
+        right = right.dashed(&format!("order {power}"), color, vec![(0.0, start), (4.0, end)]);
+    }
     let list = [
         ("sliding", ORANGE, Scene { friction: Some(0.5), ..CONTACT }),
         ("rocking", GREEN, Scene { friction: Some(f64::INFINITY), ..CONTACT }),
@@ -178,12 +179,18 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
             errors.push(distance(&history(*scene, mesh, step)?, &finest));
         }
         add(&mut checks, &format!("time step, {name}"), orders(&errors, 3), [1.0, 3.0]);
-        right = right.circles(name, *color, points(&steps, &errors));
+        right = right.circles(name, *color, points(1, &errors));
     }
-    let title = "Rigid block under an SV pulse: error against elements (left) and time step (right)";
+    let title =
+        "Rigid block under an SV pulse: error against elements (left) and time step (right)";
     Ok(Outcome { checks, figure: Figure::new(title, 2, vec![left, right]) })
 }
 
-fn points(steps: &[f64], errors: &[[f64; 3]]) -> Vec<(f64, f64)> {
-    steps.iter().zip(errors).map(|(step, error)| (*step, error[1])).collect()
+/// Errors of the rotation, the first at the halving of number `first`.
+fn points(first: u8, errors: &[[f64; 3]]) -> Vec<(f64, f64)> {
+    errors
+        .iter()
+        .enumerate()
+        .map(|(k, error)| ((k + usize::from(first)) as f64, error[1]))
+        .collect()
 }

@@ -55,9 +55,9 @@ fn held(soil: &Soil, distance: f64, time: f64, steps: usize) -> Result<[f64; 3],
     let kernel = InfluenceKernel::new(soil, time / steps as f64)?;
     let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
     let pair = kernel.pair(element(distance), element(0.0))?;
-    Ok((1..=steps).map(|lag| pair.at(lag)).fold([0.0; 3], |[xx, zx, zz], g| {
-        [xx + g.xx, zx + g.zx, zz + g.zz]
-    }))
+    Ok((1..=steps)
+        .map(|lag| pair.at(lag))
+        .fold([0.0; 3], |[xx, zx, zz], g| [xx + g.xx, zx + g.zx, zz + g.zz]))
 }
 
 /// Relative distance of late step coefficients from their limit: u grows by (1−ν)/(π μ) ln t.
@@ -112,7 +112,9 @@ fn figure() -> Result<Figure, AnyError> {
     }
     let mean = table("lamb_galerkin_nu025.csv");
     let rows = mean.rows(["d", "t", "yy"]);
-    let mut right = Panel::new("c_S t / l", "μ ū_zz / (p l)").legend(SeriesLabelPosition::UpperLeft);
+    let mut right = Panel::new("c_S t / l", "μ ū_zz / (p l)")
+        .legend(SeriesLabelPosition::UpperLeft)
+        .room(0.05, 0.35);
     let end = rows.iter().fold(0.0_f64, |end, row| end.max(row[1])).min(4.0);
     for (distance, color) in [(0.0, BLUE), (1.0, RED), (2.0, GREEN)] {
         let points: Vec<_> = rows.iter().filter(|r| r[0] == distance && r[1] <= end).collect();

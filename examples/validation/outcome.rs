@@ -39,11 +39,7 @@ impl Check {
     }
 
     /// A number that must lie in a range.
-    pub(crate) fn within(
-        name: impl Into<String>,
-        value: f64,
-        limits: RangeInclusive<f64>,
-    ) -> Self {
+    pub(crate) fn within(name: impl Into<String>, value: f64, limits: RangeInclusive<f64>) -> Self {
         Self { name: name.into(), value, limits }
     }
 

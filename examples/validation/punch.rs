@@ -100,7 +100,8 @@ fn run(_short: bool) -> Result<Outcome, AnyError> {
     let limits = [1e-3, 1.2e-3, 2.5e-3, 7.2e-3];
     let mut checks = Vec::new();
     let (mut order, mut edge, mut table_error) = ([f64::INFINITY, 0.0_f64], 0.0_f64, 0.0_f64);
-    let rows = table("halfplane_tilted_punch.csv").rows(["nu", "f", "e", "theta", "contact_length"]);
+    let rows =
+        table("halfplane_tilted_punch.csv").rows(["nu", "f", "e", "theta", "contact_length"]);
     for (e, limit) in ECCENTRICITIES.into_iter().zip(limits) {
         let mut worst = 0.0_f64;
         for poisson in [0.0, 1.0 / 3.0] {
@@ -124,7 +125,11 @@ fn run(_short: bool) -> Result<Outcome, AnyError> {
                 }
             }
         }
-        checks.push(Check::below(format!("tilt at e = {e} b, 40 elements, relative"), worst, limit));
+        checks.push(Check::below(
+            format!("tilt at e = {e} b, 40 elements, relative"),
+            worst,
+            limit,
+        ));
     }
     checks.push(Check::within("order in the element size, smallest", order[0], 1.9..=2.2));
     checks.push(Check::within("order in the element size, largest", order[1], 1.9..=2.2));
@@ -139,7 +144,11 @@ fn run(_short: bool) -> Result<Outcome, AnyError> {
             (p * element.length() - wanted).abs()
         })
         .sum();
-    checks.push(Check::below("pressure at e = 0.75 b, misplaced part of the load", misplaced, 1e-2));
+    checks.push(Check::below(
+        "pressure at e = 0.75 b, misplaced part of the load",
+        misplaced,
+        1e-2,
+    ));
     Ok(Outcome { checks, figure: figure(&pressed)? })
 }
 
@@ -153,7 +162,8 @@ fn figure(pressed: &Found) -> Result<Figure, AnyError> {
         .legend(SeriesLabelPosition::LowerRight)
         .dashed("without uplift", GREEN, bonded)
         .reference("closed form", RED, curve);
-    for (elements, name, color) in [(10, "basemat, 10 elements", GREEN), (40, "40 elements", BLUE)] {
+    for (elements, name, color) in [(10, "basemat, 10 elements", GREEN), (40, "40 elements", BLUE)]
+    {
         let mut points = Vec::new();
         for e in [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.93] {
             points.push((punch(0.0, e, elements)?.tilt / unit, e));

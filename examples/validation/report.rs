@@ -120,8 +120,7 @@ fn processor() -> String {
 
 /// `text` with `new` between the markers called `name`.
 fn splice(text: &str, name: &str, new: &str) -> Result<String, AnyError> {
-    let [begin, end] =
-        ["begin", "end"].map(|which| format!("<!-- validation {name}: {which} -->"));
+    let [begin, end] = ["begin", "end"].map(|which| format!("<!-- validation {name}: {which} -->"));
     let missing = || format!("validation.md: no markers '{begin}', '{end}'");
     let (before, rest) = text.split_once(&begin).ok_or_else(missing)?;
     let (_, after) = rest.split_once(&end).ok_or_else(missing)?;

@@ -84,14 +84,10 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         checks.extend(each.map(|((name, error), limit)| Check::below(name, error, limit)));
     }
     let curves = shown.ok_or("no table")?;
-    let titles = [
-        "horizontal: K_hh/μ",
-        "vertical: K_vv/μ",
-        "rocking: K_rr/(μb²)",
-        "coupling: K_hr/(μb)",
-    ];
+    let titles =
+        ["horizontal: K_hh/μ", "vertical: K_vv/μ", "rocking: K_rr/(μb²)", "coupling: K_hr/(μb)"];
     let panels = titles.iter().enumerate().map(|(k, title)| {
-        let mut panel = Panel::new("a₀ = ωb/c_S", title).room(0.05, 0.5);
+        let mut panel = Panel::new("a₀ = ωb/c_S", title).room(0.05, 0.85);
         panel = panel.legend(SeriesLabelPosition::UpperMiddle);
         for (part, name, color) in [(0, "Re K", BLUE), (1, "Im K / a₀", RED)] {
             let (wanted, found) =
@@ -101,6 +97,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         }
         panel
     });
-    let title = "Bonded rigid strip of half width b, ν = 1/3: impedances (rotation lowers the right side)";
+    let title =
+        "Bonded rigid strip of half width b, ν = 1/3: impedances (rotation lowers the right side)";
     Ok(Outcome { checks, figure: Figure::new(title, 2, panels.collect()) })
 }

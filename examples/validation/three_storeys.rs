@@ -6,9 +6,7 @@ use basemat::structure::{ShearBuilding, Storey};
 use super::AnyError;
 use super::chart::Figure;
 use super::outcome::{Case, Outcome};
-use super::transient::{
-    Quantity, base_motion, checks, histories, moment, panel, rotation, shear,
-};
+use super::transient::{Quantity, base_motion, checks, histories, moment, panel, rotation, shear};
 
 pub(crate) const CASE: Case = Case {
     name: "three_storeys",
@@ -28,7 +26,8 @@ fn run(_short: bool) -> Result<Outcome, AnyError> {
     };
     let building = ShearBuilding::new(2.0, 1.0, 1.0 / 3.0, &[storey; 3])?;
     let rows = building.shear(0)?;
-    let storey_shear = move |s: &State| rows.value(s.displacement(), s.velocity(), s.acceleration());
+    let storey_shear =
+        move |s: &State| rows.value(s.displacement(), s.velocity(), s.acceleration());
     // Storey displacements relative to the frame of the base.
     let relative = |j: u8| {
         move |state: &State| {
@@ -53,7 +52,8 @@ fn run(_short: bool) -> Result<Outcome, AnyError> {
     )?;
     let units = [" / A", " b / A", " / A", " / A", " / (μ A)", " / (μ A)", " / (μ A b)"];
     let panels = [0, 3, 4, 6].map(|k| panel(&found[k], units[k]));
-    let title = "Three storeys of height b on a massive rigid base, 5 % damping in the first mode, ν = 1/3";
+    let title =
+        "Three storeys of height b on a massive rigid base, 5 % damping in the first mode, ν = 1/3";
     let figure = Figure::new(title, 2, panels.into());
     Ok(Outcome { checks: checks(&found, ledger), figure })
 }

@@ -121,7 +121,8 @@ pub(crate) fn checks(histories: &[History], ledger: f64) -> Vec<Check> {
 
 /// A panel with one history.
 pub(crate) fn panel(history: &History, unit: &str) -> Panel {
-    let points = |values: &[f64]| history.times.iter().copied().zip(values.iter().copied()).collect();
+    let points =
+        |values: &[f64]| history.times.iter().copied().zip(values.iter().copied()).collect();
     Panel::new("t c_S / b", &format!("{}{unit}", history.name))
         .reference("frequency-domain table", RED, points(&history.wanted))
         .line("basemat", BLUE, points(&history.found))

@@ -107,18 +107,11 @@ const SAMPLE: f64 = 0.01;
 ///
 /// Each strip of the bed presses with p = k s + c ṡ while it touches the mat and p > 0; where p
 /// would turn to tension the mat leaves it, and it creeps back by k s + c ṡ = 0 until they meet.
-fn reference(
-    model: &Model,
-    record: &Record,
-    strips: usize,
-    step: f64,
-    duration: f64,
-) -> History {
+fn reference(model: &Model, record: &Record, strips: usize, step: f64, duration: f64) -> History {
     let Model { mass, mat, height, half_width, stiffness, damping, bed_stiffness, bed_dashpot } =
         *model;
     let length = 2.0 * half_width / strips as f64;
-    let places: Vec<f64> =
-        (0..strips).map(|e| (e as f64 + 0.5) * length - half_width).collect();
+    let places: Vec<f64> = (0..strips).map(|e| (e as f64 + 0.5) * length - half_width).collect();
     let samples = record.accelerations();
     let ground = |time: f64| {
         let place = time / record.time_step();
@@ -206,12 +199,8 @@ fn computed(
     let run = simulation.run(whole(duration / time_step), |state| {
         if state.step % every == 0 {
             let u = state.displacement();
-            let values = [
-                u[3] - u[0] + model.height * u[2],
-                settled - u[1],
-                u[2],
-                state.uplifted_fraction,
-            ];
+            let values =
+                [u[3] - u[0] + model.height * u[2], settled - u[1], u[2], state.uplifted_fraction];
             history.iter_mut().zip(values).for_each(|(list, value)| list.push(value));
         }
     })?;
@@ -267,11 +256,12 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         .line("basemat, 40 elements, 1 ms", BLUE, points(&found[0], 1e3))
         .legend(SeriesLabelPosition::UpperRight);
     let panels = vec![
-        deformation.room(0.05, 0.4),
+        deformation.room(0.05, 0.6),
         panel("tilt of the mat, mrad", 2, 1e3).room(0.05, 0.3),
-        panel("settlement of its middle, mm", 1, 1e3).room(0.05, 0.3),
-        panel("uplifted part of the mat", 3, 1.0).room(0.05, 0.35),
+        panel("settlement of its middle, mm", 1, 1e3).room(0.05, 0.5),
+        panel("uplifted part of the mat", 3, 1.0).room(0.05, 0.5),
     ];
-    let title = "Column of 0.6 s on a mat on springs and dashpots without tension, El Centro 1940 NS";
+    let title =
+        "Column of 0.6 s on a mat on springs and dashpots without tension, El Centro 1940 NS";
     Ok(Outcome { checks, figure: Figure::new(title, 2, panels) })
 }
