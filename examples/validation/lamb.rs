@@ -115,14 +115,18 @@ fn figure() -> Result<Figure, AnyError> {
     let mut right = Panel::new("c_S t / l", "μ ū_zz / (p l)")
         .legend(SeriesLabelPosition::UpperLeft)
         .room(0.05, 0.35);
-    let end = rows.iter().fold(0.0_f64, |end, row| end.max(row[1])).min(4.0);
-    for (distance, color) in [(0.0, BLUE), (1.0, RED), (2.0, GREEN)] {
+    let end = rows.iter().fold(0.0_f64, |end, row| end.max(row[1])).min(3.5);
+    for (distance, place, color) in [
+        (0.0, "the loaded element", BLUE),
+        (1.0, "its neighbour", RED),
+        (2.0, "the next one", GREEN),
+    ] {
         let points: Vec<_> = rows.iter().filter(|r| r[0] == distance && r[1] <= end).collect();
         if points.is_empty() {
             continue;
         }
         let points = points.into_iter().map(|row| (row[1], row[2])).collect();
-        right = right.circles(&format!("{distance} elements away, table"), color, points);
+        right = right.circles(&format!("{place}, table"), color, points);
         let kernel = InfluenceKernel::new(&soil, 0.02)?;
         let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
         let pair = kernel.pair(element(distance), element(0.0))?;
@@ -135,7 +139,7 @@ fn figure() -> Result<Figure, AnyError> {
             sum += pair.at(lag).zz;
             found.push((time, sum));
         }
-        right = right.line("summed step coefficients", color, found);
+        right = right.line("basemat, summed coefficients", color, found);
     }
     Ok(Figure::new(
         "Lamb's problem, ν = 1/4: line load (left), uniform load on an element of length l (right)",

@@ -119,10 +119,12 @@ pub(crate) fn checks(histories: &[History], ledger: f64) -> Vec<Check> {
     checks
 }
 
-/// A panel with one history.
+/// A panel with the first 25 b/c_S of a history; what follows is small.
 pub(crate) fn panel(history: &History, unit: &str) -> Panel {
-    let points =
-        |values: &[f64]| history.times.iter().copied().zip(values.iter().copied()).collect();
+    let points = |values: &[f64]| {
+        let each = history.times.iter().copied().zip(values.iter().copied());
+        each.take_while(|(time, _)| *time <= 25.0).collect()
+    };
     Panel::new("t c_S / b", &format!("{}{unit}", history.name))
         .reference("frequency-domain table", RED, points(&history.wanted))
         .line("basemat", BLUE, points(&history.found))
