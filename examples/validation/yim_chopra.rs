@@ -233,14 +233,14 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         "tilt, relative L2",
         "uplifted part of the mat, relative L2",
     ];
-    let mut checks = Check::list(&names, &errors(&found, &wanted), &[5e-3, 5e-3, 5e-3, 5e-2]);
+    let mut checks = Check::list(&names, &errors(&found, &wanted), &[4e-3, 5e-3, 4e-3, 2.5e-2]);
     let ratio = peak(&found[0]) / peak(&wanted[0]);
     checks.push(Check::below("peak deformation, relative", (ratio - 1.0).abs(), 2e-3));
     let own = errors(&coarser, &wanted)[..3].iter().fold(0.0_f64, |m, e| m.max(*e));
     checks.push(Check::below("reference against half its strips and steps", own, 1e-3));
     checks.push(Check::below("energy ledger, residual", ledger, 1e-9));
     let reduced = peak(&found[0]) / peak(&bonded[0]);
-    checks.push(Check::within("peak deformation over that without uplift", reduced, 0.0..=0.9));
+    checks.push(Check::within("peak deformation over that without uplift", reduced, 0.2..=0.6));
     let points = |values: &[f64], unit: f64| {
         let each = values.iter().enumerate();
         each.map(|(k, value)| (k as f64 * SAMPLE, unit * value)).collect::<Vec<_>>()
