@@ -82,7 +82,7 @@
 //! exactly and for every time step, mesh and Poisson's ratio:
 //!
 //! ```text
-//! kinetic + strain + damping + numerical + soil + contact + layer + preload = input
+//! kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input
 //! ```
 //!
 //! The soil's term is the energy that the tractions put into a real half-plane, so it is never

@@ -7,7 +7,7 @@ use basemat::bem::SpringGround;
 use basemat::coupled::{Ledger, Newmark, Run, SimulationBuilder, Theta};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::{Activation, Bonded, ThinLayer};
-use basemat::structure::{FemModel, RayleighDamping};
+use basemat::structure::{Bilinear, FemModel, RayleighDamping, RigidBlock, WithSprings};
 use scenes::{Rider, SI, block, friction, scene, shake, soil, tower};
 
 fn run(builder: SimulationBuilder, steps: usize) -> Run {
@@ -42,6 +42,12 @@ fn kinds() -> Vec<(&'static str, Run)> {
             "nonlinear",
             run(base().structure(Rider { block: block(SI) }).interface(friction(0.4)), 400),
         ),
+        ("yielding damper", {
+            let sway = vec![(RigidBlock::HORIZONTAL, 1.0)];
+            let law = Bilinear::new(1e7, 2e4, 0.1).unwrap();
+            let held = WithSprings::new(block(SI)).spring(sway, law).unwrap();
+            run(base().structure(held).interface(friction(0.4)), 400)
+        }),
         ("spring bed", {
             let bed = SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap();
             let bed = bed.with_dashpots(4e5, 3e5).unwrap();
@@ -51,10 +57,11 @@ fn kinds() -> Vec<(&'static str, Run)> {
 }
 
 /// The terms of a ledger, those of its left-hand side first.
-fn terms(ledger: &mut Ledger) -> [(&'static str, &mut f64); 9] {
+fn terms(ledger: &mut Ledger) -> [(&'static str, &mut f64); 10] {
     [
         ("kinetic", &mut ledger.kinetic),
         ("strain", &mut ledger.strain),
+        ("hysteresis", &mut ledger.hysteresis),
         ("damping", &mut ledger.damping),
         ("numerical", &mut ledger.numerical),
         ("soil", &mut ledger.soil),
@@ -67,12 +74,12 @@ fn terms(ledger: &mut Ledger) -> [(&'static str, &mut f64); 9] {
 
 #[test]
 fn ledger_closes_and_every_term_counts() {
-    let mut seen = [false; 9];
+    let mut seen = [false; 10];
     for (name, run) in kinds() {
         let residual = run.ledger.residual();
         println!("{name}: largest {:.1e}, end {residual:.1e}", run.ledger_residual);
         assert!(run.ledger_residual < 1e-10, "{name}: {:e}", run.ledger_residual);
-        for k in 0..9 {
+        for k in 0..10 {
             let mut ledger = run.ledger;
             let (term, value) = terms(&mut ledger).into_iter().nth(k).unwrap();
             let size = value.abs();
@@ -86,7 +93,7 @@ fn ledger_closes_and_every_term_counts() {
             }
         }
     }
-    assert_eq!(seen, [true; 9], "a term was never put to the test");
+    assert_eq!(seen, [true; 10], "a term was never put to the test");
 }
 
 /// A stiff structure that rides far with the ground: K u and ½ u·K u are those of a deformation of

@@ -8,7 +8,7 @@ use crate::error::{CheckpointError, Result};
 use crate::interface::{ContactState, Mode, StepStart, law_of};
 
 /// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 /// Most steps that a checkpoint may stand for: more would not fit into any run.
 const MOST_STEPS: usize = 1 << 47;
 /// How far numbers of the same scene may be apart (other processors round differently).
@@ -279,6 +279,7 @@ fn numbers<'a>(state: &'a mut State, memory: &'a mut Memory) -> Vec<&'a mut f64>
     let Ledger {
         kinetic,
         strain,
+        hysteresis,
         damping,
         numerical,
         soil,
@@ -289,7 +290,7 @@ fn numbers<'a>(state: &'a mut State, memory: &'a mut Memory) -> Vec<&'a mut f64>
         soil_error_bound,
     } = &mut state.ledger;
     let mut all = vec![nonlinear_work, kinetic, strain, damping, numerical, soil, contact];
-    all.extend([layer, preload, input, soil_error_bound]);
+    all.extend([layer, preload, input, soil_error_bound, hysteresis]);
     all.extend(ride_velocity.iter_mut().chain(ride_acceleration).chain(&mut state.free_field));
     let motion = &mut state.motion;
     for values in [&mut motion.displacement, &mut motion.velocity, &mut motion.acceleration] {

@@ -12,7 +12,7 @@ use crate::linalg::{dense_multiply_add, dot};
 /// Energies since the start, J per metre of thickness.
 ///
 /// ```text
-/// kinetic + strain + damping + numerical + soil + contact + layer + preload = input
+/// kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input
 /// ```
 ///
 /// holds exactly for the discrete equations. Every term is computed from its own definition and
@@ -21,12 +21,19 @@ use crate::linalg::{dense_multiply_add, dot};
 pub struct Ledger {
     /// ½ v·M v.
     pub kinetic: f64,
-    /// ½ u·K u, plus the work of the nonlinear internal force.
+    /// ½ u·K u, plus what the nonlinear internal force stores: its work, where the structure does
+    /// not tell stored from dissipated energy.
     pub strain: f64,
+    /// What hysteretic parts of the structure have turned into heat
+    /// ([`Structure::nonlinear_energy`](crate::structure::Structure::nonlinear_energy)); never less
+    /// than before.
+    pub hysteresis: f64,
     /// Work of the dashpots, on displacements relative to the free field.
     pub damping: f64,
     /// What the time scheme takes: of the structure (zero for the midpoint rule), and of compliant
-    /// interfaces, whose traction is that of the end of the step all through it.
+    /// interfaces, whose traction is that of the end of the step all through it. With a nonlinear
+    /// force of known energies, also its work in the discrete equation beyond them: the error of
+    /// one point in a step, of either sign.
     pub numerical: f64,
     /// Work done on the soil by the changes of traction: radiated and stored.
     pub soil: f64,
@@ -53,6 +60,7 @@ impl Ledger {
         let left = [
             self.kinetic,
             self.strain,
+            self.hysteresis,
             self.damping,
             self.numerical,
             self.soil,
@@ -114,7 +122,23 @@ impl Simulation {
             ledger.numerical += model.stiffness.form(du, rest);
         }
         if !model.linear {
-            memory.nonlinear_work += dot(&work.force, du);
+            let done = dot(&work.force, du);
+            for (i, x) in work.total.iter_mut().enumerate() {
+                *x = self.static_state.displacement[i] + u0[i] + du[i];
+            }
+            let rest = self.static_energy.zip(model.structure.nonlinear_energy(&work.total));
+            if let Some((start, energy)) = rest {
+                // Forces count from the static ones, and so does the energy that they store.
+                let against: f64 =
+                    self.static_force.iter().zip(u0).zip(du).map(|((f, u), du)| f * (u + du)).sum();
+                let stored = energy.stored - start.stored - against;
+                let dissipated = energy.dissipated - start.dissipated;
+                ledger.numerical +=
+                    done - (stored - memory.nonlinear_work) - (dissipated - ledger.hysteresis);
+                (memory.nonlinear_work, ledger.hysteresis) = (stored, dissipated);
+            } else {
+                memory.nonlinear_work += done;
+            }
         }
         for ((x, u), du) in work.vector.iter_mut().zip(u0).zip(du) {
             *x = u + du;
@@ -174,6 +198,9 @@ impl fmt::Display for Ledger {
             "  damping     {:>12.4e}    numerical   {:>12.4e}",
             self.damping, self.numerical
         )?;
+        if self.hysteresis != 0.0 {
+            writeln!(f, "  hysteresis  {:>12.4e}", self.hysteresis)?;
+        }
         if self.layer != 0.0 {
             writeln!(f, "  layer       {:>12.4e}", self.layer)?;
         }

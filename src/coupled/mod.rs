@@ -53,7 +53,7 @@
 //! # Ledger
 //!
 //! ```text
-//! kinetic + strain + damping + numerical + soil + contact + layer + preload = input
+//! kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input
 //! ```
 //!
 //! holds exactly for the discrete equations; see [`Ledger`] for the terms. [`Run::ledger_residual`]

@@ -18,6 +18,7 @@ use crate::error::Result;
 use crate::interface::{ContactState, InterfaceLaw, StepStart, law_of};
 use crate::linalg::SparseMatrix;
 use crate::motion::FreeField;
+use crate::structure::InternalEnergy;
 
 /// A structure on a ground, ready to march.
 ///
@@ -39,6 +40,8 @@ pub struct Simulation {
     pub(super) static_load: Vec<f64>,
     /// f(u) at the static state, nonlinear structures only.
     pub(super) static_force: Vec<f64>,
+    /// Its energies there, where the structure knows them.
+    pub(super) static_energy: Option<InternalEnergy>,
     /// Instantaneous operator of the ground, 2Q × 2Q.
     pub(super) soil: Vec<f64>,
     pub(super) operators: Operators,
@@ -72,7 +75,7 @@ pub(super) struct Memory {
     pub(super) free_field: Vec<f64>,
     pub(super) soil_displacement: Vec<f64>,
     pub(super) jump: Vec<f64>,
-    /// Work of the nonlinear internal force so far.
+    /// Work of the nonlinear internal force so far; what it stores, where that is known.
     pub(super) nonlinear_work: f64,
 }
 
@@ -159,7 +162,9 @@ impl Simulation {
         let mut jump = at.gap.clone();
         jump.resize(size, 0.0);
         let mut static_force = vec![0.0; n];
+        let mut static_energy = None;
         if !parts.model.linear {
+            static_energy = parts.model.structure.nonlinear_energy(&at.displacement);
             parts.model.structure.nonlinear_force(&at.displacement, &mut static_force);
         }
         let elements = parts.ground.elements().to_vec();
@@ -176,6 +181,7 @@ impl Simulation {
             conserves_energy: parts.coefficients.conserves_energy(parts.time_step),
             static_load: parts.static_load,
             static_force,
+            static_energy,
             soil: parts.soil,
             operators: parts.operators,
             arms: parts.arms,

@@ -1,6 +1,6 @@
 //! Several structures on one ground.
 
-use super::{ContactNode, Structure, Triplets};
+use super::{ContactNode, InternalEnergy, Structure, Triplets};
 use crate::error::{CheckpointError, Error, Result, finite};
 
 /// A structure of the group and where it stands.
@@ -195,6 +195,17 @@ impl Structure for StructureGroup {
                 });
             }
         }
+    }
+
+    /// Known if all nonlinear members know theirs.
+    fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
+        let mut sum = InternalEnergy { stored: 0.0, dissipated: 0.0 };
+        for member in self.members.iter().filter(|member| !member.structure.is_linear()) {
+            let own = member.structure.nonlinear_energy(displacement.get(member.range())?)?;
+            sum.stored += own.stored;
+            sum.dissipated += own.dissipated;
+        }
+        Some(sum)
     }
 
     fn commit(&mut self, displacement: &[f64]) {

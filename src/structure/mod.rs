@@ -1,21 +1,29 @@
-//! Structures: the trait that users implement, and three implementations of it.
+//! Structures: the trait that users implement, implementations of it, and springs with a memory.
 
 mod contact_node;
 mod fem_model;
 mod group;
+mod hysteresis;
+mod nonlinear_shear_building;
 mod rayleigh;
 mod rigid_block;
 mod section;
 mod shear_building;
+mod springs;
 mod triplets;
 
 pub use contact_node::ContactNode;
 pub use fem_model::FemModel;
 pub use group::StructureGroup;
+pub use hysteresis::{
+    Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
+};
+pub use nonlinear_shear_building::{IsolationLevel, NonlinearShearBuilding};
 pub use rayleigh::RayleighDamping;
 pub use rigid_block::RigidBlock;
 pub use section::{Section, SectionRows};
 pub use shear_building::{ShearBuilding, Storey};
+pub use springs::WithSprings;
 pub use triplets::Triplets;
 
 use crate::error::{CheckpointError, Result};
@@ -62,7 +70,7 @@ pub trait Structure: Send {
     /// Adds the external load at `time` (n, N/m), weight excepted, to `load`. Default: none.
     fn load(&self, _time: f64, _load: &mut [f64]) {}
 
-    /// Whether f(u) is zero (the default); the two methods below are then never called.
+    /// Whether f(u) is zero (the default); the methods below are then never called.
     fn is_linear(&self) -> bool {
         true
     }
@@ -72,6 +80,14 @@ pub trait Structure: Send {
 
     /// Adds the tangent ∂f/∂u to `matrix`, with the same sparsity at every call or less.
     fn nonlinear_tangent(&self, _displacement: &[f64], _matrix: &mut Triplets) {}
+
+    /// Energies of f at `displacement`, reached from the last committed one, where the structure
+    /// knows them: what is stored then counts as strain energy of the ledger, and what is
+    /// dissipated as [`hysteresis`](crate::coupled::Ledger::hysteresis). Default: unknown, and all
+    /// work of f counts as strain energy.
+    fn nonlinear_energy(&self, _displacement: &[f64]) -> Option<InternalEnergy> {
+        None
+    }
 
     /// Accepts a step that ended with `displacement`: internal variables may change here only. Not
     /// called for a linear structure, which has none.

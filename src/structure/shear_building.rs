@@ -52,6 +52,8 @@ pub struct ShearBuilding {
     base_mass: f64,
     base_inertia: f64,
     storeys: Vec<Storey>,
+    /// Whether a storey's stiffness is left to a law of [`super::NonlinearShearBuilding`].
+    released: Vec<bool>,
     center: f64,
     stiffness_damping: f64,
     gravity: f64,
@@ -91,6 +93,7 @@ impl ShearBuilding {
             base_mass,
             base_inertia,
             storeys: storeys.to_vec(),
+            released: vec![false; storeys.len()],
             center: 0.0,
             stiffness_damping: 0.0,
             gravity: 0.0,
@@ -214,6 +217,24 @@ impl ShearBuilding {
         square.sqrt() / TAU
     }
 
+    /// The same building with `storey` below its lowest one.
+    pub(super) fn on_storey(mut self, storey: Storey) -> Result<Self> {
+        self.storeys.insert(0, storey);
+        self.released.insert(0, false);
+        finite("mass of the building", self.total_mass())?;
+        Ok(self)
+    }
+
+    /// Leaves the stiffness of `storey` to somebody else.
+    pub(super) fn release(&mut self, storey: usize) -> Result<()> {
+        self.floor(storey)?;
+        if std::mem::replace(&mut self.released[storey], true) {
+            let needed = "one law at most";
+            return Err(Error::Scene { quantity: "law of a storey", needed });
+        }
+        Ok(())
+    }
+
     fn inertia_forces<'a>(&'a self, shape: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         self.storeys.iter().zip(shape).map(|(storey, u)| storey.mass * u)
     }
@@ -234,11 +255,13 @@ impl ShearBuilding {
     }
 
     /// Adds lᵀl of each storey's drift times `factor(storey)`.
-    fn add_drifts(&self, matrix: &mut Triplets, factor: impl Fn(&Storey) -> f64) {
+    /// The factor gets the columns' stiffness, zero where it was left to somebody else.
+    fn add_drifts(&self, matrix: &mut Triplets, factor: impl Fn(&Storey, f64) -> f64) {
         for (index, storey) in self.storeys.iter().enumerate() {
             let [upper, lower] = Self::sway_row(index);
             let row = [upper, lower, (Self::ROTATION, storey.height)];
-            matrix.add_outer(&row, factor(storey));
+            let stiffness = if self.released[index] { 0.0 } else { storey.stiffness };
+            matrix.add_outer(&row, factor(storey, stiffness));
         }
     }
 }
@@ -263,7 +286,7 @@ impl Structure for ShearBuilding {
     }
 
     fn stiffness(&self, matrix: &mut Triplets) {
-        self.add_drifts(matrix, |storey| storey.stiffness);
+        self.add_drifts(matrix, |_, stiffness| stiffness);
         if self.gravity > 0.0 {
             for (index, storey) in self.storeys.iter().enumerate() {
                 let softening = self.weight_on(index) / storey.height;
@@ -273,6 +296,8 @@ impl Structure for ShearBuilding {
     }
 
     fn damping(&self, matrix: &mut Triplets) {
-        self.add_drifts(matrix, |s| s.damping + self.stiffness_damping * s.stiffness);
+        self.add_drifts(matrix, |storey, stiffness| {
+            storey.damping + self.stiffness_damping * stiffness
+        });
     }
 }

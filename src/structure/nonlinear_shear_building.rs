@@ -1,0 +1,157 @@
+//! Shear building with yielding storeys, or on isolators.
+
+use super::hysteresis::{Hysteresis, InternalEnergy};
+use super::section::SectionRows;
+use super::springs::Springs;
+use super::{ContactNode, ShearBuilding, Storey, Structure, Triplets};
+use crate::error::{Result, not_negative, positive};
+
+/// The level of isolators between the basemat and the slab on which a building stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IsolationLevel {
+    /// Height of the bearings, from the basemat to the slab, m.
+    pub height: f64,
+    /// Mass of the slab above the bearings, kg per metre of thickness.
+    pub slab_mass: f64,
+    /// Rotary inertia of that slab about its centre, kg m² per metre of thickness.
+    pub slab_inertia: f64,
+    /// Viscous dampers beside the bearings, N s/m per metre of thickness.
+    pub damping: f64,
+}
+
+/// A [`ShearBuilding`] some of whose storeys follow a [`Hysteresis`] law.
+///
+/// The law sees the storey's drift and takes the place of its columns' stiffness, and of the
+/// stiffness-proportional damping that came with it; the storey's dashpot stays. Unknowns, drifts
+/// and P–Δ are those of the shear building.
+///
+/// ```
+/// use basemat::structure::{Bilinear, NonlinearShearBuilding, ShearBuilding, Storey, Structure};
+///
+/// let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 3];
+/// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?;
+/// let soft = Bilinear::new(40.0e6, 150.0e3, 0.05)?;
+/// let building = NonlinearShearBuilding::new(building).with_law(0, soft)?;
+/// assert!(!building.is_linear());
+/// // 10 mm of drift in the lowest storey, far beyond its 3.75 mm at yield
+/// let mut force = [0.0; 6];
+/// building.nonlinear_force(&[0.0, 0.0, 0.0, 0.01, 0.01, 0.01], &mut force);
+/// assert!((force[3] - (150.0e3 + 2.0e6 * 6.25e-3)).abs() < 1e-6);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub struct NonlinearShearBuilding {
+    building: ShearBuilding,
+    springs: Springs,
+}
+
+impl NonlinearShearBuilding {
+    /// The building as it is, all its storeys linear.
+    pub fn new(building: ShearBuilding) -> Self {
+        Self { building, springs: Springs::default() }
+    }
+
+    /// The building with its lowest columns on a slab that rests on isolators of this `law`; the
+    /// isolators become storey 0, and the building's storeys count from 1.
+    ///
+    /// The building's damping ratio, if set, stays that of its storeys.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless the level's height and slab mass and the law's
+    /// first stiffness are positive, its inertia and damping not negative.
+    pub fn isolated(
+        building: ShearBuilding,
+        level: IsolationLevel,
+        law: impl Hysteresis + 'static,
+    ) -> Result<Self> {
+        let storey = Storey {
+            height: positive("height of the isolators", level.height)?,
+            mass: positive("mass of the slab above the isolators", level.slab_mass)?,
+            rotary_inertia: not_negative("rotary inertia of the slab", level.slab_inertia)?,
+            stiffness: positive("first stiffness of the isolators", law.response(0.0).tangent)?,
+            damping: not_negative("damping of the isolators", level.damping)?,
+        };
+        Self::new(building.on_storey(storey)?).with_law(0, law)
+    }
+
+    /// The same building with `storey` (0: the lowest) following `law`.
+    ///
+    /// # Errors
+    /// [`Error::Index`](crate::Error::Index) when there is no such storey,
+    /// [`Error::Scene`](crate::Error::Scene) when it has a law already.
+    pub fn with_law(mut self, storey: usize, law: impl Hysteresis + 'static) -> Result<Self> {
+        let drift = self.building.drift(storey)?;
+        self.building.release(storey)?;
+        self.springs.add(drift, Box::new(law), self.building.unknowns())?;
+        Ok(self)
+    }
+
+    /// The shear building: unknowns, drifts, masses.
+    pub fn building(&self) -> &ShearBuilding {
+        &self.building
+    }
+
+    /// Horizontal force that what is above `storey`'s columns (or isolators) exerts through them
+    /// on what is below, N, positive to the right, from the inertia of the floors above.
+    ///
+    /// Exact for whatever law, damping and P–Δ are in the storey; with the midpoint rule it is the
+    /// mean over the step.
+    ///
+    /// # Errors
+    /// [`Error::Index`](crate::Error::Index) when there is no such storey.
+    pub fn shear(&self, storey: usize) -> Result<SectionRows> {
+        self.building.floor(storey)?;
+        let floors = self.building.storeys().iter().enumerate().skip(storey);
+        let acceleration = floors.map(|(index, floor)| (index + 3, -floor.mass)).collect();
+        Ok(SectionRows { acceleration, ..SectionRows::default() })
+    }
+}
+
+impl Structure for NonlinearShearBuilding {
+    fn unknowns(&self) -> usize {
+        self.building.unknowns()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.building.contact_nodes()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        self.building.mass(matrix);
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        self.building.stiffness(matrix);
+    }
+
+    fn damping(&self, matrix: &mut Triplets) {
+        self.building.damping(matrix);
+    }
+
+    fn is_linear(&self) -> bool {
+        self.springs.is_empty()
+    }
+
+    fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]) {
+        self.springs.force(displacement, force);
+    }
+
+    fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets) {
+        self.springs.tangent(displacement, matrix);
+    }
+
+    fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
+        Some(self.springs.energy(displacement))
+    }
+
+    fn commit(&mut self, displacement: &[f64]) {
+        self.springs.commit(displacement);
+    }
+
+    fn save(&self) -> Vec<f64> {
+        self.springs.save()
+    }
+
+    fn restore(&mut self, values: &[f64]) -> Result<()> {
+        self.springs.restore(values)
+    }
+}

@@ -1,0 +1,227 @@
+//! Hysteretic springs on the unknowns of a structure.
+
+use super::hysteresis::{Hysteresis, InternalEnergy};
+use super::{ContactNode, Structure, Triplets};
+use crate::error::{CheckpointError, Error, Result, finite};
+
+/// A spring and the deformation l·u that it sees, as (unknown, weight) pairs.
+struct Spring {
+    row: Vec<(usize, f64)>,
+    law: Box<dyn Hysteresis>,
+}
+
+impl Spring {
+    fn deformation(&self, displacement: &[f64]) -> f64 {
+        self.row.iter().map(|&(i, weight)| weight * displacement[i]).sum()
+    }
+}
+
+/// The nonlinear part of a structure with springs.
+#[derive(Default)]
+pub(super) struct Springs(Vec<Spring>);
+
+impl Springs {
+    /// Adds a spring to a structure of so many unknowns.
+    pub(super) fn add(
+        &mut self,
+        row: Vec<(usize, f64)>,
+        law: Box<dyn Hysteresis>,
+        unknowns: usize,
+    ) -> Result<()> {
+        for &(index, weight) in &row {
+            finite("weight of a spring's deformation", weight)?;
+            if index >= unknowns {
+                let quantity = "unknown of a spring";
+                return Err(Error::Index { quantity, index, bound: unknowns });
+            }
+        }
+        self.0.push(Spring { row, law });
+        Ok(())
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub(super) fn force(&self, displacement: &[f64], force: &mut [f64]) {
+        for spring in &self.0 {
+            let value = spring.law.response(spring.deformation(displacement)).force;
+            for &(i, weight) in &spring.row {
+                force[i] += weight * value;
+            }
+        }
+    }
+
+    pub(super) fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) {
+        for spring in &self.0 {
+            let tangent = spring.law.response(spring.deformation(displacement)).tangent;
+            matrix.add_outer(&spring.row, tangent);
+        }
+    }
+
+    pub(super) fn energy(&self, displacement: &[f64]) -> InternalEnergy {
+        let each = self.0.iter().map(|s| s.law.energy(s.deformation(displacement)));
+        each.fold(InternalEnergy::default(), |sum, one| sum + one)
+    }
+
+    pub(super) fn commit(&mut self, displacement: &[f64]) {
+        for spring in &mut self.0 {
+            let deformation = spring.deformation(displacement);
+            spring.law.commit(deformation);
+        }
+    }
+
+    pub(super) fn save(&self) -> Vec<f64> {
+        self.0.iter().flat_map(|spring| spring.law.save()).collect()
+    }
+
+    /// Number of internal variables.
+    pub(super) fn variables(&self) -> usize {
+        self.0.iter().map(|spring| spring.law.save().len()).sum()
+    }
+
+    /// Takes back all or nothing.
+    pub(super) fn restore(&mut self, values: &[f64]) -> Result<()> {
+        let before = self.save();
+        if values.len() != before.len() {
+            return Err(CheckpointError::Corrupt { quantity: "state of the springs" }.into());
+        }
+        let outcome = self.try_restore(values);
+        if outcome.is_err() {
+            self.try_restore(&before)?;
+        }
+        outcome
+    }
+
+    fn try_restore(&mut self, values: &[f64]) -> Result<()> {
+        let mut rest = values;
+        for spring in &mut self.0 {
+            let (own, after) = rest.split_at(spring.law.save().len().min(rest.len()));
+            spring.law.restore(own)?;
+            rest = after;
+        }
+        Ok(())
+    }
+}
+
+/// Any structure with hysteretic springs between its unknowns.
+///
+/// Each spring sees a deformation, a weighted sum of unknowns, and answers with the force of its
+/// [`Hysteresis`] law. It comes on top of what the structure has: a storey or a bearing that shall
+/// have the spring alone must have no stiffness of its own there. For shear buildings there is
+/// [`NonlinearShearBuilding`](super::NonlinearShearBuilding).
+///
+/// ```
+/// use basemat::structure::{Bilinear, RigidBlock, Structure, WithSprings};
+///
+/// // A rocking block with a yielding damper between its left toe and the ground.
+/// let block = RigidBlock::new(4.0, 10.0, 2000.0)?;
+/// let toe = block.vertical_at(-2.0);
+/// let held = WithSprings::new(block).spring(toe, Bilinear::new(5.0e6, 2.0e4, 0.0)?)?;
+/// let mut force = [0.0; 3];
+/// held.nonlinear_force(&[0.0, 0.0, -0.01], &mut force); // the toe is 20 mm up: it yields
+/// assert_eq!(force, [0.0, 2.0e4, -4.0e4]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub struct WithSprings {
+    structure: Box<dyn Structure>,
+    springs: Springs,
+}
+
+impl WithSprings {
+    /// The structure, without springs yet.
+    pub fn new(structure: impl Structure + 'static) -> Self {
+        Self { structure: Box::new(structure), springs: Springs::default() }
+    }
+
+    /// The same with one more spring, which sees the deformation `row`: (unknown, weight) pairs.
+    ///
+    /// # Errors
+    /// [`Error::Index`] for an unknown that the structure does not have, [`Error::Input`] for a
+    /// weight that is not finite.
+    pub fn spring(
+        mut self,
+        row: Vec<(usize, f64)>,
+        law: impl Hysteresis + 'static,
+    ) -> Result<Self> {
+        self.springs.add(row, Box::new(law), self.structure.unknowns())?;
+        Ok(self)
+    }
+}
+
+impl Structure for WithSprings {
+    fn unknowns(&self) -> usize {
+        self.structure.unknowns()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.structure.contact_nodes()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        self.structure.mass(matrix);
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        self.structure.stiffness(matrix);
+    }
+
+    fn damping(&self, matrix: &mut Triplets) {
+        self.structure.damping(matrix);
+    }
+
+    fn load(&self, time: f64, load: &mut [f64]) {
+        self.structure.load(time, load);
+    }
+
+    fn is_linear(&self) -> bool {
+        self.springs.is_empty() && self.structure.is_linear()
+    }
+
+    fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]) {
+        if !self.structure.is_linear() {
+            self.structure.nonlinear_force(displacement, force);
+        }
+        self.springs.force(displacement, force);
+    }
+
+    fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets) {
+        if !self.structure.is_linear() {
+            self.structure.nonlinear_tangent(displacement, matrix);
+        }
+        self.springs.tangent(displacement, matrix);
+    }
+
+    fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
+        let own = if self.structure.is_linear() {
+            InternalEnergy::default()
+        } else {
+            self.structure.nonlinear_energy(displacement)?
+        };
+        Some(own + self.springs.energy(displacement))
+    }
+
+    fn commit(&mut self, displacement: &[f64]) {
+        if !self.structure.is_linear() {
+            self.structure.commit(displacement);
+        }
+        self.springs.commit(displacement);
+    }
+
+    fn save(&self) -> Vec<f64> {
+        let mut values = self.springs.save();
+        values.extend(self.structure.save());
+        values
+    }
+
+    fn restore(&mut self, values: &[f64]) -> Result<()> {
+        let (own, others) = values.split_at(self.springs.variables().min(values.len()));
+        let before = self.springs.save();
+        self.springs.restore(own)?;
+        let outcome = self.structure.restore(others);
+        if outcome.is_err() {
+            self.springs.restore(&before)?;
+        }
+        outcome
+    }
+}

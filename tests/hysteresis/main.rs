@@ -1,0 +1,5 @@
+//! Hysteretic springs, yielding storeys and base isolators.
+
+mod building;
+mod laws;
+mod refused;
