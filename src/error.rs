@@ -39,6 +39,14 @@ pub enum Error {
         /// First value out of range.
         bound: usize,
     },
+    /// A name that nothing has.
+    #[error("there is no {quantity} called '{name}'")]
+    Name {
+        /// What was looked for.
+        quantity: &'static str,
+        /// The name that was given.
+        name: String,
+    },
     /// A part of the scene that was not given, or does not fit another part.
     #[error("{quantity}: {needed}")]
     Scene {

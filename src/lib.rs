@@ -109,6 +109,7 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy ledger |
+//! | [`results`] | histories, peaks, envelopes, factors of safety, tables for reports |
 //! | [`Sweep`] | many simulations, on all processors with the feature `rayon` |
 //! | [`structure`] | finite-element model, rigid block, shear building, and the trait for your own |
 //! | [`fem`] | meshes and elements |
@@ -146,6 +147,7 @@ mod linalg;
 mod matrix;
 pub mod motion;
 pub mod reference;
+pub mod results;
 mod soil;
 pub mod structure;
 mod sweep;
