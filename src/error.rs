@@ -39,6 +39,14 @@ pub enum Error {
         /// First value out of range.
         bound: usize,
     },
+    /// A file that cannot be written.
+    #[error("{file} cannot be written: {reason}")]
+    Write {
+        /// The file, or its folder.
+        file: String,
+        /// What the system says.
+        reason: std::io::ErrorKind,
+    },
     /// A name that nothing has.
     #[error("there is no {quantity} called '{name}'")]
     Name {
@@ -300,6 +308,12 @@ pub enum RecordError {
         /// Bytes read without a line end.
         bytes: usize,
     },
+}
+
+/// Writes a file.
+pub(crate) fn write_file(path: &std::path::Path, text: &str) -> Result<()> {
+    std::fs::write(path, text)
+        .map_err(|error| Error::Write { file: path.display().to_string(), reason: error.kind() })
 }
 
 /// `value` if it is finite and above zero.

@@ -111,11 +111,11 @@ fn between(
     period: f64,
     value: &dyn Fn(&SpectralOrdinate) -> f64,
 ) -> f64 {
-    spectrum
-        .windows(2)
-        .find(|pair| period >= pair[0].period && period <= pair[1].period)
-        .map_or(0.0, |pair| {
+    spectrum.windows(2).find(|pair| period >= pair[0].period && period <= pair[1].period).map_or(
+        0.0,
+        |pair| {
             let way = (period / pair[0].period).ln() / (pair[1].period / pair[0].period).ln();
             (1.0 - way) * value(&pair[0]) + way * value(&pair[1])
-        })
+        },
+    )
 }

@@ -23,6 +23,8 @@ pub struct MotionFrame<'a> {
     pub displacement: &'a [f64],
     /// Their rates.
     pub velocity: &'a [f64],
+    /// Mean displacement [horizontal, up] of the free field under the base, m.
+    pub free_field: [f64; 2],
 }
 
 /// Frames of the base, end to end.
@@ -62,9 +64,7 @@ impl ContactFrames {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        size_of_val(&self.times[..])
-            + size_of_val(&self.states[..])
-            + size_of_val(&self.modes[..])
+        size_of_val(&self.times[..]) + size_of_val(&self.states[..]) + size_of_val(&self.modes[..])
     }
 }
 
@@ -75,6 +75,7 @@ pub(super) struct MotionFrames {
     times: Vec<f64>,
     displacement: Vec<f64>,
     velocity: Vec<f64>,
+    free_field: Vec<[f64; 2]>,
 }
 
 impl MotionFrames {
@@ -86,6 +87,7 @@ impl MotionFrames {
         self.times.push(state.time);
         self.displacement.extend_from_slice(state.displacement());
         self.velocity.extend_from_slice(state.velocity());
+        self.free_field.push(state.free_field);
     }
 
     /// For so many more steps of `count` unknowns each.
@@ -94,6 +96,7 @@ impl MotionFrames {
         self.times.reserve(frames);
         self.displacement.reserve(frames * count);
         self.velocity.reserve(frames * count);
+        self.free_field.reserve(frames);
     }
 
     /// Frames of `count` unknowns each.
@@ -101,11 +104,12 @@ impl MotionFrames {
         self.times.iter().enumerate().map(move |(k, &time)| {
             let range = k * count..(k + 1) * count;
             let displacement = &self.displacement[range.clone()];
-            MotionFrame { time, displacement, velocity: &self.velocity[range] }
+            let (velocity, free_field) = (&self.velocity[range], self.free_field[k]);
+            MotionFrame { time, displacement, velocity, free_field }
         })
     }
 
     pub(super) fn bytes(&self) -> usize {
-        8 * (self.times.len() + self.displacement.len() + self.velocity.len())
+        8 * (3 * self.times.len() + self.displacement.len() + self.velocity.len())
     }
 }

@@ -69,6 +69,7 @@ mod sliding;
 mod summary;
 mod table;
 mod uplift;
+mod wireframe;
 
 pub use comparison::Comparison;
 pub use energy::EnergyShares;
@@ -79,6 +80,7 @@ pub use frames::{ContactFrame, MotionFrame};
 pub use histories::Histories;
 pub use quantity::Quantity;
 pub use recorder::Recorder;
-pub use sliding::{SlipEvent, Sliding};
+pub use sliding::{Sliding, SlipEvent};
 pub use summary::Summary;
 pub use uplift::Uplift;
+pub use wireframe::{WirePoint, Wireframe};

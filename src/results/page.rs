@@ -99,7 +99,11 @@ impl Summary {
         )?;
         if let Some(event) = sliding.largest_event() {
             let slip = 1e3 * event.slip;
-            write!(f, "\n  largest event {slip:.3} mm, {:.3} s to {:.3} s", event.start, event.end)?;
+            write!(
+                f,
+                "\n  largest event {slip:.3} mm, {:.3} s to {:.3} s",
+                event.start, event.end
+            )?;
         }
         writeln!(f, "\nChanges of contact mode: {}", self.mode_changes)
     }

@@ -66,7 +66,11 @@ mod tests {
     }
 
     fn contact(pressure: [f64; 2], shear: [f64; 2]) -> [ContactState; 2] {
-        [0, 1].map(|e| ContactState { pressure: pressure[e], shear: shear[e], ..Default::default() })
+        [0, 1].map(|e| ContactState {
+            pressure: pressure[e],
+            shear: shear[e],
+            ..Default::default()
+        })
     }
 
     /// N = 2·30 + 10 = 70, H = −14, middle 0.5, half width 1.5, moment 60·(−0.5) + 10·1 = −20.

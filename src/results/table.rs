@@ -69,7 +69,10 @@ mod tests {
             rows: vec![cells(&["a|b", "1"]), cells(&["c \"d\"", "22.5"])],
         };
         assert_eq!(table.text(), "name   µ, x\n-----------\na|b       1\nc \"d\"  22.5");
-        assert_eq!(table.markdown(), "| name | µ, x |\n|---|---:|\n| a\\|b | 1 |\n| c \"d\" | 22.5 |");
+        assert_eq!(
+            table.markdown(),
+            "| name | µ, x |\n|---|---:|\n| a\\|b | 1 |\n| c \"d\" | 22.5 |"
+        );
         assert_eq!(table.csv(), "name,\"µ, x\"\na|b,1\n\"c \"\"d\"\"\",22.5\n");
     }
 }

@@ -55,8 +55,7 @@ mod tests {
             uplift.see(fraction, 0.1 * (k + 1) as f64, 0.1, fraction < 1.0);
         }
         assert_eq!((uplift.count, uplift.peak.value, uplift.peak.time), (2, 1.0, 0.5));
-        for (found, known) in
-            [(uplift.duration, 0.5), (uplift.flight, 0.2), (uplift.longest, 0.3)]
+        for (found, known) in [(uplift.duration, 0.5), (uplift.flight, 0.2), (uplift.longest, 0.3)]
         {
             assert!((found - known).abs() < 1e-15);
         }
