@@ -63,7 +63,9 @@ fn main() -> Result<()> {
     ];
     println!("Pseudo-acceleration in g, damping {:.0} %, El Centro 1940\n", 100.0 * damping);
     print!("{:>8}", "T, s");
-    spectra.iter().for_each(|(name, _)| print!("{name:>15}"));
+    for (name, _) in &spectra {
+        print!("{name:>15}");
+    }
     println!();
     for k in (0..periods.len()).step_by(4) {
         print!("{:>8.3}", periods[k]);

@@ -86,7 +86,9 @@ fn main() -> Result<()> {
 
     println!("Largest slip in mm, scaled to {} g\n", PEAKS[2]);
     print!("{:<24}", "friction");
-    FRICTIONS.iter().for_each(|friction| print!("{friction:>9.2}"));
+    for friction in FRICTIONS {
+        print!("{friction:>9.2}");
+    }
     println!();
     for (m, (name, _)) in motions.iter().enumerate() {
         print!("{name:<24}");
@@ -101,7 +103,9 @@ fn main() -> Result<()> {
 
     println!("\nShare of the motions with more than {:.0} mm of slip\n", 1e3 * limit);
     print!("{:<24}", "peak acceleration, g");
-    PEAKS.iter().for_each(|peak| print!("{peak:>9.2}"));
+    for peak in PEAKS {
+        print!("{peak:>9.2}");
+    }
     println!();
     for (f, friction) in FRICTIONS.iter().enumerate() {
         print!("{:<24}", format!("friction {friction:.2}"));

@@ -98,7 +98,9 @@ fn main() -> Result<()> {
 
     println!("{}", free.summary());
     let mut comparison = Comparison::new();
-    runs.iter().for_each(|(name, run)| comparison.add(*name, run.summary()));
+    for (name, run) in runs {
+        comparison.add(name, run.summary());
+    }
     println!("\n{comparison}\n\npictures and {grids} grids in {}", out.display());
     Ok(())
 }

@@ -50,7 +50,9 @@ fn main() -> Result<()> {
 
     println!("12 s of El Centro 1940; largest shear (kN/m) and drift (mm) of each storey\n");
     print!("{:<8}", "storey");
-    cases.iter().for_each(|(name, _)| print!("{name:>22}"));
+    for (name, _) in &cases {
+        print!("{name:>22}");
+    }
     println!();
     for storey in (0..STOREYS).rev() {
         print!("{:<8}", storey + 1);

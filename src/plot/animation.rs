@@ -51,11 +51,11 @@ pub fn animation(
 
     let mut out = head(title, magnification);
     let paths: Vec<String> = moved.iter().map(|places| screen.path(shape, places)).collect();
-    let _ = write!(
+    let _ = writeln!(
         out,
         "<path fill=\"none\" stroke=\"#1f77b4\" stroke-width=\"1.2\" d=\"{}\">\
          <animate attributeName=\"d\" dur=\"{duration}\" repeatCount=\"indefinite\" values=\"{}\"/>\
-         </path>\n",
+         </path>",
         paths[0],
         paths.join(";")
     );
@@ -119,10 +119,10 @@ fn head(title: &str, magnification: f64) -> String {
     );
     for (k, (mode, name)) in MODES.iter().enumerate() {
         let y = 80.0 + 26.0 * k as f64;
-        let _ = write!(
+        let _ = writeln!(
             out,
             "<rect x=\"725\" y=\"{:.0}\" width=\"22\" height=\"14\" fill=\"{}\"/>\
-             <text x=\"755\" y=\"{y:.0}\">{name}</text>\n",
+             <text x=\"755\" y=\"{y:.0}\">{name}</text>",
             y - 12.0,
             hex(*mode)
         );
@@ -146,11 +146,11 @@ fn base(histories: &Histories, screen: &Screen, frames: usize, duration: &str) -
         let [left, _] = screen.place([element.left, 0.0]);
         let [right, _] = screen.place([element.right, 0.0]);
         let colors: Vec<String> = contact.iter().map(|frame| hex(frame.modes[e])).collect();
-        let _ = write!(
+        let _ = writeln!(
             out,
             "<rect x=\"{:.1}\" y=\"{}\" width=\"{:.1}\" height=\"14\" fill=\"{}\">\
              <animate attributeName=\"fill\" calcMode=\"discrete\" dur=\"{duration}\" \
-             repeatCount=\"indefinite\" values=\"{}\"/></rect>\n",
+             repeatCount=\"indefinite\" values=\"{}\"/></rect>",
             left + 0.5,
             BOX[3] + 12.0,
             (right - left - 1.0).max(0.5),

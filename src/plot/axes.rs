@@ -25,17 +25,27 @@ pub(super) type Chart<'a, 'b> = ChartContext<
     Cartesian2d<plotters::coord::types::RangedCoordf64, plotters::coord::types::RangedCoordf64>,
 >;
 
-/// From the lowest to the highest finite value, with a margin; never empty.
+/// Magnitudes beyond this are not drawn: the chart's own arithmetic would overflow.
+const LARGEST: f64 = 1e60;
+
+/// Whether a chart can show a value.
+pub(super) fn drawable(value: f64) -> bool {
+    value.abs() < LARGEST
+}
+
+/// From the lowest to the highest value that can be drawn, with a margin; never empty.
+///
+/// Spans below 1e-9 of the values, or 1/`LARGEST`, count as none.
 pub(super) fn range_of(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for value in values.filter(|value| value.is_finite()) {
+    for value in values.filter(|value| drawable(*value)) {
         low = low.min(value);
         high = high.max(value);
     }
     if low > high {
         return 0.0..1.0;
     }
-    let least = 1e-9 * low.abs().max(high.abs());
+    let least = (1e-9 * low.abs().max(high.abs())).max(1.0 / LARGEST);
     let margin = if high - low > least { 0.06 * (high - low) } else { low.abs().max(1.0) };
     low - margin..high + margin
 }
@@ -107,14 +117,14 @@ pub(super) fn legend<'a, 'b: 'a>(
     Ok(())
 }
 
-/// A curve in pieces, broken where values are not finite, with its name.
+/// A curve in pieces, broken where values cannot be drawn, with its name.
 pub(super) fn draw_curve(
     chart: &mut Chart<'_, '_>,
     points: &[(f64, f64)],
     name: &str,
     style: ShapeStyle,
 ) -> Drawing<()> {
-    let pieces = points.split(|(x, y)| !(x.is_finite() && y.is_finite()));
+    let pieces = points.split(|(x, y)| !(drawable(*x) && drawable(*y)));
     let lines = pieces.filter(|piece| !piece.is_empty());
     chart
         .draw_series(lines.map(|piece| PathElement::new(piece.to_vec(), style)))?

@@ -2,7 +2,7 @@
 
 use plotters::prelude::*;
 
-use super::axes::{COLORS, chart, draw_curve, legend};
+use super::axes::{COLORS, chart, draw_curve, drawable, legend};
 use super::svg::{SIZE, Svg, picture};
 use crate::error::{Error, Result, finite, positive};
 use crate::results::{Histories, MotionFrame, Wireframe};
@@ -17,7 +17,14 @@ pub(super) fn places(
     let place = |(point, u): (&crate::results::WirePoint, [f64; 2])| {
         [0, 1].map(|k| point.position[k] + magnification * (u[k] - frame.free_field[k]))
     };
-    Ok(shape.points().iter().zip(moved).map(place).collect())
+    let places: Vec<[f64; 2]> = shape.points().iter().zip(moved).map(place).collect();
+    match places.iter().flatten().find(|value| !drawable(**value)) {
+        None => Ok(places),
+        Some(&value) => {
+            let (quantity, needed) = ("magnified coordinate", "below 1e60 m");
+            Err(Error::Input { quantity, value, needed })
+        }
+    }
 }
 
 /// Least and largest coordinates [x, y].

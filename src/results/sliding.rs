@@ -29,7 +29,7 @@ pub struct Sliding {
     pub duration: f64,
     /// Events, in order.
     pub events: Vec<SlipEvent>,
-    sliding: bool,
+    in_event: bool,
 }
 
 impl Sliding {
@@ -62,14 +62,14 @@ impl Sliding {
             self.path += slip.abs();
             self.duration += times[1] - times[0];
             match self.events.last_mut() {
-                Some(event) if self.sliding && event.slip * slip >= 0.0 => {
+                Some(event) if self.in_event && event.slip * slip >= 0.0 => {
                     event.slip += slip;
                     event.end = times[1];
                 }
                 _ => self.events.push(SlipEvent { start: times[0], end: times[1], slip }),
             }
         }
-        self.sliding = slides;
+        self.in_event = slides;
     }
 
     /// The event with the largest |slip|.

@@ -1,6 +1,7 @@
 //! A run in numbers.
 
 use super::{ElementEnvelope, EnergyShares, Extremes, Histories, Quantity, Sliding, Uplift};
+use crate::bem::ContactElement;
 use crate::coupled::{Ledger, Peak, Warning};
 
 /// What a run came to; printed, a page for a report.
@@ -48,7 +49,8 @@ impl Histories {
     /// The run so far in numbers.
     pub fn summary(&self) -> Summary {
         let tally = &self.tally;
-        let shortest = self.elements.iter().map(|e| e.length()).fold(f64::INFINITY, f64::min);
+        let shortest =
+            self.elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min);
         let names = self.probes.iter().map(|probe| probe.name.clone());
         let sliding_safety = self.extremes(Quantity::SlidingSafety).lowest;
         Summary {

@@ -33,8 +33,10 @@ impl Grid<'_> {
              <VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
              <UnstructuredGrid>\n",
         );
-        out += &format!(
-            "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n<PointData>\n"
+        // Writing to a string does not fail, here and below.
+        let _ = writeln!(
+            out,
+            "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n<PointData>"
         );
         for (name, vectors) in &self.point_vectors {
             array(&mut out, "Float64", name, 3, vectors.iter().map(in_space));
@@ -70,12 +72,12 @@ fn array<T: Display>(
     components: usize,
     values: impl Iterator<Item = T>,
 ) {
-    *out += &format!(
+    let _ = writeln!(
+        out,
         "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
-         format=\"ascii\">\n"
+         format=\"ascii\">"
     );
     for value in values {
-        // Writing to a string does not fail.
         let _ = writeln!(out, "{value}");
     }
     *out += "</DataArray>\n";

@@ -1,5 +1,6 @@
 //! A run as a series of grids.
 
+use std::fmt::Write;
 use std::path::Path;
 
 use super::grid::Grid;
@@ -95,8 +96,11 @@ fn collection(entries: &[(f64, usize, String)]) -> String {
          <VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
     );
     for (time, part, file) in entries {
-        out +=
-            &format!("<DataSet timestep=\"{time}\" group=\"\" part=\"{part}\" file=\"{file}\"/>\n");
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            out,
+            "<DataSet timestep=\"{time}\" group=\"\" part=\"{part}\" file=\"{file}\"/>"
+        );
     }
     out + "</Collection>\n</VTKFile>\n"
 }
