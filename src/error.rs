@@ -39,6 +39,22 @@ pub enum Error {
         /// First value out of range.
         bound: usize,
     },
+    /// A file that cannot be written.
+    #[error("{file} cannot be written: {reason}")]
+    Write {
+        /// The file, or its folder.
+        file: String,
+        /// What the system says.
+        reason: std::io::ErrorKind,
+    },
+    /// A name that nothing has.
+    #[error("there is no {quantity} called '{name}'")]
+    Name {
+        /// What was looked for.
+        quantity: &'static str,
+        /// The name that was given.
+        name: String,
+    },
     /// A part of the scene that was not given, or does not fit another part.
     #[error("{quantity}: {needed}")]
     Scene {
@@ -343,6 +359,12 @@ pub enum FileError {
         /// Bytes read without a line end.
         bytes: usize,
     },
+}
+
+/// Writes a file.
+pub(crate) fn write_file(path: &std::path::Path, text: &str) -> Result<()> {
+    std::fs::write(path, text)
+        .map_err(|error| Error::Write { file: path.display().to_string(), reason: error.kind() })
 }
 
 /// `value` if it is finite and above zero.

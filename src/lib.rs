@@ -109,6 +109,9 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy ledger |
+//! | [`results`] | histories, peaks, envelopes, factors of safety, tables for reports |
+//! | [`vtk`] | files for ParaView |
+//! | `plot` (feature) | pictures of histories, contact, spectra and shapes |
 //! | [`Sweep`] | many simulations, on all processors with the feature `rayon` |
 //! | [`structure`] | finite-element model, rigid block, shear building, and the trait for your own |
 //! | [`fem`] | meshes and elements |
@@ -148,10 +151,14 @@ pub mod interface;
 mod linalg;
 mod matrix;
 pub mod motion;
+#[cfg(feature = "plot")]
+pub mod plot;
 pub mod reference;
+pub mod results;
 mod soil;
 pub mod structure;
 mod sweep;
+pub mod vtk;
 
 pub use coupled::Simulation;
 pub use error::{CheckpointError, Error, FileError, RecordError, Result, StepError};

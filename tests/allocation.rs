@@ -10,6 +10,7 @@ use std::cell::Cell;
 use basemat::bem::{HalfPlaneGround, History, SpringGround};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, Theta};
 use basemat::interface::Bonded;
+use basemat::results::Recorder;
 use basemat::structure::{ContactNode, RayleighDamping, RigidBlock, Structure, Triplets};
 use scenes::{SI, block, friction, scene, soil, tower};
 
@@ -124,4 +125,22 @@ fn steps_do_not_allocate() {
         assert_eq!(allocations, 0, "{name}");
         assert!(name.starts_with("bonded") || changes > 0, "{name}: the modes never changed");
     }
+}
+
+#[test]
+fn recording_does_not_allocate_once_memory_is_reserved() {
+    let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(0.3));
+    let mut simulation = builder.expected_steps(WARM + STEPS).build().unwrap();
+    let recorder = Recorder::new().friction(0.3).contact(2).motion(3);
+    let mut histories = recorder.start(&simulation).unwrap();
+    for _ in 0..WARM {
+        histories.record(simulation.step().unwrap());
+    }
+    histories.reserve(STEPS);
+    let before = COUNT.get();
+    for _ in 0..STEPS {
+        histories.record(simulation.step().unwrap());
+    }
+    assert_eq!(COUNT.get() - before, 0);
+    assert_eq!(histories.times().len(), WARM + STEPS + 1);
 }

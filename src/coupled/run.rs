@@ -33,7 +33,7 @@ pub struct Peak {
 }
 
 impl Peak {
-    fn see(&mut self, value: f64, time: f64) {
+    pub(crate) fn see(&mut self, value: f64, time: f64) {
         if value.abs() > self.value.abs() {
             *self = Self { value, time };
         }
@@ -69,6 +69,23 @@ impl Warning {
     /// Ledger residual at the end of a run above which it warns. Earlier, while energies are still
     /// small, the relative residual may be larger: see [`Run::ledger_residual`].
     pub const LEDGER_LIMIT: f64 = 1e-9;
+
+    /// Those that largest slip, shortest element, largest rotation and the last ledger residual
+    /// call for.
+    pub(crate) fn all(slip: f64, element_length: f64, rotation: f64, residual: f64) -> Vec<Self> {
+        let (slip, rotation) = (slip.abs(), rotation.abs());
+        let mut warnings = Vec::new();
+        if slip > element_length {
+            warnings.push(Self::LargeSlip { slip, element_length });
+        }
+        if rotation > Self::ROTATION_LIMIT {
+            warnings.push(Self::LargeRotation { rotation });
+        }
+        if residual > Self::LEDGER_LIMIT {
+            warnings.push(Self::Ledger { residual });
+        }
+        warnings
+    }
 }
 
 impl fmt::Display for Warning {
@@ -186,18 +203,12 @@ impl Run {
         self.residual_slip = state.mean_slip;
         self.ledger = state.ledger;
         self.wall = wall;
-        let slip = self.slip.value.abs();
-        if slip > self.shortest {
-            self.warnings.push(Warning::LargeSlip { slip, element_length: self.shortest });
-        }
-        let rotation = self.base_rotation.value.abs();
-        if rotation > Warning::ROTATION_LIMIT {
-            self.warnings.push(Warning::LargeRotation { rotation });
-        }
-        let residual = state.ledger.residual();
-        if residual > Warning::LEDGER_LIMIT {
-            self.warnings.push(Warning::Ledger { residual });
-        }
+        self.warnings = Warning::all(
+            self.slip.value,
+            self.shortest,
+            self.base_rotation.value,
+            state.ledger.residual(),
+        );
     }
 
     /// Bound on what the ledger's `soil` owes to an approximate history, J/m since the start; zero

@@ -1,0 +1,124 @@
+//! How likely is a block to slide too far? Friction coefficients × ground motions × strengths.
+//!
+//! ```text
+//! cargo run --release --example friction_sweep
+//! cargo run --release --features rayon --example friction_sweep -- --limit 50
+//! ```
+//!
+//! Every motion of a small set is scaled to the same peak acceleration, every case is run, and the
+//! share of motions with more slip than a limit is counted: a row of a fragility table. The set is
+//! far too small for a design; the way to do it is the point. [`Sweep`] runs the cases on all
+//! processors if the crate is built with the feature `rayon`.
+
+use basemat::bem::HalfPlaneGround;
+use basemat::interface::Coulomb;
+use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
+use basemat::results::{Recorder, Summary};
+use basemat::structure::RigidBlock;
+use basemat::{Result, Simulation, Soil, Sweep};
+use clap::Parser;
+
+const FRICTIONS: [f64; 4] = [0.15, 0.25, 0.35, 0.5];
+/// Peak accelerations, g.
+const PEAKS: [f64; 4] = [0.2, 0.3, 0.45, 0.6];
+
+/// Sliding of a squat block, for friction coefficients and motions.
+#[derive(Parser)]
+struct Options {
+    /// Slip that counts as too much, mm.
+    #[arg(long, default_value_t = 25.0)]
+    limit: f64,
+}
+
+/// The ensemble: El Centro either way round, its first strong shock and sine pulses.
+fn motions() -> Result<Vec<(&'static str, Record)>> {
+    let record = el_centro_1940();
+    let shock = Record::new(0.02, record.accelerations()[..200].to_vec())?;
+    let pulse = |period: f64| {
+        let sine = |k: u32| (std::f64::consts::TAU * f64::from(k) / 100.0).sin();
+        Record::new(period / 100.0, (0..=100).map(sine).collect())
+    };
+    Ok(vec![
+        ("El Centro", record.clone()),
+        ("El Centro, mirrored", record.scaled(-1.0)?),
+        ("El Centro, first 4 s", shock),
+        ("sine pulse, 0.4 s", pulse(0.4)?),
+        ("sine pulse, 0.8 s", pulse(0.8)?),
+        ("sine pulse, 1.6 s", pulse(1.6)?),
+    ])
+}
+
+fn slide(friction: f64, motion: Record) -> Result<Summary> {
+    let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+    let mut simulation = Simulation::builder(0.01)
+        .structure(RigidBlock::new(8.0, 4.0, 2000.0)?)
+        .ground(HalfPlaneGround::strip(soil, -4.0..4.0, 8)?)
+        .interface(Coulomb::new(friction)?)
+        .motion(motion)
+        .gravity(STANDARD_GRAVITY)
+        .build()?;
+    let mut histories = Recorder::new().friction(friction).start(&simulation)?;
+    histories.run(&mut simulation, 1000)?;
+    Ok(histories.summary())
+}
+
+fn main() -> Result<()> {
+    let limit = 1e-3 * Options::parse().limit;
+    let motions = motions()?;
+    let (kinds, peaks) = (motions.len(), PEAKS.len());
+
+    // One number for each case: friction is the slowest index, the motion the fastest.
+    let mut slips = vec![Err("not run".to_owned()); FRICTIONS.len() * peaks * kinds];
+    Sweep::new(slips.len()).run(
+        |case| {
+            let (motion, rest) = (case.index() % kinds, case.index() / kinds);
+            let peak = PEAKS[rest % peaks] * STANDARD_GRAVITY;
+            slide(FRICTIONS[rest / peaks], motions[motion].1.scaled_to_peak(peak)?)
+        },
+        |index, result| {
+            // A case that fails is told of and does not stop the others.
+            slips[index] = result
+                .map(|summary| summary.sliding.peak.value.abs())
+                .map_err(|error: basemat::Error| error.to_string());
+        },
+    );
+    let slip = |f: usize, p: usize, m: usize| &slips[(f * peaks + p) * kinds + m];
+
+    println!("Largest slip in mm, scaled to {} g\n", PEAKS[2]);
+    print!("{:<24}", "friction");
+    for friction in FRICTIONS {
+        print!("{friction:>9.2}");
+    }
+    println!();
+    for (m, (name, _)) in motions.iter().enumerate() {
+        print!("{name:<24}");
+        for f in 0..FRICTIONS.len() {
+            match slip(f, 2, m) {
+                Ok(slip) => print!("{:>9.1}", 1e3 * slip),
+                Err(_) => print!("{:>9}", "failed"),
+            }
+        }
+        println!();
+    }
+
+    println!("\nShare of the motions with more than {:.0} mm of slip\n", 1e3 * limit);
+    print!("{:<24}", "peak acceleration, g");
+    for peak in PEAKS {
+        print!("{peak:>9.2}");
+    }
+    println!();
+    for (f, friction) in FRICTIONS.iter().enumerate() {
+        print!("{:<24}", format!("friction {friction:.2}"));
+        for p in 0..peaks {
+            let values: Vec<f64> =
+                (0..kinds).filter_map(|m| slip(f, p, m).as_ref().ok().copied()).collect();
+            let over = values.iter().filter(|&&slip| slip > limit).count();
+            print!("{:>9.2}", over as f64 / values.len().max(1) as f64);
+        }
+        println!();
+    }
+    for failure in slips.iter().filter_map(|slip| slip.as_ref().err()) {
+        println!("failed: {failure}");
+    }
+    Ok(())
+}

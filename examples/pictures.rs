@@ -1,0 +1,106 @@
+//! All the pictures of a run, and its files for ParaView.
+//!
+//! ```text
+//! cargo run --release --features plot --example pictures
+//! cargo run --release --features plot --example pictures -- --out somewhere
+//! ```
+//!
+//! A flexible tower on soil under El Centro, once bonded and once free to uplift and slide.
+
+use std::path::PathBuf;
+
+use basemat::bem::HalfPlaneGround;
+use basemat::coupled::Probe;
+use basemat::fem::{Direction, Layer, Material, Mesh};
+use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
+use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::results::{Comparison, Histories, Quantity, Recorder, Wireframe, log_spaced};
+use basemat::structure::{FemModel, RayleighDamping};
+use basemat::{Result, Simulation, Soil, plot, vtk};
+use clap::Parser;
+
+const STEPS: usize = 2400;
+const FRICTION: f64 = 0.3;
+
+/// Pictures of a tower's run.
+#[derive(Parser)]
+struct Options {
+    /// Folder for the pictures.
+    #[arg(long, default_value = "target/pictures")]
+    out: PathBuf,
+}
+
+fn shake(law: impl InterfaceLaw + 'static) -> Result<(Histories, Wireframe)> {
+    let material = Material::new(1.0e9, 0.2, 800.0)?;
+    let mesh = Mesh::layered_block(-4.0..4.0, 8, &[Layer::new(20.0, 16, material)])?;
+    let damping = RayleighDamping::from_ratios([1.5, 15.0], [0.05; 2])?;
+    let tower = FemModel::on_base(mesh)?.with_damping(damping);
+    let roof = tower.unknown(tower.nearest_node(0.0, 20.0), Direction::X).unwrap_or(0);
+    // The structure moves into the simulation: its shape is kept for the pictures.
+    let shape = Wireframe::of_model(&tower);
+    let soil = Soil::new(1900.0 * 250.0_f64.powi(2), 0.33, 1900.0)?;
+    let mut simulation = Simulation::builder(5.0e-3)
+        .structure(tower)
+        .ground(HalfPlaneGround::strip(soil, -4.0..4.0, 16)?)
+        .interface(law)
+        .motion(el_centro_1940())
+        .gravity(STANDARD_GRAVITY)
+        .probe(Probe::acceleration("roof", vec![(roof, 1.0)]))
+        .build()?;
+    let recorder = Recorder::new().friction(FRICTION).contact(6).motion(6);
+    let mut histories = recorder.start(&simulation)?;
+    histories.run(&mut simulation, STEPS)?;
+    Ok((histories, shape))
+}
+
+fn main() -> Result<()> {
+    let out = Options::parse().out;
+    std::fs::create_dir_all(&out).map_err(|error| basemat::Error::Write {
+        file: out.display().to_string(),
+        reason: error.kind(),
+    })?;
+    let (bonded, _) = shake(Bonded)?;
+    let (free, shape) = shake(Coulomb::new(FRICTION)?)?;
+    let runs = [("bonded", &bonded), ("uplift and slip", &free)];
+
+    for (file, quantity) in [
+        ("base_shear.svg", Quantity::BaseShear),
+        ("base_moment.svg", Quantity::BaseMoment),
+        ("uplift.svg", Quantity::UpliftedFraction),
+        ("mean_slip.svg", Quantity::MeanSlip),
+        ("safety_sliding.svg", Quantity::SlidingSafety),
+        ("safety_overturning.svg", Quantity::OverturningSafety),
+    ] {
+        plot::history("Tower under El Centro 1940", &runs, quantity)?.save(out.join(file))?;
+    }
+    plot::probe_history("Roof", &runs, "roof", 1.0, "acceleration, m/s²")?
+        .save(out.join("roof.svg"))?;
+    plot::mode_map("Contact modes", &free)?.save(out.join("modes.svg"))?;
+    plot::pressure_envelope("Pressure under the base", &free)?.save(out.join("pressure.svg"))?;
+    plot::energy("Energy", &free)?.save(out.join("energy.svg"))?;
+
+    let periods = log_spaced(0.05, 2.0, 100)?;
+    let ground = el_centro_1940().response_spectrum(&periods, 0.05)?;
+    let roofs = [&bonded, &free].map(|run| run.floor_spectrum("roof", &periods, 0.05));
+    let [held, loose] = roofs;
+    plot::spectra(
+        "Floor response spectra, 5 % damping",
+        &[("free field", &ground), ("roof, bonded", &held?), ("roof, uplift and slip", &loose?)],
+    )?
+    .save(out.join("spectra.svg"))?;
+
+    let rotation = free.extremes(Quantity::BaseRotation);
+    let times = [rotation.lowest.time, rotation.highest.time];
+    plot::deformed_shapes("Largest rotations", &shape, &free, &times, 50.0)?
+        .save(out.join("shapes.svg"))?;
+    plot::animation("Tower", &shape, &free, 50.0, 2.0)?.save(out.join("tower_moving.svg"))?;
+    let grids = vtk::write_series(out.join("vtk"), "tower", &shape, &free)?;
+
+    println!("{}", free.summary());
+    let mut comparison = Comparison::new();
+    for (name, run) in runs {
+        comparison.add(name, run.summary());
+    }
+    println!("\n{comparison}\n\npictures and {grids} grids in {}", out.display());
+    Ok(())
+}

@@ -1,0 +1,46 @@
+//! Pictures of a run, as SVG (feature `plot`).
+//!
+//! Every function gives back an [`Svg`], to save, or to put into a page of HTML. What needs frames
+//! of contact or motion says so; the [`crate::results::Recorder`] keeps them if asked to.
+//!
+//! | picture | function |
+//! |---|---|
+//! | one quantity of one or more runs over time | [`history`], [`probe_history`], [`curves`] |
+//! | contact modes over base and time | [`mode_map`] |
+//! | largest, least and static pressure along the base | [`pressure_envelope`] |
+//! | where the energy went | [`energy`] |
+//! | response spectra | [`spectra`] |
+//! | the structure at some instants | [`deformed_shapes`] |
+//! | the structure in motion, with its base | [`animation`] (an SVG that browsers play) |
+//!
+//! There is no PNG: a bitmap needs a font to be shipped or found, an SVG leaves that to the viewer.
+//! `rsvg-convert` and browsers make one of it.
+//!
+//! ```no_run
+//! # fn recorded() -> basemat::results::Histories { unimplemented!() }
+//! use basemat::{plot, results::Quantity};
+//! let histories = recorded();
+//! plot::history("Base shear", &[("friction 0.4", &histories)], Quantity::BaseShear)?
+//!     .save("base_shear.svg")?;
+//! plot::mode_map("Contact", &histories)?.save("modes.svg")?;
+//! # Ok::<(), basemat::Error>(())
+//! ```
+
+mod animation;
+mod axes;
+mod energy;
+mod envelope;
+mod lines;
+mod mode_map;
+mod shape;
+mod spectra;
+mod svg;
+
+pub use animation::animation;
+pub use energy::energy;
+pub use envelope::pressure_envelope;
+pub use lines::{Curve, curves, history, probe_history};
+pub use mode_map::mode_map;
+pub use shape::deformed_shapes;
+pub use spectra::spectra;
+pub use svg::Svg;

@@ -1,0 +1,111 @@
+//! The structure at some instants.
+
+use plotters::prelude::*;
+
+use super::axes::{COLORS, chart, draw_curve, drawable, legend};
+use super::svg::{SIZE, Svg, picture};
+use crate::error::{Error, Result, finite, positive};
+use crate::results::{Histories, MotionFrame, Wireframe};
+
+/// Places of the points, m: displacements relative to the mean free field, magnified.
+pub(super) fn places(
+    shape: &Wireframe,
+    frame: &MotionFrame<'_>,
+    magnification: f64,
+) -> Result<Vec<[f64; 2]>> {
+    let moved = shape.displacements(frame.displacement)?;
+    let place = |(point, u): (&crate::results::WirePoint, [f64; 2])| {
+        [0, 1].map(|k| point.position[k] + magnification * (u[k] - frame.free_field[k]))
+    };
+    let places: Vec<[f64; 2]> = shape.points().iter().zip(moved).map(place).collect();
+    match places.iter().flatten().find(|value| !drawable(**value)) {
+        None => Ok(places),
+        Some(&value) => {
+            let (quantity, needed) = ("magnified coordinate", "below 1e60 m");
+            Err(Error::Input { quantity, value, needed })
+        }
+    }
+}
+
+/// Least and largest coordinates [x, y].
+pub(super) fn bounds(places: &[[f64; 2]]) -> [[f64; 2]; 2] {
+    let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    for place in places {
+        for k in 0..2 {
+            bounds[0][k] = bounds[0][k].min(place[k]);
+            bounds[1][k] = bounds[1][k].max(place[k]);
+        }
+    }
+    bounds
+}
+
+/// Outlines of a wireframe's cells at these places, end to end, broken by NaN.
+fn outlines(shape: &Wireframe, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
+    let mut points = Vec::new();
+    for cell in shape.cells() {
+        let corners = Wireframe::corners(cell);
+        points.extend(corners.iter().map(|&k| (places[k][0], places[k][1])));
+        if corners.len() > 2 {
+            points.push((places[corners[0]][0], places[corners[0]][1]));
+        }
+        points.push((f64::NAN, f64::NAN));
+    }
+    points
+}
+
+/// The structure at rest and at the kept instants nearest to `times` (s), displacements relative to
+/// the ground and times `magnification`, at one scale in both directions.
+///
+/// # Errors
+/// [`Error::Scene`] if no motion was kept ([`crate::results::Recorder::motion`]), [`Error::Size`]
+/// without times, [`Error::Input`] unless times are finite and the magnification positive,
+/// [`Error::Index`] if `shape` belongs to another structure.
+pub fn deformed_shapes(
+    title: &str,
+    shape: &Wireframe,
+    histories: &Histories,
+    times: &[f64],
+    magnification: f64,
+) -> Result<Svg> {
+    positive("magnification", magnification)?;
+    if times.is_empty() {
+        return Err(Error::Size { quantity: "times of deformed shapes", found: 0, needed: 1 });
+    }
+    let rest: Vec<[f64; 2]> = shape.points().iter().map(|point| point.position).collect();
+    let mut drawn = vec![("at rest".to_owned(), rest)];
+    for &time in times {
+        finite("time of a deformed shape", time)?;
+        let away = |frame: &MotionFrame<'_>| (frame.time - time).abs();
+        let nearest = histories.motion_frames().min_by(|a, b| away(a).total_cmp(&away(b)));
+        let frame = nearest.ok_or(Error::Scene {
+            quantity: "deformed shape",
+            needed: "tell the recorder to keep the motion",
+        })?;
+        let name = format!("t = {:.2} s", frame.time);
+        drawn.push((name, places(shape, &frame, magnification)?));
+    }
+    let all: Vec<[f64; 2]> = drawn.iter().flat_map(|(_, places)| places.clone()).collect();
+    let [x, y] = ranges(bounds(&all));
+    picture(|area| {
+        let title = format!("{title}, displacements × {magnification}");
+        let mut chart = chart(area, &title, (x, "x, m"), (y, "y, m"), false)?;
+        for (k, (name, places)) in drawn.iter().enumerate() {
+            let color =
+                if k == 0 { RGBColor(170, 170, 170) } else { COLORS[(k - 1) % COLORS.len()] };
+            draw_curve(&mut chart, &outlines(shape, places), name, color.stroke_width(1))?;
+        }
+        legend(&mut chart, SeriesLabelPosition::UpperRight)
+    })
+}
+
+/// Ranges of both axes at one scale, with room for the legend at the right.
+fn ranges([low, high]: [[f64; 2]; 2]) -> [std::ops::Range<f64>; 2] {
+    // The plotting area without labels, title and margins.
+    let (width, height) = (f64::from(SIZE.0) - 132.0, f64::from(SIZE.1) - 106.0);
+    let span = [0, 1].map(|k| (high[k] - low[k]).max(1e-6) * 1.1);
+    let scale = (span[0] / (0.75 * width)).max(span[1] / height);
+    let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
+    let half = [0.5 * scale * width, 0.5 * scale * height];
+    let range = |k: usize| middle[k] - half[k]..middle[k] + half[k];
+    [range(0), range(1)]
+}

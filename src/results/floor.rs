@@ -1,0 +1,121 @@
+//! Response spectra of points of the structure.
+
+use super::Histories;
+use crate::coupled::Probe;
+use crate::error::{Error, Result, not_negative, positive};
+use crate::motion::{Record, SpectralOrdinate};
+
+impl Histories {
+    /// The record of an acceleration probe (total acceleration, m/s²), from rest.
+    ///
+    /// Accelerations are means over steps for the midpoint and θ rules, so the record is half a
+    /// step late, which no spectrum notices. A floor's vibration should have ten steps or more in
+    /// its period.
+    ///
+    /// # Errors
+    /// [`Error::Name`] if no probe has this name; [`Error::Scene`] if it does not read accelerations
+    /// only, or if not every step is kept; those of [`Record::new`].
+    pub fn acceleration_record(&self, probe: &str) -> Result<Record> {
+        let index = self.probe_index(probe)?;
+        let Probe { displacement, velocity, acceleration, .. } = &self.probes[index];
+        let refuse = |needed| Err(Error::Scene { quantity: "floor spectrum", needed });
+        if !(displacement.is_empty() && velocity.is_empty()) || acceleration.is_empty() {
+            return refuse("the probe must be one of acceleration, and nothing else");
+        }
+        if self.recorder.every != 1 {
+            return refuse("the recorder must keep every step");
+        }
+        Record::new(self.time_step, self.probe_values[index].clone())
+    }
+
+    /// Floor (in-structure) response spectrum: the largest response of oscillators that ride on the
+    /// point of an acceleration probe, at `periods` (s) with the damping ratio `damping`.
+    ///
+    /// # Errors
+    /// As for [`Histories::acceleration_record`] and [`Record::response_spectrum`].
+    pub fn floor_spectrum(
+        &self,
+        probe: &str,
+        periods: &[f64],
+        damping: f64,
+    ) -> Result<Vec<SpectralOrdinate>> {
+        self.acceleration_record(probe)?.response_spectrum(periods, damping)
+    }
+}
+
+/// `count` numbers from `first` to `last` with equal ratios, for periods.
+///
+/// ```
+/// let periods = basemat::results::log_spaced(0.1, 10.0, 3)?;
+/// assert!((periods[1] - 1.0).abs() < 1e-15 && periods[2] == 10.0);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Input`] unless both are positive, and for fewer than two numbers or more than a million.
+pub fn log_spaced(first: f64, last: f64, count: usize) -> Result<Vec<f64>> {
+    positive("first of the numbers", first)?;
+    positive("last of the numbers", last)?;
+    if !(2..=1_000_000).contains(&count) {
+        let (quantity, needed) = ("count of numbers", "from two to a million");
+        return Err(Error::Input { quantity, value: count as f64, needed });
+    }
+    let share = |k: usize| k as f64 / (count - 1) as f64;
+    let mut numbers: Vec<f64> =
+        (0..count).map(|k| first.powf(1.0 - share(k)) * last.powf(share(k))).collect();
+    numbers[0] = first;
+    numbers[count - 1] = last;
+    Ok(numbers)
+}
+
+/// A spectrum whose peaks are broadened to frequencies `share` lower and higher, for what is not
+/// known of soil and structure: 0.15 in U.S. NRC Regulatory Guide 1.122, rev. 1 (1978).
+///
+/// Every ordinate becomes the largest between (1 − share) and (1 + share) times its frequency;
+/// between the given periods the spectrum is linear in the logarithm of the period.
+///
+/// # Errors
+/// [`Error::Input`] unless 0 ≤ `share` < 1 and the periods increase.
+pub fn broadened(spectrum: &[SpectralOrdinate], share: f64) -> Result<Vec<SpectralOrdinate>> {
+    not_negative("share of broadening", share)?;
+    if share >= 1.0 {
+        let (quantity, needed) = ("share of broadening", "below one");
+        return Err(Error::Input { quantity, value: share, needed });
+    }
+    let mut last = 0.0;
+    for ordinate in spectrum {
+        positive("step to the next period of a spectrum", ordinate.period - last)?;
+        last = ordinate.period;
+    }
+    let widen = |centre: &SpectralOrdinate| {
+        let (from, to) = (centre.period / (1.0 + share), centre.period / (1.0 - share));
+        let largest = |value: &dyn Fn(&SpectralOrdinate) -> f64| {
+            let inside = spectrum.iter().filter(|o| o.period >= from && o.period <= to);
+            let ends = [from, to].map(|period| between(spectrum, period, value));
+            inside.map(value).chain(ends).fold(0.0, f64::max)
+        };
+        SpectralOrdinate {
+            period: centre.period,
+            displacement: largest(&|o| o.displacement),
+            pseudo_velocity: largest(&|o| o.pseudo_velocity),
+            pseudo_acceleration: largest(&|o| o.pseudo_acceleration),
+            acceleration: largest(&|o| o.acceleration),
+        }
+    };
+    Ok(spectrum.iter().map(widen).collect())
+}
+
+/// The value at `period`; zero outside the spectrum.
+fn between(
+    spectrum: &[SpectralOrdinate],
+    period: f64,
+    value: &dyn Fn(&SpectralOrdinate) -> f64,
+) -> f64 {
+    spectrum.windows(2).find(|pair| period >= pair[0].period && period <= pair[1].period).map_or(
+        0.0,
+        |pair| {
+            let way = (period / pair[0].period).ln() / (pair[1].period / pair[0].period).ln();
+            (1.0 - way) * value(&pair[0]) + way * value(&pair[1])
+        },
+    )
+}

@@ -1,0 +1,86 @@
+//! What engineers ask of a run: histories, peaks with their times, envelopes, factors of safety.
+//!
+//! A [`Recorder`] says what to keep, [`Histories`] watch the run and keep it, a [`Summary`] is the
+//! page for the report, and a [`Comparison`] puts several summaries into one table.
+//!
+//! ```
+//! use basemat::bem::HalfPlaneGround;
+//! use basemat::coupled::Probe;
+//! use basemat::interface::Coulomb;
+//! use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+//! use basemat::results::{Quantity, Recorder, log_spaced};
+//! use basemat::structure::RigidBlock;
+//! use basemat::{Simulation, Soil};
+//!
+//! let block = RigidBlock::new(4.0, 6.0, 2000.0)?;
+//! let roof = block.horizontal_at(6.0);
+//! let weight = STANDARD_GRAVITY * block.total_mass();
+//! let mut simulation = Simulation::builder(0.01)
+//!     .structure(block)
+//!     .ground(HalfPlaneGround::strip(Soil::new(80.0e6, 0.33, 1900.0)?, -2.0..2.0, 8)?)
+//!     .interface(Coulomb::new(0.4)?)
+//!     .motion(el_centro_1940())
+//!     .gravity(STANDARD_GRAVITY)
+//!     .probe(Probe::acceleration("roof", roof))
+//!     .build()?;
+//!
+//! let mut histories = Recorder::new().friction(0.4).start(&simulation)?;
+//! simulation.run(500, |state| histories.record(state))?;
+//!
+//! let summary = histories.summary();
+//! println!("{summary}");
+//! assert!((summary.static_normal_force / weight - 1.0).abs() < 1e-9);
+//! // Coulomb's limit: the factor of safety never falls below one.
+//! assert!(summary.least_sliding_safety.is_some_and(|peak| peak.value > 1.0 - 1e-9));
+//! // The shares of the energy add up to all of it.
+//! let shares = summary.energy.ok_or(basemat::Error::Size { quantity: "input", found: 0, needed: 1 })?;
+//! assert!((shares.sum() - 1.0).abs() < 1e-6);
+//!
+//! // A history, and the response spectrum of the roof.
+//! assert_eq!(histories.series(Quantity::BaseShear).len(), 501);
+//! let floor = histories.floor_spectrum("roof", &log_spaced(0.1, 2.0, 20)?, 0.05)?;
+//! assert_eq!(floor.len(), 20);
+//! # Ok::<(), basemat::Error>(())
+//! ```
+//!
+//! # What it costs
+//!
+//! Nothing where it is not used. The scalar histories take 20 numbers and one per probe at every
+//! kept step (160 kB for 1000 steps); contact and motion frames are off unless asked for, see
+//! [`Histories::bytes`]. Peaks, envelopes and events are those of all steps, however few are kept.
+//!
+//! # Conventions
+//!
+//! Forces act on the soil, per metre of thickness, as in [`crate::coupled::State`]. A value belongs
+//! to the end of its step. The base moment is the total one, static part included.
+
+mod comparison;
+mod energy;
+mod envelope;
+mod extremes;
+mod floor;
+mod frames;
+mod histories;
+mod page;
+mod quantity;
+mod recorder;
+mod safety;
+mod sliding;
+mod summary;
+mod table;
+mod uplift;
+mod wireframe;
+
+pub use comparison::Comparison;
+pub use energy::EnergyShares;
+pub use envelope::ElementEnvelope;
+pub use extremes::Extremes;
+pub use floor::{broadened, log_spaced};
+pub use frames::{ContactFrame, MotionFrame};
+pub use histories::Histories;
+pub use quantity::Quantity;
+pub use recorder::Recorder;
+pub use sliding::{Sliding, SlipEvent};
+pub use summary::Summary;
+pub use uplift::Uplift;
+pub use wireframe::{WirePoint, Wireframe};

@@ -1,0 +1,169 @@
+//! The printed page of a summary, in kN, mm and kPa.
+
+use std::fmt;
+
+use super::table::Table;
+use super::{Extremes, Summary};
+use crate::coupled::Peak;
+
+/// Elements of the pressure envelope beyond which only some are printed.
+const MOST_ROWS: usize = 12;
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [begin, end] = self.times;
+        writeln!(f, "Run of {} steps from t = {begin:.3} s to {end:.3} s", self.steps)?;
+        if self.static_normal_force > 0.0 {
+            writeln!(f, "Weight on the base: {:.1} kN/m", 1e-3 * self.static_normal_force)?;
+        }
+        writeln!(f, "\n{}", self.peaks().text())?;
+        if let Some(coefficient) = self.shear_coefficient() {
+            writeln!(f, "Largest base shear: {coefficient:.3} of the weight")?;
+        }
+        self.safety(f)?;
+        self.uplift_and_sliding(f)?;
+        writeln!(f, "\nPressure under the base\n{}", self.pressures().text())?;
+        self.energies(f)?;
+        for warning in &self.warnings {
+            write!(f, "\nwarning: {warning}")?;
+        }
+        Ok(())
+    }
+}
+
+impl Summary {
+    fn peaks(&self) -> Table {
+        let heading = ["Peaks", "unit", "smallest", "at s", "largest", "at s"];
+        let row = |name: &str, unit: &str, factor: f64, extremes: &Extremes| {
+            let cell = |peak: Peak| [number(factor * peak.value), format!("{:.3}", peak.time)];
+            let [low, low_time] = cell(extremes.lowest);
+            let [high, high_time] = cell(extremes.highest);
+            vec![name.to_owned(), unit.to_owned(), low, low_time, high, high_time]
+        };
+        let mut rows = vec![
+            row("base shear", "kN/m", 1e-3, &self.base_shear),
+            row("base moment", "kN·m/m", 1e-3, &self.base_moment),
+            row("normal force", "kN/m", 1e-3, &self.normal_force),
+            row("base rotation", "mrad", 1e3, &self.base_rotation),
+        ];
+        rows.extend(self.probes.iter().map(|(name, extremes)| row(name, "SI", 1.0, extremes)));
+        Table { heading: heading.map(str::to_owned).to_vec(), rows }
+    }
+
+    fn safety(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut line = |name: &str, peak: Peak| {
+            writeln!(
+                f,
+                "Least factor of safety against {name}: {} at {:.3} s",
+                factor(peak.value),
+                peak.time
+            )
+        };
+        if let Some(peak) = self.least_sliding_safety {
+            line("sliding", peak)?;
+        }
+        line("overturning", self.least_overturning_safety)
+    }
+
+    fn uplift_and_sliding(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let uplift = &self.uplift;
+        writeln!(f, "\nUplift")?;
+        writeln!(
+            f,
+            "  up to {:.1} % of the base, at {:.3} s; largest gap {:.3} mm",
+            100.0 * uplift.peak.value,
+            uplift.peak.time,
+            1e3 * self.largest_gap().value
+        )?;
+        writeln!(
+            f,
+            "  {:.3} s in {} stretches, the longest {:.3} s; {:.3} s without contact",
+            uplift.duration, uplift.count, uplift.longest, uplift.flight
+        )?;
+        let sliding = &self.sliding;
+        writeln!(f, "Sliding")?;
+        writeln!(
+            f,
+            "  mean slip up to {:.3} mm at {:.3} s, {:.3} mm at the end; any element {:.3} mm",
+            1e3 * sliding.peak.value,
+            sliding.peak.time,
+            1e3 * sliding.residual,
+            1e3 * sliding.element_peak.value
+        )?;
+        write!(
+            f,
+            "  {} slip events of the whole base, {:.3} s, {:.3} mm of way",
+            sliding.events.len(),
+            sliding.duration,
+            1e3 * sliding.path
+        )?;
+        if let Some(event) = sliding.largest_event() {
+            let slip = 1e3 * event.slip;
+            write!(
+                f,
+                "\n  largest event {slip:.3} mm, {:.3} s to {:.3} s",
+                event.start, event.end
+            )?;
+        }
+        writeln!(f, "\nChanges of contact mode: {}", self.mode_changes)
+    }
+
+    fn pressures(&self) -> Table {
+        let heading = ["x, m", "static kPa", "least kPa", "largest kPa", "at s", "open s"];
+        let every = self.envelope.len().div_ceil(MOST_ROWS).max(1);
+        let last = self.envelope.len().saturating_sub(1);
+        let row = |envelope: &super::ElementEnvelope| {
+            vec![
+                format!("{:.3}", envelope.element.center()),
+                number(1e-3 * envelope.static_pressure),
+                number(1e-3 * envelope.pressure.lowest.value),
+                number(1e-3 * envelope.pressure.highest.value),
+                format!("{:.3}", envelope.pressure.highest.time),
+                format!("{:.3}", envelope.open),
+            ]
+        };
+        let kept = |k: &usize| k.is_multiple_of(every) || *k == last;
+        let shown = self.envelope.iter().enumerate().filter(|(k, _)| kept(k));
+        Table {
+            heading: heading.map(str::to_owned).to_vec(),
+            rows: shown.map(|(_, envelope)| row(envelope)).collect(),
+        }
+    }
+
+    fn energies(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.energy {
+            Some(shares) => {
+                writeln!(f, "\nEnergy: input {:.4} kJ/m, of which", 1e-3 * shares.input)?;
+                for (name, share) in shares.named() {
+                    // Not those that would print as nothing.
+                    if share.abs() >= 5e-5 {
+                        writeln!(f, "  {name:<24}{:>8.2} %", 100.0 * share)?;
+                    }
+                }
+            }
+            None => writeln!(f, "\nEnergy: input {:.4} kJ/m", 1e-3 * self.ledger.input)?,
+        }
+        write!(f, "  ledger open by at most {:.1e} of its largest term", self.ledger_residual)
+    }
+}
+
+/// Five figures, no exponents where they can be helped; no negative zero.
+pub(super) fn number(value: f64) -> String {
+    let magnitude = value.abs();
+    if value == 0.0 {
+        "0".to_owned()
+    } else if !(1e-3..1e6).contains(&magnitude) {
+        format!("{value:.3e}")
+    } else if magnitude >= 1e3 {
+        format!("{value:.1}")
+    } else if magnitude >= 1.0 {
+        format!("{value:.3}")
+    } else {
+        format!("{value:.5}")
+    }
+}
+
+/// A factor of safety.
+pub(super) fn factor(value: f64) -> String {
+    if value < 1e4 { format!("{value:.3}") } else { "unlimited".to_owned() }
+}

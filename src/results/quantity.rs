@@ -1,0 +1,101 @@
+//! The scalar histories that every recording keeps.
+
+/// A scalar of [`crate::coupled::State`], or one derived from it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// Horizontal force on the soil, positive to the right, N/m.
+    BaseShear,
+    /// Total moment on the soil, counter-clockwise, N·m/m.
+    BaseMoment,
+    /// Total pressure on the soil, N/m.
+    NormalForce,
+    /// Length of open elements over the length of the base.
+    UpliftedFraction,
+    /// Slip averaged over the base, m.
+    MeanSlip,
+    /// Largest |slip| of any element, m.
+    LargestSlip,
+    /// Rotation of the base, counter-clockwise, rad.
+    BaseRotation,
+    /// Mean horizontal displacement of the free field under the base, m.
+    FreeFieldHorizontal,
+    /// Mean vertical displacement (up) of the free field under the base, m.
+    FreeFieldVertical,
+    /// Resistance of the interface over the base shear: φN/|H|. Infinite without shear, NaN in
+    /// flight, and throughout if the [`Recorder`](super::Recorder) was told no friction.
+    ///
+    /// It is made of tractions that did act: on a base that may slide it reaches one when it does,
+    /// and never falls below. On a bonded base it may, and says what the interface would have lacked.
+    SlidingSafety,
+    /// Restoring over overturning moment about the edge that the pressure moves to: N times the
+    /// half width, over the moment about the middle of the base. NaN in flight. On a base that may
+    /// open it reaches one when the base stands on its edge (on its last element), and never falls
+    /// below.
+    OverturningSafety,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 11] = [
+        Self::BaseShear,
+        Self::BaseMoment,
+        Self::NormalForce,
+        Self::UpliftedFraction,
+        Self::MeanSlip,
+        Self::LargestSlip,
+        Self::BaseRotation,
+        Self::FreeFieldHorizontal,
+        Self::FreeFieldVertical,
+        Self::SlidingSafety,
+        Self::OverturningSafety,
+    ];
+
+    /// Its name, for tables and axes.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::BaseShear => "base shear",
+            Self::BaseMoment => "base moment",
+            Self::NormalForce => "normal force",
+            Self::UpliftedFraction => "uplifted fraction",
+            Self::MeanSlip => "mean slip",
+            Self::LargestSlip => "largest slip",
+            Self::BaseRotation => "base rotation",
+            Self::FreeFieldHorizontal => "free field, horizontal",
+            Self::FreeFieldVertical => "free field, vertical",
+            Self::SlidingSafety => "factor of safety, sliding",
+            Self::OverturningSafety => "factor of safety, overturning",
+        }
+    }
+
+    /// Its SI unit; empty for ratios.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::BaseShear | Self::NormalForce => "N/m",
+            Self::BaseMoment => "N·m/m",
+            Self::MeanSlip
+            | Self::LargestSlip
+            | Self::FreeFieldHorizontal
+            | Self::FreeFieldVertical => "m",
+            Self::BaseRotation => "rad",
+            Self::UpliftedFraction | Self::SlidingSafety | Self::OverturningSafety => "",
+        }
+    }
+
+    /// Its heading in CSV files.
+    pub(super) fn heading(self) -> &'static str {
+        match self {
+            Self::BaseShear => "base_shear_n_per_m",
+            Self::BaseMoment => "base_moment_n_m_per_m",
+            Self::NormalForce => "normal_force_n_per_m",
+            Self::UpliftedFraction => "uplifted_fraction",
+            Self::MeanSlip => "mean_slip_m",
+            Self::LargestSlip => "largest_slip_m",
+            Self::BaseRotation => "base_rotation_rad",
+            Self::FreeFieldHorizontal => "free_field_x_m",
+            Self::FreeFieldVertical => "free_field_y_m",
+            Self::SlidingSafety => "sliding_safety",
+            Self::OverturningSafety => "overturning_safety",
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! What to keep of a run.
+
+use super::Histories;
+use crate::coupled::Simulation;
+use crate::error::{Error, Result};
+
+/// What to keep of a run: the scalar histories and the probes at every step, unless told otherwise.
+///
+/// See the [module](super) for an example.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recorder {
+    pub(super) friction: Vec<f64>,
+    pub(super) every: usize,
+    pub(super) contact: Option<usize>,
+    pub(super) motion: Option<usize>,
+}
+
+impl Default for Recorder {
+    fn default() -> Self {
+        Self { friction: Vec::new(), every: 1, contact: None, motion: None }
+    }
+}
+
+impl Recorder {
+    /// Scalars and probes at every step.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Friction coefficient φ of the interface, for the factor of safety against sliding.
+    #[must_use]
+    pub fn friction(self, coefficient: f64) -> Self {
+        Self { friction: vec![coefficient], ..self }
+    }
+
+    /// Friction coefficients of the elements, from left to right.
+    #[must_use]
+    pub fn frictions(self, coefficients: Vec<f64>) -> Self {
+        Self { friction: coefficients, ..self }
+    }
+
+    /// Keeps scalars and probes of every `steps`th step only. Peaks stay those of all steps; floor
+    /// spectra can no longer be had.
+    #[must_use]
+    pub fn every(self, steps: usize) -> Self {
+        Self { every: steps, ..self }
+    }
+
+    /// Keeps the base at every `steps`th step: 40 bytes per element and frame.
+    #[must_use]
+    pub fn contact(self, steps: usize) -> Self {
+        Self { contact: Some(steps), ..self }
+    }
+
+    /// Keeps displacement and velocity of the structure at every `steps`th step: 16 bytes per
+    /// unknown and frame.
+    #[must_use]
+    pub fn motion(self, steps: usize) -> Self {
+        Self { motion: Some(steps), ..self }
+    }
+
+    /// Starts with the simulation as it stands.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a negative friction coefficient (infinity is one) or an interval of zero
+    /// steps; [`Error::Size`] unless there is one friction coefficient for all elements or one each.
+    pub fn start(self, simulation: &Simulation) -> Result<Histories> {
+        let count = simulation.elements().len();
+        if self.friction.len() > 1 && self.friction.len() != count {
+            return Err(Error::Size {
+                quantity: "list of friction coefficients",
+                found: self.friction.len(),
+                needed: count,
+            });
+        }
+        if let Some(&value) = self.friction.iter().find(|value| value.is_nan() || **value < 0.0) {
+            let (quantity, needed) = ("friction coefficient", "zero or more");
+            return Err(Error::Input { quantity, value, needed });
+        }
+        let intervals = [Some(self.every), self.contact, self.motion];
+        if intervals.contains(&Some(0)) {
+            let (quantity, needed) = ("steps between what is kept", "one or more");
+            return Err(Error::Input { quantity, value: 0.0, needed });
+        }
+        Ok(Histories::new(self, simulation))
+    }
+}

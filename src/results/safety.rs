@@ -1,0 +1,102 @@
+//! Factors of safety against sliding and overturning.
+//!
+//! They are made of the contact tractions that did act. Tractions of a base that may open and slide
+//! cannot go beyond its strength: such a factor stays at or above one, and reaches it when the base
+//! does slide, or stands on its edge. Below one it falls on a bonded base only, where it says how
+//! much the interface would have lacked.
+
+use crate::bem::ContactElement;
+use crate::interface::ContactState;
+
+/// Σ A φ p over |Σ A τ|; an infinite coefficient holds wherever it is pressed on.
+pub(super) fn against_sliding(
+    friction: &[f64],
+    elements: &[ContactElement],
+    contact: &[ContactState],
+) -> f64 {
+    let (mut resistance, mut normal, mut shear) = (0.0, 0.0, 0.0);
+    for (e, (element, state)) in elements.iter().zip(contact).enumerate() {
+        let coefficient = friction[if friction.len() == 1 { 0 } else { e }];
+        let pressed = element.length() * state.pressure;
+        // Infinity times zero is no resistance.
+        if pressed != 0.0 && !(coefficient == f64::INFINITY && pressed < 0.0) {
+            resistance += coefficient * pressed;
+        }
+        normal += pressed;
+        shear += element.length() * state.shear;
+    }
+    ratio(normal, resistance, shear.abs())
+}
+
+/// N b over the moment of the pressure about the middle of the base, b the half width.
+pub(super) fn against_overturning(elements: &[ContactElement], contact: &[ContactState]) -> f64 {
+    let (Some(first), Some(last)) = (elements.first(), elements.last()) else {
+        return f64::INFINITY;
+    };
+    let (middle, half) = (0.5 * (first.left + last.right), 0.5 * (last.right - first.left));
+    let (mut normal, mut moment) = (0.0, 0.0);
+    for (element, state) in elements.iter().zip(contact) {
+        let force = element.length() * state.pressure;
+        normal += force;
+        moment += force * (element.center() - middle);
+    }
+    ratio(normal, normal * half, moment.abs())
+}
+
+/// Resistance over demand: NaN without any pressure, infinite without demand, zero when the base is
+/// pulled up on the whole.
+fn ratio(normal: f64, resistance: f64, demand: f64) -> f64 {
+    if normal == 0.0 {
+        f64::NAN
+    } else if normal < 0.0 || resistance <= 0.0 {
+        0.0
+    } else if demand == 0.0 || resistance == f64::INFINITY {
+        f64::INFINITY
+    } else {
+        resistance / demand
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn base() -> [ContactElement; 2] {
+        [ContactElement { left: -1.0, right: 1.0 }, ContactElement { left: 1.0, right: 2.0 }]
+    }
+
+    fn contact(pressure: [f64; 2], shear: [f64; 2]) -> [ContactState; 2] {
+        [0, 1].map(|e| ContactState {
+            pressure: pressure[e],
+            shear: shear[e],
+            ..Default::default()
+        })
+    }
+
+    /// N = 2·30 + 10 = 70, H = −14, middle 0.5, half width 1.5, moment 60·(−0.5) + 10·1 = −20.
+    #[test]
+    fn by_hand() {
+        let state = contact([30.0, 10.0], [-10.0, 6.0]);
+        assert!((against_sliding(&[0.4], &base(), &state) - 0.4 * 70.0 / 14.0).abs() < 1e-14);
+        let each = against_sliding(&[0.5, 0.1], &base(), &state);
+        assert!((each - 31.0 / 14.0).abs() < 1e-14);
+        assert!((against_overturning(&base(), &state) - 70.0 * 1.5 / 20.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn limits() {
+        let (flight, pressed) = (contact([0.0; 2], [0.0; 2]), contact([1.0; 2], [0.0; 2]));
+        for friction in [0.0, 0.4, f64::INFINITY] {
+            assert!(against_sliding(&[friction], &base(), &flight).is_nan());
+        }
+        assert!(against_overturning(&base(), &flight).is_nan());
+        assert_eq!(against_sliding(&[0.4], &base(), &pressed), f64::INFINITY);
+        assert_eq!(against_sliding(&[0.0], &base(), &pressed), 0.0);
+        let sheared = contact([1.0, 0.0], [0.3, 0.0]);
+        assert_eq!(against_sliding(&[f64::INFINITY], &base(), &sheared), f64::INFINITY);
+        // Resultant at the middle: 2 p₀ (−½) + p₁ (1) = 0.
+        assert_eq!(against_overturning(&base(), &pressed), f64::INFINITY);
+        // Pulled up on the whole: nothing resists.
+        assert_eq!(against_overturning(&base(), &contact([-1.0; 2], [0.0; 2])), 0.0);
+    }
+}

@@ -1,0 +1,115 @@
+//! How far the base slid, and in how many events.
+
+use crate::coupled::{Peak, State};
+
+/// A stretch of steps in which the whole base slid one way: some elements are closed, all closed
+/// ones slide, and the mean slip does not turn round.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SlipEvent {
+    /// Beginning of its first step, s.
+    pub start: f64,
+    /// End of its last step, s.
+    pub end: f64,
+    /// Change of the mean slip, m; positive to the right.
+    pub slip: f64,
+}
+
+/// Sliding of a run. Slip is averaged over the base; tangential motion of open elements counts.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Sliding {
+    /// Largest mean slip, with its sign, m.
+    pub peak: Peak,
+    /// Mean slip at the end, m.
+    pub residual: f64,
+    /// Largest slip of any one element, m.
+    pub element_peak: Peak,
+    /// Way slid, m: the sum of the events' |slip|.
+    pub path: f64,
+    /// Time in which the whole base slid, s.
+    pub duration: f64,
+    /// Events, in order.
+    pub events: Vec<SlipEvent>,
+    in_event: bool,
+}
+
+impl Sliding {
+    /// Before the first step.
+    pub(super) fn start(state: &State) -> Self {
+        let mut sliding = Self { residual: state.mean_slip, ..Self::default() };
+        sliding.see_slips(state);
+        sliding
+    }
+
+    fn see_slips(&mut self, state: &State) {
+        self.peak.see(state.mean_slip, state.time);
+        for contact in &state.contact {
+            self.element_peak.see(contact.slip, state.time);
+        }
+    }
+
+    /// A step that began at `begin`.
+    pub(super) fn see(&mut self, state: &State, begin: f64) {
+        self.see_slips(state);
+        let slides = state.modes.iter().any(|mode| mode.is_slip())
+            && state.modes.iter().all(|mode| mode.is_slip() || !mode.is_closed());
+        self.advance(slides, state.mean_slip - self.residual, [begin, state.time]);
+        self.residual = state.mean_slip;
+    }
+
+    /// The mean slip changed by `slip` from the first to the second of `times`.
+    fn advance(&mut self, slides: bool, slip: f64, times: [f64; 2]) {
+        if slides {
+            self.path += slip.abs();
+            self.duration += times[1] - times[0];
+            match self.events.last_mut() {
+                Some(event) if self.in_event && event.slip * slip >= 0.0 => {
+                    event.slip += slip;
+                    event.end = times[1];
+                }
+                _ => self.events.push(SlipEvent { start: times[0], end: times[1], slip }),
+            }
+        }
+        self.in_event = slides;
+    }
+
+    /// The event with the largest |slip|.
+    pub fn largest_event(&self) -> Option<SlipEvent> {
+        let larger = |a: &SlipEvent, b: &SlipEvent| a.slip.abs().total_cmp(&b.slip.abs());
+        self.events.iter().copied().max_by(larger)
+    }
+
+    /// Number of events of at least `least` (m) of slip.
+    pub fn events_above(&self, least: f64) -> usize {
+        self.events.iter().filter(|event| event.slip.abs() >= least).count()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn events_end_with_sticking_and_with_turning() {
+        let mut sliding = Sliding::default();
+        let steps = [
+            (false, 0.5),
+            (true, 1.0),
+            (true, 2.0),
+            (true, -4.0),
+            (true, -1.0),
+            (false, 0.0),
+            (true, -3.0),
+            (false, 0.1),
+        ];
+        for (k, (slides, slip)) in steps.into_iter().enumerate() {
+            sliding.advance(slides, slip, [k as f64, (k + 1) as f64]);
+        }
+        let event = |start, end, slip| SlipEvent { start, end, slip };
+        let known = [event(1.0, 3.0, 3.0), event(3.0, 5.0, -5.0), event(6.0, 7.0, -3.0)];
+        assert_eq!(sliding.events, known);
+        assert_eq!((sliding.path, sliding.duration), (11.0, 5.0));
+        assert_eq!(sliding.largest_event(), Some(known[1]));
+        assert_eq!([0.0, 3.5, 6.0].map(|least| sliding.events_above(least)), [3, 1, 0]);
+        assert_eq!(Sliding::default().largest_event(), None);
+    }
+}

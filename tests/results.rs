@@ -1,0 +1,374 @@
+//! Histories, peaks, envelopes and factors of safety, against the states they were made of and
+//! against statics.
+
+#[path = "support/scenes.rs"]
+mod scenes;
+
+use basemat::bem::{HalfPlaneGround, SpringGround};
+use basemat::coupled::{Placement, Probe, State};
+use basemat::interface::{Bonded, Coulomb};
+use basemat::motion::{AtRest, STANDARD_GRAVITY, SpectralOrdinate, el_centro_1940};
+use basemat::results::{
+    Comparison, EnergyShares, Histories, Quantity, Recorder, broadened, log_spaced,
+};
+use basemat::structure::{ContactNode, RigidBlock, Structure, Triplets};
+use basemat::{Error, Simulation, Soil};
+use scenes::{SI, block, friction, scene};
+
+const FRICTION: f64 = 0.35;
+const STEPS: usize = 400;
+
+fn simulation() -> Simulation {
+    scene(SI, 0.6)
+        .structure(block(SI))
+        .interface(friction(FRICTION))
+        .probe(Probe::displacement("top", block(SI).horizontal_at(6.0)))
+        .probe(Probe::acceleration("top acceleration", block(SI).horizontal_at(6.0)))
+        .build()
+        .unwrap()
+}
+
+/// The states of a run, and its histories.
+fn recorded(recorder: Recorder) -> (Vec<State>, Histories, Simulation) {
+    let mut simulation = simulation();
+    let mut histories = recorder.start(&simulation).unwrap();
+    let mut states = vec![simulation.state().clone()];
+    simulation
+        .run(STEPS, |state| {
+            histories.record(state);
+            states.push(state.clone());
+        })
+        .unwrap();
+    (states, histories, simulation)
+}
+
+/// Everything once more, from the states and by other means.
+#[test]
+fn histories_and_peaks_are_those_of_the_states() {
+    let (states, histories, simulation) = recorded(Recorder::new().friction(FRICTION).contact(1));
+    let elements = simulation.elements();
+    let times: Vec<f64> = states.iter().map(|s| s.time).collect();
+    assert_eq!(histories.times(), times);
+    let shear: Vec<f64> = states.iter().map(|s| s.base_shear).collect();
+    assert_eq!(histories.series(Quantity::BaseShear), shear);
+    let rotation: Vec<f64> = states.iter().map(|s| s.base_rotation).collect();
+    assert_eq!(histories.series(Quantity::BaseRotation), rotation);
+    let top: Vec<f64> = states.iter().map(|s| s.probes[0]).collect();
+    assert_eq!(histories.probe("top").unwrap(), top);
+    assert_eq!(histories.ledgers()[STEPS], states[STEPS].ledger);
+
+    let summary = histories.summary();
+    let peak = (0..=STEPS).max_by(|&a, &b| shear[a].total_cmp(&shear[b])).unwrap();
+    let found = summary.base_shear.highest;
+    assert_eq!((found.value, found.time), (shear[peak], times[peak]));
+    let lowest = shear.iter().copied().fold(f64::INFINITY, f64::min);
+    assert_eq!(summary.base_shear.lowest.value, lowest);
+    assert!(lowest < 0.0);
+    let top_peak = top.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    assert_eq!(summary.probes[0].1.largest().value.abs(), top_peak);
+
+    for (e, envelope) in histories.envelope().iter().enumerate() {
+        let pressures = || states.iter().map(|s| s.contact[e].pressure);
+        assert_eq!(envelope.pressure.highest.value, pressures().fold(0.0, f64::max));
+        assert_eq!(envelope.pressure.lowest.value, pressures().fold(1e99, f64::min));
+        assert_eq!(envelope.static_pressure, states[0].contact[e].pressure);
+        let gap = states.iter().map(|s| s.contact[e].gap).fold(-1e99, f64::max);
+        assert_eq!(envelope.gap.value, gap);
+        let open = states[1..].iter().filter(|s| !s.modes[e].is_closed()).count();
+        assert!((envelope.open - open as f64 * simulation.time_step()).abs() < 1e-9);
+        assert_eq!(envelope.element, elements[e]);
+    }
+
+    // Stretches of uplift as runs in a string.
+    let letters: String =
+        states[1..].iter().map(|s| if s.uplifted_fraction > 0.0 { 'u' } else { ' ' }).collect();
+    let stretches: Vec<usize> = letters.split_whitespace().map(str::len).collect();
+    let uplift = summary.uplift;
+    let dt = simulation.time_step();
+    assert!(stretches.len() > 2, "{letters}");
+    assert_eq!(uplift.count, stretches.len());
+    assert!((uplift.duration - dt * stretches.iter().sum::<usize>() as f64).abs() < 1e-9);
+    assert!((uplift.longest - dt * *stretches.iter().max().unwrap() as f64).abs() < 1e-9);
+
+    // Slip events as runs of letters for the direction.
+    let letters: Vec<char> = states
+        .windows(2)
+        .map(|pair| {
+            let closed: Vec<_> = pair[1].modes.iter().filter(|mode| mode.is_closed()).collect();
+            let slides = !closed.is_empty() && closed.iter().all(|mode| mode.is_slip());
+            match (slides, pair[1].mean_slip > pair[0].mean_slip) {
+                (false, _) => ' ',
+                (true, true) => 'r',
+                (true, false) => 'l',
+            }
+        })
+        .collect();
+    let sliding = &summary.sliding;
+    let events = letters.chunk_by(|a, b| a == b).filter(|run| run[0] != ' ').count();
+    assert!(events > 2, "{letters:?}");
+    assert_eq!(sliding.events.len(), events);
+    let slid = letters.iter().filter(|&&letter| letter != ' ').count();
+    assert!((sliding.duration - dt * slid as f64).abs() < 1e-9);
+    assert_eq!(sliding.residual, states[STEPS].mean_slip);
+    let way: f64 = sliding.events.iter().map(|event| event.slip.abs()).sum();
+    assert!((way / sliding.path - 1.0).abs() < 1e-12);
+    let peak = states.iter().fold(0.0_f64, |m, s| m.max(s.mean_slip.abs()));
+    assert_eq!(sliding.peak.value.abs(), peak);
+
+    // Safety from the resultants that the state has of its own.
+    let half = 2.0;
+    for (k, state) in states.iter().enumerate() {
+        let sliding = FRICTION * state.normal_force / state.base_shear.abs();
+        let overturning = state.normal_force * half / state.base_moment.abs();
+        for (quantity, known) in
+            [(Quantity::SlidingSafety, sliding), (Quantity::OverturningSafety, overturning)]
+        {
+            let found = histories.series(quantity)[k];
+            if state.normal_force == 0.0 {
+                assert!(found.is_nan());
+                continue;
+            }
+            assert!(known > 1e6 || (found / known - 1.0).abs() < 1e-8, "{found} {known}");
+            assert!(found > 1.0 - 1e-9);
+        }
+    }
+    let least = summary.least_sliding_safety.unwrap();
+    assert!((least.value - 1.0).abs() < 1e-9);
+
+    // Energy: shares of the last ledger, which close.
+    let shares = summary.energy.unwrap();
+    let ledger = states[STEPS].ledger;
+    assert_eq!(shares, EnergyShares::of(&ledger).unwrap());
+    assert!((shares.sum() - 1.0).abs() < 1e-9);
+    assert!((shares.contact * ledger.input / ledger.contact - 1.0).abs() < 1e-12);
+    assert!(shares.soil > 0.05 && shares.contact > 0.05);
+
+    // Frames are the states.
+    let frames: Vec<_> = histories.contact_frames().collect();
+    assert_eq!(frames.len(), STEPS + 1);
+    assert!(frames.iter().zip(&states).all(|(f, s)| f.states == s.contact && f.modes == s.modes));
+}
+
+#[test]
+fn thinned_histories_keep_the_peaks_of_all_steps() {
+    let (states, histories, _) = recorded(Recorder::new().every(7).contact(20).motion(50));
+    let (_, all, _) = recorded(Recorder::new());
+    assert_eq!(histories.times().len(), 1 + STEPS / 7);
+    for (k, &shear) in histories.series(Quantity::BaseShear).iter().enumerate() {
+        assert_eq!(shear, states[7 * k].base_shear);
+    }
+    for quantity in Quantity::ALL.into_iter().filter(|&q| q != Quantity::SlidingSafety) {
+        assert_eq!(histories.extremes(quantity), all.extremes(quantity));
+    }
+    assert_eq!(histories.envelope(), all.envelope());
+    assert_eq!(histories.summary().sliding, all.summary().sliding);
+    assert!(histories.series(Quantity::SlidingSafety).iter().all(|x| x.is_nan()));
+    assert!(histories.summary().least_sliding_safety.is_none());
+    assert!(histories.bytes() < all.bytes());
+    assert_eq!(histories.contact_frames().count(), 21);
+    let frames: Vec<_> = histories.motion_frames().collect();
+    assert_eq!(frames.len(), 9);
+    for (k, frame) in frames.iter().enumerate() {
+        assert_eq!(frame.displacement, states[50 * k].displacement());
+        assert_eq!(frame.velocity, states[50 * k].velocity());
+    }
+    assert!(matches!(histories.acceleration_record("top acceleration"), Err(Error::Scene { .. })));
+}
+
+/// A block with a steady horizontal force at its centre of gravity.
+struct Pushed(RigidBlock, f64, f64);
+
+impl Structure for Pushed {
+    fn unknowns(&self) -> usize {
+        self.0.unknowns()
+    }
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.0.contact_nodes()
+    }
+    fn mass(&self, matrix: &mut Triplets) {
+        self.0.mass(matrix);
+    }
+    fn stiffness(&self, matrix: &mut Triplets) {
+        self.0.stiffness(matrix);
+    }
+    fn load(&self, _time: f64, load: &mut [f64]) {
+        for (unknown, weight) in self.0.horizontal_at(self.2) {
+            load[unknown] += weight * self.1;
+        }
+    }
+}
+
+/// Pushed with H at height h, a block of weight W and width 2b stands with μW/H and Wb/(Hh).
+#[test]
+fn statics_of_a_pushed_block() {
+    let block = RigidBlock::new(4.0, 3.0, 2000.0).unwrap();
+    let weight = STANDARD_GRAVITY * block.total_mass();
+    // The second one uplifts: eccentricity h/4 = 1.25 > b/3. The third must be held by tension.
+    for (share, height, bonded) in [(0.2, 1.5, false), (0.25, 5.0, false), (0.5, 6.0, true)] {
+        let builder = Simulation::builder(1e-3)
+            .structure(Pushed(block.clone(), share * weight, height))
+            .ground(SpringGround::new(-2.0..2.0, 40, 4e7, 2e7).unwrap())
+            .motion(AtRest)
+            .gravity(STANDARD_GRAVITY)
+            .placement(Placement::WithInterfaceLaw);
+        let builder = if bonded {
+            builder.interface(Bonded)
+        } else {
+            builder.interface(Coulomb::new(0.6).unwrap())
+        };
+        let simulation = builder.build().unwrap();
+        let histories = Recorder::new().friction(0.6).start(&simulation).unwrap();
+        let value = |quantity| histories.series(quantity)[0];
+        assert!((value(Quantity::SlidingSafety) * share / 0.6 - 1.0).abs() < 1e-6);
+        assert!((value(Quantity::OverturningSafety) * share * height / 2.0 - 1.0).abs() < 1e-6);
+        assert_eq!(value(Quantity::OverturningSafety) < 1.0, bonded);
+        assert_eq!(value(Quantity::UpliftedFraction) > 0.0, height == 5.0);
+    }
+}
+
+/// A light block, bonded to stiff ground, moves as the ground does: so do its floors' spectra.
+#[test]
+fn floors_of_a_light_rigid_block_ride_on_the_ground() {
+    let ground = HalfPlaneGround::strip(Soil::new(2e9, 0.3, 2000.0).unwrap(), -2.0..2.0, 4);
+    let block = RigidBlock::new(4.0, 1.0, 10.0).unwrap();
+    let top = block.horizontal_at(1.0);
+    let mut simulation = Simulation::builder(0.01)
+        .structure(block)
+        .ground(ground.unwrap())
+        .interface(Bonded)
+        .motion(el_centro_1940())
+        .probe(Probe::acceleration("top", top))
+        .build()
+        .unwrap();
+    let mut histories = Recorder::new().start(&simulation).unwrap();
+    let run = histories.run(&mut simulation, 1500).unwrap();
+    assert_eq!(run.steps, 1500);
+    let periods = log_spaced(0.2, 3.0, 12).unwrap();
+    let floor = histories.floor_spectrum("top", &periods, 0.05).unwrap();
+    let ground = el_centro_1940().response_spectrum(&periods, 0.05).unwrap();
+    for (floor, ground) in floor.iter().zip(&ground) {
+        let ratio = floor.pseudo_acceleration / ground.pseudo_acceleration;
+        assert!((ratio - 1.0).abs() < 0.02, "T = {}: {ratio}", floor.period);
+    }
+    let record = histories.acceleration_record("top").unwrap();
+    assert_eq!(record.accelerations(), histories.probe("top").unwrap());
+}
+
+#[test]
+fn broadened_peaks_are_plateaus() {
+    let ordinate = |period: f64, value: f64| SpectralOrdinate {
+        period,
+        displacement: value,
+        pseudo_velocity: 2.0 * value,
+        pseudo_acceleration: 3.0 * value,
+        acceleration: 4.0 * value,
+    };
+    // A triangle of height three over ln T, its top at 1 s.
+    let shape = |period: f64| 3.0 - period.ln().abs();
+    let periods = log_spaced(0.1, 10.0, 401).unwrap();
+    let spectrum: Vec<_> = periods.iter().map(|&t| ordinate(t, shape(t))).collect();
+    for (wide, &period) in broadened(&spectrum, 0.15).unwrap().iter().zip(&periods) {
+        // What is largest between the two ends of the window.
+        let (low, high) = (period / 1.15, period / 0.85);
+        let known = if (low..high).contains(&1.0) { 3.0 } else { shape(low).max(shape(high)) };
+        assert!((wide.displacement - known).abs() < 1e-12, "{period}");
+        assert_eq!(wide.acceleration, 4.0 * wide.displacement);
+    }
+    assert_eq!(broadened(&spectrum, 0.0).unwrap(), spectrum);
+    assert!(broadened(&[], 0.15).unwrap().is_empty());
+    for share in [-0.1, 1.0, f64::NAN, f64::INFINITY] {
+        assert!(broadened(&spectrum, share).is_err());
+    }
+    assert!(broadened(&[spectrum[1], spectrum[0]], 0.1).is_err());
+    assert!(broadened(&[ordinate(f64::NAN, 1.0)], 0.1).is_err());
+}
+
+#[test]
+fn pages_and_tables() {
+    let (_, histories, _) = recorded(Recorder::new().friction(FRICTION));
+    let summary = histories.summary();
+    let page = summary.to_string();
+    println!("{page}");
+    for words in [
+        "Run of 400 steps",
+        "Least factor of safety against sliding: 1.000",
+        "slip events",
+        "friction and impact",
+        "Pressure under the base",
+    ] {
+        assert!(page.contains(words), "{words}\n{page}");
+    }
+    // No line too wide for a page.
+    assert!(page.lines().all(|line| line.chars().count() <= 100), "{page}");
+
+    let mut comparison = Comparison::new();
+    comparison.add("first, \"a\"", summary.clone());
+    comparison.add("second", summary.clone());
+    println!("{comparison}");
+    let csv = comparison.csv();
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines.len(), 3);
+    let columns = lines[0].split(',').count();
+    let values: Vec<&str> = lines[2].split(',').collect();
+    assert_eq!(values.len(), columns);
+    let column = lines[0].split(',').position(|name| name == "base_shear_n_per_m").unwrap();
+    assert_eq!(values[column].parse(), Ok(summary.base_shear.largest().value));
+    assert!(lines[1].starts_with("\"first, \"\"a\"\"\","));
+    let text = comparison.to_string();
+    assert!(text.lines().nth(2).unwrap().starts_with("base shear"));
+    let markdown = comparison.markdown();
+    assert!(markdown.lines().all(|line| line.matches('|').count() == 5), "{markdown}");
+    // Nothing to compare is a table, too.
+    assert!(Comparison::new().to_string().contains("base shear"));
+    assert_eq!(Comparison::new().csv().lines().count(), 1);
+
+    let mut file = Vec::new();
+    histories.write_csv(&mut file).unwrap();
+    let text = String::from_utf8(file).unwrap();
+    assert_eq!(text.lines().count(), STEPS + 2);
+    let columns = text.lines().next().unwrap().split(',').count();
+    assert!(text.lines().all(|line| line.split(',').count() == columns));
+    let last: Vec<&str> = text.lines().last().unwrap().split(',').collect();
+    assert_eq!(last[1].parse(), Ok(histories.series(Quantity::BaseShear)[STEPS]));
+}
+
+#[test]
+fn bad_requests_are_errors() {
+    let mut simulation = simulation();
+    let start = |recorder: Recorder| recorder.start(&simulation);
+    for coefficient in [-0.1, f64::NAN, f64::NEG_INFINITY] {
+        let fault = start(Recorder::new().friction(coefficient));
+        assert!(matches!(fault, Err(Error::Input { .. })));
+    }
+    assert!(start(Recorder::new().friction(f64::INFINITY)).is_ok());
+    let fault = start(Recorder::new().frictions(vec![0.4; 3]));
+    assert!(matches!(fault, Err(Error::Size { found: 3, .. })));
+    for recorder in
+        [Recorder::new().every(0), Recorder::new().contact(0), Recorder::new().motion(0)]
+    {
+        assert!(matches!(start(recorder), Err(Error::Input { .. })));
+    }
+    let mut histories = start(Recorder::new()).unwrap();
+    assert_eq!(
+        histories.probe("nobody"),
+        Err(Error::Name { quantity: "probe", name: "nobody".to_owned() })
+    );
+    assert!(histories.floor_spectrum("nobody", &[1.0], 0.05).is_err());
+    assert!(histories.floor_spectrum("top", &[1.0], 0.05).is_err());
+    // Nothing recorded yet: one sample is no record.
+    assert!(histories.floor_spectrum("top acceleration", &[1.0], 0.05).is_err());
+    for bad in [[0.0, 1.0], [1.0, f64::NAN], [f64::INFINITY, 1.0]] {
+        assert!(log_spaced(bad[0], bad[1], 5).is_err());
+    }
+    assert!(log_spaced(1.0, 2.0, 1).is_err() && log_spaced(1.0, 2.0, usize::MAX).is_err());
+    // The same state twice, and one of another scene.
+    let state = simulation.step().unwrap().clone();
+    histories.record(&state);
+    histories.record(&state);
+    let mut other = state.clone();
+    other.time += 1.0;
+    other.contact.pop();
+    histories.record(&other);
+    assert_eq!(histories.times().len(), 2);
+    assert_eq!(histories.summary().steps, 1);
+}
