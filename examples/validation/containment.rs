@@ -8,7 +8,8 @@ use super::AnyError;
 use super::chart::{BLUE, Figure, Panel, RED};
 use super::outcome::{Case as Validation, Check, Outcome};
 use super::paper::case::{self, Case, Outcome as Computed};
-use super::paper::options::{Options, POUND_FORCE_PER_FOOT};
+use super::paper::containment::{PAPER_SHEARS as PAPER, POUND_FORCE_PER_FOOT};
+use super::paper::options::Options;
 
 pub(crate) const CASE: Validation = Validation {
     name: "containment",
@@ -17,9 +18,6 @@ pub(crate) const CASE: Validation = Validation {
     settings: "10 uniform elements, Δt = 1.31 ms, El Centro; dimensions reconstructed",
     run,
 };
-
-/// Peak base shear of the paper's Table 1, lb/ft.
-const PAPER: [f64; 5] = [28_970.0, 20_130.0, 10_233.0, 6_415.0, 5_958.0];
 
 fn run(short: bool) -> Result<Outcome, AnyError> {
     let duration: &[&str] = if short { &["--duration", "12"] } else { &[] };

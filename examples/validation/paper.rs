@@ -5,5 +5,7 @@ use super::AnyError;
 
 #[path = "../containment/case.rs"]
 pub(crate) mod case;
+#[path = "../common/containment.rs"]
+pub(crate) mod containment;
 #[path = "../containment/options.rs"]
 pub(crate) mod options;

@@ -9,10 +9,11 @@ use crate::results::Histories;
 /// Name and value of a term.
 type Term = (&'static str, fn(&Ledger) -> f64);
 
-const TERMS: [Term; 7] = [
+const TERMS: [Term; 8] = [
     ("input", |l| l.input),
     ("friction and impact", |l| l.contact),
     ("soil", |l| l.soil),
+    ("hysteresis", |l| l.hysteresis),
     ("damping", |l| l.damping),
     ("kinetic and strain", |l| l.kinetic + l.strain),
     ("static pressures", |l| l.preload),

@@ -27,7 +27,7 @@ pub struct Comparison {
 /// Name, unit and heading of a row, the factor from SI to the unit, and its value.
 type Row = (&'static str, &'static str, &'static str, f64, fn(&Summary) -> Option<f64>);
 
-const ROWS: [Row; 19] = [
+const ROWS: [Row; 20] = [
     ("base shear", "kN/m", "base_shear_n_per_m", 1e-3, |s| Some(s.base_shear.largest().value)),
     ("  at", "s", "base_shear_time_s", 1.0, |s| Some(s.base_shear.largest().time)),
     ("  over weight", "", "base_shear_over_weight", 1.0, Summary::shear_coefficient),
@@ -52,6 +52,9 @@ const ROWS: [Row; 19] = [
     ("energy input", "kJ/m", "energy_input_j_per_m", 1e-3, |s| Some(s.ledger.input)),
     ("  to the soil", "%", "energy_share_soil", 100.0, |s| s.energy.map(|e| e.soil)),
     ("  friction, impact", "%", "energy_share_contact", 100.0, |s| s.energy.map(|e| e.contact)),
+    ("  hysteresis", "%", "energy_share_hysteresis", 100.0, |s| {
+        s.energy.map(|e| e.hysteresis).filter(|share| *share != 0.0)
+    }),
     ("  damping", "%", "energy_share_damping", 100.0, |s| s.energy.map(|e| e.damping)),
 ];
 

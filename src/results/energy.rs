@@ -9,6 +9,8 @@ pub struct EnergyShares {
     pub input: f64,
     /// Kinetic and strain energy still in the structure.
     pub structure: f64,
+    /// Taken by the structure's hysteretic parts.
+    pub hysteresis: f64,
     /// Taken by the structure's dampers.
     pub damping: f64,
     /// Given to the soil: radiated, and stored in it.
@@ -30,6 +32,7 @@ impl EnergyShares {
         (input > 0.0).then(|| Self {
             input,
             structure: (ledger.kinetic + ledger.strain) / input,
+            hysteresis: ledger.hysteresis / input,
             damping: ledger.damping / input,
             soil: ledger.soil / input,
             contact: ledger.contact / input,
@@ -40,11 +43,12 @@ impl EnergyShares {
     }
 
     /// Names and shares.
-    pub fn named(&self) -> [(&'static str, f64); 7] {
+    pub fn named(&self) -> [(&'static str, f64); 8] {
         [
             ("soil (radiated, stored)", self.soil),
             ("friction and impact", self.contact),
             ("damping", self.damping),
+            ("hysteresis", self.hysteresis),
             ("kinetic and strain", self.structure),
             ("interface layer", self.layer),
             ("static pressures", self.preload),
@@ -67,19 +71,20 @@ mod tests {
         let ledger = Ledger {
             kinetic: 1.0,
             strain: 2.0,
+            hysteresis: 256.0,
             damping: 4.0,
             numerical: 8.0,
             soil: 16.0,
             contact: 32.0,
             layer: 64.0,
             preload: -7.0,
-            input: 120.0,
+            input: 376.0,
             soil_error_bound: 0.0,
         };
         assert_eq!(ledger.residual(), 0.0);
         let shares = EnergyShares::of(&ledger).unwrap();
         assert!((shares.sum() - 1.0).abs() < 1e-15);
-        assert!((shares.structure - 0.025).abs() < 1e-16);
+        assert!((shares.structure - 3.0 / 376.0).abs() < 1e-16);
         for input in [0.0, -1.0, f64::NAN] {
             assert_eq!(EnergyShares::of(&Ledger { input, ..ledger }), None);
         }

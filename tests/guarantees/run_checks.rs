@@ -13,10 +13,11 @@ pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// The left-hand side's terms and the input.
-pub(crate) fn terms(ledger: &Ledger) -> [f64; 9] {
+pub(crate) fn terms(ledger: &Ledger) -> [f64; 10] {
     [
         ledger.kinetic,
         ledger.strain,
+        ledger.hysteresis,
         ledger.damping,
         ledger.numerical,
         ledger.soil,
