@@ -5,8 +5,8 @@ mod support;
 mod truncation;
 
 use basemat::bem::full_plane::{
-    Boundary, BoundaryKernel, BoundaryMarch, FullPlaneGround, Given, IncidentField, Segment,
-    TimeKernel, VerticalWaves,
+    Boundary, BoundaryKernel, BoundaryMarch, CqMethod, FullPlaneGround, Given, IncidentField,
+    Segment, TimeKernel, VerticalWaves,
 };
 use basemat::bem::{Ground, HalfPlaneGround, Strip};
 use basemat::motion::{AtRest, FreeField, FreeFieldFn, RickerDisplacement};
@@ -14,7 +14,7 @@ use basemat::{Error, Soil};
 use std::f64::consts::PI;
 use support::series::{Error as SeriesError, whole, within};
 use support::{close, table};
-use truncation::{block_errors, impedance_errors, rocking};
+use truncation::{Mesh, block_errors, impedance_errors, rocking};
 
 fn soil(poisson: f64) -> Soil {
     Soil::new(1.0, poisson, 1.0).unwrap()
@@ -186,6 +186,10 @@ fn cavity_under_a_sudden_pressure() {
     within("cavity, unevenness", &["24", "48", "96"], &odd, &[1e-9; 3]);
 }
 
+fn time_mesh(elements: usize, free: usize, beta: f64) -> Mesh {
+    Mesh { elements, free, beta, quadrature: None }
+}
+
 /// GOAL: the flat boundary is the half-plane, but for its truncated surface.
 /// SCENE: bonded massless rigid strip of 8 elements, β = 1.15.
 /// REFERENCE: impedances by a spectral method. The coupling, a small number that comes from H and the
@@ -195,9 +199,34 @@ fn impedances_of_the_bonded_strip() {
     for (free, limits) in
         [(5, [4.2e-2, 4.6e-2, 1.5e-1, 5.2e-1]), (10, [4.2e-2, 4.6e-2, 1.5e-1, 4.2e-1])]
     {
-        let errors = impedance_errors("0333", 1.0 / 3.0, 8, free, 1.15);
+        let errors = impedance_errors("0333", 1.0 / 3.0, time_mesh(8, free, 1.15));
         within(&format!("{free} free"), &["khh", "kvv", "krr", "khr"], &errors, &limits);
     }
+}
+
+/// GOAL: what the truncated free surface leaves. The direct impedances are those of the mesh with or
+/// without free elements; the coupling, which comes from the free surface and from H alone, tends
+/// to the half-plane's with the root of the surface's length.
+/// SCENE: as before by convolution quadrature (BDF2), which is bounded with any of these surfaces.
+/// REFERENCE: impedances by a spectral method.
+#[test]
+fn coupling_settles_with_the_length_of_the_free_surface() {
+    let mesh = |free| Mesh { elements: 8, free, beta: 1.15, quadrature: Some(CqMethod::Bdf2) };
+    let ground = |free| mesh(free).ground(soil(1.0 / 3.0));
+    let step = mesh(0).time_step(soil(1.0 / 3.0));
+    assert!(ground(20).assess(step).unwrap().is_bounded());
+    let errors = [0, 5, 20, 80].map(|free| impedance_errors("0333", 1.0 / 3.0, mesh(free)));
+    for (errors, coupling) in errors.iter().zip([4.6e-1, 3.3e-1, 2.4e-1, 1.4e-1]) {
+        let limits = [4.3e-2, 4.2e-2, 7.8e-2, coupling];
+        within("BDF2", &["khh", "kvv", "krr", "khr"], errors, &limits);
+    }
+    for k in 0..3 {
+        let all = errors.map(|errors| errors[k]);
+        let (least, most) = all.iter().fold((1.0_f64, 0.0_f64), |m, e| (m.0.min(*e), m.1.max(*e)));
+        assert!(most < 1.2 * least, "{k}: {all:?}");
+    }
+    // The last quadrupling of the length: by 2^(2 · 0.4).
+    close("order", (errors[2][3] / errors[3][3]).log2() / 2.0, 0.4, 0.1, 0.0);
 }
 
 /// GOAL: both soils tend to the same answer in a coupled run.
@@ -206,7 +235,7 @@ fn impedances_of_the_bonded_strip() {
 fn rigid_block_on_both_grounds() {
     for (count, free, limits) in [(8, 5, [6.2e-2, 7.6e-2, 3e-2]), (16, 5, [2.2e-2, 3.8e-2, 3.2e-2])]
     {
-        let errors = block_errors(count, free, 1.0);
+        let errors = block_errors(time_mesh(count, free, 1.0));
         within(&format!("{count}, {free}"), &["u_base", "theta", "V"], &errors, &limits);
     }
 }

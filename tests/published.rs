@@ -9,7 +9,7 @@ use basemat::motion::RickerDisplacement;
 use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
 use basemat::{Simulation, Soil};
 use support::cantilever::Cantilever;
-use support::impedance::{impedances, ricker};
+use support::impedance::{Force, impedances, ricker};
 use support::rigid_strip::{Contact, RigidStrip};
 use support::series::{Error, Series, whole, within};
 use support::table;
@@ -29,7 +29,7 @@ fn impedance_errors(
     let frequencies: Vec<f64> = rows.iter().map(|row| row[0]).collect();
     let (grading, elements, time_step) = mesh;
     let strip = |contact| RigidStrip::new(poisson, grading, elements, time_step, contact);
-    let found = impedances(strip, time_step, bonded, &frequencies);
+    let found = impedances(strip, time_step, Force::Mean, bonded, &frequencies);
     let mut errors = [Error::default(); 4];
     for (row, found) in rows.iter().zip(&found) {
         for k in 0..4 {

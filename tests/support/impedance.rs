@@ -22,10 +22,20 @@ fn divide([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [(a * c + b * d) / square, (b * c - a * d) / square]
 }
 
+/// What a force is to the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Force {
+    /// Its mean over the step.
+    Mean,
+    /// Its value at the end of the step.
+    End,
+}
+
 /// Impedances `[hh, vv, rr, hr]` at each of `frequencies`, of strips marched with `time_step`.
 pub(crate) fn impedances(
     make: impl Fn(Contact) -> RigidStrip,
     time_step: f64,
+    force: Force,
     bonded: bool,
     frequencies: &[f64],
 ) -> Vec<[[f64; 2]; 4]> {
@@ -55,11 +65,14 @@ pub(crate) fn impedances(
         .iter()
         .map(|&omega| {
             let motion = transform(&pulse, omega, |k| (k + 1) as f64 * time_step);
-            // Forces are means over the step, whose transform has this factor.
+            // The transform of means over a step has this factor.
             let phase = 0.5 * omega * time_step;
-            let mean = phase.sin() / phase;
+            let (place, mean) = match force {
+                Force::Mean => (0.5, phase.sin() / phase),
+                Force::End => (1.0, 1.0),
+            };
             std::array::from_fn(|k| {
-                let force = transform(&forces[k], omega, |k| (k as f64 + 0.5) * time_step);
+                let force = transform(&forces[k], omega, |k| (k as f64 + place) * time_step);
                 divide(force, motion).map(|x| x / mean)
             })
         })

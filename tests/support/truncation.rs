@@ -1,7 +1,7 @@
 //! What the truncated free surface of the full-plane ground leaves.
 #![allow(dead_code, reason = "each binary uses its own part")]
 
-use basemat::bem::full_plane::FullPlaneGround;
+use basemat::bem::full_plane::{BoundaryKernel, ConvolutionQuadrature, CqMethod, FullPlaneGround};
 use basemat::bem::{Grading, Ground, HalfPlaneGround, Strip};
 use basemat::coupled::SimulationBuilder;
 use basemat::interface::{Bonded, Coulomb};
@@ -9,42 +9,80 @@ use basemat::motion::RickerDisplacement;
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
 
-use crate::support::impedance::impedances;
+use crate::support::impedance::{Force, impedances};
 use crate::support::rigid_strip::RigidStrip;
 use crate::support::series::{Error, whole};
 use crate::support::table;
 
-/// Errors of `[hh, vv, rr, hr]` of the bonded strip of half width 1 over 0.1 ≤ a₀ ≤ 4, root mean
-/// square over that of the modulus; β = c₁Δt/l.
-pub(crate) fn impedance_errors(
-    name: &str,
-    poisson: f64,
-    elements: usize,
-    free: usize,
-    beta: f64,
-) -> [f64; 4] {
-    let soil = Soil::new(1.0, poisson, 1.0).unwrap();
-    let time_step = beta * 2.0 / elements as f64 / soil.pressure_wave_speed();
+/// Full-plane elements under a strip of half width 1.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Mesh {
+    pub(crate) elements: usize,
+    /// Free ones on either side.
+    pub(crate) free: usize,
+    /// β = c₁Δt/l.
+    pub(crate) beta: f64,
+    /// Convolution quadrature; the time kernel if there is none.
+    pub(crate) quadrature: Option<CqMethod>,
+}
+
+impl Mesh {
+    pub(crate) fn time_step(&self, soil: Soil) -> f64 {
+        self.beta * 2.0 / self.elements as f64 / soil.pressure_wave_speed()
+    }
+
+    /// The ground, its growth not assessed.
+    pub(crate) fn ground(&self, soil: Soil) -> FullPlaneGround {
+        let ground = FullPlaneGround::strip(soil, -1.0..1.0, self.elements, self.free).unwrap();
+        let ground = ground.skip_assessment();
+        let Some(method) = self.quadrature else { return ground };
+        ground.with_kernel(move |segments, soil, step| {
+            let kernel = ConvolutionQuadrature::new(soil, segments, step, method)?;
+            Ok(Box::new(kernel) as Box<dyn BoundaryKernel>)
+        })
+    }
+}
+
+/// `[hh, vv, rr, hr]`, real and imaginary part, per frequency.
+pub(crate) type Impedances = Vec<[[f64; 2]; 4]>;
+
+/// Frequencies 0.1 ≤ a₀ ≤ 4 of the table of the bonded strip, and its impedances.
+pub(crate) fn tabled(name: &str) -> (Vec<f64>, Impedances) {
     let columns =
         ["a0", "re_khh", "im_khh", "re_kvv", "im_kvv", "re_krr", "im_krr", "re_khr", "im_khr"];
     let rows = table(&format!("strip_bonded_nu{name}_xi00.csv")).rows(columns).into_iter();
-    let rows: Vec<_> = rows.filter(|row| (0.0999..4.0001).contains(&row[0])).collect();
-    let frequencies: Vec<f64> = rows.iter().map(|row| row[0]).collect();
-    let strip = |contact| {
-        let ground = FullPlaneGround::strip(soil, -1.0..1.0, elements, free).unwrap();
-        let ground = ground.skip_assessment();
-        RigidStrip::on(Box::new(ground), time_step, contact)
-    };
-    let found = impedances(strip, time_step, true, &frequencies);
+    rows.filter(|row| (0.0999..4.0001).contains(&row[0]))
+        .map(|row| (row[0], std::array::from_fn(|k| [row[2 * k + 1], row[2 * k + 2]])))
+        .unzip()
+}
+
+/// Impedances of the bonded strip from a march of 60 shear wave travel times.
+pub(crate) fn bonded_impedances(poisson: f64, mesh: Mesh, frequencies: &[f64]) -> Impedances {
+    let soil = Soil::new(1.0, poisson, 1.0).unwrap();
+    let time_step = mesh.time_step(soil);
+    let strip = |contact| RigidStrip::on(Box::new(mesh.ground(soil)), time_step, contact);
+    // Convolution quadrature takes point values.
+    let force = if mesh.quadrature.is_some() { Force::End } else { Force::Mean };
+    impedances(strip, time_step, force, true, frequencies)
+}
+
+/// Distances of `[hh, vv, rr, hr]`, root mean square over that of the modulus.
+pub(crate) fn distances(found: &Impedances, wanted: &Impedances) -> [f64; 4] {
     let mut errors = [Error::default(); 4];
-    for (row, found) in rows.iter().zip(&found) {
+    for (found, wanted) in found.iter().zip(wanted) {
         for k in 0..4 {
             for part in 0..2 {
-                errors[k].add(found[k][part], row[2 * k + 1 + part]);
+                errors[k].add(found[k][part], wanted[k][part]);
             }
         }
     }
     errors.map(Error::relative)
+}
+
+/// Distances of the bonded strip from its table.
+pub(crate) fn impedance_errors(name: &str, poisson: f64, mesh: Mesh) -> [f64; 4] {
+    let (frequencies, wanted) = tabled(name);
+    distances(&bonded_impedances(poisson, mesh, &frequencies), &wanted)
 }
 
 /// Base displacement, rotation and base shear (means over `every` steps) of a bonded rigid block
@@ -76,10 +114,9 @@ fn block(ground: impl Ground + 'static, time_step: f64, every: usize) -> [Vec<f6
 
 /// Relative distance of the block's `[u_base, theta, V]` on the full plane from that on a fine
 /// half-plane (32 graded elements, an eighth of the step).
-pub(crate) fn block_errors(elements: usize, free: usize, beta: f64) -> [f64; 3] {
+pub(crate) fn block_errors(mesh: Mesh) -> [f64; 3] {
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
-    let time_step = beta * 2.0 / elements as f64 / soil.pressure_wave_speed();
-    let full = FullPlaneGround::strip(soil, -1.0..1.0, elements, free).unwrap().skip_assessment();
+    let (time_step, full) = (mesh.time_step(soil), mesh.ground(soil));
     let strip = Strip::new(-1.0..1.0, 32, Grading::Cosine).unwrap();
     let half = HalfPlaneGround::new(soil, &[strip]).unwrap();
     let (found, wanted) = (block(full, time_step, 1), block(half, time_step / 8.0, 8));
