@@ -68,8 +68,11 @@ const READINGS: &[&str] = &[
     "--gamma 0.6",
     "--gamma 1",
     "--record 0.5",
-    "--width 28 --height 80.6",
-    "--width 40 --height 79.2",
+    "--neighbour 3.4",
+    "--soil-density 2.8",
+    "--soil-density 4.2",
+    "--width 28 --height 80.6 --law hard --scheme midpoint",
+    "--width 40 --height 79.2 --law hard --scheme midpoint",
 ];
 
 fn main() -> Result<(), AnyError> {
