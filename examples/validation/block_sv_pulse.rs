@@ -5,7 +5,7 @@ use basemat::structure::RigidBlock;
 
 use super::AnyError;
 use super::chart::Figure;
-use super::outcome::{Case, Check, Outcome};
+use super::outcome::{Case, Check, Outcome, worse};
 use super::transient::{History, Quantity, base_motion, histories, moment, panel, rotation, shear};
 
 pub(crate) const CASE: Case = Case {
@@ -53,10 +53,10 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     let mut shown = Vec::new();
     for (name, poisson, height, density) in list {
         let (found, ledger) = block(name, *poisson, *height, *density)?;
-        worst_ledger = worst_ledger.max(ledger);
+        worst_ledger = worse(worst_ledger, ledger);
         for (k, history) in found.iter().enumerate() {
             match checks.get_mut(k) {
-                Some(check) => check.value = check.value.max(history.error),
+                Some(check) => check.value = worse(check.value, history.error),
                 None => checks.push(Check::below(
                     format!("{}, relative L2, worst block", history.name),
                     history.error,

@@ -60,6 +60,11 @@ impl Check {
     }
 }
 
+/// The larger of two errors; NaN, which is the worst, if either is (`f64::max` would drop it).
+pub(crate) fn worse(one: f64, other: f64) -> f64 {
+    if one.is_nan() || one > other { one } else { other }
+}
+
 /// A case that has run.
 pub(crate) struct Finished {
     pub(crate) case: Case,
@@ -74,8 +79,8 @@ impl Finished {
         format!("validation_{}.svg", self.case.name)
     }
 
-    /// Number of checks that do not hold.
-    pub(crate) fn failures(&self) -> usize {
-        self.outcome.checks.iter().filter(|check| !check.holds()).count()
+    /// Whether every check holds.
+    pub(crate) fn holds(&self) -> bool {
+        self.outcome.checks.iter().all(Check::holds)
     }
 }

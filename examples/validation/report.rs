@@ -57,9 +57,11 @@ fn summary(list: &[Finished]) -> Result<String, AnyError> {
     for Finished { case, outcome, seconds } in list {
         let shares = outcome.checks.iter().filter_map(|check| Some((check, check.share()?)));
         let worst = shares.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(check, _)| check);
-        let (error, limit) = worst.map_or_else(Default::default, |check| {
-            (format!("{} ({})", number(check.value), check.name), number(*check.limits.end()))
-        });
+        // A case of ranges only, as orders are, shows its first.
+        let (error, limit) =
+            worst.or(outcome.checks.first()).map_or_else(Default::default, |check| {
+                (format!("{} ({})", number(check.value), check.name), limits(check))
+            });
         let held = outcome.checks.iter().filter(|check| check.holds()).count();
         writeln!(
             text,

@@ -5,7 +5,7 @@ use plotters::prelude::SeriesLabelPosition;
 
 use super::AnyError;
 use super::chart::{BLUE, Figure, Panel, RED};
-use super::outcome::{Case, Check, Outcome};
+use super::outcome::{Case, Check, Outcome, worse};
 use super::support::impedance::impedances;
 use super::support::rigid_strip::RigidStrip;
 use super::support::series::Error;
@@ -73,7 +73,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         for (name, poisson) in list {
             let curves = curves(name, *poisson, bonded);
             for (worst, error) in worst.iter_mut().zip(curves.errors()) {
-                *worst = worst.max(error);
+                *worst = worse(*worst, error);
             }
             shown.get_or_insert(curves);
         }

@@ -10,7 +10,7 @@ use plotters::prelude::SeriesLabelPosition;
 
 use super::AnyError;
 use super::chart::{BLUE, Figure, GRAY, Panel, RED};
-use super::outcome::{Case, Check, Outcome};
+use super::outcome::{Case, Check, Outcome, worse};
 use super::support::series::{Error, whole};
 
 pub(crate) const CASE: Case = Case {
@@ -216,7 +216,7 @@ fn errors(found: &History, wanted: &History) -> [f64; 4] {
 }
 
 fn peak(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+    values.iter().fold(0.0, |most, value| worse(most, value.abs()))
 }
 
 fn run(short: bool) -> Result<Outcome, AnyError> {
@@ -236,7 +236,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     let mut checks = Check::list(&names, &errors(&found, &wanted), &[4e-3, 5e-3, 4e-3, 2.5e-2]);
     let ratio = peak(&found[0]) / peak(&wanted[0]);
     checks.push(Check::below("peak deformation, relative", (ratio - 1.0).abs(), 2e-3));
-    let own = errors(&coarser, &wanted)[..3].iter().fold(0.0_f64, |m, e| m.max(*e));
+    let own = errors(&coarser, &wanted)[..3].iter().fold(0.0_f64, |m, e| worse(m, *e));
     checks.push(Check::below("reference against half its strips and steps", own, 1e-3));
     checks.push(Check::below("energy ledger, residual", ledger, 1e-9));
     let reduced = peak(&found[0]) / peak(&bonded[0]);
