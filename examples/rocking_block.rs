@@ -63,8 +63,8 @@ fn main() -> Result<()> {
         1e3 * tipping
     );
     println!("Sine pulse of 0.8 s; acceleration in units of g b/h\n");
-    println!("{:<8}{:>24}{:>38}", "", "soil of 400 m/s", "soil of 120 m/s");
-    println!("{:<8}{}", "peak", "   rotation    uplift  impacts  outcome".repeat(2));
+    println!("{:<8}{:>24}{:>39}", "", "soil of 400 m/s", "soil of 120 m/s");
+    println!("{:<8}{}", "peak", "     rotation    uplift liftoffs  outcome".repeat(2));
     for strength in [0.5, 0.9, 1.2, 1.6, 2.0, 2.6, 3.2] {
         print!("{strength:<8.2}");
         for speed in [400.0, 120.0] {
@@ -81,7 +81,6 @@ fn main() -> Result<()> {
                 "{:>8.1} mrad{:>8.0} %{:>9}{outcome:>9}",
                 1e3 * rotation,
                 100.0 * summary.uplift.peak.value,
-                // Every stretch of uplift but one that lasts to the end closes with an impact.
                 summary.uplift.count,
             );
         }

@@ -9,7 +9,8 @@
 //!
 //! In all four the left edge of the base sees the same horizontal motion. Waves that run along the
 //! surface arrive later at the right edge, and inclined SV and Rayleigh waves bring a vertical
-//! motion along. Both rock the tower even before it sways.
+//! motion along. Both rock the tower even before it sways. A whole record that comes as a Rayleigh
+//! wave is an extreme: its vertical motion is larger than the horizontal one.
 
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::Probe;

@@ -25,7 +25,6 @@ fn folder(name: &str) -> PathBuf {
 fn arrays(xml: &str) -> BTreeMap<String, Vec<f64>> {
     let mut open: Vec<String> = Vec::new();
     let mut found = BTreeMap::new();
-    let mut name = String::new();
     for piece in xml.trim_start_matches("<?xml version=\"1.0\"?>").split('<').skip(1) {
         let (tag, text) = piece.split_once('>').expect("every < has its >");
         if let Some(closed) = tag.strip_prefix('/') {
@@ -34,14 +33,14 @@ fn arrays(xml: &str) -> BTreeMap<String, Vec<f64>> {
             open.push(tag.split_whitespace().next().unwrap().to_owned());
         }
         if tag.starts_with("DataArray") {
-            name = tag.split("Name=\"").nth(1).unwrap().split('"').next().unwrap().to_owned();
+            let name = tag.split("Name=\"").nth(1).unwrap().split('"').next().unwrap();
             let numbers = text.split_whitespace().map(|word| word.parse().unwrap());
-            found.insert(name.clone(), numbers.collect());
+            found.insert(name.to_owned(), numbers.collect());
         } else {
             assert!(text.trim().is_empty(), "text in {tag}");
         }
     }
-    assert!(open.is_empty() && !name.is_empty());
+    assert!(open.is_empty() && !found.is_empty());
     found
 }
 

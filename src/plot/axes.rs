@@ -15,9 +15,9 @@ pub(super) const COLORS: [RGBColor; 7] = [
     RGBColor(23, 190, 207),
 ];
 
-const TITLE: (&str, u32) = ("sans-serif", 22);
-const LABEL: (&str, u32) = ("sans-serif", 15);
-const DESCRIPTION: (&str, u32) = ("sans-serif", 17);
+pub(super) const TITLE: (&str, u32) = ("sans-serif", 22);
+pub(super) const LABEL: (&str, u32) = ("sans-serif", 15);
+pub(super) const DESCRIPTION: (&str, u32) = ("sans-serif", 17);
 
 pub(super) type Chart<'a, 'b> = ChartContext<
     'a,
@@ -83,7 +83,7 @@ pub(super) fn chart<'a, 'b>(
     let mut chart = ChartBuilder::on(area)
         .caption(title, TITLE)
         .margin(14)
-        .margin_right(30)
+        .margin_right(24)
         .x_label_area_size(48)
         .y_label_area_size(88)
         .build_cartesian_2d(x.0, y.0)?;
@@ -102,33 +102,14 @@ pub(super) fn chart<'a, 'b>(
     Ok(chart)
 }
 
-/// Draws the names of what was labelled.
-pub(super) fn legend<'a, 'b: 'a>(
-    chart: &mut Chart<'a, 'b>,
-    position: SeriesLabelPosition,
-) -> Drawing<()> {
-    chart
-        .configure_series_labels()
-        .position(position)
-        .background_style(WHITE.mix(0.85))
-        .border_style(BLACK.mix(0.3))
-        .label_font(LABEL)
-        .draw()?;
-    Ok(())
-}
-
-/// A curve in pieces, broken where values cannot be drawn, with its name.
+/// A curve in pieces, broken where values cannot be drawn.
 pub(super) fn draw_curve(
     chart: &mut Chart<'_, '_>,
     points: &[(f64, f64)],
-    name: &str,
     style: ShapeStyle,
 ) -> Drawing<()> {
     let pieces = points.split(|(x, y)| !(drawable(*x) && drawable(*y)));
     let lines = pieces.filter(|piece| !piece.is_empty());
-    chart
-        .draw_series(lines.map(|piece| PathElement::new(piece.to_vec(), style)))?
-        .label(name)
-        .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 22, y)], style.stroke_width(3)));
+    chart.draw_series(lines.map(|piece| PathElement::new(piece.to_vec(), style)))?;
     Ok(())
 }

@@ -2,7 +2,8 @@
 
 use plotters::prelude::*;
 
-use super::axes::{COLORS, chart, draw_curve, legend, range_of};
+use super::axes::{COLORS, chart, draw_curve, range_of};
+use super::key::{Sample, draw_key};
 use super::svg::{Svg, picture};
 use crate::error::Result;
 use crate::results::{ElementEnvelope, Histories};
@@ -33,12 +34,16 @@ pub fn pressure_envelope(title: &str, histories: &Histories) -> Result<Svg> {
     );
     let values = curves.iter().flat_map(|(_, value)| envelope.iter().map(value));
     let range = range_of(values.chain([0.0]));
+    let colors = [COLORS[1], COLORS[5], COLORS[0]];
+    let key: Vec<_> =
+        curves.iter().zip(colors).map(|((name, _), color)| (*name, Sample::Line(color))).collect();
     picture(|area| {
+        let area = draw_key(area, &key)?;
         let y = (range, "pressure, kPa");
-        let mut chart = chart(area, title, (left..right, "x along the base, m"), y, true)?;
-        for ((name, value), color) in curves.into_iter().zip([COLORS[1], COLORS[5], COLORS[0]]) {
-            draw_curve(&mut chart, &steps(value), name, color.stroke_width(2))?;
+        let mut chart = chart(&area, title, (left..right, "x along the base, m"), y, true)?;
+        for ((_, value), color) in curves.into_iter().zip(colors) {
+            draw_curve(&mut chart, &steps(value), color.stroke_width(2))?;
         }
-        legend(&mut chart, SeriesLabelPosition::UpperMiddle)
+        Ok(())
     })
 }

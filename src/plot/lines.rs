@@ -2,7 +2,8 @@
 
 use plotters::prelude::*;
 
-use super::axes::{COLORS, chart, draw_curve, legend, range_of};
+use super::axes::{COLORS, chart, draw_curve, range_of};
+use super::key::{Sample, draw_key};
 use super::svg::{Svg, picture};
 use crate::error::{Error, Result};
 use crate::results::{Histories, Quantity};
@@ -35,13 +36,16 @@ pub fn curves(title: &str, x: &str, y: &str, curves: &[Curve]) -> Result<Svg> {
     // Time needs no margin.
     let inner = (x_range.end - x_range.start) * 0.06 / 1.12;
     let x_range = x_range.start + inner..x_range.end - inner;
+    let color = |k: usize| COLORS[k % COLORS.len()];
+    let key: Vec<_> =
+        (0..curves.len()).map(|k| (curves[k].name.as_str(), Sample::Line(color(k)))).collect();
     picture(|area| {
-        let mut chart = chart(area, title, (x_range, x), (y_range, y), true)?;
+        let area = draw_key(area, &key)?;
+        let mut chart = chart(&area, title, (x_range, x), (y_range, y), true)?;
         for (k, curve) in curves.iter().enumerate() {
-            let style = COLORS[k % COLORS.len()].stroke_width(if k == 0 { 2 } else { 1 });
-            draw_curve(&mut chart, &thinned(&curve.points), &curve.name, style)?;
+            draw_curve(&mut chart, &thinned(&curve.points), color(k).stroke_width(2))?;
         }
-        legend(&mut chart, SeriesLabelPosition::UpperRight)
+        Ok(())
     })
 }
 

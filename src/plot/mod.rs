@@ -30,6 +30,7 @@ mod animation;
 mod axes;
 mod energy;
 mod envelope;
+mod key;
 mod lines;
 mod mode_map;
 mod shape;

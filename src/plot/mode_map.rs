@@ -2,7 +2,8 @@
 
 use plotters::prelude::*;
 
-use super::axes::{chart, legend};
+use super::axes::chart;
+use super::key::{Sample, draw_key};
 use super::svg::{Svg, picture};
 use crate::error::{Error, Result};
 use crate::interface::Mode;
@@ -51,12 +52,12 @@ pub fn mode_map(title: &str, histories: &Histories) -> Result<Svg> {
         return Err(Error::Scene { quantity: "map of contact modes", needed });
     };
     let (begin, end) = (frames[0].time, frames[frames.len() - 1].time);
-    // Room for the legend above the base.
-    let top = last.right + 0.22 * (last.right - first.left);
     let every = (frames.len() - 1).div_ceil(COLUMNS).max(1);
+    let key = MODES.map(|(mode, name)| (name, Sample::Area(color(mode))));
     picture(|area| {
-        let (x, y) = ((begin..end, "time, s"), (first.left..top, "x along the base, m"));
-        let mut chart = chart(area, title, x, y, false)?;
+        let area = draw_key(area, &key)?;
+        let (x, y) = ((begin..end, "time, s"), (first.left..last.right, "x along the base, m"));
+        let mut chart = chart(&area, title, x, y, false)?;
         for (e, element) in elements.iter().enumerate() {
             let mode_of = |column: &[crate::results::ContactFrame<'_>]| {
                 column.iter().map(|frame| frame.modes[e]).max_by_key(|mode| rank(*mode))
@@ -77,12 +78,6 @@ pub fn mode_map(title: &str, histories: &Histories) -> Result<Svg> {
                 start = stop;
             }
         }
-        for (mode, name) in MODES {
-            let nothing = Rectangle::new([(begin, first.left); 2], color(mode).filled());
-            chart.draw_series([nothing])?.label(name).legend(move |(x, y)| {
-                Rectangle::new([(x, y - 6), (x + 22, y + 6)], color(mode).filled())
-            });
-        }
-        legend(&mut chart, SeriesLabelPosition::UpperRight)
+        Ok(())
     })
 }

@@ -2,7 +2,8 @@
 
 use plotters::prelude::*;
 
-use super::axes::{COLORS, chart, draw_curve, drawable, legend};
+use super::axes::{COLORS, chart, draw_curve, drawable};
+use super::key::{self, Sample, draw_key};
 use super::svg::{SIZE, Svg, picture};
 use crate::error::{Error, Result, finite, positive};
 use crate::results::{Histories, MotionFrame, Wireframe};
@@ -85,25 +86,31 @@ pub fn deformed_shapes(
         drawn.push((name, places(shape, &frame, magnification)?));
     }
     let all: Vec<[f64; 2]> = drawn.iter().flat_map(|(_, places)| places.clone()).collect();
-    let [x, y] = ranges(bounds(&all));
+    let color = |k: usize| match k.checked_sub(1) {
+        None => RGBColor(170, 170, 170),
+        Some(k) => COLORS[k % COLORS.len()],
+    };
+    let key: Vec<_> =
+        (0..drawn.len()).map(|k| (drawn[k].0.as_str(), Sample::Line(color(k)))).collect();
+    let strip = key::width(key.iter().map(|(name, _)| *name));
+    let [x, y] = ranges(bounds(&all), strip);
     picture(|area| {
+        let area = draw_key(area, &key)?;
         let title = format!("{title}, displacements × {magnification}");
-        let mut chart = chart(area, &title, (x, "x, m"), (y, "y, m"), false)?;
-        for (k, (name, places)) in drawn.iter().enumerate() {
-            let color =
-                if k == 0 { RGBColor(170, 170, 170) } else { COLORS[(k - 1) % COLORS.len()] };
-            draw_curve(&mut chart, &outlines(shape, places), name, color.stroke_width(1))?;
+        let mut chart = chart(&area, &title, (x, "x, m"), (y, "y, m"), false)?;
+        for (k, (_, places)) in drawn.iter().enumerate() {
+            draw_curve(&mut chart, &outlines(shape, places), color(k).stroke_width(1))?;
         }
-        legend(&mut chart, SeriesLabelPosition::UpperRight)
+        Ok(())
     })
 }
 
-/// Ranges of both axes at one scale, with room for the legend at the right.
-fn ranges([low, high]: [[f64; 2]; 2]) -> [std::ops::Range<f64>; 2] {
+/// Ranges of both axes at one scale, beside a key of `strip` pixels.
+fn ranges([low, high]: [[f64; 2]; 2], strip: u32) -> [std::ops::Range<f64>; 2] {
     // The plotting area without labels, title and margins.
-    let (width, height) = (f64::from(SIZE.0) - 132.0, f64::from(SIZE.1) - 106.0);
+    let (width, height) = (f64::from(SIZE.0 - strip) - 126.0, f64::from(SIZE.1) - 106.0);
     let span = [0, 1].map(|k| (high[k] - low[k]).max(1e-6) * 1.1);
-    let scale = (span[0] / (0.75 * width)).max(span[1] / height);
+    let scale = (span[0] / width).max(span[1] / height);
     let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
     let half = [0.5 * scale * width, 0.5 * scale * height];
     let range = |k: usize| middle[k] - half[k]..middle[k] + half[k];

@@ -2,7 +2,8 @@
 
 use plotters::prelude::*;
 
-use super::axes::{COLORS, drawable};
+use super::axes::{COLORS, DESCRIPTION, LABEL, TITLE, drawable};
+use super::key::{Sample, draw_key};
 use super::svg::{Svg, picture};
 use crate::error::{Error, Result};
 use crate::motion::SpectralOrdinate;
@@ -35,11 +36,14 @@ pub fn spectra(title: &str, spectra: &[(&str, &[SpectralOrdinate])]) -> Result<S
     let periods = if last > first { first..last } else { 0.5 * first..2.0 * first };
     let top = if top > 1e-60 { 1.08 * top } else { 1.0 };
     let vertical = super::axes::label(&(0.0..top));
+    let color = |k: usize| COLORS[k % COLORS.len()];
+    let key: Vec<_> = (0..spectra.len()).map(|k| (spectra[k].0, Sample::Line(color(k)))).collect();
     picture(|area| {
-        let mut chart = ChartBuilder::on(area)
-            .caption(title, ("sans-serif", 22))
+        let area = draw_key(area, &key)?;
+        let mut chart = ChartBuilder::on(&area)
+            .caption(title, TITLE)
             .margin(14)
-            .margin_right(30)
+            .margin_right(24)
             .x_label_area_size(48)
             .y_label_area_size(88)
             .build_cartesian_2d(periods.log_scale(), 0.0..top)?;
@@ -49,25 +53,15 @@ pub fn spectra(title: &str, spectra: &[(&str, &[SpectralOrdinate])]) -> Result<S
             .y_desc("pseudo-acceleration, m/s²")
             .x_label_formatter(&|value| period(*value))
             .y_label_formatter(&vertical)
-            .label_style(("sans-serif", 15))
-            .axis_desc_style(("sans-serif", 17))
+            .label_style(LABEL)
+            .axis_desc_style(DESCRIPTION)
             .light_line_style(WHITE)
             .draw()?;
-        for (k, (name, spectrum)) in spectra.iter().enumerate() {
-            let style = COLORS[k % COLORS.len()].stroke_width(2);
+        for (k, (_, spectrum)) in spectra.iter().enumerate() {
             let points = spectrum.iter().map(|o| (o.period, o.pseudo_acceleration));
             let points = points.filter(|point| drawable(point.1));
-            chart.draw_series(LineSeries::new(points, style))?.label(*name).legend(
-                move |(x, y)| PathElement::new(vec![(x, y), (x + 22, y)], style.stroke_width(3)),
-            );
+            chart.draw_series(LineSeries::new(points, color(k).stroke_width(2)))?;
         }
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
-            .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.3))
-            .label_font(("sans-serif", 15))
-            .draw()?;
         Ok(())
     })
 }

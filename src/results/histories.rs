@@ -101,7 +101,8 @@ impl Histories {
     }
 
     /// Reserves memory for so many more steps: recording them allocates nothing then (unless there
-    /// are more than a thousand slip events).
+    /// are more than a thousand slip events, or frames of motion of a structure that is stepped in
+    /// its modes, whose unknowns the state then makes).
     pub fn reserve(&mut self, steps: usize) {
         let count = steps / self.recorder.every + 1;
         let lists = self.scalars.iter_mut().chain(&mut self.probe_values);

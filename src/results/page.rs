@@ -92,7 +92,7 @@ impl Summary {
         )?;
         write!(
             f,
-            "  {} slip events of the whole base, {:.3} s, {:.3} mm of way",
+            "  slip events of the whole base: {}, in all {:.3} s and {:.3} mm of way",
             sliding.events.len(),
             sliding.duration,
             1e3 * sliding.path
@@ -147,10 +147,13 @@ impl Summary {
     }
 }
 
+/// Below this, in units of engineers, a number is rounding.
+const NOTHING: f64 = 1e-9;
+
 /// Five figures, no exponents where they can be helped; no negative zero.
 pub(super) fn number(value: f64) -> String {
     let magnitude = value.abs();
-    if value == 0.0 {
+    if magnitude < NOTHING {
         "0".to_owned()
     } else if !(1e-3..1e6).contains(&magnitude) {
         format!("{value:.3e}")
