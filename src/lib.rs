@@ -151,7 +151,7 @@ pub mod structure;
 mod sweep;
 
 pub use coupled::Simulation;
-pub use error::{CheckpointError, Error, RecordError, Result, StepError};
+pub use error::{CheckpointError, Error, MatrixFileError, RecordError, Result, StepError};
 pub use soil::Soil;
 pub use sweep::{Sweep, SweepCase};
 

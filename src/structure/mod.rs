@@ -1,10 +1,14 @@
 //! Structures: the trait that users implement, implementations of it, and springs with a memory.
 
 mod contact_node;
+mod craig_bampton;
 mod fem_model;
 mod hysteresis;
+mod matrix_market;
+mod matrix_model;
 mod nonlinear_shear_building;
 mod rayleigh;
+mod recovery;
 mod rigid_block;
 mod section;
 mod shear_building;
@@ -12,12 +16,15 @@ mod springs;
 mod triplets;
 
 pub use contact_node::ContactNode;
+pub use craig_bampton::{CraigBampton, ReducedModel};
 pub use fem_model::FemModel;
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
 };
+pub use matrix_model::MatrixModel;
 pub use nonlinear_shear_building::{IsolationLevel, NonlinearShearBuilding};
 pub use rayleigh::RayleighDamping;
+pub use recovery::Recovery;
 pub use rigid_block::RigidBlock;
 pub use section::{Section, SectionRows};
 pub use shear_building::{ShearBuilding, Storey};
