@@ -161,7 +161,9 @@ mod sweep;
 pub mod vtk;
 
 pub use coupled::Simulation;
-pub use error::{CheckpointError, Error, FileError, RecordError, Result, StepError};
+pub use error::{
+    CheckpointError, Error, MatrixFileError, MeshFileError, RecordError, Result, StepError,
+};
 pub use soil::Soil;
 pub use sweep::{Sweep, SweepCase};
 

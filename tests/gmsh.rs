@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use basemat::fem::{GmshMesh, Layer, Material, Mesh};
 use basemat::structure::{FemModel, Structure, Triplets};
-use basemat::{Error, FileError};
+use basemat::{Error, MeshFileError};
 use proptest::prelude::*;
 
 fn concrete() -> Material {
@@ -152,9 +152,9 @@ fn a_block_comes_back_as_it_was() {
 }
 
 /// Line and reason of the refusal of `text`.
-fn refusal(text: &str) -> (usize, FileError) {
+fn refusal(text: &str) -> (usize, MeshFileError) {
     match read(text) {
-        Err(Error::File { file, line, reason }) if file == "test.msh" => (line, reason),
+        Err(Error::MeshFile { file, line, reason }) if file == "test.msh" => (line, reason),
         other => panic!("{other:?}"),
     }
 }
@@ -162,21 +162,21 @@ fn refusal(text: &str) -> (usize, FileError) {
 #[test]
 fn bad_files_are_refused_with_their_line() {
     let with = |from: &str, to: &str| refusal(&MANUAL.replacen(from, to, 1));
-    assert!(matches!(with("4.1 0 8", "2.2 0 8"), (2, FileError::Unsupported { .. })));
-    assert!(matches!(with("4.1 0 8", "4.1 1 8"), (2, FileError::Unsupported { .. })));
-    assert!(matches!(with("2 1 3 2", "2 1 2 2"), (22, FileError::Unsupported { .. })));
-    assert!(matches!(with("0. 1. 0.", "0. 1. 0.5"), (16, FileError::Unsupported { .. })));
-    assert!(matches!(with("1. 1. 0.", "1. x 0."), (15, FileError::NotA { .. })));
-    assert!(matches!(with("1. 1. 0.", "1. nan 0."), (15, FileError::NotA { .. })));
-    assert!(matches!(with("2 2 5 6 3", "2 2 5 7 3"), (24, FileError::Missing { .. })));
-    assert!(matches!(with("\n6\n", "\n5\n"), (12, FileError::Twice { .. })));
-    assert!(matches!(with("$EndNodes", "$EndElements"), (19, FileError::Missing { .. })));
-    assert!(matches!(with("$Elements", "Elements"), (20, FileError::NotA { .. })));
-    assert!(matches!(refusal(""), (0, FileError::Missing { .. })));
-    assert!(matches!(refusal(&"1".repeat(100_000)), (1, FileError::LineTooLong { .. })));
+    assert!(matches!(with("4.1 0 8", "2.2 0 8"), (2, MeshFileError::Unsupported { .. })));
+    assert!(matches!(with("4.1 0 8", "4.1 1 8"), (2, MeshFileError::Unsupported { .. })));
+    assert!(matches!(with("2 1 3 2", "2 1 2 2"), (22, MeshFileError::Unsupported { .. })));
+    assert!(matches!(with("0. 1. 0.", "0. 1. 0.5"), (16, MeshFileError::Unsupported { .. })));
+    assert!(matches!(with("1. 1. 0.", "1. x 0."), (15, MeshFileError::NotA { .. })));
+    assert!(matches!(with("1. 1. 0.", "1. nan 0."), (15, MeshFileError::NotA { .. })));
+    assert!(matches!(with("2 2 5 6 3", "2 2 5 7 3"), (24, MeshFileError::Missing { .. })));
+    assert!(matches!(with("\n6\n", "\n5\n"), (12, MeshFileError::Twice { .. })));
+    assert!(matches!(with("$EndNodes", "$EndElements"), (19, MeshFileError::Missing { .. })));
+    assert!(matches!(with("$Elements", "Elements"), (20, MeshFileError::NotA { .. })));
+    assert!(matches!(refusal(""), (0, MeshFileError::Missing { .. })));
+    assert!(matches!(refusal(&"1".repeat(100_000)), (1, MeshFileError::LineTooLong { .. })));
     let cut = refusal(&MANUAL[..MANUAL.find("2 2 5 6 3").unwrap()]);
-    assert!(matches!(cut, (24, FileError::Missing { .. })), "{cut:?}");
-    assert!(matches!(GmshMesh::read("no such file"), Err(Error::File { line: 0, .. })));
+    assert!(matches!(cut, (24, MeshFileError::Missing { .. })), "{cut:?}");
+    assert!(matches!(GmshMesh::read("no such file"), Err(Error::MeshFile { line: 0, .. })));
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn groups_that_are_not_there_are_named() {
     let gmsh = read(MANUAL).unwrap();
     for materials in [&[][..], &[("", concrete()), ("roof", concrete())]] {
         let error = gmsh.mesh(materials).unwrap_err();
-        assert!(matches!(error, Error::File { .. }), "{error}");
+        assert!(matches!(error, Error::MeshFile { .. }), "{error}");
     }
     assert!(gmsh.line("base").unwrap_err().to_string().contains("there is no line 'base'"));
     // A quadrilateral that crosses itself has an area of neither sign.

@@ -7,7 +7,7 @@ use super::modes::{ContactSearch, ModeSearch};
 use crate::bem::Ground;
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, law_of};
-use crate::linalg::{SparseFactor, SparseMatrix, largest};
+use crate::linalg::{SparseFactor, SparseMatrix, largest, wide_transposed_multiply_add};
 use crate::structure::Triplets;
 
 /// What friction does while the structure is placed on the ground.
@@ -110,18 +110,24 @@ pub(crate) fn solve(
             }
         };
         let current = compliance.insert(current);
-        // (K + D + εM) u₁ = load − f(u₀) + D u₀ + εM u₀ − BᵀAτ
+        // (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. Under the springs alone the structure
+        // would sink by 1/PROXIMAL_SHARE settlements; so what τ₀ answers to is put in by the columns
+        // that take out τ₁, and only what is out of balance is solved for.
         let mut displacement = load.to_vec();
+        model.stiffness.multiply_add(-1.0, &state.displacement, &mut displacement);
+        base.add_forces(-1.0, &state.traction, &mut displacement);
         if !model.linear {
             let mut force = vec![0.0; n];
             model.structure.nonlinear_force(&state.displacement, &mut force);
             for (d, f) in displacement.iter_mut().zip(&force) {
                 *d -= f;
             }
-            tangent.multiply_add(1.0, &state.displacement, &mut displacement);
         }
-        model.mass.multiply_add(epsilon, &state.displacement, &mut displacement);
         current.factor.solve(&mut displacement);
+        for (d, u) in displacement.iter_mut().zip(&state.displacement) {
+            *d += u;
+        }
+        wide_transposed_multiply_add(&current.columns, 1.0, &state.traction, &mut displacement);
         base.means(&displacement, &mut free_jump);
         for jump in &mut free_jump {
             *jump = -*jump;
@@ -137,12 +143,8 @@ pub(crate) fn solve(
         search
             .solve(&mut solver, &input, &mut state.modes)
             .map_err(|_| Error::Preload { iterations, residual: change })?;
-        for (i, traction) in solver.traction.iter().enumerate() {
-            let column = &current.columns[i * n..(i + 1) * n];
-            for (d, c) in displacement.iter_mut().zip(column) {
-                *d -= c * traction;
-            }
-        }
+        let columns = &current.columns;
+        wide_transposed_multiply_add(columns, -1.0, &solver.traction, &mut displacement);
         // What the fictitious springs still pull.
         let moved: Vec<f64> =
             displacement.iter().zip(&state.displacement).map(|(a, b)| a - b).collect();

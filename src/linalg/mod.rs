@@ -5,12 +5,14 @@
 mod complex;
 mod dense;
 mod eigen;
+mod lanczos;
 mod product;
 mod sparse;
 
 pub(crate) use complex::{ComplexFactor, hermitian_range};
 pub(crate) use dense::DenseFactor;
 pub(crate) use eigen::{generalised_modes, least_eigenvalue};
+pub(crate) use lanczos::lowest_modes;
 pub(crate) use product::{
     dense_multiply_add, dot, largest, wide_multiply_add, wide_transposed_multiply_add,
 };

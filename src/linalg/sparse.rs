@@ -31,19 +31,27 @@ impl SparseFactor {
     /// Cholesky where the matrix is symmetric positive definite, else LU with partial pivoting.
     pub(crate) fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
         let matrix = SparseMatrix::new(name, triplets)?;
-        let order = matrix.order();
-        let singular = || Error::Singular { matrix: name, order };
-        let entries: Vec<_> =
-            matrix.entries().map(|(row, col, val)| Triplet { row, col, val }).collect();
-        let csc = SparseColMat::<usize, f64>::try_new_from_triplets(order, order, &entries)
-            .map_err(|_| singular())?;
+        let singular = || Error::Singular { matrix: name, order: matrix.order() };
+        let columns = by_columns(&matrix).ok_or_else(singular)?;
         let symmetric = matrix.asymmetry() <= 1e-13;
-        let factor = if symmetric { Self::cholesky(&csc) } else { None };
-        let mut factor = factor.or_else(|| Self::lu(&csc)).ok_or_else(singular)?;
-        // A singular matrix may pass LU with a pivot of rounding size: it shows in a solve.
-        let mut probe = vec![1.0; order];
-        factor.solve(&mut probe);
-        if probe.iter().all(|x| x.is_finite()) { Ok(factor) } else { Err(singular()) }
+        let factor = if symmetric { Self::cholesky(&columns) } else { None };
+        factor.or_else(|| Self::lu(&columns)).and_then(Self::probed).ok_or_else(singular)
+    }
+
+    /// Cholesky factors of the lower triangle; an error unless it is that of a positive definite
+    /// matrix.
+    pub(crate) fn positive_definite(name: &'static str, matrix: &SparseMatrix) -> Result<Self> {
+        by_columns(matrix)
+            .and_then(|columns| Self::cholesky(&columns))
+            .and_then(Self::probed)
+            .ok_or_else(|| Error::Singular { matrix: name, order: matrix.order() })
+    }
+
+    /// A singular matrix may pass LU with a pivot of rounding size: it shows in a solve.
+    fn probed(mut self) -> Option<Self> {
+        let mut probe = vec![1.0; self.order];
+        self.solve(&mut probe);
+        probe.iter().all(|x| x.is_finite()).then_some(self)
     }
 
     fn cholesky(matrix: &SparseColMat<usize, f64>) -> Option<Self> {
@@ -102,9 +110,31 @@ impl SparseFactor {
 
     /// Overwrites `rhs` with A⁻¹ rhs.
     pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
-        let stack = MemStack::new(&mut self.buffer);
-        let rhs = MatMut::from_column_major_slice_mut(rhs, self.order, 1);
-        match &self.kind {
+        Self::solve_with(&self.kind, self.order, 1, rhs, &mut self.buffer);
+    }
+
+    /// Overwrites many right-hand sides, one after the other in `rhs`; allocates its workspace.
+    pub(crate) fn solve_many(&self, rhs: &mut [f64]) {
+        let columns = rhs.len() / self.order.max(1);
+        let scratch = match &self.kind {
+            Kind::Cholesky { symbolic, .. } => {
+                symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq)
+            }
+            Kind::Lu { symbolic, .. } => symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq),
+        };
+        Self::solve_with(&self.kind, self.order, columns, rhs, &mut MemBuffer::new(scratch));
+    }
+
+    fn solve_with(
+        kind: &Kind,
+        order: usize,
+        columns: usize,
+        rhs: &mut [f64],
+        buffer: &mut MemBuffer,
+    ) {
+        let stack = MemStack::new(buffer);
+        let rhs = MatMut::from_column_major_slice_mut(rhs, order, columns);
+        match kind {
             Kind::Cholesky { symbolic, values } => {
                 LltRef::new(symbolic, values).solve_in_place_with_conj(
                     Conj::No,
@@ -123,6 +153,14 @@ impl SparseFactor {
             }
         }
     }
+}
+
+/// The same matrix, compressed by columns.
+fn by_columns(matrix: &SparseMatrix) -> Option<SparseColMat<usize, f64>> {
+    let order = matrix.order();
+    let entries: Vec<_> =
+        matrix.entries().map(|(row, col, val)| Triplet { row, col, val }).collect();
+    SparseColMat::try_new_from_triplets(order, order, &entries).ok()
 }
 
 #[cfg(test)]

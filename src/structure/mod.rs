@@ -1,25 +1,35 @@
 //! Structures: the trait that users implement, implementations of it, and springs with a memory.
 
 mod contact_node;
+mod craig_bampton;
 mod fem_model;
 mod group;
 mod hysteresis;
+mod matrix_market;
+mod matrix_model;
+mod modal_damping;
 mod nonlinear_shear_building;
 mod rayleigh;
+mod recovery;
 mod rigid_block;
+mod rigid_links;
 mod section;
 mod shear_building;
 mod springs;
 mod triplets;
 
 pub use contact_node::ContactNode;
+pub use craig_bampton::{CraigBampton, ReducedModel};
 pub use fem_model::FemModel;
 pub use group::StructureGroup;
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
 };
+pub use matrix_model::MatrixModel;
+pub use modal_damping::{ModalDamping, WithModalDamping};
 pub use nonlinear_shear_building::{IsolationLevel, NonlinearShearBuilding};
 pub use rayleigh::RayleighDamping;
+pub use recovery::Recovery;
 pub use rigid_block::RigidBlock;
 pub use section::{Section, SectionRows};
 pub use shear_building::{ShearBuilding, Storey};

@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::{Material, Mesh, Quad4, QuadFormulation};
-use crate::error::{Error, FileError, Result};
+use crate::error::{Error, MeshFileError, Result};
 
 /// A mesh of quadrilaterals as Gmsh writes it: file format 4.1, ASCII (`gmsh -2 -format msh41`).
 ///
@@ -55,16 +55,16 @@ impl GmshMesh {
     /// Reads a `.msh` file.
     ///
     /// # Errors
-    /// [`Error::File`] with the line and the reason.
+    /// [`Error::MeshFile`] with the line and the reason.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let name = path.display().to_string();
         match std::fs::File::open(path) {
             Ok(file) => Self::from_reader(&name, file),
-            Err(error) => Err(Error::File {
+            Err(error) => Err(Error::MeshFile {
                 file: name,
                 line: 0,
-                reason: FileError::Unreadable(error.kind()),
+                reason: MeshFileError::Unreadable(error.kind()),
             }),
         }
     }
@@ -72,9 +72,9 @@ impl GmshMesh {
     /// Reads the same from any source of bytes; `name` is what errors call it.
     ///
     /// # Errors
-    /// [`Error::File`] with the line and the reason.
+    /// [`Error::MeshFile`] with the line and the reason.
     pub fn from_reader(name: &str, source: impl Read) -> Result<Self> {
-        let refuse = |(line, reason)| Error::File { file: name.to_owned(), line, reason };
+        let refuse = |(line, reason)| Error::MeshFile { file: name.to_owned(), line, reason };
         let raw = parse::read(source).map_err(refuse)?;
         let mut used = BTreeMap::new();
         let quads = raw.cells.iter().filter(|cell| cell.nodes.len() == 4);
@@ -94,7 +94,7 @@ impl GmshMesh {
             if z != 0.0 {
                 let text = format!("a node at z = {z}");
                 let line = raw.coordinates[place].line;
-                return Err(refuse((line, FileError::Unsupported { text })));
+                return Err(refuse((line, MeshFileError::Unsupported { text })));
             }
             nodes.push([x, y]);
         }
@@ -137,7 +137,7 @@ impl GmshMesh {
     /// keep their indices.
     ///
     /// # Errors
-    /// [`Error::File`] for a group without a material here, or a material without a group; errors of
+    /// [`Error::MeshFile`] for a group without a material here, or a material without a group; errors of
     /// [`Mesh::add`] for quadrilaterals without area or with a reflex corner.
     pub fn mesh(&self, materials: &[(&str, Material)]) -> Result<Mesh> {
         self.mesh_of(materials, QuadFormulation::default())
@@ -172,7 +172,7 @@ impl GmshMesh {
     /// Nodes of the lines of group `name`, from left to right: the contact nodes of a base.
     ///
     /// # Errors
-    /// [`Error::File`] if there is no such group.
+    /// [`Error::MeshFile`] if there is no such group.
     pub fn line(&self, name: &str) -> Result<Vec<usize>> {
         let own = self.lines.iter().filter(|line| line.group == name);
         let mut nodes: Vec<usize> = own.flat_map(|line| line.nodes).collect();
@@ -186,7 +186,11 @@ impl GmshMesh {
     }
 
     fn missing(&self, what: String) -> Error {
-        Error::File { file: self.file.clone(), line: 0, reason: FileError::Missing { what } }
+        Error::MeshFile {
+            file: self.file.clone(),
+            line: 0,
+            reason: MeshFileError::Missing { what },
+        }
     }
 
     fn counter_clockwise(&self, nodes: [usize; 4]) -> [usize; 4] {
@@ -201,8 +205,8 @@ fn four(place: impl Fn(usize) -> Option<usize>) -> Option<[usize; 4]> {
     Some([place(0)?, place(1)?, place(2)?, place(3)?])
 }
 
-fn no_node(tag: u64) -> FileError {
-    FileError::Missing { what: format!("node {tag}") }
+fn no_node(tag: u64) -> MeshFileError {
+    MeshFileError::Missing { what: format!("node {tag}") }
 }
 
 fn names<const N: usize>(cells: &[Cell<N>]) -> Vec<&str> {

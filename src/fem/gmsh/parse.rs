@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Read};
 use std::str::FromStr;
 
-use crate::error::FileError;
+use crate::error::MeshFileError;
 
 /// Why a line is refused, and which.
-type Reason<T> = Result<T, (usize, FileError)>;
+type Reason<T> = Result<T, (usize, MeshFileError)>;
 
 /// Longest line, bytes: a file without line ends must not fill the memory.
 const LONGEST_LINE: u64 = 65_536;
@@ -72,7 +72,7 @@ pub(super) fn read(source: impl Read) -> Reason<Raw> {
     for needed in ["MeshFormat", "Nodes", "Elements"] {
         if !seen.iter().any(|section| section == needed) {
             let what = format!("section ${needed}");
-            return Err((0, FileError::Missing { what }));
+            return Err((0, MeshFileError::Missing { what }));
         }
     }
     Ok(raw)
@@ -85,7 +85,7 @@ fn format(fields: &mut Fields<impl Read>) -> Reason<()> {
     if version != "4.1" || binary != 0 {
         let kind = if binary == 0 { "ASCII" } else { "binary" };
         let text = format!("format {version} {kind}; 4.1 ASCII is needed");
-        return Err(fields.refuse(FileError::Unsupported { text }));
+        return Err(fields.refuse(MeshFileError::Unsupported { text }));
     }
     Ok(())
 }
@@ -143,7 +143,7 @@ fn nodes(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
         for k in 0..count {
             let tag = fields.next("tag of a node")?;
             if raw.places.insert(tag, first + k).is_some() {
-                return Err(fields.refuse(FileError::Twice { what: format!("node {tag}") }));
+                return Err(fields.refuse(MeshFileError::Twice { what: format!("node {tag}") }));
             }
         }
         for _ in 0..count {
@@ -176,7 +176,7 @@ fn elements(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
             15 => 1,
             _ => {
                 let text = format!("elements of type {kind}; needed are quadrilaterals (3)");
-                return Err(fields.refuse(FileError::Unsupported { text }));
+                return Err(fields.refuse(MeshFileError::Unsupported { text }));
             }
         };
         for _ in 0..count {
@@ -210,7 +210,7 @@ impl<R: Read> Fields<R> {
         Self { source, bytes: Vec::new(), text: String::new(), at: 0, line: 0 }
     }
 
-    fn refuse(&self, reason: FileError) -> (usize, FileError) {
+    fn refuse(&self, reason: MeshFileError) -> (usize, MeshFileError) {
         (self.line, reason)
     }
 
@@ -220,10 +220,10 @@ impl<R: Read> Fields<R> {
         self.line += 1;
         let read = self.source.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.bytes);
         match read {
-            Err(error) => return Err(self.refuse(FileError::Unreadable(error.kind()))),
+            Err(error) => return Err(self.refuse(MeshFileError::Unreadable(error.kind()))),
             Ok(0) => return Ok(false),
             Ok(count) if count as u64 == LONGEST_LINE && self.bytes.last() != Some(&b'\n') => {
-                return Err(self.refuse(FileError::LineTooLong { bytes: count }));
+                return Err(self.refuse(MeshFileError::LineTooLong { bytes: count }));
             }
             Ok(_) => {}
         }
@@ -252,11 +252,11 @@ impl<R: Read> Fields<R> {
 
     fn next<T: FromStr>(&mut self, what: &'static str) -> Reason<T> {
         let Some(field) = self.field()? else {
-            return Err((self.line, FileError::Missing { what: what.to_owned() }));
+            return Err((self.line, MeshFileError::Missing { what: what.to_owned() }));
         };
         let parsed = field.parse();
         let text = field.chars().take(40).collect();
-        parsed.map_err(|_| self.refuse(FileError::NotA { what, text }))
+        parsed.map_err(|_| self.refuse(MeshFileError::NotA { what, text }))
     }
 
     fn number(&mut self) -> Reason<f64> {
@@ -265,7 +265,7 @@ impl<R: Read> Fields<R> {
             return Ok(value);
         }
         let text = value.to_string();
-        Err(self.refuse(FileError::NotA { what: "finite number", text }))
+        Err(self.refuse(MeshFileError::NotA { what: "finite number", text }))
     }
 
     /// Text between quotation marks, on the present line.
@@ -278,7 +278,9 @@ impl<R: Read> Fields<R> {
                 self.at = self.text.len() - after.len();
                 Ok(name)
             }
-            _ => Err(self.refuse(FileError::Missing { what: "name in quotation marks".into() })),
+            _ => {
+                Err(self.refuse(MeshFileError::Missing { what: "name in quotation marks".into() }))
+            }
         }
     }
 
@@ -289,7 +291,7 @@ impl<R: Read> Fields<R> {
             return Ok(Some(name.to_owned()));
         }
         let text = field.chars().take(40).collect();
-        Err(self.refuse(FileError::NotA { what: "beginning of a section", text }))
+        Err(self.refuse(MeshFileError::NotA { what: "beginning of a section", text }))
     }
 
     /// The end of `section`.
@@ -298,7 +300,7 @@ impl<R: Read> Fields<R> {
         if end == Some(true) {
             return Ok(());
         }
-        Err(self.refuse(FileError::Missing { what: format!("$End{section}") }))
+        Err(self.refuse(MeshFileError::Missing { what: format!("$End{section}") }))
     }
 
     fn pass_over(&mut self, section: &str) -> Reason<()> {
@@ -307,6 +309,6 @@ impl<R: Read> Fields<R> {
                 return Ok(());
             }
         }
-        Err(self.refuse(FileError::Missing { what: format!("$End{section}") }))
+        Err(self.refuse(MeshFileError::Missing { what: format!("$End{section}") }))
     }
 }

@@ -1,0 +1,136 @@
+//! A structure of 50 000 unknowns from Matrix Market files, reduced so that it marches in real time.
+//!
+//! ```text
+//! cargo run --release --example from_matrices
+//! ```
+//!
+//! Another program would have written `mass.mtx` and `stiffness.mtx`; here a mesh of quadrilaterals
+//! does, into `target/from_matrices`. The files are read back, contact nodes are named, and a
+//! Craig–Bampton reduction keeps these and the lowest modes of the rest. The full model marches a
+//! short way beside the reduced one, to compare.
+
+use std::path::Path;
+use std::time::Instant;
+
+use basemat::bem::HalfPlaneGround;
+use basemat::coupled::{Coordinates, Probe};
+use basemat::fem::{Direction, Layer, MassKind, Material, Mesh};
+use basemat::interface::Coulomb;
+use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::structure::{
+    ContactNode, CraigBampton, FemModel, MatrixModel, RayleighDamping, Structure, Triplets,
+};
+use basemat::{Result, Simulation, Soil};
+
+const TIME_STEP: f64 = 0.01;
+const MODES: usize = 30;
+
+/// A tower 10 m wide and 100 m high, of elements of 0.2 m: writes its matrices and returns its
+/// contact nodes and the unknown that is the sway of its top.
+fn write_files(mass: &Path, stiffness: &Path) -> Result<(Vec<ContactNode>, usize)> {
+    let material = Material::new(5.0e9, 0.2, 600.0)?;
+    let mesh = Mesh::layered_block(-5.0..5.0, 50, &[Layer::new(100.0, 500, material)])?;
+    let model = FemModel::on_base(mesh)?.with_mass(MassKind::Lumped);
+    let mut matrix = Triplets::new(model.unknowns());
+    model.mass(&mut matrix);
+    matrix.write_matrix_market(mass)?;
+    matrix.clear();
+    model.stiffness(&mut matrix);
+    matrix.write_matrix_market(stiffness)?;
+    let top = model.unknown(model.nearest_node(0.0, 100.0), Direction::X).unwrap_or(0);
+    Ok((model.contact_nodes(), top))
+}
+
+/// The structure on soil, with the sway of its top as a probe, ready to march.
+fn scene(
+    structure: impl Structure + 'static,
+    top: Vec<(usize, f64)>,
+    coordinates: Coordinates,
+) -> Result<Simulation> {
+    let soil = Soil::new(200.0e6, 0.33, 1900.0)?;
+    Simulation::builder(TIME_STEP)
+        .structure(structure)
+        .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 20)?)
+        .interface(Coulomb::new(0.5)?)
+        .motion(el_centro_1940())
+        .gravity(STANDARD_GRAVITY)
+        .probe(Probe::displacement("top", top))
+        .coordinates(coordinates)
+        .expected_steps(3000)
+        .build()
+}
+
+/// Marches and returns the sway of the top at every step, and seconds per step.
+fn march(simulation: &mut Simulation, steps: usize) -> Result<(Vec<f64>, f64)> {
+    let start = Instant::now();
+    let mut sway = Vec::new();
+    simulation.run(steps, |state| sway.push(state.probes[0]))?;
+    Ok((sway, start.elapsed().as_secs_f64() / steps as f64))
+}
+
+fn main() -> Result<()> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/from_matrices");
+    if let Err(error) = std::fs::create_dir_all(&folder) {
+        eprintln!("{} cannot be made: {error}", folder.display());
+    }
+    let [mass, stiffness] = ["mass.mtx", "stiffness.mtx"].map(|name| folder.join(name));
+    let (contact, top) = write_files(&mass, &stiffness)?;
+
+    let begin = Instant::now();
+    let model = MatrixModel::new(
+        Triplets::read_matrix_market(&mass)?,
+        Triplets::read_matrix_market(&stiffness)?,
+        contact,
+    )?
+    .with_rayleigh(RayleighDamping::from_ratios([0.5, 5.0], [0.03; 2])?);
+    let read = begin.elapsed().as_secs_f64();
+    println!("{} unknowns read in {read:.2} s", model.unknowns());
+
+    let begin = Instant::now();
+    let reduced = CraigBampton::new(MODES).reduce(model.clone())?;
+    println!(
+        "reduced to {} unknowns in {:.2} s, modes on a fixed base {:.2} to {:.1} Hz",
+        reduced.unknowns(),
+        begin.elapsed().as_secs_f64(),
+        reduced.frequencies()[0],
+        reduced.frequencies()[MODES - 1]
+    );
+    let recovery = reduced.recovery();
+
+    // The top is no unknown of the reduced model, but a weighted sum of them.
+    let row = recovery.row(&[(top, 1.0)])?;
+    let mut small = scene(reduced, row, Coordinates::Auto)?;
+    let mut large = scene(model, vec![(top, 1.0)], Coordinates::Unknowns)?;
+    let (sway_full, time_full) = march(&mut large, 50)?;
+    let (sway, time_reduced) = march(&mut small, 3000)?;
+
+    println!("\n          unknowns   ms per step   times real time");
+    for (name, simulation, time) in [("full", &large, time_full), ("reduced", &small, time_reduced)]
+    {
+        let unknowns = simulation.state().displacement().len();
+        println!("{name:<8} {unknowns:9} {:13.3} {:17.1}", 1e3 * time, TIME_STEP / time);
+    }
+
+    let largest = |values: &[f64]| values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let apart: Vec<f64> = sway_full.iter().zip(&sway).map(|(a, b)| a - b).collect();
+    println!(
+        "\nsway of the top in the first {:.1} s: {:.3} mm, reduced and full apart by {:.1e} of it",
+        TIME_STEP * apart.len() as f64,
+        1e3 * largest(&sway_full),
+        largest(&apart) / largest(&sway_full)
+    );
+    println!(
+        "largest sway in {:.0} s: {:.1} mm",
+        TIME_STEP * sway.len() as f64,
+        1e3 * largest(&sway)
+    );
+
+    // Any unknown of the full model, whenever it is wanted.
+    let everything = recovery.full(small.state().displacement())?;
+    println!(
+        "all {} unknowns at the end: the top at {:.3} mm",
+        everything.len(),
+        1e3 * everything[top]
+    );
+    Ok(())
+}

@@ -1,0 +1,171 @@
+//! Errors: every one names the quantity, its value and what was needed.
+
+mod checkpoint;
+mod checks;
+mod matrix_file;
+mod mesh_file;
+mod record;
+mod step;
+
+pub use checkpoint::CheckpointError;
+pub(crate) use checks::{finite, not_negative, positive, same_length, write_file};
+pub use matrix_file::MatrixFileError;
+pub use mesh_file::MeshFileError;
+pub use record::RecordError;
+pub use step::StepError;
+
+/// Result of every fallible function of the crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// What can go wrong, with the quantity, its value and what was needed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A number out of its range (NaN and infinities included).
+    #[error("{quantity} is {value}, but must be {needed}")]
+    Input {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// The value that was given.
+        value: f64,
+        /// What was needed.
+        needed: &'static str,
+    },
+    /// A slice or list of the wrong length.
+    #[error("{quantity} has length {found}, but must have {needed}")]
+    Size {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// The length that was given.
+        found: usize,
+        /// The length that was needed.
+        needed: usize,
+    },
+    /// An index that points outside its list.
+    #[error("{quantity} is {index}, but must be below {bound}")]
+    Index {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// The index that was given.
+        index: usize,
+        /// First value out of range.
+        bound: usize,
+    },
+    /// A file that cannot be written.
+    #[error("{file} cannot be written: {reason}")]
+    Write {
+        /// The file, or its folder.
+        file: String,
+        /// What the system says.
+        reason: std::io::ErrorKind,
+    },
+    /// A name that nothing has.
+    #[error("there is no {quantity} called '{name}'")]
+    Name {
+        /// What was looked for.
+        quantity: &'static str,
+        /// The name that was given.
+        name: String,
+    },
+    /// A part of the scene that was not given, or does not fit another part.
+    #[error("{quantity}: {needed}")]
+    Scene {
+        /// Name of the part.
+        quantity: &'static str,
+        /// What was needed.
+        needed: &'static str,
+    },
+    /// A ground-motion record that cannot be read.
+    #[error("{file}, line {line}: {reason}")]
+    Record {
+        /// File or source of the record.
+        file: String,
+        /// Line number, from 1 (0: the file as a whole).
+        line: usize,
+        /// What is wrong there.
+        reason: RecordError,
+    },
+    /// A file of a mesh that cannot be used.
+    #[error("{file}, line {line}: {reason}")]
+    MeshFile {
+        /// File or source of the mesh.
+        file: String,
+        /// Line number, from 1 (0: the file as a whole).
+        line: usize,
+        /// What is wrong there.
+        reason: MeshFileError,
+    },
+    /// A Matrix Market file that cannot be read or written.
+    #[error("{file}, line {line}: {reason}")]
+    MatrixFile {
+        /// File or source of the matrix.
+        file: String,
+        /// Line number, from 1 (0: the file as a whole).
+        line: usize,
+        /// What is wrong there.
+        reason: MatrixFileError,
+    },
+    /// A matrix that cannot be factored.
+    #[error("{matrix} of order {order} is singular or not finite")]
+    Singular {
+        /// Name of the matrix.
+        matrix: &'static str,
+        /// Its order.
+        order: usize,
+    },
+    /// The static state under the structure's weight was not found.
+    #[error(
+        "no static equilibrium after {iterations} iterations: residual {residual:e} of the load \
+         (does the structure topple or slide under its own weight? horizontal static loads need \
+         `Placement::WithInterfaceLaw`)"
+    )]
+    Preload {
+        /// Iterations made.
+        iterations: usize,
+        /// Last change, relative to the load.
+        residual: f64,
+    },
+    /// A history by exponentials is not as accurate as was asked for.
+    #[error("history by exponentials: relative error {reached:e}, but {tolerance:e} was asked for")]
+    Accuracy {
+        /// Relative error that was asked for.
+        tolerance: f64,
+        /// Relative error with as many poles as were tried.
+        reached: f64,
+    },
+    /// A history by exponentials could give energy away, and runs with it could grow.
+    #[error(
+        "history by exponentials is not passive: least eigenvalue {margin:e} of its instantaneous \
+         part, at {frequency} radians per step (a smaller tolerance helps)"
+    )]
+    NotPassive {
+        /// Least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ), over that of the instantaneous part.
+        margin: f64,
+        /// Where it is on the unit circle, radians per step.
+        frequency: f64,
+    },
+    /// A run could not be saved or resumed.
+    #[error("checkpoint: {0}")]
+    Checkpoint(CheckpointError),
+    /// A boundary equation whose perturbations grow from step to step.
+    #[error(
+        "the boundary equation is unstable with this time step: {growing_modes} modes grow, the \
+         fastest by {growth_per_step:.1e} per step (take a longer step or another kernel, or allow it)"
+    )]
+    Unstable {
+        /// Factor minus one by which the fastest mode grows in a step.
+        growth_per_step: f64,
+        /// Number of growing modes.
+        growing_modes: usize,
+    },
+    /// A time step that could not be solved; the simulation stays at the last accepted step.
+    #[error("step {step} (t = {time} s): {source}")]
+    Step {
+        /// Number of the step that failed, from 1.
+        step: usize,
+        /// Time at its end, s.
+        time: f64,
+        /// What failed.
+        source: StepError,
+    },
+}

@@ -1,0 +1,51 @@
+//! Steps that fail.
+
+use super::Error;
+use crate::interface::Mode;
+
+/// Why a step failed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// No set of contact modes satisfied the interface laws.
+    #[error(
+        "contact modes not found in {iterations} trials, residual {residual:e}, modes {modes:?}"
+    )]
+    Contact {
+        /// Trials made, fallbacks included.
+        iterations: usize,
+        /// How far the tractions of these modes are from those of the modes that the laws ask for
+        /// instead, relative to the largest; 1 if either set of modes is singular.
+        residual: f64,
+        /// Modes of the last trial, left to right.
+        modes: Vec<Mode>,
+    },
+    /// Newton's iteration for a nonlinear structure did not converge.
+    #[error(
+        "Newton's iteration not converged in {iterations} iterations, residual {residual:e}, \
+         modes {modes:?}"
+    )]
+    Newton {
+        /// Iterations made.
+        iterations: usize,
+        /// Last out-of-balance force relative to the largest force.
+        residual: f64,
+        /// Contact modes of the last iteration, left to right.
+        modes: Vec<Mode>,
+    },
+    /// The ground could not give its history.
+    #[error("history of the ground: {0}")]
+    Ground(Box<Error>),
+    /// A number became NaN or infinite.
+    #[error("{quantity} is not finite")]
+    NotFinite {
+        /// Name of the quantity.
+        quantity: &'static str,
+    },
+    /// A matrix of the step is singular.
+    #[error("{matrix} is singular")]
+    Singular {
+        /// Name of the matrix.
+        matrix: &'static str,
+    },
+}

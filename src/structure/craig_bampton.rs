@@ -1,0 +1,310 @@
+//! Reduction of a large structure to its contact nodes and a few modes.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | b, i | kept (boundary) and interior unknowns |
+//! | Ψ | static answers of the interior to unit kept unknowns, −K_ii⁻¹ K_ib |
+//! | Φ | modes of the interior with the kept unknowns held, Φᵀ M_ii Φ = 1 |
+//! | T | u = T q, q = (u_b, modal coordinates) |
+
+use std::sync::Arc;
+
+use super::matrix_model::SYMMETRIC;
+use super::recovery::{Basis, Recovery};
+use super::{ContactNode, Structure, Triplets};
+use crate::error::{Error, Result, not_negative};
+use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
+
+/// Craig & Bampton's reduction (1968): the contact nodes and any unknowns that are to be kept, and a
+/// number of modes of the rest with these held.
+///
+/// Rigid motions, weight and slow loads at the kept unknowns pass exactly; what moves faster than the
+/// highest mode kept ([`ReducedModel::frequencies`]) is cut off. A usual choice is modes up to twice
+/// the highest frequency of interest.
+///
+/// ```
+/// use basemat::fem::{Direction, Layer, Material, Mesh};
+/// use basemat::structure::{CraigBampton, FemModel, Structure};
+///
+/// let material = Material::new(3.0e9, 0.2, 2400.0)?;
+/// let mesh = Mesh::layered_block(-5.0..5.0, 8, &[Layer::new(20.0, 16, material)])?;
+/// let model = FemModel::on_base(mesh)?;
+/// let roof = model.unknown(model.nearest_node(0.0, 20.0), Direction::X).unwrap_or(0);
+/// assert_eq!(model.unknowns(), 306);
+///
+/// let reduced = CraigBampton::new(12).reduce(model)?;
+/// assert_eq!(reduced.unknowns(), 2 * 9 + 12);
+/// // A probe on an unknown that is no longer there:
+/// let row = reduced.recovery().row(&[(roof, 1.0)])?;
+/// assert_eq!(row.len(), 30);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CraigBampton {
+    modes: usize,
+    kept: Vec<usize>,
+}
+
+/// A structure after [`CraigBampton::reduce`].
+///
+/// Its unknowns are the kept ones, in ascending order, then the coordinates of the modes.
+/// [`recovery`](ReducedModel::recovery) leads back to those of the full model.
+pub struct ReducedModel {
+    full: Box<dyn Structure>,
+    basis: Arc<Basis>,
+    contact: Vec<ContactNode>,
+    /// Row-major, of the order of the reduced model.
+    mass: Vec<f64>,
+    damping: Vec<f64>,
+    stiffness: Vec<f64>,
+    /// Circular frequencies of the modes, rad/s.
+    frequencies: Vec<f64>,
+    load: std::cell::RefCell<Vec<f64>>,
+}
+
+impl CraigBampton {
+    /// Reduction to the contact nodes and the lowest `modes` modes of the rest.
+    pub fn new(modes: usize) -> Self {
+        Self { modes, kept: Vec::new() }
+    }
+
+    /// The same reduction that also keeps these `unknowns` as they are, for springs on them for
+    /// example ([`WithSprings`](super::WithSprings)).
+    #[must_use]
+    pub fn keep(mut self, unknowns: &[usize]) -> Self {
+        self.kept.extend_from_slice(unknowns);
+        self
+    }
+
+    /// Reduces a linear structure.
+    ///
+    /// Damping is reduced as it is; see [`ReducedModel::with_damping_ratio`] for another. Takes one
+    /// sparse factorisation and about two solves for each kept unknown and mode, and keeps a number
+    /// for each of them and each unknown of the full model.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a nonlinear structure or matrices that are not symmetric,
+    /// [`Error::Index`] for a kept unknown that does not exist, [`Error::Size`] for more modes than
+    /// unknowns are left, [`Error::Singular`] when the kept unknowns do not hold the rest or its
+    /// stiffness is not positive.
+    pub fn reduce(&self, structure: impl Structure + 'static) -> Result<ReducedModel> {
+        let n = structure.unknowns();
+        if !structure.is_linear() {
+            let needed = "must be linear: put springs on the reduced model";
+            return Err(Error::Scene { quantity: "structure to be reduced", needed });
+        }
+        let assemble = |name, fill: &dyn Fn(&mut Triplets)| {
+            let mut triplets = Triplets::new(n);
+            fill(&mut triplets);
+            let matrix = SparseMatrix::new(name, &triplets)?;
+            if matrix.asymmetry() > SYMMETRIC {
+                return Err(Error::Scene { quantity: name, needed: "must be symmetric" });
+            }
+            Ok(matrix)
+        };
+        let mass = assemble("mass matrix", &|m| structure.mass(m))?;
+        let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
+        let damping = assemble("damping matrix", &|m| structure.damping(m))?;
+
+        let contact = structure.contact_nodes();
+        let parts = Parts::new(n, &contact, &self.kept)?;
+        let interior = parts.interior.len();
+        if self.modes > interior {
+            let quantity = "list of fixed-interface modes";
+            return Err(Error::Size { quantity, found: self.modes, needed: interior });
+        }
+        let (rows, squares) = parts.basis(&stiffness, &mass, self.modes)?;
+        let basis = Basis::new(parts.kept.clone(), rows, n);
+        let order = basis.order();
+        let kept = parts.kept.len();
+        let mut model = ReducedModel {
+            mass: basis.congruence(&mass),
+            damping: basis.congruence(&damping),
+            stiffness: basis.congruence(&stiffness),
+            contact: contact.iter().map(|node| parts.renumbered(node)).collect(),
+            frequencies: squares.iter().map(|square| square.sqrt()).collect(),
+            load: std::cell::RefCell::new(vec![0.0; n]),
+            full: Box::new(structure),
+            basis: Arc::new(basis),
+        };
+        // Modes and static answers are K-orthogonal: what is left there is rounding.
+        for (k, square) in squares.iter().enumerate() {
+            for j in 0..order {
+                model.stiffness[(kept + k) * order + j] = 0.0;
+                model.stiffness[j * order + kept + k] = 0.0;
+            }
+            model.stiffness[(kept + k) * (order + 1)] = *square;
+        }
+        Ok(model)
+    }
+}
+
+/// Who is kept and who is not.
+struct Parts {
+    kept: Vec<usize>,
+    interior: Vec<usize>,
+    /// Place of each unknown in its list.
+    place: Vec<usize>,
+    is_kept: Vec<bool>,
+}
+
+impl Parts {
+    fn new(n: usize, contact: &[ContactNode], more: &[usize]) -> Result<Self> {
+        let of_contact =
+            contact.iter().flat_map(|node| node.horizontal.iter().chain(&node.vertical));
+        let mut is_kept = vec![false; n];
+        for index in of_contact.map(|&(index, _)| index).chain(more.iter().copied()) {
+            let bound = n;
+            *is_kept.get_mut(index).ok_or(Error::Index {
+                quantity: "unknown to be kept",
+                index,
+                bound,
+            })? = true;
+        }
+        let (mut kept, mut interior) = (Vec::new(), Vec::new());
+        let place = (0..n)
+            .map(|unknown| {
+                let list = if is_kept[unknown] { &mut kept } else { &mut interior };
+                list.push(unknown);
+                list.len() - 1
+            })
+            .collect();
+        if kept.is_empty() {
+            return Err(Error::Size { quantity: "list of kept unknowns", found: 0, needed: 1 });
+        }
+        Ok(Self { kept, interior, place, is_kept })
+    }
+
+    fn renumbered(&self, node: &ContactNode) -> ContactNode {
+        let row = |terms: &[(usize, f64)]| {
+            terms.iter().map(|&(index, weight)| (self.place[index], weight)).collect()
+        };
+        ContactNode { x: node.x, horizontal: row(&node.horizontal), vertical: row(&node.vertical) }
+    }
+
+    /// A_ii.
+    fn inner(&self, name: &'static str, matrix: &SparseMatrix) -> Result<SparseMatrix> {
+        let mut inner = Triplets::new(self.interior.len());
+        for (row, column, value) in matrix.entries() {
+            if !self.is_kept[row] && !self.is_kept[column] {
+                inner.add(self.place[row], self.place[column], value);
+            }
+        }
+        SparseMatrix::new(name, &inner)
+    }
+
+    /// The rows of Tᵀ, and the squared circular frequencies of the modes.
+    fn basis(
+        &self,
+        stiffness: &SparseMatrix,
+        mass: &SparseMatrix,
+        modes: usize,
+    ) -> Result<(Vec<f64>, Vec<f64>)> {
+        const NAME: &str = "stiffness matrix with the kept unknowns held";
+        let (n, ni, nb) = (self.place.len(), self.interior.len(), self.kept.len());
+        let mut rows = vec![0.0; nb * n];
+        for (k, &unknown) in self.kept.iter().enumerate() {
+            rows[k * n + unknown] = 1.0;
+        }
+        if ni == 0 {
+            return Ok((rows, Vec::new()));
+        }
+        let factor = SparseFactor::positive_definite(NAME, &self.inner(NAME, stiffness)?)?;
+        let mut answers = vec![0.0; nb * ni];
+        for (row, column, value) in stiffness.entries() {
+            if !self.is_kept[row] && self.is_kept[column] {
+                answers[self.place[column] * ni + self.place[row]] -= value;
+            }
+        }
+        factor.solve_many(&mut answers);
+        let held = self.inner("mass matrix with the kept unknowns held", mass)?;
+        let (squares, shapes) = lowest_modes(&factor, &held, modes)
+            .ok_or(Error::Singular { matrix: NAME, order: ni })?;
+        rows.resize((nb + squares.len()) * n, 0.0);
+        let inner = answers.chunks_exact(ni).chain(shapes.chunks_exact(ni));
+        for (row, values) in rows.chunks_exact_mut(n).zip(inner) {
+            for (&unknown, value) in self.interior.iter().zip(values) {
+                row[unknown] = *value;
+            }
+        }
+        if rows.iter().all(|value| value.is_finite()) {
+            Ok((rows, squares))
+        } else {
+            Err(Error::Singular { matrix: NAME, order: ni })
+        }
+    }
+}
+
+impl ReducedModel {
+    /// Frequencies of the modes with the kept unknowns held, Hz, ascending. There are fewer than
+    /// asked for only where fewer unknowns have mass.
+    pub fn frequencies(&self) -> Vec<f64> {
+        self.frequencies.iter().map(|frequency| frequency / std::f64::consts::TAU).collect()
+    }
+
+    /// The way back to the unknowns of the full model. It can be cloned, and kept when the model
+    /// has gone into a simulation.
+    pub fn recovery(&self) -> Recovery {
+        Recovery::new(Arc::clone(&self.basis))
+    }
+
+    /// The same model with this damping ratio in every mode with the kept unknowns held, in place
+    /// of the damping it had. Motions of the kept unknowns alone are not damped.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless it is finite and not negative.
+    pub fn with_damping_ratio(mut self, ratio: f64) -> Result<Self> {
+        not_negative("damping ratio", ratio)?;
+        self.damping.fill(0.0);
+        let order = self.basis.order();
+        let kept = order - self.frequencies.len();
+        for (k, frequency) in self.frequencies.iter().enumerate() {
+            self.damping[(kept + k) * (order + 1)] = 2.0 * ratio * frequency;
+        }
+        Ok(self)
+    }
+}
+
+/// Adds a dense row-major matrix, zeros left out.
+fn add(values: &[f64], matrix: &mut Triplets) {
+    let order = matrix.order();
+    for (place, &value) in values.iter().enumerate() {
+        if value != 0.0 {
+            matrix.add(place / order, place % order, value);
+        }
+    }
+}
+
+impl Structure for ReducedModel {
+    fn unknowns(&self) -> usize {
+        self.basis.order()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.contact.clone()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        add(&self.mass, matrix);
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        add(&self.stiffness, matrix);
+    }
+
+    fn damping(&self, matrix: &mut Triplets) {
+        add(&self.damping, matrix);
+    }
+
+    /// The load of the full model, as it works on the reduced unknowns.
+    fn load(&self, time: f64, load: &mut [f64]) {
+        let mut full = self.load.borrow_mut();
+        full.fill(0.0);
+        self.full.load(time, &mut full);
+        if full.iter().any(|force| *force != 0.0) {
+            for (sum, row) in load.iter_mut().zip(self.basis.rows()) {
+                *sum += dot(row, &full);
+            }
+        }
+    }
+}

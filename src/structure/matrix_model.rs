@@ -1,0 +1,139 @@
+//! Structure given by its matrices.
+
+use super::rayleigh::RayleighDamping;
+use super::{ContactNode, Structure, Triplets};
+use crate::error::{Error, Result, same_length};
+use crate::linalg::SparseMatrix;
+
+/// Relative difference of mirrored entries up to which a matrix counts as symmetric.
+pub(super) const SYMMETRIC: f64 = 1e-9;
+
+/// A structure given by mass, damping and stiffness matrices, from another program for example.
+///
+/// The unknowns are absolute displacements in m and rotations in rad, in any order; the structure
+/// is **free**, without supports: the ground holds it up, so a rigid ride must give no elastic
+/// force. Matrices are per metre of thickness. They may come from Matrix Market files
+/// ([`Triplets::read_matrix_market`]); large models march faster after a
+/// [`CraigBampton`](super::CraigBampton) reduction.
+///
+/// ```
+/// use basemat::structure::{ContactNode, MatrixModel, Structure, Triplets};
+///
+/// // A rigid base [u_x, u_y, θ] with a mass on a spring, 5 m up.
+/// let mut mass = Triplets::new(4);
+/// for (unknown, value) in [2.0e4, 3.0e4, 6.0e4, 1.0e4].into_iter().enumerate() {
+///     mass.add(unknown, unknown, value);
+/// }
+/// let mut stiffness = Triplets::new(4);
+/// stiffness.add_outer(&[(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
+/// let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
+/// let model = MatrixModel::new(mass, stiffness, contact)?;
+/// assert_eq!(model.unknowns(), 4);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct MatrixModel {
+    mass: Triplets,
+    damping: Triplets,
+    stiffness: Triplets,
+    contact: Vec<ContactNode>,
+}
+
+impl MatrixModel {
+    /// Structure with mass (kg/m) and stiffness (N/m per metre), which touches the ground with the
+    /// nodes `contact`, from left to right. No damping.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for matrices without rows or of different order and for fewer than two
+    /// contact nodes, [`Error::Index`] and [`Error::Input`] for entries, coordinates or weights out
+    /// of range or not finite, [`Error::Scene`] for a mass matrix that is not symmetric.
+    pub fn new(mass: Triplets, stiffness: Triplets, contact: Vec<ContactNode>) -> Result<Self> {
+        let order = mass.order();
+        if order == 0 {
+            return Err(Error::Size { quantity: "mass matrix", found: 0, needed: 1 });
+        }
+        let inertia = SparseMatrix::new("mass matrix", &mass)?;
+        if inertia.asymmetry() > SYMMETRIC {
+            return Err(Error::Scene { quantity: "mass matrix", needed: "must be symmetric" });
+        }
+        check("stiffness matrix", &stiffness, order)?;
+        check_contact(&contact, order)?;
+        Ok(Self { mass, damping: Triplets::new(order), stiffness, contact })
+    }
+
+    /// The same structure with a damping matrix (N s/m per metre), in place of what it had.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for another order, [`Error::Index`] and [`Error::Input`] for entries out of
+    /// range or not finite.
+    pub fn with_damping(self, damping: Triplets) -> Result<Self> {
+        check("damping matrix", &damping, self.mass.order())?;
+        Ok(Self { damping, ..self })
+    }
+
+    /// The same structure with Rayleigh damping, in place of what it had.
+    #[must_use]
+    pub fn with_rayleigh(mut self, damping: RayleighDamping) -> Self {
+        self.damping.clear();
+        for (matrix, factor) in
+            [(&self.mass, damping.mass()), (&self.stiffness, damping.stiffness())]
+        {
+            if factor > 0.0 {
+                add(matrix, factor, &mut self.damping);
+            }
+        }
+        self
+    }
+}
+
+fn check(name: &'static str, matrix: &Triplets, order: usize) -> Result<()> {
+    same_length(name, matrix.order(), order)?;
+    SparseMatrix::new(name, matrix).map(drop)
+}
+
+fn check_contact(contact: &[ContactNode], order: usize) -> Result<()> {
+    if contact.len() < 2 {
+        let found = contact.len();
+        return Err(Error::Size { quantity: "list of contact nodes", found, needed: 2 });
+    }
+    for node in contact {
+        crate::error::finite("coordinate of a contact node", node.x)?;
+        for &(index, weight) in node.horizontal.iter().chain(&node.vertical) {
+            crate::error::finite("weight of a contact node", weight)?;
+            if index >= order {
+                let quantity = "unknown of a contact node";
+                return Err(Error::Index { quantity, index, bound: order });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Adds `factor` times one matrix to another.
+fn add(matrix: &Triplets, factor: f64, sum: &mut Triplets) {
+    for &(row, column, value) in matrix.entries() {
+        sum.add(row, column, factor * value);
+    }
+}
+
+impl Structure for MatrixModel {
+    fn unknowns(&self) -> usize {
+        self.mass.order()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.contact.clone()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        add(&self.mass, 1.0, matrix);
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        add(&self.stiffness, 1.0, matrix);
+    }
+
+    fn damping(&self, matrix: &mut Triplets) {
+        add(&self.damping, 1.0, matrix);
+    }
+}

@@ -1,0 +1,105 @@
+//! From a reduced model back to the unknowns of the full one.
+
+use std::sync::Arc;
+
+use crate::error::{Error, Result, finite, same_length};
+use crate::linalg::{SparseMatrix, dense_multiply_add, wide_transposed_multiply_add};
+
+/// The basis T of a reduction, u = T q.
+#[derive(Debug)]
+pub(super) struct Basis {
+    /// Unknowns of the full model that are among q.
+    kept: Vec<usize>,
+    /// Tᵀ, row-major: a row of the full model's unknowns for each reduced one.
+    transposed: Vec<f64>,
+    full: usize,
+}
+
+impl Basis {
+    pub(super) fn new(kept: Vec<usize>, transposed: Vec<f64>, full: usize) -> Self {
+        Self { kept, transposed, full }
+    }
+
+    /// Number of reduced unknowns.
+    pub(super) fn order(&self) -> usize {
+        self.transposed.len() / self.full.max(1)
+    }
+
+    pub(super) fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.transposed.chunks_exact(self.full.max(1))
+    }
+
+    /// Tᵀ A T for a symmetric matrix, row-major, symmetric to the last bit.
+    pub(super) fn congruence(&self, matrix: &SparseMatrix) -> Vec<f64> {
+        let order = self.order();
+        let mut result = vec![0.0; order * order];
+        if matrix.is_empty() {
+            return result;
+        }
+        let mut product = vec![0.0; self.full];
+        let mut column = vec![0.0; order];
+        for (j, row) in self.rows().enumerate() {
+            product.fill(0.0);
+            matrix.multiply_add(1.0, row, &mut product);
+            column.fill(0.0);
+            dense_multiply_add(&self.transposed, 1.0, &product, &mut column);
+            for (i, value) in column.iter().enumerate().take(j + 1) {
+                result[i * order + j] = *value;
+                result[j * order + i] = *value;
+            }
+        }
+        result
+    }
+}
+
+/// The way from a [`ReducedModel`](super::ReducedModel) back to the unknowns of the full model.
+#[derive(Debug, Clone)]
+pub struct Recovery {
+    basis: Arc<Basis>,
+}
+
+impl Recovery {
+    pub(super) fn new(basis: Arc<Basis>) -> Self {
+        Self { basis }
+    }
+
+    /// Number of unknowns of the full model.
+    pub fn full_unknowns(&self) -> usize {
+        self.basis.full
+    }
+
+    /// Unknowns of the full model that the reduced one kept: its first ones, in this order.
+    pub fn kept(&self) -> &[usize] {
+        &self.basis.kept
+    }
+
+    /// A weighted sum of the full model's unknowns as one of the reduced model's, for a
+    /// [`Probe`](crate::coupled::Probe) or a spring: (unknown, weight) pairs.
+    ///
+    /// # Errors
+    /// [`Error::Index`] for an unknown that the full model does not have, [`Error::Input`] for a
+    /// weight that is not finite.
+    pub fn row(&self, terms: &[(usize, f64)]) -> Result<Vec<(usize, f64)>> {
+        for &(index, weight) in terms {
+            finite("weight of an unknown", weight)?;
+            if index >= self.basis.full {
+                let bound = self.basis.full;
+                return Err(Error::Index { quantity: "unknown of the full model", index, bound });
+            }
+        }
+        let weight = |row: &[f64]| terms.iter().map(|&(index, weight)| weight * row[index]).sum();
+        Ok(self.basis.rows().map(weight).enumerate().collect())
+    }
+
+    /// The full model's unknowns, from the reduced model's: displacements, velocities or
+    /// accelerations.
+    ///
+    /// # Errors
+    /// [`Error::Size`] unless there is a value for each reduced unknown.
+    pub fn full(&self, reduced: &[f64]) -> Result<Vec<f64>> {
+        same_length("list of reduced unknowns", reduced.len(), self.basis.order())?;
+        let mut full = vec![0.0; self.basis.full];
+        wide_transposed_multiply_add(&self.basis.transposed, 1.0, reduced, &mut full);
+        Ok(full)
+    }
+}

@@ -1,0 +1,5 @@
+//! Structures given by their matrices: files, checks, and reduction.
+
+mod market;
+mod model;
+mod reduction;

@@ -1,0 +1,86 @@
+//! A structure by its matrices is the structure that they came from.
+
+use basemat::bem::HalfPlaneGround;
+use basemat::coupled::SimulationBuilder;
+use basemat::fem::{Layer, Material, Mesh};
+use basemat::interface::Coulomb;
+use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::structure::{
+    ContactNode, FemModel, MatrixModel, RayleighDamping, Structure, Triplets,
+};
+use basemat::{Error, Simulation, Soil};
+
+pub(crate) fn tower(columns: usize, rows: usize) -> FemModel {
+    let material = Material::new(2.0e9, 0.2, 2000.0).unwrap();
+    let mesh = Mesh::layered_block(-3.0..3.0, columns, &[Layer::new(15.0, rows, material)]);
+    FemModel::on_base(mesh.unwrap()).unwrap()
+}
+
+pub(crate) fn on_soil(structure: impl Structure + 'static) -> SimulationBuilder {
+    let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
+    Simulation::builder(0.01)
+        .structure(structure)
+        .ground(HalfPlaneGround::strip(soil, -3.0..3.0, 6).unwrap())
+        .interface(Coulomb::new(0.4).unwrap())
+        .motion(el_centro_1940())
+        .gravity(STANDARD_GRAVITY)
+}
+
+#[test]
+fn matrices_march_as_the_model_they_came_from() {
+    let damping = RayleighDamping::from_ratios([1.0, 8.0], [0.05; 2]).unwrap();
+    let model = tower(6, 10).with_damping(damping);
+    let filled = |fill: &dyn Fn(&mut Triplets)| {
+        let mut matrix = Triplets::new(model.unknowns());
+        fill(&mut matrix);
+        matrix
+    };
+    let [mass, damp, stiffness] = [
+        filled(&|m| model.mass(m)),
+        filled(&|m| model.damping(m)),
+        filled(&|m| model.stiffness(m)),
+    ];
+    let given = MatrixModel::new(mass, stiffness, model.contact_nodes()).unwrap();
+    let rayleigh = given.clone().with_rayleigh(damping);
+    let full = given.with_damping(damp).unwrap();
+    let run = |builder: SimulationBuilder| {
+        let mut simulation = builder.build().unwrap();
+        let run = simulation.run(400, |_| {}).unwrap();
+        assert!(run.ledger_residual < 1e-9);
+        run.base_moment.value
+    };
+    let expected = run(on_soil(model));
+    for found in [run(on_soil(full)), run(on_soil(rayleigh))] {
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    }
+}
+
+#[test]
+fn bad_matrices_are_refused() {
+    let diagonal = |n: usize, value: f64| {
+        let mut matrix = Triplets::new(n);
+        (0..n).for_each(|i| matrix.add(i, i, value));
+        matrix
+    };
+    let contact = || ContactNode::rigid_base(-1.0, 1.0, [0, 1, 2]);
+    let one = || diagonal(3, 1.0);
+    assert!(MatrixModel::new(one(), Triplets::new(3), contact()).is_ok());
+    let new = MatrixModel::new;
+    assert!(matches!(new(Triplets::new(0), one(), contact()), Err(Error::Size { .. })));
+    assert!(matches!(new(one(), diagonal(4, 1.0), contact()), Err(Error::Size { .. })));
+    assert!(matches!(new(one(), one(), vec![]), Err(Error::Size { .. })));
+    assert!(matches!(new(diagonal(2, 1.0), diagonal(2, 1.0), contact()), Err(Error::Index { .. })));
+    assert!(matches!(new(diagonal(3, f64::NAN), one(), contact()), Err(Error::Input { .. })));
+    assert!(matches!(new(one(), diagonal(3, f64::INFINITY), contact()), Err(Error::Input { .. })));
+    let mut skew = one();
+    skew.add(0, 1, 0.5);
+    assert!(matches!(new(skew, one(), contact()), Err(Error::Scene { .. })));
+    let mut outside = one();
+    outside.add(0, 3, 0.5);
+    assert!(matches!(new(one(), outside, contact()), Err(Error::Index { .. })));
+    let far = ContactNode::rigid_base(f64::NAN, 1.0, [0, 1, 2]);
+    assert!(matches!(new(one(), one(), far), Err(Error::Input { .. })));
+    let model = new(one(), one(), contact()).unwrap();
+    assert!(matches!(model.clone().with_damping(diagonal(2, 1.0)), Err(Error::Size { .. })));
+    assert!(matches!(model.with_damping(diagonal(3, f64::NAN)), Err(Error::Input { .. })));
+}
