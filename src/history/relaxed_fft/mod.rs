@@ -4,6 +4,7 @@ mod coefficients;
 mod lattice;
 mod level;
 mod pairs;
+mod shelf;
 mod wave_level;
 mod waves;
 
@@ -11,6 +12,7 @@ use std::sync::Arc;
 
 use self::lattice::Lattice;
 use self::pairs::Pairs;
+pub(crate) use self::shelf::Shelf;
 use self::waves::Waves;
 use super::ConvolutionHistory;
 use super::source::CoefficientSource;
@@ -63,6 +65,9 @@ const LONGEST_HINT: usize = 1 << 22;
 ///
 /// Steps are of unequal cost: the one that completes a block of b pays for all of it, 4Q
 /// transforms of length 2b.
+///
+/// Histories of one [`PatchKernel`] (clones included) share its spectra: the first that needs them
+/// makes them, on whatever thread.
 ///
 /// Memory grows by doubling when steps go on past [`reserve`](ConvolutionHistory::reserve); within
 /// it nothing is allocated. Results may differ in the last digits between processors, as the
