@@ -189,12 +189,15 @@ impl Blocks for Waves {
     }
 
     fn grow(&mut self, source: &dyn CoefficientSource, steps: usize) -> Result<()> {
-        let capacity = steps.div_ceil(self.leaf).next_power_of_two() * self.leaf;
-        if capacity <= self.capacity {
+        if steps <= self.capacity && self.capacity > 0 {
             return Ok(());
         }
+        let leaves = steps.div_ceil(self.leaf).max(1);
+        let largest = leaves.next_power_of_two();
+        // What was asked for at first is taken at its word; then memory grows by doubling.
+        let capacity = self.leaf * if self.capacity == 0 { leaves } else { largest };
         let waves = self.lattice.waves();
-        let wanted = (capacity / self.leaf).ilog2() as usize;
+        let wanted = largest.ilog2() as usize;
         let (levels, near) = if let Some(shelf) = source.shelf().filter(|_| self.leaf == LEAF) {
             let mut shared = shelf.waves();
             let mut near = shared.near.take();
