@@ -10,6 +10,7 @@ use basemat::motion::{FrequencyContent, Record, RickerDisplacement, el_centro_19
 use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
 use basemat::{Error, Simulation, Soil};
 use support::cantilever::Cantilever;
+use support::impedance::impedance_errors;
 use support::series::{Error as Difference, Series, whole};
 use support::table;
 
@@ -83,6 +84,35 @@ fn report(scene: &str, advice: &Advice, [history, peak]: [f64; 2]) -> f64 {
 #[track_caller]
 fn as_asked(scene: &str, ratio: f64) {
     assert!((0.2..2.0).contains(&ratio), "{scene}: {ratio:.2} of the tolerance");
+}
+
+/// GOAL: the errors of stiffness that advice expects are those of the strip itself.
+/// SCENE: massless rigid strip, bonded, on 8 and 16 graded elements; pulses, Fourier transformed.
+/// REFERENCE: impedances over a₀, the problem of Luco & Westmann 1972, by a spectral method.
+#[test]
+fn errors_of_stiffness_are_those_of_the_strip() {
+    let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
+    let outline = Outline::new(2.0, 4.0, 4.0).unwrap();
+    let advice = advise(&soil, &outline, &pulse_content(), 0.01).unwrap();
+    let square = (advice.elements as f64).powi(2);
+    let expected = advice.stiffness_errors.map(|error| error * square);
+    let mut mean = [0.0; 2];
+    for (file, poisson) in [("0", 0.0), ("025", 0.25), ("0333", 1.0 / 3.0)] {
+        let file = format!("strip_bonded_nu{file}_xi00.csv");
+        for elements in [8, 16] {
+            let mesh = (Grading::Cosine, elements, 0.05);
+            let [horizontal, _, rocking, _] = impedance_errors(&file, poisson, mesh, true);
+            for (k, error) in [horizontal, rocking].into_iter().enumerate() {
+                let found = error * (elements as f64).powi(2);
+                println!("{file} {elements}: {found:.3}, expected {:.3}", expected[k]);
+                assert!((found / expected[k] - 1.0).abs() < 0.4, "{file} {elements}: {found}");
+                mean[k] += found / 6.0;
+            }
+        }
+    }
+    for (found, expected) in mean.iter().zip(expected) {
+        assert!((found / expected - 1.0).abs() < 0.2, "{found} on average, expected {expected}");
+    }
 }
 
 const TOLERANCES: [f64; 4] = [0.1, 0.03, 0.01, 0.003];

@@ -9,37 +9,10 @@ use basemat::motion::RickerDisplacement;
 use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
 use basemat::{Simulation, Soil};
 use support::cantilever::Cantilever;
-use support::impedance::{Force, impedances, ricker};
+use support::impedance::{impedance_errors, ricker};
 use support::rigid_strip::{Contact, RigidStrip};
 use support::series::{Error, Series, whole, within};
 use support::table;
-
-/// Errors of `[hh, vv, rr, hr]` over 0.1 ≤ a₀ ≤ 4, each the root mean square of the error over that
-/// of the modulus.
-fn impedance_errors(
-    file: &str,
-    poisson: f64,
-    mesh: (Grading, usize, f64),
-    bonded: bool,
-) -> [f64; 4] {
-    let columns =
-        ["a0", "re_khh", "im_khh", "re_kvv", "im_kvv", "re_krr", "im_krr", "re_khr", "im_khr"];
-    let rows = table(file).rows(columns).into_iter();
-    let rows: Vec<_> = rows.filter(|row| (0.0999..4.0001).contains(&row[0])).collect();
-    let frequencies: Vec<f64> = rows.iter().map(|row| row[0]).collect();
-    let (grading, elements, time_step) = mesh;
-    let strip = |contact| RigidStrip::new(poisson, grading, elements, time_step, contact);
-    let found = impedances(strip, time_step, Force::Mean, bonded, &frequencies);
-    let mut errors = [Error::default(); 4];
-    for (row, found) in rows.iter().zip(&found) {
-        for k in 0..4 {
-            for part in 0..2 {
-                errors[k].add(found[k][part], row[2 * k + 1 + part]);
-            }
-        }
-    }
-    errors.map(Error::relative)
-}
 
 /// Errors of `[uy_Fy, ux_Fx, th_Fx, ux_M, th_M]`.
 fn transient_errors(

@@ -5,15 +5,17 @@ mod scenes;
 
 use std::sync::Mutex;
 
+use basemat::bem::{Grading, Ground, HalfPlaneGround, SharedKernels, Strip};
 use basemat::coupled::State;
-use basemat::{Error, Sweep};
-use scenes::{SI, block, scene, states};
+use basemat::interface::Coulomb;
+use basemat::{Error, Soil, Sweep};
+use scenes::{SI, block, scene, soil, states};
 
 /// Negative friction is refused.
 const FRICTION: [f64; 5] = [0.2, 0.6, -1.0, 0.4, f64::INFINITY];
 
 fn case(index: usize) -> Result<Vec<State>, Error> {
-    let law = basemat::interface::Coulomb::new(FRICTION[index])?;
+    let law = Coulomb::new(FRICTION[index])?;
     let mut simulation = scene(SI, 0.6).structure(block(SI)).interface(law).build()?;
     Ok(states(&mut simulation, 150))
 }
@@ -48,4 +50,56 @@ fn sweep_is_bitwise_sequential_and_outlives_errors() {
 #[test]
 fn an_empty_sweep_ends() {
     Sweep::new(0).run(|_| Ok::<(), ()>(()), |_, _| panic!("there is no case"));
+}
+
+/// GOAL: kernels that cases share change nothing, and are held once.
+/// SCENE: every case with the kernels of the others, uniform (wavenumbers) and graded (pairs), runs
+/// of different lengths in any order.
+#[test]
+fn shared_kernels_change_no_bit() {
+    for grading in [Grading::Uniform, Grading::Cosine] {
+        let run = |kernels: &SharedKernels, steps: usize| {
+            let strip = Strip::new(-2.0..2.0, 9, grading).unwrap();
+            let ground = HalfPlaneGround::new(soil(SI), &[strip]).unwrap();
+            let ground = ground.with_shared_kernels(kernels);
+            let law = Coulomb::new(0.4).unwrap();
+            let scene = scene(SI, 0.6).structure(block(SI)).interface(law).ground(ground);
+            states(&mut scene.expected_steps(steps).build().unwrap(), steps)
+        };
+        let (shared, lengths) = (SharedKernels::default(), [150, 40, 700, 90]);
+        let mut results = vec![Vec::new(); lengths.len()];
+        Sweep::new(lengths.len()).run(
+            |now| Ok::<_, Error>(run(&shared, lengths[now.index()])),
+            |index, states| results[index] = states.unwrap(),
+        );
+        assert_eq!(shared.len(), 1);
+        for (found, steps) in results.iter().zip(lengths) {
+            assert!(*found == run(&SharedKernels::default(), steps), "{grading:?}, {steps} steps");
+        }
+    }
+}
+
+#[test]
+fn shared_kernels_are_told_apart_and_bounded() {
+    let kernels = SharedKernels::default();
+    assert!(kernels.is_empty());
+    let prepare = |modulus: f64, count: usize, step: f64| {
+        let soil = Soil::new(modulus, 0.3, 1900.0).unwrap();
+        let mut ground =
+            HalfPlaneGround::strip(soil, -2.0..2.0, count).unwrap().with_shared_kernels(&kernels);
+        ground.prepare(step).unwrap();
+        let mut matrix = vec![0.0; 4 * count * count];
+        ground.instantaneous(&mut matrix).unwrap();
+        matrix
+    };
+    let first = prepare(8e7, 4, 1e-3);
+    for other in [prepare(9e7, 4, 1e-3), prepare(8e7, 4, 2e-3), prepare(8e7, 5, 1e-3)] {
+        assert_ne!(first, other);
+    }
+    assert_eq!(first, prepare(8e7, 4, 1e-3));
+    assert_eq!(kernels.len(), 4);
+    for k in 1..20 {
+        prepare(8e7, 4, 1e-3 * f64::from(k));
+    }
+    assert_eq!(kernels.len(), 8);
 }

@@ -6,7 +6,7 @@ use plotters::prelude::SeriesLabelPosition;
 use super::AnyError;
 use super::chart::{BLUE, Figure, Panel, RED};
 use super::outcome::{Case, Check, Outcome, worse};
-use super::support::impedance::impedances;
+use super::support::impedance::{Force, impedances};
 use super::support::rigid_strip::RigidStrip;
 use super::support::series::Error;
 use super::support::table;
@@ -36,7 +36,7 @@ fn curves(name: &str, poisson: f64, bonded: bool) -> Curves {
     let rows: Vec<_> = rows.filter(|row| (0.0999..4.0001).contains(&row[0])).collect();
     let frequencies: Vec<f64> = rows.iter().map(|row| row[0]).collect();
     let strip = |contact| RigidStrip::new(poisson, Grading::Cosine, 16, TIME_STEP, contact);
-    let found = impedances(strip, TIME_STEP, bonded, &frequencies);
+    let found = impedances(strip, TIME_STEP, Force::Mean, bonded, &frequencies);
     let part = |row: &[f64; 9], k: usize| [row[2 * k + 1], row[2 * k + 2]];
     let wanted = rows.iter().map(|row| std::array::from_fn(|k| part(row, k))).collect();
     Curves { frequencies, wanted, found }

@@ -8,7 +8,7 @@ use super::AnyError;
 use super::catalogue::{CONTAINMENT_STEP, TABLES, building, containment};
 use super::force::{Errors, Force};
 use super::scene::Scene;
-use super::settings::Settings;
+use super::settings::{Past, Settings};
 use basemat::bem::Grading;
 
 /// Seconds of El Centro.
@@ -49,10 +49,9 @@ pub(crate) fn check(short: bool, bar: &ProgressBar) -> Result<Vec<Checked>, AnyE
     for case in cases {
         for &tolerance in case.tolerances {
             let advice = advise(&case.scene.soil, &case.outline, &case.content, tolerance)?;
-            let settings = Settings {
-                history: advice.history,
-                ..Settings::new(advice.elements, advice.grading, advice.time_step)
-            };
+            let history = Past::of(advice.history);
+            let settings = Settings::new(advice.elements, advice.grading, advice.time_step);
+            let settings = Settings { history, ..settings };
             let outcome = case.scene.run(&settings)?;
             let errors = outcome.force.errors(&case.reference);
             let seconds = outcome.seconds;

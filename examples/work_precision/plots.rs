@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use basemat::bem::{Grading, History};
+use basemat::bem::Grading;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::AnyError;
-use super::settings::{HISTORIES, Scheme};
+use super::settings::{HISTORIES, Past, SCHEMES, Scheme};
 use super::sweep::{Outcome, Point};
 
 const SIZE: (u32, u32) = (1280, 620);
@@ -28,7 +28,7 @@ struct Family {
     color: RGBColor,
     shape: Shape,
     grading: Grading,
-    history: History,
+    history: Past,
     scheme: Scheme,
 }
 
@@ -40,36 +40,30 @@ enum Shape {
 }
 
 fn families() -> Vec<Family> {
-    let colors = [RGBColor(31, 119, 180), RGBColor(148, 103, 189), RGBColor(44, 160, 44)];
+    let colors = [
+        RGBColor(31, 119, 180),
+        RGBColor(148, 103, 189),
+        RGBColor(44, 160, 44),
+        RGBColor(23, 190, 207),
+        RGBColor(188, 189, 34),
+        RGBColor(255, 140, 0),
+        RGBColor(140, 86, 75),
+        RGBColor(227, 119, 194),
+    ];
+    let kinds = HISTORIES
+        .iter()
+        .map(|&history| (history.name.to_owned(), history, Scheme::Midpoint))
+        .chain(SCHEMES.iter().map(|&scheme| (scheme.name(), HISTORIES[0], scheme)));
     let mut list = Vec::new();
-    for (k, &(name, history)) in HISTORIES.iter().enumerate() {
+    for ((name, history, scheme), color) in kinds.zip(colors.iter().cycle()) {
         for (grading, word, shape) in [
             (Grading::Uniform, "uniform", Shape::Circle),
             (Grading::Cosine, "cosine", Shape::Triangle),
         ] {
-            list.push(Family {
-                name: format!("{word}, {name}"),
-                color: colors[k % colors.len()],
-                shape,
-                grading,
-                history,
-                scheme: Scheme::Midpoint,
-            });
+            let shape = if scheme == Scheme::Midpoint { shape } else { Shape::Cross };
+            let name = format!("{word}, {name}");
+            list.push(Family { name, color: *color, shape, grading, history, scheme });
         }
-    }
-    for (grading, word) in [(Grading::Uniform, "uniform"), (Grading::Cosine, "cosine")] {
-        list.push(Family {
-            name: format!("{word}, {}, θ = 0.55", HISTORIES[0].0),
-            color: if grading == Grading::Uniform {
-                RGBColor(255, 140, 0)
-            } else {
-                RGBColor(140, 86, 75)
-            },
-            shape: Shape::Cross,
-            grading,
-            history: HISTORIES[0].1,
-            scheme: Scheme::Theta(0.55),
-        });
     }
     list
 }

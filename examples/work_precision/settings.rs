@@ -1,25 +1,53 @@
 //! How a scene is computed: mesh, time step, history, time scheme.
 
 use basemat::bem::{Grading, HalfPlaneGround, History, Strip};
-use basemat::coupled::{Midpoint, SimulationBuilder, Theta};
+use basemat::coupled::{Midpoint, Newmark, SimulationBuilder, Theta};
 use basemat::{Result, Soil};
 
-/// Histories that are compared, with their names. A new kind of [`History`] is one more line.
-pub(crate) const HISTORIES: [(&str, History); 2] =
-    [("transforms", History::RelaxedFft), ("direct", History::Direct)];
+/// How the past is summed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Past {
+    pub(crate) name: &'static str,
+    kind: History,
+    /// Of the coefficients, where they are approximate.
+    tolerance: Option<f64>,
+}
+
+impl Past {
+    /// A history that is not one of those compared.
+    pub(crate) fn of(kind: History) -> Self {
+        Self { name: "advised", kind, tolerance: None }
+    }
+}
+
+/// Histories that are compared. A new kind of [`History`] is one more line.
+pub(crate) const HISTORIES: [Past; 5] = [
+    Past { name: "transforms", kind: History::RelaxedFft, tolerance: None },
+    Past { name: "direct", kind: History::Direct, tolerance: None },
+    Past { name: "exponentials 1e-10", kind: History::Exponentials, tolerance: Some(1e-10) },
+    Past { name: "exponentials 1e-6", kind: History::Exponentials, tolerance: Some(1e-6) },
+    Past { name: "exponentials 1e-3", kind: History::Exponentials, tolerance: Some(1e-3) },
+];
 
 /// A time scheme of the structure. A new one is one more variant and its arms below.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Scheme {
     Midpoint,
     Theta(f64),
+    /// γ and β.
+    Newmark(f64, f64),
 }
+
+/// What is tried beside the midpoint rule: damped, and the two common members of Newmark's family.
+pub(crate) const SCHEMES: [Scheme; 3] =
+    [Scheme::Theta(0.55), Scheme::Newmark(0.5, 0.25), Scheme::Newmark(0.6, 0.3025)];
 
 impl Scheme {
     pub(crate) fn name(self) -> String {
         match self {
             Self::Midpoint => "midpoint".into(),
             Self::Theta(theta) => format!("θ = {theta}"),
+            Self::Newmark(gamma, beta) => format!("Newmark {gamma}, {beta}"),
         }
     }
 
@@ -27,6 +55,7 @@ impl Scheme {
         Ok(match self {
             Self::Midpoint => builder.scheme(Midpoint),
             Self::Theta(theta) => builder.scheme(Theta::new(theta)?),
+            Self::Newmark(gamma, beta) => builder.scheme(Newmark::new(gamma, beta)?),
         })
     }
 }
@@ -38,14 +67,14 @@ pub(crate) struct Settings {
     pub(crate) grading: Grading,
     /// s.
     pub(crate) time_step: f64,
-    pub(crate) history: History,
+    pub(crate) history: Past,
     pub(crate) scheme: Scheme,
 }
 
 impl Settings {
     /// With the default history and scheme.
     pub(crate) fn new(elements: usize, grading: Grading, time_step: f64) -> Self {
-        let (history, scheme) = (HISTORIES[0].1, Scheme::Midpoint);
+        let (history, scheme) = (HISTORIES[0], Scheme::Midpoint);
         Self { elements, grading, time_step, history, scheme }
     }
 
@@ -57,13 +86,13 @@ impl Settings {
         }
     }
 
-    pub(crate) fn history_name(&self) -> &'static str {
-        HISTORIES.iter().find(|(_, kind)| *kind == self.history).map_or("other", |(name, _)| name)
-    }
-
     /// Half-plane under a base between −`half` and `half`.
     pub(crate) fn ground(&self, soil: Soil, half: f64) -> Result<HalfPlaneGround> {
         let strip = Strip::new(-half..half, self.elements, self.grading)?;
-        Ok(HalfPlaneGround::new(soil, &[strip])?.with_history_kind(self.history))
+        let ground = HalfPlaneGround::new(soil, &[strip])?.with_history_kind(self.history.kind);
+        match self.history.tolerance {
+            Some(tolerance) => ground.with_history_tolerance(tolerance),
+            None => Ok(ground),
+        }
     }
 }

@@ -7,7 +7,7 @@ use super::AnyError;
 use super::catalogue::{CONTAINMENT_STEP, TABLES, containment};
 use super::force::{Errors, Force};
 use super::scene::Scene;
-use super::settings::{HISTORIES, Scheme, Settings};
+use super::settings::{HISTORIES, SCHEMES, Settings};
 
 /// Runs longer than this are not repeated, s.
 const LONG: f64 = 1.0;
@@ -128,11 +128,11 @@ fn block_settings(short: bool) -> Vec<Settings> {
         for &step in steps {
             for grading in [Grading::Uniform, Grading::Cosine] {
                 let settings = Settings::new(count, grading, step);
-                list.extend(HISTORIES.map(|(_, history)| Settings { history, ..settings }));
+                list.extend(HISTORIES.map(|history| Settings { history, ..settings }));
             }
             if count < 64 {
                 let settings = Settings::new(count, Grading::Cosine, step);
-                list.push(Settings { scheme: Scheme::Theta(0.55), ..settings });
+                list.extend(SCHEMES.map(|scheme| Settings { scheme, ..settings }));
             }
         }
     }
@@ -150,13 +150,12 @@ fn containment_settings(short: bool) -> Vec<Settings> {
             for &factor in factors {
                 let settings = Settings::new(count, grading, factor * CONTAINMENT_STEP);
                 list.push(settings);
-                // The direct sum of many steps takes minutes and gives the same force.
-                if count == 10 && factor > 1.0 {
-                    let others = HISTORIES.iter().skip(1);
-                    list.extend(others.map(|&(_, history)| Settings { history, ..settings }));
-                }
                 if count == 10 {
-                    list.push(Settings { scheme: Scheme::Theta(0.55), ..settings });
+                    // The direct sum of many steps takes minutes and gives the same force.
+                    let others = HISTORIES.iter().skip(1);
+                    let others = others.filter(|past| factor > 1.0 || past.name != "direct");
+                    list.extend(others.map(|&history| Settings { history, ..settings }));
+                    list.extend(SCHEMES.map(|scheme| Settings { scheme, ..settings }));
                 }
             }
         }

@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use super::choice::{HistoryChoice, HistoryOptions};
 use super::patch::check_order;
-use super::{ContactElement, Grading, Ground, History, PatchKernel, StaticKernel, Strip};
+use super::{
+    ContactElement, Grading, Ground, History, PatchKernel, SharedKernels, StaticKernel, Strip,
+};
 use crate::error::{Error, Result};
 use crate::history::{ConvolutionHistory, ExponentialHistory};
 use crate::soil::Soil;
@@ -35,6 +37,7 @@ pub struct HalfPlaneGround {
     statics: StaticKernel,
     options: HistoryOptions,
     own_history: Option<Box<MakeHistory>>,
+    shared: SharedKernels,
     prepared: Option<Prepared>,
 }
 
@@ -96,7 +99,8 @@ impl HalfPlaneGround {
         let span = elements[elements.len() - 1].right - elements[0].left;
         let statics = StaticKernel::new(&soil, 10.0 * span)?;
         let options = HistoryOptions::default();
-        Ok(Self { soil, elements, statics, options, own_history: None, prepared: None })
+        let shared = SharedKernels::default();
+        Ok(Self { soil, elements, statics, options, own_history: None, shared, prepared: None })
     }
 
     /// With a history of this kind; [`History::Auto`] unless called.
@@ -138,6 +142,14 @@ impl HalfPlaneGround {
         self
     }
 
+    /// With coefficients from a store that other grounds take them from as well: what is equal in
+    /// the cases of a sweep is then computed once.
+    #[must_use]
+    pub fn with_shared_kernels(mut self, kernels: &SharedKernels) -> Self {
+        self.shared = kernels.clone();
+        self
+    }
+
     /// The soil.
     pub fn soil(&self) -> &Soil {
         &self.soil
@@ -150,7 +162,7 @@ impl Ground for HalfPlaneGround {
     }
 
     fn prepare(&mut self, time_step: f64) -> Result<()> {
-        let kernel = Arc::new(PatchKernel::new(self.soil, self.elements.clone(), time_step)?);
+        let kernel = self.shared.kernel(self.soil, &self.elements, time_step)?;
         let history = self.own_history.as_ref().map(|make| make(Arc::clone(&kernel)));
         let mut prepared = Prepared { kernel, history, choice: None };
         if self.options.kind != History::Auto {

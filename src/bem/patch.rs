@@ -1,10 +1,12 @@
 //! Step coefficients of all pairs of elements on the half-plane, each kind of pair once.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use super::influence::LateSeries;
 use super::{ContactElement, InfluenceKernel};
 use crate::error::{Error, Result};
+use crate::history::Shelf;
 use crate::soil::Soil;
 
 /// How a pair of elements finds its coefficients.
@@ -34,6 +36,8 @@ pub struct PatchKernel {
     /// One (source, receiver) per class, the receiver on the right.
     classes: Vec<(ContactElement, ContactElement)>,
     pairs: Vec<Pair>,
+    /// Spectra, for histories to share.
+    shelf: Arc<Shelf>,
 }
 
 impl PatchKernel {
@@ -78,7 +82,11 @@ impl PatchKernel {
                 pairs.push(Pair { class, scale: 1.0 / receiver.length(), sign });
             }
         }
-        Ok(Self { elements, kernel, classes, pairs })
+        Ok(Self { elements, kernel, classes, pairs, shelf: Arc::default() })
+    }
+
+    pub(crate) fn shelf(&self) -> &Shelf {
+        &self.shelf
     }
 
     /// The elements, from left to right.

@@ -68,6 +68,9 @@ pub struct Advice {
     pub grading: Grading,
     /// Time step, s, of two digits.
     pub time_step: f64,
+    /// Expected relative error of the strip's horizontal stiffness, and of that in rocking, with so
+    /// many elements: root mean square over `0.1 ≤ a₀ ≤ 4`.
+    pub stiffness_errors: [f64; 2],
     /// Kind of history.
     pub history: History,
     /// The tolerance that was asked for.
@@ -214,6 +217,7 @@ pub fn advise(
         elements: enough,
         grading: Grading::Cosine,
         time_step: step * unit,
+        stiffness_errors: stiffness_errors(enough),
         history: History::Auto,
         tolerance,
         mesh_error: mesh(enough),
@@ -229,6 +233,11 @@ pub fn advise(
 fn largest_step(value: f64) -> Result<f64> {
     let scale = 10.0_f64.powf(value.log10().floor() - 1.0);
     positive("advised time step", (value / scale * (1.0 + 1e-12)).floor() * scale)
+}
+
+/// Errors of the strip's horizontal and rocking stiffness on so many graded elements.
+fn stiffness_errors(elements: usize) -> [f64; 2] {
+    [HORIZONTAL, ROCKING].map(|factor| factor / (elements as f64).powi(2))
 }
 
 struct Estimate {
@@ -252,8 +261,8 @@ impl Estimate {
 
     /// Relative change of V by the errors of stiffness that Q elements bring.
     fn mesh_error(&self, elements: usize, norm: f64) -> f64 {
-        let square = (elements as f64).powi(2);
-        let error = StiffnessError { horizontal: HORIZONTAL / square, rocking: ROCKING / square };
+        let [horizontal, rocking] = stiffness_errors(elements);
+        let error = StiffnessError { horizontal, rocking };
         self.change(norm, |a| {
             self.sketch.shear(a, error) - self.sketch.shear(a, StiffnessError::default())
         })

@@ -8,6 +8,7 @@ mod source;
 pub use direct::DirectHistory;
 pub use exponentials::ExponentialHistory;
 pub use relaxed_fft::RelaxedFftHistory;
+pub(crate) use relaxed_fft::Shelf;
 
 use crate::error::{CheckpointError, Result};
 

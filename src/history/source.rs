@@ -1,5 +1,6 @@
 //! What the transformed history asks of a patch of elements.
 
+use super::Shelf;
 use crate::bem::{ContactElement, Pair, PatchKernel};
 use crate::error::Result;
 
@@ -23,6 +24,11 @@ pub(crate) trait CoefficientSource: Send + Sync {
 
     /// Last lag at which the coupling of `class` is not zero; 0 if it always is.
     fn last_coupling_lag(&self, class: usize) -> Result<usize>;
+
+    /// Where histories of these coefficients leave their spectra for others.
+    fn shelf(&self) -> Option<&Shelf> {
+        None
+    }
 }
 
 impl CoefficientSource for PatchKernel {
@@ -45,5 +51,9 @@ impl CoefficientSource for PatchKernel {
 
     fn last_coupling_lag(&self, class: usize) -> Result<usize> {
         self.last_coupling_lag(class)
+    }
+
+    fn shelf(&self) -> Option<&Shelf> {
+        Some(self.shelf())
     }
 }

@@ -1,7 +1,10 @@
 //! Impedances of the rigid strip from its response to pulses.
 
+use basemat::bem::Grading;
+
 use super::rigid_strip::{Contact, RigidStrip};
-use super::series::whole;
+use super::series::{Error, whole};
+use super::table;
 
 /// Ricker pulse of peak 1.
 pub(crate) fn ricker(time: f64, sigma: f64, center: f64) -> f64 {
@@ -77,4 +80,31 @@ pub(crate) fn impedances(
             })
         })
         .collect()
+}
+
+/// Errors of `[hh, vv, rr, hr]` over 0.1 ≤ a₀ ≤ 4, each the root mean square of the error over that
+/// of the modulus.
+pub(crate) fn impedance_errors(
+    file: &str,
+    poisson: f64,
+    mesh: (Grading, usize, f64),
+    bonded: bool,
+) -> [f64; 4] {
+    let columns =
+        ["a0", "re_khh", "im_khh", "re_kvv", "im_kvv", "re_krr", "im_krr", "re_khr", "im_khr"];
+    let rows = table(file).rows(columns).into_iter();
+    let rows: Vec<_> = rows.filter(|row| (0.0999..4.0001).contains(&row[0])).collect();
+    let frequencies: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    let (grading, elements, time_step) = mesh;
+    let strip = |contact| RigidStrip::new(poisson, grading, elements, time_step, contact);
+    let found = impedances(strip, time_step, Force::Mean, bonded, &frequencies);
+    let mut errors = [Error::default(); 4];
+    for (row, found) in rows.iter().zip(&found) {
+        for k in 0..4 {
+            for part in 0..2 {
+                errors[k].add(found[k][part], row[2 * k + 1 + part]);
+            }
+        }
+    }
+    errors.map(Error::relative)
 }

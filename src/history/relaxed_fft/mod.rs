@@ -4,6 +4,7 @@ mod coefficients;
 mod lattice;
 mod level;
 mod pairs;
+mod shelf;
 mod wave_level;
 mod waves;
 
@@ -11,6 +12,7 @@ use std::sync::Arc;
 
 use self::lattice::Lattice;
 use self::pairs::Pairs;
+pub(crate) use self::shelf::Shelf;
 use self::waves::Waves;
 use super::ConvolutionHistory;
 use super::source::CoefficientSource;
@@ -64,6 +66,9 @@ const LONGEST_HINT: usize = 1 << 22;
 /// Steps are of unequal cost: the one that completes a block of b pays for all of it, 4Q
 /// transforms of length 2b.
 ///
+/// Histories of one [`PatchKernel`] (clones included) share its spectra: the first that needs them
+/// makes them, on whatever thread.
+///
 /// Memory grows by doubling when steps go on past [`reserve`](ConvolutionHistory::reserve); within
 /// it nothing is allocated. Results may differ in the last digits between processors, as the
 /// transforms use the widest instructions found at run time.
@@ -85,7 +90,8 @@ pub struct RelaxedFftHistory {
 
 /// Inputs and outputs so far, and how blocks of one give blocks of the other.
 trait Blocks: Send {
-    /// Steps for which there is room and for which all levels are ready.
+    /// Steps for which there is room and for which all levels are ready. Where it is no power of
+    /// two, the outputs of the last blocks end with it, and are missing when it grows.
     fn capacity(&self) -> usize;
 
     /// Real numbers held.
@@ -172,8 +178,21 @@ impl RelaxedFftHistory {
             }
         };
         let blocks = self.blocks.insert(blocks);
-        if blocks.capacity() < steps {
+        let capacity = blocks.capacity();
+        if capacity < steps {
+            let mut inputs = Vec::new();
+            let worked_in = self.steps - usize::from(self.pending);
+            if !capacity.is_power_of_two() {
+                (0..self.steps).for_each(|step| blocks.input(step, worked_in, &mut inputs));
+            }
             blocks.grow(source, steps)?;
+            if !inputs.is_empty() {
+                blocks.clear();
+                march(&mut **blocks, &inputs);
+                if !self.pending {
+                    blocks.work_in(self.steps);
+                }
+            }
         }
         Ok(&mut **blocks)
     }
@@ -246,13 +265,20 @@ impl ConvolutionHistory for RelaxedFftHistory {
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         let width = self.grow(steps.max(1))?.width();
         super::check_inputs(steps, width, values)?;
-        self.grow(0)?.clear();
-        (self.steps, self.pending, self.failed) = (0, false, None);
-        for input in values.chunks_exact(width) {
-            let now = self.steps;
-            self.settle()?.write_input(now, input);
-            (self.steps, self.pending) = (now + 1, true);
-        }
+        let blocks = self.grow(0)?;
+        blocks.clear();
+        march(blocks, values);
+        (self.steps, self.pending, self.failed) = (steps, steps > 0, None);
         Ok(())
+    }
+}
+
+/// Goes through all steps again, from nothing to where the last of `inputs` is still pending.
+fn march(blocks: &mut dyn Blocks, inputs: &[f64]) {
+    for (now, input) in inputs.chunks_exact(blocks.width()).enumerate() {
+        if now > 0 {
+            blocks.work_in(now);
+        }
+        blocks.write_input(now, input);
     }
 }

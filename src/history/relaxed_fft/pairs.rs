@@ -1,10 +1,12 @@
 //! Blocks over pairs of elements of any lengths and places.
 
+use std::sync::Arc;
+
 use realfft::RealFftPlanner;
 
-use super::Blocks;
 use super::coefficients::{Class, Coefficients};
 use super::level::{Block, Level, Part, Work};
+use super::{Blocks, LEAF};
 use crate::error::Result;
 use crate::history::source::CoefficientSource;
 
@@ -21,7 +23,7 @@ pub(super) struct Pairs {
     coefficients: Coefficients,
     /// Steps that are summed directly.
     leaf: usize,
-    levels: Vec<Level>,
+    levels: Vec<Arc<Level>>,
     planner: RealFftPlanner<f64>,
     work: Work,
     /// 2Q rows of `stride`: inputs before the present step, outputs as far as known from there on.
@@ -51,6 +53,35 @@ impl Pairs {
         let coefficients = &self.coefficients;
         coefficients.couples_far() && (size == self.leaf || size / 2 < coefficients.coupling_reach)
     }
+
+    /// The levels from the `first`-th to the one before `end`.
+    fn make(
+        &mut self,
+        source: &dyn CoefficientSource,
+        first: usize,
+        end: usize,
+    ) -> Result<Vec<Arc<Level>>> {
+        let (count, classes) = (self.coefficients.scales.len(), self.coefficients.classes);
+        let mut levels = Vec::new();
+        for number in first..end {
+            let mut level = Level::new(self.leaf << number, &mut self.planner);
+            let couples = self.couples(level.size);
+            level.reserve(classes, couples);
+            self.work.grow(&level, if couples { 2 * count } else { count });
+            levels.push((level, couples));
+        }
+        if !levels.is_empty() {
+            let mut values = Class::new(self.leaf << end);
+            for class in 0..classes {
+                values.fill(source, class)?;
+                let values = [&values.normal[..], &values.tangential, &values.coupling];
+                for (level, couples) in &mut levels {
+                    level.add_class(values, *couples, &mut self.work);
+                }
+            }
+        }
+        Ok(levels.into_iter().map(|(level, _)| Arc::new(level)).collect())
+    }
 }
 
 impl Blocks for Pairs {
@@ -61,7 +92,7 @@ impl Blocks for Pairs {
     fn numbers(&self) -> usize {
         self.rows.capacity()
             + self.coefficients.numbers()
-            + self.levels.iter().map(Level::numbers).sum::<usize>()
+            + self.levels.iter().map(|level| level.numbers()).sum::<usize>()
             + self.work.numbers()
     }
 
@@ -70,26 +101,21 @@ impl Blocks for Pairs {
         if capacity <= self.capacity {
             return Ok(());
         }
-        let (count, classes) = (self.coefficients.scales.len(), self.coefficients.classes);
-        let mut levels = Vec::new();
-        let mut size = self.leaf << self.levels.len();
-        while size < capacity {
-            let mut level = Level::new(size, &mut self.planner);
-            let couples = self.couples(size);
-            level.reserve(classes, couples);
-            self.work.grow(&level, if couples { 2 * count } else { count });
-            levels.push((level, couples));
-            size *= 2;
-        }
-        if !levels.is_empty() {
-            let mut values = Class::new(capacity);
-            for class in 0..classes {
-                values.fill(source, class)?;
-                let values = [&values.normal[..], &values.tangential, &values.coupling];
-                for (level, couples) in &mut levels {
-                    level.add_class(values, *couples, &mut self.work);
-                }
-            }
+        let count = self.coefficients.scales.len();
+        let wanted = (capacity / self.leaf).ilog2() as usize;
+        let levels = if let Some(shelf) = source.shelf().filter(|_| self.leaf == LEAF) {
+            let mut shared = shelf.pairs();
+            let more = self.make(source, shared.levels.len(), wanted)?;
+            shared.levels.extend(more);
+            shared.levels[..wanted].to_vec()
+        } else {
+            let mut levels = self.levels.clone();
+            levels.extend(self.make(source, levels.len(), wanted)?);
+            levels
+        };
+        for level in &levels {
+            let components = if self.couples(level.size) { 2 * count } else { count };
+            self.work.grow(level, components);
         }
         // Inputs reach past the end of the capacity only by a coupling that is summed directly.
         let needed = capacity + self.coefficients.coupling_direct;
@@ -101,7 +127,7 @@ impl Blocks for Pairs {
                 new[..self.stride].copy_from_slice(old);
             }
         }
-        self.levels.extend(levels.into_iter().map(|(level, _)| level));
+        self.levels = levels;
         (self.rows, self.stride, self.capacity) = (rows, stride, capacity);
         Ok(())
     }

@@ -113,6 +113,8 @@ impl WaveLevel {
         scratch: &mut [Complex<f64>],
     ) {
         let (size, bins) = (self.size, self.size + 1);
+        // Rows may end before the block does.
+        let ahead = now..stride.min(now + size);
         let (normal, tangential) = rows.split_at_mut(rows.len() / 2);
         if part == Part::Even {
             // One component at a time: the largest blocks are the coupling's, or half as many.
@@ -121,7 +123,7 @@ impl WaveLevel {
                 for (wave, row) in rows.chunks_exact_mut(stride).enumerate() {
                     self.take(&row[now - size..now], block, scratch);
                     multiply(block, &self.spectra[kind][wave * bins..][..bins]);
-                    self.give(block, &mut row[now..now + size], scratch);
+                    self.give(block, &mut row[ahead.clone()], scratch);
                 }
             }
             return;
@@ -137,8 +139,8 @@ impl WaveLevel {
             } else {
                 exchange(one, two, spectrum(2));
             }
-            self.give(one, &mut normal[now..now + size], scratch);
-            self.give(two, &mut tangential[now..now + size], scratch);
+            self.give(one, &mut normal[ahead.clone()], scratch);
+            self.give(two, &mut tangential[ahead.clone()], scratch);
         }
     }
 
@@ -154,7 +156,7 @@ impl WaveLevel {
         self.forward.process_with_scratch(block, scratch);
     }
 
-    /// Transforms back, and adds the later half to b outputs.
+    /// Transforms back, and adds the later half to b outputs, or as many as there are.
     fn give(
         &self,
         block: &mut [Complex<f64>],

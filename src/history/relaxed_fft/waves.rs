@@ -1,13 +1,15 @@
 //! Blocks over the wavenumbers of a lattice: no pairs of elements are left, only one convolution in
 //! time per wavenumber and kind.
 
+use std::sync::Arc;
+
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
-use super::Blocks;
 use super::lattice::Lattice;
 use super::wave_level::{Part, WaveLevel};
+use super::{Blocks, LEAF};
 use crate::error::Result;
 use crate::history::source::CoefficientSource;
 
@@ -16,6 +18,9 @@ const KINDS: usize = 3;
 
 /// Between the ends of rows, so that equal places of all rows do not fall into one cache set.
 const PADDING: usize = 4;
+
+/// Per kind, d = 0 … leaf − 1 times B.
+pub(super) type Near = [Vec<f64>; KINDS];
 
 /// Steps of a leaf over wavenumbers, all levels of blocks, and what has come in so far.
 ///
@@ -27,9 +32,8 @@ pub(super) struct Waves {
     leaf: usize,
     /// Last d at which any coupling is not zero.
     reach: usize,
-    /// Per kind, d = 0 … leaf − 1 times B.
-    near: [Vec<f64>; KINDS],
-    levels: Vec<WaveLevel>,
+    near: Arc<Near>,
+    levels: Vec<Arc<WaveLevel>>,
     planner: FftPlanner<f64>,
     /// 2B rows of `stride`: inputs before the present leaf, outputs as far as known from there on.
     rows: Vec<Complex<f64>>,
@@ -56,7 +60,7 @@ impl Waves {
             reach: lattice.last_coupling_lag(source)?.saturating_sub(1),
             lattice,
             leaf,
-            near: [const { Vec::new() }; KINDS],
+            near: Arc::default(),
             levels: Vec::new(),
             planner: FftPlanner::new(),
             rows: Vec::new(),
@@ -75,10 +79,35 @@ impl Waves {
         self.reach > 0 && (size == self.leaf || size / 2 < self.reach)
     }
 
-    /// Spectra of `levels`, the next ones, for a capacity of twice the largest.
-    fn fill(&mut self, source: &dyn CoefficientSource, levels: &mut [WaveLevel]) -> Result<()> {
+    /// The levels from the `first`-th to the one before `end`, and the coefficients of a leaf
+    /// unless they are there.
+    fn make(
+        &mut self,
+        source: &dyn CoefficientSource,
+        [first, end]: [usize; 2],
+        near: &mut Option<Arc<Near>>,
+    ) -> Result<Vec<Arc<WaveLevel>>> {
         let waves = self.lattice.waves();
-        let near = self.near[0].is_empty().then_some(self.leaf);
+        let mut levels: Vec<_> = (first..end)
+            .map(|number| {
+                let size = self.leaf << number;
+                WaveLevel::new(size, waves, self.couples(size), &mut self.planner)
+            })
+            .collect();
+        let own = self.fill(source, &mut levels, near.is_none())?;
+        near.get_or_insert(Arc::new(own));
+        Ok(levels.into_iter().map(Arc::new).collect())
+    }
+
+    /// Fills the spectra of `levels`, and returns the coefficients of a leaf if they are `wanted`.
+    fn fill(
+        &mut self,
+        source: &dyn CoefficientSource,
+        levels: &mut [WaveLevel],
+        wanted: bool,
+    ) -> Result<Near> {
+        let waves = self.lattice.waves();
+        let near = wanted.then_some(self.leaf);
         let mut lags = [near.unwrap_or(0); KINDS];
         // Coefficients wait in the place of the largest spectra that are made of them.
         for (kind, lags) in lags.iter_mut().enumerate() {
@@ -98,9 +127,6 @@ impl Waves {
                 level.keep(kind, d, values);
             }
         })?;
-        if near.is_some() {
-            self.near = table;
-        }
         let mut planner = RealFftPlanner::new();
         let (mut time, mut real) = (vec![0.0; lags[0]], vec![0.0; lags[0]]);
         for kind in 0..KINDS {
@@ -114,7 +140,7 @@ impl Waves {
                 }
             }
         }
-        Ok(())
+        Ok(table)
     }
 
     /// Moves the leaf that ends before `now` to the rows, works it in, and takes up the next one.
@@ -154,7 +180,7 @@ impl Blocks for Waves {
 
     fn numbers(&self) -> usize {
         let near: usize = self.near.iter().map(Vec::len).sum();
-        near + self.levels.iter().map(WaveLevel::numbers).sum::<usize>()
+        near + self.levels.iter().map(|level| level.numbers()).sum::<usize>()
             + 2 * (self.rows.len() + self.blocks.len() + self.scratch.len())
             + self.inputs.len()
             + self.far.len()
@@ -163,17 +189,28 @@ impl Blocks for Waves {
     }
 
     fn grow(&mut self, source: &dyn CoefficientSource, steps: usize) -> Result<()> {
-        let capacity = steps.div_ceil(self.leaf).next_power_of_two() * self.leaf;
-        if capacity <= self.capacity {
+        if steps <= self.capacity && self.capacity > 0 {
             return Ok(());
         }
+        let leaves = steps.div_ceil(self.leaf).max(1);
+        let largest = leaves.next_power_of_two();
+        // What was asked for at first is taken at its word; then memory grows by doubling.
+        let capacity = self.leaf * if self.capacity == 0 { leaves } else { largest };
         let waves = self.lattice.waves();
-        let mut levels = Vec::new();
-        let mut size = self.leaf << self.levels.len();
-        while size < capacity {
-            levels.push(WaveLevel::new(size, waves, self.couples(size), &mut self.planner));
-            size *= 2;
-        }
+        let wanted = largest.ilog2() as usize;
+        let (levels, near) = if let Some(shelf) = source.shelf().filter(|_| self.leaf == LEAF) {
+            let mut shared = shelf.waves();
+            let mut near = shared.near.take();
+            let more = self.make(source, [shared.levels.len(), wanted], &mut near);
+            shared.near.clone_from(&near);
+            shared.levels.extend(more?);
+            (shared.levels[..wanted].to_vec(), near)
+        } else {
+            let mut near = (self.capacity > 0).then(|| Arc::clone(&self.near));
+            let mut levels = self.levels.clone();
+            levels.extend(self.make(source, [levels.len(), wanted], &mut near)?);
+            (levels, near)
+        };
         let zero = Complex::default();
         if let Some(level) = levels.last() {
             // Where components couple, both are transformed before they are multiplied.
@@ -182,8 +219,8 @@ impl Blocks for Waves {
             self.blocks.resize(length, zero);
             self.scratch.resize(self.scratch.len().max(level.scratch()), zero);
         }
-        self.fill(source, &mut levels)?;
-        self.levels.append(&mut levels);
+        self.levels = levels;
+        self.near = near.unwrap_or_default();
         if capacity > self.leaf {
             let stride = capacity + PADDING;
             let mut rows = vec![zero; 2 * waves * stride];
