@@ -102,7 +102,7 @@ pub enum Error {
     /// A boundary equation whose perturbations grow from step to step.
     #[error(
         "the boundary equation is unstable with this time step: {growing_modes} modes grow, the \
-         fastest by {growth_per_step:.1e} per step (take a longer step, or another kernel)"
+         fastest by {growth_per_step:.1e} per step (take a longer step or another kernel, or allow it)"
     )]
     Unstable {
         /// Factor minus one by which the fastest mode grows in a step.

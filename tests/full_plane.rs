@@ -350,7 +350,9 @@ fn waves() -> VerticalWaves {
 
 /// Mean scattered and largest incident displacement of the contact, down and along, per step.
 fn scattered(boundary: Boundary, time_step: f64, steps: usize) -> Vec<[f64; 3]> {
-    let mut ground = FullPlaneGround::new(soil(0.25), boundary).with_incident_field(waves());
+    let ground = FullPlaneGround::new(soil(0.25), boundary).with_incident_field(waves());
+    // Too few steps for growth to show.
+    let mut ground = ground.skip_assessment();
     ground.prepare(time_step).unwrap();
     let count = ground.elements().len();
     let (mut history, mut free) = (vec![9.0; 2 * count], vec![9.0; 2 * count]);
@@ -400,7 +402,8 @@ fn excavated_half_plane_moves_as_its_own_surface() {
     let errors = [0.1, 0.05].map(|step| {
         let waves = VerticalWaves::new(soil(0.25), pulse(), 0.5).unwrap();
         let boundary = Boundary::new(Vec::clone(&segments), &[47, 48]).unwrap();
-        let mut ground = FullPlaneGround::new(soil(0.25), boundary).with_incident_field(waves);
+        let ground = FullPlaneGround::new(soil(0.25), boundary).with_incident_field(waves);
+        let mut ground = ground.skip_assessment();
         ground.prepare(step).unwrap();
         let (mut history, mut free) = ([0.0; 4], [0.0; 4]);
         let mut worst = 0.0_f64;
@@ -423,7 +426,7 @@ fn excavated_half_plane_moves_as_its_own_surface() {
 fn two_motions_are_refused() {
     let mut ground = FullPlaneGround::new(soil(0.25), canyon(0.5));
     assert!(matches!(ground.prepare(0.5), Err(Error::Scene { .. })));
-    let mut ground = ground.with_incident_field(waves());
+    let mut ground = ground.with_incident_field(waves()).skip_assessment();
     ground.prepare(0.5).unwrap();
     let mut out = [0.0; 8];
     ground.free_field(&RickerDisplacement::new(1.0, 0.8, 4.0).unwrap(), 4.0, &mut out);

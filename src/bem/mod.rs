@@ -29,6 +29,7 @@ pub use strip::{Grading, Strip};
 
 use crate::error::{CheckpointError, Result};
 use crate::motion::FreeField;
+use full_plane::GroundStability;
 
 /// One boundary element of the base: the interval from `left` to `right` of the flat surface, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,6 +103,12 @@ pub trait Ground: Send {
 
     /// Which history it keeps and why; `None` (the default) if there is nothing to choose.
     fn history_choice(&self) -> Option<HistoryChoice> {
+        None
+    }
+
+    /// What it has found about the growth of its own march, if there is anything to find; `None`
+    /// (the default) for a ground that is stable for every step.
+    fn stability(&self) -> Option<&GroundStability> {
         None
     }
 

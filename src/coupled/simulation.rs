@@ -12,6 +12,7 @@ use super::preload::StaticState;
 use super::run::{Flow, Run};
 use super::scheme::SchemeCoefficients;
 use super::state::{Probe, State};
+use crate::bem::full_plane::GroundStability;
 use crate::bem::{ContactElement, Ground, HistoryChoice};
 use crate::error::Result;
 use crate::interface::{ContactState, InterfaceLaw, StepStart, law_of};
@@ -242,6 +243,12 @@ impl Simulation {
     /// Which history the ground keeps and why, if it has chosen one yet.
     pub fn history_choice(&self) -> Option<HistoryChoice> {
         self.ground.history_choice()
+    }
+
+    /// What the ground has found about the growth of its own march, if it has assessed that: see
+    /// [`FullPlaneGround`](crate::bem::full_plane::FullPlaneGround).
+    pub fn ground_stability(&self) -> Option<&GroundStability> {
+        self.ground.stability()
     }
 
     /// The probes, in the order of [`State::probes`].

@@ -15,6 +15,19 @@ use super::stability_passivity::passivity;
 use super::stability_symbol::Symbol;
 use super::stability_zeros::smallest_zero;
 
+/// Growth that can be looked for.
+pub(super) fn check_growth(smallest: f64) -> Result<()> {
+    positive("growth looked for", smallest)?;
+    if (1e-7..=0.5).contains(&smallest) {
+        return Ok(());
+    }
+    Err(Error::Input {
+        quantity: "growth looked for",
+        value: smallest,
+        needed: "between 1e-7 and 0.5 per step",
+    })
+}
+
 /// What is known on a boundary element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundaryCondition {
@@ -94,17 +107,14 @@ impl Stability {
         conditions: &[BoundaryCondition],
         smallest_growth: f64,
     ) -> Result<Self> {
-        positive("growth looked for", smallest_growth)?;
-        if !(1e-7..=0.5).contains(&smallest_growth) {
-            return Err(Error::Input {
-                quantity: "growth looked for",
-                value: smallest_growth,
-                needed: "between 1e-7 and 0.5 per step",
-            });
-        }
-        let symbol = Symbol::new(kernel, conditions)?;
-        let found = smallest_zero(&symbol, smallest_growth)?;
-        let passivity = passivity(&symbol)?;
+        check_growth(smallest_growth)?;
+        Self::of(&Symbol::new(kernel, conditions)?, smallest_growth)
+    }
+
+    /// As [`Stability::assess`], of a symbol that is there.
+    pub(super) fn of(symbol: &Symbol, smallest_growth: f64) -> Result<Self> {
+        let found = smallest_zero(symbol, smallest_growth)?;
+        let passivity = passivity(symbol)?;
         Ok(Self {
             growth_per_step: found.zero.map_or(0.0, |zero| 1.0 / zero.norm() - 1.0),
             turn_per_step: found.zero.map_or(0.0, |zero| zero.arg().abs()),

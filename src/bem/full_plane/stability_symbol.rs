@@ -51,25 +51,20 @@ impl<'a> Symbol<'a> {
         conditions: &[BoundaryCondition],
     ) -> Result<Self> {
         let count = kernel.segments().len();
-        same_length("boundary conditions", conditions.len(), count)?;
         if count == 0 {
             return Err(Error::Size { quantity: "segments", found: 0, needed: 1 });
         }
-        let prescribed: Vec<_> = conditions
-            .iter()
-            .map(|condition| *condition == BoundaryCondition::PrescribedDisplacement)
-            .collect();
-        let prescribed = [prescribed.clone(), prescribed].concat();
         let size = 4 * count * count;
         let mut symbol = Self {
             kernel,
-            prescribed,
+            prescribed: vec![],
             scale: 1.0,
             early: vec![0.0; 2 * size],
             late: vec![],
             lags: FIRST,
             tail_error: 0.0,
         };
+        symbol.prescribe(conditions)?;
         symbol.read(0)?;
         let (g, h) = symbol.early.split_at(size);
         symbol.scale = largest(h) / largest(g);
@@ -88,6 +83,15 @@ impl<'a> Symbol<'a> {
             symbol.read(lag)?;
         }
         Ok(symbol)
+    }
+
+    /// Takes other conditions in place of those it was made with: coefficients remain.
+    pub(super) fn prescribe(&mut self, conditions: &[BoundaryCondition]) -> Result<()> {
+        let count = self.kernel.segments().len();
+        same_length("boundary conditions", conditions.len(), count)?;
+        let prescribed = conditions.iter().map(|c| *c == BoundaryCondition::PrescribedDisplacement);
+        self.prescribed = prescribed.clone().chain(prescribed).collect();
+        Ok(())
     }
 
     /// Order 2E of the matrices.
