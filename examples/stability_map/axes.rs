@@ -3,6 +3,7 @@
 use basemat::bem::History;
 
 use super::motions::{MOTIONS, Motion};
+use super::run::Verdict;
 use super::scene::{Law, Scene, Scheme};
 
 /// A parameter and the values it takes.
@@ -60,6 +61,8 @@ pub(crate) struct Map {
     pub(crate) y: Axis,
     pub(crate) schemes: &'static [Scheme],
     pub(crate) base: Scene,
+    /// What cells of the crate's own scheme may be beside bounded.
+    pub(crate) allowed: &'static [Verdict],
     /// Whether it is worth a picture.
     pub(crate) drawn: bool,
 }
@@ -103,31 +106,29 @@ fn decades(first: i32, last: i32, short: bool, every: usize) -> Vec<f64> {
 /// All sweeps.
 pub(crate) fn maps(short: bool) -> Vec<Map> {
     let base = Scene { steps: if short { 150 } else { 1000 }, ..Scene::default() };
-    let beta = |every| Axis::numbers("β = c₁Δt/l", &thin(&BETA, short, every), |s, v| s.beta = v);
+    let beta =
+        |every| Axis::numbers("β = c₁Δt/l", &thin(&BETA, short, every), |s, v| s.beta = v);
     let poisson = Axis::numbers("Poisson's ratio", &thin(&POISSON, short, 4), |s, v| s.poisson = v);
     let stiffness = |every| {
         let values = decades(-8, 8, short, every);
-        Axis::numbers("stiffness, structure/soil", &values, |s, v| s.stiffness = v)
+        Axis::numbers("stiffness of structure / of soil", &values, |s, v| s.stiffness = v)
     };
-    let mass = |every| {
-        Axis::numbers("mass ratio", &decades(-4, 4, short, every), |s, v| s.mass = v)
-    };
+    let mass =
+        |every| Axis::numbers("mass ratio", &decades(-4, 4, short, every), |s, v| s.mass = v);
     let slenderness = Axis::numbers(
         "slenderness h/b",
         &thin(&[0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0], short, 5),
         |s, v| s.slenderness = v,
     );
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small counts")]
-    let elements = |values: &[f64]| Axis::numbers("elements", values, |s, v| s.elements = v as usize);
+    let elements =
+        |values: &[f64]| Axis::numbers("elements", values, |s, v| s.elements = v as usize);
     let counts: &[f64] = &[1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
     let grading = Axis::numbers("longest/shortest element", &decades(0, 4, short, 2), |s, v| {
         s.grading = v;
     });
-    let layer = Axis::numbers(
-        "thin-layer ratio",
-        &thin(&[1.0, 0.3, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6], short, 3),
-        |s, v| s.law = Law::Layer(v),
-    );
+    let ratios = thin(&[1.0, 0.3, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6], short, 3);
+    let layer = |set| Axis::numbers("thin-layer ratio", &ratios, set);
     let map = |name, title, x, y, schemes, base| Map {
         name,
         title,
@@ -135,27 +136,36 @@ pub(crate) fn maps(short: bool) -> Vec<Map> {
         y,
         schemes,
         base,
+        allowed: &[],
         drawn: true,
     };
     vec![
         map("beta_poisson", "Time step and Poisson's ratio", beta(3), poisson, ALL, base),
         map("beta_friction", "Time step and friction", beta(3), Axis::friction(short), ALL, base),
-        map(
-            "stiffness_mass",
-            "Stiffness and mass of a flexible structure",
-            stiffness(8),
-            mass(4),
-            OWN,
-            base,
-        ),
-        map(
-            "beta_stiffness",
-            "Time step and stiffness of the structure",
-            beta(5),
-            stiffness(8),
-            ALL,
-            base,
-        ),
+        Map {
+            // Very stiff structures stand on their rounding.
+            allowed: &[Verdict::Refused],
+            ..map(
+                "stiffness_mass",
+                "Stiffness and mass of a flexible structure",
+                stiffness(8),
+                mass(4),
+                OWN,
+                base,
+            )
+        },
+        Map {
+            // Very stiff structures stand on their rounding.
+            allowed: &[Verdict::Refused],
+            ..map(
+                "beta_stiffness",
+                "Time step and stiffness of the structure",
+                beta(5),
+                stiffness(8),
+                ALL,
+                base,
+            )
+        },
         map(
             "friction_slenderness",
             "Friction and slenderness",
@@ -182,12 +192,23 @@ pub(crate) fn maps(short: bool) -> Vec<Map> {
         ),
         map(
             "beta_layer",
-            "Time step and thickness of interface elements",
+            "Time step and thickness of interface elements that let go entirely",
             beta(5),
-            layer,
-            &[Scheme::Own, Scheme::Paper],
+            layer(|s, v| s.law = Law::Layer(v, 0.0)),
+            OWN,
             base,
         ),
+        Map {
+            allowed: &[Verdict::Failed],
+            ..map(
+                "beta_layer_as_printed",
+                "Time step and thickness of interface elements that keep 1/1000 of their stiffness",
+                beta(5),
+                layer(|s, v| s.law = Law::Layer(v, 1e-3)),
+                &[Scheme::Own, Scheme::Paper],
+                base,
+            )
+        },
         map(
             "friction_motion",
             "Friction and ground motion",
@@ -204,11 +225,11 @@ pub(crate) fn maps(short: bool) -> Vec<Map> {
 fn long_runs(short: bool) -> Map {
     type Case = (&'static str, Law, f64, History);
     let cases: [Case; 5] = [
-        ("friction 0.4", Law::Coulomb(0.4), 0.5, History::Exponentials),
-        ("uplift only", Law::Coulomb(f64::INFINITY), 0.5, History::Exponentials),
-        ("bonded", Law::Bonded, 0.5, History::Exponentials),
+        ("friction 0.4, β = 5", Law::Coulomb(0.4), 5.0, History::Exponentials),
+        ("uplift only, β = 2", Law::Coulomb(f64::INFINITY), 2.0, History::Exponentials),
+        ("bonded, β = 0.5", Law::Bonded, 0.5, History::Exponentials),
         ("smooth, β = 0.05", Law::Coulomb(0.0), 0.05, History::Exponentials),
-        ("friction 0.4, transforms", Law::Coulomb(0.4), 0.5, History::RelaxedFft),
+        ("friction 0.4, β = 5, transforms", Law::Coulomb(0.4), 5.0, History::RelaxedFft),
     ];
     let kept = if short { &cases[..1] } else { &cases[..] }.to_vec();
     let labels = kept.iter().map(|case| case.0.to_owned()).collect();
@@ -232,6 +253,7 @@ fn long_runs(short: bool) -> Map {
         },
         schemes: OWN,
         base: Scene { motion: Motion::Noise, ..Scene::default() },
+        allowed: &[],
         drawn: false,
     }
 }

@@ -87,7 +87,9 @@ fn compute(maps: &[Map], options: &Options) -> Result<Vec<Cell>, AnyError> {
         for scheme in schemes.filter(|s| options.scheme.as_ref().is_none_or(|w| w == s.name())) {
             for x in wanted(&map.x.labels, &options.x) {
                 for y in wanted(&map.y.labels, &options.y) {
-                    todo.push((index, scheme, [x, y]));
+                    if map.scene(scheme, x, y).exists() {
+                        todo.push((index, scheme, [x, y]));
+                    }
                 }
             }
         }
@@ -103,7 +105,8 @@ fn compute(maps: &[Map], options: &Options) -> Result<Vec<Cell>, AnyError> {
     std::thread::scope(|scope| {
         for _ in 0..options.threads {
             scope.spawn(|| {
-                while let Some(&(map, scheme, place)) = todo.get(next.fetch_add(1, Ordering::Relaxed))
+                while let Some(&(map, scheme, place)) =
+                    todo.get(next.fetch_add(1, Ordering::Relaxed))
                 {
                     bar.set_prefix(format!("{}, {}", maps[map].name, scheme.name()));
                     let scene = maps[map].scene(scheme, place[0], place[1]);

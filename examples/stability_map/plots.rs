@@ -123,15 +123,18 @@ fn square(
 /// Colour and word of a cell.
 fn verdict(cell: &Cell) -> (RGBColor, String) {
     let out = &cell.outcome;
-    match out.verdict {
+    let (color, word) = match out.verdict {
         Verdict::Bounded => {
             let exponent = out.ledger[0].max(1e-17).log10();
             (ledger_color(exponent), format!("{exponent:.0}"))
         }
         Verdict::Active => (ACTIVE, format!("{:.0}", out.least_soil.abs().max(1e-17).log10())),
-        Verdict::Grows => (growth_color(out.growth_per_step), format!("{:.0e}", out.growth_per_step)),
+        Verdict::Grows => {
+            (growth_color(out.growth_per_step), format!("{:.0e}", out.growth_per_step))
+        }
         Verdict::Refused | Verdict::Failed => (ERROR, out.letter().to_owned()),
-    }
+    };
+    (color, if out.is_foretold() { format!("U {word}") } else { word })
 }
 
 /// From blue (10⁻¹⁷) to pale green (10⁻⁹).
@@ -169,8 +172,8 @@ fn legend(root: &Area, top: i32) -> Result<(), AnyError> {
     entry(ERROR, "error", 80)?;
     text(
         root,
-        "C contact modes not found   N not finite   P no static state   U unstable   M matrix \
-         singular   E other",
+        "U: growth is foretold, and the crate refuses unless told otherwise. Errors: C contact \
+         modes not found, N not finite, P no static state, M matrix singular, E other",
         [14, top + 30],
         12,
         HPos::Left,

@@ -23,7 +23,8 @@ pub(crate) fn write_cells(path: &Path, maps: &[Map], cells: &[Cell]) -> Result<(
         "largest_ledger_residual",
         "energy_growth",
         "growth_per_step",
-        "assessed_growth_per_step",
+        "assessed_growth_uplifted",
+        "assessed_growth_bonded",
         "energy_rise",
         "least_soil_work",
         "trials_per_step",
@@ -50,7 +51,8 @@ pub(crate) fn write_cells(path: &Path, maps: &[Map], cells: &[Cell]) -> Result<(
             short(out.ledger[1]),
             short(out.growth),
             short(out.growth_per_step),
-            out.assessed.map(short).unwrap_or_default(),
+            out.assessed.map(|growth| short(growth[0])).unwrap_or_default(),
+            out.assessed.map(|growth| short(growth[1])).unwrap_or_default(),
             short(out.rise),
             short(out.least_soil),
             format!("{:.2}", out.trials[0]),
@@ -86,6 +88,9 @@ pub(crate) fn tables(maps: &[Map], cells: &[Cell]) -> String {
     let all: Vec<_> = cells.iter().filter(|cell| cell.scheme == Scheme::Own).collect();
     if !all.is_empty() {
         summary(&mut text, "**all**", Scheme::Own, &all);
+    }
+    if cells.iter().any(|cell| cell.outcome.assessed.is_some()) {
+        text.push_str(&foretold(maps, cells));
     }
     for (index, map) in maps.iter().enumerate().filter(|(_, map)| !map.drawn) {
         let _ = write!(
@@ -151,7 +156,7 @@ fn summary(text: &mut String, name: &str, scheme: Scheme, cells: &[&Cell]) {
 pub(crate) fn broken(maps: &[Map], cells: &[Cell]) -> String {
     let mut text = String::new();
     let own = cells.iter().filter(|cell| cell.scheme == Scheme::Own);
-    for cell in own.filter(|cell| !cell.outcome.is_as_guaranteed()) {
+    for cell in own.filter(|cell| !cell.outcome.is_as_guaranteed(maps[cell.map].allowed)) {
         let (map, out) = (&maps[cell.map], &cell.outcome);
         let _ = write!(
             text,
@@ -181,4 +186,36 @@ pub(crate) fn splice(path: &Path, text: &str) -> Result<(), AnyError> {
     let (_, after) = rest.split_once(MARKERS[1]).ok_or_else(missing)?;
     let new = format!("{before}{}\n\n{}\n\n{}{after}", MARKERS[0], text.trim(), MARKERS[1]);
     Ok(std::fs::write(path, new)?)
+}
+
+/// What was foretold of the full-plane schemes and what came of it, each equation counted once a
+/// cell.
+fn foretold(maps: &[Map], cells: &[Cell]) -> String {
+    let mut text = String::from(
+        "\n| sweep | scheme | assessed | growth foretold: of these grew or failed | were active | \
+         stayed bounded | no growth foretold: grew or failed | active | bounded |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
+    );
+    for (index, map) in maps.iter().enumerate() {
+        for &scheme in map.schemes.iter().filter(|scheme| **scheme != Scheme::Own) {
+            let own: Vec<_> = cells
+                .iter()
+                .filter(|c| c.map == index && c.scheme == scheme)
+                .map(|c| &c.outcome)
+                .filter(|out| out.assessed.is_some())
+                .collect();
+            let _ = write!(text, "| {} | {} | {} ", map.name, scheme.name(), own.len());
+            for growth in [true, false] {
+                let count = |verdicts: &[Verdict]| {
+                    let those = own.iter().filter(|out| out.is_foretold() == growth);
+                    those.filter(|out| verdicts.contains(&out.verdict)).count()
+                };
+                let bad = count(&[Verdict::Grows, Verdict::Failed, Verdict::Refused]);
+                let active = count(&[Verdict::Active]);
+                let _ = write!(text, "| {bad} | {active} | {} ", count(&[Verdict::Bounded]));
+            }
+            text.push_str("|\n");
+        }
+    }
+    text
 }

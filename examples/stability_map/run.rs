@@ -69,8 +69,8 @@ pub(crate) struct Outcome {
     pub(crate) largest_uplift: f64,
     /// Steps made.
     pub(crate) steps: usize,
-    /// Growth per step that was foretold, where there is such an assessment.
-    pub(crate) assessed: Option<f64>,
+    /// Growth per step that was foretold, base uplifted and bonded, where it was assessed.
+    pub(crate) assessed: Option<[f64; 2]>,
     pub(crate) error: Option<Error>,
 }
 
@@ -94,8 +94,14 @@ impl Outcome {
     }
 
     /// Whether the cell is as it must be in the crate's own scheme.
-    pub(crate) fn is_as_guaranteed(&self) -> bool {
-        self.verdict == Verdict::Bounded && self.ledger[0] < ROUNDING
+    pub(crate) fn is_as_guaranteed(&self, allowed: &[Verdict]) -> bool {
+        (self.verdict == Verdict::Bounded || allowed.contains(&self.verdict))
+            && self.ledger[0] < ROUNDING
+    }
+
+    /// Whether the crate's default refuses this boundary equation: [`Error::Unstable`].
+    pub(crate) fn is_foretold(&self) -> bool {
+        self.assessed.is_some_and(|growth| growth[0] > 0.0 || growth[1] > 0.0)
     }
 
     /// A letter for the error.
@@ -121,6 +127,8 @@ struct Watch {
     windows: [f64; WINDOWS],
     /// The same in the first and second half of the shaking.
     halves: [f64; 2],
+    /// What there is to grow from when the shaking stops: H.
+    stored: f64,
     least_total: f64,
     rise: f64,
     least_soil: f64,
@@ -130,14 +138,21 @@ struct Watch {
 impl Watch {
     fn see(&mut self, step: usize, ledger: &Ledger) {
         let own = ledger.kinetic + ledger.strain + ledger.layer + ledger.preload;
-        let terms =
-            [ledger.kinetic, ledger.strain, ledger.layer, ledger.preload, ledger.soil, ledger.contact];
+        let terms = [
+            ledger.kinetic,
+            ledger.strain,
+            ledger.layer,
+            ledger.preload,
+            ledger.soil,
+            ledger.contact,
+        ];
         self.scale = terms.iter().fold(self.scale, |m, x| m.max(x.abs()));
         self.least_soil = self.least_soil.min(ledger.soil);
         let [shaking, rest] = self.phases;
         if step <= shaking {
             let half = usize::from(2 * step > shaking);
             self.halves[half] = self.halves[half].max(own.abs());
+            self.stored = own + ledger.soil;
             return;
         }
         let window = (WINDOWS * (step - shaking - 1) / rest).min(WINDOWS - 1);
@@ -164,6 +179,7 @@ pub(crate) fn march(scene: &Scene, foretold: &Foretold, progress: &dyn Fn(f64)) 
         phases: [shaking, rest],
         windows: [0.0; WINDOWS],
         halves: [0.0; 2],
+        stored: 0.0,
         least_total: f64::INFINITY,
         rise: 0.0,
         least_soil: 0.0,
@@ -230,7 +246,11 @@ impl Outcome {
             Some(Error::Step { source: StepError::NotFinite { .. }, .. }) => true,
             // A march that fails in what its soil has blown up has not failed by itself.
             Some(_) => active && ratio > 1e3,
-            None => !self.growth.is_finite() || (rising && self.growth > GROWTH),
+            // Soil and weight may give back to the structure what they hold.
+            None => {
+                let more = last > GROWTH * watch.stored.max(floor);
+                !last.is_finite() || (rising && self.growth > GROWTH && more)
+            }
         };
         self.verdict = match (grows, &self.error, active) {
             (true, ..) => Verdict::Grows,
