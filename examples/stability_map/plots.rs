@@ -24,7 +24,9 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// Draws a map: verdicts of every scheme, then solves per step of the crate's own.
 pub(crate) fn draw(path: &Path, map: &Map, cells: &[&Cell]) -> Result<(), AnyError> {
     let (columns, rows) = (count(&map.x.labels), count(&map.y.labels));
-    let panels = map.schemes.len() + 1;
+    let there = |scheme: Scheme| cells.iter().any(|cell| cell.scheme == scheme);
+    let schemes: Vec<Scheme> = map.schemes.iter().copied().filter(|s| there(*s)).collect();
+    let panels = schemes.len() + 1;
     let panel = columns * CELL[0] + GAP;
     let width = (ROOM[0] + count_of(panels) * panel).max(860);
     let height = ROOM[1] + rows * CELL[1] + ROOM[2] + LEGEND;
@@ -32,7 +34,7 @@ pub(crate) fn draw(path: &Path, map: &Map, cells: &[&Cell]) -> Result<(), AnyErr
     let root = SVGBackend::new(path, size).into_drawing_area();
     root.fill(&WHITE)?;
     text(&root, map.title, [14, 22], 20, HPos::Left)?;
-    for (k, &scheme) in map.schemes.iter().enumerate() {
+    for (k, &scheme) in schemes.iter().enumerate() {
         let left = ROOM[0] + count_of(k) * panel;
         let caption = match scheme {
             Scheme::Own => "basemat: log₁₀ of ledger residual",
@@ -45,7 +47,7 @@ pub(crate) fn draw(path: &Path, map: &Map, cells: &[&Cell]) -> Result<(), AnyErr
             square(&root, left, rows, cell.place, color, &word)?;
         }
     }
-    let left = ROOM[0] + count_of(map.schemes.len()) * panel;
+    let left = ROOM[0] + count_of(schemes.len()) * panel;
     frame(&root, map, left, "basemat: solves per step")?;
     for cell in cells.iter().filter(|cell| cell.scheme == Scheme::Own) {
         let out = &cell.outcome;
@@ -128,7 +130,11 @@ fn verdict(cell: &Cell) -> (RGBColor, String) {
             let exponent = out.ledger[0].max(1e-17).log10();
             (ledger_color(exponent), format!("{exponent:.0}"))
         }
-        Verdict::Active => (ACTIVE, format!("{:.0}", out.least_soil.abs().max(1e-17).log10())),
+        Verdict::Active => {
+            // From 1e-9 up; adding 0 to −0 gives 0.
+            let exponent = out.least_soil.abs().max(1e-17).log10().round() + 0.0;
+            (ACTIVE, format!("{exponent}"))
+        }
         Verdict::Grows => {
             (growth_color(out.growth_per_step), format!("{:.0e}", out.growth_per_step))
         }
