@@ -48,6 +48,14 @@ impl StaticState {
 const ITERATIONS: usize = 500;
 /// Share of the foundation's stiffness that the fictitious springs start with.
 const PROXIMAL_SHARE: f64 = 1e-4;
+/// Share of that down to which they are softened.
+const SOFTEST: f64 = 1e-9;
+/// Decrease of their pull in an iteration above which they are softened tenfold, as long as it is
+/// more than [`ROUNDING`] of the load: a structure far softer than the ground sags against springs
+/// that are stiffer than itself.
+const SLOW: f64 = 0.2;
+/// Pull, relative to the load, that may not fall for rounding alone.
+const ROUNDING: f64 = 1e-6;
 
 /// Finds u and τ with K u + f(u) + BᵀA τ = `load` and the contact conditions of a soil at rest.
 ///
@@ -74,8 +82,10 @@ pub(crate) fn solve(
     };
     let mut soil = vec![0.0; size * size];
     ground.static_compliance(&mut soil)?;
-    let epsilon = PROXIMAL_SHARE * vertical_stiffness(&soil, base)
+    let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(&soil, base)
         / model.mass.form(&model.ride[1], &model.ride[1]).max(f64::MIN_POSITIVE);
+
+    let softest = SOFTEST * epsilon;
 
     let start = vec![
         StepStart {
@@ -164,6 +174,11 @@ pub(crate) fn solve(
         }
         if !change.is_finite() {
             break;
+        }
+        if change > ROUNDING.max(SLOW * previous) && epsilon > softest {
+            epsilon *= 0.1;
+            compliance = None;
+            solver.invalidate();
         }
     }
     Err(Error::Preload { iterations, residual: change })

@@ -1,0 +1,194 @@
+//! Heat maps: one panel per scheme, and one for the work of the mode search.
+
+use std::path::Path;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::axes::Map;
+use super::run::Verdict;
+use super::scene::Scheme;
+use super::{AnyError, Cell};
+
+const CELL: [i32; 2] = [36, 22];
+/// Room for labels to the left of a panel, above it and below it.
+const ROOM: [i32; 3] = [128, 66, 76];
+const GAP: i32 = 26;
+const LEGEND: i32 = 78;
+const ACTIVE: RGBColor = RGBColor(240, 158, 56);
+const ERROR: RGBColor = RGBColor(110, 110, 116);
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// Draws a map: verdicts of every scheme, then solves per step of the crate's own.
+pub(crate) fn draw(path: &Path, map: &Map, cells: &[&Cell]) -> Result<(), AnyError> {
+    let (columns, rows) = (count(&map.x.labels), count(&map.y.labels));
+    let there = |scheme: Scheme| cells.iter().any(|cell| cell.scheme == scheme);
+    let schemes: Vec<Scheme> = map.schemes.iter().copied().filter(|s| there(*s)).collect();
+    let panels = schemes.len() + 1;
+    let panel = columns * CELL[0] + GAP;
+    let width = (ROOM[0] + count_of(panels) * panel).max(860);
+    let height = ROOM[1] + rows * CELL[1] + ROOM[2] + LEGEND;
+    let size = (u32::try_from(width)?, u32::try_from(height)?);
+    let root = SVGBackend::new(path, size).into_drawing_area();
+    root.fill(&WHITE)?;
+    text(&root, map.title, [14, 22], 20, HPos::Left)?;
+    for (k, &scheme) in schemes.iter().enumerate() {
+        let left = ROOM[0] + count_of(k) * panel;
+        let caption = match scheme {
+            Scheme::Own => "basemat: log₁₀ of ledger residual",
+            Scheme::Paper => "paper, as printed",
+            Scheme::Quadrature => "convolution quadrature",
+        };
+        frame(&root, map, left, caption)?;
+        for cell in cells.iter().filter(|cell| cell.scheme == scheme) {
+            let (color, word) = verdict(cell);
+            square(&root, left, rows, cell.place, color, &word)?;
+        }
+    }
+    let left = ROOM[0] + count_of(schemes.len()) * panel;
+    frame(&root, map, left, "basemat: solves per step")?;
+    for cell in cells.iter().filter(|cell| cell.scheme == Scheme::Own) {
+        let out = &cell.outcome;
+        let mark = match out.fallbacks {
+            [0, 0] => "",
+            [_, 0] => "*",
+            _ => "**",
+        };
+        let shade = ((out.trials[0] - 1.0) / 4.0).clamp(0.0, 1.0);
+        let color = blend(RGBColor(236, 240, 246), RGBColor(106, 81, 163), shade);
+        let word = format!("{:.1}{mark}", out.trials[0]);
+        square(&root, left, rows, cell.place, color, &word)?;
+    }
+    for (row, word) in map.y.labels.iter().enumerate() {
+        let y = ROOM[1] + (rows - count_of(row)) * CELL[1] - CELL[1] / 2;
+        text(&root, word, [ROOM[0] - 6, y], 12, HPos::Right)?;
+    }
+    let style = TextStyle::from(("sans-serif", 14).into_font().transform(FontTransform::Rotate270))
+        .pos(Pos::new(HPos::Center, VPos::Center));
+    root.draw(&Text::new(map.y.name, (14, ROOM[1] + rows * CELL[1] / 2), style))?;
+    legend(&root, height - LEGEND + 14)?;
+    root.present()?;
+    Ok(())
+}
+
+fn count(labels: &[String]) -> i32 {
+    count_of(labels.len())
+}
+
+fn count_of(n: usize) -> i32 {
+    i32::try_from(n).unwrap_or(i32::MAX)
+}
+
+fn text(root: &Area, word: &str, at: [i32; 2], size: i32, side: HPos) -> Result<(), AnyError> {
+    let style = TextStyle::from(("sans-serif", size).into_font()).pos(Pos::new(side, VPos::Center));
+    Ok(root.draw(&Text::new(word.to_owned(), (at[0], at[1]), style))?)
+}
+
+/// Caption and horizontal axis of a panel.
+fn frame(root: &Area, map: &Map, left: i32, caption: &str) -> Result<(), AnyError> {
+    let (columns, rows) = (count(&map.x.labels), count(&map.y.labels));
+    text(root, caption, [left, ROOM[1] - 14], 14, HPos::Left)?;
+    let bottom = ROOM[1] + rows * CELL[1];
+    for (column, word) in map.x.labels.iter().enumerate() {
+        let x = left + count_of(column) * CELL[0] + CELL[0] / 2;
+        let font = ("sans-serif", 11).into_font().transform(FontTransform::Rotate90);
+        let style = TextStyle::from(font).pos(Pos::new(HPos::Left, VPos::Center));
+        root.draw(&Text::new(word.clone(), (x, bottom + 6), style))?;
+    }
+    text(root, map.x.name, [left + columns * CELL[0] / 2, bottom + 64], 14, HPos::Center)
+}
+
+fn square(
+    root: &Area,
+    left: i32,
+    rows: i32,
+    place: [usize; 2],
+    color: RGBColor,
+    word: &str,
+) -> Result<(), AnyError> {
+    let x = left + count_of(place[0]) * CELL[0];
+    let y = ROOM[1] + (rows - 1 - count_of(place[1])) * CELL[1];
+    let corners = [(x, y), (x + CELL[0] - 1, y + CELL[1] - 1)];
+    root.draw(&Rectangle::new(corners, color.filled()))?;
+    let RGBColor(r, g, b) = color;
+    let light = u32::from(r) * 3 + u32::from(g) * 6 + u32::from(b);
+    let ink = if light > 1300 { BLACK } else { WHITE };
+    let style = TextStyle::from(("sans-serif", 10).into_font())
+        .color(&ink)
+        .pos(Pos::new(HPos::Center, VPos::Center));
+    let middle = (x + CELL[0] / 2, y + CELL[1] / 2);
+    Ok(root.draw(&Text::new(word.to_owned(), middle, style))?)
+}
+
+/// Colour and word of a cell.
+fn verdict(cell: &Cell) -> (RGBColor, String) {
+    let out = &cell.outcome;
+    let (color, word) = match out.verdict {
+        Verdict::Bounded => {
+            let exponent = out.ledger[0].max(1e-17).log10();
+            (ledger_color(exponent), format!("{exponent:.0}"))
+        }
+        Verdict::Active => {
+            // From 1e-9 up; adding 0 to −0 gives 0.
+            let exponent = out.least_soil.abs().max(1e-17).log10().round() + 0.0;
+            (ACTIVE, format!("{exponent}"))
+        }
+        Verdict::Grows => {
+            (growth_color(out.growth_per_step), format!("{:.0e}", out.growth_per_step))
+        }
+        Verdict::Refused | Verdict::Failed => (ERROR, out.letter().to_owned()),
+    };
+    (color, if out.is_foretold() { format!("U {word}") } else { word })
+}
+
+/// From blue (10⁻¹⁷) to pale green (10⁻⁹).
+fn ledger_color(exponent: f64) -> RGBColor {
+    blend(RGBColor(49, 84, 160), RGBColor(196, 226, 168), (exponent + 17.0) / 8.0)
+}
+
+/// From pale red (0.1 % per step) to dark red (all in a step).
+fn growth_color(growth: f64) -> RGBColor {
+    blend(RGBColor(232, 120, 110), RGBColor(120, 0, 20), (growth.max(1e-3).log10() + 3.0) / 3.0)
+}
+
+fn blend(from: RGBColor, to: RGBColor, share: f64) -> RGBColor {
+    let share = share.clamp(0.0, 1.0);
+    let mix = |a: u8, b: u8| {
+        let value = f64::from(a) + share * (f64::from(b) - f64::from(a));
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
+        let value = value.round() as u8;
+        value
+    };
+    RGBColor(mix(from.0, to.0), mix(from.1, to.1), mix(from.2, to.2))
+}
+
+fn legend(root: &Area, top: i32) -> Result<(), AnyError> {
+    let mut x = 14;
+    let mut entry = |color: RGBColor, word: &str, width: i32| -> Result<(), AnyError> {
+        root.draw(&Rectangle::new([(x, top), (x + 22, top + 14)], color.filled()))?;
+        text(root, word, [x + 28, top + 7], 12, HPos::Left)?;
+        x += width;
+        Ok(())
+    };
+    entry(ledger_color(-16.0), "bounded: log₁₀ of the ledger residual", 268)?;
+    entry(ACTIVE, "not growing, but the soil gives energy (log₁₀)", 312)?;
+    entry(growth_color(0.03), "grows: per step", 140)?;
+    entry(ERROR, "error", 80)?;
+    text(
+        root,
+        "U: growth is foretold, and the crate refuses unless told otherwise. Errors: C contact \
+         modes not found, N not finite, P no static state, M matrix singular, E other",
+        [14, top + 30],
+        12,
+        HPos::Left,
+    )?;
+    text(
+        root,
+        "solves per step: * some steps by Gauss–Seidel   ** some by path following",
+        [14, top + 48],
+        12,
+        HPos::Left,
+    )
+}

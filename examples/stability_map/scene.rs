@@ -1,0 +1,225 @@
+//! The scene of a cell: a block or a tower on a strip of soil.
+
+use std::collections::HashMap;
+use std::sync::{Mutex, PoisonError};
+
+use basemat::bem::full_plane::{ConvolutionQuadrature, CqMethod, FullPlaneGround};
+use basemat::bem::{HalfPlaneGround, History, Strip};
+use basemat::coupled::{ContactSearch, Newmark, SimulationBuilder};
+use basemat::fem::{Layer, Material, Mesh};
+use basemat::interface::{Bonded, Coulomb, ThinLayer};
+use basemat::motion::STANDARD_GRAVITY;
+use basemat::structure::{FemModel, RigidBlock};
+use basemat::{Result, Simulation, Soil};
+
+use super::motions::Motion;
+
+/// Width of the base, m.
+const WIDTH: f64 = 10.0;
+/// Free elements beside the base in the full-plane schemes, as in the paper.
+const FREE: usize = 5;
+
+/// What marches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) enum Scheme {
+    /// Half-plane in the mean, midpoint rule.
+    Own,
+    /// Patel & Spyrakos as printed: full plane in time, collocation, trapezoidal rule.
+    Paper,
+    /// Full plane by convolution quadrature (BDF2), trapezoidal rule.
+    Quadrature,
+}
+
+impl Scheme {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Own => "basemat",
+            Self::Paper => "paper",
+            Self::Quadrature => "quadrature",
+        }
+    }
+}
+
+/// Law between base and soil.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Law {
+    Bonded,
+    /// Friction coefficient.
+    Coulomb(f64),
+    /// Thickness over height of the neighbouring element (1 m) and share of the stiffness that is
+    /// left in debonding; friction 0.4.
+    Layer(f64, f64),
+}
+
+/// All parameters of a cell.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Scene {
+    pub(crate) scheme: Scheme,
+    /// c₁Δt over the mean element length.
+    pub(crate) beta: f64,
+    pub(crate) poisson: f64,
+    pub(crate) elements: usize,
+    /// Longest over shortest element; the short ones at both ends.
+    pub(crate) grading: f64,
+    /// Young's modulus of the structure over that of the soil; infinite for a rigid block.
+    pub(crate) stiffness: f64,
+    /// Mass of the structure over that of as wide and as high a piece of soil as its base.
+    pub(crate) mass: f64,
+    /// Height over width.
+    pub(crate) slenderness: f64,
+    pub(crate) law: Law,
+    pub(crate) motion: Motion,
+    /// Steps of shaking; as many of rest follow (see [`Scene::rest`]).
+    pub(crate) steps: usize,
+    pub(crate) history: History,
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            scheme: Scheme::Own,
+            beta: 0.5,
+            poisson: 1.0 / 3.0,
+            elements: 10,
+            grading: 1.0,
+            stiffness: f64::INFINITY,
+            mass: 0.7,
+            slenderness: 1.5,
+            law: Law::Coulomb(0.4),
+            motion: Motion::Sines,
+            steps: 1000,
+            history: History::Auto,
+        }
+    }
+}
+
+impl Scene {
+    /// The simulation, ready to march.
+    pub(crate) fn build(&self) -> Result<Simulation> {
+        let soil = Soil::new(80.0e6, self.poisson, 1900.0)?;
+        let step = self.time_step(&soil);
+        let builder = Simulation::builder(step)
+            .motion(self.motion.field(self.steps, step)?)
+            .gravity(STANDARD_GRAVITY)
+            .expected_steps(self.steps + self.rest());
+        let builder = self.with_ground(builder, soil)?;
+        let builder = self.with_law(builder, &soil)?;
+        self.with_structure(builder, &soil)?.build()
+    }
+
+    /// Steps of rest after the shaking.
+    pub(crate) fn rest(&self) -> usize {
+        self.steps.min(100_000)
+    }
+
+    pub(crate) fn time_step(&self, soil: &Soil) -> f64 {
+        self.beta * WIDTH / (self.elements as f64 * soil.pressure_wave_speed())
+    }
+
+    /// Whether the scheme is computed here. Coefficients of the full plane take as many lags as
+    /// waves take steps: many where S waves are slow against the step's P waves; and the quadrature
+    /// takes all of them at once.
+    pub(crate) fn exists(&self) -> bool {
+        match self.scheme {
+            Scheme::Own => true,
+            Scheme::Paper => self.poisson <= 0.45,
+            Scheme::Quadrature => self.poisson <= 0.45 && self.beta >= 0.1,
+        }
+    }
+
+    fn with_ground(&self, builder: SimulationBuilder, soil: Soil) -> Result<SimulationBuilder> {
+        if self.scheme == Scheme::Own {
+            let strip = Strip::from_nodes(self.nodes())?;
+            let ground = HalfPlaneGround::new(soil, &[strip])?.with_history_kind(self.history);
+            return Ok(builder.ground(ground));
+        }
+        // Marched whatever is foretold: that is what the maps are to show.
+        let ground = self.full_plane(soil)?.skip_assessment();
+        Ok(builder.ground(ground).scheme(Newmark::default()))
+    }
+
+    /// Element ends: lengths in geometric progression from both ends to the middle.
+    fn nodes(&self) -> Vec<f64> {
+        let count = self.elements;
+        let middle = ((count - 1) / 2).max(1) as f64;
+        let mut place = 0.0;
+        let mut nodes = vec![0.0];
+        for k in 0..count {
+            place += self.grading.powf(k.min(count - 1 - k) as f64 / middle);
+            nodes.push(place);
+        }
+        nodes.iter().map(|x| WIDTH * (x / place - 0.5)).collect()
+    }
+
+    fn with_law(&self, builder: SimulationBuilder, soil: &Soil) -> Result<SimulationBuilder> {
+        Ok(match self.law {
+            Law::Bonded => builder.interface(Bonded),
+            Law::Coulomb(friction) => builder.interface(Coulomb::new(friction)?),
+            Law::Layer(ratio, debonded) => {
+                let layer = ThinLayer::new(soil, 1.0, 0.4)?
+                    .with_thickness_ratio(ratio)?
+                    .with_debonded_share(debonded)?;
+                let builder = builder.interface(layer);
+                if self.scheme == Scheme::Paper {
+                    builder.contact_search(ContactSearch::FlowChart { iterations: 60 })
+                } else {
+                    builder
+                }
+            }
+        })
+    }
+
+    fn with_structure(&self, builder: SimulationBuilder, soil: &Soil) -> Result<SimulationBuilder> {
+        let density = self.mass * soil.density() / self.slenderness;
+        let height = self.slenderness * WIDTH;
+        if self.stiffness == f64::INFINITY {
+            return Ok(builder.structure(RigidBlock::new(WIDTH, height, density)?));
+        }
+        let young = 2.0 * (1.0 + soil.poisson()) * soil.shear_modulus() * self.stiffness;
+        let layers = [Layer::new(height, 5, Material::new(young, 0.2, density)?)];
+        let mesh = Mesh::layered_block(-0.5 * WIDTH..0.5 * WIDTH, 5, &layers)?;
+        Ok(builder.structure(FemModel::on_base(mesh)?))
+    }
+
+    /// Growth per step that the crate's assessment of the boundary equation foretells, base
+    /// uplifted and bonded; `None` for the half-plane, and where it would take
+    /// long: for very short steps and for many elements.
+    pub(crate) fn assess(&self, known: &Foretold) -> Option<[f64; 2]> {
+        let affordable = (0.25..=10.0).contains(&self.beta) && self.elements <= 10;
+        if self.scheme == Scheme::Own || !affordable {
+            return None;
+        }
+        let numbers = [self.beta, self.poisson].map(f64::to_bits);
+        let key = (self.scheme, numbers, self.elements);
+        let kept = || known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(&growth) = kept().get(&key) {
+            return growth;
+        }
+        let growth = self.growth_of_boundary().ok();
+        kept().insert(key, growth);
+        growth
+    }
+
+    fn growth_of_boundary(&self) -> Result<[f64; 2]> {
+        let soil = Soil::new(80.0e6, self.poisson, 1900.0)?;
+        let mut ground = self.full_plane(soil)?.with_expected_steps(self.steps);
+        let found = ground.assess(self.time_step(&soil))?;
+        Ok([found.uplifted.growth_per_step, found.bonded.growth_per_step])
+    }
+
+    fn full_plane(&self, soil: Soil) -> Result<FullPlaneGround> {
+        let half = 0.5 * WIDTH;
+        let ground = FullPlaneGround::strip(soil, -half..half, self.elements, FREE)?;
+        Ok(if self.scheme == Scheme::Paper {
+            ground
+        } else {
+            ground.with_kernel(|segments, soil, step| {
+                let kernel = ConvolutionQuadrature::new(soil, segments, step, CqMethod::Bdf2)?;
+                Ok(Box::new(kernel))
+            })
+        })
+    }
+}
+
+/// Assessments made so far: of a scheme, β and ν, elements.
+pub(crate) type Foretold = Mutex<HashMap<(Scheme, [u64; 2], usize), Option<[f64; 2]>>>;
