@@ -241,6 +241,11 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     checks.push(Check::below("energy ledger, residual", ledger, 1e-9));
     let reduced = peak(&found[0]) / peak(&bonded[0]);
     checks.push(Check::within("peak deformation over that without uplift", reduced, 0.2..=0.6));
+    // The weight holds the column's foot by a moment of (m+m₀) g b at most.
+    let weight = (model.mass + model.mat) * STANDARD_GRAVITY;
+    let held = weight * model.half_width / (model.height * model.stiffness);
+    let name = "peak deformation over (m+m₀)gb/(hk), which the weight can hold";
+    checks.push(Check::within(name, peak(&found[0]) / held, 0.7..=1.0));
     let points = |values: &[f64], unit: f64| {
         let each = values.iter().enumerate();
         each.map(|(k, value)| (k as f64 * SAMPLE, unit * value)).collect::<Vec<_>>()
