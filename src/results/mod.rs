@@ -44,8 +44,8 @@
 //!
 //! # What it costs
 //!
-//! Nothing where it is not used. The scalar histories take 20 numbers and one per probe at every
-//! kept step (160 kB for 1000 steps); contact and motion frames are off unless asked for, see
+//! Nothing where it is not used. The scalar histories take 22 numbers and one per probe at every
+//! kept step (176 kB for 1000 steps); contact and motion frames are off unless asked for, see
 //! [`Histories::bytes`]. Peaks, envelopes and events are those of all steps, however few are kept.
 //!
 //! # Conventions
