@@ -57,7 +57,8 @@ fn every_picture_has_title_labels_units_and_legend() {
         let svg = plot::history("Title", &runs, quantity).unwrap();
         shows(&svg, &["Title", "time, s", quantity.name(), "one", "two"]);
     }
-    let svg = plot::history("Title", &runs, Quantity::BaseMoment).unwrap();
+    let svg = plot::history("a < b & c", &runs, Quantity::BaseMoment).unwrap();
+    shows(&svg, &["a &lt; b &amp; c"]);
     shows(&svg, &["base moment, kN·m/m"]);
     let modes = ["stick", "slip to the left", "slip to the right", "open"];
     let svg = plot::mode_map("Modes", &histories).unwrap();

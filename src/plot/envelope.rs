@@ -22,11 +22,17 @@ pub fn pressure_envelope(title: &str, histories: &Histories) -> Result<Svg> {
         ("static", |e| 1e-3 * e.static_pressure),
         ("least", |e| 1e-3 * e.pressure.lowest.value),
     ];
-    let steps = |value: Value| -> Vec<(f64, f64)> {
-        envelope
-            .iter()
-            .flat_map(|e| [(e.element.left, value(e)), (e.element.right, value(e))])
-            .collect()
+    let steps = |value: Value| {
+        let mut points: Vec<(f64, f64)> = Vec::with_capacity(3 * envelope.len());
+        for e in envelope {
+            // A gap between two strips is a gap of the curve.
+            if points.last().is_some_and(|last| e.element.left - last.0 > 1e-6 * e.element.length())
+            {
+                points.push((f64::NAN, f64::NAN));
+            }
+            points.extend([(e.element.left, value(e)), (e.element.right, value(e))]);
+        }
+        points
     };
     let (left, right) = (
         envelope.first().map_or(0.0, |e| e.element.left),

@@ -39,7 +39,7 @@ pub(super) fn draw_key<'b>(area: &Area<'b>, entries: &[(&str, Sample)]) -> Drawi
             }
         }
         let shown: String = name.chars().take(LONGEST).collect();
-        key.draw(&Text::new(shown, (36, y - 8), ("sans-serif", 15)))?;
+        key.draw(&Text::new(shown, (36, y - 6), ("sans-serif", 15)))?;
         y += LINE;
     }
     Ok(chart)

@@ -6,6 +6,7 @@ use crate::coupled::{Ledger, Peak, Warning};
 
 /// What a run came to; printed, a page for a report.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Summary {
     /// Steps recorded.
     pub steps: usize,
