@@ -102,6 +102,15 @@ impl SparseFactor {
 
     /// Overwrites `rhs` with A⁻¹ rhs.
     pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
+        self.solve_with(rhs, false);
+    }
+
+    /// Overwrites `rhs` with A⁻ᵀ rhs.
+    pub(crate) fn solve_transposed(&mut self, rhs: &mut [f64]) {
+        self.solve_with(rhs, true);
+    }
+
+    fn solve_with(&mut self, rhs: &mut [f64], transposed: bool) {
         let stack = MemStack::new(&mut self.buffer);
         let rhs = MatMut::from_column_major_slice_mut(rhs, self.order, 1);
         match &self.kind {
@@ -114,12 +123,12 @@ impl SparseFactor {
                 );
             }
             Kind::Lu { symbolic, numeric } => {
-                LuRef::new_unchecked(symbolic, numeric).solve_in_place_with_conj(
-                    Conj::No,
-                    rhs,
-                    Par::Seq,
-                    stack,
-                );
+                let lu = LuRef::new_unchecked(symbolic, numeric);
+                if transposed {
+                    lu.solve_transpose_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+                } else {
+                    lu.solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+                }
             }
         }
     }
