@@ -90,6 +90,17 @@ impl SparseMatrix {
         })
     }
 
+    /// The diagonal.
+    pub(crate) fn diagonal(&self) -> Vec<f64> {
+        let mut diagonal = vec![0.0; self.order];
+        for (row, column, value) in self.entries() {
+            if row == column {
+                diagonal[row] = value;
+            }
+        }
+        diagonal
+    }
+
     /// Whether no entry is stored.
     pub(crate) fn is_empty(&self) -> bool {
         self.value.is_empty()
@@ -175,20 +186,12 @@ impl Matrix {
         }
     }
 
-    /// The diagonal of a matrix of order `order`.
-    pub(crate) fn diagonal(&self, order: usize) -> Vec<f64> {
-        let mut diagonal = vec![0.0; order];
+    /// The diagonal.
+    pub(crate) fn diagonal(&self) -> Vec<f64> {
         match self {
-            Self::Sparse(matrix) => {
-                for (row, column, value) in matrix.entries() {
-                    if row == column {
-                        diagonal[row] = value;
-                    }
-                }
-            }
-            Self::Diagonal(values) => diagonal.copy_from_slice(values),
+            Self::Sparse(matrix) => matrix.diagonal(),
+            Self::Diagonal(values) => values.clone(),
         }
-        diagonal
     }
 
     /// All entries that are stored.

@@ -343,6 +343,38 @@ mod text {
             }
         }
 
+        /// The text itself: cut, with characters exchanged, put in or taken out.
+        #[test]
+        fn damaged_texts_do_not_panic(
+            which in 0_usize..3,
+            cut in prop::option::weighted(0.2, any::<prop::sample::Index>()),
+            changes in prop::collection::vec(
+                (any::<prop::sample::Index>(), 0_usize..3, prop::sample::select(b"0123456789,[]{}:-.e\"n ".to_vec())),
+                1..6,
+            ),
+        ) {
+            let history = [History::Direct, History::RelaxedFft, History::Exponentials][which];
+            let mut simulation = simulation(history);
+            simulation.run(20, |_| {}).unwrap();
+            let mut text = serde_json::to_vec(&simulation.checkpoint().unwrap()).unwrap();
+            for (place, kind, sign) in changes {
+                let at = place.index(text.len());
+                match kind {
+                    0 => text[at] = sign,
+                    1 => text.insert(at, sign),
+                    _ => drop(text.remove(at)),
+                }
+            }
+            if let Some(cut) = cut {
+                text.truncate(cut.index(text.len()));
+            }
+            if let Ok(checkpoint) = serde_json::from_slice::<Checkpoint>(&text)
+                && simulation.resume(&checkpoint).is_ok()
+            {
+                let _ = simulation.step();
+            }
+        }
+
         #[test]
         fn any_bytes_do_not_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
             if let Ok(checkpoint) = serde_json::from_slice::<Checkpoint>(&bytes) {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::coordinates::{Modes, Row};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, finite};
-use crate::linalg::wide_multiply_add;
+use crate::linalg::{dot, wide_multiply_add};
 use crate::structure::{ContactNode, Structure, Triplets};
 
 /// (unknown, weight) pairs.
@@ -136,6 +136,13 @@ impl Base {
         for (row, out) in self.rows.iter().zip(out) {
             *out = row.iter().map(|&(j, weight)| weight * u[j]).sum();
         }
+    }
+
+    /// Mean motion `[right, up]` of the base, from its element means.
+    pub(crate) fn ride(&self, means: &[f64]) -> [f64; 2] {
+        let (down, along) = means.split_at(self.lengths.len());
+        let width: f64 = self.lengths.iter().sum();
+        [dot(along, &self.lengths) / width, -dot(down, &self.lengths) / width]
     }
 
     /// f ← f + factor · BᵀA τ.

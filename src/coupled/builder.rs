@@ -156,7 +156,8 @@ impl SimulationBuilder {
     ///
     /// # Errors
     /// [`Error::Scene`] for a missing part, the typed error of whatever is wrong with a given one,
-    /// [`Error::Preload`] if the structure cannot stand.
+    /// [`Error::Preload`] if the structure cannot stand, [`Error::IllConditioned`] if double
+    /// precision cannot carry the scene.
     pub fn build(self) -> Result<Simulation> {
         let time_step = positive("time step", self.time_step)?;
         not_negative("gravity", self.gravity)?;
@@ -231,7 +232,7 @@ impl SimulationBuilder {
         let moment_center = finite("moment center", self.moment_center.unwrap_or(middle))?;
         let arms = elements.iter().map(|e| e.center() - moment_center).collect();
         let start_motion = motion_at_start(ground.as_ref(), self.motion.as_ref(), count)?;
-        Ok(Simulation::assemble(super::simulation::Parts {
+        let mut simulation = Simulation::assemble(super::simulation::Parts {
             time_step,
             model,
             ground,
@@ -247,7 +248,9 @@ impl SimulationBuilder {
             probes: self.probes,
             arms,
             start_motion,
-        }))
+        });
+        simulation.assess()?;
+        Ok(simulation)
     }
 }
 

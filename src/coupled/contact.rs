@@ -10,7 +10,7 @@
 //! ones.
 
 use crate::interface::{Condition, ContactState, InterfaceLaw, Mode, StepStart, Tolerance, law_of};
-use crate::linalg::{DenseFactor, dense_multiply_add, largest};
+use crate::linalg::{DenseFactor, dense_condition, dense_multiply_add, largest};
 
 /// What a step gives to the contact problem.
 #[derive(Clone, Copy)]
@@ -83,6 +83,36 @@ impl ContactSolver {
     /// Forgets the factors: to be called when W has changed.
     pub(crate) fn invalidate(&mut self) {
         self.valid = false;
+    }
+
+    /// Condition of the system with every element in its law's mode of rest; infinite if singular.
+    pub(crate) fn condition_at_rest(
+        &mut self,
+        delassus: &[f64],
+        static_traction: &[f64],
+        start: &[StepStart],
+        laws: &[Box<dyn InterfaceLaw>],
+    ) -> f64 {
+        for (e, conditions) in self.conditions.iter_mut().enumerate() {
+            let law = law_of(laws, e);
+            let at_rest = law.modes().first().copied().unwrap_or(Mode::Stick);
+            *conditions = law.conditions(at_rest, &start[e]);
+        }
+        let (free_jump, length_scale) = (static_traction, 0.0);
+        let input =
+            ContactInput { delassus, free_jump, static_traction, start, laws, length_scale };
+        let regular = self.assemble(&input);
+        self.valid = false;
+        self.factorings = 0;
+        if !regular {
+            return f64::INFINITY;
+        }
+        // The diagonal is to scale it, not the rows' largest entries.
+        let order = self.unknowns.len();
+        for (row, &(_, _, scale)) in self.matrix.chunks_exact_mut(order.max(1)).zip(&self.rows) {
+            row.iter_mut().for_each(|value| *value /= scale);
+        }
+        dense_condition(&self.matrix, order)
     }
 
     /// Solves the linear system that `modes` define; false if it is singular.

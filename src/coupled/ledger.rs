@@ -144,7 +144,7 @@ impl Simulation {
             *x = u + du;
         }
         base.means(&work.vector, &mut work.means);
-        model.spare(&mut work.vector, ride.displacement);
+        model.spare(&mut work.vector, base.ride(&work.means));
         ledger.strain =
             0.5 * model.stiffness.form(&work.vector, &work.vector) + memory.nonlinear_work;
 

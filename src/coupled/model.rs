@@ -111,11 +111,16 @@ impl Model {
         self.modes = Some(modes);
     }
 
-    /// Takes the ride off a displacement before K acts on it. A ride strains nothing, but in
+    /// Whether [`Model::spare`] does anything.
+    pub(crate) fn needs_sparing(&self) -> bool {
+        self.rides_freely && self.modes.is_none()
+    }
+
+    /// Takes a ride off a displacement before K acts on it. A ride strains nothing, but in
     /// unknowns K would only find that out by cancellation, with an error that grows with the
     /// stiffness times the displacement. In modes it has no stiffness to begin with.
     pub(crate) fn spare(&self, displacement: &mut [f64], ride: [f64; 2]) {
-        if self.rides_freely && self.modes.is_none() {
+        if self.needs_sparing() {
             let [horizontal, vertical] = &self.ride;
             for ((u, h), v) in displacement.iter_mut().zip(horizontal).zip(vertical) {
                 *u -= h * ride[0] + v * ride[1];

@@ -346,10 +346,14 @@ fn tally(count: usize, sequences: usize, seed: u64) -> Vec<Tally> {
 
 #[test]
 fn search_finds_what_brute_force_finds() {
+    // CONTACT_PROBLEMS=5 makes it a hundred thousand problems.
+    let more = std::env::var("CONTACT_PROBLEMS").ok().and_then(|text| text.parse().ok());
+    let more: usize = more.unwrap_or(1);
     let sequences = [(1, 100), (2, 300), (3, 400), (4, 160), (5, 40), (6, 10)];
     let mut total = Tally::default();
     for (count, sequences) in sequences {
-        for (friction, tally) in FRICTION.into_iter().zip(tally(count, sequences, 7 + count as u64))
+        for (friction, tally) in
+            FRICTION.into_iter().zip(tally(count, more * sequences, 7 + count as u64))
         {
             println!("{count} elements, friction {friction}: {tally:?}");
             total.add(&tally);
@@ -361,8 +365,8 @@ fn search_finds_what_brute_force_finds() {
         }
     }
     println!("{total:?}");
-    assert!(total.problems > 15_000 && total.failed_with_strength <= 3, "{total:?}");
+    assert!(total.problems > 15_000 && total.failed_with_strength <= 3 * more, "{total:?}");
     // The active set alone does nearly all of it, the path alone all without adhesion.
     assert!(total.alone[0] > total.problems * 9 / 10, "{total:?}");
-    assert!(total.alone[2] + 10 > total.problems, "{total:?}");
+    assert!(total.alone[2] + 10 * more > total.problems, "{total:?}");
 }

@@ -5,7 +5,7 @@ use super::model::Model;
 use super::preload::condense;
 use super::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
-use crate::linalg::{SparseFactor, SparseMatrix};
+use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
 use crate::matrix::Matrix;
 use crate::structure::Triplets;
 
@@ -27,7 +27,7 @@ enum Factor {
     Diagonal(Vec<f64>),
 }
 
-const NAME: &str = "effective stiffness matrix";
+pub(super) const NAME: &str = "effective stiffness matrix";
 
 impl Operators {
     /// Factors K_eff = M, C, K + ∂f/∂u, each with the scheme's coefficient of Δu, and condenses it.
@@ -49,6 +49,35 @@ impl Operators {
         self.factor.solve(rhs);
     }
 
+    /// Condition of K_eff, scaled by its diagonal.
+    pub(super) fn condition(
+        &mut self,
+        model: &Model,
+        coefficients: &SchemeCoefficients,
+    ) -> Result<f64> {
+        match &mut self.factor {
+            Factor::Diagonal(_) => Ok(1.0),
+            Factor::Sparse(factor) => {
+                let matrix = effective_stiffness(model, coefficients, &self.tangent);
+                Ok(sparse_condition(&SparseMatrix::new(NAME, &matrix)?, factor))
+            }
+        }
+    }
+
+    /// Diagonal of K_eff without its inertia.
+    pub(super) fn stiffness_diagonal(
+        &self,
+        model: &Model,
+        coefficients: &SchemeCoefficients,
+    ) -> Vec<f64> {
+        let [c, k] = [coefficients.velocity[0], coefficients.displacement[0]];
+        let (damping, stiffness) = (model.damping.diagonal(), model.stiffness.diagonal());
+        let tangent = self.tangent.diagonal();
+        (0..model.unknowns)
+            .map(|i| c * damping[i] + k * (stiffness[i] + tangent.get(i).copied().unwrap_or(0.0)))
+            .collect()
+    }
+
     /// Numbers that one solve reads in sparse coordinates.
     pub(super) fn stored(&self) -> usize {
         match &self.factor {
@@ -56,6 +85,22 @@ impl Operators {
             Factor::Diagonal(values) => values.len(),
         }
     }
+}
+
+/// K_eff, in the structure's unknowns.
+fn effective_stiffness(
+    model: &Model,
+    coefficients: &SchemeCoefficients,
+    tangent: &SparseMatrix,
+) -> Triplets {
+    let [a, c, k] =
+        [coefficients.acceleration[0], coefficients.velocity[0], coefficients.displacement[0]];
+    let mut matrix = Triplets::new(model.unknowns);
+    model.mass.add_to(a, &mut matrix);
+    model.damping.add_to(c, &mut matrix);
+    model.stiffness.add_to(k, &mut matrix);
+    tangent.add_to(k, &mut matrix);
+    matrix
 }
 
 impl Factor {
@@ -77,11 +122,7 @@ impl Factor {
             }
             return Err(Error::Singular { matrix: NAME, order: n });
         }
-        let mut matrix = Triplets::new(n);
-        model.mass.add_to(a, &mut matrix);
-        model.damping.add_to(c, &mut matrix);
-        model.stiffness.add_to(k, &mut matrix);
-        tangent.add_to(k, &mut matrix);
+        let matrix = effective_stiffness(model, coefficients, tangent);
         Ok(Self::Sparse(Box::new(SparseFactor::new(NAME, &matrix)?)))
     }
 

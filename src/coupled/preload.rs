@@ -1,13 +1,16 @@
 //! The static state under the structure's weight, contact conditions included.
 
 use super::base::Base;
+use super::conditioning::STIFFNESS_LIMIT;
 use super::contact::{ContactInput, ContactSolver};
 use super::model::Model;
 use super::modes::{ContactSearch, ModeSearch};
 use crate::bem::Ground;
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, law_of};
-use crate::linalg::{SparseFactor, SparseMatrix, largest, wide_transposed_multiply_add};
+use crate::linalg::{
+    SparseFactor, SparseMatrix, largest, sparse_condition, wide_transposed_multiply_add,
+};
 use crate::structure::Triplets;
 
 /// What friction does while the structure is placed on the ground.
@@ -44,8 +47,13 @@ impl StaticState {
     }
 }
 
+const NAME: &str = "static stiffness matrix";
 /// Proximal iterations at most.
 const ITERATIONS: usize = 500;
+/// After so many iterations, a very stiff structure may be as far as rounding lets it go: up to this
+/// change, if the condition explains it.
+const LATE: usize = 100;
+const LATE_CHANGE: f64 = 1e-8;
 /// Share of the foundation's stiffness that the fictitious springs start with.
 const PROXIMAL_SHARE: f64 = 1e-4;
 /// Share of that down to which they are softened.
@@ -85,7 +93,7 @@ pub(crate) fn solve(
     let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(&soil, base)
         / model.mass.form(&model.ride[1], &model.ride[1]).max(f64::MIN_POSITIVE);
 
-    let softest = SOFTEST * epsilon;
+    let stiffest = epsilon;
 
     let start = vec![
         StepStart {
@@ -164,7 +172,12 @@ pub(crate) fn solve(
         change = measure.of(&pull);
         state.displacement = displacement;
         state.traction.copy_from_slice(&solver.traction);
-        if change <= 1e-13 || (change <= 1e-10 && change >= 0.5 * previous) {
+        // What the springs pull cannot be told more finely than the solve is exact.
+        let stalled = change <= 1e-10 && change >= 0.5 * previous;
+        let late = iterations > LATE
+            && change <= LATE_CHANGE
+            && change <= current.condition(model, &tangent, epsilon) * f64::EPSILON;
+        if change <= 1e-13 || stalled || late {
             for (e, gap) in state.gap.iter_mut().enumerate() {
                 let conditions = law_of(laws, e).conditions(state.modes[e], &start[e]);
                 let pinned = conditions.iter().find_map(|c| c.gap_at(state.traction[e]));
@@ -175,11 +188,26 @@ pub(crate) fn solve(
         if !change.is_finite() {
             break;
         }
-        if change > ROUNDING.max(SLOW * previous) && epsilon > softest {
+        if change > ROUNDING.max(SLOW * previous) && epsilon > SOFTEST * stiffest {
             epsilon *= 0.1;
             compliance = None;
             solver.invalidate();
         }
+    }
+    let tangent = model.tangent(&StaticState::weightless(count, n).displacement)?;
+    // Of the structure against springs as stiff as the first ones.
+    let condition = match &mut compliance {
+        Some(last) => last.condition(model, &tangent, epsilon) * (epsilon / stiffest),
+        None => 1.0,
+    };
+    if condition > STIFFNESS_LIMIT {
+        return Err(Error::IllConditioned {
+            matrix: NAME,
+            condition,
+            limit: STIFFNESS_LIMIT,
+            quantity: "stiffness of the structure over that of the ground",
+            ratio: PROXIMAL_SHARE * condition,
+        });
     }
     Err(Error::Preload { iterations, residual: change })
 }
@@ -193,7 +221,7 @@ struct Measure {
 
 impl Measure {
     fn new(model: &Model, load: &[f64]) -> Self {
-        let mut weights = model.mass.diagonal(model.unknowns);
+        let mut weights = model.mass.diagonal();
         for weight in &mut weights {
             *weight = if *weight > 0.0 { weight.sqrt().recip() } else { 0.0 };
         }
@@ -219,6 +247,8 @@ impl Measure {
 /// Factors of K + D + εM, its answer to unit tractions, and the static Delassus operator.
 struct Compliance {
     factor: SparseFactor,
+    /// Condition of K + D + εM, once it is known.
+    condition: Option<f64>,
     columns: Vec<f64>,
     delassus: Vec<f64>,
 }
@@ -231,14 +261,28 @@ impl Compliance {
         soil: &[f64],
         epsilon: f64,
     ) -> Result<Self> {
-        let n = model.unknowns;
-        let mut matrix = Triplets::new(n);
+        let matrix = Self::matrix(model, tangent, epsilon);
+        let mut factor = SparseFactor::new(NAME, &matrix)?;
+        let (columns, delassus) = condense(|rhs| factor.solve(rhs), base, soil, model.unknowns);
+        Ok(Self { factor, condition: None, columns, delassus })
+    }
+
+    fn matrix(model: &Model, tangent: &SparseMatrix, epsilon: f64) -> Triplets {
+        let mut matrix = Triplets::new(model.unknowns);
         model.stiffness.add_to(1.0, &mut matrix);
         tangent.add_to(1.0, &mut matrix);
         model.mass.add_to(epsilon, &mut matrix);
-        let mut factor = SparseFactor::new("static stiffness matrix", &matrix)?;
-        let (columns, delassus) = condense(|rhs| factor.solve(rhs), base, soil, n);
-        Ok(Self { factor, columns, delassus })
+        matrix
+    }
+
+    /// Condition of K + D + εM.
+    fn condition(&mut self, model: &Model, tangent: &SparseMatrix, epsilon: f64) -> f64 {
+        if let Some(known) = self.condition {
+            return known;
+        }
+        let matrix = SparseMatrix::new(NAME, &Self::matrix(model, tangent, epsilon));
+        let found = matrix.map_or(f64::INFINITY, |m| sparse_condition(&m, &mut self.factor));
+        *self.condition.insert(found)
     }
 }
 

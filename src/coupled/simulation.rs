@@ -2,6 +2,7 @@
 
 use super::base::Base;
 use super::builder::SimulationBuilder;
+use super::conditioning::Conditioning;
 use super::contact::ContactSolver;
 use super::coordinates::{Motion, Row};
 use super::ledger::Ledger;
@@ -56,6 +57,7 @@ pub struct Simulation {
     pub(super) memory: Memory,
     pub(super) work: Workspace,
     pub(super) state: State,
+    pub(super) conditioning: Conditioning,
     /// Lengths of the elements, for [`Run`]'s warnings.
     elements: Vec<ContactElement>,
 }
@@ -219,6 +221,7 @@ impl Simulation {
                 method: SearchMethod::ActiveSet,
             },
             probe_rows,
+            conditioning: Conditioning::UNKNOWN,
             model: parts.model,
             ground: parts.ground,
             base: parts.base,

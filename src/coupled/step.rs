@@ -97,7 +97,10 @@ impl Simulation {
         for (i, x) in work.vector.iter_mut().enumerate() {
             *x = u[i] + SchemeCoefficients::apply(c.displacement, 0.0, v[i], a[i]);
         }
-        self.model.spare(&mut work.vector, self.state.free_field);
+        if self.model.needs_sparing() {
+            self.base.means(&work.vector, &mut work.means);
+            self.model.spare(&mut work.vector, self.base.ride(&work.means));
+        }
         self.model.stiffness.multiply_add(-1.0, &work.vector, &mut work.known);
         ride
     }

@@ -113,6 +113,23 @@ pub enum Error {
         /// Its order.
         order: usize,
     },
+    /// A matrix of the step that double precision cannot carry.
+    #[error(
+        "{matrix}: condition about {condition:.1e}, but double precision carries {limit:.0e}; what \
+         makes it so: {quantity}, {ratio:.1e}"
+    )]
+    IllConditioned {
+        /// Name of the matrix.
+        matrix: &'static str,
+        /// Its condition number, estimated; infinite if it is singular.
+        condition: f64,
+        /// Largest that is accepted.
+        limit: f64,
+        /// What makes it so.
+        quantity: &'static str,
+        /// How large that is.
+        ratio: f64,
+    },
     /// The static state under the structure's weight was not found.
     #[error(
         "no static equilibrium after {iterations} iterations: residual {residual:e} of the load \

@@ -76,6 +76,26 @@ impl DenseFactor {
             MemStack::new(&mut self.buffer),
         );
     }
+
+    /// Overwrites `rhs` with A⁻ᵀ rhs.
+    pub(crate) fn solve_transposed(&mut self, rhs: &mut [f64]) {
+        if self.order == 0 {
+            return;
+        }
+        let lu = MatRef::from_row_major_slice(&self.values, self.order, self.order);
+        let permutation = PermRef::new_checked(&self.forward, &self.inverse, self.order);
+        let scratch =
+            dense_solve::solve_transpose_in_place_scratch::<usize, f64>(self.order, 1, Par::Seq);
+        dense_solve::solve_transpose_in_place_with_conj(
+            lu,
+            lu,
+            permutation,
+            Conj::No,
+            MatMut::from_column_major_slice_mut(rhs, self.order, 1),
+            Par::Seq,
+            MemStack::new(&mut MemBuffer::new(scratch)),
+        );
+    }
 }
 
 #[cfg(test)]

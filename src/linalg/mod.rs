@@ -3,6 +3,7 @@
 //! Everything runs sequentially, and solves use workspace made when the factor was made.
 
 mod complex;
+mod condition;
 mod dense;
 mod eigen;
 mod lanczos;
@@ -10,6 +11,7 @@ mod product;
 mod sparse;
 
 pub(crate) use complex::{ComplexFactor, hermitian_range};
+pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
 pub(crate) use eigen::{generalised_modes, least_eigenvalue};
 pub(crate) use lanczos::lowest_modes;

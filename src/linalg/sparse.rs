@@ -110,7 +110,12 @@ impl SparseFactor {
 
     /// Overwrites `rhs` with A⁻¹ rhs.
     pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
-        Self::solve_with(&self.kind, self.order, 1, rhs, &mut self.buffer);
+        Self::solve_with(&self.kind, self.order, 1, false, rhs, &mut self.buffer);
+    }
+
+    /// Overwrites `rhs` with A⁻ᵀ rhs.
+    pub(crate) fn solve_transposed(&mut self, rhs: &mut [f64]) {
+        Self::solve_with(&self.kind, self.order, 1, true, rhs, &mut self.buffer);
     }
 
     /// Overwrites many right-hand sides, one after the other in `rhs`; allocates its workspace.
@@ -122,13 +127,15 @@ impl SparseFactor {
             }
             Kind::Lu { symbolic, .. } => symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq),
         };
-        Self::solve_with(&self.kind, self.order, columns, rhs, &mut MemBuffer::new(scratch));
+        let mut buffer = MemBuffer::new(scratch);
+        Self::solve_with(&self.kind, self.order, columns, false, rhs, &mut buffer);
     }
 
     fn solve_with(
         kind: &Kind,
         order: usize,
         columns: usize,
+        transposed: bool,
         rhs: &mut [f64],
         buffer: &mut MemBuffer,
     ) {
@@ -144,12 +151,12 @@ impl SparseFactor {
                 );
             }
             Kind::Lu { symbolic, numeric } => {
-                LuRef::new_unchecked(symbolic, numeric).solve_in_place_with_conj(
-                    Conj::No,
-                    rhs,
-                    Par::Seq,
-                    stack,
-                );
+                let lu = LuRef::new_unchecked(symbolic, numeric);
+                if transposed {
+                    lu.solve_transpose_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+                } else {
+                    lu.solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+                }
             }
         }
     }
