@@ -267,6 +267,15 @@ fn the_choice_is_made_and_explained() {
     assert_eq!(choose(Some(1e-8), None, None, 1e-3), (Exponentials, ToleranceAllowed));
     assert_eq!(choose(None, Some(1_000_000), Some(20_000), 1e-3), (Exponentials, MemoryLimit));
     assert_eq!(choose(None, Some(1_000), Some(200), 1e-9), (RelaxedFft, NoExponentials));
+    // Equal elements on a lattice: transforms along the surface are cheaper than exponentials.
+    for (grading, wanted) in [(Grading::Uniform, RelaxedFft), (Grading::Cosine, Exponentials)] {
+        let strip = Strip::new(-4.0..4.0, 12, grading).unwrap();
+        let ground = HalfPlaneGround::new(soil, &[strip]).unwrap();
+        let mut ground = ground.with_history_tolerance(1e-8).unwrap();
+        ground.prepare(1e-3).unwrap();
+        ground.reserve(20_000).unwrap();
+        assert_eq!(ground.history_choice().unwrap().kind, wanted);
+    }
     let mut asked =
         HalfPlaneGround::strip(soil, -2.0..2.0, 6).unwrap().with_history_kind(Exponentials);
     asked.prepare(1e-3).unwrap();

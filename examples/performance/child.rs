@@ -8,8 +8,8 @@ use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::RigidBlock;
 use basemat::{Result, Sweep};
 
-use super::AnyError;
 use super::scenes::{COUNT, ELEMENT, headline, time_step, without_end};
+use super::{AnyError, timed};
 
 /// Cases of the sweep.
 const CASES: usize = 8;
@@ -19,6 +19,8 @@ const CASES: usize = 8;
 pub(crate) enum Scene {
     Bonded,
     Friction,
+    /// Friction, under a record that goes on as long as the run.
+    Long,
     /// Friction, with the history by exponentials, under a record that goes on as long as the run.
     Exponentials,
     /// 200 elements under a rigid block, bonded.
@@ -32,6 +34,8 @@ pub(crate) enum Scene {
 pub(crate) struct Taken {
     /// Processor time of all threads, s.
     pub(crate) seconds: f64,
+    /// Of this the steps, s.
+    pub(crate) march: f64,
     /// By the clock, s.
     pub(crate) wall: f64,
     /// Largest resident memory, MB; NaN where the system does not tell.
@@ -43,7 +47,7 @@ pub(crate) struct Taken {
 /// Runs `scene` here, and prints what [`measure`] reads.
 pub(crate) fn run(scene: Scene, steps: usize) -> std::result::Result<(), AnyError> {
     let begin = Instant::now();
-    let slowest = if scene == Scene::Sweep { sweep(steps)? } else { march(scene, steps)? };
+    let [slowest, march] = if scene == Scene::Sweep { sweep(steps)? } else { march(scene, steps)? };
     let seconds = cpu_time::ProcessTime::try_now()?.as_duration().as_secs_f64();
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let peak = status
@@ -51,12 +55,12 @@ pub(crate) fn run(scene: Scene, steps: usize) -> std::result::Result<(), AnyErro
         .find_map(|line| line.strip_prefix("VmHWM:"))
         .and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok())
         .map_or(f64::NAN, |kilobytes| 1.024e-3 * kilobytes);
-    println!("{seconds} {} {peak} {slowest}", begin.elapsed().as_secs_f64());
+    println!("{seconds} {march} {} {peak} {slowest}", begin.elapsed().as_secs_f64());
     Ok(())
 }
 
-/// The slowest step, but for the first, which carries the setup.
-fn march(scene: Scene, steps: usize) -> Result<f64> {
+/// The slowest step, but for the first, and what all steps take.
+fn march(scene: Scene, steps: usize) -> Result<[f64; 2]> {
     let (builder, ground) = headline(if scene == Scene::Wide { 200 } else { COUNT })?;
     let mut simulation = match scene {
         Scene::Wide => {
@@ -64,9 +68,11 @@ fn march(scene: Scene, steps: usize) -> Result<f64> {
             builder.ground(ground).structure(block).interface(Bonded)
         }
         Scene::Bonded => builder.ground(ground).interface(Bonded),
-        Scene::Exponentials => {
+        Scene::Exponentials | Scene::Long => {
             let record = without_end(steps as f64 * time_step())?;
-            let ground = ground.with_history_kind(History::Exponentials);
+            let exponentials = scene == Scene::Exponentials;
+            let kind = if exponentials { History::Exponentials } else { History::RelaxedFft };
+            let ground = ground.with_history_kind(kind);
             builder.ground(ground).interface(Coulomb::new(0.4)?).motion(record)
         }
         Scene::Friction | Scene::Sweep => builder.ground(ground).interface(Coulomb::new(0.4)?),
@@ -74,18 +80,20 @@ fn march(scene: Scene, steps: usize) -> Result<f64> {
     .expected_steps(steps)
     .build()?;
     let (mut last, mut slowest) = (Instant::now(), 0.0_f64);
-    simulation.run(steps, |state| {
-        if state.step > 1 {
-            slowest = slowest.max(last.elapsed().as_secs_f64());
-        }
-        last = Instant::now();
-    })?;
-    Ok(slowest)
+    let (run, seconds) = timed(|| {
+        simulation.run(steps, |state| {
+            if state.step > 1 {
+                slowest = slowest.max(last.elapsed().as_secs_f64());
+            }
+            last = Instant::now();
+        })
+    });
+    run.map(|_| [slowest, seconds])
 }
 
-fn sweep(steps: usize) -> Result<f64> {
+fn sweep(steps: usize) -> Result<[f64; 2]> {
     let kernels = SharedKernels::default();
-    let mut outcome = Ok(0.0);
+    let mut outcome = Ok([0.0; 2]);
     Sweep::new(CASES).run(
         |case| {
             let (builder, ground) = headline(COUNT)?;
@@ -120,7 +128,13 @@ pub(crate) fn measure(
     let text = String::from_utf8(output.stdout)?;
     let mut numbers = text.split_whitespace().map(str::parse::<f64>);
     let mut next = || numbers.next().ok_or("a number is missing");
-    Ok(Taken { seconds: next()??, wall: next()??, peak: next()??, slowest: next()?? })
+    Ok(Taken {
+        seconds: next()??,
+        march: next()??,
+        wall: next()??,
+        peak: next()??,
+        slowest: next()??,
+    })
 }
 
 /// The example `containment` as it is by default, files and plots included: processor time of all

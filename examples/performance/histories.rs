@@ -43,10 +43,10 @@ pub(crate) fn direct(count: usize, steps: usize) -> Result<f64> {
 
 /// Setup, march and slowest step of the relaxed history, s: the least of `repeats`.
 pub(crate) fn relaxed(count: usize, steps: usize, repeats: usize) -> Result<[f64; 3]> {
-    let kernel = patch(count)?;
     let mut least = [f64::INFINITY; 3];
     for _ in 0..repeats {
-        let mut history = RelaxedFftHistory::new(Arc::clone(&kernel));
+        // Of one kernel, only the first would make spectra.
+        let mut history = RelaxedFftHistory::new(patch(count)?);
         let (ready, setup) = timed(|| history.reserve(steps));
         ready?;
         let [total, slowest] = march(&mut history, 2 * count, steps)?;
@@ -86,12 +86,17 @@ pub(crate) fn growth(longest: usize) -> Result<Growth> {
             points.push((steps, total, slowest));
         }
     }
+    let exponent = exponent(&points);
+    Ok(Growth { points, exponent })
+}
+
+/// Slope of the least squares in logarithms of seconds over steps.
+pub(crate) fn exponent(points: &[(usize, f64, f64)]) -> f64 {
     let logarithms: Vec<_> =
         points.iter().map(|&(steps, total, _)| [(steps as f64).ln(), total.ln()]).collect();
     let count = logarithms.len() as f64;
     let mean = |k: usize| logarithms.iter().map(|p| p[k]).sum::<f64>() / count;
     let (x, y) = (mean(0), mean(1));
-    let exponent = logarithms.iter().map(|p| (p[0] - x) * (p[1] - y)).sum::<f64>()
-        / logarithms.iter().map(|p| (p[0] - x).powi(2)).sum::<f64>();
-    Ok(Growth { points, exponent })
+    logarithms.iter().map(|p| (p[0] - x) * (p[1] - y)).sum::<f64>()
+        / logarithms.iter().map(|p| (p[0] - x).powi(2)).sum::<f64>()
 }

@@ -2,7 +2,7 @@
 
 use super::AnyError;
 use super::child::{Scene, Taken, containment, measure};
-use super::histories::{coefficients, direct, growth, relaxed};
+use super::histories::{coefficients, direct, exponent, growth, relaxed};
 use super::report::Report;
 use super::scenes::{ROWS, STEPS};
 use super::timed;
@@ -14,6 +14,7 @@ fn best(scene: Scene, steps: usize, threads: usize, repeats: usize) -> Result<Ta
         let taken = measure(scene, steps, threads)?;
         best = Taken {
             seconds: best.seconds.min(taken.seconds),
+            march: best.march.min(taken.march),
             wall: best.wall.min(taken.wall),
             peak: best.peak.min(taken.peak),
             slowest: best.slowest.min(taken.slowest),
@@ -149,6 +150,26 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
         .collect();
     let head = ["steps", "µs per step", "slowest step, ms"];
     report.table("Relaxed history, 10 elements, over the number of steps", &head, &rows);
+    let mut points = Vec::new();
+    for steps in [1_000, 10_000, 100_000, 1_000_000].into_iter().filter(|n| *n <= longest) {
+        let taken = best(Scene::Long, steps, 1, if steps > 10_000 { 1 } else { 3 })?;
+        points.push((steps, taken.march, taken.slowest));
+    }
+    let rows: Vec<_> = points
+        .iter()
+        .map(|&(steps, total, slowest)| {
+            let each = 1e6 * total / steps as f64;
+            vec![steps.to_string(), format!("{each:.2}"), format!("{:.1}", 1e3 * slowest)]
+        })
+        .collect();
+    let exponent = exponent(&points);
+    report.table(
+        &format!(
+            "Headline scene, friction 0.4, FFT history, record repeated: exponent {exponent:.3}"
+        ),
+        &head,
+        &rows,
+    );
     let mut rows = Vec::new();
     for count in if short { &[10, 40][..] } else { &[10, 20, 40, 80, 200] } {
         let [setup, total, slowest] = relaxed(*count, 10_000, 2)?;

@@ -16,8 +16,13 @@ use crate::history::{ConvolutionHistory, DirectHistory, ExponentialHistory, Rela
 /// | | result | multiply–adds per step | bytes |
 /// |---|---|---|---|
 /// | direct | exact to rounding | Q² N on average | 16 (C + Q) N |
-/// | relaxed transforms | exact to rounding | 64 Q² + log₂(N/64) (16 Q² + 5 Q log₂ N) | (32 C + 24 Q + 16) M |
+/// | relaxed transforms, pairs of elements | exact to rounding | 64 Q² + log₂(N/64) (16 Q² + 5 Q log₂ N) | (32 C + 24 Q + 16) M |
+/// | relaxed transforms, wavenumbers | exact to rounding | 128 Q + log₂(N/32) (8 Q + 5 Q log₂ 2N) | (64 Q + 32) M |
 /// | exponentials | within a tolerance | 2 Q² b + 16 Q² W/b + 20 Q log₂ 2b + about 3000 | 16 C b + 48 C W + 64 Q W |
+///
+/// Wavenumbers take the place of pairs from eight equal elements on. A processor makes 4 to 7 of
+/// these multiply–adds in a nanosecond (`docs/performance.md`): the estimates tell factors of two
+/// apart, not more.
 ///
 /// See [`RelaxedFftHistory`] and [`ExponentialHistory`] for more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
@@ -215,6 +220,13 @@ impl Estimate {
         let n = steps as f64;
         let (cost, memory) = match kind {
             History::Direct => (q * q * n, 16.0 * (classes + q) * n),
+            History::RelaxedFft | History::Auto if RelaxedFftHistory::takes_wavenumbers(kernel) => {
+                let length = n.max(64.0).log2().ceil().exp2();
+                let levels = (length / 32.0).log2();
+                // Transforms of all lengths from 64 to M.
+                let transforms = 5.0 * q * (2.0 * length).log2();
+                (128.0 * q + levels * (8.0 * q + transforms), (64.0 * q + 32.0) * length)
+            }
             History::RelaxedFft | History::Auto => {
                 let length = n.max(64.0).log2().ceil().exp2();
                 let levels = (length / 64.0).log2();

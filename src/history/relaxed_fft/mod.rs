@@ -128,6 +128,11 @@ impl RelaxedFftHistory {
         Self::of(kernel)
     }
 
+    /// Whether it transforms along the surface, unless told otherwise.
+    pub(crate) fn takes_wavenumbers(source: &dyn CoefficientSource) -> bool {
+        source.elements().len() >= WAVES_FROM && Lattice::of(source).is_some()
+    }
+
     /// History of any coefficients, empty.
     pub(crate) fn of(source: Arc<dyn CoefficientSource>) -> Self {
         let padded = vec![0.0; 2 * source.elements().len()];
