@@ -245,23 +245,6 @@ fn growth_is_that_of_the_march() {
     assert!(marched_growth(&kernel, false, 1200) < 1e-3);
 }
 
-/// GOAL: the table of the full-plane formulation, bounded or not.
-#[test]
-fn table_of_bounded_and_growing_marches() {
-    let bounded = |kernel: &dyn BoundaryKernel, conditions: &[BoundaryCondition]| {
-        let found = Stability::assess(kernel, conditions, 1e-3).unwrap();
-        found.is_bounded()
-    };
-    for (beta, free, bonded) in [(0.5, false, false), (1.0, false, true), (2.0, true, true)] {
-        assert_eq!(bounded(&time_kernel(beta), &FREE), free, "time {beta}");
-        assert_eq!(bounded(&time_kernel(beta), &BONDED), bonded, "time bonded {beta}");
-    }
-    for (beta, free) in [(0.25, false), (0.5, true), (1.0, true), (2.0, true)] {
-        assert_eq!(bounded(&cq(beta, CqMethod::Bdf2), &FREE), free, "BDF2 {beta}");
-        assert!(bounded(&cq(beta, CqMethod::Bdf1), &FREE), "BDF1 {beta}");
-    }
-}
-
 /// GOAL: the passivity figure: BDF2 at β = ½ is slightly active, the time kernel badly so.
 #[test]
 fn passivity_tells_active_operators() {

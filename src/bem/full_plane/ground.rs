@@ -30,9 +30,10 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 /// The scheme is not stable for every step: see [the module](super). [`Ground::prepare`], which the
 /// builder of a simulation calls, assesses the discrete operator for this boundary, step and kernel
 /// with the base uplifted and bonded, and ends with [`Error::Unstable`] if perturbations grow by
-/// more than 1e-4 per step. [`Ground::stability`] has the figures. The assessment takes about the
-/// time of a few hundred factorisations of a complex matrix of order 2E, ten times that if modes
-/// grow: 0.2 to 2 s for the 20 elements of the paper, 1.4 s for 50 bounded ones.
+/// more than 1e-4 per step. [`Ground::stability`] has the figures. The assessment takes the time of
+/// a thousand factorisations of complex matrices of order 2E, ten times that if modes grow: with
+/// the 20 elements of the paper 0.2 s and up to 2 s (release build). It is paid for once per step
+/// size, and [`FullPlaneGround::skip_assessment`] saves it.
 ///
 /// ```
 /// use basemat::{Soil, bem::{Ground, full_plane::FullPlaneGround}};

@@ -10,6 +10,8 @@
 //! the integral by the trapezoidal rule in ln y, which converges exponentially: for |ζ| ≤ 1 the
 //! pole y = N ln ζ stays a quarter turn or more away.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::f64::consts::{PI, TAU};
 
 use realfft::RealFftPlanner;
@@ -37,7 +39,9 @@ pub(super) struct Symbol<'a> {
     prescribed: Vec<bool>,
     /// Size of tractions that makes columns of G as large as those of H.
     scale: f64,
-    /// Gⁿ and Hⁿ side by side (each 2E × 2E), early lags one after the other.
+    /// Entries of G and H side by side (each 2E × 2E) that share a series: places and signs.
+    classes: Vec<Vec<(usize, f64)>>,
+    /// Early lags of each class, one lag after the other.
     early: Vec<f64>,
     /// Coefficients of (N/n)^p, p = 1 …, in the same layout.
     late: Vec<f64>,
@@ -59,14 +63,16 @@ impl<'a> Symbol<'a> {
             kernel,
             prescribed: vec![],
             scale: 1.0,
-            early: vec![0.0; 2 * size],
+            classes: vec![],
+            early: vec![],
             late: vec![],
             lags: FIRST,
             tail_error: 0.0,
         };
         symbol.prescribe(conditions)?;
-        symbol.read(0)?;
-        let (g, h) = symbol.early.split_at(size);
+        let mut first = vec![0.0; 2 * size];
+        symbol.read(0, &mut first)?;
+        let (g, h) = first.split_at(size);
         symbol.scale = largest(h) / largest(g);
         if !symbol.scale.is_finite() {
             return Err(Error::Singular { matrix: "coefficients of lag 0", order: 2 * count });
@@ -78,11 +84,32 @@ impl<'a> Symbol<'a> {
             }
             symbol.lags *= 2;
         }
-        symbol.early.resize(2 * size * symbol.lags, 0.0);
-        for lag in 1..symbol.lags {
-            symbol.read(lag)?;
+        symbol.classes = classes(&first, &symbol.late);
+        if !symbol.read_early()? {
+            symbol.classes = (0..2 * size).map(|place| vec![(place, 1.0)]).collect();
+            symbol.read_early()?;
         }
+        let late = symbol.late.chunks_exact(2 * size);
+        symbol.late =
+            late.flat_map(|all| symbol.classes.iter().map(|class| all[class[0].0])).collect();
         Ok(symbol)
+    }
+
+    /// Reads the early lags of all classes; false if a class turns out to be of several series.
+    fn read_early(&mut self) -> Result<bool> {
+        let mut all = vec![0.0; self.stride()];
+        self.early.clear();
+        for lag in 0..self.lags {
+            self.read(lag, &mut all)?;
+            for class in &self.classes {
+                let value = all[class[0].0];
+                if class.iter().any(|(place, sign)| all[*place] != sign * value) {
+                    return Ok(false);
+                }
+                self.early.push(value);
+            }
+        }
+        Ok(true)
     }
 
     /// Takes other conditions in place of those it was made with: coefficients remain.
@@ -122,9 +149,9 @@ impl<'a> Symbol<'a> {
         2 * self.order() * self.order()
     }
 
-    fn read(&mut self, lag: usize) -> Result<()> {
-        let stride = self.stride();
-        let (g, h) = self.early[lag * stride..][..stride].split_at_mut(stride / 2);
+    /// Overwrites `all` with Gⁿ and Hⁿ.
+    fn read(&self, lag: usize, all: &mut [f64]) -> Result<()> {
+        let (g, h) = all.split_at_mut(self.stride() / 2);
         self.kernel.coefficients(lag, g, h)
     }
 
@@ -197,11 +224,10 @@ impl<'a> Symbol<'a> {
         Ok(())
     }
 
-    /// Adds the late lags' share to `sum`, as laid out in `early`.
+    /// Adds the late lags' share to `sum`, one per class.
     fn add_late(&self, zeta: Complex64, sum: &mut [Complex64]) {
         let tails = tail_sums(zeta, self.lags as f64);
-        let stride = self.stride();
-        for (tail, late) in tails.iter().zip(self.late.chunks_exact(stride)) {
+        for (tail, late) in tails.iter().zip(self.late.chunks_exact(self.classes.len())) {
             for (sum, late) in sum.iter_mut().zip(late) {
                 *sum += tail * late;
             }
@@ -223,16 +249,21 @@ impl<'a> Symbol<'a> {
             sum.extend(exact.chunks_exact(2).map(|x| Complex64::new(x[0], x[1])));
             return Ok(Some(Complex64::new(re, im)));
         }
-        sum.clear();
-        sum.resize(stride, Complex64::default());
+        let mut series = vec![Complex64::default(); self.classes.len()];
         let mut power = Complex64::new(1.0, 0.0);
-        for lag in self.early.chunks_exact(stride) {
-            for (sum, value) in sum.iter_mut().zip(lag) {
+        for lag in self.early.chunks_exact(self.classes.len()) {
+            for (sum, value) in series.iter_mut().zip(lag) {
                 *sum += power * value;
             }
             power *= zeta;
         }
-        self.add_late(zeta, sum);
+        self.add_late(zeta, &mut series);
+        sum.resize(stride, Complex64::default());
+        for (class, value) in self.classes.iter().zip(series) {
+            for (place, sign) in class {
+                sum[*place] = value * sign;
+            }
+        }
         Ok(None)
     }
 
@@ -248,7 +279,7 @@ impl<'a> Symbol<'a> {
 
     /// Operators at ζ = `radius` e^{iθ}, θ = 2πk/`points` for k = 0 … `points`/2, by FFT.
     pub(super) fn operators_on(&self, radius: f64, points: usize) -> Vec<Vec<Complex64>> {
-        let (order, stride) = (self.order(), self.stride());
+        let (order, count) = (self.order(), self.classes.len());
         let forward = RealFftPlanner::new().plan_fft_forward(points);
         let mut series = forward.make_input_vec();
         let mut spectrum = forward.make_output_vec();
@@ -259,19 +290,25 @@ impl<'a> Symbol<'a> {
             .collect();
         let tails: Vec<_> = zetas.iter().map(|zeta| tail_sums(*zeta, self.lags as f64)).collect();
         let mut operators = vec![vec![Complex64::default(); order * order]; frequencies];
-        for place in 0..order * order {
-            let prescribed = self.prescribed[place % order];
-            let entry = if prescribed { place } else { stride / 2 + place };
-            let factor = if prescribed { -self.scale } else { 1.0 };
-            series.fill(0.0);
-            let mut power = factor;
-            for n in 0..self.lags {
-                // Lags beyond one turn fold onto earlier ones.
-                series[n % points] += power * self.early[n * stride + entry];
-                power *= radius;
-            }
-            if series.iter().all(|value| *value == 0.0) {
+        for (index, class) in self.classes.iter().enumerate() {
+            // Where the class is in the operator: G for unknown tractions, H for displacements.
+            let entries = class.iter().filter_map(|(place, sign)| {
+                let (of_h, place) = (*place >= order * order, place % (order * order));
+                let prescribed = self.prescribed[place % order];
+                let factor = if prescribed { -self.scale } else { 1.0 };
+                (prescribed != of_h).then_some((place, sign * factor))
+            });
+            let entries: Vec<_> = entries.collect();
+            let early = || self.early[index..].iter().step_by(count);
+            if entries.is_empty() || early().all(|value| *value == 0.0) {
                 continue;
+            }
+            series.fill(0.0);
+            let mut power = 1.0;
+            for (n, value) in early().enumerate() {
+                // Lags beyond one turn fold onto earlier ones.
+                series[n % points] += power * value;
+                power *= radius;
             }
             // Lengths are those of the plan.
             if forward.process_with_scratch(&mut series, &mut spectrum, &mut scratch).is_err() {
@@ -281,14 +318,42 @@ impl<'a> Symbol<'a> {
                 let late: Complex64 = tails[k]
                     .iter()
                     .enumerate()
-                    .map(|(p, tail)| tail * (factor * self.late[p * stride + entry]))
+                    .map(|(p, tail)| tail * self.late[p * count + index])
                     .sum();
                 // The transform's exponent has the other sign.
-                operator[place] = spectrum[k].conj() + late;
+                let value = spectrum[k].conj() + late;
+                for (place, factor) in &entries {
+                    operator[*place] = value * factor;
+                }
             }
         }
         operators
     }
+}
+
+/// Places that have the same first value and the same coefficients of late lags, up to sign: on a
+/// flat surface of equal elements there are few.
+fn classes(first: &[f64], late: &[f64]) -> Vec<Vec<(usize, f64)>> {
+    let stride = first.len();
+    let mut known = HashMap::new();
+    let mut classes: Vec<Vec<(usize, f64)>> = vec![];
+    for (place, head) in first.iter().enumerate() {
+        let values = || std::iter::once(*head).chain(late[place..].iter().step_by(stride).copied());
+        let sign = values().find(|value| *value != 0.0).map_or(1.0, f64::signum);
+        // Zeros of both signs are one.
+        let key: Vec<u64> = values().map(|value| (sign * value + 0.0).to_bits()).collect();
+        match known.entry(key) {
+            Entry::Occupied(entry) => {
+                let (class, sign_of_class): (usize, f64) = *entry.get();
+                classes[class].push((place, sign * sign_of_class));
+            }
+            Entry::Vacant(entry) => {
+                entry.insert((classes.len(), sign));
+                classes.push(vec![(place, 1.0)]);
+            }
+        }
+    }
+    classes
 }
 
 /// Σ_{n≥first} ζⁿ (first/n)^p for p = 1 … [`POWERS`].
