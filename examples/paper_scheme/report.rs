@@ -186,7 +186,11 @@ pub(crate) fn draw<'a>(
             let shown = beyond.unwrap_or(usize::MAX);
             let name = match outcome.end {
                 End::Record => scheme.name().to_owned(),
-                _ => format!("{} (to {:.2} s)", scheme.name(), sound as f64 * outcome.time_step),
+                _ => format!(
+                    "{} (sound to {:.2} s)",
+                    scheme.name(),
+                    sound as f64 * outcome.time_step
+                ),
             };
             let points = outcome.shear.iter().take(shown).enumerate();
             let points = points
