@@ -15,8 +15,9 @@
 //! | half-plane | half-plane kernel, element means | thin layer | Newmark | robust |
 //! | basemat | half-plane kernel, element means | Coulomb | midpoint rule | robust |
 //!
-//! Where a run leaves the crate's own by more than that one's peak, it counts as grown: peaks and
-//! differences are those of the time before. The third tells what is soil and what is interface and structure in the differences.
+//! The third tells what is soil and what is interface and structure in the differences. Peaks and
+//! differences of a run that grows are those of the time before it leaves the third by 30 % of its
+//! peak.
 
 mod case;
 #[path = "../common/chart.rs"]

@@ -39,9 +39,13 @@ pub(crate) fn growth_of(found: &Stability) -> String {
     }
 }
 
+/// A run that grows, or ends early, is sound as long as it is within this share of the half-plane's
+/// peak from the half-plane's run, which has the same interface.
+const SOUND: f64 = 0.3;
+
 /// What a run's numbers are against: the crate's own, and the half-plane under the same interface.
 struct Measures {
-    /// Steps before it leaves the crate's own run by that one's peak.
+    /// Sound steps.
     sound: usize,
     /// Peak of these steps, lb/ft.
     peak: f64,
@@ -53,18 +57,21 @@ struct Measures {
 
 fn measures(row: &Row, outcome: &Outcome) -> Option<Measures> {
     let (own, half_plane) = (row.outcome(Scheme::Own)?, row.outcome(Scheme::HalfPlane)?);
-    let sound = outcome.parts_from(own, 1.0).unwrap_or(outcome.shear.len());
+    let growth = outcome.growth(half_plane);
+    let whole = outcome.end == End::Record && growth.is_none();
+    let parts = if whole { None } else { outcome.parts_from(half_plane, SOUND) };
+    let sound = parts.unwrap_or(outcome.shear.len());
     Some(Measures {
         sound,
         peak: pounds_per_foot(outcome.peak(sound)),
-        growth: outcome.growth(own),
+        growth,
         differences: [own, half_plane].map(|other| outcome.difference(other, sound)),
     })
 }
 
 /// Peak base shears beside the paper's Table 1.
 pub(crate) fn print_peaks(rows: &[Row]) {
-    println!("\nPeak base shear, lb/ft (of runs that end early: until then)\n");
+    println!("\nPeak base shear, lb/ft (of runs that grow or end early: as long as sound)\n");
     print!("| case | printed |");
     for scheme in SCHEMES {
         print!(" {} |", scheme.name());
@@ -75,7 +82,7 @@ pub(crate) fn print_peaks(rows: &[Row]) {
         for (_, outcome) in &row.outcomes {
             let Some(found) = measures(row, outcome) else { continue };
             match outcome.end {
-                End::Record => print!(" {:.0} |", found.peak),
+                End::Record if found.growth.is_none() => print!(" {:.0} |", found.peak),
                 _ => print!(
                     " {:.0} to {:.2} s |",
                     found.peak,
@@ -175,11 +182,17 @@ pub(crate) fn draw<'a>(
             row.name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
         let curve = |(scheme, outcome): &(Scheme, Outcome)| {
             let sound = measures(row, outcome).map_or(0, |found| found.sound);
+            let beyond = row.outcome(Scheme::Own).and_then(|own| outcome.parts_from(own, 1.0));
+            let shown = beyond.unwrap_or(usize::MAX);
             let name = match outcome.end {
                 End::Record => scheme.name().to_owned(),
-                _ => format!("{} (to {:.2} s)", scheme.name(), sound as f64 * outcome.time_step),
+                _ => format!(
+                    "{} (sound to {:.2} s)",
+                    scheme.name(),
+                    sound as f64 * outcome.time_step
+                ),
             };
-            let points = outcome.shear.iter().take(sound).enumerate();
+            let points = outcome.shear.iter().take(shown).enumerate();
             let points = points
                 .map(|(k, v)| ((k + 1) as f64 * outcome.time_step, 1e-3 * v))
                 .take_while(|point| point.0 <= SHOWN);
