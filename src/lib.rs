@@ -139,6 +139,11 @@
 //! | fundamental solution | [`fundamental::FundamentalSolution`] | 3 |
 //!
 //! The examples `your_own_structure`, `your_own_law` and `your_own_ground` do it.
+//!
+//! # Examples
+//!
+//! Short programs that print a table: `shear_building`, `rocking_block`, `floor_spectra`,
+//! `friction_sweep`, `travelling_wave`; `pictures` draws everything (feature `plot`).
 #![forbid(unsafe_code)]
 
 pub mod bem;
