@@ -2,13 +2,15 @@
 
 use super::element::{Direction, Element, FRAME, MassKind};
 use super::line::Line;
-use crate::error::{Result, not_negative, positive};
+use crate::error::{Result, finite, not_negative, positive};
 
 /// Straight prismatic beam between two nodes that rotate with it.
 ///
 /// Euler–Bernoulli with axial deformation; [`with_shear_stiffness`](Beam::with_shear_stiffness)
 /// makes it Timoshenko's. Exact for loads at the nodes (Przemieniecki, Theory of Matrix Structural
-/// Analysis, 1968, ch. 5). Rotary inertia of the cross-section is left out.
+/// Analysis, 1968, ch. 5). Rotary inertia of the cross-section is left out unless
+/// [`with_rotary_inertia`](Beam::with_rotary_inertia) asks for it, and so is the P–Δ effect of an axial
+/// force unless [`with_compression`](Beam::with_compression) gives one.
 /// Quadrilaterals do not hold the rotation of their nodes: a beam that ends on one is hinged there,
 /// unless it runs on along the edge of a second one.
 ///
@@ -28,6 +30,10 @@ pub struct Beam {
     bending_stiffness: f64,
     shear_stiffness: Option<f64>,
     mass_per_length: f64,
+    /// ρ I, kg m.
+    section_inertia: f64,
+    has_rotary_inertia: bool,
+    compression: f64,
 }
 
 impl Beam {
@@ -55,6 +61,9 @@ impl Beam {
             bending_stiffness: positive("bending stiffness", young_modulus * second_moment)?,
             shear_stiffness: None,
             mass_per_length: not_negative("mass per length of the beam", density * area)?,
+            section_inertia: not_negative("inertia of the section", density * second_moment)?,
+            has_rotary_inertia: false,
+            compression: 0.0,
         })
     }
 
@@ -65,6 +74,25 @@ impl Beam {
     pub fn with_shear_stiffness(self, shear_stiffness: f64) -> Result<Self> {
         let shear_stiffness = Some(positive("shear stiffness of the beam", shear_stiffness)?);
         Ok(Self { shear_stiffness, ..self })
+    }
+
+    /// The same beam with the rotary inertia ρ I of its cross-section: with shear stiffness,
+    /// Timoshenko's beam in full.
+    #[must_use]
+    pub fn with_rotary_inertia(self) -> Self {
+        Self { has_rotary_inertia: true, ..self }
+    }
+
+    /// The same beam as a beam–column: a constant axial force `compression` P (N, negative for
+    /// tension) works on its sway, −½ P ∫ w′² dx in the potential energy (P–Δ and P–δ).
+    ///
+    /// The force is that of the static state, the weight above for example. The beam then meets a
+    /// rigid rotation with the moment of its ends' offset, as a real column does.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless it is finite.
+    pub fn with_compression(self, compression: f64) -> Result<Self> {
+        Ok(Self { compression: finite("axial force of the beam", compression)?, ..self })
     }
 
     /// `Φ = 12 EI/(G A_s L²)`, the ratio of shear to bending flexibility.
@@ -79,6 +107,24 @@ impl Beam {
         let near = |s: f64, t: f64| scale * t * (1.0 + s - 2.0 * s * s + ratio);
         let turn = |s: f64, t: f64| scale * length * s * t * (t + 0.5 * ratio);
         [0.0, near(s, t), turn(s, t), 0.0, near(t, s), -turn(t, s)]
+    }
+
+    /// Its slope along the beam, 1/m.
+    fn slope(ratio: f64, length: f64, s: f64) -> [f64; 6] {
+        let t = 1.0 - s;
+        let scale = 1.0 / (length * (1.0 + ratio));
+        let near = |s: f64, t: f64| scale * (t * (1.0 - 4.0 * s) - (1.0 + s - 2.0 * s * s + ratio));
+        let turn = |s: f64, t: f64| scale * length * ((t - s) * (t + 0.5 * ratio) - s * t);
+        [0.0, near(s, t), turn(s, t), 0.0, -near(t, s), turn(t, s)]
+    }
+
+    /// Rotation of the section, rad: the slope without the shear strain (Friedman & Kosmatka 1993).
+    fn rotation(ratio: f64, length: f64, s: f64) -> [f64; 6] {
+        let t = 1.0 - s;
+        let scale = 1.0 / (1.0 + ratio);
+        let side = 6.0 * scale * s * t / length;
+        let turn = |s: f64, t: f64| scale * t * (t - 2.0 * s + ratio);
+        [0.0, -side, turn(s, t), 0.0, side, turn(t, s)]
     }
 }
 
@@ -110,17 +156,27 @@ impl Element for Beam {
             [0.0, turn, far, 0.0, -turn, own],
         ];
         line.add_rotated(&local, matrix);
+        if self.compression != 0.0 {
+            let mut local = [[0.0; 6]; 6];
+            for (place, weight) in GAUSS_4 {
+                let slope = Self::slope(ratio, length, place);
+                add_outer(-self.compression * length * weight, &slope, &mut local);
+            }
+            line.add_rotated(&local, matrix);
+        }
     }
 
     /// Lumped: halves at the nodes, with the rotary inertia m L²/78 that keeps the ratio of the
-    /// consistent diagonal (Hinton, Rock & Zienkiewicz, 1976).
+    /// consistent diagonal (Hinton, Rock & Zienkiewicz, 1976), and half of the sections' own.
     fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {
         let Some(line) = Line::between(coordinates) else { return };
         let length = line.length;
         let mass = self.mass_per_length * length;
         let mut local = [[0.0; 6]; 6];
         if kind == MassKind::Lumped {
-            let turn = mass * length * length / 78.0;
+            let own =
+                if self.has_rotary_inertia { 0.5 * self.section_inertia * length } else { 0.0 };
+            let turn = mass * length * length / 78.0 + own;
             for (i, value) in [0.5 * mass, 0.5 * mass, turn].into_iter().enumerate() {
                 local[i][i] = value;
                 local[i + 3][i + 3] = value;
@@ -131,10 +187,11 @@ impl Element for Beam {
         for (place, weight) in GAUSS_4 {
             let across = Self::deflection(ratio, length, place);
             let along = [1.0 - place, 0.0, 0.0, place, 0.0, 0.0];
-            for i in 0..6 {
-                for j in 0..6 {
-                    local[i][j] += mass * weight * (across[i] * across[j] + along[i] * along[j]);
-                }
+            add_outer(mass * weight, &across, &mut local);
+            add_outer(mass * weight, &along, &mut local);
+            if self.has_rotary_inertia {
+                let turned = Self::rotation(ratio, length, place);
+                add_outer(self.section_inertia * length * weight, &turned, &mut local);
             }
         }
         line.add_rotated(&local, matrix);
@@ -143,6 +200,15 @@ impl Element for Beam {
     /// [`Error::Input`](crate::Error::Input) when the two nodes coincide.
     fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
         Line::check("length of the beam", coordinates)
+    }
+}
+
+/// Adds factor · l lᵀ.
+fn add_outer(factor: f64, row: &[f64; 6], matrix: &mut [[f64; 6]; 6]) {
+    for (entries, a) in matrix.iter_mut().zip(row) {
+        for (entry, b) in entries.iter_mut().zip(row) {
+            *entry += factor * a * b;
+        }
     }
 }
 

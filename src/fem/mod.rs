@@ -26,6 +26,7 @@ mod mesh;
 mod numbering;
 mod quad4;
 mod quad4_shape;
+mod quad8;
 mod spring;
 mod truss;
 
@@ -40,5 +41,6 @@ pub use material::Material;
 pub use mesh::Mesh;
 pub use numbering::Numbering;
 pub use quad4::{Quad4, QuadFormulation};
+pub use quad8::{Quad8, Quad8Integration};
 pub use spring::Spring;
 pub use truss::Truss;

@@ -1,6 +1,7 @@
 //! Structure made of finite elements.
 
 use super::rayleigh::RayleighDamping;
+use super::rigid_links::RigidLinks;
 use super::section::{Section, SectionRows};
 use super::{ContactNode, Structure, Triplets};
 use crate::error::{Error, Result, finite, positive};
@@ -31,6 +32,9 @@ use crate::fem::{
 pub struct FemModel {
     mesh: Mesh,
     numbering: Numbering,
+    links: Option<RigidLinks>,
+    /// Nodes of the mesh that touch the ground, and how they do.
+    feet: Vec<usize>,
     contact: Vec<ContactNode>,
     mass_kind: MassKind,
     damping: RayleighDamping,
@@ -76,6 +80,8 @@ impl FemModel {
         Ok(Self {
             mesh,
             numbering,
+            links: None,
+            feet: contact.to_vec(),
             contact: nodes,
             mass_kind: MassKind::default(),
             damping: RayleighDamping::default(),
@@ -103,6 +109,50 @@ impl FemModel {
         Self { damping, ..self }
     }
 
+    /// The same structure in which the nodes `followers` move with `leader` as one rigid body: stiff
+    /// joints, offsets of beams, a rigid slab or basemat.
+    ///
+    /// Followers lose their unknowns, and the structure's are numbered anew, node by node:
+    /// [`unknown`](FemModel::unknown) gives `None` for them and [`row`](FemModel::row) what
+    /// they do. Their masses and stiffnesses stay where they are. Contact nodes may follow.
+    ///
+    /// ```
+    /// use basemat::fem::{Beam, Direction, Mesh};
+    /// use basemat::structure::{FemModel, Structure};
+    ///
+    /// // A column on the middle of a rigid basemat 4 m wide.
+    /// let mut mesh = Mesh::new();
+    /// let [left, foot, right] =
+    ///     [mesh.add_node(-2.0, 0.0)?, mesh.add_node(0.0, 0.0)?, mesh.add_node(2.0, 0.0)?];
+    /// let top = mesh.add_node(0.0, 6.0)?;
+    /// for ends in [[left, foot], [foot, right], [foot, top]] {
+    ///     mesh.add(Beam::new(ends, 30.0e9, 0.5, 0.01, 2400.0)?)?;
+    /// }
+    /// let model = FemModel::on_base(mesh)?.with_rigid_link(foot, &[left, right])?;
+    /// assert_eq!(model.unknowns(), 6);
+    /// assert_eq!(model.unknown(top, Direction::X), Some(3));
+    /// // The right end rises with the foot and by 2 m times its rotation.
+    /// assert_eq!(model.row(right, Direction::Y), Some(vec![(1, 1.0), (2, 2.0)]));
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Index`] for a node that does not exist, [`Error::Scene`] when the leader lacks one of
+    /// the three unknowns or follows another node, or a follower leads or follows one already.
+    pub fn with_rigid_link(mut self, leader: usize, followers: &[usize]) -> Result<Self> {
+        let links = self.links.take();
+        let mut links = links.unwrap_or_else(|| RigidLinks::new(&self.mesh, &self.numbering));
+        links.link(&self.mesh, &self.numbering, leader, followers)?;
+        let mut linked = Self { links: Some(links), ..self };
+        for place in 0..linked.feet.len() {
+            let row = |direction| linked.row(linked.feet[place], direction).unwrap_or_default();
+            let (horizontal, vertical) = (row(Direction::X), row(Direction::Y));
+            let node = &mut linked.contact[place];
+            (node.horizontal, node.vertical) = (horizontal, vertical);
+        }
+        Ok(linked)
+    }
+
     /// The nodes and elements.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
@@ -110,7 +160,15 @@ impl FemModel {
 
     /// Index of the unknown of `node` in `direction`, if there is one.
     pub fn unknown(&self, node: usize, direction: Direction) -> Option<usize> {
-        self.numbering.unknown(node, direction)
+        let unknown = self.numbering.unknown(node, direction)?;
+        self.links.as_ref().map_or(Some(unknown), |links| links.remaining(node, unknown))
+    }
+
+    /// Motion of `node` in `direction` as a weighted sum of unknowns, if it has one: the unknown
+    /// itself, or what the rigid link of a follower makes of its leader's.
+    pub fn row(&self, node: usize, direction: Direction) -> Option<Vec<(usize, f64)>> {
+        let own = [(self.numbering.unknown(node, direction)?, 1.0)];
+        Some(self.links.as_ref().map_or(own.to_vec(), |links| links.row(&own)))
     }
 
     /// Node nearest to (`x`, `y`), m; the first one when several are.
@@ -120,7 +178,19 @@ impl FemModel {
 
     /// Unknowns of a unit rigid motion: 1 m in x or y, or a small rotation of 1 rad about `point`.
     pub fn rigid_motion(&self, direction: Direction, point: [f64; 2]) -> Vec<f64> {
-        let mut motion = vec![0.0; self.numbering.unknowns()];
+        let mut motion = vec![0.0; self.unknowns()];
+        self.fill_rigid_motion(direction, point, &mut motion, |node, own| self.unknown(node, own));
+        motion
+    }
+
+    /// The same by any numbering.
+    fn fill_rigid_motion(
+        &self,
+        direction: Direction,
+        point: [f64; 2],
+        motion: &mut [f64],
+        number: impl Fn(usize, Direction) -> Option<usize>,
+    ) {
         for (node, [x, y]) in self.mesh.nodes().iter().enumerate() {
             let values = match direction {
                 Direction::X => [1.0, 0.0, 0.0],
@@ -128,12 +198,11 @@ impl FemModel {
                 Direction::Rotation => [point[1] - y, x - point[0], 1.0],
             };
             for (own, value) in ALL_DIRECTIONS.into_iter().zip(values) {
-                if let Some(unknown) = self.numbering.unknown(node, own) {
+                if let Some(unknown) = number(node, own) {
                     motion[unknown] = value;
                 }
             }
         }
-        motion
     }
 
     /// Forces that the part above `height` (m) exerts on the part below, moments about
@@ -176,25 +245,41 @@ impl FemModel {
             vec![sum(Quantity::Stiffness, self.damping.stiffness()), sum(Quantity::Damping, 1.0)],
             vec![sum(Quantity::Mass(self.mass_kind), 1.0)],
         ];
-        let rows = |motion: Vec<f64>, sign: f64| {
+        // The work of the cut's forces on a rigid motion is their resultant.
+        let rows = |direction: Direction, sign: f64| {
+            let number = |node, own| self.numbering.unknown(node, own);
+            let mut motion = vec![0.0; self.numbering.unknowns()];
+            self.fill_rigid_motion(direction, [reference, height], &mut motion, number);
             let mut weights = vec![0.0; motion.len()];
             for &node in &cut {
-                for unknown in ALL_DIRECTIONS.iter().filter_map(|&d| self.unknown(node, d)) {
+                for unknown in ALL_DIRECTIONS.iter().filter_map(|&d| number(node, d)) {
                     weights[unknown] = sign * motion[unknown];
                 }
             }
-            let [displacement, velocity, acceleration] =
-                [0, 1, 2].map(|order| weighted_rows(&weights, &matrices[order]));
+            let [displacement, velocity, acceleration] = [0, 1, 2].map(|order| {
+                let row = weighted_rows(&weights, &matrices[order]);
+                self.links.as_ref().map_or_else(|| row.clone(), |links| links.row(&row))
+            });
             SectionRows { displacement, velocity, acceleration }
         };
-        // The work of the cut's forces on a rigid motion is their resultant.
-        let point = [reference, height];
         Ok(Section {
             height,
-            shear: rows(self.rigid_motion(Direction::X, point), 1.0),
-            compression: rows(self.rigid_motion(Direction::Y, point), -1.0),
-            moment: rows(self.rigid_motion(Direction::Rotation, point), 1.0),
+            shear: rows(Direction::X, 1.0),
+            compression: rows(Direction::Y, -1.0),
+            moment: rows(Direction::Rotation, 1.0),
         })
+    }
+
+    /// Adds what `fill` adds in the mesh's unknowns, in those that remain.
+    fn condensed(&self, matrix: &mut Triplets, fill: impl Fn(&mut Triplets)) {
+        match &self.links {
+            None => fill(matrix),
+            Some(links) => {
+                let mut own = Triplets::new(self.numbering.unknowns());
+                fill(&mut own);
+                links.add_condensed(&own, matrix);
+            }
+        }
     }
 }
 
@@ -213,7 +298,7 @@ fn weighted_rows(weights: &[f64], matrices: &[Triplets]) -> Vec<(usize, f64)> {
 
 impl Structure for FemModel {
     fn unknowns(&self) -> usize {
-        self.numbering.unknowns()
+        self.links.as_ref().map_or(self.numbering.unknowns(), RigidLinks::unknowns)
     }
 
     fn contact_nodes(&self) -> Vec<ContactNode> {
@@ -221,21 +306,27 @@ impl Structure for FemModel {
     }
 
     fn mass(&self, matrix: &mut Triplets) {
-        assemble_mass(&self.mesh, &self.numbering, self.mass_kind, 1.0, matrix);
+        self.condensed(matrix, |matrix| {
+            assemble_mass(&self.mesh, &self.numbering, self.mass_kind, 1.0, matrix);
+        });
     }
 
     fn stiffness(&self, matrix: &mut Triplets) {
-        assemble_stiffness(&self.mesh, &self.numbering, 1.0, matrix);
+        self.condensed(matrix, |matrix| {
+            assemble_stiffness(&self.mesh, &self.numbering, 1.0, matrix);
+        });
     }
 
     fn damping(&self, matrix: &mut Triplets) {
         let (mass, stiffness) = (self.damping.mass(), self.damping.stiffness());
-        if mass > 0.0 {
-            assemble_mass(&self.mesh, &self.numbering, self.mass_kind, mass, matrix);
-        }
-        if stiffness > 0.0 {
-            assemble_stiffness(&self.mesh, &self.numbering, stiffness, matrix);
-        }
-        assemble_damping(&self.mesh, &self.numbering, 1.0, matrix);
+        self.condensed(matrix, |matrix| {
+            if mass > 0.0 {
+                assemble_mass(&self.mesh, &self.numbering, self.mass_kind, mass, matrix);
+            }
+            if stiffness > 0.0 {
+                assemble_stiffness(&self.mesh, &self.numbering, stiffness, matrix);
+            }
+            assemble_damping(&self.mesh, &self.numbering, 1.0, matrix);
+        });
     }
 }

@@ -6,10 +6,12 @@ mod fem_model;
 mod hysteresis;
 mod matrix_market;
 mod matrix_model;
+mod modal_damping;
 mod nonlinear_shear_building;
 mod rayleigh;
 mod recovery;
 mod rigid_block;
+mod rigid_links;
 mod section;
 mod shear_building;
 mod springs;
@@ -22,6 +24,7 @@ pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
 };
 pub use matrix_model::MatrixModel;
+pub use modal_damping::{ModalDamping, WithModalDamping};
 pub use nonlinear_shear_building::{IsolationLevel, NonlinearShearBuilding};
 pub use rayleigh::RayleighDamping;
 pub use recovery::Recovery;

@@ -1,0 +1,209 @@
+//! Eight-node quadrilateral of a solid in plane strain.
+
+use super::element::{Direction, Element, MassKind, TRANSLATIONS, add_square};
+use super::material::Material;
+use crate::error::{Error, Result, same_length};
+
+/// How the stiffness of a [`Quad8`] is integrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Quad8Integration {
+    /// 2 × 2 Gauss points, the default: rectangles bend exactly, and nothing locks as ν → 1/2. One
+    /// pattern of a single element meets no resistance, but two elements cannot follow it together.
+    #[default]
+    Reduced,
+    /// 3 × 3 Gauss points: no such pattern, stiffer when distorted or nearly incompressible.
+    Full,
+}
+
+/// Plane-strain serendipity quadrilateral, 1 m thick: four corners counter-clockwise, then the
+/// nodes between the first and second corner, the second and third, and so on.
+///
+/// Edges may be curved. At the base, where the ground sees straight lines between neighbouring
+/// nodes, the nodes in the middle of edges are contact nodes like the corners.
+///
+/// ```
+/// use basemat::fem::{Element, MassKind, Material, Quad8};
+///
+/// let material = Material::new(1.0e9, 0.3, 2000.0)?;
+/// let quad = Quad8::new([0, 1, 2, 3, 4, 5, 6, 7], material);
+/// let nodes = [
+///     [0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0],
+///     [1.0, 0.0], [2.0, 0.5], [1.0, 1.0], [0.0, 0.5],
+/// ];
+/// let mut mass = vec![0.0; 256];
+/// quad.mass(&nodes, MassKind::Consistent, &mut mass);
+/// // All entries of one direction sum up to the mass.
+/// let total: f64 = (0..8).flat_map(|i| (0..8).map(move |j| (2 * i, 2 * j)))
+///     .map(|(i, j)| mass[16 * i + j]).sum();
+/// assert!((total - 4000.0).abs() < 1e-9);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quad8 {
+    nodes: [usize; 8],
+    material: Material,
+    integration: Quad8Integration,
+}
+
+/// Natural coordinates (ξ, η) of the nodes.
+const PLACES: [[f64; 2]; 8] = [
+    [-1.0, -1.0],
+    [1.0, -1.0],
+    [1.0, 1.0],
+    [-1.0, 1.0],
+    [0.0, -1.0],
+    [1.0, 0.0],
+    [0.0, 1.0],
+    [-1.0, 0.0],
+];
+
+impl Quad8 {
+    /// Quadrilateral between `nodes`, with reduced integration.
+    pub fn new(nodes: [usize; 8], material: Material) -> Self {
+        Self { nodes, material, integration: Quad8Integration::default() }
+    }
+
+    /// The same quadrilateral, integrated otherwise.
+    #[must_use]
+    pub fn with_integration(self, integration: Quad8Integration) -> Self {
+        Self { integration, ..self }
+    }
+}
+
+/// Shape functions at (ξ, η) (Zienkiewicz & Taylor, The Finite Element Method, serendipity family).
+fn shape([xi, eta]: [f64; 2]) -> [f64; 8] {
+    PLACES.map(|[a, b]| {
+        let (x, y) = (a * xi, b * eta);
+        if a == 0.0 {
+            0.5 * (1.0 - xi * xi) * (1.0 + y)
+        } else if b == 0.0 {
+            0.5 * (1.0 + x) * (1.0 - eta * eta)
+        } else {
+            0.25 * (1.0 + x) * (1.0 + y) * (x + y - 1.0)
+        }
+    })
+}
+
+/// Their slopes (∂/∂ξ, ∂/∂η).
+fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 8] {
+    PLACES.map(|[a, b]| {
+        let (x, y) = (a * xi, b * eta);
+        if a == 0.0 {
+            [-xi * (1.0 + y), 0.5 * b * (1.0 - xi * xi)]
+        } else if b == 0.0 {
+            [0.5 * a * (1.0 - eta * eta), -eta * (1.0 + x)]
+        } else {
+            [0.25 * a * (1.0 + y) * (2.0 * x + y), 0.25 * b * (1.0 + x) * (x + 2.0 * y)]
+        }
+    })
+}
+
+/// Slopes (∂/∂x, ∂/∂y) at a point, and the determinant of ∂(x, y)/∂(ξ, η).
+fn slopes(point: [f64; 2], coordinates: &[[f64; 2]]) -> ([[f64; 2]; 8], f64) {
+    let natural = natural_slopes(point);
+    let mut j = [[0.0; 2]; 2];
+    for (slope, node) in natural.iter().zip(coordinates) {
+        for axis in 0..2 {
+            j[axis][0] += slope[0] * node[axis];
+            j[axis][1] += slope[1] * node[axis];
+        }
+    }
+    let determinant = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+    let global = natural.map(|[xi, eta]| {
+        [(j[1][1] * xi - j[1][0] * eta) / determinant, (j[0][0] * eta - j[0][1] * xi) / determinant]
+    });
+    (global, determinant)
+}
+
+/// Gauss points and weights of the square.
+fn gauss(integration: Quad8Integration) -> Vec<([f64; 2], f64)> {
+    let third = 1.0 / 3.0_f64.sqrt();
+    let far = 0.6_f64.sqrt();
+    let line: &[(f64, f64)] = match integration {
+        Quad8Integration::Reduced => &[(-third, 1.0), (third, 1.0)],
+        Quad8Integration::Full => &[(-far, 5.0 / 9.0), (0.0, 8.0 / 9.0), (far, 5.0 / 9.0)],
+    };
+    let pairs = line.iter().flat_map(|a| line.iter().map(move |b| (a, b)));
+    pairs.map(|((x, v), (y, w))| ([*x, *y], v * w)).collect()
+}
+
+impl Element for Quad8 {
+    fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+
+    fn directions(&self) -> &[Direction] {
+        TRANSLATIONS
+    }
+
+    fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+        let elasticity = self.material.elasticity();
+        let mut block = [[0.0; 16]; 16];
+        for (point, weight) in gauss(self.integration) {
+            let (slopes, determinant) = slopes(point, coordinates);
+            let strain: [[f64; 3]; 16] = std::array::from_fn(|i| {
+                let [dx, dy] = slopes[i / 2];
+                if i % 2 == 0 { [dx, 0.0, dy] } else { [0.0, dy, dx] }
+            });
+            let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+            let stress = strain.map(|e| elasticity.map(|row| dot(&row, &e)));
+            for i in 0..16 {
+                for j in 0..16 {
+                    block[i][j] += weight * determinant * dot(&strain[i], &stress[j]);
+                }
+            }
+        }
+        add_square(matrix, &block);
+    }
+
+    /// Lumped: the diagonal of the consistent mass, scaled to the mass of the element (Hinton,
+    /// Rock & Zienkiewicz 1976); row sums would be negative at the corners.
+    fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {
+        let mut one = [[0.0; 8]; 8];
+        let mut total = 0.0;
+        for (point, weight) in gauss(Quad8Integration::Full) {
+            let shape = shape(point);
+            let weight = weight * self.material.density() * slopes(point, coordinates).1;
+            total += weight;
+            for i in 0..8 {
+                for j in 0..8 {
+                    one[i][j] += weight * shape[i] * shape[j];
+                }
+            }
+        }
+        if kind == MassKind::Lumped {
+            let diagonal: f64 = (0..8).map(|i| one[i][i]).sum();
+            let scale = if diagonal > 0.0 { total / diagonal } else { 0.0 };
+            for (i, row) in one.iter_mut().enumerate() {
+                let own = scale * row[i];
+                row.fill(0.0);
+                row[i] = own;
+            }
+        }
+        let mut block = [[0.0; 16]; 16];
+        for i in 0..8 {
+            for j in 0..8 {
+                block[2 * i][2 * j] = one[i][j];
+                block[2 * i + 1][2 * j + 1] = one[i][j];
+            }
+        }
+        add_square(matrix, &block);
+    }
+
+    /// [`Error::Input`] unless the element's map is regular at its nodes and Gauss points.
+    fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
+        same_length("coordinates of an eight-node quadrilateral", coordinates.len(), 8)?;
+        let points = gauss(Quad8Integration::Full).into_iter().map(|(point, _)| point);
+        for point in points.chain(PLACES) {
+            let value = slopes(point, coordinates).1;
+            if !(value.is_finite() && value > 0.0) {
+                return Err(Error::Input {
+                    quantity: "Jacobian of an eight-node quadrilateral",
+                    value,
+                    needed: "above zero: nodes counter-clockwise, those of edges near the middle",
+                });
+            }
+        }
+        Ok(())
+    }
+}

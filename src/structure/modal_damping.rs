@@ -1,0 +1,177 @@
+//! Damping given mode by mode.
+
+use super::{ContactNode, InternalEnergy, Structure, Triplets};
+use crate::error::{Error, Result, not_negative};
+use crate::linalg::{SparseMatrix, generalised_modes, largest};
+
+/// Damping ratios of a structure's own modes: C = M Φ diag(2 ζ ω) Φᵀ M.
+///
+/// The modes are those of the structure by itself, without ground; its rigid motions have no
+/// frequency and are not damped. They stay the modes of the damped structure, so that it can be
+/// stepped in them ([`Coordinates::Modes`](crate::coupled::Coordinates::Modes)).
+///
+/// ```
+/// use basemat::structure::{ModalDamping, ShearBuilding, Storey};
+///
+/// let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
+/// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?;
+/// // 5 % in the lowest mode, 3 % in the next and 2 % in all others
+/// let damped = ModalDamping::new(&[0.05, 0.03, 0.02])?.on(building)?;
+/// assert_eq!(damped.frequencies().len(), 5);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModalDamping {
+    ratios: Vec<f64>,
+}
+
+/// A structure with the damping of [`ModalDamping`] beside its own.
+pub struct WithModalDamping {
+    structure: Box<dyn Structure>,
+    /// C, row-major.
+    damping: Vec<f64>,
+    /// ω/2π of the modes that are not rigid, ascending.
+    frequencies: Vec<f64>,
+}
+
+/// Most unknowns: C is a full matrix.
+const MOST: usize = 3000;
+/// Eigenvalues below this, relative to the largest, are those of rigid motions.
+const RIGID: f64 = 1e-10;
+
+impl ModalDamping {
+    /// Damping with the ratio ζ of each mode that is not rigid, from the lowest; the last ratio is
+    /// that of all further ones.
+    ///
+    /// # Errors
+    /// [`Error::Size`] without ratios, [`Error::Input`] unless all are finite and not negative.
+    pub fn new(ratios: &[f64]) -> Result<Self> {
+        if ratios.is_empty() {
+            return Err(Error::Size { quantity: "list of damping ratios", found: 0, needed: 1 });
+        }
+        for ratio in ratios {
+            not_negative("damping ratio", *ratio)?;
+        }
+        Ok(Self { ratios: ratios.to_vec() })
+    }
+
+    /// Gives this damping to a structure. A nonlinear one is taken with its first tangent.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for more than 3000 unknowns, of which a
+    /// [`CraigBampton`](super::CraigBampton) reduction leaves fewer; [`Error::Scene`] when the matrices
+    /// are not symmetric or the mass is not positive definite; and what is wrong with their entries.
+    pub fn on(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
+        let n = structure.unknowns();
+        if n > MOST {
+            let (quantity, value) = ("number of unknowns with modal damping", n as f64);
+            return Err(Error::Input { quantity, value, needed: "3000 or fewer: reduce it first" });
+        }
+        let (mut mass, mut stiffness) = (Triplets::new(n), Triplets::new(n));
+        structure.mass(&mut mass);
+        structure.stiffness(&mut stiffness);
+        if !structure.is_linear() {
+            structure.nonlinear_tangent(&vec![0.0; n], &mut stiffness);
+        }
+        let mass = SparseMatrix::new("mass matrix", &mass)?;
+        let stiffness = SparseMatrix::new("stiffness matrix", &stiffness)?;
+        let scene = Error::Scene {
+            quantity: "structure with modal damping",
+            needed: "must have symmetric matrices and a positive definite mass",
+        };
+        if mass.asymmetry().max(stiffness.asymmetry()) > super::matrix_model::SYMMETRIC {
+            return Err(scene);
+        }
+        let (values, vectors) = generalised_modes(&stiffness, &mass).ok_or(scene)?;
+        let zero = RIGID * largest(&values);
+        let mut damping = vec![0.0; n * n];
+        let mut frequencies = Vec::new();
+        let (mut mode, mut momentum) = (vec![0.0; n], vec![0.0; n]);
+        for (j, value) in values.iter().enumerate().filter(|(_, value)| **value > zero) {
+            let last = self.ratios.len() - 1;
+            let ratio = self.ratios[frequencies.len().min(last)];
+            let circular = value.sqrt();
+            frequencies.push(circular / std::f64::consts::TAU);
+            for (i, entry) in mode.iter_mut().enumerate() {
+                *entry = vectors[i * n + j];
+            }
+            momentum.fill(0.0);
+            mass.multiply_add(1.0, &mode, &mut momentum);
+            for (row, a) in damping.chunks_exact_mut(n).zip(&momentum) {
+                let factor = 2.0 * ratio * circular * a;
+                row.iter_mut().zip(&momentum).for_each(|(entry, b)| *entry += factor * b);
+            }
+        }
+        Ok(WithModalDamping { structure: Box::new(structure), damping, frequencies })
+    }
+}
+
+impl WithModalDamping {
+    /// Frequencies of the modes that are not rigid, Hz, ascending.
+    pub fn frequencies(&self) -> &[f64] {
+        &self.frequencies
+    }
+}
+
+impl Structure for WithModalDamping {
+    fn unknowns(&self) -> usize {
+        self.structure.unknowns()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.structure.contact_nodes()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        self.structure.mass(matrix);
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        self.structure.stiffness(matrix);
+    }
+
+    fn damping(&self, matrix: &mut Triplets) {
+        self.structure.damping(matrix);
+        let n = self.structure.unknowns().max(1);
+        for (place, &value) in self.damping.iter().enumerate() {
+            // a b and b a round alike: the matrix stays symmetric to the last bit.
+            matrix.add(
+                place / n,
+                place % n,
+                0.5 * (value + self.damping[place % n * n + place / n]),
+            );
+        }
+    }
+
+    fn load(&self, time: f64, load: &mut [f64]) {
+        self.structure.load(time, load);
+    }
+
+    fn is_linear(&self) -> bool {
+        self.structure.is_linear()
+    }
+
+    fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]) {
+        self.structure.nonlinear_force(displacement, force);
+    }
+
+    fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets) {
+        self.structure.nonlinear_tangent(displacement, matrix);
+    }
+
+    fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
+        self.structure.nonlinear_energy(displacement)
+    }
+
+    fn commit(&mut self, displacement: &[f64]) {
+        self.structure.commit(displacement);
+    }
+
+    fn save(&self) -> Vec<f64> {
+        self.structure.save()
+    }
+
+    fn restore(&mut self, values: &[f64]) -> Result<()> {
+        self.structure.restore(values)
+    }
+}

@@ -1,0 +1,134 @@
+//! Rigid links: nodes that follow another one like a rigid body.
+
+use super::Triplets;
+use crate::error::{Error, Result};
+use crate::fem::{Direction, Mesh, Numbering};
+
+/// Every unknown of the mesh as a weighted sum of those that remain.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct RigidLinks {
+    /// Leader of each follower.
+    leader: Vec<Option<usize>>,
+    is_leader: Vec<bool>,
+    /// For each unknown of the mesh: (remaining unknown, weight) pairs.
+    rows: Vec<Vec<(usize, f64)>>,
+    unknowns: usize,
+}
+
+const DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Rotation];
+
+impl RigidLinks {
+    /// Nothing linked yet.
+    pub(super) fn new(mesh: &Mesh, numbering: &Numbering) -> Self {
+        let (nodes, unknowns) = (mesh.nodes().len(), numbering.unknowns());
+        let rows = (0..unknowns).map(|unknown| vec![(unknown, 1.0)]).collect();
+        Self { leader: vec![None; nodes], is_leader: vec![false; nodes], rows, unknowns }
+    }
+
+    /// Ties `followers` to `leader`.
+    pub(super) fn link(
+        &mut self,
+        mesh: &Mesh,
+        numbering: &Numbering,
+        leader: usize,
+        followers: &[usize],
+    ) -> Result<()> {
+        let fault = |needed| Error::Scene { quantity: "rigid link", needed };
+        let bound = mesh.nodes().len();
+        for &index in std::iter::once(&leader).chain(followers) {
+            if index >= bound {
+                return Err(Error::Index { quantity: "node of a rigid link", index, bound });
+            }
+        }
+        if DIRECTIONS.iter().any(|&direction| numbering.unknown(leader, direction).is_none()) {
+            return Err(fault("its leader must have all three unknowns, from a beam for example"));
+        }
+        if self.leader[leader].is_some() {
+            return Err(fault("its leader must not follow another node"));
+        }
+        for (place, &follower) in followers.iter().enumerate() {
+            let twice = self.leader[follower].is_some() || followers[..place].contains(&follower);
+            if follower == leader || twice || self.is_leader[follower] {
+                return Err(fault("its followers must follow one node only, and lead none"));
+            }
+        }
+        self.is_leader[leader] = true;
+        for &follower in followers {
+            self.leader[follower] = Some(leader);
+        }
+        self.renumber(mesh, numbering);
+        Ok(())
+    }
+
+    /// Numbers what remains, node by node, and expresses the followers by it.
+    fn renumber(&mut self, mesh: &Mesh, numbering: &Numbering) {
+        let nodes = mesh.nodes();
+        let mut next = 0;
+        let mut remaining = vec![None; numbering.unknowns()];
+        for node in (0..nodes.len()).filter(|&node| self.leader[node].is_none()) {
+            for unknown in DIRECTIONS.iter().filter_map(|&d| numbering.unknown(node, d)) {
+                remaining[unknown] = Some(next);
+                next += 1;
+            }
+        }
+        self.unknowns = next;
+        let number = |node, direction| remaining[numbering.unknown(node, direction)?];
+        for node in 0..nodes.len() {
+            for direction in DIRECTIONS {
+                let Some(unknown) = numbering.unknown(node, direction) else { continue };
+                let leader = self.leader[node].unwrap_or(node);
+                let arm = [nodes[node][0] - nodes[leader][0], nodes[node][1] - nodes[leader][1]];
+                let turn = match direction {
+                    Direction::X => -arm[1],
+                    Direction::Y => arm[0],
+                    Direction::Rotation => 0.0,
+                };
+                let own = number(leader, direction).map(|index| (index, 1.0));
+                let turned = number(leader, Direction::Rotation).map(|index| (index, turn));
+                let row = own.into_iter().chain(turned.filter(|_| turn != 0.0));
+                self.rows[unknown] = row.collect();
+            }
+        }
+    }
+
+    /// Number of unknowns that remain.
+    pub(super) fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    /// The number of a mesh's unknown that remains as it is.
+    pub(super) fn remaining(&self, node: usize, unknown: usize) -> Option<usize> {
+        let free = self.leader.get(node)?.is_none();
+        self.rows.get(unknown)?.first().filter(|_| free).map(|&(index, _)| index)
+    }
+
+    /// A weighted sum of the mesh's unknowns by those that remain.
+    pub(super) fn row(&self, terms: &[(usize, f64)]) -> Vec<(usize, f64)> {
+        let mut sums: Vec<(usize, f64)> = Vec::new();
+        for &(unknown, weight) in terms {
+            for &(index, share) in self.rows.get(unknown).into_iter().flatten() {
+                match sums.iter_mut().find(|sum| sum.0 == index) {
+                    Some(sum) => sum.1 += weight * share,
+                    None => sums.push((index, weight * share)),
+                }
+            }
+        }
+        sums
+    }
+
+    /// Adds Lᵀ A L, where u = L (what remains).
+    pub(super) fn add_condensed(&self, mesh_matrix: &Triplets, matrix: &mut Triplets) {
+        for &(row, column, value) in mesh_matrix.entries() {
+            // Indices of a foreign element may be out of range: the matrix reports them.
+            let (Some(rows), Some(columns)) = (self.rows.get(row), self.rows.get(column)) else {
+                matrix.add(row, column, value);
+                continue;
+            };
+            for &(i, a) in rows {
+                for &(j, b) in columns {
+                    matrix.add(i, j, a * b * value);
+                }
+            }
+        }
+    }
+}
