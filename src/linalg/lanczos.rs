@@ -41,14 +41,14 @@ pub(crate) fn lowest_modes(
             // are more modes of one frequency than a block holds.
             space.extend_at_random();
             if applied == space.vectors() {
-                return space.modes(count).map(|(pairs, _)| pairs);
+                return space.modes(&space.approximations(count)?);
             }
         }
         space.step();
         if space.columns.len() >= count {
-            let (pairs, residual) = space.modes(count)?;
-            if residual <= TOLERANCE {
-                return Some(pairs);
+            let found = space.approximations(count)?;
+            if found.residual <= TOLERANCE {
+                return space.modes(&found);
             }
         }
     }
@@ -139,16 +139,15 @@ impl Space<'_> {
         }
     }
 
-    /// The best approximations of the lowest `count` modes in this space, and their largest residual.
-    fn modes(&self, count: usize) -> Option<(Pairs, f64)> {
-        let (n, m) = (self.order(), self.columns.len());
+    /// The best approximations of the lowest `count` modes in this space.
+    fn approximations(&self, count: usize) -> Option<Approximations> {
+        let m = self.columns.len();
         let entry = |i: usize, j: usize| self.columns[j].get(i).copied().unwrap_or(0.0);
         let square = (0..m).flat_map(|i| (0..m).map(move |j| (i, j)));
         let matrix: Vec<f64> = square.map(|(i, j)| 0.5 * (entry(i, j) + entry(j, i))).collect();
         let (values, vectors) = symmetric_modes(&matrix, m)?;
         let top = values.last().copied().unwrap_or(0.0);
-        let (mut eigenvalues, mut modes) = (Vec::new(), Vec::new());
-        let mut worst = 0.0_f64;
+        let mut found = Approximations { theta: vec![], shares: vec![], residual: 0.0 };
         for k in (0..m).rev().take(count) {
             let theta = values[k];
             if !(theta.is_finite() && theta > f64::EPSILON * top) {
@@ -157,15 +156,32 @@ impl Space<'_> {
             let y: Vec<f64> = (0..m).map(|i| vectors[i * m + k]).collect();
             let outside = |row: usize| (0..m).map(|j| entry(row, j) * y[j]).sum::<f64>();
             let square: f64 = (m..self.vectors()).map(|row| outside(row).powi(2)).sum();
-            worst = worst.max(square.sqrt() / theta);
-            let start = modes.len();
-            modes.resize(start + n, 0.0);
-            wide_transposed_multiply_add(&self.basis[..m * n], 1.0, &y, &mut modes[start..]);
-            eigenvalues.push(1.0 / theta);
+            found.residual = found.residual.max(square.sqrt() / theta);
+            found.theta.push(theta);
+            found.shares.push(y);
+        }
+        Some(found)
+    }
+
+    /// λ and φ.
+    fn modes(&self, found: &Approximations) -> Option<Pairs> {
+        let (n, m) = (self.order(), self.columns.len());
+        let mut modes = vec![0.0; found.theta.len() * n];
+        for (mode, y) in modes.chunks_exact_mut(n).zip(&found.shares) {
+            wide_transposed_multiply_add(&self.basis[..m * n], 1.0, y, mode);
         }
         let finite = modes.iter().all(|x| x.is_finite());
-        finite.then_some(((eigenvalues, modes), worst))
+        finite.then(|| (found.theta.iter().map(|theta| 1.0 / theta).collect(), modes))
     }
+}
+
+/// Eigenpairs of H.
+struct Approximations {
+    theta: Vec<f64>,
+    /// Coordinates in the basis, a vector each.
+    shares: Vec<Vec<f64>>,
+    /// Largest ‖A x − θ x‖/θ.
+    residual: f64,
 }
 
 #[cfg(test)]
