@@ -188,7 +188,9 @@ fn arms_lengthen_a_cantilever() {
     let n = model.unknowns();
     let row = model.row(2, Direction::X).unwrap();
     let mut force = vec![0.0; n];
-    row.iter().for_each(|&(index, weight)| force[index] += 1000.0 * weight);
+    for &(index, weight) in &row {
+        force[index] += 1000.0 * weight;
+    }
     let held: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
     let found = solve_held(&stiffness(&model), &force, &held);
     let at = |row: &[(usize, f64)]| row.iter().map(|&(i, w)| w * found[i]).sum::<f64>();
