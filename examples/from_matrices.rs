@@ -23,7 +23,7 @@ use basemat::structure::{
 use basemat::{Result, Simulation, Soil};
 
 const TIME_STEP: f64 = 0.01;
-const MODES: usize = 30;
+const MODES: usize = 20;
 
 /// A tower 10 m wide and 100 m high, of elements of 0.2 m: writes its matrices and returns its
 /// contact nodes and the unknown that is the sway of its top.
@@ -101,7 +101,7 @@ fn main() -> Result<()> {
     let row = recovery.row(&[(top, 1.0)])?;
     let mut small = scene(reduced, row, Coordinates::Auto)?;
     let mut large = scene(model, vec![(top, 1.0)], Coordinates::Unknowns)?;
-    let (sway_full, time_full) = march(&mut large, 50)?;
+    let (sway_full, time_full) = march(&mut large, 30)?;
     let (sway, time_reduced) = march(&mut small, 3000)?;
 
     println!("\n          unknowns   ms per step   times real time");

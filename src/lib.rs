@@ -129,6 +129,7 @@
 //! |---|---|---|
 //! | structure | [`structure::Structure`] | 4 |
 //! | finite element | [`fem::Element`] | 4 |
+//! | spring with a memory | [`structure::Hysteresis`] | 5 |
 //! | law between base and soil | [`interface::InterfaceLaw`] | 3 |
 //! | ground motion | [`motion::FreeField`], or closures in [`motion::FreeFieldFn`] | 2 |
 //! | soil | [`bem::Ground`] | 6 |

@@ -7,7 +7,7 @@ use super::coordinates::Modes;
 use crate::error::{Error, Result, same_length};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 use crate::matrix::Matrix;
-use crate::structure::{Structure, Triplets};
+use crate::structure::{InternalEnergy, Structure, Triplets};
 
 /// Times in nanoseconds that choose the coordinates, as measured by `benches/step.rs`.
 mod cost {
@@ -140,6 +140,19 @@ impl Model {
             Some(modes) => modes.project(scratch, load),
             None => load.iter_mut().zip(scratch).for_each(|(load, now)| *load += *now),
         }
+    }
+
+    /// f and its energies at a displacement; zero and unknown for a linear structure.
+    pub(crate) fn nonlinear_state(
+        &self,
+        displacement: &[f64],
+    ) -> (Vec<f64>, Option<InternalEnergy>) {
+        let mut force = vec![0.0; self.unknowns];
+        if self.linear {
+            return (force, None);
+        }
+        self.structure.nonlinear_force(displacement, &mut force);
+        (force, self.structure.nonlinear_energy(displacement))
     }
 
     /// ∂f/∂u at a displacement.

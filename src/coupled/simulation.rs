@@ -163,12 +163,7 @@ impl Simulation {
             .collect();
         let mut jump = at.gap.clone();
         jump.resize(size, 0.0);
-        let mut static_force = vec![0.0; n];
-        let mut static_energy = None;
-        if !parts.model.linear {
-            static_energy = parts.model.structure.nonlinear_energy(&at.displacement);
-            parts.model.structure.nonlinear_force(&at.displacement, &mut static_force);
-        }
+        let (static_force, static_energy) = parts.model.nonlinear_state(&at.displacement);
         let elements = parts.ground.elements().to_vec();
         let modes_of = parts.model.modes.as_deref();
         let probe_rows =

@@ -16,7 +16,7 @@ pub(crate) use dense::DenseFactor;
 pub(crate) use eigen::{generalised_modes, least_eigenvalue};
 pub(crate) use lanczos::lowest_modes;
 pub(crate) use product::{
-    dense_multiply_add, dot, largest, wide_multiply_add, wide_transposed_multiply_add,
+    dense_multiply_add, dot, largest, row_products, wide_multiply_add, wide_transposed_multiply_add,
 };
 pub(crate) use sparse::SparseFactor;
 

@@ -42,6 +42,21 @@ pub(crate) fn wide_transposed_multiply_add(matrix: &[f64], factor: f64, x: &[f64
     );
 }
 
+/// Row-major A Bᵀ for row-major A and B with `columns` columns.
+pub(crate) fn row_products(a: &[f64], b: &[f64], columns: usize) -> Vec<f64> {
+    let (m, n) = (a.len() / columns.max(1), b.len() / columns.max(1));
+    let mut products = vec![0.0; m * n];
+    matmul(
+        MatMut::from_row_major_slice_mut(&mut products, m, n),
+        Accum::Replace,
+        MatRef::from_row_major_slice(a, m, columns),
+        MatRef::from_column_major_slice(b, columns, n),
+        1.0,
+        Par::Seq,
+    );
+    products
+}
+
 /// y ← y + factor · A x for a dense row-major matrix with `x.len()` columns.
 pub(crate) fn dense_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
     if x.is_empty() {

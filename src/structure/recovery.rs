@@ -3,7 +3,10 @@
 use std::sync::Arc;
 
 use crate::error::{Error, Result, finite, same_length};
-use crate::linalg::{SparseMatrix, dense_multiply_add, wide_transposed_multiply_add};
+use crate::linalg::{SparseMatrix, row_products, wide_transposed_multiply_add};
+
+/// Columns of A T held at a time.
+const BLOCK: usize = 16;
 
 /// The basis T of a reduction, u = T q.
 #[derive(Debug)]
@@ -36,16 +39,21 @@ impl Basis {
         if matrix.is_empty() {
             return result;
         }
-        let mut product = vec![0.0; self.full];
-        let mut column = vec![0.0; order];
-        for (j, row) in self.rows().enumerate() {
-            product.fill(0.0);
-            matrix.multiply_add(1.0, row, &mut product);
-            column.fill(0.0);
-            dense_multiply_add(&self.transposed, 1.0, &product, &mut column);
-            for (i, value) in column.iter().enumerate().take(j + 1) {
-                result[i * order + j] = *value;
-                result[j * order + i] = *value;
+        for (block, rows) in self.transposed.chunks(BLOCK * self.full).enumerate() {
+            let mut products = vec![0.0; rows.len()];
+            for (row, product) in
+                rows.chunks_exact(self.full).zip(products.chunks_exact_mut(self.full))
+            {
+                matrix.multiply_add(1.0, row, product);
+            }
+            let entries = row_products(&self.transposed, &products, self.full);
+            let columns = rows.len() / self.full;
+            for (place, value) in entries.iter().enumerate() {
+                let (i, j) = (place / columns, BLOCK * block + place % columns);
+                if i <= j {
+                    result[i * order + j] = *value;
+                    result[j * order + i] = *value;
+                }
             }
         }
         result

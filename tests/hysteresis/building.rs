@@ -51,6 +51,9 @@ fn yielding(law: impl Fn(f64) -> Box<dyn Hysteresis>) -> NonlinearShearBuilding 
     building
 }
 
+/// Builds a structure anew.
+type Make = Box<dyn Fn() -> NonlinearShearBuilding>;
+
 fn on_soil(structure: impl Structure + 'static, time_step: f64) -> SimulationBuilder {
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     Simulation::builder(time_step)
@@ -94,7 +97,7 @@ fn tangents_are_consistent() {
 #[test]
 fn runs_converge_and_every_joule_is_booked() {
     let weight = STANDARD_GRAVITY * 130.0e3;
-    let runs: Vec<(&str, Box<dyn Fn() -> NonlinearShearBuilding>)> = vec![
+    let runs: Vec<(&str, Make)> = vec![
         (
             "bilinear storeys",
             Box::new(|| yielding(|f| Box::new(Bilinear::new(40e6, f, 0.03).unwrap()))),

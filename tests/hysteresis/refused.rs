@@ -8,6 +8,7 @@ use basemat::{Error, Result};
 
 const BAD: [f64; 5] = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
+#[expect(clippy::needless_pass_by_value, reason = "every call makes its own")]
 fn is_input<T>(result: Result<T>) -> bool {
     matches!(result, Err(Error::Input { .. }))
 }
