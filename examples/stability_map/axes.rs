@@ -6,11 +6,14 @@ use super::motions::{MOTIONS, Motion};
 use super::run::Verdict;
 use super::scene::{Law, Scene, Scheme};
 
+/// Puts the value of a number into a scene.
+type SetValue = dyn Fn(usize, &mut Scene) + Sync;
+
 /// A parameter and the values it takes.
 pub(crate) struct Axis {
     pub(crate) name: &'static str,
     pub(crate) labels: Vec<String>,
-    set: Box<dyn Fn(usize, &mut Scene) + Sync>,
+    set: Box<SetValue>,
 }
 
 impl Axis {
@@ -103,98 +106,127 @@ fn decades(first: i32, last: i32, short: bool, every: usize) -> Vec<f64> {
     thin(&all, short, every)
 }
 
+/// Axes in their full and short forms.
+impl Axis {
+    fn beta(short: bool, every: usize) -> Self {
+        Self::numbers("β = c₁Δt/l", &thin(&BETA, short, every), |s, v| s.beta = v)
+    }
+
+    fn stiffness(short: bool) -> Self {
+        let values = decades(-8, 8, short, 8);
+        Self::numbers("stiffness of structure / of soil", &values, |s, v| s.stiffness = v)
+    }
+
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small counts")]
+    fn elements(short: bool, count: usize) -> Self {
+        let values = [1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
+        let kept = if short { 5 } else { count };
+        Self::numbers("elements", &values[..kept], |s, v| s.elements = v as usize)
+    }
+
+    fn layer(short: bool, set: fn(&mut Scene, f64)) -> Self {
+        let ratios = thin(&[1.0, 0.3, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6], short, 3);
+        Self::numbers("thin-layer ratio", &ratios, set)
+    }
+}
+
 /// All sweeps.
 pub(crate) fn maps(short: bool) -> Vec<Map> {
     let base = Scene { steps: if short { 150 } else { 1000 }, ..Scene::default() };
-    let beta =
-        |every| Axis::numbers("β = c₁Δt/l", &thin(&BETA, short, every), |s, v| s.beta = v);
+    let mut list = soil_and_structure(short, base);
+    list.extend(mesh_and_contact(short, base));
+    list.push(long_runs(short));
+    list
+}
+
+fn map(
+    name: &'static str,
+    title: &'static str,
+    [x, y]: [Axis; 2],
+    schemes: &'static [Scheme],
+    base: Scene,
+) -> Map {
+    Map { name, title, x, y, schemes, base, allowed: &[], drawn: true }
+}
+
+fn soil_and_structure(short: bool, base: Scene) -> Vec<Map> {
     let poisson = Axis::numbers("Poisson's ratio", &thin(&POISSON, short, 4), |s, v| s.poisson = v);
-    let stiffness = |every| {
-        let values = decades(-8, 8, short, every);
-        Axis::numbers("stiffness of structure / of soil", &values, |s, v| s.stiffness = v)
-    };
-    let mass =
-        |every| Axis::numbers("mass ratio", &decades(-4, 4, short, every), |s, v| s.mass = v);
-    let slenderness = Axis::numbers(
-        "slenderness h/b",
-        &thin(&[0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0], short, 5),
-        |s, v| s.slenderness = v,
-    );
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small counts")]
-    let elements =
-        |values: &[f64]| Axis::numbers("elements", values, |s, v| s.elements = v as usize);
-    let counts: &[f64] = &[1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
-    let grading = Axis::numbers("longest/shortest element", &decades(0, 4, short, 2), |s, v| {
-        s.grading = v;
-    });
-    let ratios = thin(&[1.0, 0.3, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6], short, 3);
-    let layer = |set| Axis::numbers("thin-layer ratio", &ratios, set);
-    let map = |name, title, x, y, schemes, base| Map {
-        name,
-        title,
-        x,
-        y,
-        schemes,
-        base,
-        allowed: &[],
-        drawn: true,
-    };
+    let mass = Axis::numbers("mass ratio", &decades(-4, 4, short, 4), |s, v| s.mass = v);
+    // Very stiff structures stand on their rounding.
+    let allowed: &[Verdict] = &[Verdict::Refused];
     vec![
-        map("beta_poisson", "Time step and Poisson's ratio", beta(3), poisson, ALL, base),
-        map("beta_friction", "Time step and friction", beta(3), Axis::friction(short), ALL, base),
+        map(
+            "beta_poisson",
+            "Time step and Poisson's ratio",
+            [Axis::beta(short, 3), poisson],
+            ALL,
+            base,
+        ),
+        map(
+            "beta_friction",
+            "Time step and friction",
+            [Axis::beta(short, 3), Axis::friction(short)],
+            ALL,
+            base,
+        ),
         Map {
-            // Very stiff structures stand on their rounding.
-            allowed: &[Verdict::Refused],
+            allowed,
             ..map(
                 "stiffness_mass",
                 "Stiffness and mass of a flexible structure",
-                stiffness(8),
-                mass(4),
+                [Axis::stiffness(short), mass],
                 OWN,
                 base,
             )
         },
         Map {
-            // Very stiff structures stand on their rounding.
-            allowed: &[Verdict::Refused],
+            allowed,
             ..map(
                 "beta_stiffness",
                 "Time step and stiffness of the structure",
-                beta(5),
-                stiffness(8),
+                [Axis::beta(short, 5), Axis::stiffness(short)],
                 ALL,
                 base,
             )
         },
+    ]
+}
+
+fn mesh_and_contact(short: bool, base: Scene) -> Vec<Map> {
+    let slenderness = Axis::numbers(
+        "slenderness h/b",
+        &thin(&[0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0, 12.0, 20.0], short, 5),
+        |s, v| s.slenderness = v,
+    );
+    let grading = Axis::numbers("longest/shortest element", &decades(0, 4, short, 2), |s, v| {
+        s.grading = v;
+    });
+    vec![
         map(
             "friction_slenderness",
             "Friction and slenderness",
-            Axis::friction(short),
-            slenderness,
+            [Axis::friction(short), slenderness],
             OWN,
             base,
         ),
         map(
             "elements_grading",
             "Elements and their grading",
-            elements(&counts[..if short { 6 } else { 9 }]),
-            grading,
+            [Axis::elements(short, 9), grading],
             OWN,
             Scene { steps: base.steps.min(200), ..base },
         ),
         map(
             "beta_elements",
             "Time step and number of elements",
-            beta(5),
-            elements(&counts[..if short { 5 } else { 6 }]),
+            [Axis::beta(short, 5), Axis::elements(short, 6)],
             ALL,
             Scene { steps: base.steps.min(500), ..base },
         ),
         map(
             "beta_layer",
             "Time step and thickness of interface elements that let go entirely",
-            beta(5),
-            layer(|s, v| s.law = Law::Layer(v, 0.0)),
+            [Axis::beta(short, 5), Axis::layer(short, |s, v| s.law = Law::Layer(v, 0.0))],
             OWN,
             base,
         ),
@@ -203,8 +235,7 @@ pub(crate) fn maps(short: bool) -> Vec<Map> {
             ..map(
                 "beta_layer_as_printed",
                 "Time step and thickness of interface elements that keep 1/1000 of their stiffness",
-                beta(5),
-                layer(|s, v| s.law = Law::Layer(v, 1e-3)),
+                [Axis::beta(short, 5), Axis::layer(short, |s, v| s.law = Law::Layer(v, 1e-3))],
                 &[Scheme::Own, Scheme::Paper],
                 base,
             )
@@ -212,12 +243,10 @@ pub(crate) fn maps(short: bool) -> Vec<Map> {
         map(
             "friction_motion",
             "Friction and ground motion",
-            Axis::friction(short),
-            Axis::motions(),
+            [Axis::friction(short), Axis::motions()],
             ALL,
             base,
         ),
-        long_runs(short),
     ]
 }
 

@@ -48,6 +48,16 @@ impl StaticState {
 }
 
 const NAME: &str = "static stiffness matrix";
+/// Nothing has happened yet.
+const AT_REST: StepStart = StepStart {
+    state: ContactState { gap: 0.0, slip: 0.0, pressure: 0.0, shear: 0.0 },
+    mode: Mode::Stick,
+    has_opened: false,
+    slip_rate: 0.0,
+    static_pressure: 0.0,
+    time_step: 1.0,
+};
+
 /// Proximal iterations at most.
 const ITERATIONS: usize = 500;
 /// After so many iterations, a very stiff structure may be as far as rounding lets it go: up to this
@@ -97,17 +107,7 @@ pub(crate) fn solve(
 
     let stiffest = epsilon;
 
-    let start = vec![
-        StepStart {
-            state: ContactState::default(),
-            mode: Mode::Stick,
-            has_opened: false,
-            slip_rate: 0.0,
-            static_pressure: 0.0,
-            time_step: 1.0,
-        };
-        count
-    ];
+    let start = vec![AT_REST; count];
     let mut solver = ContactSolver::new(count);
     let mut search = ModeSearch::new(count, ContactSearch::Robust);
     let mut state = StaticState::weightless(count, n);
