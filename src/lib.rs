@@ -145,6 +145,9 @@ pub mod interface;
 mod linalg;
 mod matrix;
 pub mod motion;
+#[cfg(test)]
+#[path = "../tests/support/random.rs"]
+mod random;
 pub mod reference;
 mod soil;
 pub mod structure;

@@ -43,6 +43,20 @@ impl StaticState {
             modes: vec![Mode::Stick; elements],
         }
     }
+
+    /// Gaps from the states of the contact solver, exactly where a law pins them.
+    fn close_gaps(
+        &mut self,
+        laws: &[Box<dyn InterfaceLaw>],
+        start: &[StepStart],
+        states: &[ContactState],
+    ) {
+        for (e, gap) in self.gap.iter_mut().enumerate() {
+            let conditions = law_of(laws, e).conditions(self.modes[e], &start[e]);
+            let pinned = conditions.iter().find_map(|c| c.gap_at(self.traction[e]));
+            *gap = pinned.unwrap_or(states[e].gap);
+        }
+    }
 }
 
 const NAME: &str = "static stiffness matrix";
@@ -117,16 +131,7 @@ pub(crate) fn solve(
         };
         let current = compliance.insert(current);
         // (K + D + εM) u₁ = load − f(u₀) + D u₀ + εM u₀ − BᵀAτ
-        let mut displacement = load.to_vec();
-        if !model.linear {
-            let mut force = vec![0.0; n];
-            model.structure.nonlinear_force(&state.displacement, &mut force);
-            for (d, f) in displacement.iter_mut().zip(&force) {
-                *d -= f;
-            }
-            tangent.multiply_add(1.0, &state.displacement, &mut displacement);
-        }
-        model.mass.multiply_add(epsilon, &state.displacement, &mut displacement);
+        let mut displacement = known_forces(model, &tangent, epsilon, load, &state.displacement);
         current.factor.solve(&mut displacement);
         base.means(&displacement, &mut free_jump);
         for jump in &mut free_jump {
@@ -164,32 +169,49 @@ pub(crate) fn solve(
             && change <= LATE_CHANGE
             && change <= current.condition(model, &tangent, epsilon) * f64::EPSILON;
         if change <= 1e-13 || stalled || late {
-            for (e, gap) in state.gap.iter_mut().enumerate() {
-                let conditions = law_of(laws, e).conditions(state.modes[e], &start[e]);
-                let pinned = conditions.iter().find_map(|c| c.gap_at(state.traction[e]));
-                *gap = pinned.unwrap_or(solver.states[e].gap);
-            }
+            state.close_gaps(laws, &start, &solver.states);
             return Ok(state);
         }
         if !change.is_finite() {
             break;
         }
     }
-    let tangent = model.tangent(&StaticState::weightless(count, n).displacement)?;
-    let condition = match &mut compliance {
-        Some(last) => last.condition(model, &tangent, epsilon),
-        None => 1.0,
-    };
-    if condition > STIFFNESS_LIMIT {
-        return Err(Error::IllConditioned {
-            matrix: NAME,
-            condition,
-            limit: STIFFNESS_LIMIT,
-            quantity: "stiffness of the structure over that of the ground",
-            ratio: PROXIMAL_SHARE * condition,
-        });
+    let at_rest = model.tangent(&StaticState::weightless(count, n).displacement)?;
+    let condition = compliance.map_or(1.0, |mut c| c.condition(model, &at_rest, epsilon));
+    Err(failure(condition, iterations, change))
+}
+
+/// What to say of a search without end.
+fn failure(condition: f64, iterations: usize, change: f64) -> Error {
+    if condition <= STIFFNESS_LIMIT {
+        return Error::Preload { iterations, residual: change };
     }
-    Err(Error::Preload { iterations, residual: change })
+    Error::IllConditioned {
+        matrix: NAME,
+        condition,
+        limit: STIFFNESS_LIMIT,
+        quantity: "stiffness of the structure over that of the ground",
+        ratio: PROXIMAL_SHARE * condition,
+    }
+}
+
+/// The right-hand side load − f(u) + D u + εM u.
+fn known_forces(
+    model: &Model,
+    tangent: &SparseMatrix,
+    epsilon: f64,
+    load: &[f64],
+    displacement: &[f64],
+) -> Vec<f64> {
+    let mut known = load.to_vec();
+    if !model.linear {
+        let mut force = vec![0.0; known.len()];
+        model.structure.nonlinear_force(displacement, &mut force);
+        known.iter_mut().zip(&force).for_each(|(d, f)| *d -= f);
+        tangent.multiply_add(1.0, displacement, &mut known);
+    }
+    model.mass.multiply_add(epsilon, displacement, &mut known);
+    known
 }
 
 /// How large a force is, relative to the load: each component over the square root of its mass, so

@@ -1,16 +1,15 @@
 //! Estimated condition numbers against those of the inverse.
 
 use super::*;
+use crate::random::Random;
 use crate::structure::Triplets;
 
 #[path = "../../tests/support/condition.rs"]
 mod condition;
-#[path = "../../tests/support/random.rs"]
-mod random;
 
 #[test]
 fn estimates_are_within_a_factor_of_three_of_the_inverse() {
-    let mut random = random::Random(3);
+    let mut random = Random(3);
     let mut worst = 1.0_f64;
     for case in 0..400 {
         let n = 1 + case % 12;
