@@ -159,6 +159,9 @@ mod matrix;
 pub mod motion;
 #[cfg(feature = "plot")]
 pub mod plot;
+#[cfg(test)]
+#[path = "../tests/support/random.rs"]
+mod random;
 pub mod reference;
 pub mod results;
 mod soil;

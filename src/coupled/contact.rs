@@ -110,7 +110,9 @@ impl ContactSolver {
         // The diagonal is to scale it, not the rows' largest entries.
         let order = self.unknowns.len();
         for (row, &(_, _, scale)) in self.matrix.chunks_exact_mut(order.max(1)).zip(&self.rows) {
-            row.iter_mut().for_each(|value| *value /= scale);
+            for value in row {
+                *value /= scale;
+            }
         }
         dense_condition(&self.matrix, order)
     }

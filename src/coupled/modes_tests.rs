@@ -9,12 +9,9 @@ use crate::coupled::scheme::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
 use crate::interface::{Activation, Coulomb, InterfaceLaw, StepStart};
 use crate::linalg::dense_multiply_add;
+use crate::random::Random;
 use crate::soil::Soil;
 use crate::structure::{FemModel, RigidBlock, Structure};
-use random::Random;
-
-#[path = "../../tests/support/random.rs"]
-mod random;
 
 const FRICTION: [f64; 6] = [0.0, 0.2, 0.4, 1.0, 3.0, f64::INFINITY];
 

@@ -45,6 +45,20 @@ impl StaticState {
             modes: vec![Mode::Stick; elements],
         }
     }
+
+    /// Gaps from the states of the contact solver, exactly where a law pins them.
+    fn close_gaps(
+        &mut self,
+        laws: &[Box<dyn InterfaceLaw>],
+        start: &[StepStart],
+        states: &[ContactState],
+    ) {
+        for (e, gap) in self.gap.iter_mut().enumerate() {
+            let conditions = law_of(laws, e).conditions(self.modes[e], &start[e]);
+            let pinned = conditions.iter().find_map(|c| c.gap_at(self.traction[e]));
+            *gap = pinned.unwrap_or(states[e].gap);
+        }
+    }
 }
 
 const NAME: &str = "static stiffness matrix";
@@ -133,16 +147,7 @@ pub(crate) fn solve(
         // (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. Under the springs alone the structure
         // would sink by 1/PROXIMAL_SHARE settlements; so what τ₀ answers to is put in by the columns
         // that take out τ₁, and only what is out of balance is solved for.
-        let mut displacement = load.to_vec();
-        model.stiffness.multiply_add(-1.0, &state.displacement, &mut displacement);
-        base.add_forces(-1.0, &state.traction, &mut displacement);
-        if !model.linear {
-            let mut force = vec![0.0; n];
-            model.structure.nonlinear_force(&state.displacement, &mut force);
-            for (d, f) in displacement.iter_mut().zip(&force) {
-                *d -= f;
-            }
-        }
+        let mut displacement = out_of_balance(model, base, load, &state);
         current.factor.solve(&mut displacement);
         for (d, u) in displacement.iter_mut().zip(&state.displacement) {
             *d += u;
@@ -183,11 +188,7 @@ pub(crate) fn solve(
         // amount under what rounding leaves of the sums of K, a share that grows with its size.
         let drifts = change <= DRIFT && (change - previous).abs() <= 1e-3 * change;
         if change <= 1e-13 || stalled || late || drifts {
-            for (e, gap) in state.gap.iter_mut().enumerate() {
-                let conditions = law_of(laws, e).conditions(state.modes[e], &start[e]);
-                let pinned = conditions.iter().find_map(|c| c.gap_at(state.traction[e]));
-                *gap = pinned.unwrap_or(solver.states[e].gap);
-            }
+            state.close_gaps(laws, &start, &solver.states);
             return Ok(state);
         }
         if !change.is_finite() {
@@ -199,22 +200,38 @@ pub(crate) fn solve(
             solver.invalidate();
         }
     }
-    let tangent = model.tangent(&StaticState::weightless(count, n).displacement)?;
+    let at_rest = model.tangent(&StaticState::weightless(count, n).displacement)?;
     // Of the structure against springs as stiff as the first ones.
-    let condition = match &mut compliance {
-        Some(last) => last.condition(model, &tangent, epsilon) * (epsilon / stiffest),
-        None => 1.0,
-    };
-    if condition > STIFFNESS_LIMIT {
-        return Err(Error::IllConditioned {
-            matrix: NAME,
-            condition,
-            limit: STIFFNESS_LIMIT,
-            quantity: "stiffness of the structure over that of the ground",
-            ratio: PROXIMAL_SHARE * condition,
-        });
+    let share = epsilon / stiffest;
+    let condition = compliance.map_or(1.0, |mut c| share * c.condition(model, &at_rest, epsilon));
+    Err(failure(condition, iterations, change))
+}
+
+/// What to say of a search without end.
+fn failure(condition: f64, iterations: usize, change: f64) -> Error {
+    if condition <= STIFFNESS_LIMIT {
+        return Error::Preload { iterations, residual: change };
     }
-    Err(Error::Preload { iterations, residual: change })
+    Error::IllConditioned {
+        matrix: NAME,
+        condition,
+        limit: STIFFNESS_LIMIT,
+        quantity: "stiffness of the structure over that of the ground",
+        ratio: PROXIMAL_SHARE * condition,
+    }
+}
+
+/// load − K u − f(u) − BᵀAτ.
+fn out_of_balance(model: &Model, base: &Base, load: &[f64], state: &StaticState) -> Vec<f64> {
+    let mut rest = load.to_vec();
+    model.stiffness.multiply_add(-1.0, &state.displacement, &mut rest);
+    base.add_forces(-1.0, &state.traction, &mut rest);
+    if !model.linear {
+        let mut force = vec![0.0; rest.len()];
+        model.structure.nonlinear_force(&state.displacement, &mut force);
+        rest.iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
+    }
+    rest
 }
 
 /// How large a force is, relative to the load: each component over the square root of its mass, so

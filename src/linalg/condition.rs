@@ -96,9 +96,9 @@ pub(crate) fn sparse_condition(matrix: &SparseMatrix, factor: &mut SparseFactor)
     norm * inverse_norm(order, &mut |x, transposed| {
         scale(x, &scales);
         if transposed {
-            factor.solve_transposed(x)
+            factor.solve_transposed(x);
         } else {
-            factor.solve(x)
+            factor.solve(x);
         }
         scale(x, &scales);
     })

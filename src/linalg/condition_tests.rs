@@ -1,16 +1,15 @@
 //! Estimated condition numbers against those of the inverse.
 
 use super::*;
+use crate::random::Random;
 use crate::structure::Triplets;
 
 #[path = "../../tests/support/condition.rs"]
 mod condition;
-#[path = "../../tests/support/random.rs"]
-mod random;
 
 #[test]
 fn estimates_are_within_a_factor_of_three_of_the_inverse() {
-    let mut random = random::Random(3);
+    let mut random = Random(3);
     let mut worst = 1.0_f64;
     for case in 0..400 {
         let n = 1 + case % 12;
@@ -49,7 +48,7 @@ fn estimates_are_within_a_factor_of_three_of_the_inverse() {
 
 #[test]
 fn singular_and_diagonal_matrices_have_their_conditions() {
-    assert_eq!(dense_condition(&[1e-9, 0.0, 0.0, 1e9], 2), 1.0);
+    assert!((dense_condition(&[1e-9, 0.0, 0.0, 1e9], 2) - 1.0).abs() < 1e-15);
     assert_eq!(dense_condition(&[1.0, 2.0, 2.0, 4.0], 2), f64::INFINITY);
     assert_eq!(dense_condition(&[0.0; 4], 2), f64::INFINITY);
     assert_eq!(dense_condition(&[], 0), 1.0);
