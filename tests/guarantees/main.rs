@@ -136,7 +136,9 @@ fn same_run(
     for nearly in [stronger, stiffer] {
         let Some(nearly) = accepted(recipe, nearly.run(SI, 0), tally)? else { return Ok(()) };
         let found = apart(one, &nearly, SAME);
-        (0..4).for_each(|k| sensitivity[k] = sensitivity[k].max(found[k]));
+        for k in 0..4 {
+            sensitivity[k] = sensitivity[k].max(found[k]);
+        }
     }
     let found = apart(one, other, twin);
     let names = ["pressures apart", "shear apart", "slip apart", "rotation apart"];
