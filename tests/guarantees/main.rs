@@ -115,8 +115,9 @@ fn apart(one: &[State], other: &[State], twin: Twin) -> [f64; 4] {
     apart
 }
 
-/// Two runs that should be the same are as near as rounding lets them be: 1e-9, unless landings
-/// amplify it; how much they do is told by a run whose shaking differs by 1e-12.
+/// Two runs that should be the same are as near as the static state is known, which is to 1e-10:
+/// 1e-9, unless landings amplify it. How much they do is told by runs whose shaking and soil differ
+/// by 1e-10.
 fn same_run(
     recipe: &Recipe,
     one: &[State],
@@ -124,12 +125,25 @@ fn same_run(
     twin: Twin,
     tally: &mut Tally,
 ) -> Result<(), TestCaseError> {
-    let nearly = Recipe { strength: recipe.strength * (1.0 + 1e-12), ..recipe.clone() };
-    let Some(nearly) = accepted(recipe, nearly.run(SI, 0), tally)? else { return Ok(()) };
-    let (found, sensitivity) = (apart(one, other, twin), apart(one, &nearly, SAME));
+    // Where such a layer lands there may be several solutions, as there may be none.
+    if recipe.pulls_while_open() {
+        return Ok(());
+    }
+    let more = 1.0 + 1e-10;
+    let stronger = Recipe { strength: recipe.strength * more, ..recipe.clone() };
+    let stiffer = Recipe { modulus: recipe.modulus * more, ..recipe.clone() };
+    let mut sensitivity = [0.0_f64; 4];
+    for nearly in [stronger, stiffer] {
+        let Some(nearly) = accepted(recipe, nearly.run(SI, 0), tally)? else { return Ok(()) };
+        let found = apart(one, &nearly, SAME);
+        for k in 0..4 {
+            sensitivity[k] = sensitivity[k].max(found[k]);
+        }
+    }
+    let found = apart(one, other, twin);
     let names = ["pressures apart", "shear apart", "slip apart", "rotation apart"];
     for k in 0..4 {
-        tally.within(names[k], found[k], 1e-9 + 100.0 * sensitivity[k])?;
+        tally.within(names[k], found[k], 1e-9 + 10.0 * sensitivity[k])?;
     }
     Ok(())
 }
