@@ -110,7 +110,7 @@
 //! |---|---|
 //! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy ledger |
 //! | [`Sweep`] | many simulations, on all processors with the feature `rayon` |
-//! | [`structure`] | finite-element model, rigid block, shear building, and the trait for your own |
+//! | [`structure`] | finite-element model, shear building, rigid block, given matrices, reduction, hysteretic springs, and the trait for your own |
 //! | [`fem`] | meshes and elements |
 //! | [`interface`] | bonded and Coulomb contact, and the trait for your own law |
 //! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], influence coefficients |
