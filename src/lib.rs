@@ -113,7 +113,7 @@
 //! | [`vtk`] | files for ParaView |
 //! | `plot` (feature) | pictures of histories, contact, spectra and shapes |
 //! | [`Sweep`] | many simulations, on all processors with the feature `rayon` |
-//! | [`structure`] | finite-element model, rigid block, shear building, and the trait for your own |
+//! | [`structure`] | finite-element model, shear building, rigid block, given matrices, reduction, hysteretic springs, and the trait for your own |
 //! | [`fem`] | meshes and elements |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
 //! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], influence coefficients |

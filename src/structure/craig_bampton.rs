@@ -266,8 +266,7 @@ impl ReducedModel {
 }
 
 /// Adds a dense row-major matrix, zeros left out.
-fn add(values: &[f64], matrix: &mut Triplets) {
-    let order = matrix.order();
+fn add(values: &[f64], order: usize, matrix: &mut Triplets) {
     for (place, &value) in values.iter().enumerate() {
         if value != 0.0 {
             matrix.add(place / order, place % order, value);
@@ -285,15 +284,15 @@ impl Structure for ReducedModel {
     }
 
     fn mass(&self, matrix: &mut Triplets) {
-        add(&self.mass, matrix);
+        add(&self.mass, self.unknowns(), matrix);
     }
 
     fn stiffness(&self, matrix: &mut Triplets) {
-        add(&self.stiffness, matrix);
+        add(&self.stiffness, self.unknowns(), matrix);
     }
 
     fn damping(&self, matrix: &mut Triplets) {
-        add(&self.damping, matrix);
+        add(&self.damping, self.unknowns(), matrix);
     }
 
     /// The load of the full model, as it works on the reduced unknowns.

@@ -12,7 +12,8 @@ struct Spring {
 
 impl Spring {
     fn deformation(&self, displacement: &[f64]) -> f64 {
-        self.row.iter().map(|&(i, weight)| weight * displacement[i]).sum()
+        let at = |index: usize| displacement.get(index).copied().unwrap_or(0.0);
+        self.row.iter().map(|&(index, weight)| weight * at(index)).sum()
     }
 }
 
@@ -47,7 +48,9 @@ impl Springs {
         for spring in &self.0 {
             let value = spring.law.response(spring.deformation(displacement)).force;
             for &(i, weight) in &spring.row {
-                force[i] += weight * value;
+                if let Some(force) = force.get_mut(i) {
+                    *force += weight * value;
+                }
             }
         }
     }

@@ -121,6 +121,9 @@ fn saved_states_come_back_or_change_nothing() {
     assert_ne!(force(&held), before);
     held.restore(&saved).unwrap();
     assert_eq!(force(&held), before);
+    // Slices that are too short count as zero beyond their ends.
+    held.nonlinear_force(&[0.0; 2], &mut [0.0; 2]);
+    held.commit(&[]);
     // Out-of-range deformations give numbers that are not finite, and no panic.
     for wild in [f64::NAN, f64::INFINITY, 1e300] {
         let _ = bouc_wen.response(wild);

@@ -66,10 +66,12 @@ fn round_trips_keep_every_bit() {
                 matrix.add(j, i, value);
             }
         }
+        matrix.add(0, 39, 0.0);
         let mut file = Vec::new();
         matrix.to_matrix_market("memory", &mut file).unwrap();
         let text = String::from_utf8(file).unwrap();
         assert_eq!(text.lines().next().unwrap().ends_with("symmetric"), symmetric);
+        assert!(text.lines().all(|line| !line.ends_with(" 0e0")), "zeros are left out");
         let back = parse(&text).unwrap();
         assert_eq!(dense(&back), dense(&matrix));
         // And once more, byte by byte.

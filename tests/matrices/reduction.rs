@@ -212,6 +212,8 @@ fn what_cannot_be_reduced_is_refused() {
     assert!(matches!(recovery.row(&[(18, 1.0)]), Err(Error::Index { .. })));
     assert!(matches!(recovery.row(&[(0, f64::NAN)]), Err(Error::Input { .. })));
     assert!(matches!(recovery.full(&[0.0; 3]), Err(Error::Size { .. })));
+    // A matrix of another order gets entries out of range, which it reports when it is used.
+    reduced().mass(&mut Triplets::new(0));
     // Nothing left to reduce: the same structure.
     let all: Vec<usize> = (0..18).collect();
     let same = CraigBampton::new(0).keep(&all).reduce(tower(2, 2)).unwrap();

@@ -58,7 +58,7 @@ impl Triplets {
 
     /// Writes the matrix to a Matrix Market file, in the coordinate format.
     ///
-    /// Entries at the same place are summed, and a matrix that is symmetric to the last bit is
+    /// Entries at the same place are summed, zeros left out, and a matrix that is symmetric to the last bit is
     /// written as such. Numbers are written so that reading gives the same ones back.
     ///
     /// # Errors
