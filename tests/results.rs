@@ -164,8 +164,8 @@ fn thinned_histories_keep_the_peaks_of_all_steps() {
     assert_eq!(histories.summary().sliding, all.summary().sliding);
     assert!(histories.series(Quantity::SlidingSafety).iter().all(|x| x.is_nan()));
     assert!(histories.summary().least_sliding_safety.is_none());
-    // Time, 11 scalars, 2 probes, 10 terms of the ledger.
-    assert_eq!(all.bytes(), 8 * (1 + 11 + 2 + 10) * (STEPS + 1));
+    // Time, 11 scalars, 2 probes, 11 terms of the ledger.
+    assert_eq!(all.bytes(), 8 * (1 + 11 + 2 + 11) * (STEPS + 1));
     assert!(histories.bytes() < all.bytes());
     assert_eq!(histories.contact_frames().count(), 21);
     let frames: Vec<_> = histories.motion_frames().collect();

@@ -1,7 +1,6 @@
 //! The static state under the structure's weight, contact conditions included.
 
 use super::base::Base;
-use super::conditioning::STIFFNESS_LIMIT;
 use super::contact::{ContactInput, ContactSolver};
 use super::model::Model;
 use super::modes::{ContactSearch, ModeSearch};
@@ -9,7 +8,7 @@ use crate::bem::Ground;
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, law_of};
 use crate::linalg::{
-    SparseFactor, SparseMatrix, largest, sparse_condition, wide_transposed_multiply_add,
+    SparseFactor, SparseMatrix, dot, largest, sparse_condition, wide_transposed_multiply_add,
 };
 use crate::structure::Triplets;
 
@@ -62,6 +61,10 @@ impl StaticState {
 }
 
 const NAME: &str = "static stiffness matrix";
+/// Force out of balance, relative to the load, up to which a state is one of equilibrium.
+const EQUILIBRIUM: f64 = 1e-7;
+/// Condition beyond which rounding of K u is a larger force than that (`tests/conditioning.rs`).
+const STIFFEST_CONDITION: f64 = 1e10;
 /// Nothing has happened yet.
 const AT_REST: StepStart = StepStart {
     state: ContactState { gap: 0.0, slip: 0.0, pressure: 0.0, shear: 0.0 },
@@ -188,8 +191,14 @@ pub(crate) fn solve(
         // amount under what rounding leaves of the sums of K, a share that grows with its size.
         let drifts = change <= DRIFT && (change - previous).abs() <= 1e-3 * change;
         if change <= 1e-13 || stalled || late || drifts {
-            state.close_gaps(laws, &start, &solver.states);
-            return Ok(state);
+            // Springs that pull at nothing are no equilibrium yet, if K u is all rounding.
+            let rest = imbalance(model, base, load, &state.traction);
+            if rest <= EQUILIBRIUM {
+                state.close_gaps(laws, &start, &solver.states);
+                return Ok(state);
+            }
+            change = rest;
+            break;
         }
         if !change.is_finite() {
             break;
@@ -209,16 +218,29 @@ pub(crate) fn solve(
 
 /// What to say of a search without end.
 fn failure(condition: f64, iterations: usize, change: f64) -> Error {
-    if condition <= STIFFNESS_LIMIT {
+    if condition <= STIFFEST_CONDITION {
         return Error::Preload { iterations, residual: change };
     }
     Error::IllConditioned {
         matrix: NAME,
         condition,
-        limit: STIFFNESS_LIMIT,
+        limit: STIFFEST_CONDITION,
         quantity: "stiffness of the structure over that of the ground",
         ratio: PROXIMAL_SHARE * condition,
     }
+}
+
+/// What of the load the tractions do not carry, over all of it: K resists no ride, so that they must
+/// carry its two resultants alone.
+fn imbalance(model: &Model, base: &Base, load: &[f64], traction: &[f64]) -> f64 {
+    let mut rest = load.to_vec();
+    base.add_forces(-1.0, traction, &mut rest);
+    let [mut worst, mut scale] = [0.0_f64; 2];
+    for ride in &model.ride {
+        worst = worst.max(dot(ride, &rest).abs());
+        scale = scale.max(ride.iter().zip(load).map(|(r, f)| (r * f).abs()).sum());
+    }
+    worst / scale.max(f64::MIN_POSITIVE)
 }
 
 /// load − K u − f(u) − BᵀAτ.

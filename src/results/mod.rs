@@ -44,7 +44,7 @@
 //!
 //! # What it costs
 //!
-//! Nothing where it is not used. The scalar histories take 22 numbers and one per probe at every
+//! Nothing where it is not used. The scalar histories take 23 numbers and one per probe at every
 //! kept step (176 kB for 1000 steps); contact and motion frames are off unless asked for, see
 //! [`Histories::bytes`]. Peaks, envelopes and events are those of all steps, however few are kept.
 //!

@@ -8,14 +8,14 @@
 pub struct Triplets {
     order: usize,
     entries: Vec<(usize, usize, f64)>,
-    /// What is added to indices, while a member of a group writes its block.
-    shift: usize,
+    /// What is added to indices while a member of a group writes its block.
+    shift: Option<usize>,
 }
 
 impl Triplets {
     /// Empty matrix of `order` rows and columns.
     pub fn new(order: usize) -> Self {
-        Self { order, entries: Vec::new(), shift: 0 }
+        Self { order, entries: Vec::new(), shift: None }
     }
 
     /// Number of rows and columns.
@@ -25,8 +25,12 @@ impl Triplets {
 
     /// Adds `value` at (`row`, `column`).
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
-        // An index beyond the block stays out of range whatever the shift.
-        let place = |index: usize| if index < self.order { index + self.shift } else { usize::MAX };
+        let place = |index: usize| match self.shift {
+            None => index,
+            Some(shift) if index < self.order => index + shift,
+            // What is beyond the block must not be within the whole.
+            Some(_) => usize::MAX,
+        };
         self.entries.push((place(row), place(column), value));
     }
 
@@ -66,7 +70,7 @@ impl Triplets {
     /// Lets `write` fill the diagonal block of `order` rows that begins at row `first`.
     pub(crate) fn block(&mut self, first: usize, order: usize, write: impl FnOnce(&mut Self)) {
         let outer = (self.order, self.shift);
-        (self.order, self.shift) = (order, self.shift + first);
+        (self.order, self.shift) = (order, Some(self.shift.unwrap_or(0) + first));
         write(self);
         (self.order, self.shift) = outer;
     }
