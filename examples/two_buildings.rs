@@ -8,7 +8,7 @@
 //! ```
 
 use basemat::bem::{HalfPlaneGround, Strip};
-use basemat::coupled::Probe;
+use basemat::coupled::{Probe, SimulationBuilder};
 use basemat::interface::Coulomb;
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{ShearBuilding, Storey, Structure, StructureGroup};
@@ -46,7 +46,7 @@ fn simulation(
         .interface(Coulomb::new(0.5)?)
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY);
-    probes.into_iter().fold(builder, |builder, probe| builder.probe(probe)).build()
+    probes.into_iter().fold(builder, SimulationBuilder::probe).build()
 }
 
 /// Peaks of one building.

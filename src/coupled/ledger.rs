@@ -74,8 +74,35 @@ impl Ledger {
 }
 
 impl Simulation {
+    /// Adds what the nonlinear force did: stored, dissipated, or just done.
+    fn book_nonlinear_force(&mut self) {
+        let Self { model, work, memory, state, .. } = self;
+        let ledger = &mut state.ledger;
+        let (u0, du) = (&state.motion.displacement, &work.increment);
+        let done = dot(&work.force, du);
+        for (i, x) in work.total.iter_mut().enumerate() {
+            *x = self.static_state.displacement[i] + u0[i] + du[i];
+        }
+        let rest = self.static_energy.zip(model.structure.nonlinear_energy(&work.total));
+        if let Some((start, energy)) = rest {
+            // Forces count from the static ones, and so does the energy that they store.
+            let against: f64 =
+                self.static_force.iter().zip(u0).zip(du).map(|((f, u), du)| f * (u + du)).sum();
+            let stored = energy.stored - start.stored - against;
+            let dissipated = energy.dissipated - start.dissipated;
+            ledger.numerical +=
+                done - (stored - memory.nonlinear_work) - (dissipated - ledger.hysteresis);
+            (memory.nonlinear_work, ledger.hysteresis) = (stored, dissipated);
+        } else {
+            memory.nonlinear_work += done;
+        }
+    }
+
     /// Adds the step to the energy ledger, each term from its own definition.
     pub(super) fn book(&mut self, ride: &Ride) {
+        if !self.model.linear {
+            self.book_nonlinear_force();
+        }
         let c = self.coefficients;
         let dt = self.time_step;
         let Self { model, work, memory, state, base, solver, start, laws, .. } = self;
@@ -120,25 +147,6 @@ impl Simulation {
                 rest[i] = there - 0.5 * du[i];
             }
             ledger.numerical += model.stiffness.form(du, rest);
-        }
-        if !model.linear {
-            let done = dot(&work.force, du);
-            for (i, x) in work.total.iter_mut().enumerate() {
-                *x = self.static_state.displacement[i] + u0[i] + du[i];
-            }
-            let rest = self.static_energy.zip(model.structure.nonlinear_energy(&work.total));
-            if let Some((start, energy)) = rest {
-                // Forces count from the static ones, and so does the energy that they store.
-                let against: f64 =
-                    self.static_force.iter().zip(u0).zip(du).map(|((f, u), du)| f * (u + du)).sum();
-                let stored = energy.stored - start.stored - against;
-                let dissipated = energy.dissipated - start.dissipated;
-                ledger.numerical +=
-                    done - (stored - memory.nonlinear_work) - (dissipated - ledger.hysteresis);
-                (memory.nonlinear_work, ledger.hysteresis) = (stored, dissipated);
-            } else {
-                memory.nonlinear_work += done;
-            }
         }
         for ((x, u), du) in work.vector.iter_mut().zip(u0).zip(du) {
             *x = u + du;
