@@ -254,11 +254,11 @@ fn mesh_and_contact(short: bool, base: Scene) -> Vec<Map> {
 fn long_runs(short: bool) -> Map {
     type Case = (&'static str, Law, f64, History);
     let cases: [Case; 5] = [
-        ("friction 0.4, β = 5", Law::Coulomb(0.4), 5.0, History::Exponentials),
-        ("uplift only, β = 2", Law::Coulomb(f64::INFINITY), 2.0, History::Exponentials),
-        ("bonded, β = 0.5", Law::Bonded, 0.5, History::Exponentials),
-        ("smooth, β = 0.05", Law::Coulomb(0.0), 0.05, History::Exponentials),
-        ("friction 0.4, β = 5, transforms", Law::Coulomb(0.4), 5.0, History::RelaxedFft),
+        ("friction 0.4 (β = 5)", Law::Coulomb(0.4), 5.0, History::Exponentials),
+        ("uplift only (β = 2)", Law::Coulomb(f64::INFINITY), 2.0, History::Exponentials),
+        ("bonded (β = 0.5)", Law::Bonded, 0.5, History::Exponentials),
+        ("smooth (β = 0.05)", Law::Coulomb(0.0), 0.05, History::Exponentials),
+        ("friction 0.4 (β = 5; transforms)", Law::Coulomb(0.4), 5.0, History::RelaxedFft),
     ];
     let kept = if short { &cases[..1] } else { &cases[..] }.to_vec();
     let labels = kept.iter().map(|case| case.0.to_owned()).collect();
