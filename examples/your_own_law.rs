@@ -1,4 +1,4 @@
-//! An interface law of your own: friction that drops when sliding begins.
+//! An interface law of your own: friction that falls with the speed of sliding.
 //!
 //! ```text
 //! cargo run --release --example your_own_law
@@ -13,8 +13,7 @@
 //!    ([`InterfaceLaw::next_mode`]).
 //!
 //! The solver does the rest. A law has no memory of its own: what it needs of the past is in
-//! [`StepStart`], the end of the step before. Here that is the mode, since an element that slid
-//! keeps the kinetic coefficient until it sticks again.
+//! [`StepStart`], the end of the step before. Here that is the speed at which the element slid.
 
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::Run;
@@ -25,21 +24,23 @@ use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
 
-/// Static friction until an element slides, kinetic friction while it does.
-struct StaticKinetic {
-    at_rest: f64,
-    sliding: f64,
+/// Friction that falls from `slow` to `fast` as the speed of sliding (m/s) grows, as that of
+/// bearings and of many rocks does: fast + (slow − fast) e^(−|v|/speed).
+struct VelocityWeakening {
+    slow: f64,
+    fast: f64,
+    speed: f64,
 }
 
-impl StaticKinetic {
+impl VelocityWeakening {
     /// The coefficient of this step. It depends on the start of the step alone, so that it cannot
     /// change while the modes of the step are searched for.
     fn friction(&self, start: &StepStart) -> f64 {
-        if start.mode.is_slip() { self.sliding } else { self.at_rest }
+        self.fast + (self.slow - self.fast) * (-start.slip_rate.abs() / self.speed).exp()
     }
 }
 
-impl InterfaceLaw for StaticKinetic {
+impl InterfaceLaw for VelocityWeakening {
     // The first one is the mode of an element at rest in contact.
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
@@ -99,7 +100,7 @@ fn slide(law: impl InterfaceLaw + 'static) -> basemat::Result<Run> {
 fn main() -> basemat::Result<()> {
     let cases = [
         ("Coulomb, 0.30", slide(Coulomb::new(0.3)?)?),
-        ("static 0.30, kinetic 0.25", slide(StaticKinetic { at_rest: 0.3, sliding: 0.25 })?),
+        ("0.30 slow, 0.25 fast", slide(VelocityWeakening { slow: 0.3, fast: 0.25, speed: 0.1 })?),
         ("Coulomb, 0.25", slide(Coulomb::new(0.25)?)?),
     ];
     println!("{:<28}{:>14}{:>14}{:>16}", "law", "largest slip", "residual slip", "ledger residual");

@@ -1,8 +1,9 @@
 //! Hilbert transform of records, and quiet time around them.
 
-use realfft::RealFftPlanner;
+use realfft::num_complex::Complex;
 
 use super::Record;
+use super::filter::transformed;
 use crate::error::{Error, Result, not_negative};
 
 /// Most samples that a record may grow to.
@@ -37,27 +38,11 @@ impl Record {
     /// # Errors
     /// [`Error::Input`] if a value is not finite.
     pub fn hilbert_transform(&self) -> Result<Self> {
-        let count = self.len();
-        let length = (4 * count).next_power_of_two();
-        let mut planner = RealFftPlanner::<f64>::new();
-        let forward = planner.plan_fft_forward(length);
-        let inverse = planner.plan_fft_inverse(length);
-        let (mut signal, mut spectrum) = (forward.make_input_vec(), forward.make_output_vec());
-        signal[..count].copy_from_slice(self.accelerations());
-        let failed = |_| Error::Input {
-            quantity: "number of samples of a Hilbert transform",
-            value: count as f64,
-            needed: "one that can be transformed",
-        };
-        forward.process(&mut signal, &mut spectrum).map_err(failed)?;
-        let last = spectrum.len() - 1;
-        for (k, value) in spectrum.iter_mut().enumerate() {
+        let length = (4 * self.len()).next_power_of_two();
+        let shifted = transformed(self.accelerations(), length, |k, last, value| {
             // Times −i; the mean and the highest harmonic have no quarter of a period.
-            (value.re, value.im) =
-                if k == 0 || k == last { (0.0, 0.0) } else { (value.im, -value.re) };
-        }
-        inverse.process(&mut spectrum, &mut signal).map_err(failed)?;
-        let scale = 1.0 / length as f64;
-        Self::new(self.time_step(), signal[..count].iter().map(|value| value * scale).collect())
+            if k == 0 || k == last { Complex::default() } else { Complex::new(value.im, -value.re) }
+        })?;
+        Self::new(self.time_step(), shifted)
     }
 }

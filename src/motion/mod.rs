@@ -11,6 +11,7 @@ mod closure;
 mod content;
 mod cosmos;
 mod el_centro;
+mod filter;
 mod format;
 mod hilbert;
 mod integral;

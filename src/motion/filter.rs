@@ -1,0 +1,127 @@
+//! Filters and tapers.
+
+use realfft::RealFftPlanner;
+use realfft::num_complex::Complex;
+
+use super::Record;
+use crate::error::{Error, Result, not_negative, positive};
+
+/// Highest order of a filter.
+const HIGHEST_ORDER: u32 = 8;
+/// Quiet time on either side of a filtered record, times order over corner frequency.
+const PADS: f64 = 1.5;
+
+impl Record {
+    /// Record without what is slower than the `corner` frequency (Hz): a Butterworth filter of
+    /// `order` (1 to 8) forwards and backwards, gain 1/(1 + (corner/f)^(2 order)), no phase.
+    ///
+    /// The record gets longer: a filter without phase reaches back in time, and needs quiet time
+    /// of 1.5 order/corner on either side (Converse & Brady, *BAP: basic strong-motion
+    /// accelerogram processing software*, USGS Open-File Report 92-296A, 1992). Keep it: without
+    /// it, velocity and displacement do not return to zero (Boore, "On pads and filters: processing
+    /// strong-motion data", Bull. Seism. Soc. Am. 95 (2005), 745–750). Taper a record that does not
+    /// begin or end near zero with [`Record::tapered`] before.
+    ///
+    /// ```
+    /// use basemat::motion::el_centro_1940;
+    /// let record = el_centro_1940();
+    /// let filtered = record.high_pass(0.1, 4)?;
+    /// assert!((filtered.duration() - record.duration() - 2.0 * 60.0).abs() < 0.05);
+    /// // Nothing is left of the drift: the ground comes back to where it was.
+    /// assert!(filtered.displacement_at(filtered.duration()).abs() < 1e-5);
+    /// assert!(record.displacement_at(record.duration()).abs() > 5e-3);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless `corner` is above zero and below the highest frequency of the
+    /// samples, `order` is from 1 to 8, and the quiet time has at most 10⁸ samples.
+    pub fn high_pass(&self, corner: f64, order: u32) -> Result<Self> {
+        positive("corner frequency", corner)?;
+        if corner >= 0.5 / self.time_step() {
+            let needed = "below half the sampling frequency";
+            return Err(Error::Input { quantity: "corner frequency", value: corner, needed });
+        }
+        if !(1..=HIGHEST_ORDER).contains(&order) {
+            let (quantity, value) = ("order of the filter", f64::from(order));
+            return Err(Error::Input { quantity, value, needed: "from 1 to 8" });
+        }
+        let quiet = PADS * f64::from(order) / corner;
+        let padded = self.padded(quiet, quiet)?;
+        // What the circle of the transform would bring round is as quiet as the pads are long.
+        let length = padded.len().next_power_of_two();
+        let step = 1.0 / (length as f64 * self.time_step());
+        let exponent = f64::from(2 * order);
+        let filtered = transformed(padded.accelerations(), length, |k, _, value| {
+            // At zero the ratio is infinite, and the gain zero.
+            value / (1.0 + (corner / (k as f64 * step)).powf(exponent))
+        })?;
+        Self::new(self.time_step(), filtered)
+    }
+
+    /// Record whose first `beginning` and last `end` seconds rise from and fall to zero along half
+    /// a period of a cosine.
+    ///
+    /// ```
+    /// use basemat::motion::Record;
+    /// let record = Record::new(0.1, vec![1.0; 11])?.tapered(0.4, 0.2)?;
+    /// let a = record.accelerations();
+    /// assert_eq!((a[0], a[5], a[10]), (0.0, 1.0, 0.0));
+    /// assert!((a[2] - 0.5).abs() < 1e-15 && (a[9] - 0.5).abs() < 1e-15);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless both are finite, not negative, and together at most the duration.
+    pub fn tapered(&self, beginning: f64, end: f64) -> Result<Self> {
+        not_negative("taper at the beginning", beginning)?;
+        not_negative("taper at the end", end)?;
+        let duration = self.duration();
+        if beginning + end > duration * (1.0 + 1e-12) {
+            let (quantity, value) = ("length of both tapers", beginning + end);
+            return Err(Error::Input { quantity, value, needed: "at most the duration" });
+        }
+        let rise = |time: f64, length: f64| {
+            if time < length {
+                0.5 - 0.5 * (std::f64::consts::PI * time.max(0.0) / length).cos()
+            } else {
+                1.0
+            }
+        };
+        let taper = |(k, value): (usize, &f64)| {
+            let time = k as f64 * self.time_step();
+            value * rise(time, beginning) * rise(duration - time, end)
+        };
+        Self::new(self.time_step(), self.accelerations().iter().enumerate().map(taper).collect())
+    }
+}
+
+/// `signal`, with zeros up to `length`, after `change` of every coefficient of its Fourier
+/// transform (index, last index, value); cut to the length it had.
+pub(super) fn transformed(
+    samples: &[f64],
+    length: usize,
+    change: impl Fn(usize, usize, Complex<f64>) -> Complex<f64>,
+) -> Result<Vec<f64>> {
+    let mut planner = RealFftPlanner::<f64>::new();
+    let forward = planner.plan_fft_forward(length);
+    let inverse = planner.plan_fft_inverse(length);
+    let (mut signal, mut spectrum) = (forward.make_input_vec(), forward.make_output_vec());
+    signal[..samples.len()].copy_from_slice(samples);
+    let failed = |_| Error::Input {
+        quantity: "number of samples of a Fourier transform",
+        value: samples.len() as f64,
+        needed: "one that can be transformed",
+    };
+    forward.process(&mut signal, &mut spectrum).map_err(failed)?;
+    let last = spectrum.len() - 1;
+    for (k, value) in spectrum.iter_mut().enumerate() {
+        *value = change(k, last, *value);
+    }
+    // Of a real signal.
+    spectrum[0].im = 0.0;
+    spectrum[last].im = 0.0;
+    inverse.process(&mut spectrum, &mut signal).map_err(failed)?;
+    let scale = 1.0 / length as f64;
+    Ok(signal[..samples.len()].iter().map(|value| value * scale).collect())
+}
