@@ -88,7 +88,11 @@ impl Comparison {
             cells.extend(self.cases.iter().map(|(_, summary)| cell(row, summary)));
             cells
         };
-        let mut rows: Vec<_> = ROWS.iter().map(line).collect();
+        // What no case has is no row.
+        let known = |row: &&Row| {
+            self.cases.is_empty() || self.cases.iter().any(|(_, s)| (row.4)(s).is_some())
+        };
+        let mut rows: Vec<_> = ROWS.iter().filter(known).map(line).collect();
         for (k, name) in self.probe_names().into_iter().enumerate() {
             let value = |summary: &Summary| {
                 summary.probes.get(k).map_or("–".to_owned(), |(_, e)| number(e.largest().value))
