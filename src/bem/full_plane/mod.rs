@@ -68,6 +68,7 @@ mod laplace_element;
 mod laplace_late;
 mod march;
 mod pairs;
+mod prepared;
 mod segment;
 mod smooth_integrals;
 mod stability;

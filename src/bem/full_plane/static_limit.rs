@@ -66,13 +66,13 @@ pub(super) fn static_compliance(
     let width = 2 * contact.len();
     let mut column = vec![0.0; size];
     for k in 0..width {
-        let source = super::ground::component(contact, count, k);
+        let source = super::prepared::component(contact, count, k);
         for (i, value) in column.iter_mut().enumerate() {
             *value = g[i * size + source];
         }
         factor.solve(&mut column);
         for i in 0..width {
-            matrix[i * width + k] = column[super::ground::component(contact, count, i)];
+            matrix[i * width + k] = column[super::prepared::component(contact, count, i)];
         }
     }
     Ok(())
