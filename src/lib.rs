@@ -1,7 +1,7 @@
 //! Earthquake response of flexible structures whose base can uplift and slide on elastic ground.
 //!
 //! A structure (finite elements, a rigid block, a shear building, or any model of your own) stands
-//! on the flat surface of a homogeneous elastic half-plane. The ground shakes. Element by element,
+//! on elastic ground: the flat surface of a homogeneous half-plane, a bed of springs, or your own. The ground shakes. Element by element,
 //! the base may stick, open, close again and slide with friction. Wanted are displacements, contact
 //! tractions, base shear and moment, uplift and slip. Everything is two-dimensional, per metre of
 //! thickness, for small displacements.
@@ -143,8 +143,9 @@
 //!
 //! # Examples
 //!
-//! Short programs that print a table: `shear_building`, `rocking_block`, `floor_spectra`,
-//! `friction_sweep`, `travelling_wave`; `pictures` draws everything (feature `plot`).
+//! Short programs that print a table: `shear_building`, `base_isolated`, `two_buildings`,
+//! `rocking_block`, `floor_spectra`, `friction_sweep`, `travelling_wave`, `from_matrices`; `pictures`
+//! draws everything (feature `plot`). What each prints is in `docs/examples.md`.
 #![forbid(unsafe_code)]
 
 pub mod bem;

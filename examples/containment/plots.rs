@@ -14,14 +14,14 @@ use super::report::file_stem;
 pub(crate) fn draw_all(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
     curves(
         &folder.join("roof_horizontal.svg"),
-        "Horizontal motion at A, a roof corner",
+        "Horizontal motion at A, a roof corner (absolute)",
         "displacement, mm",
         results,
         |outcome, k| 1e3 * outcome.histories.roof[k][0],
     )?;
     curves(
         &folder.join("roof_vertical.svg"),
-        "Vertical motion at A, a roof corner (up)",
+        "Vertical motion at A, a roof corner (absolute) (up)",
         "displacement, mm",
         results,
         |outcome, k| 1e3 * outcome.histories.roof[k][1],

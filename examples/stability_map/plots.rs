@@ -27,28 +27,31 @@ pub(crate) fn draw(path: &Path, map: &Map, cells: &[&Cell]) -> Result<(), AnyErr
     let there = |scheme: Scheme| cells.iter().any(|cell| cell.scheme == scheme);
     let schemes: Vec<Scheme> = map.schemes.iter().copied().filter(|s| there(*s)).collect();
     let panels = schemes.len() + 1;
-    let panel = columns * CELL[0] + GAP;
-    let width = (ROOM[0] + count_of(panels) * panel).max(860);
-    let height = ROOM[1] + rows * CELL[1] + ROOM[2] + LEGEND;
+    // Two panels to a row: more could not be read in a page's column.
+    let panel = [ROOM[0] + columns * CELL[0] + GAP, ROOM[1] + rows * CELL[1] + ROOM[2]];
+    let place =
+        |k: usize| [count_of(k % 2) * panel[0] + ROOM[0], count_of(k / 2) * panel[1] + ROOM[1]];
+    let width = (count_of(panels.min(2)) * panel[0]).max(920);
+    let height = count_of(panels.div_ceil(2)) * panel[1] + LEGEND;
     let size = (u32::try_from(width)?, u32::try_from(height)?);
     let root = SVGBackend::new(path, size).into_drawing_area();
     root.fill(&WHITE)?;
     text(&root, map.title, [14, 22], 20, HPos::Left)?;
     for (k, &scheme) in schemes.iter().enumerate() {
-        let left = ROOM[0] + count_of(k) * panel;
+        let corner = place(k);
         let caption = match scheme {
             Scheme::Own => "basemat: log₁₀ of ledger residual",
             Scheme::Paper => "paper, as printed",
             Scheme::Quadrature => "convolution quadrature",
         };
-        frame(&root, map, left, caption)?;
+        frame(&root, map, corner, caption)?;
         for cell in cells.iter().filter(|cell| cell.scheme == scheme) {
             let (color, word) = verdict(cell);
-            square(&root, left, rows, cell.place, color, &word)?;
+            square(&root, corner, rows, cell.place, color, &word)?;
         }
     }
-    let left = ROOM[0] + count_of(schemes.len()) * panel;
-    frame(&root, map, left, "basemat: solves per step")?;
+    let corner = place(schemes.len());
+    frame(&root, map, corner, "basemat: solves per step")?;
     for cell in cells.iter().filter(|cell| cell.scheme == Scheme::Own) {
         let out = &cell.outcome;
         let mark = match out.fallbacks {
@@ -56,18 +59,12 @@ pub(crate) fn draw(path: &Path, map: &Map, cells: &[&Cell]) -> Result<(), AnyErr
             [_, 0] => "*",
             _ => "**",
         };
+        let refused = out.verdict == Verdict::Refused;
         let shade = ((out.trials[0] - 1.0) / 4.0).clamp(0.0, 1.0);
         let color = blend(RGBColor(236, 240, 246), RGBColor(106, 81, 163), shade);
-        let word = format!("{:.1}{mark}", out.trials[0]);
-        square(&root, left, rows, cell.place, color, &word)?;
+        let word = if refused { "–".to_owned() } else { format!("{:.1}{mark}", out.trials[0]) };
+        square(&root, corner, rows, cell.place, color, &word)?;
     }
-    for (row, word) in map.y.labels.iter().enumerate() {
-        let y = ROOM[1] + (rows - count_of(row)) * CELL[1] - CELL[1] / 2;
-        text(&root, word, [ROOM[0] - 6, y], 12, HPos::Right)?;
-    }
-    let style = TextStyle::from(("sans-serif", 14).into_font().transform(FontTransform::Rotate270))
-        .pos(Pos::new(HPos::Center, VPos::Center));
-    root.draw(&Text::new(map.y.name, (14, ROOM[1] + rows * CELL[1] / 2), style))?;
     legend(&root, height - LEGEND + 14)?;
     root.present()?;
     drop(root);
@@ -92,11 +89,19 @@ fn text(root: &Area, word: &str, at: [i32; 2], size: i32, side: HPos) -> Result<
     Ok(root.draw(&Text::new(word.to_owned(), (at[0], at[1]), style))?)
 }
 
-/// Caption and horizontal axis of a panel.
-fn frame(root: &Area, map: &Map, left: i32, caption: &str) -> Result<(), AnyError> {
+/// Caption and axes of a panel whose upper left cell is at `corner`.
+fn frame(root: &Area, map: &Map, corner: [i32; 2], caption: &str) -> Result<(), AnyError> {
+    let [left, top] = corner;
     let (columns, rows) = (count(&map.x.labels), count(&map.y.labels));
-    text(root, caption, [left, ROOM[1] - 14], 14, HPos::Left)?;
-    let bottom = ROOM[1] + rows * CELL[1];
+    text(root, caption, [left, top - 14], 14, HPos::Left)?;
+    let bottom = top + rows * CELL[1];
+    for (row, word) in map.y.labels.iter().enumerate() {
+        let y = bottom - count_of(row) * CELL[1] - CELL[1] / 2;
+        text(root, word, [left - 6, y], 12, HPos::Right)?;
+    }
+    let style = TextStyle::from(("sans-serif", 14).into_font().transform(FontTransform::Rotate270))
+        .pos(Pos::new(HPos::Center, VPos::Center));
+    root.draw(&Text::new(map.y.name, (left - ROOM[0] + 14, top + rows * CELL[1] / 2), style))?;
     for (column, word) in map.x.labels.iter().enumerate() {
         let x = left + count_of(column) * CELL[0] + CELL[0] / 2;
         let font = ("sans-serif", 11).into_font().transform(FontTransform::Rotate90);
@@ -108,14 +113,14 @@ fn frame(root: &Area, map: &Map, left: i32, caption: &str) -> Result<(), AnyErro
 
 fn square(
     root: &Area,
-    left: i32,
+    corner: [i32; 2],
     rows: i32,
     place: [usize; 2],
     color: RGBColor,
     word: &str,
 ) -> Result<(), AnyError> {
-    let x = left + count_of(place[0]) * CELL[0];
-    let y = ROOM[1] + (rows - 1 - count_of(place[1])) * CELL[1];
+    let x = corner[0] + count_of(place[0]) * CELL[0];
+    let y = corner[1] + (rows - 1 - count_of(place[1])) * CELL[1];
     let corners = [(x, y), (x + CELL[0] - 1, y + CELL[1] - 1)];
     root.draw(&Rectangle::new(corners, color.filled()))?;
     let RGBColor(r, g, b) = color;
@@ -179,13 +184,14 @@ fn legend(root: &Area, top: i32) -> Result<(), AnyError> {
         Ok(())
     };
     entry(ledger_color(-16.0), "bounded: log₁₀ of the ledger residual", 268)?;
-    entry(ACTIVE, "not growing, but the soil gives energy (log₁₀)", 312)?;
-    entry(growth_color(0.03), "grows: per step", 140)?;
+    entry(ACTIVE, "not growing, but the soil gives energy: log₁₀ of its share", 370)?;
+    entry(growth_color(0.03), "grows: growth per step", 180)?;
     entry(ERROR, "error", 80)?;
     text(
         root,
         "U: growth is foretold, and the crate refuses unless told otherwise. Errors: C contact \
-         modes not found, N not finite, P no static state, M matrix singular, E other",
+         modes not found, N not finite, P no static state, M matrix singular, I ill-conditioned, \
+         S another step error, E other",
         [14, top + 30],
         12,
         HPos::Left,

@@ -113,6 +113,7 @@ impl Outcome {
             Some(Error::Preload { .. }) => "P",
             Some(Error::Unstable { .. }) => "U",
             Some(Error::Singular { .. }) => "M",
+            Some(Error::IllConditioned { .. }) => "I",
             Some(_) => "E",
             None => "",
         }

@@ -263,7 +263,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     let panels = vec![
         deformation.room(0.05, 0.6),
         panel("tilt of the mat, mrad", 2, 1e3).room(0.05, 0.3),
-        panel("settlement of its middle, mm", 1, 1e3).room(0.05, 0.5),
+        panel("settlement of its middle (down), mm", 1, 1e3).room(0.05, 0.5),
         panel("uplifted part of the mat", 3, 1.0).room(0.05, 0.5),
     ];
     let title =

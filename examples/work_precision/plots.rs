@@ -98,7 +98,7 @@ fn panel(
     // Room for the legend below the points.
     let mut errors = range(&|p| place(p).1);
     if front {
-        errors.start *= 0.15;
+        errors.start *= 0.005;
     }
     let mut chart: Chart = ChartBuilder::on(area)
         .margin(14)

@@ -357,7 +357,7 @@ fn search_finds_what_brute_force_finds() {
             // Brittle adhesion makes the law non-monotone: no method is sure to find a solution.
             assert_eq!((tally.failed, tally.none), (0, 0), "{count}, friction {friction}");
             assert!(tally.worst < 1e-12, "{count} elements, friction {friction}: {tally:?}");
-            // Below unit friction the solution is unique.
+            // At the coefficients below one drawn here the solution is unique.
             assert!(tally.several == 0 || friction >= 1.0, "{count}, friction {friction}");
         }
     }
