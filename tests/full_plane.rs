@@ -9,8 +9,10 @@ use basemat::bem::full_plane::{
     Segment, TimeKernel, VerticalWaves,
 };
 use basemat::bem::{Ground, HalfPlaneGround, Strip};
+use basemat::interface::Bonded;
 use basemat::motion::{AtRest, FreeField, FreeFieldFn, RickerDisplacement};
-use basemat::{Error, Soil};
+use basemat::structure::RigidBlock;
+use basemat::{Error, Simulation, Soil};
 use std::f64::consts::PI;
 use support::series::{Error as SeriesError, whole, within};
 use support::{close, table};
@@ -461,6 +463,20 @@ fn two_motions_are_refused() {
     ground.free_field(&RickerDisplacement::new(1.0, 0.8, 4.0).unwrap(), 4.0, &mut out);
     assert!(out.iter().all(|x| x.is_nan()));
     assert!(matches!(ground.history(&mut out), Err(Error::Scene { .. })));
+    // A simulation passes the reason on.
+    let ground = FullPlaneGround::new(soil(0.25), canyon(0.5)).with_incident_field(waves());
+    let elements = ground.elements().to_vec();
+    let width = elements[elements.len() - 1].right - elements[0].left;
+    let center = elements[0].left + 0.5 * width;
+    let block = RigidBlock::new(width, 0.5, 1.0).unwrap().centered_at(center).unwrap();
+    let simulation = Simulation::builder(0.5)
+        .structure(block)
+        .ground(ground.skip_assessment())
+        .interface(Bonded)
+        .motion(RickerDisplacement::new(1.0, 0.8, 4.0).unwrap());
+    let error = simulation.build().map(|mut s| s.step().err()).map_or_else(Some, |error| error);
+    let message = error.unwrap().to_string();
+    assert!(message.contains("ground motion"), "{message}");
 }
 
 #[test]

@@ -179,6 +179,15 @@ fn bad_files_are_refused_with_their_line() {
     assert!(matches!(GmshMesh::read("no such file"), Err(Error::MeshFile { line: 0, .. })));
 }
 
+/// A group of any number that fits into the file's integers has a name.
+#[test]
+fn groups_of_any_number_are_read() {
+    let entities =
+        format!("$Entities\n0 0 1 0\n1 0 0 0 2 1 0 1 {} 0\n$EndEntities\n$Nodes", i64::MIN);
+    let gmsh = read(&MANUAL.replacen("$Nodes", &entities, 1)).unwrap();
+    assert_eq!(gmsh.surfaces(), [i64::MAX.to_string()]);
+}
+
 #[test]
 fn groups_that_are_not_there_are_named() {
     let gmsh = read(MANUAL).unwrap();

@@ -4,14 +4,14 @@
 #[path = "support/scenes.rs"]
 mod scenes;
 
-use basemat::bem::{HalfPlaneGround, SpringGround};
+use basemat::bem::{HalfPlaneGround, SpringGround, Strip};
 use basemat::coupled::{Placement, Probe, State};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{AtRest, STANDARD_GRAVITY, SpectralOrdinate, el_centro_1940};
 use basemat::results::{
     Comparison, EnergyShares, Histories, Quantity, Recorder, broadened, log_spaced,
 };
-use basemat::structure::{ContactNode, RigidBlock, Structure, Triplets};
+use basemat::structure::{ContactNode, RigidBlock, Structure, StructureGroup, Triplets};
 use basemat::{Error, Simulation, Soil};
 use scenes::{SI, block, friction, scene};
 
@@ -334,8 +334,58 @@ fn pages_and_tables() {
     assert_eq!(last[1].parse(), Ok(histories.series(Quantity::BaseShear)[STEPS]));
 }
 
+/// GOAL: of two blocks the page tells of the one that is closer to falling over.
+#[test]
+fn factors_of_safety_are_those_of_the_worst_foundation() {
+    let group = StructureGroup::new()
+        .with(RigidBlock::new(2.0, 8.0, 2000.0).unwrap(), -2.0)
+        .unwrap()
+        .with(RigidBlock::new(2.0, 2.0, 2000.0).unwrap(), 2.0)
+        .unwrap();
+    let strips = [Strip::uniform(-3.0..-1.0, 6).unwrap(), Strip::uniform(1.0..3.0, 6).unwrap()];
+    let soil = Soil::new(80.0e6, 0.3, 1900.0).unwrap();
+    let mut simulation = Simulation::builder(0.005)
+        .structure(group)
+        .ground(HalfPlaneGround::new(soil, &strips).unwrap())
+        .interface(Coulomb::new(0.5).unwrap())
+        .motion(el_centro_1940())
+        .gravity(STANDARD_GRAVITY)
+        .build()
+        .unwrap();
+    let mut histories = Recorder::new().frictions(vec![0.5; 12]).start(&simulation).unwrap();
+    let mut least = [f64::INFINITY; 2];
+    let run = simulation.run(500, |state| {
+        histories.record(state);
+        for foundation in &state.foundations {
+            // N b over the moment about the middle of its own base, and friction N over the shear.
+            let safety = foundation.normal_force / foundation.moment.abs();
+            least[0] = least[0].min(safety);
+            least[1] = least[1].min(0.5 * foundation.normal_force / foundation.shear.abs());
+        }
+    });
+    run.unwrap();
+    let summary = histories.summary();
+    let close = |found: f64, known: f64| (found / known - 1.0).abs() < 1e-9;
+    assert!(close(summary.least_overturning_safety.value, least[0]));
+    assert!(close(summary.least_sliding_safety.unwrap().value, least[1]));
+    assert!(least[0] < 1.3);
+}
+
 #[test]
 fn bad_requests_are_errors() {
+    // A loop of one's own that forgets steps has no spectrum.
+    let mut forgetful = simulation();
+    let mut histories = Recorder::new().start(&forgetful).unwrap();
+    histories.reserve(usize::MAX);
+    for step in 0..200 {
+        let state = forgetful.step().unwrap();
+        if step % 2 == 1 {
+            histories.record(state);
+        }
+    }
+    let spectrum = histories.floor_spectrum("top acceleration", &[0.1, 0.2], 0.05);
+    assert!(matches!(spectrum, Err(Error::Scene { .. })));
+
     let mut simulation = simulation();
     let start = |recorder: Recorder| recorder.start(&simulation);
     for coefficient in [-0.1, f64::NAN, f64::NEG_INFINITY] {

@@ -137,6 +137,20 @@ fn wireframes_move_as_their_structures() {
     let moved = shape.displacements(&unknowns).unwrap();
     assert_eq!(moved, [[0.0; 2], [0.0, 0.25], [0.0; 2], [0.0; 2]]);
 
+    // Followers of a rigid link go with it.
+    let mut mesh = Mesh::new();
+    let places = [[0.0, 0.0], [0.0, 3.0], [-2.0, 0.0], [2.0, 0.0]];
+    let [foot, top, left, right] = places.map(|[x, y]| mesh.add_node(x, y).unwrap());
+    mesh.add(Beam::new([foot, top], 1e6, 1e6, 1.0, 1.0).unwrap()).unwrap();
+    for node in [left, right] {
+        mesh.add(Beam::new([foot, node], 1e6, 1e6, 1.0, 1.0).unwrap()).unwrap();
+    }
+    let model = FemModel::new(mesh, &[left, right]).unwrap();
+    let model = model.with_rigid_link(foot, &[left, right]).unwrap();
+    let ride = model.rigid_motion(Direction::X, [0.0; 2]);
+    let moved = Wireframe::of_model(&model).displacements(&ride).unwrap();
+    assert_eq!(moved, [[1.0, 0.0]; 4]);
+
     // P from a block: a rigid turn leaves all distances, to second order.
     let shape = Wireframe::of_block(&RigidBlock::new(4.0, 6.0, 1e3).unwrap(), 6.0).unwrap();
     let moved = shape.displacements(&[0.0, 0.0, 1e-5]).unwrap();

@@ -16,7 +16,9 @@ use crate::linalg::{dense_multiply_add, dot};
 /// ```
 ///
 /// holds exactly for the discrete equations. Every term is computed from its own definition and
-/// none as the remainder, so that [`Ledger::residual`] checks the whole step.
+/// none as the remainder, so that [`Ledger::residual`] checks the whole step. One thing it does not
+/// check: energies that a nonlinear structure says it stores and dissipates. The difference between
+/// them and the work of its force is in `numerical`, and falls with the square of the step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Ledger {
     /// ½ v·M v.

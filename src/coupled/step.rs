@@ -33,10 +33,12 @@ impl Simulation {
         let step = self.state.step + 1;
         let time = step as f64 * self.time_step;
         let failed = |source| Error::Step { step, time, source };
-        self.observe_ground(time).map_err(failed)?;
+        let observed = self.observe_ground(time);
+        // A ground that cannot go with the motion says why.
         self.ground
             .history(&mut self.work.history)
             .map_err(|error| failed(StepError::Ground(Box::new(error))))?;
+        observed.map_err(failed)?;
         if self.work.history.iter().any(|x| !x.is_finite()) {
             return Err(failed(StepError::NotFinite { quantity: "history of the ground" }));
         }

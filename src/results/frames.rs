@@ -51,8 +51,8 @@ impl ContactFrames {
     pub(super) fn reserve(&mut self, steps: usize, count: usize) {
         let frames = steps / self.every + 1;
         self.times.reserve(frames);
-        self.states.reserve(frames * count);
-        self.modes.reserve(frames * count);
+        let _ = self.states.try_reserve(frames.saturating_mul(count));
+        let _ = self.modes.try_reserve(frames.saturating_mul(count));
     }
 
     /// Frames of `count` elements each.
@@ -94,8 +94,9 @@ impl MotionFrames {
     pub(super) fn reserve(&mut self, steps: usize, count: usize) {
         let frames = steps / self.every + 1;
         self.times.reserve(frames);
-        self.displacement.reserve(frames * count);
-        self.velocity.reserve(frames * count);
+        // What does not fit now may never be needed.
+        let _ = self.displacement.try_reserve(frames.saturating_mul(count));
+        let _ = self.velocity.try_reserve(frames.saturating_mul(count));
         self.free_field.reserve(frames);
     }
 

@@ -31,6 +31,9 @@ pub struct Histories {
     pub(super) tally: Tally,
 }
 
+/// Most steps that memory is reserved for.
+const MOST_RESERVED: usize = 1_000_000;
+
 /// What is followed at every step, whatever is kept.
 #[derive(Debug, Clone)]
 pub(super) struct Tally {
@@ -94,16 +97,17 @@ impl Histories {
     /// Those of [`Simulation::run`]; what was recorded before stays.
     pub fn run(&mut self, simulation: &mut Simulation, steps: usize) -> Result<Run> {
         // Longer runs are meant to be stopped on the way.
-        if steps <= 1_000_000 {
+        if steps <= MOST_RESERVED {
             self.reserve(steps);
         }
         simulation.run(steps, |state| self.record(state))
     }
 
-    /// Reserves memory for so many more steps: recording them allocates nothing then (unless there
+    /// Reserves memory for so many more steps, at most a million: recording them allocates nothing then (unless there
     /// are more than a thousand slip events, or frames of motion of a structure that is stepped in
     /// its modes, whose unknowns the state then makes).
     pub fn reserve(&mut self, steps: usize) {
+        let steps = steps.min(MOST_RESERVED);
         let count = steps / self.recorder.every + 1;
         let lists = self.scalars.iter_mut().chain(&mut self.probe_values);
         lists.chain([&mut self.times]).for_each(|list| list.reserve(count));
@@ -264,6 +268,7 @@ fn scalars(
     elements: &[ContactElement],
     state: &State,
 ) -> [f64; Quantity::ALL.len()] {
+    let all = friction;
     Quantity::ALL.map(|quantity| match quantity {
         Quantity::BaseShear => state.base_shear,
         Quantity::BaseMoment => state.base_moment,
@@ -275,7 +280,19 @@ fn scalars(
         Quantity::FreeFieldHorizontal => state.free_field[0],
         Quantity::FreeFieldVertical => state.free_field[1],
         Quantity::SlidingSafety if friction.is_empty() => f64::NAN,
-        Quantity::SlidingSafety => against_sliding(friction, elements, &state.contact),
-        Quantity::OverturningSafety => against_overturning(elements, &state.contact),
+        Quantity::SlidingSafety => least(state, &|own| {
+            let friction = friction.get(own.clone()).filter(|_| friction.len() > 1);
+            let friction = friction.unwrap_or(all);
+            against_sliding(friction, &elements[own.clone()], &state.contact[own])
+        }),
+        Quantity::OverturningSafety => {
+            least(state, &|own| against_overturning(&elements[own.clone()], &state.contact[own]))
+        }
     })
+}
+
+/// The least of a factor over the foundations, those in flight left out; NaN if all are.
+fn least(state: &State, factor: &dyn Fn(std::ops::Range<usize>) -> f64) -> f64 {
+    let own = state.foundations.iter().map(|foundation| factor(foundation.elements.clone()));
+    own.fold(f64::NAN, f64::min)
 }

@@ -168,5 +168,11 @@ pub(super) fn number(value: f64) -> String {
 
 /// A factor of safety.
 pub(super) fn factor(value: f64) -> String {
-    if value < 1e4 { format!("{value:.3}") } else { "unlimited".to_owned() }
+    if value.is_nan() {
+        "–".to_owned()
+    } else if value < 1e4 {
+        format!("{value:.3}")
+    } else {
+        "unlimited".to_owned()
+    }
 }

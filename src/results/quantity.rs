@@ -27,11 +27,12 @@ pub enum Quantity {
     ///
     /// It is made of tractions that did act: on a base that may slide it reaches one when it does,
     /// and never falls below. On a bonded base it may, and says what the interface would have lacked.
+    /// Of several foundations the least.
     SlidingSafety,
     /// Restoring over overturning moment about the edge that the pressure moves to: N times the
     /// half width, over the moment about the middle of the base. NaN in flight. On a base that may
     /// open it reaches one when the base stands on its edge (on its last element), and never falls
-    /// below.
+    /// below. Of several foundations the least.
     OverturningSafety,
 }
 

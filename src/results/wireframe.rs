@@ -69,9 +69,8 @@ impl Wireframe {
 
     /// Nodes and elements of a finite-element model.
     pub fn of_model(model: &FemModel) -> Self {
-        let row = |node, direction| {
-            model.unknown(node, direction).map(|unknown| (unknown, 1.0)).into_iter().collect()
-        };
+        // Of a follower of a rigid link, what it follows.
+        let row = |node, direction| model.row(node, direction).unwrap_or_default();
         let point = |(node, position): (usize, &[f64; 2])| WirePoint {
             position: *position,
             horizontal: row(node, Direction::X),

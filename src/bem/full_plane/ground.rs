@@ -22,7 +22,8 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 /// no free surface and is always stable, this ground serves for comparison with the paper and for
 /// boundaries that are not flat.
 ///
-/// Displacements are those at the midpoints of the contact elements.
+/// Displacements are those at the midpoints of the contact elements. Runs on this ground cannot be
+/// saved as a [`Checkpoint`](crate::coupled::Checkpoint).
 ///
 /// # Stability
 ///

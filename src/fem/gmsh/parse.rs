@@ -45,7 +45,7 @@ impl Raw {
     pub(super) fn group(&self, cell: &RawCell) -> String {
         let Some(&tag) = self.groups.get(&cell.entity) else { return String::new() };
         // A minus sign says that the entity's direction is reversed in its group.
-        let key = (cell.entity.0, tag.abs());
+        let key = (cell.entity.0, tag.saturating_abs());
         self.names.get(&key).cloned().unwrap_or_else(|| key.1.to_string())
     }
 }
