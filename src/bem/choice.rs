@@ -99,6 +99,7 @@ impl fmt::Display for ChoiceReason {
 
 /// The history that a ground keeps.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct HistoryChoice {
     /// Which one; never [`History::Auto`].
     pub kind: History,

@@ -20,6 +20,7 @@ use crate::linalg::{dense_multiply_add, dot};
 /// check: energies that a nonlinear structure says it stores and dissipates. The difference between
 /// them and the work of its force is in `numerical`, and falls with the square of the step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Ledger {
     /// ½ v·M v.
     pub kinetic: f64,

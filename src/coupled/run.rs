@@ -109,6 +109,7 @@ impl fmt::Display for Warning {
 
 /// Summary of a run; forces per metre of thickness, on the soil.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Run {
     /// Steps of this run.
     pub steps: usize,

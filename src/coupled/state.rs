@@ -37,6 +37,7 @@ impl Transition {
 ///
 /// Most structures have one. See [`crate::structure::Structure::foundation_ends`].
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Foundation {
     /// Its elements, as indices of [`State::contact`].
     pub elements: std::ops::Range<usize>,
@@ -73,6 +74,7 @@ impl Foundation {
 /// Displacements are changes against the static state under weight. Forces are those of the
 /// structure **on the soil**, per metre of thickness; tractions of the step act at its middle.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct State {
     /// Steps made.
     pub step: usize,
