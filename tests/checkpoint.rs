@@ -3,8 +3,13 @@
 #[path = "support/scenes.rs"]
 mod scenes;
 
-use basemat::bem::{ContactElement, Ground, HalfPlaneGround, History, SpringGround};
+use std::sync::Arc;
+
+use basemat::bem::{
+    ContactElement, Ground, HalfPlaneGround, History, PatchKernel, SpringGround, Strip,
+};
 use basemat::coupled::{Checkpoint, SimulationBuilder, State};
+use basemat::history::{ConvolutionHistory, DirectHistory, ExponentialHistory, RelaxedFftHistory};
 use basemat::interface::Bonded;
 use basemat::structure::{ContactNode, RigidBlock, Structure, Triplets};
 use basemat::{CheckpointError, Error, Result, Simulation};
@@ -171,6 +176,94 @@ fn resumed_runs_are_the_same_to_the_last_bit() {
     }
 }
 
+/// A block on equal elements whose ground chooses its history, in at most these bytes.
+fn auto(elements: usize, memory: usize) -> SimulationBuilder {
+    let ground = HalfPlaneGround::strip(soil(SI), -2.0..2.0, elements).unwrap();
+    let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+    base.ground(ground.with_history_memory(memory))
+}
+
+#[test]
+fn what_auto_has_chosen_is_chosen_again() {
+    const GIB: usize = 1 << 30;
+    for (elements, memory, expected, steps, kind) in [
+        // By wavenumbers and by pairs: their checkpoints are of unequal and equal sizes with the
+        // direct sum.
+        (10, GIB, 0, 50, History::Direct),
+        (4, GIB, 0, 50, History::Direct),
+        (10, GIB, 0, 100, History::RelaxedFft),
+        (10, 10_000, 0, 100, History::Exponentials),
+        // Their poles depend on the steps that were expected, which are no part of the scene.
+        (10, 10_000, 1 << 30, 100, History::Exponentials),
+    ] {
+        let case = format!("{elements} elements, {memory} bytes, {expected} steps expected");
+        let mut whole = auto(elements, memory).expected_steps(expected).build().unwrap();
+        whole.run(steps, |_| {}).unwrap();
+        let choice = whole.history_choice().unwrap();
+        assert_eq!(choice.kind, kind, "{case}");
+        let saved = carried(&whole.checkpoint().unwrap());
+        let wanted = states(&mut whole, 40);
+        let mut used = auto(elements, memory).build().unwrap();
+        used.run(steps + 10, |_| {}).unwrap();
+        for mut other in [auto(elements, memory).build().unwrap(), used] {
+            other.resume(&saved).unwrap_or_else(|e| panic!("{case}: {e}"));
+            assert_eq!(other.history_choice(), Some(choice), "{case}");
+            assert_eq!(other.checkpoint().unwrap(), saved, "{case}");
+            assert_eq!(states(&mut other, 40)[1..], wanted[1..], "{case}");
+        }
+    }
+}
+
+#[test]
+fn where_nothing_was_chosen_the_choice_is_open_again() {
+    let fresh = auto(10, 10_000).build().unwrap().checkpoint().unwrap();
+    let mut used = auto(10, 10_000).build().unwrap();
+    used.run(100, |_| {}).unwrap();
+    assert_eq!(used.history_choice().unwrap().kind, History::Exponentials);
+    used.resume(&fresh).unwrap();
+    assert_eq!((used.history_choice(), used.state().step), (None, 0));
+    used.run(50, |_| {}).unwrap();
+    assert_eq!(used.history_choice().unwrap().kind, History::Direct);
+}
+
+#[test]
+fn another_choice_is_refused_and_changes_nothing() {
+    let run = |memory| {
+        let mut simulation = auto(10, memory).build().unwrap();
+        simulation.run(100, |_| {}).unwrap();
+        simulation.checkpoint().unwrap()
+    };
+    let [transforms, exponentials] = [run(1 << 30), run(10_000)];
+    let quantity = "kind of history";
+    for (memory, checkpoint) in [(10_000, &transforms), (1 << 30, &exponentials)] {
+        // It would choose another one.
+        let mut fresh = auto(10, memory).build().unwrap();
+        assert_eq!(refusal(&mut fresh, checkpoint), CheckpointError::OtherScene { quantity });
+        assert_eq!(fresh.history_choice(), None);
+        // It has chosen another one.
+        fresh.run(50, |_| {}).unwrap();
+        assert_eq!(refusal(&mut fresh, checkpoint), CheckpointError::OtherScene { quantity });
+    }
+}
+
+#[test]
+fn a_step_count_without_tractions_takes_no_memory() {
+    // By pairs, and by wavenumbers.
+    for count in [4, 10] {
+        let elements = Strip::uniform(-2.0..2.0, count).unwrap().elements();
+        let kernel = Arc::new(PatchKernel::new(soil(SI), elements, 0.01).unwrap());
+        let corrupt = |history: &mut dyn ConvolutionHistory| {
+            for steps in [1 << 40, 1 << 47, usize::MAX] {
+                let error = history.restore(steps, &[0.0; 16]).unwrap_err();
+                assert!(matches!(error, Error::Checkpoint(CheckpointError::Corrupt { .. })));
+            }
+        };
+        corrupt(&mut DirectHistory::new(Arc::clone(&kernel)));
+        corrupt(&mut RelaxedFftHistory::new(Arc::clone(&kernel)));
+        corrupt(&mut ExponentialHistory::new(kernel, 1e-6).unwrap());
+    }
+}
+
 fn refusal(simulation: &mut Simulation, checkpoint: &Checkpoint) -> CheckpointError {
     let before = simulation.checkpoint().unwrap();
     let error = simulation.resume(checkpoint).unwrap_err();
@@ -313,12 +406,44 @@ mod text {
                     assert!(matches!(found, CheckpointError::Corrupt { .. }), "{found}");
                 }
             }
-            for (name, wrong) in [("format", 99_u64), ("steps", 71), ("steps", u64::MAX / 2)] {
+            for (name, wrong) in
+                [("format", 99_u64), ("steps", 71), ("steps", 1 << 40), ("steps", u64::MAX / 2)]
+            {
                 let mut value = good.clone();
                 value[name] = Value::from(wrong);
                 let bad: Checkpoint = serde_json::from_value(value).unwrap();
                 refusal(&mut simulation, &bad);
             }
+        }
+    }
+
+    #[test]
+    fn a_damaged_choice_of_the_history_is_refused() {
+        let mut whole = auto(10, 1 << 30).build().unwrap();
+        whole.run(100, |_| {}).unwrap();
+        let good = serde_json::to_value(whole.checkpoint().unwrap()).unwrap();
+        let wrong = [1e300, -1e300, -2.0, 0.5, 2.5, 1e20, f64::INFINITY, f64::NAN];
+        let kinds = [-1.0, 4.0].map(|kind| (0, kind));
+        for (place, wrong) in wrong.iter().flat_map(|w| [(0, *w), (1, *w)]).chain(kinds) {
+            let mut value = good.clone();
+            value["ground"][place] = Value::from(wrong.to_bits());
+            let bad: Checkpoint = serde_json::from_value(value).unwrap();
+            let mut fresh = auto(10, 1 << 30).build().unwrap();
+            for simulation in [&mut fresh, &mut whole] {
+                let before = simulation.history_choice();
+                let found = refusal(simulation, &bad);
+                assert!(matches!(found, CheckpointError::Corrupt { .. }), "{place}, {wrong}");
+                assert_eq!(simulation.history_choice(), before);
+            }
+        }
+        // Numbers that mean something, but something else.
+        for (place, other) in [(0, 0.0_f64), (0, 1.0), (0, 3.0), (1, 0.0), (1, 50.0), (1, 1e15)] {
+            let mut value = good.clone();
+            value["ground"][place] = Value::from(other.to_bits());
+            let bad: Checkpoint = serde_json::from_value(value).unwrap();
+            let mut fresh = auto(10, 1 << 30).build().unwrap();
+            refusal(&mut fresh, &bad);
+            assert_eq!(fresh.history_choice(), None);
         }
     }
 

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::PatchKernel;
-use crate::error::Result;
+use crate::error::{CheckpointError, Result};
 use crate::history::{ConvolutionHistory, DirectHistory, ExponentialHistory, RelaxedFftHistory};
 
 /// How the half-plane sums what all past tractions give.
@@ -113,6 +113,48 @@ pub struct HistoryChoice {
     pub estimated_cost: f64,
     /// Relative error of its coefficients, measured; zero if it is exact.
     pub error_bound: f64,
+}
+
+/// What a checkpoint says of a choice: with the same options, the same is chosen again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct SavedChoice {
+    /// [`History::Auto`] where none was made, or the history is one of the user's own.
+    pub(super) kind: History,
+    pub(super) steps: Option<usize>,
+}
+
+impl SavedChoice {
+    /// Kinds by their number in a checkpoint.
+    const KINDS: [History; 4] =
+        [History::Auto, History::Direct, History::RelaxedFft, History::Exponentials];
+
+    pub(super) fn new(choice: Option<HistoryChoice>) -> Self {
+        let (kind, steps) = choice.map_or((History::Auto, None), |c| (c.kind, c.steps));
+        Self { kind, steps }
+    }
+
+    /// Number of the kind, and steps that were expected or −1.
+    pub(super) fn numbers(self) -> [f64; 2] {
+        let kind = Self::KINDS.iter().take_while(|kind| **kind != self.kind).count();
+        [kind as f64, self.steps.map_or(-1.0, |steps| steps as f64)]
+    }
+
+    /// From the first of `values`, and what follows.
+    pub(super) fn read(values: &[f64]) -> Result<(Self, &[f64])> {
+        let corrupt = CheckpointError::Corrupt { quantity: "choice of the history" };
+        let [kind, steps, rest @ ..] = values else { return Err(corrupt.into()) };
+        let kind = (0_u8..).zip(Self::KINDS).find(|(number, _)| f64::from(*number) == *kind);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
+        let steps = match *steps {
+            -1.0 => Some(None),
+            n if n >= 0.0 && n <= usize::MAX as f64 && n.fract() == 0.0 => Some(Some(n as usize)),
+            _ => None,
+        };
+        match (kind, steps) {
+            (Some((_, kind)), Some(steps)) => Ok((Self { kind, steps }, rest)),
+            _ => Err(corrupt.into()),
+        }
+    }
 }
 
 impl fmt::Display for HistoryChoice {

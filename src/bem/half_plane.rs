@@ -3,12 +3,12 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::choice::{HistoryChoice, HistoryOptions};
+use super::choice::{HistoryChoice, HistoryOptions, SavedChoice};
 use super::patch::check_order;
 use super::{
     ContactElement, Grading, Ground, History, PatchKernel, SharedKernels, StaticKernel, Strip,
 };
-use crate::error::{Error, Result};
+use crate::error::{CheckpointError, Error, Result};
 use crate::history::{ConvolutionHistory, ExponentialHistory};
 use crate::soil::Soil;
 
@@ -154,6 +154,16 @@ impl HalfPlaneGround {
     pub fn soil(&self) -> &Soil {
         &self.soil
     }
+
+    /// Before the first step, with a history where none is to be chosen.
+    fn begin(&self, kernel: Arc<PatchKernel>) -> Result<Prepared> {
+        let history = self.own_history.as_ref().map(|make| make(Arc::clone(&kernel)));
+        let mut prepared = Prepared { kernel, history, choice: None };
+        if self.options.kind != History::Auto {
+            prepared.history(self.options, None)?;
+        }
+        Ok(prepared)
+    }
 }
 
 impl Ground for HalfPlaneGround {
@@ -163,12 +173,7 @@ impl Ground for HalfPlaneGround {
 
     fn prepare(&mut self, time_step: f64) -> Result<()> {
         let kernel = self.shared.kernel(self.soil, &self.elements, time_step)?;
-        let history = self.own_history.as_ref().map(|make| make(Arc::clone(&kernel)));
-        let mut prepared = Prepared { kernel, history, choice: None };
-        if self.options.kind != History::Auto {
-            prepared.history(self.options, None)?;
-        }
-        self.prepared = Some(prepared);
+        self.prepared = Some(self.begin(kernel)?);
         Ok(())
     }
 
@@ -210,22 +215,44 @@ impl Ground for HalfPlaneGround {
         history.map_or(0.0, |history| history.increment_error_bound())
     }
 
-    /// What its history says.
+    /// Which history was chosen for how many steps, and what it says.
     fn checkpoint(&self) -> Result<Vec<f64>> {
-        match &self.prepared {
-            Some(prepared) => match &prepared.history {
-                Some(history) => history.checkpoint(),
-                None => Ok(Vec::new()),
-            },
-            None => Err(NOT_PREPARED),
+        let prepared = self.prepared.as_ref().ok_or(NOT_PREPARED)?;
+        let mut values = SavedChoice::new(prepared.choice).numbers().to_vec();
+        if let Some(history) = &prepared.history {
+            values.extend(history.checkpoint()?);
         }
+        Ok(values)
     }
 
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
-        match &mut self.prepared {
-            Some(prepared) => prepared.history(self.options, None)?.restore(steps, values),
-            None => Err(NOT_PREPARED),
+        let prepared = self.prepared.as_mut().ok_or(NOT_PREPARED)?;
+        let (saved, values) = SavedChoice::read(values)?;
+        let own = SavedChoice::new(prepared.choice);
+        let other = CheckpointError::OtherScene { quantity: "kind of history" };
+        if let Some(history) = prepared.history.as_mut().filter(|_| own == saved) {
+            return history.restore(steps, values);
         }
+        if saved.kind == History::Auto {
+            // Nothing had been chosen yet, so that it is still to be.
+            if self.own_history.is_some() || steps > 0 || !values.is_empty() {
+                return Err(other.into());
+            }
+            let kernel = Arc::clone(&prepared.kernel);
+            self.prepared = Some(self.begin(kernel)?);
+            return Ok(());
+        }
+        if prepared.history.is_some() && own.kind != saved.kind {
+            return Err(other.into());
+        }
+        // What was chosen then is chosen again, and taken once it has the values.
+        let (mut history, choice) = self.options.make(&prepared.kernel, saved.steps)?;
+        if choice.kind != saved.kind {
+            return Err(other.into());
+        }
+        history.restore(steps, values)?;
+        (prepared.history, prepared.choice) = (Some(history), Some(choice));
+        Ok(())
     }
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {

@@ -8,7 +8,7 @@ use crate::error::{CheckpointError, Result};
 use crate::interface::{ContactState, Mode, StepStart, law_of};
 
 /// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 /// Most steps that a checkpoint may stand for: more would not fit into any run.
 const MOST_STEPS: usize = 1 << 47;
 /// How far numbers of the same scene may be apart (other processors round differently).
