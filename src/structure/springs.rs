@@ -161,6 +161,10 @@ impl Structure for WithSprings {
         self.structure.contact_nodes()
     }
 
+    fn foundation_ends(&self) -> Vec<usize> {
+        self.structure.foundation_ends()
+    }
+
     fn mass(&self, matrix: &mut Triplets) {
         self.structure.mass(matrix);
     }
