@@ -4,6 +4,9 @@ use crate::error::{Error, Result};
 use crate::linalg::largest;
 use crate::structure::Triplets;
 
+/// Most rows and columns: more are a mistake.
+pub(crate) const MOST_ROWS: usize = 100_000_000;
+
 /// Square sparse matrix, compressed by rows.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct SparseMatrix {
@@ -17,6 +20,10 @@ impl SparseMatrix {
     /// Sums the entries of `triplets` by place.
     pub(crate) fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
         let order = triplets.order();
+        if order > MOST_ROWS {
+            let (quantity, value) = ("order of a matrix", order as f64);
+            return Err(Error::Input { quantity, value, needed: "100 million or less" });
+        }
         let mut row_start = vec![0; order + 1];
         for &(row, column, value) in triplets.entries() {
             let index = row.max(column);

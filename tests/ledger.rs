@@ -7,7 +7,7 @@ use basemat::bem::SpringGround;
 use basemat::coupled::{Ledger, Newmark, Run, SimulationBuilder, Theta};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::{Activation, Bonded, ThinLayer};
-use basemat::structure::{Bilinear, FemModel, RayleighDamping, RigidBlock, WithSprings};
+use basemat::structure::{Bilinear, FemModel, RayleighDamping, ShearBuilding, Storey, WithSprings};
 use scenes::{Rider, SI, block, friction, scene, shake, soil, tower};
 
 fn run(builder: SimulationBuilder, steps: usize) -> Run {
@@ -43,10 +43,12 @@ fn kinds() -> Vec<(&'static str, Run)> {
             run(base().structure(Rider { block: block(SI) }).interface(friction(0.4)), 400),
         ),
         ("yielding damper", {
-            let sway = vec![(RigidBlock::HORIZONTAL, 1.0)];
+            let storeys = [Storey::new(3.0, 15e3, 25e6); 3];
+            let building = ShearBuilding::new(4.0, 3e4, 8e4, &storeys).unwrap();
+            let drift = building.drift(0).unwrap();
             let law = Bilinear::new(1e7, 2e4, 0.1).unwrap();
-            let held = WithSprings::new(block(SI)).spring(sway, law).unwrap();
-            run(base().structure(held).interface(friction(0.4)), 400)
+            let damped = WithSprings::new(building).spring(drift, law).unwrap();
+            run(base().structure(damped).interface(friction(0.4)), 400)
         }),
         ("spring bed", {
             let bed = SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap();

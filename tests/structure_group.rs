@@ -5,7 +5,8 @@ use basemat::coupled::{Coordinates, SimulationBuilder, State};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{RickerDisplacement, STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
-    ContactNode, RigidBlock, ShearBuilding, Storey, Structure, StructureGroup, Triplets,
+    ContactNode, CraigBampton, ModalDamping, RigidBlock, ShearBuilding, Storey, Structure,
+    StructureGroup, Triplets, WithSprings,
 };
 use basemat::{CheckpointError, Error, Result, Simulation, Soil};
 
@@ -305,4 +306,54 @@ fn groups_that_make_no_sense_are_refused() {
     assert!(matches!(built, Err(Error::Size { .. })), "{:?}", built.err());
     let empty = base().structure(StructureGroup::new()).ground(half_plane(&across[..1])).build();
     assert!(empty.is_err());
+}
+
+#[test]
+fn foundations_stay_apart_in_every_wrapper() {
+    let pair = || StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 5.0).unwrap();
+    let wrapped: [Box<dyn Structure>; 3] = [
+        Box::new(WithSprings::new(pair())),
+        Box::new(ModalDamping::new(&[0.05]).unwrap().on(pair()).unwrap()),
+        Box::new(CraigBampton::new(2).reduce(pair()).unwrap()),
+    ];
+    assert_eq!(pair().foundation_ends(), [1]);
+    for structure in wrapped {
+        assert_eq!(structure.foundation_ends(), [1]);
+    }
+    let strips = [strip(0.0, 4.0), strip(5.0, 3.0)];
+    let simulation = base().structure(WithSprings::new(pair())).ground(half_plane(&strips));
+    assert_eq!(simulation.build().unwrap().state().foundations.len(), 2);
+}
+
+/// A block that names a last contact node of its own choice.
+struct Ends(usize);
+
+impl Structure for Ends {
+    fn unknowns(&self) -> usize {
+        3
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        block().contact_nodes()
+    }
+
+    fn foundation_ends(&self) -> Vec<usize> {
+        vec![self.0]
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        block().mass(matrix);
+    }
+
+    fn stiffness(&self, _: &mut Triplets) {}
+}
+
+#[test]
+fn foundations_that_end_nowhere_are_refused() {
+    let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
+    for end in [2, usize::MAX] {
+        let pair = StructureGroup::new().with(block(), 0.0).unwrap().with(Ends(end), 5.0).unwrap();
+        let built = base().structure(pair).ground(half_plane(&strips)).build();
+        assert!(matches!(built, Err(Error::Index { bound: 4, .. })), "{:?}", built.err());
+    }
 }

@@ -166,6 +166,22 @@ impl Base {
         self.foundations[foundation].rotation.of(u)
     }
 
+    /// Largest error of N r for rides of 1 to the right and 1 up, N the displacements of the contact
+    /// nodes. A component without terms belongs to nothing that could move.
+    pub(crate) fn ride_error(&self, ride: &[Vec<f64>; 2]) -> f64 {
+        let mut worst = 0.0_f64;
+        for node in &self.nodes {
+            for (component, terms) in [&node.horizontal, &node.vertical].into_iter().enumerate() {
+                for (direction, ride) in ride.iter().enumerate().filter(|_| !terms.is_empty()) {
+                    let moved: f64 = terms.iter().map(|&(j, weight)| weight * ride[j]).sum();
+                    let needed = if component == direction { 1.0 } else { 0.0 };
+                    worst = worst.max((moved - needed).abs());
+                }
+            }
+        }
+        worst
+    }
+
     /// Adds γ NᵀN to `matrix` and γ Nᵀ1 to the two right-hand sides (horizontal, vertical up),
     /// N the displacements of the contact nodes.
     pub(crate) fn tie_nodes(&self, factor: f64, matrix: &mut Triplets, rhs: [&mut [f64]; 2]) {

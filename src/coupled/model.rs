@@ -21,6 +21,9 @@ mod cost {
     pub(super) const MODES: f64 = 3.0;
 }
 
+/// Largest error of a ride of 1 at the contact nodes: far above rounding, and what a weight may be off.
+const RIDE: f64 = 1e-6;
+
 /// Assembled matrices of a structure, and how it rides with the ground.
 pub(crate) struct Model {
     pub(crate) structure: Box<dyn Structure>,
@@ -181,7 +184,8 @@ impl Model {
     }
 
     /// A rigid ride leaves K u = 0 and moves the contact nodes by one: (K + γ NᵀN) r = γ Nᵀ 1 has
-    /// it as its solution for every γ, with no knowledge of what each unknown means.
+    /// it as its solution for every γ, with no knowledge of what each unknown means. Where K resists
+    /// the ride, the nodes lag behind: such a ride would not weigh the structure.
     fn rigid_ride(&mut self, base: &Base) -> Result<[Vec<f64>; 2]> {
         let n = self.unknowns;
         let at_rest = vec![0.0; n];
@@ -203,6 +207,11 @@ impl Model {
         if horizontal.iter().chain(&vertical).any(|r| !r.is_finite()) {
             return Err(Error::Singular { matrix: name, order: n });
         }
-        Ok([horizontal, vertical])
+        let ride = [horizontal, vertical];
+        if base.ride_error(&ride) > RIDE {
+            let needed = "must ride freely: no stiffness to a fixed point";
+            return Err(Error::Scene { quantity: "structure", needed });
+        }
+        Ok(ride)
     }
 }

@@ -66,6 +66,10 @@ fn by_rows(matrix: &Mat<f64>) -> Vec<f64> {
 
 fn symmetric_eigen(matrix: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)> {
     let n = matrix.nrows();
+    // faer takes no empty matrix.
+    if n == 0 {
+        return Some((Vec::new(), Mat::zeros(0, 0)));
+    }
     let (mut values, mut vectors) = (Diag::<f64>::zeros(n), Mat::<f64>::zeros(n, n));
     // Divide and conquer, faer's way from order 128 on, left residuals of 6e-7 of the largest force
     // (order 308, the containment of the examples); the QR iteration leaves none above rounding.

@@ -283,6 +283,10 @@ impl Structure for ReducedModel {
         self.contact.clone()
     }
 
+    fn foundation_ends(&self) -> Vec<usize> {
+        self.full.foundation_ends()
+    }
+
     fn mass(&self, matrix: &mut Triplets) {
         add(&self.mass, self.unknowns(), matrix);
     }

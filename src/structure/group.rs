@@ -146,7 +146,8 @@ impl Structure for StructureGroup {
     fn foundation_ends(&self) -> Vec<usize> {
         let (mut ends, mut nodes) = (Vec::new(), 0);
         for member in &self.members {
-            ends.extend(member.structure.foundation_ends().iter().map(|end| nodes + end));
+            let own = member.structure.foundation_ends();
+            ends.extend(own.iter().map(|end| end.saturating_add(nodes)));
             nodes += member.nodes;
             ends.push(nodes - 1);
         }
@@ -199,11 +200,10 @@ impl Structure for StructureGroup {
 
     /// Known if all nonlinear members know theirs.
     fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        let mut sum = InternalEnergy { stored: 0.0, dissipated: 0.0 };
+        let mut sum = InternalEnergy::default();
         for member in self.members.iter().filter(|member| !member.structure.is_linear()) {
-            let own = member.structure.nonlinear_energy(displacement.get(member.range())?)?;
-            sum.stored += own.stored;
-            sum.dissipated += own.dissipated;
+            let own = displacement.get(member.range())?;
+            sum = sum + member.structure.nonlinear_energy(own)?;
         }
         Some(sum)
     }

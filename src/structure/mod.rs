@@ -50,8 +50,11 @@ use crate::error::{CheckpointError, Result};
 /// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping
 /// does not act on the ride with the ground) and f the optional nonlinear force. Four methods are
 /// needed: [`unknowns`](Structure::unknowns), [`contact_nodes`](Structure::contact_nodes),
-/// [`mass`](Structure::mass) and [`stiffness`](Structure::stiffness); no support is fixed, the
-/// ground holds the structure up.
+/// [`mass`](Structure::mass) and [`stiffness`](Structure::stiffness).
+///
+/// No support is fixed, the ground holds the structure up: neither K nor the tangent of f at rest
+/// may resist a rigid ride to the right or upwards. Structures with stiffness to a fixed point are
+/// refused when a simulation is built.
 ///
 /// All forces are per metre of thickness.
 pub trait Structure: Send {

@@ -122,6 +122,10 @@ impl Structure for WithModalDamping {
         self.structure.contact_nodes()
     }
 
+    fn foundation_ends(&self) -> Vec<usize> {
+        self.structure.foundation_ends()
+    }
+
     fn mass(&self, matrix: &mut Triplets) {
         self.structure.mass(matrix);
     }

@@ -172,9 +172,15 @@ impl ShearBuilding {
     /// With P–Δ it is the horizontal part of the columns' force, −P/h of the sway included.
     ///
     /// # Errors
-    /// [`Error::Index`] when there is no such storey.
+    /// [`Error::Index`] when there is no such storey, [`Error::Scene`] when it follows a law, whose
+    /// force is no weighted sum of displacements: see
+    /// [`NonlinearShearBuilding::shear`](super::NonlinearShearBuilding::shear).
     pub fn shear(&self, storey: usize) -> Result<SectionRows> {
         let drift = self.drift(storey)?;
+        if self.released[storey] {
+            let needed = "follows a law: take `NonlinearShearBuilding::shear`";
+            return Err(Error::Scene { quantity: "shear of a storey", needed });
+        }
         let Storey { height, stiffness, damping, .. } = self.storeys[storey];
         let scaled = |factor: f64| drift.iter().map(move |&(index, w)| (index, factor * w));
         let mut displacement: Vec<(usize, f64)> = scaled(stiffness).collect();

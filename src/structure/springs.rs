@@ -114,16 +114,22 @@ impl Springs {
 /// have the spring alone must have no stiffness of its own there. For shear buildings there is
 /// [`NonlinearShearBuilding`](super::NonlinearShearBuilding).
 ///
-/// ```
-/// use basemat::structure::{Bilinear, RigidBlock, Structure, WithSprings};
+/// Unknowns are absolute: a spring on one alone would hold the structure to a point in space, not
+/// to the ground that moves, and no simulation takes it. A deformation must be zero when all rides
+/// together.
 ///
-/// // A rocking block with a yielding damper between its left toe and the ground.
-/// let block = RigidBlock::new(4.0, 10.0, 2000.0)?;
-/// let toe = block.vertical_at(-2.0);
-/// let held = WithSprings::new(block).spring(toe, Bilinear::new(5.0e6, 2.0e4, 0.0)?)?;
-/// let mut force = [0.0; 3];
-/// held.nonlinear_force(&[0.0, 0.0, -0.01], &mut force); // the toe is 20 mm up: it yields
-/// assert_eq!(force, [0.0, 2.0e4, -4.0e4]);
+/// ```
+/// use basemat::structure::{Bilinear, ShearBuilding, Storey, Structure, WithSprings};
+///
+/// // A building with a yielding damper beside its lowest columns.
+/// let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 3];
+/// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?;
+/// let drift = building.drift(0)?;
+/// let damped = WithSprings::new(building).spring(drift, Bilinear::new(5.0e6, 2.0e4, 0.0)?)?;
+/// let mut force = [0.0; 6];
+/// // 10 mm of drift: it yields, and turns the base by its height of 3 m.
+/// damped.nonlinear_force(&[0.0, 0.0, 0.0, 0.01, 0.01, 0.01], &mut force);
+/// assert_eq!(force, [-2.0e4, 0.0, 6.0e4, 2.0e4, 0.0, 0.0]);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct WithSprings {
@@ -159,6 +165,10 @@ impl Structure for WithSprings {
 
     fn contact_nodes(&self) -> Vec<ContactNode> {
         self.structure.contact_nodes()
+    }
+
+    fn foundation_ends(&self) -> Vec<usize> {
+        self.structure.foundation_ends()
     }
 
     fn mass(&self, matrix: &mut Triplets) {

@@ -61,6 +61,9 @@ fn law() -> Bilinear {
 fn laws_have_one_storey_each() {
     let one = NonlinearShearBuilding::new(building()).with_law(1, law()).unwrap();
     assert!(matches!(one.with_law(1, law()), Err(Error::Scene { .. })));
+    let one = NonlinearShearBuilding::new(building()).with_law(1, law()).unwrap();
+    assert!(matches!(one.building().shear(1), Err(Error::Scene { .. })));
+    assert!(one.building().shear(0).is_ok() && one.shear(1).is_ok());
     let none = NonlinearShearBuilding::new(building());
     assert!(none.is_linear());
     assert!(matches!(none.shear(2), Err(Error::Index { .. })));

@@ -158,3 +158,25 @@ fn bad_files_are_refused_with_line_and_reason() {
     bad.add(0, 1, 1.0);
     assert!(matches!(bad.to_matrix_market("m", Vec::new()), Err(Error::Index { .. })));
 }
+
+#[test]
+fn a_bad_matrix_leaves_the_file_as_it_was() {
+    let path = std::env::temp_dir().join(format!("basemat_{}_kept.mtx", std::process::id()));
+    let mut good = Triplets::new(2);
+    good.add(0, 0, 1.0);
+    good.write_matrix_market(&path).unwrap();
+    let mut bad = Triplets::new(2);
+    bad.add(0, 2, 1.0);
+    assert!(matches!(bad.write_matrix_market(&path), Err(Error::Index { .. })));
+    let kept = Triplets::read_matrix_market(&path);
+    std::fs::remove_file(&path).unwrap();
+    assert_eq!(kept.unwrap(), good);
+}
+
+#[test]
+fn orders_beyond_memory_are_refused() {
+    for order in [100_000_001, usize::MAX - 1, usize::MAX] {
+        let written = Triplets::new(order).to_matrix_market("huge", Vec::new());
+        assert!(matches!(written, Err(Error::Input { .. })), "{order}");
+    }
+}

@@ -6,7 +6,8 @@ use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
-    ContactNode, FemModel, MatrixModel, RayleighDamping, Structure, Triplets,
+    Bilinear, ContactNode, FemModel, MatrixModel, RayleighDamping, RigidBlock, Structure, Triplets,
+    WithSprings,
 };
 use basemat::{Error, Simulation, Soil};
 
@@ -66,6 +67,8 @@ fn bad_matrices_are_refused() {
     let one = || diagonal(3, 1.0);
     assert!(MatrixModel::new(one(), Triplets::new(3), contact()).is_ok());
     let new = MatrixModel::new;
+    let huge = Triplets::new(usize::MAX);
+    assert!(matches!(new(huge.clone(), huge, contact()), Err(Error::Input { .. })));
     assert!(matches!(new(Triplets::new(0), one(), contact()), Err(Error::Size { .. })));
     assert!(matches!(new(one(), diagonal(4, 1.0), contact()), Err(Error::Size { .. })));
     assert!(matches!(new(one(), one(), vec![]), Err(Error::Size { .. })));
@@ -83,4 +86,41 @@ fn bad_matrices_are_refused() {
     let model = new(one(), one(), contact()).unwrap();
     assert!(matches!(model.clone().with_damping(diagonal(2, 1.0)), Err(Error::Size { .. })));
     assert!(matches!(model.with_damping(diagonal(3, f64::NAN)), Err(Error::Input { .. })));
+}
+
+#[track_caller]
+fn refused(structure: impl Structure + 'static) {
+    let built = on_soil(structure).build();
+    assert!(matches!(built, Err(Error::Scene { quantity: "structure", .. })));
+}
+
+/// An elastic support would carry part of the weight and distort the ride that weighs the structure.
+#[test]
+fn stiffness_to_a_fixed_point_is_refused() {
+    let block = || RigidBlock::new(6.0, 10.0, 80.0e3 / 60.0).unwrap();
+    for (unknown, stiffness) in [(1, 1e-3), (1, 1.0), (1, 1e9), (0, 1e-3), (0, 1e9)] {
+        let [mut mass, mut spring] = [(); 2].map(|()| Triplets::new(3));
+        block().mass(&mut mass);
+        spring.add(unknown, unknown, stiffness);
+        refused(MatrixModel::new(mass, spring, block().contact_nodes()).unwrap());
+        let law = Bilinear::new(stiffness, 1.0, 0.1).unwrap();
+        let held = WithSprings::new(block()).spring(vec![(unknown, 1.0)], law).unwrap();
+        refused(held);
+    }
+    let roof = tower(4, 6).unknowns() - 1;
+    let law = Bilinear::new(1e8, 1e5, 0.1).unwrap();
+    refused(WithSprings::new(tower(4, 6)).spring(vec![(roof, 1.0)], law).unwrap());
+}
+
+/// However stiff, a structure without supports rides freely.
+#[test]
+fn stiff_structures_ride_freely() {
+    for modulus in [1e3, 1e9, 1e15, 1e20] {
+        let material = Material::new(modulus, 0.2, 2000.0).unwrap();
+        let mesh = Mesh::layered_block(-3.0..3.0, 6, &[Layer::new(120.0, 60, material)]).unwrap();
+        let model = FemModel::on_base(mesh).unwrap();
+        let built = on_soil(model).gravity(0.0).build();
+        let fixed = matches!(built, Err(Error::Scene { .. }));
+        assert!(!fixed, "{modulus:e}: {:?}", built.err());
+    }
 }

@@ -4,8 +4,8 @@ use basemat::Error;
 use basemat::coupled::{Coordinates, Probe};
 use basemat::fem::Direction;
 use basemat::structure::{
-    Bilinear, CraigBampton, FemModel, RayleighDamping, Recovery, ReducedModel, Structure, Triplets,
-    WithSprings,
+    Bilinear, ContactNode, CraigBampton, FemModel, MatrixModel, ModalDamping, RayleighDamping,
+    Recovery, ReducedModel, Structure, StructureGroup, Triplets, WithSprings,
 };
 
 use super::model::{on_soil, tower};
@@ -240,4 +240,23 @@ fn tall_meshes_stand() {
         // Slow loads pass by static answers; weight on the interior by the modes that are kept.
         assert!((a.pressure - b.pressure).abs() < 1e-2 * weight / 6.0, "{a:?} {b:?}");
     }
+}
+
+/// A weightless mast on a rigid base has no modes of its own.
+#[test]
+fn without_mass_or_unknowns_there_are_no_modes() {
+    let mast = || {
+        let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(4));
+        (0..3).for_each(|unknown| mass.add(unknown, unknown, 1e4));
+        stiffness.add_outer(&[(3, 1.0), (0, -1.0), (2, 5.0)], 4e6);
+        let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
+        MatrixModel::new(mass, stiffness, contact).unwrap()
+    };
+    for modes in [0, 1] {
+        let reduced = CraigBampton::new(modes).reduce(mast()).unwrap();
+        assert_eq!(reduced.unknowns(), 3);
+        assert!(reduced.frequencies().is_empty());
+    }
+    let nothing = ModalDamping::new(&[0.05]).unwrap().on(StructureGroup::new()).unwrap();
+    assert!(nothing.frequencies().is_empty());
 }

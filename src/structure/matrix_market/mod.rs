@@ -12,6 +12,7 @@ use std::path::Path;
 
 use super::Triplets;
 use crate::error::{Error, MatrixFileError, Result};
+use crate::linalg::SparseMatrix;
 
 impl Triplets {
     /// Reads a square matrix from a Matrix Market file (`.mtx`).
@@ -62,15 +63,16 @@ impl Triplets {
     /// written as such. Numbers are written so that reading gives the same ones back.
     ///
     /// # Errors
-    /// [`Error::Index`] or [`Error::Input`] for an entry out of range or not finite,
-    /// [`Error::MatrixFile`] when the file cannot be written.
+    /// [`Error::Index`] or [`Error::Input`] for an entry out of range or not finite, and
+    /// [`Error::Input`] for an order above 100 million, with the file left as it was;
+    /// [`Error::MatrixFile`] when it cannot be written.
     pub fn write_matrix_market(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
-        let name = path.display().to_string();
-        match File::create(path) {
-            Ok(file) => self.to_matrix_market(&name, std::io::BufWriter::new(file)),
-            Err(error) => Err(whole(name, MatrixFileError::Unwritable(error.kind()))),
-        }
+        // Before the file is opened, which empties it.
+        let matrix = self.checked()?;
+        File::create(path)
+            .and_then(|file| writer::write(&matrix, &mut std::io::BufWriter::new(file)))
+            .map_err(|error| unwritable(path.display().to_string(), &error))
     }
 
     /// Writes the same to any sink of bytes; `name` is what errors call it.
@@ -78,10 +80,17 @@ impl Triplets {
     /// # Errors
     /// As for [`Triplets::write_matrix_market`].
     pub fn to_matrix_market(&self, name: &str, mut sink: impl Write) -> Result<()> {
-        let matrix = crate::linalg::SparseMatrix::new("matrix to be written", self)?;
-        writer::write(&matrix, &mut sink)
-            .map_err(|error| whole(name.to_owned(), MatrixFileError::Unwritable(error.kind())))
+        writer::write(&self.checked()?, &mut sink)
+            .map_err(|error| unwritable(name.to_owned(), &error))
     }
+
+    fn checked(&self) -> Result<SparseMatrix> {
+        SparseMatrix::new("matrix to be written", self)
+    }
+}
+
+fn unwritable(file: String, error: &std::io::Error) -> Error {
+    whole(file, MatrixFileError::Unwritable(error.kind()))
 }
 
 /// The error for a file as a whole.

@@ -4,11 +4,10 @@ use std::io::{BufRead, BufReader, Read};
 
 use super::Triplets;
 use crate::error::MatrixFileError;
+use crate::matrix::MOST_ROWS;
 
 /// Longest line, bytes: a file without line ends must not fill the memory.
 const LONGEST_LINE: u64 = 65_536;
-/// Most rows and columns: more are a mistake.
-const MOST_ROWS: usize = 100_000_000;
 /// Most entries of an array, which has no other bound than what its size line says.
 const MOST_ROWS_OF_ARRAY: usize = 20_000;
 
