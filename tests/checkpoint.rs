@@ -26,7 +26,7 @@ fn spring_bed() -> SpringGround {
     SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap().with_dashpots(4e5, 3e5).unwrap()
 }
 
-/// Rigid block whose weak spring to its first position slips: it has a memory of its own.
+/// Rigid block whose weak spring against rotation slips: it has a memory of its own.
 struct Sticky {
     block: RigidBlock,
     anchor: f64,
@@ -54,15 +54,15 @@ impl Structure for Sticky {
     }
 
     fn nonlinear_force(&self, u: &[f64], force: &mut [f64]) {
-        force[0] += 1e5 * (u[0] - self.anchor);
+        force[2] += 1e5 * (u[2] - self.anchor);
     }
 
     fn nonlinear_tangent(&self, _: &[f64], matrix: &mut Triplets) {
-        matrix.add(0, 0, 1e5);
+        matrix.add(2, 2, 1e5);
     }
 
     fn commit(&mut self, u: &[f64]) {
-        self.anchor += 0.1 * (u[0] - self.anchor);
+        self.anchor += 0.1 * (u[2] - self.anchor);
     }
 
     fn save(&self) -> Vec<f64> {

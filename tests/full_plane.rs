@@ -474,7 +474,7 @@ fn two_motions_are_refused() {
         .ground(ground.skip_assessment())
         .interface(Bonded)
         .motion(RickerDisplacement::new(1.0, 0.8, 4.0).unwrap());
-    let error = simulation.build().map(|mut s| s.step().err()).unwrap_or_else(Some);
+    let error = simulation.build().map_or_else(Some, |mut s| s.step().err());
     let message = error.unwrap().to_string();
     assert!(message.contains("ground motion"), "{message}");
 }
