@@ -149,6 +149,7 @@
 #![forbid(unsafe_code)]
 
 pub mod bem;
+mod bounded_line;
 pub mod coupled;
 mod error;
 pub mod fem;

@@ -1,11 +1,9 @@
 //! Lines and numbers of text files, however bad.
 
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufReader, Read};
 
+use crate::bounded_line::read_line;
 use crate::error::{Error, RecordError, Result};
-
-/// Longest line, bytes: a file without line ends must not fill the memory.
-const LONGEST_LINE: u64 = 65_536;
 
 /// Why a line is refused, and which.
 pub(super) type Reason<T> = std::result::Result<T, (usize, RecordError)>;
@@ -25,16 +23,9 @@ impl<'a> Lines<'a> {
 
     /// The next line, or none at the end.
     pub(super) fn next(&mut self) -> Reason<Option<String>> {
-        self.bytes.clear();
         let line = self.number + 1;
-        let read = self.source.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.bytes);
-        match read {
-            Err(error) => return Err((line, RecordError::Unreadable(error.kind()))),
-            Ok(0) => return Ok(None),
-            Ok(count) if count as u64 == LONGEST_LINE && self.bytes.last() != Some(&b'\n') => {
-                return Err((line, RecordError::LineTooLong { bytes: count }));
-            }
-            Ok(_) => {}
+        if !read_line(&mut self.source, &mut self.bytes).map_err(|unread| (line, unread.into()))? {
+            return Ok(None);
         }
         self.number = line;
         // Bytes that are not UTF-8 become signs that are no number; in comments they do not matter.

@@ -1,6 +1,7 @@
 //! The observer: histories of a run.
 
 use std::io::{self, Write};
+use std::ops::Range;
 
 use super::envelope::{self, ElementEnvelope};
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
@@ -268,7 +269,9 @@ fn scalars(
     elements: &[ContactElement],
     state: &State,
 ) -> [f64; Quantity::ALL.len()] {
-    let all = friction;
+    // One coefficient for all elements, or one each.
+    let of =
+        |own: &Range<usize>| if friction.len() > 1 { &friction[own.clone()] } else { friction };
     Quantity::ALL.map(|quantity| match quantity {
         Quantity::BaseShear => state.base_shear,
         Quantity::BaseMoment => state.base_moment,
@@ -281,9 +284,7 @@ fn scalars(
         Quantity::FreeFieldVertical => state.free_field[1],
         Quantity::SlidingSafety if friction.is_empty() => f64::NAN,
         Quantity::SlidingSafety => least(state, &|own| {
-            let friction = friction.get(own.clone()).filter(|_| friction.len() > 1);
-            let friction = friction.unwrap_or(all);
-            against_sliding(friction, &elements[own.clone()], &state.contact[own])
+            against_sliding(of(&own), &elements[own.clone()], &state.contact[own])
         }),
         Quantity::OverturningSafety => {
             least(state, &|own| against_overturning(&elements[own.clone()], &state.contact[own]))
@@ -292,7 +293,7 @@ fn scalars(
 }
 
 /// The least of a factor over the foundations, those in flight left out; NaN if all are.
-fn least(state: &State, factor: &dyn Fn(std::ops::Range<usize>) -> f64) -> f64 {
+fn least(state: &State, factor: &dyn Fn(Range<usize>) -> f64) -> f64 {
     let own = state.foundations.iter().map(|foundation| factor(foundation.elements.clone()));
     own.fold(f64::NAN, f64::min)
 }

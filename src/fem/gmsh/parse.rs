@@ -1,16 +1,14 @@
 //! The sections of a `.msh` file, version 4.1 (Gmsh reference manual, "MSH file format").
 
 use std::collections::BTreeMap;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufReader, Read};
 use std::str::FromStr;
 
+use crate::bounded_line::read_line;
 use crate::error::MeshFileError;
 
 /// Why a line is refused, and which.
 type Reason<T> = Result<T, (usize, MeshFileError)>;
-
-/// Longest line, bytes: a file without line ends must not fill the memory.
-const LONGEST_LINE: u64 = 65_536;
 
 /// A point, and where it stands in the file.
 #[derive(Debug)]
@@ -216,16 +214,10 @@ impl<R: Read> Fields<R> {
 
     /// Goes to the next line; `false` at the end.
     fn advance(&mut self) -> Reason<bool> {
-        self.bytes.clear();
         self.line += 1;
-        let read = self.source.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.bytes);
-        match read {
-            Err(error) => return Err(self.refuse(MeshFileError::Unreadable(error.kind()))),
-            Ok(0) => return Ok(false),
-            Ok(count) if count as u64 == LONGEST_LINE && self.bytes.last() != Some(&b'\n') => {
-                return Err(self.refuse(MeshFileError::LineTooLong { bytes: count }));
-            }
-            Ok(_) => {}
+        let read = read_line(&mut self.source, &mut self.bytes);
+        if !read.map_err(|unread| (self.line, unread.into()))? {
+            return Ok(false);
         }
         self.text.clear();
         self.text.push_str(&String::from_utf8_lossy(&self.bytes));

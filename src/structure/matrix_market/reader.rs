@@ -1,13 +1,12 @@
 //! Reader of Matrix Market files.
 
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufReader, Read};
 
 use super::Triplets;
+use crate::bounded_line::read_line;
 use crate::error::MatrixFileError;
 use crate::matrix::MOST_ROWS;
 
-/// Longest line, bytes: a file without line ends must not fill the memory.
-const LONGEST_LINE: u64 = 65_536;
 /// Most entries of an array, which has no other bound than what its size line says.
 const MOST_ROWS_OF_ARRAY: usize = 20_000;
 
@@ -30,19 +29,13 @@ struct Lines<'a> {
 impl Lines<'_> {
     /// Reads the next line, without white space at its ends; false at the end of the file.
     fn advance(&mut self) -> Reason<bool> {
-        self.bytes.clear();
         let line = self.number + 1;
-        match self.source.by_ref().take(LONGEST_LINE).read_until(b'\n', &mut self.bytes) {
-            Err(error) => Err((line, MatrixFileError::Unreadable(error.kind()))),
-            Ok(0) => Ok(false),
-            Ok(count) if count as u64 == LONGEST_LINE && self.bytes.last() != Some(&b'\n') => {
-                Err((line, MatrixFileError::LineTooLong { bytes: count }))
-            }
-            Ok(_) => {
-                self.number = line;
-                Ok(true)
-            }
+        let read = read_line(&mut self.source, &mut self.bytes);
+        let there = read.map_err(|unread| (line, unread.into()))?;
+        if there {
+            self.number = line;
         }
+        Ok(there)
     }
 
     /// The next line that is neither empty nor a comment; false at the end of the file.
