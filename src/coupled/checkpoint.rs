@@ -10,7 +10,10 @@ use crate::interface::{ContactState, Mode, StepStart, law_of};
 /// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
 const FORMAT: u32 = 3;
 /// Most steps that a checkpoint may stand for: more would not fit into any run.
-const MOST_STEPS: usize = 1 << 47;
+const MOST_STEPS: usize = match 1_usize.checked_shl(47) {
+    Some(steps) => steps,
+    None => usize::MAX >> 4,
+};
 /// How far numbers of the same scene may be apart (other processors round differently).
 const SAME: f64 = 1e-9;
 

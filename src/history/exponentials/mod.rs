@@ -28,6 +28,11 @@ const LONGEST_WINDOW: f64 = 1e6;
 const BLOCKS: [usize; 2] = [16, 512];
 /// Error aimed at in the next attempt over that of the one before.
 const CLOSER: f64 = 0.2;
+/// Longest horizon, steps: what 64 bits allow with ease, or all that fits where a word is shorter.
+const LONGEST: usize = match 1_usize.checked_shl(40) {
+    Some(steps) => steps,
+    None => usize::MAX >> 4,
+};
 /// Attempts before giving up: down to rounding from any tolerance.
 const ATTEMPTS: usize = 10;
 
@@ -104,7 +109,7 @@ impl ExponentialHistory {
         let basis = Basis::new(elements, tail::DEGREES);
         let [block, parts] = blocks(&kernel)?;
         let lags = block * parts;
-        let horizon = horizon.clamp(2 * lags, 1 << 40);
+        let horizon = horizon.clamp(2 * lags, LONGEST);
         let exact = Lags::new(&kernel, lags)?;
         let range = [lags as f64, horizon as f64];
         let (mut aim, mut refusal) = (tolerance, None);
