@@ -1,8 +1,8 @@
 //! All the pictures of a run, and its files for ParaView.
 //!
 //! ```text
-//! cargo run --release --features plot --example pictures
-//! cargo run --release --features plot --example pictures -- --out somewhere
+//! cargo run --release --features png --example pictures
+//! cargo run --release --features png --example pictures -- --out somewhere
 //! ```
 //!
 //! A flexible tower on soil under El Centro, once bonded and once free to uplift and slide.
@@ -14,9 +14,10 @@ use basemat::coupled::Probe;
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::plot::{self, Svg};
 use basemat::results::{Comparison, Histories, Quantity, Recorder, Wireframe, log_spaced};
 use basemat::structure::{FemModel, RayleighDamping};
-use basemat::{Result, Simulation, Soil, plot, vtk};
+use basemat::{Result, Simulation, Soil, vtk};
 use clap::Parser;
 
 const STEPS: usize = 2400;
@@ -55,44 +56,42 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Histories, Wireframe)> {
 
 fn main() -> Result<()> {
     let out = Options::parse().out;
-    std::fs::create_dir_all(&out).map_err(|error| basemat::Error::Write {
-        file: out.display().to_string(),
-        reason: error.kind(),
-    })?;
+    // As SVG for the web and paper, as PNG for what takes no SVG.
+    let save = |name: &str, picture: Svg| {
+        picture.save(out.join(format!("{name}.svg")))?;
+        picture.save_png(out.join(format!("{name}.png")), 2.0)
+    };
     let (bonded, _) = shake(Bonded)?;
     let (free, shape) = shake(Coulomb::new(FRICTION)?)?;
     let runs = [("bonded", &bonded), ("uplift and slip", &free)];
 
-    for (file, quantity) in [
-        ("base_shear.svg", Quantity::BaseShear),
-        ("base_moment.svg", Quantity::BaseMoment),
-        ("uplift.svg", Quantity::UpliftedFraction),
-        ("mean_slip.svg", Quantity::MeanSlip),
-        ("safety_sliding.svg", Quantity::SlidingSafety),
-        ("safety_overturning.svg", Quantity::OverturningSafety),
+    for (name, quantity) in [
+        ("base_shear", Quantity::BaseShear),
+        ("base_moment", Quantity::BaseMoment),
+        ("uplift", Quantity::UpliftedFraction),
+        ("mean_slip", Quantity::MeanSlip),
+        ("safety_sliding", Quantity::SlidingSafety),
+        ("safety_overturning", Quantity::OverturningSafety),
     ] {
-        plot::history("Tower under El Centro 1940", &runs, quantity)?.save(out.join(file))?;
+        save(name, plot::history("Tower under El Centro 1940", &runs, quantity)?)?;
     }
-    plot::probe_history("Roof", &runs, "roof", 1.0, "acceleration, m/s²")?
-        .save(out.join("roof.svg"))?;
-    plot::mode_map("Contact modes", &free)?.save(out.join("modes.svg"))?;
-    plot::pressure_envelope("Pressure under the base", &free)?.save(out.join("pressure.svg"))?;
-    plot::energy("Energy", &free)?.save(out.join("energy.svg"))?;
+    save("roof", plot::probe_history("Roof", &runs, "roof", 1.0, "acceleration, m/s²")?)?;
+    save("modes", plot::mode_map("Contact modes", &free)?)?;
+    save("pressure", plot::pressure_envelope("Pressure under the base", &free)?)?;
+    save("energy", plot::energy("Energy", &free)?)?;
 
     let periods = log_spaced(0.05, 2.0, 100)?;
     let ground = el_centro_1940().response_spectrum(&periods, 0.05)?;
     let roofs = [&bonded, &free].map(|run| run.floor_spectrum("roof", &periods, 0.05));
     let [held, loose] = roofs;
-    plot::spectra(
-        "Floor response spectra, 5 % damping",
-        &[("free field", &ground), ("roof, bonded", &held?), ("roof, uplift and slip", &loose?)],
-    )?
-    .save(out.join("spectra.svg"))?;
+    let spectra =
+        [("free field", &ground), ("roof, bonded", &held?), ("roof, uplift and slip", &loose?)];
+    save("spectra", plot::spectra("Floor response spectra, 5 % damping", &spectra)?)?;
 
     let rotation = free.extremes(Quantity::BaseRotation);
     let times = [rotation.lowest.time, rotation.highest.time];
-    plot::deformed_shapes("Largest rotations", &shape, &free, &times, 50.0)?
-        .save(out.join("shapes.svg"))?;
+    save("shapes", plot::deformed_shapes("Largest rotations", &shape, &free, &times, 50.0)?)?;
+    // Browsers play it.
     plot::animation("Tower", &shape, &free, 50.0, 2.0)?.save(out.join("tower_moving.svg"))?;
     let grids = vtk::write_series(out.join("vtk"), "tower", &shape, &free)?;
 

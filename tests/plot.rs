@@ -143,9 +143,10 @@ fn bad_requests_are_errors() {
     let runs = [("a", &histories)];
     let fault = plot::probe_history("T", &runs, "nobody", 1.0, "y");
     assert!(matches!(fault, Err(Error::Name { .. })));
-    assert!(
-        plot::history("T", &runs, Quantity::BaseShear).unwrap().save("/nowhere/at/all").is_err()
-    );
+    // A folder cannot be made beneath a file.
+    let nowhere = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml/picture.svg");
+    let fault = plot::history("T", &runs, Quantity::BaseShear).unwrap().save(nowhere);
+    assert!(matches!(fault, Err(Error::Write { .. })));
 
     let (histories, shape) = recorded(Recorder::new().motion(1));
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {

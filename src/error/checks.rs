@@ -2,9 +2,11 @@
 
 use super::{Error, Result};
 
-/// Writes a file.
-pub(crate) fn write_file(path: &std::path::Path, text: &str) -> Result<()> {
-    std::fs::write(path, text)
+/// Writes a file, in a folder that is made if it is not there.
+pub(crate) fn write_file(path: &std::path::Path, content: impl AsRef<[u8]>) -> Result<()> {
+    path.parent()
+        .map_or(Ok(()), std::fs::create_dir_all)
+        .and_then(|()| std::fs::write(path, content))
         .map_err(|error| Error::Write { file: path.display().to_string(), reason: error.kind() })
 }
 

@@ -1,6 +1,7 @@
-//! Pictures of a run, as SVG (feature `plot`).
+//! Pictures of a run, as SVG (feature `plot`) and PNG (feature `png`).
 //!
-//! Every function gives back an [`Svg`], to save, or to put into a page of HTML. What needs frames
+//! Every function gives back an [`Svg`], to save, or to put into a page of HTML; with the feature
+//! `png` also as a bitmap (`Svg::save_png`). What needs frames
 //! of contact or motion says so; the [`crate::results::Recorder`] keeps them if asked to.
 //!
 //! | picture | function |
@@ -12,9 +13,6 @@
 //! | response spectra | [`spectra`] |
 //! | the structure at some instants | [`deformed_shapes`] |
 //! | the structure in motion, with its base | [`animation`] (an SVG that browsers play) |
-//!
-//! There is no PNG: a bitmap needs a font to be shipped or found, an SVG leaves that to the viewer.
-//! `rsvg-convert` and browsers make one of it.
 //!
 //! ```no_run
 //! # fn recorded() -> basemat::results::Histories { unimplemented!() }
@@ -33,6 +31,8 @@ mod envelope;
 mod key;
 mod lines;
 mod mode_map;
+#[cfg(feature = "png")]
+mod png;
 mod shape;
 mod spectra;
 mod svg;

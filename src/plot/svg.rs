@@ -23,7 +23,7 @@ impl Svg {
         &self.0
     }
 
-    /// Writes it to a file.
+    /// Writes it to a file; its folder is made if it is not there.
     ///
     /// # Errors
     /// [`Error::Write`] if that fails.

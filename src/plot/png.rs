@@ -1,0 +1,113 @@
+//! Pictures as bitmaps, for reports whose editors take no SVG (feature `png`).
+
+use std::path::Path;
+use std::sync::{Arc, OnceLock};
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree, fontdb};
+
+use super::Svg;
+use crate::error::{Error, Result, write_file};
+
+/// Largest bitmap, pixels: 100 million, 400 MB.
+const MOST_PIXELS: f64 = 1e8;
+const NOT_DRAWN: Error =
+    Error::Scene { quantity: "bitmap", needed: "a picture that can be drawn as one" };
+
+/// The only font there is: the same picture on every machine.
+fn fonts() -> Arc<fontdb::Database> {
+    static FONTS: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
+    let load = || {
+        let mut fonts = fontdb::Database::new();
+        let font: &'static [u8] = dejavu::sans_condensed::regular();
+        fonts.load_font_source(fontdb::Source::Binary(Arc::new(font)));
+        // Its name in the file; there is no wider one to be mistaken for.
+        fonts.set_sans_serif_family("DejaVu Sans");
+        Arc::new(fonts)
+    };
+    FONTS.get_or_init(load).clone()
+}
+
+impl Svg {
+    /// The picture as a bitmap in PNG format, `scale` pixels per unit of the SVG: 1 for screens, 3
+    /// for print. Letters are those of DejaVu Sans Condensed, which is shipped. An animation shows its start.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a scale that is not positive or asks for more than 100 million pixels.
+    pub fn png(&self, scale: f64) -> Result<Vec<u8>> {
+        let options = Options { fontdb: fonts(), ..Options::default() };
+        let tree = Tree::from_str(self.as_str(), &options).map_err(|_| NOT_DRAWN)?;
+        let size = tree.size();
+        let [width, height] = [size.width(), size.height()].map(|side| f64::from(side) * scale);
+        // A NaN is refused as well.
+        if !(width >= 1.0 && height >= 1.0 && width * height <= MOST_PIXELS) {
+            let needed = "above zero, and a bitmap of 100 million pixels at most";
+            return Err(Error::Input { quantity: "scale of a bitmap", value: scale, needed });
+        }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let mut bitmap = Pixmap::new(width.ceil() as u32, height.ceil() as u32).ok_or(NOT_DRAWN)?;
+        #[allow(clippy::cast_possible_truncation)]
+        let scale = scale as f32;
+        resvg::render(&tree, Transform::from_scale(scale, scale), &mut bitmap.as_mut());
+        bitmap.encode_png().map_err(|_| NOT_DRAWN)
+    }
+
+    /// Writes the bitmap that [`Svg::png`] gives to a file; its folder is made if it is not there.
+    ///
+    /// # Errors
+    /// As for [`Svg::png`]; [`Error::Write`] if the file cannot be written.
+    pub fn save_png(&self, path: impl AsRef<Path>, scale: f64) -> Result<()> {
+        write_file(path.as_ref(), self.png(scale)?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plot::{Curve, curves};
+
+    fn drawn(title: &str, scale: f64) -> Pixmap {
+        let points = vec![(0.0, 0.0), (1.0, 1.0)];
+        let line = Curve { name: "line".into(), points };
+        let svg = curves(title, "x", "y", &[line]).unwrap();
+        Pixmap::decode_png(&svg.png(scale).unwrap()).unwrap()
+    }
+
+    /// Pixels that are darker than half.
+    fn dark(bitmap: &Pixmap) -> usize {
+        bitmap.pixels().iter().filter(|pixel| pixel.red() < 128).count()
+    }
+
+    #[test]
+    fn a_bitmap_has_the_size_the_sheet_and_the_letters() {
+        let [blank, title] = ["", "Base shear"].map(|title| drawn(title, 1.0));
+        assert_eq!([blank.width(), blank.height()], [1100, 560]);
+        assert_eq!(blank.pixels()[0].red(), 255);
+        assert!(dark(&title) > dark(&blank) + 200, "{} {}", dark(&title), dark(&blank));
+        let large = drawn("Base shear", 2.5);
+        assert_eq!([large.width(), large.height()], [2750, 1400]);
+        // Areas grow with the square of the scale.
+        let growth = dark(&large) as f64 / dark(&title) as f64;
+        assert!((4.0..9.0).contains(&growth), "{growth}");
+    }
+
+    #[test]
+    fn the_font_has_every_letter_that_pictures_use() {
+        let (blank, fallback) = (drawn("", 1.0), drawn("\u{e000}", 1.0));
+        for letter in "µ²³⁻⁵·×÷°′–…αβφπτηξωΔ≤≥≈√∞".chars() {
+            let bitmap = drawn(&letter.to_string(), 1.0);
+            assert!(bitmap.data() != blank.data(), "{letter} is not drawn");
+            assert!(bitmap.data() != fallback.data(), "{letter} is a box");
+        }
+    }
+
+    #[test]
+    fn odd_scales_are_refused() {
+        let svg = Svg::new("<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'/>".into());
+        assert!(svg.png(1.0).is_ok());
+        for scale in [0.0, -1.0, 1e-300, 1e5, f64::NAN, f64::INFINITY] {
+            assert!(matches!(svg.png(scale), Err(Error::Input { .. })), "{scale}");
+        }
+        assert!(Svg::new("no picture".into()).png(1.0).is_err());
+    }
+}
