@@ -45,11 +45,11 @@ pub fn write_series(
         (0..histories.elements().len()).map(|e| vec![2 * e, 2 * e + 1]).collect();
     for (k, frame) in histories.contact_frames().enumerate() {
         let file = format!("{name}_base_{k:04}.vtu");
-        write_file(&folder.join(&file), &base(histories, &cells, &frame))?;
+        write_file(&folder.join(&file), base(histories, &cells, &frame))?;
         entries.push((frame.time, 1, file));
     }
     entries.sort_by(|a, b| a.0.total_cmp(&b.0));
-    write_file(&folder.join(format!("{name}.pvd")), &collection(&entries))?;
+    write_file(&folder.join(format!("{name}.pvd")), collection(&entries))?;
     Ok(entries.len())
 }
 
