@@ -40,7 +40,6 @@ fn shake(
         .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 10)?)
         .interface(Coulomb::new(0.4)?)
         .motion(el_centro_1940())
-        .gravity(STANDARD_GRAVITY)
         .probe(Probe::displacement("drift", drift))
         .probe(Probe::acceleration("roof", vec![(roof, 1.0)]))
         .expected_steps(8000)

@@ -37,7 +37,6 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<Histories> {
         .ground(HalfPlaneGround::strip(soil, -4.0..4.0, 12)?)
         .interface(law)
         .motion(el_centro_1940())
-        .gravity(STANDARD_GRAVITY)
         .probe(Probe::acceleration("first floor", vec![(first, 1.0)]))
         .probe(Probe::acceleration("roof", vec![(roof, 1.0)]))
         .build()?;

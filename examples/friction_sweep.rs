@@ -56,7 +56,6 @@ fn slide(friction: f64, motion: Record) -> Result<Summary> {
         .ground(HalfPlaneGround::strip(soil, -4.0..4.0, 8)?)
         .interface(Coulomb::new(friction)?)
         .motion(motion)
-        .gravity(STANDARD_GRAVITY)
         .build()?;
     let mut histories = Recorder::new().friction(friction).start(&simulation)?;
     histories.run(&mut simulation, 1500)?;

@@ -16,7 +16,7 @@ use basemat::bem::HalfPlaneGround;
 use basemat::coupled::{Coordinates, Probe};
 use basemat::fem::{Direction, Layer, MassKind, Material, Mesh};
 use basemat::interface::Coulomb;
-use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::motion::el_centro_1940;
 use basemat::structure::{
     ContactNode, CraigBampton, FemModel, MatrixModel, RayleighDamping, Structure, Triplets,
 };
@@ -53,7 +53,6 @@ fn scene(
         .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 20)?)
         .interface(Coulomb::new(0.5)?)
         .motion(el_centro_1940())
-        .gravity(STANDARD_GRAVITY)
         .probe(Probe::displacement("top", top))
         .coordinates(coordinates)
         .expected_steps(3000)

@@ -13,7 +13,7 @@ use basemat::bem::HalfPlaneGround;
 use basemat::coupled::Probe;
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
-use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::motion::el_centro_1940;
 use basemat::plot::{self, Svg};
 use basemat::results::{Comparison, Histories, Quantity, Recorder, Wireframe, log_spaced};
 use basemat::structure::{FemModel, RayleighDamping};
@@ -45,7 +45,6 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Histories, Wireframe)> {
         .ground(HalfPlaneGround::strip(soil, -4.0..4.0, 16)?)
         .interface(law)
         .motion(el_centro_1940())
-        .gravity(STANDARD_GRAVITY)
         .probe(Probe::acceleration("roof", vec![(roof, 1.0)]))
         .build()?;
     let recorder = Recorder::new().friction(FRICTION).contact(6).motion(6);
@@ -85,7 +84,7 @@ fn main() -> Result<()> {
     let roofs = [&bonded, &free].map(|run| run.floor_spectrum("roof", &periods, 0.05));
     let [held, loose] = roofs;
     let spectra =
-        [("free field", &ground), ("roof, bonded", &held?), ("roof, uplift and slip", &loose?)];
+        [("free field", &ground[..]), ("roof, bonded", &held?), ("roof, uplift and slip", &loose?)];
     save("spectra", plot::spectra("Floor response spectra, 5 % damping", &spectra)?)?;
 
     let rotation = free.extremes(Quantity::BaseRotation);

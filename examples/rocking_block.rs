@@ -42,7 +42,6 @@ fn rock(shear_wave_speed: f64, motion: Record, fallen: f64) -> Result<Summary> {
         .ground(HalfPlaneGround::strip(soil, -HALF_WIDTH..HALF_WIDTH, 8)?)
         .interface(Coulomb::uplift_only())
         .motion(motion)
-        .gravity(STANDARD_GRAVITY)
         .build()?;
     let mut histories = Recorder::new().start(&simulation)?;
     // The observer records every step, and ends the run when the block is past its tipping point.

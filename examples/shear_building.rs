@@ -10,7 +10,7 @@
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::Probe;
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
-use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::motion::el_centro_1940;
 use basemat::results::{Comparison, Recorder, Summary};
 use basemat::structure::{ShearBuilding, Storey};
 use basemat::{Result, Simulation, Soil};
@@ -34,7 +34,6 @@ fn shake(law: impl InterfaceLaw + 'static, friction: f64) -> Result<Summary> {
         .ground(HalfPlaneGround::strip(soil, -4.0..4.0, 12)?)
         .interface(law)
         .motion(el_centro_1940())
-        .gravity(STANDARD_GRAVITY)
         .build()?;
     let mut histories = Recorder::new().friction(friction).start(&simulation)?;
     histories.run(&mut simulation, 2400)?;

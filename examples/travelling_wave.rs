@@ -15,9 +15,7 @@
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::Probe;
 use basemat::interface::Coulomb;
-use basemat::motion::{
-    Baseline, FreeField, PlaneWave, STANDARD_GRAVITY, TravellingWave, el_centro_1940,
-};
+use basemat::motion::{Baseline, FreeField, PlaneWave, TravellingWave, el_centro_1940};
 use basemat::results::{Comparison, Recorder, Summary};
 use basemat::structure::RigidBlock;
 use basemat::{Result, Simulation, Soil};
@@ -48,7 +46,6 @@ fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Summary> {
         .ground(HalfPlaneGround::strip(soil, -HALF_WIDTH..HALF_WIDTH, 16)?)
         .interface(Coulomb::new(FRICTION)?)
         .motion(motion)
-        .gravity(STANDARD_GRAVITY)
         .probe(Probe::acceleration("top, m/s²", top))
         .probe(Probe::acceleration("edge, up, m/s²", edge))
         .build()?;

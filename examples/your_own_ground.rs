@@ -11,7 +11,7 @@
 
 use basemat::bem::{ContactElement, Ground, Strip};
 use basemat::interface::Coulomb;
-use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::motion::el_centro_1940;
 use basemat::structure::RigidBlock;
 use basemat::{Result, Simulation, Soil};
 
@@ -98,7 +98,6 @@ fn main() -> Result<()> {
         .ground(Columns::new(soil, -3.0..3.0, 12, 20.0e6)?)
         .interface(Coulomb::new(0.5)?)
         .motion(el_centro_1940())
-        .gravity(STANDARD_GRAVITY)
         .build()?
         .run(2000, |_| {})?;
     println!("{run}");

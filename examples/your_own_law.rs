@@ -20,7 +20,7 @@ use basemat::coupled::Run;
 use basemat::interface::{
     Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
 };
-use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::motion::el_centro_1940;
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
 
@@ -92,7 +92,6 @@ fn slide(law: impl InterfaceLaw + 'static) -> basemat::Result<Run> {
         .ground(HalfPlaneGround::strip(soil, -4.0..4.0, 8)?)
         .interface(law)
         .motion(el_centro_1940().scaled(1.5)?)
-        .gravity(STANDARD_GRAVITY)
         .build()?
         .run(2000, |_| {})
 }

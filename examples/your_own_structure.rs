@@ -11,7 +11,7 @@
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::Probe;
 use basemat::interface::Coulomb;
-use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::motion::el_centro_1940;
 use basemat::structure::{ContactNode, Structure, Triplets};
 use basemat::{Simulation, Soil};
 
@@ -94,7 +94,6 @@ fn main() -> basemat::Result<()> {
         .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 10)?)
         .interface(Coulomb::new(0.4)?)
         .motion(el_centro_1940())
-        .gravity(STANDARD_GRAVITY)
         .probe(Probe::displacement("first drift, m", drift))
         .probe(Probe::acceleration("roof acceleration, m/s²", vec![(roof, 1.0)]))
         .build()?;

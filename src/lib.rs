@@ -24,11 +24,10 @@
 //! let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
 //!
 //! let mut simulation = Simulation::builder(0.01)
+//!     .ground(HalfPlaneGround::under(&building, soil, 10)?)
 //!     .structure(building)
-//!     .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 10)?)
 //!     .interface(Coulomb::new(0.4)?)
 //!     .motion(el_centro_1940())
-//!     .gravity(STANDARD_GRAVITY)
 //!     .probe(Probe::displacement("roof", vec![(roof, 1.0)]))
 //!     .build()?;
 //!
@@ -108,6 +107,7 @@
 //!
 //! | module | what is in it |
 //! |---|---|
+//! | [`prelude`] | what most programs name, in one `use` |
 //! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy ledger |
 //! | [`results`] | histories, peaks, envelopes, factors of safety, tables for reports |
 //! | [`vtk`] | files for ParaView |
@@ -164,6 +164,7 @@ pub mod plot;
 #[cfg(test)]
 #[path = "../tests/support/random.rs"]
 mod random;
+pub mod prelude;
 pub mod reference;
 pub mod results;
 mod soil;

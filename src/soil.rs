@@ -38,6 +38,22 @@ impl Soil {
         Ok(soil)
     }
 
+    /// Soil from its shear wave speed `c_S` (m/s), Poisson's ratio ν and density ρ (kg/m³).
+    ///
+    /// ```
+    /// let soil = basemat::Soil::from_shear_wave_speed(200.0, 0.25, 2000.0)?;
+    /// assert_eq!(soil.shear_modulus(), 80.0e6);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] as for [`Soil::new`].
+    pub fn from_shear_wave_speed(speed: f64, poisson: f64, density: f64) -> Result<Self> {
+        positive("shear wave speed of the soil", speed)?;
+        positive("density of the soil", density)?;
+        Self::new(density * speed * speed, poisson, density)
+    }
+
     /// Soil from its wave speeds `c_S`, `c_P` (m/s) and density ρ (kg/m³).
     ///
     /// # Errors

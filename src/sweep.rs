@@ -11,16 +11,10 @@ use std::sync::{Mutex, PoisonError};
 /// ```
 /// use basemat::Sweep;
 ///
-/// let mut roots = vec![0.0; 4];
-/// Sweep::new(4).run(
-///     |case| if case.index() == 2 { Err("no two") } else { Ok((case.index() as f64).sqrt()) },
-///     |index, result| {
-///         if let Ok(root) = result {
-///             roots[index] = root;
-///         }
-///     },
-/// );
-/// assert_eq!(roots, [0.0, 1.0, 0.0, 3.0_f64.sqrt()]);
+/// let roots = Sweep::new(4).collect(|case| {
+///     if case.index() == 2 { Err("no two") } else { Ok((case.index() as f64).sqrt()) }
+/// });
+/// assert_eq!(roots, [Ok(0.0), Ok(1.0), Err("no two"), Ok(3.0_f64.sqrt())]);
 /// ```
 pub struct Sweep<'a> {
     count: usize,
@@ -57,6 +51,18 @@ impl<'a> Sweep<'a> {
     pub fn on_progress(mut self, progress: impl Fn(usize, f64) + Sync + 'a) -> Self {
         self.progress = Box::new(progress);
         self
+    }
+
+    /// Runs all cases and returns their results, in the order of the cases. A case that fails is a
+    /// result like any other: the sweep goes on.
+    pub fn collect<T: Send, E: Send>(
+        &self,
+        run: impl Fn(&SweepCase<'_>) -> Result<T, E> + Sync,
+    ) -> Vec<Result<T, E>> {
+        let mut results = Vec::with_capacity(self.count);
+        self.run(run, |index, result| results.push((index, result)));
+        results.sort_unstable_by_key(|(index, _)| *index);
+        results.into_iter().map(|(_, result)| result).collect()
     }
 
     /// Runs all cases, and hands every result to `sink` with the index of its case as soon as it

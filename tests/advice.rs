@@ -41,6 +41,7 @@ fn ratio_on_table(
         .structure(structure)
         .ground(advice.ground(soil, -1.0..1.0).unwrap())
         .interface(Bonded)
+        .gravity(0.0)
         .motion(RickerDisplacement::new(1.0, 1.0, 5.0).unwrap())
         .build()
         .unwrap();
@@ -198,6 +199,7 @@ fn a_record_comes_out_as_asked() {
             .structure(building.clone())
             .ground(ground)
             .interface(Bonded)
+            .gravity(0.0)
             .motion(record.clone());
         let (mut simulation, mut forces) = (builder.build().unwrap(), Vec::new());
         let steps = whole((4.0 / time_step).floor());

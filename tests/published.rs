@@ -74,6 +74,7 @@ fn structure_errors<const N: usize>(
         .structure(structure)
         .ground(HalfPlaneGround::new(soil, &[strip]).unwrap())
         .interface(Bonded)
+        .gravity(0.0)
         .motion(RickerDisplacement::new(1.0, 1.0, 5.0).unwrap())
         .build()
         .unwrap();

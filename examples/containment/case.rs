@@ -3,7 +3,7 @@
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::{Probe, Run};
 use basemat::interface::{Bonded, Coulomb, Mode};
-use basemat::motion::{Record, STANDARD_GRAVITY};
+use basemat::motion::Record;
 use basemat::{Simulation, SweepCase};
 
 use super::AnyError;
@@ -102,7 +102,6 @@ pub(crate) fn run(
         .structure(model)
         .ground(HalfPlaneGround::strip(scene.soil()?, scene.base(), scene.elements)?)
         .motion(record.clone())
-        .gravity(STANDARD_GRAVITY)
         .expected_steps(steps)
         .probe(Probe::displacement("roof x", roof_x))
         .probe(Probe::displacement("roof y", roof_y))

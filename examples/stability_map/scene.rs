@@ -8,7 +8,6 @@ use basemat::bem::{HalfPlaneGround, History, Strip};
 use basemat::coupled::{ContactSearch, Newmark, SimulationBuilder};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::{Bonded, Coulomb, ThinLayer};
-use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{FemModel, RigidBlock};
 use basemat::{Result, Simulation, Soil};
 
@@ -100,7 +99,6 @@ impl Scene {
         let step = self.time_step(&soil);
         let builder = Simulation::builder(step)
             .motion(self.motion.field(self.steps, step)?)
-            .gravity(STANDARD_GRAVITY)
             .expected_steps(self.steps + self.rest());
         let builder = self.with_ground(builder, soil)?;
         let builder = self.with_law(builder, &soil)?;

@@ -59,7 +59,6 @@ fn slide(speed: f64, friction: f64, time_step: f64, duration: f64) -> Result<Vec
         .ground(HalfPlaneGround::strip(soil, -2.0..2.0, 4)?)
         .interface(Coulomb::new(friction)?)
         .motion(el_centro_1940())
-        .gravity(STANDARD_GRAVITY)
         .build()?;
     let every = whole(SAMPLE / time_step);
     let mut slips = vec![0.0];

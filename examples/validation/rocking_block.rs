@@ -95,7 +95,6 @@ fn tilts(
         .structure(Pushed::on_base(width)?)
         .ground(ground)
         .interface(Coulomb::uplift_only())
-        .gravity(STANDARD_GRAVITY)
         .build()?;
     let mut tilts = vec![0.0];
     let steps = whole(duration / time_step);

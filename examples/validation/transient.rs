@@ -74,6 +74,7 @@ pub(crate) fn histories(
         .structure(structure)
         .ground(HalfPlaneGround::new(soil, &[strip])?)
         .interface(Bonded)
+        .gravity(0.0)
         .motion(RickerDisplacement::new(1.0, 1.0, 5.0)?)
         .build()?;
     let mut histories: Vec<_> = quantities

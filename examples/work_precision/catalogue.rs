@@ -80,7 +80,8 @@ impl Table {
                     Structure::Building => builder.structure(table_building()?),
                 };
                 let pulse = RickerDisplacement::new(1.0, 1.0, 5.0)?;
-                Ok(builder.interface(Bonded).motion(pulse))
+                // Without dimensions, and without weight.
+                Ok(builder.interface(Bonded).motion(pulse).gravity(0.0))
             }),
         };
         Ok((scene, force))

@@ -11,6 +11,7 @@ use super::{
 use crate::error::{CheckpointError, Error, Result};
 use crate::history::{ConvolutionHistory, ExponentialHistory};
 use crate::soil::Soil;
+use crate::structure::{Structure, foundation_nodes};
 
 /// Homogeneous elastic half-plane with one or several strips on its surface.
 ///
@@ -85,6 +86,28 @@ impl HalfPlaneGround {
     /// As for [`Strip::new`].
     pub fn graded_strip(soil: Soil, range: Range<f64>, count: usize) -> Result<Self> {
         Self::new(soil, &[Strip::new(range, count, Grading::Cosine)?])
+    }
+
+    /// Strips of `count` equal elements under each foundation of `structure`, as wide as that is.
+    ///
+    /// ```
+    /// use basemat::{Soil, bem::{Ground, HalfPlaneGround}, structure::RigidBlock};
+    /// let block = RigidBlock::new(6.0, 4.0, 2400.0)?;
+    /// let ground = HalfPlaneGround::under(&block, Soil::new(80.0e6, 0.33, 1900.0)?, 12)?;
+    /// assert_eq!((ground.elements()[0].left, ground.elements()[11].right), (-3.0, 3.0));
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`HalfPlaneGround::new`] and [`Strip::new`]; [`Error::Size`] or [`Error::Index`] for a
+    /// structure without foundations.
+    pub fn under(structure: &dyn Structure, soil: Soil, count: usize) -> Result<Self> {
+        let nodes = structure.contact_nodes();
+        let strips: Result<Vec<_>> = foundation_nodes(nodes.len(), &structure.foundation_ends())?
+            .into_iter()
+            .map(|own| Strip::uniform(nodes[own.start].x..nodes[own.end - 1].x, count))
+            .collect();
+        Self::new(soil, &strips?)
     }
 
     /// Several strips from left to right, which talk through the soil.

@@ -6,7 +6,7 @@ use super::coordinates::{Modes, Row};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, finite};
 use crate::linalg::{dot, wide_multiply_add};
-use crate::structure::{ContactNode, Structure, Triplets};
+use crate::structure::{ContactNode, Structure, Triplets, foundation_nodes};
 
 /// (unknown, weight) pairs.
 type Terms = Vec<(usize, f64)>;
@@ -52,35 +52,24 @@ impl Base {
     ) -> Result<Self> {
         check_nodes(&nodes, unknowns)?;
         let mut foundations = Vec::with_capacity(ends.len() + 1);
-        let (mut node, mut element) = (0, 0);
-        for last in ends.iter().copied().chain([nodes.len() - 1]) {
-            if last >= nodes.len() {
-                let quantity = "last contact node of a foundation";
-                return Err(Error::Index { quantity, index: last, bound: nodes.len() });
-            }
-            if last <= node {
-                let quantity = "list of contact nodes of a foundation";
-                return Err(Error::Size {
-                    quantity,
-                    found: (last + 1).saturating_sub(node),
-                    needed: 2,
-                });
-            }
-            let end = nodes.get(last + 1).map_or(elements.len(), |next| {
+        let mut element = 0;
+        for own in foundation_nodes(nodes.len(), ends)? {
+            let last = own.end - 1;
+            let end = nodes.get(own.end).map_or(elements.len(), |next| {
                 let middle = 0.5 * (nodes[last].x + next.x);
                 elements.partition_point(|element| element.center() < middle)
             });
             let footing = Footing {
                 elements: element..end,
-                rotation: Row::new(&chord_rotation(&nodes[node..=last]), None),
-                nodes: node..last + 1,
+                rotation: Row::new(&chord_rotation(&nodes[own.clone()]), None),
+                nodes: own,
             };
             if end <= element {
                 let quantity = "list of contact elements under a foundation";
                 return Err(Error::Size { quantity, found: 0, needed: 1 });
             }
             foundations.push(footing);
-            (node, element) = (last + 1, end);
+            element = end;
         }
         let count = elements.len();
         let mut rows = vec![Terms::new(); 2 * count];

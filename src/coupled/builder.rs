@@ -12,7 +12,7 @@ use super::state::Probe;
 use crate::bem::Ground;
 use crate::error::{Error, Result, finite, not_negative, positive};
 use crate::interface::{ContactScene, InterfaceLaw};
-use crate::motion::{AtRest, FreeField};
+use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
 use crate::structure::Structure;
 
 /// Steps that modes have to pay for themselves in, if not told otherwise.
@@ -22,7 +22,7 @@ const STEPS: usize = 10_000;
 const MOST_UNKNOWNS: usize = 10_000_000;
 
 /// Parts of a [`Simulation`]: a structure, a ground and an interface law are needed, the rest has
-/// defaults (no motion, no weight, midpoint rule, no probes).
+/// defaults (no motion, standard gravity, midpoint rule, no probes).
 pub struct SimulationBuilder {
     time_step: f64,
     structure: Option<Box<dyn Structure>>,
@@ -49,7 +49,7 @@ impl SimulationBuilder {
             motion: Box::new(AtRest),
             scheme: Box::new(Midpoint),
             search: ContactSearch::default(),
-            gravity: 0.0,
+            gravity: STANDARD_GRAVITY,
             placement: Placement::default(),
             probes: Vec::new(),
             moment_center: None,
@@ -65,7 +65,8 @@ impl SimulationBuilder {
         self
     }
 
-    /// The ground.
+    /// The ground. Contact is where its elements are: a part of the base beyond them hangs free, and
+    /// elements beyond the base are refused ([`bem::HalfPlaneGround::under`](crate::bem::HalfPlaneGround::under) has neither).
     #[must_use]
     pub fn ground(mut self, ground: impl Ground + 'static) -> Self {
         self.ground = Some(Box::new(ground));
@@ -107,9 +108,9 @@ impl SimulationBuilder {
         self
     }
 
-    /// Gravity g (m/s²), which gives the structure its weight; the run then starts from the static
-    /// state under weight and the load at t = 0. Zero, the default: the base starts unpressed,
-    /// and uplift and sliding have nothing to hold against.
+    /// Gravity g (m/s²), which gives the structure its weight; [`STANDARD_GRAVITY`] unless given. The
+    /// run starts from the static state under weight and the load at t = 0. Zero: the base starts
+    /// unpressed, and uplift and sliding have nothing to hold against.
     #[must_use]
     pub fn gravity(mut self, gravity: f64) -> Self {
         self.gravity = gravity;

@@ -267,6 +267,15 @@ impl Simulation {
         &self.static_state.displacement
     }
 
+    /// Number of steps that last `duration` (s), rounded up; none for a negative one or NaN.
+    pub fn steps_for(&self, duration: f64) -> usize {
+        // A duration that is a whole number of steps but for rounding is that number.
+        let steps = (duration / self.time_step * (1.0 - 1e-12)).ceil();
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let steps = steps as usize;
+        steps
+    }
+
     /// Makes up to `steps` steps, calling `observe` after each with the new state.
     ///
     /// `observe` may return nothing, or a [`Flow`] to stop early.

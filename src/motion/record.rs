@@ -6,7 +6,7 @@ use super::integral::{Instant, integrate};
 use super::{Baseline, RecordFormat};
 use crate::error::{Error, RecordError, Result, finite, positive};
 
-/// Most samples that [`Record::resample`] makes.
+/// Most samples that are made at a time.
 const MOST_SAMPLES: f64 = 1e8;
 
 /// Ground acceleration at equal time steps, with its velocity and displacement.
@@ -57,6 +57,43 @@ impl Record {
             finite("displacement of the record", u)?;
         }
         Ok(Self { step: time_step, acceleration, velocity, displacement })
+    }
+
+    /// Record of `duration` (s) whose acceleration (m/s²) is a function of time (s), sampled every
+    /// `time_step` (s) from 0 on.
+    ///
+    /// ```
+    /// use basemat::motion::Record;
+    /// // One cycle of sine, 2 m/s² and half a second.
+    /// let pulse = Record::from_fn(0.005, 0.5, |t| 2.0 * (std::f64::consts::TAU * t / 0.5).sin())?;
+    /// assert_eq!(pulse.accelerations().len(), 101);
+    /// assert!((pulse.peak_acceleration() - 2.0).abs() < 1e-12);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`Record::new`]; [`Error::Input`] for a duration that is not positive or takes more than
+    /// 100 million samples.
+    pub fn from_fn(
+        time_step: f64,
+        duration: f64,
+        acceleration: impl Fn(f64) -> f64,
+    ) -> Result<Self> {
+        positive("time step of the record", time_step)?;
+        positive("duration of the record", duration)?;
+        let steps = (duration / time_step).round();
+        // Infinity is refused as well.
+        if steps > MOST_SAMPLES {
+            let needed = "100 million time steps or fewer";
+            return Err(Error::Input {
+                quantity: "duration of the record",
+                value: duration,
+                needed,
+            });
+        }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let steps = steps as usize;
+        Self::new(time_step, (0..=steps).map(|k| acceleration(k as f64 * time_step)).collect())
     }
 
     /// Reads a file: [`ColumnFormat`](super::ColumnFormat) for columns of time and acceleration,

@@ -1,10 +1,12 @@
 //! Several cases in one table.
 
 use std::fmt;
+use std::path::Path;
 
 use super::Summary;
 use super::page::{factor, number};
 use super::table::Table;
+use crate::error::{Result, write_file};
 
 /// Summaries side by side; prints as a table with a row per quantity and a column per case.
 ///
@@ -16,8 +18,8 @@ use super::table::Table;
 ///     comparison.add(format!("friction {friction}"), summary);
 /// }
 /// println!("{comparison}");
-/// std::fs::write("cases.csv", comparison.csv())?;
-/// # Ok::<(), std::io::Error>(())
+/// comparison.save_csv("cases.csv")?;
+/// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct Comparison {
@@ -117,6 +119,14 @@ impl Comparison {
     /// The table as Markdown.
     pub fn markdown(&self) -> String {
         self.table().markdown()
+    }
+
+    /// Writes the table of [`Comparison::csv`] to a file; its folder is made if it is not there.
+    ///
+    /// # Errors
+    /// [`Error::Write`](crate::Error::Write) if that fails.
+    pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
+        write_file(path.as_ref(), self.csv())
     }
 
     /// A line per case and a column per quantity, in SI units and full precision; empty where a

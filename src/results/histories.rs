@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 use std::ops::Range;
+use std::path::Path;
 
 use super::envelope::{self, ElementEnvelope};
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
@@ -9,7 +10,7 @@ use super::safety::{against_overturning, against_sliding};
 use super::{Extremes, Quantity, Recorder, Sliding, Uplift};
 use crate::bem::ContactElement;
 use crate::coupled::{Ledger, Peak, Probe, Run, Simulation, State};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, write_file};
 
 /// Histories of a run, its peaks and envelopes: made by [`Recorder::start`], fed by
 /// [`Histories::record`].
@@ -215,6 +216,17 @@ impl Histories {
             + size_of_val(&self.ledgers[..])
             + self.contact.as_ref().map_or(0, ContactFrames::bytes)
             + self.motion.as_ref().map_or(0, MotionFrames::bytes)
+    }
+
+    /// Writes the CSV of [`Histories::write_csv`] to a file; its folder is made if it is not there.
+    ///
+    /// # Errors
+    /// [`Error::Write`] if that fails.
+    pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
+        let mut text = Vec::new();
+        // Writing to memory cannot fail.
+        let _ = self.write_csv(&mut text);
+        write_file(path.as_ref(), text)
     }
 
     /// Writes times, scalars, probes and the ledger's input as CSV: a heading and a line for every

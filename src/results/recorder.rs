@@ -59,6 +59,17 @@ impl Recorder {
         Self { motion: Some(steps), ..self }
     }
 
+    /// Makes up to `steps` steps of `simulation` and returns what was kept of them; all of it if a
+    /// step fails is wanted less often: see [`Recorder::start`] and [`Histories::run`] for that.
+    ///
+    /// # Errors
+    /// As for [`Recorder::start`], and those of [`Simulation::run`].
+    pub fn run(self, simulation: &mut Simulation, steps: usize) -> Result<Histories> {
+        let mut histories = self.start(simulation)?;
+        histories.run(simulation, steps)?;
+        Ok(histories)
+    }
+
     /// Starts with the simulation as it stands.
     ///
     /// # Errors

@@ -1,5 +1,9 @@
 //! Points of a structure's base.
 
+use std::ops::Range;
+
+use crate::error::{Error, Result};
+
 /// A point of the base: where it is, and how the unknowns move it.
 ///
 /// Each displacement of the point is a weighted sum of unknowns: `(index, weight)` pairs.
@@ -34,4 +38,25 @@ impl ContactNode {
         let center = 0.5 * (left + right);
         vec![Self::rigid(left, center, unknowns), Self::rigid(right, center, unknowns)]
     }
+}
+
+/// Contact nodes of each foundation, for `count` nodes in all and those that are the last of a
+/// foundation, the very last excepted; two or more each.
+pub(crate) fn foundation_nodes(count: usize, ends: &[usize]) -> Result<Vec<Range<usize>>> {
+    let mut first = 0;
+    let mut all = Vec::with_capacity(ends.len() + 1);
+    for last in ends.iter().copied().chain([count.saturating_sub(1)]) {
+        if last >= count.max(1) {
+            let quantity = "last contact node of a foundation";
+            return Err(Error::Index { quantity, index: last, bound: count });
+        }
+        if last <= first {
+            let quantity = "list of contact nodes of a foundation";
+            let found = (last + 1).saturating_sub(first).min(count);
+            return Err(Error::Size { quantity, found, needed: 2 });
+        }
+        all.push(first..last + 1);
+        first = last + 1;
+    }
+    Ok(all)
 }

@@ -22,9 +22,9 @@ struct Member {
 /// each by itself.
 ///
 /// ```
-/// use basemat::bem::{HalfPlaneGround, Strip};
+/// use basemat::bem::HalfPlaneGround;
 /// use basemat::interface::Coulomb;
-/// use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+/// use basemat::motion::el_centro_1940;
 /// use basemat::structure::{RigidBlock, StructureGroup};
 /// use basemat::{Simulation, Soil};
 ///
@@ -33,17 +33,15 @@ struct Member {
 ///     .with(RigidBlock::new(4.0, 8.0, 1500.0)?, 0.0)?
 ///     .with(RigidBlock::new(3.0, 4.0, 1500.0)?, 6.0)?;
 /// assert_eq!(group.row(1, &[(RigidBlock::HORIZONTAL, 1.0)]), [(3 + RigidBlock::HORIZONTAL, 1.0)]);
-/// let strips = [Strip::uniform(-2.0..2.0, 6)?, Strip::uniform(4.5..7.5, 5)?];
 /// let mut simulation = Simulation::builder(0.005)
+///     .ground(HalfPlaneGround::under(&group, Soil::new(40.0e6, 0.33, 1800.0)?, 6)?)
 ///     .structure(group)
-///     .ground(HalfPlaneGround::new(Soil::new(40.0e6, 0.33, 1800.0)?, &strips)?)
 ///     .interface(Coulomb::new(0.5)?)
 ///     .motion(el_centro_1940())
-///     .gravity(STANDARD_GRAVITY)
 ///     .build()?;
 /// let run = simulation.run(400, |_| {})?;
 /// let [high, low] = &simulation.state().foundations[..] else { unreachable!() };
-/// assert_eq!((high.elements.clone(), low.elements.clone()), (0..6, 6..11));
+/// assert_eq!((high.elements.clone(), low.elements.clone()), (0..6, 6..12));
 /// assert!(run.ledger_residual < 1e-9 && high.rotation != low.rotation);
 /// # Ok::<(), basemat::Error>(())
 /// ```

@@ -309,6 +309,7 @@ pub(crate) fn sequence(count: usize, friction: f64, real: bool, random: &mut Ran
         .structure(body.centered_at(0.5 * count as f64).unwrap())
         .ground(ground)
         .interface(Coulomb::new(friction).unwrap())
+        .gravity(0.0)
         .build()
         .unwrap();
     let mut tally = Tally::default();
