@@ -9,54 +9,26 @@
 //! Craig–Bampton reduction keeps these and the lowest modes of the rest. The full model marches a
 //! short way beside the reduced one, to compare.
 
+#[path = "common/tower.rs"]
+mod tower;
+
 use std::path::Path;
 use std::time::Instant;
 
-use basemat::bem::HalfPlaneGround;
-use basemat::coupled::{Coordinates, Probe};
-use basemat::fem::{Direction, Layer, MassKind, Material, Mesh};
-use basemat::interface::Coulomb;
-use basemat::motion::el_centro_1940;
-use basemat::structure::{
-    ContactNode, CraigBampton, FemModel, MatrixModel, RayleighDamping, Structure, Triplets,
-};
-use basemat::{Result, Simulation, Soil};
+use basemat::coupled::Coordinates;
+use basemat::structure::{ContactNode, CraigBampton, Structure, Triplets};
+use basemat::{Result, Simulation};
+use tower::{TIME_STEP, Tower, damped, scene};
 
-const TIME_STEP: f64 = 0.01;
 const MODES: usize = 20;
 
-/// A tower 10 m wide and 100 m high, of elements of 0.2 m: writes its matrices and returns its
-/// contact nodes and the unknown that is the sway of its top.
+/// Writes the tower's matrices and returns its contact nodes and the unknown that is the sway of its
+/// top.
 fn write_files(mass: &Path, stiffness: &Path) -> Result<(Vec<ContactNode>, usize)> {
-    let material = Material::new(5.0e9, 0.2, 600.0)?;
-    let mesh = Mesh::layered_block(-5.0..5.0, 50, &[Layer::new(100.0, 500, material)])?;
-    let model = FemModel::on_base(mesh)?.with_mass(MassKind::Lumped);
-    let mut matrix = Triplets::new(model.unknowns());
-    model.mass(&mut matrix);
-    matrix.write_matrix_market(mass)?;
-    matrix.clear();
-    model.stiffness(&mut matrix);
-    matrix.write_matrix_market(stiffness)?;
-    let top = model.unknown(model.nearest_node(0.0, 100.0), Direction::X).unwrap_or(0);
-    Ok((model.contact_nodes(), top))
-}
-
-/// The structure on soil, with the sway of its top as a probe, ready to march.
-fn scene(
-    structure: impl Structure + 'static,
-    top: Vec<(usize, f64)>,
-    coordinates: Coordinates,
-) -> Result<Simulation> {
-    let soil = Soil::new(200.0e6, 0.33, 1900.0)?;
-    Simulation::builder(TIME_STEP)
-        .structure(structure)
-        .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 20)?)
-        .interface(Coulomb::new(0.5)?)
-        .motion(el_centro_1940())
-        .probe(Probe::displacement("top", top))
-        .coordinates(coordinates)
-        .expected_steps(3000)
-        .build()
+    let tower = Tower::new()?;
+    tower.mass.write_matrix_market(mass)?;
+    tower.stiffness.write_matrix_market(stiffness)?;
+    Ok((tower.contact, tower.top))
 }
 
 /// Marches and returns the sway of the top at every step, and seconds per step.
@@ -76,12 +48,11 @@ fn main() -> Result<()> {
     let (contact, top) = write_files(&mass, &stiffness)?;
 
     let begin = Instant::now();
-    let model = MatrixModel::new(
+    let model = damped(
         Triplets::read_matrix_market(&mass)?,
         Triplets::read_matrix_market(&stiffness)?,
         contact,
-    )?
-    .with_rayleigh(RayleighDamping::from_ratios([0.5, 5.0], [0.03; 2])?);
+    )?;
     let read = begin.elapsed().as_secs_f64();
     println!("{} unknowns read in {read:.2} s", model.unknowns());
 

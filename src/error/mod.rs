@@ -113,6 +113,16 @@ pub enum Error {
         /// Its order.
         order: usize,
     },
+    /// A structure that buckles, held at its contact nodes, under the axial forces of its static
+    /// state.
+    #[error(
+        "the structure buckles under the axial forces of its static state: held at its contact \
+         nodes it carries {factor:.3e} of them"
+    )]
+    Buckling {
+        /// Share of the axial forces at which it buckles.
+        factor: f64,
+    },
     /// A matrix of the step that double precision cannot carry.
     #[error(
         "{matrix}: condition about {condition:.1e}, but double precision carries {limit:.0e}; what \

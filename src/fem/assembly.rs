@@ -9,15 +9,28 @@ use crate::structure::Triplets;
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Quantity {
     Stiffness,
+    GeometricStiffness,
     Mass(MassKind),
     Damping,
 }
 
-/// Adds `factor` times the stiffness of all elements to `matrix`.
+/// Adds `factor` times the stiffness of all elements, without geometric stiffness, to `matrix`.
 ///
 /// `numbering` must be that of `mesh`; where it is not, `matrix` gets indices out of range.
 pub fn assemble_stiffness(mesh: &Mesh, numbering: &Numbering, factor: f64, matrix: &mut Triplets) {
     assemble(mesh, numbering, Quantity::Stiffness, factor, |_| true, matrix);
+}
+
+/// Adds `factor` times the geometric stiffness of all elements to `matrix`.
+///
+/// `numbering` must be that of `mesh`; where it is not, `matrix` gets indices out of range.
+pub fn assemble_geometric_stiffness(
+    mesh: &Mesh,
+    numbering: &Numbering,
+    factor: f64,
+    matrix: &mut Triplets,
+) {
+    assemble(mesh, numbering, Quantity::GeometricStiffness, factor, |_| true, matrix);
 }
 
 /// Adds `factor` times the mass of all elements to `matrix`.
@@ -60,6 +73,7 @@ pub(crate) fn assemble(
         block.resize(element.order().pow(2), 0.0);
         match quantity {
             Quantity::Stiffness => element.stiffness(&coordinates, &mut block),
+            Quantity::GeometricStiffness => element.geometric_stiffness(&coordinates, &mut block),
             Quantity::Mass(kind) => element.mass(&coordinates, kind, &mut block),
             Quantity::Damping => element.damping(&coordinates, &mut block),
         }

@@ -10,7 +10,8 @@ use crate::error::{Result, finite, not_negative, positive};
 /// makes it Timoshenko's. Exact for loads at the nodes (Przemieniecki, Theory of Matrix Structural
 /// Analysis, 1968, ch. 5). Rotary inertia of the cross-section is left out unless
 /// [`with_rotary_inertia`](Beam::with_rotary_inertia) asks for it, and so is the P–Δ effect of an axial
-/// force unless [`with_compression`](Beam::with_compression) gives one.
+/// force unless [`with_compression`](Beam::with_compression) gives one or
+/// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) finds it.
 /// Quadrilaterals do not hold the rotation of their nodes: a beam that ends on one is hinged there,
 /// unless it runs on along the edge of a second one.
 ///
@@ -33,7 +34,11 @@ pub struct Beam {
     /// ρ I, kg m.
     section_inertia: f64,
     has_rotary_inertia: bool,
+    /// Mean axial force for P–Δ, N; by how much it is larger at the first node than at the second;
+    /// and whether it was given, so that no static state changes it.
     compression: f64,
+    taper: f64,
+    is_given: bool,
 }
 
 impl Beam {
@@ -64,6 +69,8 @@ impl Beam {
             section_inertia: not_negative("inertia of the section", density * second_moment)?,
             has_rotary_inertia: false,
             compression: 0.0,
+            taper: 0.0,
+            is_given: false,
         })
     }
 
@@ -86,13 +93,16 @@ impl Beam {
     /// The same beam as a beam–column: a constant axial force `compression` P (N, negative for
     /// tension) works on its sway, −½ P ∫ w′² dx in the potential energy (P–Δ and P–δ).
     ///
-    /// The force is that of the static state, the weight above for example. The beam then meets a
-    /// rigid rotation with the moment of its ends' offset, as a real column does.
+    /// The force is that of the static state, the weight above for example; what is given here
+    /// stays when [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) finds those
+    /// of the other elements. The beam then meets a rigid rotation with the moment of its ends'
+    /// offset, as a real column does.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless it is finite.
     pub fn with_compression(self, compression: f64) -> Result<Self> {
-        Ok(Self { compression: finite("axial force of the beam", compression)?, ..self })
+        let compression = finite("axial force of the beam", compression)?;
+        Ok(Self { compression, taper: 0.0, is_given: true, ..self })
     }
 
     /// `Φ = 12 EI/(G A_s L²)`, the ratio of shear to bending flexibility.
@@ -156,14 +166,39 @@ impl Element for Beam {
             [0.0, turn, far, 0.0, -turn, own],
         ];
         line.add_rotated(&local, matrix);
-        if self.compression != 0.0 {
+    }
+
+    fn geometric_stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+        let Some(line) = Line::between(coordinates) else { return };
+        if self.compression != 0.0 || self.taper != 0.0 {
+            let ratio = self.shear_ratio(line.length);
             let mut local = [[0.0; 6]; 6];
             for (place, weight) in GAUSS_4 {
-                let slope = Self::slope(ratio, length, place);
-                add_outer(-self.compression * length * weight, &slope, &mut local);
+                let slope = Self::slope(ratio, line.length, place);
+                let force = self.compression + self.taper * (0.5 - place);
+                add_outer(-force * line.length * weight, &slope, &mut local);
             }
             line.add_rotated(&local, matrix);
         }
+    }
+
+    fn set_static_state(&mut self, coordinates: &[[f64; 2]], displacement: &[f64], gravity: f64) {
+        let (Some(line), &[x0, y0, _, x1, y1, _]) = (Line::between(coordinates), displacement)
+        else {
+            return;
+        };
+        if !self.is_given {
+            let lengthening = line.lengthening([x0, y0], [x1, y1]);
+            self.compression = -self.axial_stiffness / line.length * lengthening;
+            // The nodes' displacements are exact, so that is the mean; between them hangs its own
+            // weight.
+            let rise = coordinates[1][1] - coordinates[0][1];
+            self.taper = self.mass_per_length * gravity * rise;
+        }
+    }
+
+    fn compression(&self) -> Option<f64> {
+        Some(self.compression)
     }
 
     /// Lumped: halves at the nodes, with the rotary inertia m L²/78 that keeps the ratio of the

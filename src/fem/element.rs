@@ -65,6 +65,30 @@ pub trait Element: Send {
     /// nodes must give no force.
     fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
 
+    /// Adds the geometric stiffness (N/m per metre) of the axial force that the element carries in
+    /// the static state: P–Δ. Symmetric; a translation of all nodes must give no force, a rotation
+    /// gives the moment of the offset force. It is part of the structure's stiffness, but
+    /// not of its stiffness-proportional damping. Default: none.
+    fn geometric_stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
+
+    /// Takes the static state under the structure's weight, from which the geometric stiffness
+    /// follows: `displacement` holds the element's unknowns there, `gravity` (m/s²) acts
+    /// downwards. Called by
+    /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta). Default: no P–Δ.
+    fn set_static_state(
+        &mut self,
+        _coordinates: &[[f64; 2]],
+        _displacement: &[f64],
+        _gravity: f64,
+    ) {
+    }
+
+    /// The compressive axial force (N, negative for tension) of its geometric stiffness, the mean
+    /// along it. Default: none, for elements that are no bars.
+    fn compression(&self) -> Option<f64> {
+        None
+    }
+
     /// Adds the mass matrix (kg/m) to `matrix`. Symmetric, positive semi-definite.
     fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]);
 

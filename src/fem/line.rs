@@ -30,6 +30,19 @@ impl Line {
         add_square(matrix, &row.map(|a| row.map(|b| stiffness * a * b)));
     }
 
+    /// Adds the geometric stiffness −P/L of a bar with a compressive force P against swaying across
+    /// itself; unknowns x, y at both ends.
+    pub(super) fn add_sway(&self, compression: f64, matrix: &mut [f64]) {
+        let row = [self.sine, -self.cosine, -self.sine, self.cosine];
+        let factor = -compression / self.length;
+        add_square(matrix, &row.map(|a| row.map(|b| factor * a * b)));
+    }
+
+    /// Lengthening, m, when its ends are displaced by [x, y].
+    pub(super) fn lengthening(&self, first: [f64; 2], second: [f64; 2]) -> f64 {
+        self.cosine * (second[0] - first[0]) + self.sine * (second[1] - first[1])
+    }
+
     /// Adds a `local` matrix (along the line, across it to the left, rotation; both ends) in global
     /// unknowns x, y, rotation.
     pub(super) fn add_rotated(&self, local: &[[f64; 6]; 6], matrix: &mut [f64]) {

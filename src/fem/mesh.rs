@@ -1,6 +1,7 @@
 //! Nodes and the elements between them.
 
 use super::element::Element;
+use super::numbering::Numbering;
 use crate::error::{Error, Result, finite, not_negative};
 
 /// Nodes and elements.
@@ -120,6 +121,24 @@ impl Mesh {
             (high - low).max(0.0)
         };
         1e-9 * extent(0).max(extent(1))
+    }
+
+    /// Lets every element take the static state; `displacement` in the unknowns of `numbering`.
+    pub(crate) fn set_static_state(
+        &mut self,
+        numbering: &Numbering,
+        displacement: &[f64],
+        gravity: f64,
+    ) {
+        let mut indices = Vec::new();
+        for element in &mut self.elements {
+            numbering.of_element(element.as_ref(), &mut indices);
+            let value = |&index: &usize| displacement.get(index).copied().unwrap_or(0.0);
+            let own: Vec<f64> = indices.iter().map(value).collect();
+            let points: Vec<[f64; 2]> =
+                element.nodes().iter().map(|&index| self.nodes[index]).collect();
+            element.set_static_state(&points, &own, gravity);
+        }
     }
 
     /// Coordinates of `nodes`, which must exist.

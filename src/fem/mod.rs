@@ -32,7 +32,9 @@ mod spring;
 mod truss;
 
 pub(crate) use assembly::{Quantity, assemble};
-pub use assembly::{assemble_damping, assemble_mass, assemble_stiffness};
+pub use assembly::{
+    assemble_damping, assemble_geometric_stiffness, assemble_mass, assemble_stiffness,
+};
 pub use beam::Beam;
 pub use dashpot::Dashpot;
 pub use element::{Direction, Element, MassKind};

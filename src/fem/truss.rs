@@ -6,6 +6,9 @@ use crate::error::{Result, not_negative, positive};
 
 /// Straight bar between two nodes, hinged at both.
 ///
+/// The P–Δ effect of its axial force is left out unless
+/// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) finds the force.
+///
 /// ```
 /// use basemat::fem::{Element, Truss};
 ///
@@ -21,6 +24,8 @@ pub struct Truss {
     young_modulus: f64,
     area: f64,
     density: f64,
+    /// Axial force for P–Δ, N.
+    compression: f64,
 }
 
 impl Truss {
@@ -35,7 +40,7 @@ impl Truss {
         positive("area of the truss", area)?;
         not_negative("density of the truss", density)?;
         positive("axial stiffness of the truss", young_modulus * area)?;
-        Ok(Self { nodes, young_modulus, area, density })
+        Ok(Self { nodes, young_modulus, area, density, compression: 0.0 })
     }
 }
 
@@ -52,6 +57,23 @@ impl Element for Truss {
         if let Some(line) = Line::between(coordinates) {
             line.add_axial(self.young_modulus * self.area / line.length, matrix);
         }
+    }
+
+    fn geometric_stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+        if let Some(line) = Line::between(coordinates).filter(|_| self.compression != 0.0) {
+            line.add_sway(self.compression, matrix);
+        }
+    }
+
+    fn set_static_state(&mut self, coordinates: &[[f64; 2]], displacement: &[f64], _gravity: f64) {
+        if let (Some(line), &[x0, y0, x1, y1]) = (Line::between(coordinates), displacement) {
+            let lengthening = line.lengthening([x0, y0], [x1, y1]);
+            self.compression = -self.young_modulus * self.area / line.length * lengthening;
+        }
+    }
+
+    fn compression(&self) -> Option<f64> {
+        Some(self.compression)
     }
 
     fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {

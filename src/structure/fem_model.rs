@@ -6,8 +6,8 @@ use super::section::{Section, SectionRows};
 use super::{ContactNode, Structure, Triplets};
 use crate::error::{Error, Result, finite, positive};
 use crate::fem::{
-    Direction, MassKind, Mesh, Numbering, Quantity, assemble, assemble_damping, assemble_mass,
-    assemble_stiffness,
+    Direction, MassKind, Mesh, Numbering, Quantity, assemble, assemble_damping,
+    assemble_geometric_stiffness, assemble_mass, assemble_stiffness,
 };
 
 /// Finite-element structure on a flat base.
@@ -30,14 +30,16 @@ use crate::fem::{
 /// ```
 #[derive(Debug)]
 pub struct FemModel {
-    mesh: Mesh,
-    numbering: Numbering,
-    links: Option<RigidLinks>,
+    pub(super) mesh: Mesh,
+    pub(super) numbering: Numbering,
+    pub(super) links: Option<RigidLinks>,
     /// Nodes of the mesh that touch the ground, and how they do.
     feet: Vec<usize>,
     contact: Vec<ContactNode>,
     mass_kind: MassKind,
     damping: RayleighDamping,
+    /// Acceleration of gravity of the weight whose axial forces make P–Δ.
+    pub(super) p_delta: Option<f64>,
 }
 
 impl FemModel {
@@ -85,6 +87,7 @@ impl FemModel {
             contact: nodes,
             mass_kind: MassKind::default(),
             damping: RayleighDamping::default(),
+            p_delta: None,
         })
     }
 
@@ -103,7 +106,8 @@ impl FemModel {
         Self { mass_kind, ..self }
     }
 
-    /// The same structure with Rayleigh damping, beside that of its elements.
+    /// The same structure with Rayleigh damping, beside that of its elements. The geometric
+    /// stiffness of P–Δ has no share in it.
     #[must_use]
     pub fn with_damping(self, damping: RayleighDamping) -> Self {
         Self { damping, ..self }
@@ -112,7 +116,7 @@ impl FemModel {
     /// The same structure in which the nodes `followers` move with `leader` as one rigid body: stiff
     /// joints, offsets of beams, a rigid slab or basemat.
     ///
-    /// Followers lose their unknowns, and the structure's are numbered anew, node by node:
+    /// P–Δ by [`with_p_delta`](FemModel::with_p_delta) is found anew. Followers lose their unknowns, and the structure's are numbered anew, node by node:
     /// [`unknown`](FemModel::unknown) gives `None` for them and [`row`](FemModel::row) what
     /// they do. Their masses and stiffnesses stay where they are. Contact nodes may follow.
     ///
@@ -138,7 +142,8 @@ impl FemModel {
     ///
     /// # Errors
     /// [`Error::Index`] for a node that does not exist, [`Error::Scene`] when the leader lacks one of
-    /// the three unknowns or follows another node, or a follower leads or follows one already.
+    /// the three unknowns or follows another node, or a follower leads or follows one already; those
+    /// of [`with_p_delta`](FemModel::with_p_delta) after it.
     pub fn with_rigid_link(mut self, leader: usize, followers: &[usize]) -> Result<Self> {
         let links = self.links.take();
         let mut links = links.unwrap_or_else(|| RigidLinks::new(&self.mesh, &self.numbering));
@@ -150,7 +155,10 @@ impl FemModel {
             let node = &mut linked.contact[place];
             (node.horizontal, node.vertical) = (horizontal, vertical);
         }
-        Ok(linked)
+        match linked.p_delta {
+            Some(gravity) => linked.with_p_delta(gravity),
+            None => Ok(linked),
+        }
     }
 
     /// The nodes and elements.
@@ -241,7 +249,7 @@ impl FemModel {
             matrix
         };
         let matrices = [
-            vec![sum(Quantity::Stiffness, 1.0)],
+            vec![sum(Quantity::Stiffness, 1.0), sum(Quantity::GeometricStiffness, 1.0)],
             vec![sum(Quantity::Stiffness, self.damping.stiffness()), sum(Quantity::Damping, 1.0)],
             vec![sum(Quantity::Mass(self.mass_kind), 1.0)],
         ];
@@ -271,7 +279,7 @@ impl FemModel {
     }
 
     /// Adds what `fill` adds in the mesh's unknowns, in those that remain.
-    fn condensed(&self, matrix: &mut Triplets, fill: impl Fn(&mut Triplets)) {
+    pub(super) fn condensed(&self, matrix: &mut Triplets, fill: impl Fn(&mut Triplets)) {
         match &self.links {
             None => fill(matrix),
             Some(links) => {
@@ -314,6 +322,7 @@ impl Structure for FemModel {
     fn stiffness(&self, matrix: &mut Triplets) {
         self.condensed(matrix, |matrix| {
             assemble_stiffness(&self.mesh, &self.numbering, 1.0, matrix);
+            assemble_geometric_stiffness(&self.mesh, &self.numbering, 1.0, matrix);
         });
     }
 

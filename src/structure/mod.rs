@@ -9,6 +9,7 @@ mod matrix_market;
 mod matrix_model;
 mod modal_damping;
 mod nonlinear_shear_building;
+mod p_delta;
 mod rayleigh;
 mod recovery;
 mod rigid_block;

@@ -116,6 +116,12 @@ impl RigidLinks {
         sums
     }
 
+    /// The mesh's unknowns from those that remain.
+    pub(super) fn all(&self, remaining: &[f64]) -> Vec<f64> {
+        let sum = |row: &Vec<(usize, f64)>| row.iter().map(|&(j, w)| w * remaining[j]).sum();
+        self.rows.iter().map(sum).collect()
+    }
+
     /// Adds Lᵀ A L, where u = L (what remains).
     pub(super) fn add_condensed(&self, mesh_matrix: &Triplets, matrix: &mut Triplets) {
         for &(row, column, value) in mesh_matrix.entries() {

@@ -10,6 +10,7 @@ mod frames;
 mod meshes;
 mod modal_damping;
 mod own_element;
+mod p_delta;
 mod patch;
 mod quad8;
 mod rigid_block;
