@@ -148,6 +148,9 @@
 //! draws everything (feature `plot`). What each prints is in `docs/examples.md`.
 #![forbid(unsafe_code)]
 
+#[macro_use]
+mod forward;
+
 pub mod bem;
 mod bounded_line;
 pub mod coupled;

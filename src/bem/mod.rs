@@ -150,3 +150,22 @@ pub trait Ground: Send {
         }
     }
 }
+
+impl<T: Ground + ?Sized> Ground for Box<T> {
+    forward! {
+        (**self);
+        fn elements(&self) -> &[ContactElement];
+        fn prepare(&mut self, time_step: f64) -> Result<()>;
+        fn reserve(&mut self, steps: usize) -> Result<()>;
+        fn instantaneous(&self, matrix: &mut [f64]) -> Result<()>;
+        fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
+        fn commit(&mut self, traction: &[f64]);
+        fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
+        fn history_choice(&self) -> Option<HistoryChoice>;
+        fn stability(&self) -> Option<&GroundStability>;
+        fn increment_error_bound(&self) -> f64;
+        fn checkpoint(&self) -> Result<Vec<f64>>;
+        fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
+        fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]);
+    }
+}

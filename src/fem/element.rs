@@ -85,6 +85,19 @@ pub trait Element: Send {
     }
 }
 
+impl<T: Element + ?Sized> Element for Box<T> {
+    forward! {
+        (**self);
+        fn nodes(&self) -> &[usize];
+        fn directions(&self) -> &[Direction];
+        fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
+        fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]);
+        fn damping(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
+        fn check(&self, coordinates: &[[f64; 2]]) -> Result<()>;
+        fn order(&self) -> usize;
+    }
+}
+
 /// Directions of elements without rotations.
 pub(crate) const TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
 

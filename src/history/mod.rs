@@ -61,6 +61,19 @@ pub trait ConvolutionHistory: Send {
     }
 }
 
+impl<T: ConvolutionHistory + ?Sized> ConvolutionHistory for Box<T> {
+    forward! {
+        (**self);
+        fn steps(&self) -> usize;
+        fn reserve(&mut self, steps: usize) -> Result<()>;
+        fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()>;
+        fn push(&mut self, traction: &[f64]);
+        fn increment_error_bound(&self) -> f64;
+        fn checkpoint(&self) -> Result<Vec<f64>>;
+        fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
+    }
+}
+
 /// Error unless `values` are `steps` inputs of `size` each.
 fn check_inputs(steps: usize, size: usize, values: &[f64]) -> Result<()> {
     if steps.checked_mul(size) == Some(values.len()) {

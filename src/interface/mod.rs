@@ -188,3 +188,15 @@ pub trait InterfaceLaw: Send {
         Ok(())
     }
 }
+
+impl<T: InterfaceLaw + ?Sized> InterfaceLaw for Box<T> {
+    forward! {
+        (**self);
+        fn modes(&self) -> &[Mode];
+        fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2];
+        fn next_mode(&self, mode: Mode, start: &StepStart, trial: &ContactState, tolerance: Tolerance) -> Mode;
+        fn compliance(&self, mode: Mode) -> [f64; 2];
+        fn smooth(&self) -> Box<dyn InterfaceLaw>;
+        fn check(&self, scene: &ContactScene) -> Result<()>;
+    }
+}

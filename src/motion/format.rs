@@ -17,3 +17,10 @@ pub trait RecordFormat {
     /// [`Error::Record`](crate::Error::Record) with the line and the reason.
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record>;
 }
+
+impl<T: RecordFormat + ?Sized> RecordFormat for Box<T> {
+    forward! {
+        (**self);
+        fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record>;
+    }
+}

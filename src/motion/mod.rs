@@ -57,3 +57,11 @@ pub trait FreeField: Send {
     /// grounds and time schemes ask for displacements only; a ground of your own may need it.
     fn velocity(&self, x: f64, time: f64) -> [f64; 2];
 }
+
+impl<T: FreeField + ?Sized> FreeField for Box<T> {
+    forward! {
+        (**self);
+        fn displacement(&self, x: f64, time: f64) -> [f64; 2];
+        fn velocity(&self, x: f64, time: f64) -> [f64; 2];
+    }
+}

@@ -124,3 +124,23 @@ pub trait Structure: Send {
         }
     }
 }
+
+impl<T: Structure + ?Sized> Structure for Box<T> {
+    forward! {
+        (**self);
+        fn unknowns(&self) -> usize;
+        fn contact_nodes(&self) -> Vec<ContactNode>;
+        fn foundation_ends(&self) -> Vec<usize>;
+        fn mass(&self, matrix: &mut Triplets);
+        fn stiffness(&self, matrix: &mut Triplets);
+        fn damping(&self, matrix: &mut Triplets);
+        fn load(&self, time: f64, load: &mut [f64]);
+        fn is_linear(&self) -> bool;
+        fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]);
+        fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets);
+        fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy>;
+        fn commit(&mut self, displacement: &[f64]);
+        fn save(&self) -> Vec<f64>;
+        fn restore(&mut self, values: &[f64]) -> Result<()>;
+    }
+}

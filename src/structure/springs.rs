@@ -159,32 +159,15 @@ impl WithSprings {
 }
 
 impl Structure for WithSprings {
-    fn unknowns(&self) -> usize {
-        self.structure.unknowns()
-    }
-
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.structure.contact_nodes()
-    }
-
-    fn foundation_ends(&self) -> Vec<usize> {
-        self.structure.foundation_ends()
-    }
-
-    fn mass(&self, matrix: &mut Triplets) {
-        self.structure.mass(matrix);
-    }
-
-    fn stiffness(&self, matrix: &mut Triplets) {
-        self.structure.stiffness(matrix);
-    }
-
-    fn damping(&self, matrix: &mut Triplets) {
-        self.structure.damping(matrix);
-    }
-
-    fn load(&self, time: f64, load: &mut [f64]) {
-        self.structure.load(time, load);
+    forward! {
+        self.structure;
+        fn unknowns(&self) -> usize;
+        fn contact_nodes(&self) -> Vec<ContactNode>;
+        fn foundation_ends(&self) -> Vec<usize>;
+        fn mass(&self, matrix: &mut Triplets);
+        fn stiffness(&self, matrix: &mut Triplets);
+        fn damping(&self, matrix: &mut Triplets);
+        fn load(&self, time: f64, load: &mut [f64]);
     }
 
     fn is_linear(&self) -> bool {
