@@ -216,11 +216,11 @@ impl Ground for HalfPlaneGround {
     }
 
     /// Which history was chosen for how many steps, and what it says.
-    fn checkpoint(&self) -> Result<Vec<f64>> {
+    fn save(&self) -> Result<Vec<f64>> {
         let prepared = self.prepared.as_ref().ok_or(NOT_PREPARED)?;
         let mut values = SavedChoice::new(prepared.choice).numbers().to_vec();
         if let Some(history) = &prepared.history {
-            values.extend(history.checkpoint()?);
+            values.extend(history.save()?);
         }
         Ok(values)
     }

@@ -124,11 +124,11 @@ pub trait Ground: Send {
     ///
     /// # Errors
     /// [`CheckpointError::Unsupported`], unless a ground implements it.
-    fn checkpoint(&self) -> Result<Vec<f64>> {
+    fn save(&self) -> Result<Vec<f64>> {
         Err(CheckpointError::Unsupported { part: "ground" }.into())
     }
 
-    /// Goes to where `steps` steps had been committed and [`Ground::checkpoint`] returned
+    /// Goes to where `steps` steps had been committed and [`Ground::save`] returned
     /// `values`, all finite. Unchanged on an error.
     ///
     /// # Errors
@@ -164,7 +164,7 @@ impl<T: Ground + ?Sized> Ground for Box<T> {
         fn history_choice(&self) -> Option<HistoryChoice>;
         fn stability(&self) -> Option<&GroundStability>;
         fn increment_error_bound(&self) -> f64;
-        fn checkpoint(&self) -> Result<Vec<f64>>;
+        fn save(&self) -> Result<Vec<f64>>;
         fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
         fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]);
     }

@@ -142,7 +142,7 @@ impl ConvolutionHistory for DirectHistory {
     }
 
     /// All tractions, step by step.
-    fn checkpoint(&self) -> Result<Vec<f64>> {
+    fn save(&self) -> Result<Vec<f64>> {
         Ok((0..self.steps).flat_map(|m| self.traction.iter().map(move |row| row[m])).collect())
     }
 

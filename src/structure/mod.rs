@@ -106,10 +106,21 @@ pub trait Structure: Send {
     /// called for a linear structure, which has none.
     fn commit(&mut self, _displacement: &[f64]) {}
 
-    /// The internal variables that [`Structure::commit`] changes, for a checkpoint. A structure
-    /// that has some must implement this and [`Structure::restore`] if runs are to be resumed.
-    fn save(&self) -> Vec<f64> {
-        Vec::new()
+    /// The internal variables that [`Structure::commit`] changes, for a checkpoint. Default: none
+    /// for a linear structure, which has none.
+    ///
+    /// A nonlinear structure whose runs are to be saved must implement this, and
+    /// [`Structure::restore`] if it has internal variables: one that is elastic, without memory,
+    /// says `Ok(Vec::new())`.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Unsupported`] for a nonlinear structure that does not implement it.
+    fn save(&self) -> Result<Vec<f64>> {
+        if self.is_linear() {
+            Ok(Vec::new())
+        } else {
+            Err(CheckpointError::Unsupported { part: "structure" }.into())
+        }
     }
 
     /// Takes back what [`Structure::save`] returned; all values are finite. Unchanged on an error.
@@ -140,7 +151,7 @@ impl<T: Structure + ?Sized> Structure for Box<T> {
         fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets);
         fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy>;
         fn commit(&mut self, displacement: &[f64]);
-        fn save(&self) -> Vec<f64>;
+        fn save(&self) -> Result<Vec<f64>>;
         fn restore(&mut self, values: &[f64]) -> Result<()>;
     }
 }

@@ -127,7 +127,7 @@ impl Structure for WithModalDamping {
         fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets);
         fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy>;
         fn commit(&mut self, displacement: &[f64]);
-        fn save(&self) -> Vec<f64>;
+        fn save(&self) -> Result<Vec<f64>>;
         fn restore(&mut self, values: &[f64]) -> Result<()>;
     }
 

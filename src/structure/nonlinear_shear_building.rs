@@ -125,8 +125,11 @@ impl Structure for NonlinearShearBuilding {
     forward! {
         self.springs;
         fn commit(&mut self, displacement: &[f64]);
-        fn save(&self) -> Vec<f64>;
         fn restore(&mut self, values: &[f64]) -> Result<()>;
+    }
+
+    fn save(&self) -> Result<Vec<f64>> {
+        Ok(self.springs.save())
     }
 
     fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]) {

@@ -204,10 +204,10 @@ impl Structure for WithSprings {
         self.springs.commit(displacement);
     }
 
-    fn save(&self) -> Vec<f64> {
+    fn save(&self) -> Result<Vec<f64>> {
         let mut values = self.springs.save();
-        values.extend(self.structure.save());
-        values
+        values.extend(self.structure.save()?);
+        Ok(values)
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {

@@ -170,8 +170,8 @@ impl Ground for Double {
         CORRECT
     }
 
-    fn checkpoint(&self) -> Result<Vec<f64>> {
-        self.0.asked("checkpoint");
+    fn save(&self) -> Result<Vec<f64>> {
+        self.0.asked("save");
         Ok(vec![CORRECT])
     }
 
@@ -236,8 +236,8 @@ impl ConvolutionHistory for Double {
         CORRECT
     }
 
-    fn checkpoint(&self) -> Result<Vec<f64>> {
-        self.0.asked("checkpoint");
+    fn save(&self) -> Result<Vec<f64>> {
+        self.0.asked("save");
         Ok(vec![CORRECT])
     }
 

@@ -113,7 +113,7 @@ fn boxed_grounds() {
         assert_eq!(part.history_choice(), None);
         assert!(part.stability().is_none());
         assert_eq!(part.increment_error_bound(), CORRECT);
-        assert_eq!(part.checkpoint(), Ok(vec![CORRECT]));
+        assert_eq!(part.save(), Ok(vec![CORRECT]));
         assert_eq!(part.restore(1, &[1.0]), Err(doubles::refusal()));
         part.free_field(&AtRest, 1.0, &mut matrix[..2]);
         assert_eq!(matrix[..2], [4.0 * CORRECT; 2]);
@@ -158,7 +158,7 @@ fn boxed_histories() {
         assert_eq!(values, [CORRECT; 2]);
         part.push(&values);
         assert_eq!(part.increment_error_bound(), CORRECT);
-        assert_eq!(part.checkpoint(), Ok(vec![CORRECT]));
+        assert_eq!(part.save(), Ok(vec![CORRECT]));
         assert_eq!(part.restore(1, &[1.0]), Err(doubles::refusal()));
     }
     let log = Log::default();

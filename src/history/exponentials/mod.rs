@@ -279,7 +279,7 @@ impl ConvolutionHistory for ExponentialHistory {
     }
 
     /// Largest traction, the exponentials' state, and the last inputs.
-    fn checkpoint(&self) -> Result<Vec<f64>> {
+    fn save(&self) -> Result<Vec<f64>> {
         let mut values = vec![self.largest];
         values.extend(self.tail.state());
         for m in self.kept(self.steps) {

@@ -255,7 +255,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     /// All inputs, step by step: what they give to coming steps is worked out again.
-    fn checkpoint(&self) -> Result<Vec<f64>> {
+    fn save(&self) -> Result<Vec<f64>> {
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
