@@ -245,6 +245,12 @@ impl Simulation {
         &self.elements
     }
 
+    /// Friction coefficient of the laws: one for all elements, one each, or none unless all have one.
+    pub(crate) fn friction(&self) -> Vec<f64> {
+        let each: Option<Vec<f64>> = self.laws.iter().map(|law| law.friction()).collect();
+        each.unwrap_or_default()
+    }
+
     /// Which history the ground keeps and why, if it has chosen one yet.
     pub fn history_choice(&self) -> Option<HistoryChoice> {
         self.ground.history_choice()

@@ -168,6 +168,11 @@ impl InterfaceLaw for Coulomb {
             _ => Mode::Stick,
         }
     }
+
+    /// That of the law; what a tensile strength adds is left out.
+    fn friction(&self) -> Option<f64> {
+        Some(self.friction)
+    }
 }
 
 #[cfg(test)]

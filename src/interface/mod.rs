@@ -174,6 +174,13 @@ pub trait InterfaceLaw: Send {
         [0.0; 2]
     }
 
+    /// The friction coefficient, for the factor of safety against sliding
+    /// ([`Recorder`](crate::results::Recorder)): the base resists by this times the pressure.
+    /// Infinite for a law that never slides, `None` (the default) for one without such a number.
+    fn friction(&self) -> Option<f64> {
+        None
+    }
+
     /// This law without friction and adhesion, for setting the structure down on the ground; hard
     /// and smooth contact unless the law says otherwise.
     fn smooth(&self) -> Box<dyn InterfaceLaw> {
@@ -196,6 +203,7 @@ impl<T: InterfaceLaw + ?Sized> InterfaceLaw for Box<T> {
         fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2];
         fn next_mode(&self, mode: Mode, start: &StepStart, trial: &ContactState, tolerance: Tolerance) -> Mode;
         fn compliance(&self, mode: Mode) -> [f64; 2];
+        fn friction(&self) -> Option<f64>;
         fn smooth(&self) -> Box<dyn InterfaceLaw>;
         fn check(&self, scene: &ContactScene) -> Result<()>;
     }

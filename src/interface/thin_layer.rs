@@ -311,6 +311,11 @@ impl InterfaceLaw for ThinLayer {
         }
     }
 
+    /// That of the law, whatever its [`FrictionLimit`].
+    fn friction(&self) -> Option<f64> {
+        Some(self.friction)
+    }
+
     fn smooth(&self) -> Box<dyn InterfaceLaw> {
         let smooth = Self { friction: 0.0, limit: FrictionLimit::Total, ..*self };
         Box::new(Self { slip_stiffness: 0.0, ..smooth })

@@ -92,6 +92,11 @@ impl InterfaceLaw for Double {
         [CORRECT; 2]
     }
 
+    fn friction(&self) -> Option<f64> {
+        self.0.asked("friction");
+        Some(CORRECT)
+    }
+
     /// Smooth contact whose only closed mode is another one than the default's first.
     fn smooth(&self) -> Box<dyn InterfaceLaw> {
         struct Smooth(Coulomb);
