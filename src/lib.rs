@@ -150,6 +150,8 @@
 
 #[macro_use]
 mod forward;
+#[macro_use]
+mod short_debug;
 
 pub mod bem;
 mod bounded_line;

@@ -41,6 +41,15 @@ pub struct HalfPlaneGround {
     prepared: Option<Prepared>,
 }
 
+short_debug! {
+    HalfPlaneGround;
+    self;
+    soil: self.soil,
+    elements: self.elements.len(),
+    history: self.options,
+    prepared: self.prepared.is_some(),
+}
+
 /// Makes the history of a patch.
 type MakeHistory = dyn Fn(Arc<PatchKernel>) -> Box<dyn ConvolutionHistory> + Send;
 

@@ -62,6 +62,16 @@ pub struct Simulation {
     elements: Vec<ContactElement>,
 }
 
+short_debug! {
+    Simulation;
+    self;
+    unknowns: self.model.unknowns,
+    elements: self.elements.len(),
+    time_step: self.time_step,
+    step: self.state.step,
+    time: self.state.time,
+}
+
 /// Longest run that is prepared for at once; in longer ones, memory grows as they go.
 const RESERVED_STEPS: usize = 100_000;
 

@@ -30,6 +30,10 @@ pub struct DirectHistory {
     steps: usize,
 }
 
+short_debug! {
+    DirectHistory; self; elements: self.kernel.elements().len(), steps: self.steps
+}
+
 impl DirectHistory {
     /// History of `kernel`, empty.
     pub fn new(kernel: Arc<PatchKernel>) -> Self {

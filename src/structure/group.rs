@@ -52,6 +52,8 @@ pub struct StructureGroup {
     members: Vec<Member>,
 }
 
+short_debug! { StructureGroup; self; structures: self.len(), unknowns: self.unknowns() }
+
 impl StructureGroup {
     /// Group without members.
     pub fn new() -> Self {

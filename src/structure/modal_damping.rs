@@ -34,6 +34,10 @@ pub struct WithModalDamping {
     frequencies: Vec<f64>,
 }
 
+short_debug! {
+    WithModalDamping; self; unknowns: self.structure.unknowns(), frequencies: self.frequencies
+}
+
 /// Most unknowns: C is a full matrix.
 const MOST: usize = 3000;
 /// Eigenvalues below this, relative to the largest, are those of rigid motions.

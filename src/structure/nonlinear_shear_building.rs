@@ -44,6 +44,10 @@ pub struct NonlinearShearBuilding {
     springs: Springs,
 }
 
+short_debug! {
+    NonlinearShearBuilding; self; building: self.building, laws: self.springs.len()
+}
+
 impl NonlinearShearBuilding {
     /// The building as it is, all its storeys linear.
     pub fn new(building: ShearBuilding) -> Self {

@@ -44,6 +44,10 @@ impl Springs {
         self.0.is_empty()
     }
 
+    pub(super) fn len(&self) -> usize {
+        self.0.len()
+    }
+
     pub(super) fn force(&self, displacement: &[f64], force: &mut [f64]) {
         for spring in &self.0 {
             let value = spring.law.response(spring.deformation(displacement)).force;
@@ -135,6 +139,10 @@ impl Springs {
 pub struct WithSprings {
     structure: Box<dyn Structure>,
     springs: Springs,
+}
+
+short_debug! {
+    WithSprings; self; unknowns: self.structure.unknowns(), springs: self.springs.len()
 }
 
 impl WithSprings {

@@ -154,4 +154,9 @@ impl Structure for Rider {
         let stretch = u[3] - u[0] + 6.0 * u[2];
         matrix.add_outer(&[(0, -1.0), (2, 6.0), (3, 1.0)], 3e9 * stretch * stretch);
     }
+
+    /// Elastic, without memory.
+    fn save(&self) -> basemat::Result<Vec<f64>> {
+        Ok(Vec::new())
+    }
 }

@@ -48,6 +48,8 @@ pub struct VerticalWaves {
     delay: f64,
 }
 
+short_debug! { VerticalWaves; self; soil: self.soil, delay: self.delay }
+
 impl VerticalWaves {
     /// Waves whose `surface` motion (at x = 0) is given, for points down to `depth` (m).
     ///

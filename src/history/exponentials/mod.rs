@@ -81,6 +81,16 @@ pub struct ExponentialHistory {
     largest: f64,
 }
 
+short_debug! {
+    ExponentialHistory;
+    self;
+    elements: self.kernel.elements().len(),
+    steps: self.steps,
+    lags: self.lags,
+    horizon: self.horizon,
+    tolerance: self.tolerance,
+}
+
 impl ExponentialHistory {
     /// Accuracy unless another one is asked for.
     pub const TOLERANCE: f64 = 1e-10;

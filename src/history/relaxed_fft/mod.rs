@@ -88,6 +88,10 @@ pub struct RelaxedFftHistory {
     failed: Option<Error>,
 }
 
+short_debug! {
+    RelaxedFftHistory; self; elements: self.source.elements().len(), steps: self.steps
+}
+
 /// Inputs and outputs so far, and how blocks of one give blocks of the other.
 trait Blocks: Send {
     /// Steps for which there is room and for which all levels are ready. Where it is no power of
