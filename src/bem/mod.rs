@@ -67,7 +67,8 @@ pub trait Ground: Send {
     /// Prepares for steps of `time_step` seconds and forgets all tractions. Called once, first.
     ///
     /// # Errors
-    /// If this ground cannot march with this step.
+    /// If this ground cannot march with this step; [`Error::part`](crate::Error::part) makes an
+    /// error of a ground of your own.
     fn prepare(&mut self, time_step: f64) -> Result<()>;
 
     /// Hints that about `steps` steps will follow: kernels may be evaluated and memory reserved.

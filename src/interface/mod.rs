@@ -190,7 +190,7 @@ pub trait InterfaceLaw: Send {
     /// Asked once, when a simulation is put together: whether this law makes sense in it.
     ///
     /// # Errors
-    /// With the reason if it does not.
+    /// With the reason if it does not, as [`Error::part`](crate::Error::part) for example.
     fn check(&self, _scene: &ContactScene) -> Result<()> {
         Ok(())
     }

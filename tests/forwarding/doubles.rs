@@ -19,7 +19,7 @@ pub(crate) const CORRECT: f64 = 0.625;
 
 /// An error of the double's own.
 pub(crate) fn refusal() -> Error {
-    Error::Scene { quantity: "double", needed: "refuses" }
+    Error::part("double", "refuses")
 }
 
 pub(crate) fn start() -> StepStart {

@@ -18,7 +18,7 @@ struct Double {
 }
 
 fn refusal() -> Error {
-    Error::Scene { quantity: "structure", needed: "refuses" }
+    Error::part("structure", "refuses")
 }
 
 fn add_diagonal(matrix: &mut Triplets, value: f64) {
