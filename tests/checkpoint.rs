@@ -3,6 +3,7 @@
 #[path = "support/scenes.rs"]
 mod scenes;
 
+use std::any::Any;
 use std::sync::Arc;
 
 use basemat::bem::{
@@ -377,6 +378,26 @@ impl Structure for Unsaved {
     fn nonlinear_tangent(&self, u: &[f64], matrix: &mut Triplets) {
         self.0.nonlinear_tangent(u, matrix);
     }
+}
+
+/// GOAL: what a structure remembers can be read during a run and after it.
+#[test]
+fn a_structure_comes_back_as_it_was_left() {
+    let sticky = Sticky { block: block(SI), anchor: 0.0 };
+    let builder = scene(SI, 0.6).interface(friction(0.3)).ground(spring_bed());
+    let mut simulation = builder.structure(sticky).build().unwrap();
+    let anchor = |structure: &dyn Any| structure.downcast_ref::<Sticky>().unwrap().anchor;
+    let mut last = anchor(simulation.structure());
+    for _ in 0..50 {
+        let moved = simulation.step().unwrap().displacement()[2];
+        let next = last + 0.1 * (simulation.static_displacement()[2] + moved - last);
+        let found = anchor(simulation.structure());
+        assert!((found - next).abs() < 1e-12, "{found:e} {next:e}");
+        last = found;
+    }
+    assert!(last.abs() > 1e-9);
+    let whole: Box<dyn Any> = simulation.into_structure();
+    assert_eq!(whole.downcast::<Sticky>().unwrap().anchor, last);
 }
 
 #[test]

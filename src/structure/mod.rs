@@ -36,6 +36,8 @@ pub use shear_building::{ShearBuilding, Storey};
 pub use springs::WithSprings;
 pub use triplets::Triplets;
 
+use std::any::Any;
+
 use crate::error::{CheckpointError, Result};
 
 /// What the integrator needs of a structure: implement this for your own model.
@@ -57,7 +59,10 @@ use crate::error::{CheckpointError, Result};
 /// refused when a simulation is built.
 ///
 /// All forces are per metre of thickness.
-pub trait Structure: Send {
+///
+/// Every structure is [`Any`], so that [`Simulation::structure`](crate::Simulation::structure) leads
+/// back to your own type, and what its internal variables have become.
+pub trait Structure: Any + Send {
     /// Number of unknowns n.
     fn unknowns(&self) -> usize;
 
@@ -126,7 +131,8 @@ pub trait Structure: Send {
     /// Takes back what [`Structure::save`] returned; all values are finite. Unchanged on an error.
     ///
     /// # Errors
-    /// [`CheckpointError::Corrupt`] for values that cannot be such. The default takes none.
+    /// [`CheckpointError::Corrupt`] for values that cannot be such, or
+    /// [`Error::part`](crate::Error::part) with more to say. The default takes none.
     fn restore(&mut self, values: &[f64]) -> Result<()> {
         if values.is_empty() {
             Ok(())
