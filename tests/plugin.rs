@@ -321,6 +321,7 @@ impl Ground for Bed {
     }
 
     fn commit(&mut self, traction: &[f64]) {
+        assert_eq!(traction.len(), 2 * self.elements.len());
         for (i, traction) in traction.iter().enumerate() {
             self.displacement[i] = 2.0 * traction / self.stiffness(i) - self.displacement[i];
         }
@@ -385,6 +386,7 @@ impl ConvolutionHistory for Plain {
     }
 
     fn push(&mut self, traction: &[f64]) {
+        assert_eq!(traction.len(), 2 * self.kernel.elements().len());
         self.past.push(traction.to_vec());
     }
 }

@@ -94,7 +94,7 @@ pub trait Ground: Send {
     /// If the history cannot be evaluated.
     fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
 
-    /// Accepts the tractions (2Q, Pa; missing entries count as zero) of the step that ends now.
+    /// Accepts the tractions (Pa) of the step that ends now; the caller gives all 2Q.
     fn commit(&mut self, traction: &[f64]);
 
     /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the static displacement due to unit

@@ -31,7 +31,7 @@ pub trait ConvolutionHistory: Send {
     /// If the slice has the wrong length or a kernel cannot be evaluated.
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()>;
 
-    /// Accepts the tractions of the step that ends now (2Q, Pa; missing entries count as zero).
+    /// Accepts the tractions (Pa) of the step that ends now; the caller gives all 2Q.
     fn push(&mut self, traction: &[f64]);
 
     /// Bound on what is wrong with the change of any element's history displacement over the next
