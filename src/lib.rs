@@ -131,7 +131,7 @@
 //! | finite element | [`fem::Element`] | 4 |
 //! | spring with a memory | [`structure::Hysteresis`] | 5 |
 //! | law between base and soil | [`interface::InterfaceLaw`] | 3 |
-//! | ground motion | [`motion::FreeField`], or closures in [`motion::FreeFieldFn`] | 2 |
+//! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |
 //! | soil | [`bem::Ground`] | 6 |
 //! | time scheme | [`coupled::TimeScheme`] | 1 |
 //! | convolution algorithm | [`history::ConvolutionHistory`] | 4 |

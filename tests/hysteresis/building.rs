@@ -180,7 +180,7 @@ fn yielding_storey_converges_to_its_differential_equation() {
         let building = ShearBuilding::new(4.0, 1e3, 1e7, &[storey]).unwrap();
         // Rock: so stiff that the base does what the ground does.
         let rock = SpringGround::new(-2.0..2.0, 2, 1e13, 1e13).unwrap();
-        let motion = FreeFieldFn::new(|_, t| [ground(t)[0], 0.0], |_, t| [ground(t)[1], 0.0]);
+        let motion = FreeFieldFn::new(|_, t| [ground(t)[0], 0.0]);
         let mut simulation = Simulation::builder(end / f64::from(steps))
             .structure(NonlinearShearBuilding::new(building).with_law(0, law).unwrap())
             .ground(rock)

@@ -55,7 +55,7 @@ pub(crate) fn shake(frame: Frame, strength: f64) -> FreeFieldFn {
         [across * horizontal, strength * length * vertical]
     };
     // No law here asks for the velocity.
-    FreeFieldFn::new(move |_, t| at(t), |_, _| [0.0; 2])
+    FreeFieldFn::new(move |_, t| at(t))
 }
 
 pub(crate) fn soil(frame: Frame) -> Soil {
