@@ -161,16 +161,8 @@ impl Simulation {
                 }
             })
             .collect();
-        let start = (0..count)
-            .map(|e| StepStart {
-                state: contact[e],
-                mode: modes[e],
-                has_opened: !modes[e].is_closed(),
-                slip_rate: 0.0,
-                static_pressure: contact[e].pressure,
-                time_step: parts.time_step,
-            })
-            .collect();
+        let start =
+            (0..count).map(|e| StepStart::new(contact[e], modes[e], parts.time_step)).collect();
         let mut jump = at.gap.clone();
         jump.resize(size, 0.0);
         let (static_force, static_energy) = parts.model.nonlinear_state(&at.displacement);

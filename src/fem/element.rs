@@ -15,6 +15,7 @@ pub enum Direction {
 
 /// How the mass of an element is spread over its unknowns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum MassKind {
     /// With the same shape functions as the stiffness: a full matrix.
     #[default]

@@ -5,6 +5,7 @@ use crate::error::{Error, Result, not_negative};
 
 /// On what the contact conditions of a closed element act.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub enum Activation {
     /// On the gap at the end of the step: g ≥ 0, p ≥ 0, p·g = 0 (Signorini).
     #[default]

@@ -64,6 +64,7 @@ pub struct ContactState {
 
 /// What a law may need of the beginning of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct StepStart {
     /// Opening and traction at the end of the step before.
     pub state: ContactState,
@@ -77,6 +78,34 @@ pub struct StepStart {
     pub static_pressure: f64,
     /// Time step, s.
     pub time_step: f64,
+}
+
+impl StepStart {
+    /// Start of a step of `time_step` seconds from `state`, by which a law can be tried without a
+    /// simulation: it has opened if it is open, its slip rate is zero, and its static pressure that
+    /// of `state`. All fields can then be set.
+    ///
+    /// ```
+    /// use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance};
+    /// let law = Coulomb::new(0.5)?;
+    /// let pressed = ContactState { pressure: 10.0e3, ..ContactState::default() };
+    /// let mut start = StepStart::new(pressed, Mode::Stick, 0.01);
+    /// start.slip_rate = 0.2;
+    /// let trial = ContactState { shear: 6.0e3, ..pressed };
+    /// let next = law.next_mode(Mode::Stick, &start, &trial, Tolerance::new(1e-9, 1.0));
+    /// assert_eq!(next, Mode::SlipRight);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn new(state: ContactState, mode: Mode, time_step: f64) -> Self {
+        Self {
+            state,
+            mode,
+            has_opened: !mode.is_closed(),
+            slip_rate: 0.0,
+            static_pressure: state.pressure,
+            time_step,
+        }
+    }
 }
 
 /// One linear condition on the end of a step:
@@ -125,11 +154,19 @@ impl Condition {
 
 /// Differences below which a law should see equality.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Tolerance {
     /// For gaps and slips, m.
     pub length: f64,
     /// For tractions, Pa.
     pub traction: f64,
+}
+
+impl Tolerance {
+    /// Tolerance for lengths (m) and tractions (Pa).
+    pub fn new(length: f64, traction: f64) -> Self {
+        Self { length, traction }
+    }
 }
 
 /// What a law can check of the scene it is to act in.

@@ -17,6 +17,7 @@ use crate::soil::Soil;
 
 /// Which pressure limits friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum FrictionLimit {
     /// The total pressure of this step.
     #[default]
@@ -31,6 +32,7 @@ pub enum FrictionLimit {
 
 /// What tells the sense of slip, and whether it goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum SlipSense {
     /// Slip beyond the elastic one, as in plasticity: it starts in the sense of the shear traction
     /// and goes on while it grows.

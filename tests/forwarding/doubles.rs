@@ -23,18 +23,11 @@ pub(crate) fn refusal() -> Error {
 }
 
 pub(crate) fn start() -> StepStart {
-    StepStart {
-        state: ContactState::default(),
-        mode: Mode::Stick,
-        has_opened: false,
-        slip_rate: 0.0,
-        static_pressure: 0.0,
-        time_step: 0.01,
-    }
+    StepStart::new(ContactState::default(), Mode::Stick, 0.01)
 }
 
 pub(crate) fn tolerance() -> Tolerance {
-    Tolerance { length: 1e-9, traction: 1e-3 }
+    Tolerance::new(1e-9, 1e-3)
 }
 
 pub(crate) struct Double(Log);
