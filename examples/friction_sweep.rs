@@ -57,7 +57,7 @@ fn slide(friction: f64, motion: Record) -> Result<Summary> {
         .interface(Coulomb::new(friction)?)
         .motion(motion)
         .build()?;
-    let mut histories = Recorder::new().friction(friction).start(&simulation)?;
+    let mut histories = Recorder::new().start(&simulation)?;
     histories.run(&mut simulation, 1500)?;
     Ok(histories.summary())
 }

@@ -47,7 +47,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Histories, Wireframe)> {
         .motion(el_centro_1940())
         .probe(Probe::acceleration("roof", vec![(roof, 1.0)]))
         .build()?;
-    let recorder = Recorder::new().friction(FRICTION).contact(6).motion(6);
+    let recorder = Recorder::new().contact(6).motion(6);
     let mut histories = recorder.start(&simulation)?;
     histories.run(&mut simulation, STEPS)?;
     Ok((histories, shape))

@@ -49,7 +49,7 @@ fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Summary> {
         .probe(Probe::acceleration("top, m/s²", top))
         .probe(Probe::acceleration("edge, up, m/s²", edge))
         .build()?;
-    let mut histories = Recorder::new().friction(FRICTION).start(&simulation)?;
+    let mut histories = Recorder::new().start(&simulation)?;
     histories.run(&mut simulation, 2800)?;
     Ok(histories.summary())
 }

@@ -131,7 +131,7 @@
 //! | finite element | [`fem::Element`] | 4 |
 //! | spring with a memory | [`structure::Hysteresis`] | 5 |
 //! | law between base and soil | [`interface::InterfaceLaw`] | 3 |
-//! | ground motion | [`motion::FreeField`], or closures in [`motion::FreeFieldFn`] | 2 |
+//! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |
 //! | soil | [`bem::Ground`] | 6 |
 //! | time scheme | [`coupled::TimeScheme`] | 1 |
 //! | convolution algorithm | [`history::ConvolutionHistory`] | 4 |
@@ -147,6 +147,11 @@
 //! `rocking_block`, `floor_spectra`, `friction_sweep`, `travelling_wave`, `from_matrices`; `pictures`
 //! draws everything (feature `plot`). What each prints is in `docs/examples.md`.
 #![forbid(unsafe_code)]
+
+#[macro_use]
+mod forward;
+#[macro_use]
+mod short_debug;
 
 pub mod bem;
 mod bounded_line;

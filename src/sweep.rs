@@ -21,11 +21,15 @@ pub struct Sweep<'a> {
     progress: Box<dyn Fn(usize, f64) + Sync + 'a>,
 }
 
+short_debug! { Sweep<'_>; self; count: self.count }
+
 /// One case of a [`Sweep`], while it runs.
 pub struct SweepCase<'a> {
     index: usize,
     progress: &'a (dyn Fn(usize, f64) + Sync),
 }
+
+short_debug! { SweepCase<'_>; self; index: self.index }
 
 impl SweepCase<'_> {
     /// Which case this is, from 0.

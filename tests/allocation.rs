@@ -133,7 +133,7 @@ fn recording_does_not_allocate_once_memory_is_reserved() {
     // From modes, the state itself has to make the unknowns of a frame.
     let builder = builder.coordinates(Coordinates::Unknowns);
     let mut simulation = builder.expected_steps(WARM + STEPS).build().unwrap();
-    let recorder = Recorder::new().friction(0.3).contact(2).motion(3);
+    let recorder = Recorder::new().contact(2).motion(3);
     let mut histories = recorder.start(&simulation).unwrap();
     for _ in 0..WARM {
         histories.record(simulation.step().unwrap());

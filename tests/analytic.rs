@@ -18,7 +18,7 @@ struct Pushed<F> {
     moment: F,
 }
 
-impl<F: Fn(f64) -> f64 + Send> Structure for Pushed<F> {
+impl<F: Fn(f64) -> f64 + Send + 'static> Structure for Pushed<F> {
     fn unknowns(&self) -> usize {
         self.block.unknowns()
     }

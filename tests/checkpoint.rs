@@ -3,6 +3,7 @@
 #[path = "support/scenes.rs"]
 mod scenes;
 
+use std::any::Any;
 use std::sync::Arc;
 
 use basemat::bem::{
@@ -11,7 +12,9 @@ use basemat::bem::{
 use basemat::coupled::{Checkpoint, SimulationBuilder, State};
 use basemat::history::{ConvolutionHistory, DirectHistory, ExponentialHistory, RelaxedFftHistory};
 use basemat::interface::Bonded;
-use basemat::structure::{ContactNode, RigidBlock, Structure, Triplets};
+use basemat::structure::{
+    ContactNode, ModalDamping, RigidBlock, Structure, StructureGroup, Triplets, WithSprings,
+};
 use basemat::{CheckpointError, Error, Result, Simulation};
 use scenes::{Rider, SI, block, friction, scene, soil, states, tower};
 
@@ -65,8 +68,8 @@ impl Structure for Sticky {
         self.anchor += 0.1 * (u[2] - self.anchor);
     }
 
-    fn save(&self) -> Vec<f64> {
-        vec![self.anchor]
+    fn save(&self) -> Result<Vec<f64>> {
+        Ok(vec![self.anchor])
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
@@ -342,6 +345,82 @@ fn grounds_that_cannot_be_saved_say_so() {
     let other = base().ground(spring_bed()).build().unwrap().checkpoint().unwrap();
     assert_eq!(silent.resume(&other).unwrap_err(), unsupported);
     silent.run(5, |_| {}).unwrap();
+}
+
+/// A nonlinear structure without `save`: the default must not pretend that there is nothing to save.
+struct Unsaved(Rider);
+
+impl Structure for Unsaved {
+    fn unknowns(&self) -> usize {
+        self.0.unknowns()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.0.contact_nodes()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        self.0.mass(matrix);
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        self.0.stiffness(matrix);
+    }
+
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    fn nonlinear_force(&self, u: &[f64], force: &mut [f64]) {
+        self.0.nonlinear_force(u, force);
+    }
+
+    fn nonlinear_tangent(&self, u: &[f64], matrix: &mut Triplets) {
+        self.0.nonlinear_tangent(u, matrix);
+    }
+}
+
+/// GOAL: what a structure remembers can be read during a run and after it.
+#[test]
+fn a_structure_comes_back_as_it_was_left() {
+    let sticky = Sticky { block: block(SI), anchor: 0.0 };
+    let builder = scene(SI, 0.6).interface(friction(0.3)).ground(spring_bed());
+    let mut simulation = builder.structure(sticky).build().unwrap();
+    let anchor = |structure: &dyn Any| structure.downcast_ref::<Sticky>().unwrap().anchor;
+    let mut last = anchor(simulation.structure());
+    for _ in 0..50 {
+        let moved = simulation.step().unwrap().displacement()[2];
+        let next = last + 0.1 * (simulation.static_displacement()[2] + moved - last);
+        let found = anchor(simulation.structure());
+        assert!((found - next).abs() < 1e-12, "{found:e} {next:e}");
+        last = found;
+    }
+    assert!(last.abs() > 1e-9);
+    let whole: Box<dyn Any> = simulation.into_structure();
+    assert_eq!(whole.downcast::<Sticky>().unwrap().anchor, last);
+}
+
+#[test]
+fn nonlinear_structures_that_cannot_be_saved_say_so() {
+    let base = || scene(SI, 0.6).interface(friction(0.3)).ground(spring_bed());
+    let unsaved = || Unsaved(Rider { block: block(SI) });
+    let unsupported = Error::Checkpoint(CheckpointError::Unsupported { part: "structure" });
+    let known = base().structure(Rider { block: block(SI) }).build().unwrap().checkpoint().unwrap();
+    let wrapped: [Box<dyn Structure>; 4] = [
+        Box::new(unsaved()),
+        Box::new(WithSprings::new(unsaved())),
+        Box::new(ModalDamping::new(&[0.05]).unwrap().on(unsaved()).unwrap()),
+        Box::new(StructureGroup::new().with(unsaved(), 0.0).unwrap()),
+    ];
+    for (k, structure) in wrapped.into_iter().enumerate() {
+        let mut silent = base().structure(structure).build().unwrap();
+        silent.run(5, |_| {}).unwrap();
+        assert_eq!(silent.checkpoint().unwrap_err(), unsupported, "{k}");
+        if k == 0 {
+            assert_eq!(silent.resume(&known).unwrap_err(), unsupported);
+        }
+        silent.run(5, |_| {}).unwrap();
+    }
 }
 
 #[test]

@@ -102,7 +102,7 @@ fn assert_converging(name: &str, apart: &[f64], finest: f64) {
 /// The ground rises by `rise` (m) within about 2 `width` (s), and stops.
 fn thrown(rise: f64, width: f64) -> FreeFieldFn {
     let up = move |t: f64| 0.5 * rise * (((t - 4.0 * width) / width).tanh() + 4.0_f64.tanh());
-    FreeFieldFn::new(move |_, t| [0.0, up(t) - up(0.0)], |_, _| [0.0; 2])
+    FreeFieldFn::new(move |_, t| [0.0, up(t) - up(0.0)])
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn whole_base_lifts_off_and_lands() {
 fn slip_reverses_in_all_elements() {
     let scene = |time_step: f64| {
         let sway = |t: f64| 0.03 * (1.0 - (18.0 * t).cos());
-        let motion = FreeFieldFn::new(move |_, t| [sway(t), 0.0], |_, _| [0.0; 2]);
+        let motion = FreeFieldFn::new(move |_, t| [sway(t), 0.0]);
         Simulation::builder(time_step)
             .structure(block(1.0))
             .interface(friction(0.25))
@@ -162,7 +162,7 @@ fn slip_reverses_in_all_elements() {
 fn impacts_that_accumulate_end_at_rest() {
     let scene = |time_step: f64| {
         let push = |t: f64| 0.06 * (-((t - 0.2) / 0.06).powi(2)).exp();
-        let motion = FreeFieldFn::new(move |_, t| [push(t) - push(0.0), 0.0], |_, _| [0.0; 2]);
+        let motion = FreeFieldFn::new(move |_, t| [push(t) - push(0.0), 0.0]);
         Simulation::builder(time_step).structure(block(8.0)).interface(friction(0.8)).motion(motion)
     };
     let stiff = || {

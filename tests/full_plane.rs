@@ -305,17 +305,15 @@ fn soil_box(size: f64) -> Vec<Segment> {
 /// REFERENCE: the boundary equation, by what its two sides differ.
 #[test]
 fn incident_waves_satisfy_the_boundary_equation() {
-    let surface = FreeFieldFn::new(
-        |_, t: f64| {
-            let a = (t - 4.0) / 1.2;
-            [(-a * a).exp() - (-(4.0 / 1.2_f64).powi(2)).exp(), 0.5 * (-a * a).exp()]
-        },
-        |_, t: f64| {
-            let a = (t - 4.0) / 1.2;
-            let v = -2.0 * a / 1.2 * (-a * a).exp();
-            [v, 0.5 * v]
-        },
-    );
+    let surface = FreeFieldFn::new(|_, t: f64| {
+        let a = (t - 4.0) / 1.2;
+        [(-a * a).exp() - (-(4.0 / 1.2_f64).powi(2)).exp(), 0.5 * (-a * a).exp()]
+    })
+    .with_velocity(|_, t: f64| {
+        let a = (t - 4.0) / 1.2;
+        let v = -2.0 * a / 1.2 * (-a * a).exp();
+        [v, 0.5 * v]
+    });
     let waves = VerticalWaves::new(soil(0.25), surface, 1.0).unwrap();
     assert_eq!(waves.delay(), 1.0);
     let errors = [(0.25, 0.2), (0.125, 0.1)].map(|(size, step)| {

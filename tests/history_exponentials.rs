@@ -212,7 +212,7 @@ fn memory_does_not_grow() {
     }
     assert_eq!(history.memory(), held);
     assert!(held < 1_000_000, "{held} bytes");
-    assert!(history.checkpoint().unwrap().len() < 10_000);
+    assert!(history.save().unwrap().len() < 10_000);
 }
 
 #[test]

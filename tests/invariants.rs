@@ -197,13 +197,10 @@ fn failed_step_changes_nothing() {
         states(&mut builder.build().unwrap(), steps).pop().unwrap()
     };
     let field = shake(SI, 0.5);
-    let broken = basemat::motion::FreeFieldFn::new(
-        move |x, t| {
-            use basemat::motion::FreeField;
-            if t > 100.5 * TIME_STEP { [f64::NAN; 2] } else { field.displacement(x, t) }
-        },
-        |_, _| [0.0; 2],
-    );
+    let broken = basemat::motion::FreeFieldFn::new(move |x, t| {
+        use basemat::motion::FreeField;
+        if t > 100.5 * TIME_STEP { [f64::NAN; 2] } else { field.displacement(x, t) }
+    });
     let builder = scene(SI, 0.5).motion(broken).structure(block(SI)).interface(friction(0.4));
     let mut simulation = builder.build().unwrap();
     for _ in 0..100 {

@@ -3,11 +3,12 @@
 mod support;
 
 use approx::assert_relative_eq;
+use basemat::bem::full_plane::{IncidentField, VerticalWaves};
 use basemat::motion::{
     AtRest, Baseline, FreeField, FreeFieldFn, Record, RickerDisplacement, STANDARD_GRAVITY,
     VerticalIncidence, el_centro_1940,
 };
-use basemat::{Error, RecordError};
+use basemat::{Error, RecordError, Soil};
 use proptest::prelude::*;
 use support::{close, table};
 
@@ -251,10 +252,69 @@ fn free_fields_agree_with_their_sources() {
         assert_eq!(both.velocity(-1e3, time), [u, w]);
     }
     assert_eq!(AtRest.displacement(0.0, 1.0), [0.0; 2]);
-    let always = FreeFieldFn::new(|_, _| [1.0, 1.0], |_, _| [2.0, 2.0]);
+    let always = FreeFieldFn::new(|_, _| [1.0, 1.0]).with_velocity(|_, _| [2.0, 2.0]);
     assert_eq!(always.displacement(0.0, 0.0), [0.0; 2]);
     assert_eq!(always.velocity(0.0, -1.0), [0.0; 2]);
     assert_eq!(always.velocity(0.0, 1e-9), [2.0; 2]);
+}
+
+/// GOAL: a velocity that nobody wrote is as good as the documentation says, late in time too.
+/// REFERENCE: the closed form of a Ricker pulse of about 1.5 and 15 Hz.
+#[test]
+fn velocities_by_default_are_differences() {
+    struct Bare(RickerDisplacement);
+    impl FreeField for Bare {
+        fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
+            self.0.displacement(x, time)
+        }
+    }
+    for (sigma, center) in [(0.15, 1.0), (0.015, 1.0), (0.015, 1.0e6)] {
+        let pulse = RickerDisplacement::new(0.3, sigma, center).unwrap();
+        let closure = FreeFieldFn::new(move |x, t| pulse.displacement(x, t));
+        let mut largest = 0.0_f64;
+        let mut worst = 0.0_f64;
+        for k in -300..300 {
+            let time = center + 0.013 * sigma * f64::from(k);
+            let exact = pulse.velocity(0.0, time)[0];
+            let found = Bare(pulse).velocity(0.0, time);
+            assert_eq!(found, closure.velocity(0.0, time));
+            assert_eq!(found[1], 0.0);
+            largest = largest.max(exact.abs());
+            worst = worst.max((found[0] - exact).abs());
+        }
+        // The largest third derivative is 8.4/σ² times the largest velocity; and rounding.
+        let bound = (1e-5 / sigma).powi(2) * 8.5 / 6.0 * largest + 2.0 * 0.3 * 2e-11;
+        println!("sigma {sigma}: {worst:e} m/s of {largest} m/s, bound {bound:e}");
+        assert!(worst < bound);
+        assert!(largest > 0.3 / sigma);
+    }
+    let ramp = FreeFieldFn::new(|_, t| [t, -2.0 * t]);
+    for time in [0.0, -1.0, f64::NAN] {
+        assert_eq!(ramp.velocity(0.0, time), [0.0; 2]);
+    }
+    for time in [1e-3, 1.0, 1e9, 1e15] {
+        let found = ramp.velocity(0.0, time);
+        assert!((found[0] - 1.0).abs() < 1e-9 && (found[1] + 2.0).abs() < 1e-9, "{found:?}");
+    }
+    assert!(format!("{ramp:?}").contains("exact_velocity: false"));
+}
+
+/// GOAL: stresses of waves from below do not need an exact velocity.
+#[test]
+fn stresses_of_waves_with_a_difference() {
+    let soil = Soil::new(80.0e6, 0.25, 2000.0).unwrap();
+    let pulse = RickerDisplacement::new(0.1, 0.1, 0.8).unwrap();
+    let exact = VerticalWaves::new(soil, pulse, 20.0).unwrap();
+    let closure = FreeFieldFn::new(move |x, t| pulse.displacement(x, t));
+    let bare = VerticalWaves::new(soil, closure, 20.0).unwrap();
+    let mut largest = 0.0_f64;
+    for k in 0..200 {
+        let (point, time) = ([0.0, 7.0], 0.01 * f64::from(k));
+        let (a, b) = (exact.stress(point, time), bare.stress(point, time));
+        largest = largest.max(a[2].abs());
+        assert!((a[2] - b[2]).abs() < 1e-6 * 1.0e6, "{a:?} {b:?}");
+    }
+    assert!(largest > 1.0e5);
 }
 
 #[test]

@@ -51,7 +51,7 @@ fn shows(svg: &Svg, needed: &[&str]) {
 
 #[test]
 fn every_picture_has_title_labels_units_and_legend() {
-    let (histories, shape) = recorded(Recorder::new().friction(0.35).contact(1).motion(5));
+    let (histories, shape) = recorded(Recorder::new().contact(1).motion(5));
     let runs = [("one", &histories), ("two", &histories)];
     for quantity in Quantity::ALL {
         let svg = plot::history("Title", &runs, quantity).unwrap();

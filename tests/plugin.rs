@@ -13,9 +13,11 @@ use basemat::history::{ConvolutionHistory, DirectHistory};
 use basemat::interface::{
     Bonded, Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
 };
-use basemat::motion::{FreeField, RickerDisplacement};
-use basemat::structure::{ContactNode, FemModel, RigidBlock, Structure, Triplets};
-use basemat::{Result, Simulation, Soil};
+use basemat::motion::{FreeField, RickerDisplacement, TravellingWave};
+use basemat::structure::{
+    ContactNode, FemModel, RigidBlock, Structure, StructureGroup, Triplets, WithSprings,
+};
+use basemat::{Error, Result, Simulation, Soil};
 
 use scene::{bed, block};
 
@@ -54,12 +56,40 @@ fn assert_same_motion(a: &Simulation, b: &Simulation, tolerance: f64) {
 }
 
 #[test]
+fn all_parts_can_be_shown() {
+    fn shown(part: &dyn std::fmt::Debug, words: &[&str]) {
+        let text = format!("{part:?}");
+        assert!(text.len() < 2000, "{text}");
+        for word in words {
+            assert!(text.contains(word), "{word} in {text}");
+        }
+    }
+    let builder = || shaken().structure(block()).interface(Bonded);
+    shown(&builder(), &["time_step: 0.002", "structure: true", "ground: false", "gravity: 9.81"]);
+    // What is refused can be unwrapped.
+    assert!(matches!(builder().build().unwrap_err(), Error::Scene { quantity: "ground", .. }));
+    let mut simulation = builder().ground(bed(4)).build().unwrap();
+    simulation.step().unwrap();
+    shown(&simulation, &["unknowns: 3", "elements: 4", "step: 1"]);
+    let ground = || HalfPlaneGround::strip(soil(), -2.0..2.0, 6).unwrap();
+    shown(&ground(), &["Soil", "elements: 6"]);
+    let kernel = Arc::new(PatchKernel::new(soil(), ground().elements().to_vec(), STEP).unwrap());
+    shown(&DirectHistory::new(kernel), &["elements: 6", "steps: 0"]);
+    shown(&WithSprings::new(block()), &["unknowns: 3", "springs: 0"]);
+    shown(&StructureGroup::new(), &["structures: 0"]);
+    shown(&TravellingWave::new(push(), 500.0, 1.0).unwrap(), &["500.0", "origin: 1.0"]);
+    shown(&basemat::Sweep::new(3), &["count: 3"]);
+}
+
+#[test]
 fn simulations_can_move_between_threads() {
     fn is_send<T: Send>() {}
     is_send::<Simulation>();
     is_send::<SimulationBuilder>();
     is_send::<Run>();
     is_send::<basemat::coupled::State>();
+    fn is_sync<T: Sync>() {}
+    is_sync::<basemat::structure::ReducedModel>();
     let mut simulation =
         shaken().structure(block()).ground(bed(4)).interface(Bonded).build().unwrap();
     let moved = std::thread::spawn(move || {
@@ -291,6 +321,7 @@ impl Ground for Bed {
     }
 
     fn commit(&mut self, traction: &[f64]) {
+        assert_eq!(traction.len(), 2 * self.elements.len());
         for (i, traction) in traction.iter().enumerate() {
             self.displacement[i] = 2.0 * traction / self.stiffness(i) - self.displacement[i];
         }
@@ -355,6 +386,7 @@ impl ConvolutionHistory for Plain {
     }
 
     fn push(&mut self, traction: &[f64]) {
+        assert_eq!(traction.len(), 2 * self.kernel.elements().len());
         self.past.push(traction.to_vec());
     }
 }

@@ -6,14 +6,16 @@ mod scenes;
 
 use basemat::bem::{HalfPlaneGround, SpringGround, Strip};
 use basemat::coupled::{Placement, Probe, State};
-use basemat::interface::{Bonded, Coulomb};
+use basemat::interface::{
+    Bonded, Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, ThinLayer, Tolerance,
+};
 use basemat::motion::{AtRest, STANDARD_GRAVITY, SpectralOrdinate, el_centro_1940};
 use basemat::results::{
     Comparison, EnergyShares, Histories, Quantity, Recorder, broadened, log_spaced,
 };
 use basemat::structure::{ContactNode, RigidBlock, Structure, StructureGroup, Triplets};
 use basemat::{Error, Simulation, Soil};
-use scenes::{SI, block, friction, scene};
+use scenes::{SI, block, friction, scene, soil};
 
 const FRICTION: f64 = 0.35;
 const STEPS: usize = 400;
@@ -45,7 +47,7 @@ fn recorded(recorder: Recorder) -> (Vec<State>, Histories, Simulation) {
 /// Everything once more, from the states and by other means.
 #[test]
 fn histories_and_peaks_are_those_of_the_states() {
-    let (states, histories, simulation) = recorded(Recorder::new().friction(FRICTION).contact(1));
+    let (states, histories, simulation) = recorded(Recorder::new().contact(1));
     let elements = simulation.elements();
     let times: Vec<f64> = states.iter().map(|s| s.time).collect();
     assert_eq!(histories.times(), times);
@@ -157,13 +159,11 @@ fn thinned_histories_keep_the_peaks_of_all_steps() {
     for (k, &shear) in histories.series(Quantity::BaseShear).iter().enumerate() {
         assert_eq!(shear, states[7 * k].base_shear);
     }
-    for quantity in Quantity::ALL.into_iter().filter(|&q| q != Quantity::SlidingSafety) {
+    for quantity in Quantity::ALL {
         assert_eq!(histories.extremes(quantity), all.extremes(quantity));
     }
     assert_eq!(histories.envelope(), all.envelope());
     assert_eq!(histories.summary().sliding, all.summary().sliding);
-    assert!(histories.series(Quantity::SlidingSafety).iter().all(|x| x.is_nan()));
-    assert!(histories.summary().least_sliding_safety.is_none());
     // Time, 11 scalars, 2 probes, 11 terms of the ledger.
     assert_eq!(all.bytes(), 8 * (1 + 11 + 2 + 11) * (STEPS + 1));
     assert!(histories.bytes() < all.bytes());
@@ -287,7 +287,7 @@ fn broadened_peaks_are_plateaus() {
 
 #[test]
 fn pages_and_tables() {
-    let (_, histories, _) = recorded(Recorder::new().friction(FRICTION));
+    let (_, histories, _) = recorded(Recorder::new());
     let summary = histories.summary();
     let page = summary.to_string();
     println!("{page}");
@@ -352,7 +352,7 @@ fn factors_of_safety_are_those_of_the_worst_foundation() {
         .gravity(STANDARD_GRAVITY)
         .build()
         .unwrap();
-    let mut histories = Recorder::new().frictions(vec![0.5; 12]).start(&simulation).unwrap();
+    let mut histories = Recorder::new().start(&simulation).unwrap();
     let mut least = [f64::INFINITY; 2];
     let run = simulation.run(500, |state| {
         histories.record(state);
@@ -369,6 +369,86 @@ fn factors_of_safety_are_those_of_the_worst_foundation() {
     assert!(close(summary.least_overturning_safety.value, least[0]));
     assert!(close(summary.least_sliding_safety.unwrap().value, least[1]));
     assert!(least[0] < 1.3);
+}
+
+/// A law of one's own whose coefficient is nonsense.
+struct Nonsense(Coulomb);
+
+impl InterfaceLaw for Nonsense {
+    fn modes(&self) -> &[Mode] {
+        self.0.modes()
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        self.0.conditions(mode, start)
+    }
+
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &StepStart,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        self.0.next_mode(mode, start, trial, tolerance)
+    }
+
+    fn friction(&self) -> Option<f64> {
+        Some(f64::NAN)
+    }
+}
+
+type Laws = Vec<Box<dyn InterfaceLaw>>;
+
+/// GOAL: the factor of safety is made of the laws' own coefficients, element by element, unless the
+/// recorder is told others; a base with an element that has none has no factor.
+#[test]
+fn friction_is_that_of_the_laws() {
+    let coulomb = |friction| Coulomb::new(friction).unwrap();
+    let layer = |friction| ThinLayer::new(&soil(SI), 0.5, friction).unwrap();
+    let start = |laws: Laws, recorder: Recorder| {
+        let builder = scene(SI, 0.6).structure(block(SI)).interfaces(laws);
+        let mut simulation = builder.build().unwrap();
+        let mut histories = recorder.start(&simulation)?;
+        histories.run(&mut simulation, 20).unwrap();
+        Ok::<_, Error>(histories)
+    };
+    let count = simulation().elements().len();
+    let each = |friction: &dyn Fn(usize) -> f64| -> Laws {
+        (0..count).map(|e| Box::new(coulomb(friction(e))) as Box<dyn InterfaceLaw>).collect()
+    };
+    let graded = |e: usize| 0.3 + 0.01 * e as f64;
+    // Without the static state, which has no shear.
+    let factor = |histories: Result<Histories, Error>| {
+        histories.unwrap().series(Quantity::SlidingSafety)[1..].to_vec()
+    };
+    let told = |laws: Laws| {
+        let recorder = Recorder::new().frictions((0..count).map(graded).collect());
+        factor(start(laws, recorder))
+    };
+    let read = |laws: Laws| factor(start(laws, Recorder::new()));
+    let own = read(each(&graded));
+    assert!(own.iter().all(|factor| factor.is_finite()));
+    assert_eq!(own, told(each(&graded)));
+    assert!(own.iter().zip(read(each(&|_| 0.3))).all(|(a, b)| *a > b));
+    // One law for all; a layer; infinite friction.
+    for law in [Box::new(coulomb(0.3)) as Box<dyn InterfaceLaw>, Box::new(layer(0.3))] {
+        let factor = read(vec![law]);
+        assert!(factor.iter().all(|factor| *factor >= 1.0 - 1e-9 && factor.is_finite()));
+    }
+    let unlimited = read(vec![Box::new(Coulomb::uplift_only())]);
+    assert!(unlimited.iter().all(|factor| *factor == f64::INFINITY));
+    // One bonded element: none, unless told.
+    let mixed = || {
+        let mut laws = each(&graded);
+        laws[2] = Box::new(Bonded);
+        laws
+    };
+    assert!(read(mixed()).iter().all(|factor| factor.is_nan()));
+    assert!(start(mixed(), Recorder::new()).unwrap().summary().least_sliding_safety.is_none());
+    assert!(told(mixed()).iter().all(|factor| factor.is_finite()));
+    let fault = start(vec![Box::new(Nonsense(coulomb(0.3)))], Recorder::new());
+    assert!(matches!(fault, Err(Error::Input { .. })));
 }
 
 #[test]

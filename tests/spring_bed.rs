@@ -11,10 +11,8 @@ use basemat::structure::RigidBlock;
 fn ricker_ground() -> FreeFieldFn {
     let sigma = 0.3_f64;
     let a = move |t: f64| (t - 1.5) / sigma;
-    FreeFieldFn::new(
-        move |_, t| [-2.5 * sigma * sigma * (-a(t) * a(t)).exp(), 0.0],
-        move |_, t| [5.0 * sigma * a(t) * (-a(t) * a(t)).exp(), 0.0],
-    )
+    FreeFieldFn::new(move |_, t| [-2.5 * sigma * sigma * (-a(t) * a(t)).exp(), 0.0])
+        .with_velocity(move |_, t| [5.0 * sigma * a(t) * (-a(t) * a(t)).exp(), 0.0])
 }
 
 const MASS: f64 = 16_000.0;

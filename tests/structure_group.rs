@@ -252,8 +252,8 @@ impl Structure for Softening {
         self.memory = u[0];
     }
 
-    fn save(&self) -> Vec<f64> {
-        vec![self.memory]
+    fn save(&self) -> Result<Vec<f64>> {
+        Ok(vec![self.memory])
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {

@@ -82,7 +82,7 @@ impl Read {
     fn lagged_mode(&self, start: &StepStart) -> Mode {
         let mut before = self.seen(start);
         before.state.slip -= start.slip_rate * start.time_step;
-        let tolerance = Tolerance { length: 1e-12, traction: 1e-6 };
+        let tolerance = Tolerance::new(1e-12, 1e-6);
         self.layer.next_mode(start.mode, &before, &start.state, tolerance)
     }
 }

@@ -71,7 +71,7 @@ impl Motion {
             }
         };
         // Nothing here asks for velocities: half-plane and springs take displacements at step ends.
-        Ok(FreeFieldFn::new(move |_, time| at(time), |_, _| [0.0; 2]))
+        Ok(FreeFieldFn::new(move |_, time| at(time)))
     }
 
     /// Displacement at the end of step `n`, in g Δt²; metres over g Δt² for a step.

@@ -214,9 +214,9 @@ impl Outcome {
     fn count(&mut self, state: &State) {
         self.trials[1] = self.trials[1].max(state.trials as f64);
         match state.method {
-            SearchMethod::ActiveSet => {}
             SearchMethod::GaussSeidel => self.fallbacks[0] += 1,
             SearchMethod::Path => self.fallbacks[1] += 1,
+            _ => {}
         }
         self.mode_changes += state.transitions.len();
         self.largest_uplift = self.largest_uplift.max(state.uplifted_fraction);

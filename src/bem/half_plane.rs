@@ -42,6 +42,15 @@ pub struct HalfPlaneGround {
     prepared: Option<Prepared>,
 }
 
+short_debug! {
+    HalfPlaneGround;
+    self;
+    soil: self.soil,
+    elements: self.elements.len(),
+    history: self.options,
+    prepared: self.prepared.is_some(),
+}
+
 /// Makes the history of a patch.
 type MakeHistory = dyn Fn(Arc<PatchKernel>) -> Box<dyn ConvolutionHistory> + Send;
 
@@ -239,11 +248,11 @@ impl Ground for HalfPlaneGround {
     }
 
     /// Which history was chosen for how many steps, and what it says.
-    fn checkpoint(&self) -> Result<Vec<f64>> {
+    fn save(&self) -> Result<Vec<f64>> {
         let prepared = self.prepared.as_ref().ok_or(NOT_PREPARED)?;
         let mut values = SavedChoice::new(prepared.choice).numbers().to_vec();
         if let Some(history) = &prepared.history {
-            values.extend(history.checkpoint()?);
+            values.extend(history.save()?);
         }
         Ok(values)
     }

@@ -67,7 +67,8 @@ pub trait Ground: Send {
     /// Prepares for steps of `time_step` seconds and forgets all tractions. Called once, first.
     ///
     /// # Errors
-    /// If this ground cannot march with this step.
+    /// If this ground cannot march with this step; [`Error::part`](crate::Error::part) makes an
+    /// error of a ground of your own.
     fn prepare(&mut self, time_step: f64) -> Result<()>;
 
     /// Hints that about `steps` steps will follow: kernels may be evaluated and memory reserved.
@@ -93,7 +94,7 @@ pub trait Ground: Send {
     /// If the history cannot be evaluated.
     fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
 
-    /// Accepts the tractions (2Q, Pa; missing entries count as zero) of the step that ends now.
+    /// Accepts the tractions (Pa) of the step that ends now; the caller gives all 2Q.
     fn commit(&mut self, traction: &[f64]);
 
     /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the static displacement due to unit
@@ -124,11 +125,11 @@ pub trait Ground: Send {
     ///
     /// # Errors
     /// [`CheckpointError::Unsupported`], unless a ground implements it.
-    fn checkpoint(&self) -> Result<Vec<f64>> {
+    fn save(&self) -> Result<Vec<f64>> {
         Err(CheckpointError::Unsupported { part: "ground" }.into())
     }
 
-    /// Goes to where `steps` steps had been committed and [`Ground::checkpoint`] returned
+    /// Goes to where `steps` steps had been committed and [`Ground::save`] returned
     /// `values`, all finite. Unchanged on an error.
     ///
     /// # Errors
@@ -148,5 +149,24 @@ pub trait Ground: Send {
             *down = -vertical;
             *along = horizontal;
         }
+    }
+}
+
+impl<T: Ground + ?Sized> Ground for Box<T> {
+    forward! {
+        (**self);
+        fn elements(&self) -> &[ContactElement];
+        fn prepare(&mut self, time_step: f64) -> Result<()>;
+        fn reserve(&mut self, steps: usize) -> Result<()>;
+        fn instantaneous(&self, matrix: &mut [f64]) -> Result<()>;
+        fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
+        fn commit(&mut self, traction: &[f64]);
+        fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
+        fn history_choice(&self) -> Option<HistoryChoice>;
+        fn stability(&self) -> Option<&GroundStability>;
+        fn increment_error_bound(&self) -> f64;
+        fn save(&self) -> Result<Vec<f64>>;
+        fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
+        fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]);
     }
 }

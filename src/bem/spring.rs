@@ -147,7 +147,7 @@ impl Ground for SpringGround {
     }
 
     /// The displacement at the end of the last step.
-    fn checkpoint(&self) -> Result<Vec<f64>> {
+    fn save(&self) -> Result<Vec<f64>> {
         Ok(self.displacement.clone())
     }
 

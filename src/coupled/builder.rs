@@ -39,6 +39,19 @@ pub struct SimulationBuilder {
     coordinates: Coordinates,
 }
 
+short_debug! {
+    SimulationBuilder;
+    self;
+    time_step: self.time_step,
+    structure: self.structure.is_some(),
+    ground: self.ground.is_some(),
+    laws: self.laws.len(),
+    gravity: self.gravity,
+    placement: self.placement,
+    search: self.search,
+    coordinates: self.coordinates,
+}
+
 impl SimulationBuilder {
     pub(super) fn new(time_step: f64) -> Self {
         Self {

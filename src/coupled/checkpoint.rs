@@ -106,7 +106,8 @@ impl Simulation {
     /// the exponentials.
     ///
     /// # Errors
-    /// [`CheckpointError::Unsupported`] if the ground, or its history, cannot save its state.
+    /// [`CheckpointError::Unsupported`] if the ground, its history or the structure cannot save its
+    /// state.
     ///
     /// ```
     /// use basemat::bem::SpringGround;
@@ -160,8 +161,8 @@ impl Simulation {
                 .map(|value| *value)
                 .chain(self.start.iter().map(|start| start.slip_rate))
                 .collect(),
-            ground: self.ground.checkpoint()?,
-            structure: self.model.structure.save(),
+            ground: self.ground.save()?,
+            structure: self.model.structure.save()?,
         })
     }
 
@@ -169,7 +170,7 @@ impl Simulation {
     /// wherever this one is; what follows is the same to the last bit on the same processor.
     ///
     /// Sizes, time step, elements, probes, matrices and static state are compared. Loads, motion and laws
-    /// are not, nor what a user's structure keeps to itself without [`save`]. The
+    /// are not, nor what a user's structure leaves out of what it [saves][`save`]. The
     /// transitions, trials and method of the step before the checkpoint are not kept.
     ///
     /// # Errors
@@ -205,7 +206,7 @@ impl Simulation {
         }
         own.into_iter().zip(&checkpoint.state).for_each(|(own, saved)| *own = *saved);
         let modes = self.modes_of(&checkpoint.modes)?;
-        let before = self.model.structure.save();
+        let before = self.model.structure.save()?;
         self.model.structure.restore(&checkpoint.structure)?;
         if let Err(error) = self.ground.restore(checkpoint.steps, &checkpoint.ground) {
             self.model.structure.restore(&before)?;

@@ -17,6 +17,7 @@ use crate::linalg::{SparseMatrix, dot, generalised_modes, largest};
 
 /// In which coordinates a linear structure is stepped. Results are the same to rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum Coordinates {
     /// Whichever is expected to take less time, with the modes' own computation counted against
     /// them; see [`super::SimulationBuilder::expected_steps`]. Nonlinear structures, and those that

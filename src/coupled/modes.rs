@@ -21,6 +21,7 @@ const PATHS: usize = 8;
 
 /// How the contact modes of a step are searched for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+#[non_exhaustive]
 pub enum ContactSearch {
     /// Active set, then Gauss–Seidel, then path following: finds what there is to find.
     #[default]
@@ -37,6 +38,7 @@ pub enum ContactSearch {
 
 /// How the modes of a step were found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum SearchMethod {
     /// The active set converged.
     ActiveSet,

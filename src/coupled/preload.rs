@@ -14,6 +14,7 @@ use crate::structure::Triplets;
 
 /// What friction does while the structure is placed on the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Placement {
     /// The base is set down without friction and without adhesion, and sticks from then on. What
     /// does not touch under weight alone starts open. Where no element's law ever opens (bonded),

@@ -19,7 +19,7 @@ use crate::error::Result;
 use crate::interface::{ContactState, InterfaceLaw, StepStart, law_of};
 use crate::linalg::SparseMatrix;
 use crate::motion::FreeField;
-use crate::structure::InternalEnergy;
+use crate::structure::{InternalEnergy, Structure};
 
 /// A structure on a ground, ready to march.
 ///
@@ -60,6 +60,16 @@ pub struct Simulation {
     pub(super) conditioning: Conditioning,
     /// Lengths of the elements, for [`Run`]'s warnings.
     elements: Vec<ContactElement>,
+}
+
+short_debug! {
+    Simulation;
+    self;
+    unknowns: self.model.unknowns,
+    elements: self.elements.len(),
+    time_step: self.time_step,
+    step: self.state.step,
+    time: self.state.time,
 }
 
 /// Longest run that is prepared for at once; in longer ones, memory grows as they go.
@@ -151,16 +161,8 @@ impl Simulation {
                 }
             })
             .collect();
-        let start = (0..count)
-            .map(|e| StepStart {
-                state: contact[e],
-                mode: modes[e],
-                has_opened: !modes[e].is_closed(),
-                slip_rate: 0.0,
-                static_pressure: contact[e].pressure,
-                time_step: parts.time_step,
-            })
-            .collect();
+        let start =
+            (0..count).map(|e| StepStart::new(contact[e], modes[e], parts.time_step)).collect();
         let mut jump = at.gap.clone();
         jump.resize(size, 0.0);
         let (static_force, static_energy) = parts.model.nonlinear_state(&at.displacement);
@@ -243,6 +245,43 @@ impl Simulation {
     /// The contact elements, from left to right.
     pub fn elements(&self) -> &[ContactElement] {
         &self.elements
+    }
+
+    /// Friction coefficient of the laws: one for all elements, one each, or none unless all have one.
+    pub(crate) fn friction(&self) -> Vec<f64> {
+        let each: Option<Vec<f64>> = self.laws.iter().map(|law| law.friction()).collect();
+        each.unwrap_or_default()
+    }
+
+    /// The structure as it is now, internal variables included. It is [`Any`](std::any::Any): of
+    /// its own type it is what was given to the builder (the box, if that was a box).
+    ///
+    /// ```
+    /// use std::any::Any;
+    ///
+    /// use basemat::Simulation;
+    /// use basemat::bem::SpringGround;
+    /// use basemat::interface::Bonded;
+    /// use basemat::structure::RigidBlock;
+    ///
+    /// let simulation = Simulation::builder(0.01)
+    ///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+    ///     .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
+    ///     .interface(Bonded)
+    ///     .build()?;
+    /// assert_eq!(simulation.structure().unknowns(), 3);
+    /// let structure: &dyn Any = simulation.structure();
+    /// let block = structure.downcast_ref::<RigidBlock>();
+    /// assert!(block.is_some_and(|block| block.total_mass() == 48.0e3));
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn structure(&self) -> &dyn Structure {
+        self.model.structure.as_ref()
+    }
+
+    /// The structure alone, after a run: as [`Simulation::structure`], by value.
+    pub fn into_structure(self) -> Box<dyn Structure> {
+        self.model.structure
     }
 
     /// Which history the ground keeps and why, if it has chosen one yet.

@@ -8,6 +8,7 @@ use crate::structure::SectionRows;
 
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Transition {
     /// Step in which it happened, from 1.
     pub step: usize,

@@ -15,6 +15,7 @@ pub enum Direction {
 
 /// How the mass of an element is spread over its unknowns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum MassKind {
     /// With the same shape functions as the stiffness: a full matrix.
     #[default]
@@ -106,6 +107,19 @@ pub trait Element: Send {
     /// Number of its unknowns: nodes × directions.
     fn order(&self) -> usize {
         self.nodes().len() * self.directions().len()
+    }
+}
+
+impl<T: Element + ?Sized> Element for Box<T> {
+    forward! {
+        (**self);
+        fn nodes(&self) -> &[usize];
+        fn directions(&self) -> &[Direction];
+        fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
+        fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]);
+        fn damping(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
+        fn check(&self, coordinates: &[[f64; 2]]) -> Result<()>;
+        fn order(&self) -> usize;
     }
 }
 

@@ -7,6 +7,7 @@ use crate::error::{Error, Result, same_length};
 
 /// How the stiffness of a [`Quad4`] is formed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum QuadFormulation {
     /// 2 × 2 Gauss points. Far too stiff in bending (shear locking) and as ν → 1/2.
     Full,

@@ -6,6 +6,7 @@ use crate::error::{Error, Result, same_length};
 
 /// How the stiffness of a [`Quad8`] is integrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum Quad8Integration {
     /// 2 × 2 Gauss points, the default: rectangles bend exactly, and nothing locks as ν → 1/2. One
     /// pattern of a single element meets no resistance, but two elements cannot follow it together.

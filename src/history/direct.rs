@@ -30,6 +30,10 @@ pub struct DirectHistory {
     steps: usize,
 }
 
+short_debug! {
+    DirectHistory; self; elements: self.kernel.elements().len(), steps: self.steps
+}
+
 impl DirectHistory {
     /// History of `kernel`, empty.
     pub fn new(kernel: Arc<PatchKernel>) -> Self {
@@ -142,7 +146,7 @@ impl ConvolutionHistory for DirectHistory {
     }
 
     /// All tractions, step by step.
-    fn checkpoint(&self) -> Result<Vec<f64>> {
+    fn save(&self) -> Result<Vec<f64>> {
         Ok((0..self.steps).flat_map(|m| self.traction.iter().map(move |row| row[m])).collect())
     }
 

@@ -31,7 +31,7 @@ pub trait ConvolutionHistory: Send {
     /// If the slice has the wrong length or a kernel cannot be evaluated.
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()>;
 
-    /// Accepts the tractions of the step that ends now (2Q, Pa; missing entries count as zero).
+    /// Accepts the tractions (Pa) of the step that ends now; the caller gives all 2Q.
     fn push(&mut self, traction: &[f64]);
 
     /// Bound on what is wrong with the change of any element's history displacement over the next
@@ -44,20 +44,33 @@ pub trait ConvolutionHistory: Send {
     ///
     /// # Errors
     /// [`CheckpointError::Unsupported`], unless a history implements it.
-    fn checkpoint(&self) -> Result<Vec<f64>> {
+    fn save(&self) -> Result<Vec<f64>> {
         Err(CheckpointError::Unsupported { part: "convolution history" }.into())
     }
 
-    /// Goes back (or on) to where `steps` inputs had been accepted and [`checkpoint`] returned
+    /// Goes back (or on) to where `steps` inputs had been accepted and [`save`] returned
     /// `values`; all that follows is then the same to the last bit. Unchanged on an error.
     ///
     /// # Errors
     /// [`CheckpointError::Corrupt`] for values that cannot be those of `steps` inputs,
     /// [`CheckpointError::Unsupported`] unless a history implements it.
     ///
-    /// [`checkpoint`]: ConvolutionHistory::checkpoint
+    /// [`save`]: ConvolutionHistory::save
     fn restore(&mut self, _steps: usize, _values: &[f64]) -> Result<()> {
         Err(CheckpointError::Unsupported { part: "convolution history" }.into())
+    }
+}
+
+impl<T: ConvolutionHistory + ?Sized> ConvolutionHistory for Box<T> {
+    forward! {
+        (**self);
+        fn steps(&self) -> usize;
+        fn reserve(&mut self, steps: usize) -> Result<()>;
+        fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()>;
+        fn push(&mut self, traction: &[f64]);
+        fn increment_error_bound(&self) -> f64;
+        fn save(&self) -> Result<Vec<f64>>;
+        fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
     }
 }
 

@@ -5,6 +5,7 @@ use crate::error::{Error, Result, not_negative};
 
 /// On what the contact conditions of a closed element act.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub enum Activation {
     /// On the gap at the end of the step: g ≥ 0, p ≥ 0, p·g = 0 (Signorini).
     #[default]
@@ -167,6 +168,11 @@ impl InterfaceLaw for Coulomb {
             _ if trial.shear < -self.friction * normal.max(0.0) - slack => Mode::SlipLeft,
             _ => Mode::Stick,
         }
+    }
+
+    /// That of the law; what a tensile strength adds is left out.
+    fn friction(&self) -> Option<f64> {
+        Some(self.friction)
     }
 }
 

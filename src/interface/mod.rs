@@ -64,6 +64,7 @@ pub struct ContactState {
 
 /// What a law may need of the beginning of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct StepStart {
     /// Opening and traction at the end of the step before.
     pub state: ContactState,
@@ -77,6 +78,34 @@ pub struct StepStart {
     pub static_pressure: f64,
     /// Time step, s.
     pub time_step: f64,
+}
+
+impl StepStart {
+    /// Start of a step of `time_step` seconds from `state`, by which a law can be tried without a
+    /// simulation: it has opened if it is open, its slip rate is zero, and its static pressure that
+    /// of `state`. All fields can then be set.
+    ///
+    /// ```
+    /// use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance};
+    /// let law = Coulomb::new(0.5)?;
+    /// let pressed = ContactState { pressure: 10.0e3, ..ContactState::default() };
+    /// let mut start = StepStart::new(pressed, Mode::Stick, 0.01);
+    /// start.slip_rate = 0.2;
+    /// let trial = ContactState { shear: 6.0e3, ..pressed };
+    /// let next = law.next_mode(Mode::Stick, &start, &trial, Tolerance::new(1e-9, 1.0));
+    /// assert_eq!(next, Mode::SlipRight);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn new(state: ContactState, mode: Mode, time_step: f64) -> Self {
+        Self {
+            state,
+            mode,
+            has_opened: !mode.is_closed(),
+            slip_rate: 0.0,
+            static_pressure: state.pressure,
+            time_step,
+        }
+    }
 }
 
 /// One linear condition on the end of a step:
@@ -125,11 +154,19 @@ impl Condition {
 
 /// Differences below which a law should see equality.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Tolerance {
     /// For gaps and slips, m.
     pub length: f64,
     /// For tractions, Pa.
     pub traction: f64,
+}
+
+impl Tolerance {
+    /// Tolerance for lengths (m) and tractions (Pa).
+    pub fn new(length: f64, traction: f64) -> Self {
+        Self { length, traction }
+    }
 }
 
 /// What a law can check of the scene it is to act in.
@@ -174,6 +211,13 @@ pub trait InterfaceLaw: Send {
         [0.0; 2]
     }
 
+    /// The friction coefficient, for the factor of safety against sliding
+    /// ([`Recorder`](crate::results::Recorder)): the base resists by this times the pressure.
+    /// Infinite for a law that never slides, `None` (the default) for one without such a number.
+    fn friction(&self) -> Option<f64> {
+        None
+    }
+
     /// This law without friction and adhesion, for setting the structure down on the ground; hard
     /// and smooth contact unless the law says otherwise.
     fn smooth(&self) -> Box<dyn InterfaceLaw> {
@@ -183,8 +227,21 @@ pub trait InterfaceLaw: Send {
     /// Asked once, when a simulation is put together: whether this law makes sense in it.
     ///
     /// # Errors
-    /// With the reason if it does not.
+    /// With the reason if it does not, as [`Error::part`](crate::Error::part) for example.
     fn check(&self, _scene: &ContactScene) -> Result<()> {
         Ok(())
+    }
+}
+
+impl<T: InterfaceLaw + ?Sized> InterfaceLaw for Box<T> {
+    forward! {
+        (**self);
+        fn modes(&self) -> &[Mode];
+        fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2];
+        fn next_mode(&self, mode: Mode, start: &StepStart, trial: &ContactState, tolerance: Tolerance) -> Mode;
+        fn compliance(&self, mode: Mode) -> [f64; 2];
+        fn friction(&self) -> Option<f64>;
+        fn smooth(&self) -> Box<dyn InterfaceLaw>;
+        fn check(&self, scene: &ContactScene) -> Result<()>;
     }
 }

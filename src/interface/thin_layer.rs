@@ -17,6 +17,7 @@ use crate::soil::Soil;
 
 /// Which pressure limits friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum FrictionLimit {
     /// The total pressure of this step.
     #[default]
@@ -31,6 +32,7 @@ pub enum FrictionLimit {
 
 /// What tells the sense of slip, and whether it goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum SlipSense {
     /// Slip beyond the elastic one, as in plasticity: it starts in the sense of the shear traction
     /// and goes on while it grows.
@@ -309,6 +311,11 @@ impl InterfaceLaw for ThinLayer {
             Mode::Open => self.stiffness().map(|k| 1.0 / (self.debonded * k)),
             _ => self.stiffness().map(f64::recip),
         }
+    }
+
+    /// That of the law, whatever its [`FrictionLimit`].
+    fn friction(&self) -> Option<f64> {
+        Some(self.friction)
     }
 
     fn smooth(&self) -> Box<dyn InterfaceLaw> {

@@ -14,6 +14,14 @@ pub trait RecordFormat {
     /// Reads the record; `name` is what errors call the file.
     ///
     /// # Errors
-    /// [`Error::Record`](crate::Error::Record) with the line and the reason.
+    /// [`Error::Record`](crate::Error::Record) with the line and the reason, or
+    /// [`Error::part`](crate::Error::part) for a reason of a format of your own.
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record>;
+}
+
+impl<T: RecordFormat + ?Sized> RecordFormat for Box<T> {
+    forward! {
+        (**self);
+        fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record>;
+    }
 }

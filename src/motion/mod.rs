@@ -53,7 +53,41 @@ pub trait FreeField: Send {
     /// at and before t = 0.
     fn displacement(&self, x: f64, time: f64) -> [f64; 2];
 
-    /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`. The crate's own
-    /// grounds and time schemes ask for displacements only; a ground of your own may need it.
-    fn velocity(&self, x: f64, time: f64) -> [f64; 2];
+    /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`; zero at and
+    /// before t = 0. Simulations ask for displacements only;
+    /// [`VerticalWaves`](crate::bem::full_plane::VerticalWaves) make stresses of velocities, and a
+    /// ground of your own may need them.
+    ///
+    /// Default: the central difference of displacements 10 µs before and after. What moves with f
+    /// Hz loses (2πf · 10 µs)²/6 of its velocity (7e-8 at 10 Hz, 7e-6 at 100 Hz), and rounding
+    /// adds about 2e-11 of the displacement per second. A jump or a kink is spread over 20 µs.
+    /// Fields that know their velocity should say it.
+    fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
+        differenced(self, x, time)
+    }
+}
+
+/// Half the interval of the difference, s.
+const DIFFERENCE: f64 = 1e-5;
+/// Smallest that it may be relative to the time, for the time's own rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// Velocity of `field` from its displacements.
+fn differenced(field: &(impl FreeField + ?Sized), x: f64, time: f64) -> [f64; 2] {
+    if time.is_nan() || time <= 0.0 {
+        return [0.0; 2];
+    }
+    let half = DIFFERENCE.max(ROUNDING * time);
+    let (before, after) = (time - half, time + half);
+    let (from, to) = (field.displacement(x, before), field.displacement(x, after));
+    // Not 2 · half: the two times are rounded.
+    [0, 1].map(|k| (to[k] - from[k]) / (after - before))
+}
+
+impl<T: FreeField + ?Sized> FreeField for Box<T> {
+    forward! {
+        (**self);
+        fn displacement(&self, x: f64, time: f64) -> [f64; 2];
+        fn velocity(&self, x: f64, time: f64) -> [f64; 2];
+    }
 }

@@ -20,6 +20,10 @@ pub struct TravellingWave {
     origin: f64,
 }
 
+short_debug! {
+    TravellingWave; self; apparent_velocity: 1.0 / self.slowness, origin: self.origin
+}
+
 impl TravellingWave {
     /// `field` as it is at `origin` (m), running along x with the apparent velocity c
     /// (`apparent_velocity`, m/s): to the right if positive, everywhere at once if infinite.

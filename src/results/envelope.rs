@@ -6,6 +6,7 @@ use crate::results::Extremes;
 
 /// Envelopes of one contact element; tractions are means over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ElementEnvelope {
     /// Where it is.
     pub element: ContactElement,

@@ -5,6 +5,7 @@ use crate::interface::{ContactState, Mode};
 
 /// The base at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ContactFrame<'a> {
     /// Time, s.
     pub time: f64,
@@ -16,6 +17,7 @@ pub struct ContactFrame<'a> {
 
 /// The structure at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct MotionFrame<'a> {
     /// Time, s.
     pub time: f64,

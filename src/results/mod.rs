@@ -23,7 +23,7 @@
 //!     .probe(Probe::acceleration("roof", roof))
 //!     .build()?;
 //!
-//! let mut histories = Recorder::new().friction(0.4).start(&simulation)?;
+//! let mut histories = Recorder::new().start(&simulation)?;
 //! simulation.run(500, |state| histories.record(state))?;
 //!
 //! let summary = histories.summary();

@@ -9,6 +9,7 @@ use crate::error::{Error, Result};
 /// See the [module](super) for an example.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recorder {
+    /// One for all elements, one each, or none.
     pub(super) friction: Vec<f64>,
     pub(super) every: usize,
     pub(super) contact: Option<usize>,
@@ -27,13 +28,15 @@ impl Recorder {
         Self::default()
     }
 
-    /// Friction coefficient φ of the interface, for the factor of safety against sliding.
+    /// Another friction coefficient for the factor of safety against sliding than that of the
+    /// interface laws ([`InterfaceLaw::friction`](crate::interface::InterfaceLaw::friction)): for a
+    /// bonded base, say, which has none.
     #[must_use]
     pub fn friction(self, coefficient: f64) -> Self {
         Self { friction: vec![coefficient], ..self }
     }
 
-    /// Friction coefficients of the elements, from left to right.
+    /// The same for each element, from left to right.
     #[must_use]
     pub fn frictions(self, coefficients: Vec<f64>) -> Self {
         Self { friction: coefficients, ..self }
@@ -73,10 +76,13 @@ impl Recorder {
     /// Starts with the simulation as it stands.
     ///
     /// # Errors
-    /// [`Error::Input`] for a negative friction coefficient (infinity is one) or an interval of zero
-    /// steps; [`Error::Size`] unless there is one friction coefficient for all elements or one each.
-    pub fn start(self, simulation: &Simulation) -> Result<Histories> {
+    /// [`Error::Input`] for a negative friction coefficient (infinity is one), the laws' included,
+    /// or an interval of zero steps; [`Error::Size`] unless there is one friction coefficient for all elements or one each.
+    pub fn start(mut self, simulation: &Simulation) -> Result<Histories> {
         let count = simulation.elements().len();
+        if self.friction.is_empty() {
+            self.friction = simulation.friction();
+        }
         if self.friction.len() > 1 && self.friction.len() != count {
             return Err(Error::Size {
                 quantity: "list of friction coefficients",

@@ -5,6 +5,7 @@ use crate::coupled::{Peak, State};
 /// A stretch of steps in which the whole base slid one way: some elements are closed, all closed
 /// ones slide, and the mean slip does not turn round.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct SlipEvent {
     /// Beginning of its first step, s.
     pub start: f64,

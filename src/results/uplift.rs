@@ -5,6 +5,7 @@ use crate::coupled::Peak;
 /// Uplift of a run. A stretch begins with the first step that ends with an open element, and ends
 /// with the first one that ends without.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Uplift {
     /// Largest uplifted fraction of the base.
     pub peak: Peak,

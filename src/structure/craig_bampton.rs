@@ -7,7 +7,7 @@
 //! | Φ | modes of the interior with the kept unknowns held, Φᵀ M_ii Φ = 1 |
 //! | T | u = T q, q = (u_b, modal coordinates) |
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::matrix_model::SYMMETRIC;
 use super::recovery::{Basis, Recovery};
@@ -50,16 +50,26 @@ pub struct CraigBampton {
 /// Its unknowns are the kept ones, in ascending order, then the coordinates of the modes.
 /// [`recovery`](ReducedModel::recovery) leads back to those of the full model.
 pub struct ReducedModel {
-    full: Box<dyn Structure>,
     basis: Arc<Basis>,
     contact: Vec<ContactNode>,
+    foundation_ends: Vec<usize>,
     /// Row-major, of the order of the reduced model.
     mass: Vec<f64>,
     damping: Vec<f64>,
     stiffness: Vec<f64>,
     /// Circular frequencies of the modes, rad/s.
     frequencies: Vec<f64>,
-    load: std::cell::RefCell<Vec<f64>>,
+    load: Mutex<FullLoad>,
+}
+
+/// The full model, which knows its loads, and room for them.
+struct FullLoad {
+    structure: Box<dyn Structure>,
+    values: Vec<f64>,
+}
+
+short_debug! {
+    ReducedModel; self; unknowns: self.basis.order(), frequencies: self.frequencies()
 }
 
 impl CraigBampton {
@@ -123,8 +133,8 @@ impl CraigBampton {
             stiffness: basis.congruence(&stiffness),
             contact: contact.iter().map(|node| parts.renumbered(node)).collect(),
             frequencies: squares.iter().map(|square| square.sqrt()).collect(),
-            load: std::cell::RefCell::new(vec![0.0; n]),
-            full: Box::new(structure),
+            foundation_ends: structure.foundation_ends(),
+            load: Mutex::new(FullLoad { values: vec![0.0; n], structure: Box::new(structure) }),
             basis: Arc::new(basis),
         };
         // Modes and static answers are K-orthogonal: what is left there is rounding.
@@ -284,7 +294,7 @@ impl Structure for ReducedModel {
     }
 
     fn foundation_ends(&self) -> Vec<usize> {
-        self.full.foundation_ends()
+        self.foundation_ends.clone()
     }
 
     fn mass(&self, matrix: &mut Triplets) {
@@ -301,12 +311,13 @@ impl Structure for ReducedModel {
 
     /// The load of the full model, as it works on the reduced unknowns.
     fn load(&self, time: f64, load: &mut [f64]) {
-        let mut full = self.load.borrow_mut();
-        full.fill(0.0);
-        self.full.load(time, &mut full);
-        if full.iter().any(|force| *force != 0.0) {
+        let mut full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
+        let FullLoad { structure, values } = &mut *full;
+        values.fill(0.0);
+        structure.load(time, values);
+        if values.iter().any(|force| *force != 0.0) {
             for (sum, row) in load.iter_mut().zip(self.basis.rows()) {
-                *sum += dot(row, &full);
+                *sum += dot(row, values);
             }
         }
     }

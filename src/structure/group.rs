@@ -50,6 +50,8 @@ pub struct StructureGroup {
     members: Vec<Member>,
 }
 
+short_debug! { StructureGroup; self; structures: self.len(), unknowns: self.unknowns() }
+
 impl StructureGroup {
     /// Group without members.
     pub fn new() -> Self {
@@ -214,14 +216,14 @@ impl Structure for StructureGroup {
         }
     }
 
-    fn save(&self) -> Vec<f64> {
+    fn save(&self) -> Result<Vec<f64>> {
         let mut all = Vec::new();
         for member in &self.members {
-            let own = member.structure.save();
+            let own = member.structure.save()?;
             all.push(own.len() as f64);
             all.extend(own);
         }
-        all
+        Ok(all)
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
@@ -238,7 +240,8 @@ impl Structure for StructureGroup {
         if !rest.is_empty() {
             return Err(corrupt().into());
         }
-        let before: Vec<_> = self.members.iter().map(|member| member.structure.save()).collect();
+        let before = self.members.iter().map(|member| member.structure.save());
+        let before = before.collect::<Result<Vec<_>>>()?;
         for k in 0..parts.len() {
             if let Err(error) = self.members[k].structure.restore(parts[k]) {
                 for (member, before) in self.members[..k].iter_mut().zip(&before) {

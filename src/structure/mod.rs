@@ -38,6 +38,8 @@ pub use shear_building::{ShearBuilding, Storey};
 pub use springs::WithSprings;
 pub use triplets::Triplets;
 
+use std::any::Any;
+
 use crate::error::{CheckpointError, Result};
 
 /// What the integrator needs of a structure: implement this for your own model.
@@ -59,7 +61,10 @@ use crate::error::{CheckpointError, Result};
 /// refused when a simulation is built.
 ///
 /// All forces are per metre of thickness.
-pub trait Structure: Send {
+///
+/// Every structure is [`Any`], so that [`Simulation::structure`](crate::Simulation::structure) leads
+/// back to your own type, and what its internal variables have become.
+pub trait Structure: Any + Send {
     /// Number of unknowns n.
     fn unknowns(&self) -> usize;
 
@@ -108,21 +113,53 @@ pub trait Structure: Send {
     /// called for a linear structure, which has none.
     fn commit(&mut self, _displacement: &[f64]) {}
 
-    /// The internal variables that [`Structure::commit`] changes, for a checkpoint. A structure
-    /// that has some must implement this and [`Structure::restore`] if runs are to be resumed.
-    fn save(&self) -> Vec<f64> {
-        Vec::new()
+    /// The internal variables that [`Structure::commit`] changes, for a checkpoint. Default: none
+    /// for a linear structure, which has none.
+    ///
+    /// A nonlinear structure whose runs are to be saved must implement this, and
+    /// [`Structure::restore`] if it has internal variables: one that is elastic, without memory,
+    /// says `Ok(Vec::new())`.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Unsupported`] for a nonlinear structure that does not implement it.
+    fn save(&self) -> Result<Vec<f64>> {
+        if self.is_linear() {
+            Ok(Vec::new())
+        } else {
+            Err(CheckpointError::Unsupported { part: "structure" }.into())
+        }
     }
 
     /// Takes back what [`Structure::save`] returned; all values are finite. Unchanged on an error.
     ///
     /// # Errors
-    /// [`CheckpointError::Corrupt`] for values that cannot be such. The default takes none.
+    /// [`CheckpointError::Corrupt`] for values that cannot be such, or
+    /// [`Error::part`](crate::Error::part) with more to say. The default takes none.
     fn restore(&mut self, values: &[f64]) -> Result<()> {
         if values.is_empty() {
             Ok(())
         } else {
             Err(CheckpointError::Corrupt { quantity: "state of the structure" }.into())
         }
+    }
+}
+
+impl<T: Structure + ?Sized> Structure for Box<T> {
+    forward! {
+        (**self);
+        fn unknowns(&self) -> usize;
+        fn contact_nodes(&self) -> Vec<ContactNode>;
+        fn foundation_ends(&self) -> Vec<usize>;
+        fn mass(&self, matrix: &mut Triplets);
+        fn stiffness(&self, matrix: &mut Triplets);
+        fn damping(&self, matrix: &mut Triplets);
+        fn load(&self, time: f64, load: &mut [f64]);
+        fn is_linear(&self) -> bool;
+        fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]);
+        fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets);
+        fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy>;
+        fn commit(&mut self, displacement: &[f64]);
+        fn save(&self) -> Result<Vec<f64>>;
+        fn restore(&mut self, values: &[f64]) -> Result<()>;
     }
 }

@@ -34,6 +34,10 @@ pub struct WithModalDamping {
     frequencies: Vec<f64>,
 }
 
+short_debug! {
+    WithModalDamping; self; unknowns: self.structure.unknowns(), frequencies: self.frequencies
+}
+
 /// Most unknowns: C is a full matrix.
 const MOST: usize = 3000;
 /// Eigenvalues below this, relative to the largest, are those of rigid motions.
@@ -114,24 +118,21 @@ impl WithModalDamping {
 }
 
 impl Structure for WithModalDamping {
-    fn unknowns(&self) -> usize {
-        self.structure.unknowns()
-    }
-
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.structure.contact_nodes()
-    }
-
-    fn foundation_ends(&self) -> Vec<usize> {
-        self.structure.foundation_ends()
-    }
-
-    fn mass(&self, matrix: &mut Triplets) {
-        self.structure.mass(matrix);
-    }
-
-    fn stiffness(&self, matrix: &mut Triplets) {
-        self.structure.stiffness(matrix);
+    forward! {
+        self.structure;
+        fn unknowns(&self) -> usize;
+        fn contact_nodes(&self) -> Vec<ContactNode>;
+        fn foundation_ends(&self) -> Vec<usize>;
+        fn mass(&self, matrix: &mut Triplets);
+        fn stiffness(&self, matrix: &mut Triplets);
+        fn load(&self, time: f64, load: &mut [f64]);
+        fn is_linear(&self) -> bool;
+        fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]);
+        fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets);
+        fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy>;
+        fn commit(&mut self, displacement: &[f64]);
+        fn save(&self) -> Result<Vec<f64>>;
+        fn restore(&mut self, values: &[f64]) -> Result<()>;
     }
 
     fn damping(&self, matrix: &mut Triplets) {
@@ -145,37 +146,5 @@ impl Structure for WithModalDamping {
                 0.5 * (value + self.damping[place % n * n + place / n]),
             );
         }
-    }
-
-    fn load(&self, time: f64, load: &mut [f64]) {
-        self.structure.load(time, load);
-    }
-
-    fn is_linear(&self) -> bool {
-        self.structure.is_linear()
-    }
-
-    fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]) {
-        self.structure.nonlinear_force(displacement, force);
-    }
-
-    fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets) {
-        self.structure.nonlinear_tangent(displacement, matrix);
-    }
-
-    fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        self.structure.nonlinear_energy(displacement)
-    }
-
-    fn commit(&mut self, displacement: &[f64]) {
-        self.structure.commit(displacement);
-    }
-
-    fn save(&self) -> Vec<f64> {
-        self.structure.save()
-    }
-
-    fn restore(&mut self, values: &[f64]) -> Result<()> {
-        self.structure.restore(values)
     }
 }

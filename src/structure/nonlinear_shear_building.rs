@@ -44,6 +44,10 @@ pub struct NonlinearShearBuilding {
     springs: Springs,
 }
 
+short_debug! {
+    NonlinearShearBuilding; self; building: self.building, laws: self.springs.len()
+}
+
 impl NonlinearShearBuilding {
     /// The building as it is, all its storeys linear.
     pub fn new(building: ShearBuilding) -> Self {
@@ -107,28 +111,29 @@ impl NonlinearShearBuilding {
 }
 
 impl Structure for NonlinearShearBuilding {
-    fn unknowns(&self) -> usize {
-        self.building.unknowns()
-    }
-
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.building.contact_nodes()
-    }
-
-    fn mass(&self, matrix: &mut Triplets) {
-        self.building.mass(matrix);
-    }
-
-    fn stiffness(&self, matrix: &mut Triplets) {
-        self.building.stiffness(matrix);
-    }
-
-    fn damping(&self, matrix: &mut Triplets) {
-        self.building.damping(matrix);
+    forward! {
+        self.building;
+        fn unknowns(&self) -> usize;
+        fn contact_nodes(&self) -> Vec<ContactNode>;
+        fn foundation_ends(&self) -> Vec<usize>;
+        fn mass(&self, matrix: &mut Triplets);
+        fn stiffness(&self, matrix: &mut Triplets);
+        fn damping(&self, matrix: &mut Triplets);
+        fn load(&self, time: f64, load: &mut [f64]);
     }
 
     fn is_linear(&self) -> bool {
         self.springs.is_empty()
+    }
+
+    forward! {
+        self.springs;
+        fn commit(&mut self, displacement: &[f64]);
+        fn restore(&mut self, values: &[f64]) -> Result<()>;
+    }
+
+    fn save(&self) -> Result<Vec<f64>> {
+        Ok(self.springs.save())
     }
 
     fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]) {
@@ -141,17 +146,5 @@ impl Structure for NonlinearShearBuilding {
 
     fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
         Some(self.springs.energy(displacement))
-    }
-
-    fn commit(&mut self, displacement: &[f64]) {
-        self.springs.commit(displacement);
-    }
-
-    fn save(&self) -> Vec<f64> {
-        self.springs.save()
-    }
-
-    fn restore(&mut self, values: &[f64]) -> Result<()> {
-        self.springs.restore(values)
     }
 }

@@ -44,6 +44,10 @@ impl Springs {
         self.0.is_empty()
     }
 
+    pub(super) fn len(&self) -> usize {
+        self.0.len()
+    }
+
     pub(super) fn force(&self, displacement: &[f64], force: &mut [f64]) {
         for spring in &self.0 {
             let value = spring.law.response(spring.deformation(displacement)).force;
@@ -137,6 +141,10 @@ pub struct WithSprings {
     springs: Springs,
 }
 
+short_debug! {
+    WithSprings; self; unknowns: self.structure.unknowns(), springs: self.springs.len()
+}
+
 impl WithSprings {
     /// The structure, without springs yet.
     pub fn new(structure: impl Structure + 'static) -> Self {
@@ -159,32 +167,15 @@ impl WithSprings {
 }
 
 impl Structure for WithSprings {
-    fn unknowns(&self) -> usize {
-        self.structure.unknowns()
-    }
-
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.structure.contact_nodes()
-    }
-
-    fn foundation_ends(&self) -> Vec<usize> {
-        self.structure.foundation_ends()
-    }
-
-    fn mass(&self, matrix: &mut Triplets) {
-        self.structure.mass(matrix);
-    }
-
-    fn stiffness(&self, matrix: &mut Triplets) {
-        self.structure.stiffness(matrix);
-    }
-
-    fn damping(&self, matrix: &mut Triplets) {
-        self.structure.damping(matrix);
-    }
-
-    fn load(&self, time: f64, load: &mut [f64]) {
-        self.structure.load(time, load);
+    forward! {
+        self.structure;
+        fn unknowns(&self) -> usize;
+        fn contact_nodes(&self) -> Vec<ContactNode>;
+        fn foundation_ends(&self) -> Vec<usize>;
+        fn mass(&self, matrix: &mut Triplets);
+        fn stiffness(&self, matrix: &mut Triplets);
+        fn damping(&self, matrix: &mut Triplets);
+        fn load(&self, time: f64, load: &mut [f64]);
     }
 
     fn is_linear(&self) -> bool {
@@ -221,10 +212,10 @@ impl Structure for WithSprings {
         self.springs.commit(displacement);
     }
 
-    fn save(&self) -> Vec<f64> {
+    fn save(&self) -> Result<Vec<f64>> {
         let mut values = self.springs.save();
-        values.extend(self.structure.save());
-        values
+        values.extend(self.structure.save()?);
+        Ok(values)
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {

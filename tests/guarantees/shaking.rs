@@ -69,11 +69,6 @@ impl FreeField for Shaking {
         let [right, up] = self.kind.at((time - self.delay) / self.duration);
         [self.sign * self.amplitude * right, self.amplitude * up]
     }
-
-    fn velocity(&self, _: f64, _: f64) -> [f64; 2] {
-        // Nothing here asks for it.
-        [0.0; 2]
-    }
 }
 
 pub(crate) fn kinds() -> impl Strategy<Value = Kind> {

@@ -106,7 +106,7 @@ fn saved_states_come_back_or_change_nothing() {
         held.nonlinear_force(&[0.0, 0.0, 0.0, 0.015, 0.03], &mut force);
         force
     };
-    let (saved, before) = (held.save(), force(&held));
+    let (saved, before) = (held.save().unwrap(), force(&held));
     assert_eq!(saved.len(), 5);
     for (place, value) in [(1, 2.0), (2, -1.0), (4, -1.0)] {
         let mut wrong = saved.clone();

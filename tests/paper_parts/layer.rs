@@ -32,14 +32,7 @@ fn law_forces(law: &ThinLayer, u: &[f64; 8]) -> [f64; 8] {
     let mean = |k: usize| 0.5 * (u[4 + k] + u[6 + k] - u[k] - u[2 + k]);
     let (slip, gap) = (mean(0), mean(1));
     // Conditions are linear: pressure and shear follow from gap and slip.
-    let start = StepStart {
-        state: ContactState::default(),
-        mode: Mode::Stick,
-        has_opened: false,
-        slip_rate: 0.0,
-        static_pressure: 0.0,
-        time_step: 1.0,
-    };
+    let start = StepStart::new(ContactState::default(), Mode::Stick, 1.0);
     let [normal, along] = law.conditions(Mode::Stick, &start);
     let pressure = (normal.value - normal.gap * gap) / normal.pressure;
     let shear = (along.value - along.slip * slip) / along.shear;
@@ -213,15 +206,9 @@ fn preload_compresses_the_layer() {
 fn admissible_states_stay_and_others_change() {
     let law = layer(0.1);
     let [normal, shear] = law.stiffness();
-    let tolerance = Tolerance { length: 1e-13, traction: 1e-6 };
-    let mut start = StepStart {
-        state: ContactState::default(),
-        mode: Mode::Stick,
-        has_opened: false,
-        slip_rate: 0.0,
-        static_pressure: 500.0,
-        time_step: 1e-3,
-    };
+    let tolerance = Tolerance::new(1e-13, 1e-6);
+    let mut start = StepStart::new(ContactState::default(), Mode::Stick, 1e-3);
+    start.static_pressure = 500.0;
     let at = |pressure: f64, traction: f64, slip: f64| ContactState {
         gap: -pressure / normal,
         slip,

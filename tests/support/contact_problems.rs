@@ -276,6 +276,7 @@ impl Tally {
             SearchMethod::ActiveSet => 0,
             SearchMethod::GaussSeidel => 1,
             SearchMethod::Path => 2,
+            other => panic!("{other:?} is not counted"),
         }] += 1;
         self.trials += state.trials;
         self.most_trials = self.most_trials.max(state.trials);

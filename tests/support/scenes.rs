@@ -55,7 +55,7 @@ pub(crate) fn shake(frame: Frame, strength: f64) -> FreeFieldFn {
         [across * horizontal, strength * length * vertical]
     };
     // No law here asks for the velocity.
-    FreeFieldFn::new(move |_, t| at(t), |_, _| [0.0; 2])
+    FreeFieldFn::new(move |_, t| at(t))
 }
 
 pub(crate) fn soil(frame: Frame) -> Soil {
@@ -153,5 +153,10 @@ impl Structure for Rider {
     fn nonlinear_tangent(&self, u: &[f64], matrix: &mut Triplets) {
         let stretch = u[3] - u[0] + 6.0 * u[2];
         matrix.add_outer(&[(0, -1.0), (2, 6.0), (3, 1.0)], 3e9 * stretch * stretch);
+    }
+
+    /// Elastic, without memory.
+    fn save(&self) -> basemat::Result<Vec<f64>> {
+        Ok(Vec::new())
     }
 }

@@ -30,6 +30,7 @@ use super::{BoundaryKernel, Segment};
 
 /// Backward-differentiation formula behind a convolution quadrature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum CqMethod {
     /// δ = 1 − ζ: first order, strongly damped.
     Bdf1,

@@ -65,6 +65,15 @@ pub struct FullPlaneGround {
     prepared: Option<Prepared>,
 }
 
+short_debug! {
+    FullPlaneGround;
+    self;
+    soil: self.soil,
+    segments: self.boundary.segments().len(),
+    elements: self.boundary.contact().len(),
+    prepared: self.prepared.is_some(),
+}
+
 /// What happens before the march.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Assessment {

@@ -15,6 +15,14 @@ pub trait IncidentField: Send {
     fn stress(&self, point: [f64; 2], time: f64) -> [f64; 3];
 }
 
+impl<T: IncidentField + ?Sized> IncidentField for Box<T> {
+    forward! {
+        (**self);
+        fn displacement(&self, point: [f64; 2], time: f64) -> [f64; 2];
+        fn stress(&self, point: [f64; 2], time: f64) -> [f64; 3];
+    }
+}
+
 /// Vertically incident S and P waves and their reflections from the flat surface.
 ///
 /// Built from the motion s of the surface: u(z,t) = ½[s(t−t₀+z/c) + s(t−t₀−z/c)], with c = c₂ for
@@ -39,6 +47,8 @@ pub struct VerticalWaves {
     surface: Box<dyn FreeField>,
     delay: f64,
 }
+
+short_debug! { VerticalWaves; self; soil: self.soil, delay: self.delay }
 
 impl VerticalWaves {
     /// Waves whose `surface` motion (at x = 0) is given, for points down to `depth` (m).

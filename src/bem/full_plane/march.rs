@@ -45,6 +45,8 @@ pub struct BoundaryMarch {
     traction: Vec<f64>,
 }
 
+short_debug! { BoundaryMarch; self; components: self.given.len() }
+
 impl BoundaryMarch {
     /// March at rest. `given` has 2E entries.
     ///

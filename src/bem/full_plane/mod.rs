@@ -115,3 +115,12 @@ pub trait BoundaryKernel: Send + Sync {
         Ok(None)
     }
 }
+
+impl<T: BoundaryKernel + ?Sized> BoundaryKernel for Box<T> {
+    forward! {
+        (**self);
+        fn segments(&self) -> &[Segment];
+        fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()>;
+        fn symbol(&self, zeta: [f64; 2], g: &mut [f64], h: &mut [f64]) -> Result<Option<[f64; 2]>>;
+    }
+}

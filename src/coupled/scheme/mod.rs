@@ -39,6 +39,13 @@ pub trait TimeScheme: Send {
     fn coefficients(&self, time_step: f64) -> SchemeCoefficients;
 }
 
+impl<T: TimeScheme + ?Sized> TimeScheme for Box<T> {
+    forward! {
+        (**self);
+        fn coefficients(&self, time_step: f64) -> SchemeCoefficients;
+    }
+}
+
 /// Implicit midpoint rule (the default): second order, conserves energy exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Midpoint;

@@ -81,6 +81,16 @@ pub struct ExponentialHistory {
     largest: f64,
 }
 
+short_debug! {
+    ExponentialHistory;
+    self;
+    elements: self.kernel.elements().len(),
+    steps: self.steps,
+    lags: self.lags,
+    horizon: self.horizon,
+    tolerance: self.tolerance,
+}
+
 impl ExponentialHistory {
     /// Accuracy unless another one is asked for.
     pub const TOLERANCE: f64 = 1e-10;
@@ -279,7 +289,7 @@ impl ConvolutionHistory for ExponentialHistory {
     }
 
     /// Largest traction, the exponentials' state, and the last inputs.
-    fn checkpoint(&self) -> Result<Vec<f64>> {
+    fn save(&self) -> Result<Vec<f64>> {
         let mut values = vec![self.largest];
         values.extend(self.tail.state());
         for m in self.kept(self.steps) {

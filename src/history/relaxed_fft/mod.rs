@@ -88,6 +88,10 @@ pub struct RelaxedFftHistory {
     failed: Option<Error>,
 }
 
+short_debug! {
+    RelaxedFftHistory; self; elements: self.source.elements().len(), steps: self.steps
+}
+
 /// Inputs and outputs so far, and how blocks of one give blocks of the other.
 trait Blocks: Send {
     /// Steps for which there is room and for which all levels are ready. Where it is no power of
@@ -255,7 +259,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     /// All inputs, step by step: what they give to coming steps is worked out again.
-    fn checkpoint(&self) -> Result<Vec<f64>> {
+    fn save(&self) -> Result<Vec<f64>> {
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }

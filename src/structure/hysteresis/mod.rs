@@ -81,6 +81,17 @@ pub trait Hysteresis: Send {
     fn restore(&mut self, values: &[f64]) -> Result<()>;
 }
 
+impl<T: Hysteresis + ?Sized> Hysteresis for Box<T> {
+    forward! {
+        (**self);
+        fn response(&self, deformation: f64) -> SpringResponse;
+        fn energy(&self, deformation: f64) -> InternalEnergy;
+        fn commit(&mut self, deformation: f64);
+        fn save(&self) -> Vec<f64>;
+        fn restore(&mut self, values: &[f64]) -> Result<()>;
+    }
+}
+
 /// The error for internal variables that cannot be.
 fn corrupt() -> crate::Error {
     CheckpointError::Corrupt { quantity: "state of a hysteretic spring" }.into()

@@ -1,0 +1,29 @@
+//! Traits of parts that are made of another part of the same kind.
+
+/// Methods that a part answers by asking another one: `forward! { place; signatures }`, the place
+/// and the signatures as they would stand in the `impl` block.
+///
+/// `tests/forwarding.rs` finds any method that a list of signatures has forgotten.
+macro_rules! forward {
+    ($to:expr;) => {};
+    (
+        $to:expr;
+        fn $name:ident(&mut $own:ident $(, $arg:ident: $type:ty)*) $(-> $out:ty)?;
+        $($rest:tt)*
+    ) => {
+        fn $name(&mut $own $(, $arg: $type)*) $(-> $out)? {
+            $to.$name($($arg),*)
+        }
+        forward! { $to; $($rest)* }
+    };
+    (
+        $to:expr;
+        fn $name:ident(&$own:ident $(, $arg:ident: $type:ty)*) $(-> $out:ty)?;
+        $($rest:tt)*
+    ) => {
+        fn $name(&$own $(, $arg: $type)*) $(-> $out)? {
+            $to.$name($($arg),*)
+        }
+        forward! { $to; $($rest)* }
+    };
+}
