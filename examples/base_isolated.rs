@@ -13,8 +13,8 @@ use basemat::coupled::{Probe, Run};
 use basemat::interface::Coulomb;
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
-    Bilinear, FrictionPendulum, IsolationLevel, LeadRubber, NonlinearShearBuilding, ShearBuilding,
-    Storey, Structure,
+    Bilinear, FrictionPendulum, IsolationLevel, LeadRubber, NonlinearShearBuilding, Row,
+    ShearBuilding, Storey, Structure,
 };
 use basemat::{Result, Simulation, Soil};
 
@@ -29,11 +29,7 @@ fn building() -> Result<ShearBuilding> {
 }
 
 /// Marches a structure through El Centro; `roof` is an unknown, `drift` that of the lowest level.
-fn shake(
-    structure: impl Structure + 'static,
-    roof: usize,
-    drift: Vec<(usize, f64)>,
-) -> Result<Run> {
+fn shake(structure: impl Structure + 'static, roof: usize, drift: Row) -> Result<Run> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     Simulation::builder(2.5e-3)
         .structure(structure)
@@ -42,7 +38,7 @@ fn shake(
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY)
         .probe(Probe::displacement("drift", drift))
-        .probe(Probe::acceleration("roof", vec![(roof, 1.0)]))
+        .probe(Probe::acceleration("roof", roof))
         .expected_steps(8000)
         .build()?
         .run(8000, |_| {})
@@ -76,7 +72,7 @@ fn main() -> Result<()> {
     );
     for (name, structure) in cases {
         let total = STANDARD_GRAVITY * structure.building().total_mass();
-        let roof = structure.building().floor(structure.building().storeys().len() - 1)?;
+        let roof = structure.building().roof();
         let drift = structure.building().drift(0)?;
         let run = shake(structure, roof, drift)?;
         let peak = |name| run.probe(name).map_or(f64::NAN, |peak| peak.value.abs());

@@ -18,7 +18,7 @@ use basemat::fem::{Direction, Layer, MassKind, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
-    ContactNode, CraigBampton, FemModel, MatrixModel, RayleighDamping, Structure, Triplets,
+    ContactNode, CraigBampton, FemModel, MatrixModel, RayleighDamping, Row, Structure, Triplets,
 };
 use basemat::{Result, Simulation, Soil};
 
@@ -27,7 +27,7 @@ const MODES: usize = 20;
 
 /// A tower 10 m wide and 100 m high, of elements of 0.2 m: writes its matrices and returns its
 /// contact nodes and the unknown that is the sway of its top.
-fn write_files(mass: &Path, stiffness: &Path) -> Result<(Vec<ContactNode>, usize)> {
+fn write_files(mass: &Path, stiffness: &Path) -> Result<(Vec<ContactNode>, Row)> {
     let material = Material::new(5.0e9, 0.2, 600.0)?;
     let mesh = Mesh::layered_block(-5.0..5.0, 50, &[Layer::new(100.0, 500, material)])?;
     let model = FemModel::on_base(mesh)?.with_mass(MassKind::Lumped);
@@ -37,14 +37,14 @@ fn write_files(mass: &Path, stiffness: &Path) -> Result<(Vec<ContactNode>, usize
     matrix.clear();
     model.stiffness(&mut matrix);
     matrix.write_matrix_market(stiffness)?;
-    let top = model.unknown(model.nearest_node(0.0, 100.0), Direction::X).unwrap_or(0);
+    let top = model.row(model.node_at(0.0, 100.0)?, Direction::X)?;
     Ok((model.contact_nodes(), top))
 }
 
 /// The structure on soil, with the sway of its top as a probe, ready to march.
 fn scene(
     structure: impl Structure + 'static,
-    top: Vec<(usize, f64)>,
+    top: Row,
     coordinates: Coordinates,
 ) -> Result<Simulation> {
     let soil = Soil::new(200.0e6, 0.33, 1900.0)?;
@@ -98,9 +98,9 @@ fn main() -> Result<()> {
     let recovery = reduced.recovery();
 
     // The top is no unknown of the reduced model, but a weighted sum of them.
-    let row = recovery.row(&[(top, 1.0)])?;
+    let row = recovery.row(&top)?;
     let mut small = scene(reduced, row, Coordinates::Auto)?;
-    let mut large = scene(model, vec![(top, 1.0)], Coordinates::Unknowns)?;
+    let mut large = scene(model, top.clone(), Coordinates::Unknowns)?;
     let (sway_full, time_full) = march(&mut large, 30)?;
     let (sway, time_reduced) = march(&mut small, 3000)?;
 
@@ -130,7 +130,7 @@ fn main() -> Result<()> {
     println!(
         "all {} unknowns at the end: the top at {:.3} mm",
         everything.len(),
-        1e3 * everything[top]
+        1e3 * top.value(&everything)
     );
     Ok(())
 }

@@ -199,7 +199,7 @@ fn own_element() {
     // A tripod of struts on the block.
     let top = mesh.add_node(0.0, 4.0).unwrap();
     for x in [-2.0, 2.0] {
-        let foot = mesh.nearest_node(x, 1.0).unwrap();
+        let foot = mesh.node_at(x, 1.0).unwrap();
         mesh.add(Column([foot, top])).unwrap();
     }
     let model = FemModel::on_base(mesh).unwrap();

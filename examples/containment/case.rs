@@ -89,14 +89,10 @@ pub(crate) fn run(
     let scene = options.containment();
     let model = scene.structure()?;
     let [left, roof] = scene.corner();
-    let corner = model.nearest_node(left, roof);
+    let corner = model.node_at(left, roof)?;
     let base_shear = scene.base_shear(&model)?;
-    let unknown = |direction| {
-        let index = model.unknown(corner, direction).ok_or("the roof corner has no unknowns")?;
-        Ok::<_, AnyError>(vec![(index, 1.0)])
-    };
-    let roof_x = unknown(basemat::fem::Direction::X)?;
-    let roof_y = unknown(basemat::fem::Direction::Y)?;
+    let roof_x = model.row(corner, basemat::fem::Direction::X)?;
+    let roof_y = model.row(corner, basemat::fem::Direction::Y)?;
 
     let builder = Simulation::builder(options.time_step_s())
         .structure(model)

@@ -183,15 +183,11 @@ impl SimulationBuilder {
         let mut base = Base::of(structure.as_ref(), &elements)?;
         let mut model = Model::new(structure, &base)?;
         for probe in &self.probes {
-            for &(index, weight) in probe.rows().into_iter().flatten() {
-                finite("weight of a probe", weight)?;
-                if index >= unknowns {
-                    return Err(Error::Index {
-                        quantity: "unknown of a probe",
-                        index,
-                        bound: unknowns,
-                    });
-                }
+            for row in probe.rows() {
+                row.check("unknown", unknowns).map_err(|source| Error::Probe {
+                    name: probe.name.clone(),
+                    source: source.into(),
+                })?;
             }
         }
         ground.prepare(time_step)?;

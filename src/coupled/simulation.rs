@@ -4,7 +4,7 @@ use super::base::Base;
 use super::builder::SimulationBuilder;
 use super::conditioning::Conditioning;
 use super::contact::ContactSolver;
-use super::coordinates::{Motion, Row};
+use super::coordinates::{Motion, SteppedRow};
 use super::ledger::Ledger;
 use super::model::Model;
 use super::modes::{ContactSearch, ModeSearch, SearchMethod};
@@ -48,7 +48,7 @@ pub struct Simulation {
     pub(super) operators: Operators,
     pub(super) probes: Vec<Probe>,
     /// Displacement, velocity and acceleration of each probe.
-    pub(super) probe_rows: Vec<[Row; 3]>,
+    pub(super) probe_rows: Vec<[SteppedRow; 3]>,
     /// Element midpoints relative to the point of the base moment.
     pub(super) arms: Vec<f64>,
     pub(super) solver: ContactSolver,
@@ -166,8 +166,11 @@ impl Simulation {
         let (static_force, static_energy) = parts.model.nonlinear_state(&at.displacement);
         let elements = parts.ground.elements().to_vec();
         let modes_of = parts.model.modes.as_deref();
-        let probe_rows =
-            parts.probes.iter().map(|p| p.rows().map(|row| Row::new(row, modes_of))).collect();
+        let probe_rows = parts
+            .probes
+            .iter()
+            .map(|p| p.rows().map(|row| SteppedRow::new(row.terms(), modes_of)))
+            .collect();
         let mut simulation = Self {
             time_step: parts.time_step,
             coefficients: parts.coefficients,

@@ -3,8 +3,9 @@
 use super::coordinates::Motion;
 use super::ledger::Ledger;
 use super::modes::SearchMethod;
+use crate::error::{Error, Result};
 use crate::interface::{ContactState, Mode};
-use crate::structure::SectionRows;
+use crate::structure::{Row, SectionRows};
 
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -145,28 +146,28 @@ impl State {
 pub struct Probe {
     /// Name, for tables.
     pub name: String,
-    /// (unknown, weight) pairs on the displacement (change against the static state).
-    pub displacement: Vec<(usize, f64)>,
-    /// (unknown, weight) pairs on the velocity.
-    pub velocity: Vec<(usize, f64)>,
-    /// (unknown, weight) pairs on the acceleration.
-    pub acceleration: Vec<(usize, f64)>,
+    /// Sum of displacements (changes against the static state).
+    pub displacement: Row,
+    /// Sum of velocities.
+    pub velocity: Row,
+    /// Sum of accelerations.
+    pub acceleration: Row,
 }
 
 impl Probe {
-    /// Displacement given by (unknown, weight) pairs.
-    pub fn displacement(name: impl Into<String>, row: Vec<(usize, f64)>) -> Self {
-        Self { name: name.into(), displacement: row, ..Self::default() }
+    /// Displacement: an unknown, or a weighted sum of some.
+    pub fn displacement(name: impl Into<String>, row: impl Into<Row>) -> Self {
+        Self { name: name.into(), displacement: row.into(), ..Self::default() }
     }
 
-    /// Velocity given by (unknown, weight) pairs.
-    pub fn velocity(name: impl Into<String>, row: Vec<(usize, f64)>) -> Self {
-        Self { name: name.into(), velocity: row, ..Self::default() }
+    /// Velocity: an unknown's, or a weighted sum of some.
+    pub fn velocity(name: impl Into<String>, row: impl Into<Row>) -> Self {
+        Self { name: name.into(), velocity: row.into(), ..Self::default() }
     }
 
-    /// Acceleration given by (unknown, weight) pairs.
-    pub fn acceleration(name: impl Into<String>, row: Vec<(usize, f64)>) -> Self {
-        Self { name: name.into(), acceleration: row, ..Self::default() }
+    /// Acceleration: an unknown's, or a weighted sum of some.
+    pub fn acceleration(name: impl Into<String>, row: impl Into<Row>) -> Self {
+        Self { name: name.into(), acceleration: row.into(), ..Self::default() }
     }
 
     /// A section resultant of a structure.
@@ -179,7 +180,18 @@ impl Probe {
         }
     }
 
-    pub(super) fn rows(&self) -> [&[(usize, f64)]; 3] {
+    pub(super) fn rows(&self) -> [&Row; 3] {
         [&self.displacement, &self.velocity, &self.acceleration]
+    }
+
+    /// The same probe with its rows in other unknowns; an error names the probe.
+    pub(crate) fn try_map_rows(self, map: impl Fn(Row) -> Result<Row>) -> Result<Self> {
+        let Self { name, displacement, velocity, acceleration } = self;
+        let map = |row| {
+            map(row).map_err(|source| Error::Probe { name: name.clone(), source: source.into() })
+        };
+        let (displacement, velocity) = (map(displacement)?, map(velocity)?);
+        let acceleration = map(acceleration)?;
+        Ok(Self { name, displacement, velocity, acceleration })
     }
 }

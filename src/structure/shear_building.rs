@@ -1,7 +1,7 @@
 //! Shear building on a rigid base.
 
 use super::section::SectionRows;
-use super::{ContactNode, Structure, Triplets};
+use super::{ContactNode, Row, Structure, Triplets};
 use crate::error::{Error, Result, finite, not_negative, positive};
 use std::f64::consts::{PI, TAU};
 
@@ -155,15 +155,18 @@ impl ShearBuilding {
         }
     }
 
+    /// Index of the horizontal displacement of the highest floor.
+    pub fn roof(&self) -> usize {
+        self.storeys.len() + 2
+    }
+
     /// Drift of `storey` (0: the lowest), `u_j − u_(j−1) + h_j θ`, as a weighted sum of unknowns.
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey.
-    pub fn drift(&self, storey: usize) -> Result<Vec<(usize, f64)>> {
+    pub fn drift(&self, storey: usize) -> Result<Row> {
         self.floor(storey)?;
-        let mut row = Self::sway_row(storey).to_vec();
-        row.push((Self::ROTATION, self.storeys[storey].height));
-        Ok(row)
+        Ok(self.drift_terms(storey).into())
     }
 
     /// Horizontal force that the floor on top of `storey` exerts through its columns on what is
@@ -176,14 +179,14 @@ impl ShearBuilding {
     /// force is no weighted sum of displacements: see
     /// [`NonlinearShearBuilding::shear`](super::NonlinearShearBuilding::shear).
     pub fn shear(&self, storey: usize) -> Result<SectionRows> {
-        let drift = self.drift(storey)?;
+        self.floor(storey)?;
         if self.released[storey] {
             let needed = "follows a law: take `NonlinearShearBuilding::shear`";
             return Err(Error::Scene { quantity: "shear of a storey", needed });
         }
         let Storey { height, stiffness, damping, .. } = self.storeys[storey];
-        let scaled = |factor: f64| drift.iter().map(move |&(index, w)| (index, factor * w));
-        let mut displacement: Vec<(usize, f64)> = scaled(stiffness).collect();
+        let scaled = |factor: f64| self.drift_terms(storey).map(|(index, w)| (index, factor * w));
+        let mut displacement = scaled(stiffness);
         if self.gravity > 0.0 {
             let sway = self.weight_on(storey) / height;
             // The first two entries of a drift are its sway.
@@ -191,8 +194,8 @@ impl ShearBuilding {
                 entry.0.1 -= sway * entry.1.1;
             }
         }
-        let velocity = scaled(damping + self.stiffness_damping * stiffness).collect();
-        Ok(SectionRows { displacement, velocity, acceleration: Vec::new() })
+        let velocity = scaled(damping + self.stiffness_damping * stiffness).into();
+        Ok(SectionRows { displacement: displacement.into(), velocity, ..SectionRows::default() })
     }
 
     /// Frequency of the first mode on a fixed base, without P–Δ, Hz.
@@ -251,6 +254,12 @@ impl ShearBuilding {
         [(storey + 3, 1.0), (below, -1.0)]
     }
 
+    /// Terms of the drift of a storey that exists.
+    fn drift_terms(&self, storey: usize) -> [(usize, f64); 3] {
+        let [upper, lower] = Self::sway_row(storey);
+        [upper, lower, (Self::ROTATION, self.storeys[storey].height)]
+    }
+
     /// Weight that the columns of `storey` carry, N.
     fn weight_on(&self, storey: usize) -> f64 {
         self.gravity * self.storeys[storey..].iter().map(|storey| storey.mass).sum::<f64>()
@@ -264,10 +273,8 @@ impl ShearBuilding {
     /// The factor gets the columns' stiffness, zero where it was left to somebody else.
     fn add_drifts(&self, matrix: &mut Triplets, factor: impl Fn(&Storey, f64) -> f64) {
         for (index, storey) in self.storeys.iter().enumerate() {
-            let [upper, lower] = Self::sway_row(index);
-            let row = [upper, lower, (Self::ROTATION, storey.height)];
             let stiffness = if self.released[index] { 0.0 } else { storey.stiffness };
-            matrix.add_outer(&row, factor(storey, stiffness));
+            matrix.add_outer(self.drift_terms(index), factor(storey, stiffness));
         }
     }
 }
@@ -296,7 +303,7 @@ impl Structure for ShearBuilding {
         if self.gravity > 0.0 {
             for (index, storey) in self.storeys.iter().enumerate() {
                 let softening = self.weight_on(index) / storey.height;
-                matrix.add_outer(&Self::sway_row(index), -softening);
+                matrix.add_outer(Self::sway_row(index), -softening);
             }
         }
     }
