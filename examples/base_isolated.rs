@@ -25,7 +25,7 @@ const SLAB_MASS: f64 = 30.0e3;
 /// Five storeys of 3 m, 2 % of critical damping, per metre of thickness.
 fn building() -> Result<ShearBuilding> {
     let storeys = [Storey::new(3.0, FLOOR_MASS, 40.0e6); FLOORS];
-    ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_damping_ratio(0.02)
+    ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.02)
 }
 
 /// Marches a structure through El Centro; `roof` is an unknown, `drift` that of the lowest level.
@@ -75,12 +75,12 @@ fn main() -> Result<()> {
         let roof = structure.building().roof();
         let drift = structure.building().drift(0)?;
         let run = shake(structure, roof, drift)?;
-        let peak = |name| run.probe(name).map_or(f64::NAN, |peak| peak.value.abs());
+        let peak = |name| run.probe(name).map(|peak| peak.magnitude());
         println!(
             "{name:<18} {:10.1} {:10.2} {:10.2} {:8.0} {:8.1} {:10.1} {:10.0e}",
-            1e3 * peak("drift"),
-            peak("roof") / STANDARD_GRAVITY,
-            run.base_shear.value.abs() / total,
+            1e3 * peak("drift")?,
+            peak("roof")? / STANDARD_GRAVITY,
+            run.base_shear.magnitude() / total,
             100.0 * run.uplifted_fraction.value,
             1e-3 * run.ledger.input,
             1e-3 * run.ledger.hysteresis,

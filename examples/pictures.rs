@@ -34,7 +34,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Histories, Wireframe)> {
     let material = Material::new(1.0e9, 0.2, 800.0)?;
     let mesh = Mesh::layered_block(-4.0..4.0, 8, &[Layer::new(20.0, 16, material)])?;
     let damping = RayleighDamping::from_ratios([1.5, 15.0], [0.05; 2])?;
-    let tower = FemModel::on_base(mesh)?.with_damping(damping);
+    let tower = FemModel::on_base(mesh)?.with_rayleigh(damping);
     let roof = tower.row(tower.node_at(0.0, 20.0)?, Direction::X)?;
     // The structure moves into the simulation: its shape is kept for the pictures.
     let shape = Wireframe::of_model(&tower);
@@ -73,8 +73,7 @@ fn main() -> Result<()> {
     ] {
         plot::history("Tower under El Centro 1940", &runs, quantity)?.save(out.join(file))?;
     }
-    plot::probe_history("Roof", &runs, "roof", 1.0, "acceleration, m/s²")?
-        .save(out.join("roof.svg"))?;
+    plot::probe_history("Roof acceleration", &runs, "roof")?.save(out.join("roof.svg"))?;
     plot::mode_map("Contact modes", &free)?.save(out.join("modes.svg"))?;
     plot::pressure_envelope("Pressure under the base", &free)?.save(out.join("pressure.svg"))?;
     plot::energy("Energy", &free)?.save(out.join("energy.svg"))?;

@@ -49,8 +49,8 @@ fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Summary> {
         .interface(Coulomb::new(FRICTION)?)
         .motion(motion)
         .gravity(STANDARD_GRAVITY)
-        .probe(Probe::acceleration("top, m/s²", top))
-        .probe(Probe::acceleration("edge, up, m/s²", edge))
+        .probe(Probe::acceleration("top", top))
+        .probe(Probe::acceleration("edge, up", edge))
         .build()?;
     let mut histories = Recorder::new().friction(FRICTION).start(&simulation)?;
     histories.run(&mut simulation, 2800)?;

@@ -20,12 +20,12 @@ const LOW: [f64; 2] = [10.0, 13.0];
 
 fn tall() -> Result<ShearBuilding> {
     let storeys = [Storey::new(3.0, 60.0e3, 90.0e6); 8];
-    ShearBuilding::new(TALL[0], 120.0e3, 1.5e6, &storeys)?.with_damping_ratio(0.05)
+    ShearBuilding::new(TALL[0], 120.0e3, 1.5e6, &storeys)?.with_stiffness_damping(0.05)
 }
 
 fn low() -> Result<ShearBuilding> {
     let storeys = [Storey::new(3.0, 60.0e3, 120.0e6); 3];
-    ShearBuilding::new(LOW[0], 100.0e3, 0.9e6, &storeys)?.with_damping_ratio(0.05)
+    ShearBuilding::new(LOW[0], 100.0e3, 0.9e6, &storeys)?.with_stiffness_damping(0.05)
 }
 
 /// Eight elements under a base.

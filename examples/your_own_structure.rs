@@ -95,8 +95,8 @@ fn main() -> basemat::Result<()> {
         .interface(Coulomb::new(0.4)?)
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY)
-        .probe(Probe::displacement("first drift, m", drift))
-        .probe(Probe::acceleration("roof acceleration, m/s²", vec![(roof, 1.0)]))
+        .probe(Probe::displacement("first drift", drift))
+        .probe(Probe::acceleration("roof acceleration", vec![(roof, 1.0)]))
         .build()?;
 
     // The observer sees every step; it could return `Flow::Stop`.

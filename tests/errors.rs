@@ -244,6 +244,12 @@ fn builders_refuse_parts_that_do_not_fit() {
         );
     }
 
+    // Two probes of one name: which would `Run::probe` tell of?
+    let probes = [Probe::displacement("u", 0), Probe::velocity("v", 0), Probe::velocity("u", 1)];
+    let error = unbuilt("called 'u'", good().probes(probes.clone()));
+    assert_eq!(error, Error::DuplicateName { quantity: "probe", name: "u".to_owned() });
+    assert!(good().probes(probes[..2].to_vec()).build().is_ok());
+
     // Twice as wide as the block.
     let wide = SpringGround::new(-4.0..4.0, 4, 1e7, 1e7).unwrap();
     assert!(matches!(unbuilt("overlap of the base", good().ground(wide)), Error::Input { .. }));

@@ -19,7 +19,7 @@ fn soil() -> Soil {
 fn tower() -> ShearBuilding {
     let storeys = [Storey::new(3.0, 15.0e3, 25.0e6); 4];
     let tower = ShearBuilding::new(4.0, 30.0e3, 8.0e4, &storeys).unwrap();
-    tower.with_damping_ratio(0.04).unwrap()
+    tower.with_stiffness_damping(0.04).unwrap()
 }
 
 fn block() -> RigidBlock {

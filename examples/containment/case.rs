@@ -62,20 +62,12 @@ pub(crate) struct Outcome {
     pub(crate) case: Case,
     pub(crate) run: Run,
     pub(crate) histories: Histories,
+    /// Largest base shear at the foundation–superstructure interface, N/m.
+    pub(crate) peak_shear: f64,
+    /// Largest displacement of the roof corner relative to the free field's start, m.
+    pub(crate) peak_roof: f64,
     /// Contact length, m.
     pub(crate) width: f64,
-}
-
-impl Outcome {
-    /// Largest base shear at the foundation–superstructure interface, N/m.
-    pub(crate) fn peak_shear(&self) -> f64 {
-        self.run.probe("base shear").map_or(0.0, |peak| peak.value.abs())
-    }
-
-    /// Largest displacement of the roof corner relative to the free field's start, m.
-    pub(crate) fn peak_roof(&self) -> f64 {
-        self.run.probe("roof x").map_or(0.0, |peak| peak.value.abs())
-    }
 }
 
 /// Builds the scene of `case` and runs it.
@@ -124,5 +116,12 @@ pub(crate) fn run(
             now.report(state.step as f64 / steps as f64);
         }
     })?;
-    Ok(Outcome { case: case.clone(), run, histories: kept, width: scene.width * FOOT })
+    Ok(Outcome {
+        case: case.clone(),
+        peak_shear: run.probe("base shear")?.magnitude(),
+        peak_roof: run.probe("roof x")?.magnitude(),
+        run,
+        histories: kept,
+        width: scene.width * FOOT,
+    })
 }

@@ -3,9 +3,7 @@
 use super::coordinates::Motion;
 use super::ledger::Ledger;
 use super::modes::SearchMethod;
-use crate::error::{Error, Result};
 use crate::interface::{ContactState, Mode};
-use crate::structure::{Row, SectionRows};
 
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -120,7 +118,7 @@ impl State {
     ///
     /// These three are worked out when they are first asked for in a step: a structure that is
     /// stepped in its modes pays for all n² of them then, and nothing otherwise. A few quantities
-    /// at every step are cheaper as a [`Probe`].
+    /// at every step are cheaper as a [`Probe`](super::Probe).
     pub fn displacement(&self) -> &[f64] {
         self.motion.unknowns(0)
     }
@@ -138,60 +136,5 @@ impl State {
     /// Largest |slip| of any element, m.
     pub fn largest_slip(&self) -> f64 {
         self.contact.iter().fold(0.0, |m, c| m.max(c.slip.abs()))
-    }
-}
-
-/// A quantity read off at every step: a weighted sum of displacements, velocities, accelerations.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Probe {
-    /// Name, for tables.
-    pub name: String,
-    /// Sum of displacements (changes against the static state).
-    pub displacement: Row,
-    /// Sum of velocities.
-    pub velocity: Row,
-    /// Sum of accelerations.
-    pub acceleration: Row,
-}
-
-impl Probe {
-    /// Displacement: an unknown, or a weighted sum of some.
-    pub fn displacement(name: impl Into<String>, row: impl Into<Row>) -> Self {
-        Self { name: name.into(), displacement: row.into(), ..Self::default() }
-    }
-
-    /// Velocity: an unknown's, or a weighted sum of some.
-    pub fn velocity(name: impl Into<String>, row: impl Into<Row>) -> Self {
-        Self { name: name.into(), velocity: row.into(), ..Self::default() }
-    }
-
-    /// Acceleration: an unknown's, or a weighted sum of some.
-    pub fn acceleration(name: impl Into<String>, row: impl Into<Row>) -> Self {
-        Self { name: name.into(), acceleration: row.into(), ..Self::default() }
-    }
-
-    /// A section resultant of a structure.
-    pub fn section(name: impl Into<String>, rows: &SectionRows) -> Self {
-        Self {
-            name: name.into(),
-            displacement: rows.displacement.clone(),
-            velocity: rows.velocity.clone(),
-            acceleration: rows.acceleration.clone(),
-        }
-    }
-
-    pub(super) fn rows(&self) -> [&Row; 3] {
-        [&self.displacement, &self.velocity, &self.acceleration]
-    }
-
-    /// The same probe with its rows in other unknowns; an error names the probe.
-    pub(crate) fn try_map_rows(self, map: impl Fn(Row) -> Result<Row>) -> Result<Self> {
-        let Self { name, displacement, velocity, acceleration } = self;
-        let map = |row| {
-            map(row).map_err(|source| Error::Probe { name: name.clone(), source: source.into() })
-        };
-        let (displacement, velocity) = (map(displacement)?, map(velocity)?);
-        let acceleration = map(acceleration)?;
-        Ok(Self { name, displacement, velocity, acceleration })
     }
 }

@@ -107,7 +107,7 @@ impl FemModel {
 
     /// The same structure with Rayleigh damping, beside that of its elements.
     #[must_use]
-    pub fn with_damping(self, damping: RayleighDamping) -> Self {
+    pub fn with_rayleigh(self, damping: RayleighDamping) -> Self {
         Self { damping, ..self }
     }
 
@@ -283,7 +283,8 @@ impl FemModel {
                 let row = weighted_rows(&weights, &matrices[order]);
                 self.links.as_ref().map_or_else(|| row.clone(), |links| links.row(&row)).into()
             });
-            SectionRows { displacement, velocity, acceleration }
+            let unit = if direction == Direction::Rotation { "N·m/m" } else { "N/m" };
+            SectionRows { unit, displacement, velocity, acceleration }
         };
         Ok(Section {
             height,

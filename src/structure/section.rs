@@ -3,14 +3,28 @@
 use super::Row;
 
 /// Linear function of displacement, velocity and acceleration, as sparse rows.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SectionRows {
-    /// Weights of the displacements, N/m.
+    /// Unit of the resultant: "N/m" for a force, "N·m/m" for a moment.
+    pub unit: &'static str,
+    /// Weights of the displacements.
     pub displacement: Row,
     /// Weights of the velocities: dashpots and stiffness-proportional damping.
     pub velocity: Row,
     /// Weights of the accelerations: the share of the mass above that sits on the cut's nodes.
     pub acceleration: Row,
+}
+
+impl Default for SectionRows {
+    /// A force that is zero.
+    fn default() -> Self {
+        Self {
+            unit: "N/m",
+            displacement: Row::default(),
+            velocity: Row::default(),
+            acceleration: Row::default(),
+        }
+    }
 }
 
 impl SectionRows {

@@ -40,7 +40,7 @@ impl Storey {
 /// use basemat::structure::{ShearBuilding, Storey, Structure};
 ///
 /// let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
-/// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_damping_ratio(0.05)?;
+/// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.05)?;
 /// assert_eq!(building.unknowns(), 8);
 /// // 2 √(k/m) sin(π/22) rad/s on a fixed base
 /// assert!((building.fixed_base_frequency() - 2.02589).abs() < 1e-5);
@@ -114,9 +114,13 @@ impl ShearBuilding {
     /// The same building with stiffness-proportional damping, beside the storeys' dashpots, of
     /// this ratio in the first mode on a fixed base.
     ///
+    /// In higher modes the ratio grows with the frequency: `ratio · f_n/f_1`. Five equal storeys with
+    /// 5 % in the first mode have 15 %, 23 %, 30 % and 34 % in the others, which damps the upper
+    /// floors' accelerations heavily. [`ModalDamping`](super::ModalDamping) gives every mode its own.
+    ///
     /// # Errors
     /// [`Error::Input`] unless `ratio` is finite and not negative.
-    pub fn with_damping_ratio(self, ratio: f64) -> Result<Self> {
+    pub fn with_stiffness_damping(self, ratio: f64) -> Result<Self> {
         not_negative("damping ratio", ratio)?;
         let stiffness_damping = ratio / (PI * self.fixed_base_frequency());
         finite("stiffness-proportional damping", stiffness_damping)?;
@@ -167,6 +171,17 @@ impl ShearBuilding {
     pub fn drift(&self, storey: usize) -> Result<Row> {
         self.floor(storey)?;
         Ok(self.drift_terms(storey).into())
+    }
+
+    /// Displacement of the floor on top of `storey` (0: the first floor) less the rigid motion of the
+    /// base there, `u_j − u_x + H_j θ` with the height `H_j` of that floor: the sum of the drifts below.
+    ///
+    /// # Errors
+    /// [`Error::Index`] when there is no such storey.
+    pub fn sway(&self, storey: usize) -> Result<Row> {
+        let floor = self.floor(storey)?;
+        let height = self.storeys[..=storey].iter().map(|storey| storey.height).sum();
+        Ok([(floor, 1.0), (Self::HORIZONTAL, -1.0), (Self::ROTATION, height)].into())
     }
 
     /// Horizontal force that the floor on top of `storey` exerts through its columns on what is

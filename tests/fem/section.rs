@@ -38,7 +38,7 @@ fn frame_on_block() -> [FemModel; 2] {
         mesh.add(Dashpot::axial([foot, roof], 6.0e4).unwrap()).unwrap();
         let base = mesh.nodes_at_height(mesh.lowest(), 1e-9).unwrap();
         let model = FemModel::new(mesh, &base).unwrap();
-        model.with_damping(RayleighDamping::new(0.0, 0.003).unwrap())
+        model.with_rayleigh(RayleighDamping::new(0.0, 0.003).unwrap())
     })
 }
 

@@ -11,7 +11,7 @@ use basemat::structure::{
 use super::model::{on_soil, tower};
 
 fn damped() -> FemModel {
-    tower(6, 12).with_damping(RayleighDamping::from_ratios([1.0, 8.0], [0.03; 2]).unwrap())
+    tower(6, 12).with_rayleigh(RayleighDamping::from_ratios([1.0, 8.0], [0.03; 2]).unwrap())
 }
 
 fn top(model: &FemModel) -> usize {
