@@ -13,8 +13,8 @@ use basemat::coupled::{Probe, Run};
 use basemat::interface::Coulomb;
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
-    Bilinear, FrictionPendulum, IsolationLevel, LeadRubber, NonlinearShearBuilding, ShearBuilding,
-    Storey, Structure,
+    Bilinear, FrictionPendulum, IsolationLevel, LeadRubber, NonlinearShearBuilding, Row,
+    ShearBuilding, Storey, Structure,
 };
 use basemat::{Result, Simulation, Soil};
 
@@ -25,15 +25,11 @@ const SLAB_MASS: f64 = 30.0e3;
 /// Five storeys of 3 m, 2 % of critical damping, per metre of thickness.
 fn building() -> Result<ShearBuilding> {
     let storeys = [Storey::new(3.0, FLOOR_MASS, 40.0e6); FLOORS];
-    ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_damping_ratio(0.02)
+    ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.02)
 }
 
 /// Marches a structure through El Centro; `roof` is an unknown, `drift` that of the lowest level.
-fn shake(
-    structure: impl Structure + 'static,
-    roof: usize,
-    drift: Vec<(usize, f64)>,
-) -> Result<Run> {
+fn shake(structure: impl Structure + 'static, roof: usize, drift: Row) -> Result<Run> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     Simulation::builder(2.5e-3)
         .structure(structure)
@@ -41,7 +37,7 @@ fn shake(
         .interface(Coulomb::new(0.4)?)
         .motion(el_centro_1940())
         .probe(Probe::displacement("drift", drift))
-        .probe(Probe::acceleration("roof", vec![(roof, 1.0)]))
+        .probe(Probe::acceleration("roof", roof))
         .expected_steps(8000)
         .build()?
         .run(8000, |_| {})
@@ -75,15 +71,15 @@ fn main() -> Result<()> {
     );
     for (name, structure) in cases {
         let total = STANDARD_GRAVITY * structure.building().total_mass();
-        let roof = structure.building().floor(structure.building().storeys().len() - 1)?;
+        let roof = structure.building().roof();
         let drift = structure.building().drift(0)?;
         let run = shake(structure, roof, drift)?;
-        let peak = |name| run.probe(name).map_or(f64::NAN, |peak| peak.value.abs());
+        let peak = |name| run.probe(name).map(|peak| peak.magnitude());
         println!(
             "{name:<18} {:10.1} {:10.2} {:10.2} {:8.0} {:8.1} {:10.1} {:10.0e}",
-            1e3 * peak("drift"),
-            peak("roof") / STANDARD_GRAVITY,
-            run.base_shear.value.abs() / total,
+            1e3 * peak("drift")?,
+            peak("roof")? / STANDARD_GRAVITY,
+            run.base_shear.magnitude() / total,
             100.0 * run.uplifted_fraction.value,
             1e-3 * run.ledger.input,
             1e-3 * run.ledger.hysteresis,

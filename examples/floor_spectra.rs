@@ -29,7 +29,8 @@ struct Options {
 
 fn shake(law: impl InterfaceLaw + 'static) -> Result<Histories> {
     let storeys = [Storey::new(3.0, 30.0e3, 60.0e6); 5];
-    let building = ShearBuilding::new(8.0, 60.0e3, 4.0e5, &storeys)?.with_damping_ratio(0.05)?;
+    let building =
+        ShearBuilding::new(8.0, 60.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.05)?;
     let (first, roof) = (building.floor(0)?, building.floor(4)?);
     let soil = Soil::new(1900.0 * 250.0_f64.powi(2), 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)

@@ -78,7 +78,7 @@ fn main() -> Result<()> {
         |index, result| {
             // A case that fails is told of and does not stop the others.
             slips[index] = result
-                .map(|summary| summary.sliding.peak.value.abs())
+                .map(|summary| summary.sliding.peak.magnitude())
                 .map_err(|error: basemat::Error| error.to_string());
         },
     );

@@ -68,9 +68,9 @@ fn main() -> Result<()> {
     let recovery = reduced.recovery();
 
     // The top is no unknown of the reduced model, but a weighted sum of them.
-    let row = recovery.row(&[(top, 1.0)])?;
+    let row = recovery.row(&top)?;
     let mut small = scene(reduced, row, Coordinates::Auto)?;
-    let mut large = scene(model, vec![(top, 1.0)], Coordinates::Unknowns)?;
+    let mut large = scene(model, top.clone(), Coordinates::Unknowns)?;
     let (sway_full, time_full) = march(&mut large, 30)?;
     let (sway, time_reduced) = march(&mut small, 3000)?;
 
@@ -100,7 +100,7 @@ fn main() -> Result<()> {
     println!(
         "all {} unknowns at the end: the top at {:.3} mm",
         everything.len(),
-        1e3 * everything[top]
+        1e3 * top.value(&everything)
     );
     Ok(())
 }

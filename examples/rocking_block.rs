@@ -68,7 +68,7 @@ fn main() -> Result<()> {
         print!("{strength:<8.2}");
         for speed in [400.0, 120.0] {
             let summary = rock(speed, pulse(strength * onset, 0.8)?, tipping)?;
-            let rotation = summary.base_rotation.largest().value.abs();
+            let rotation = summary.base_rotation.largest().magnitude();
             let outcome = if rotation > tipping {
                 "falls"
             } else if summary.uplift.count > 0 {

@@ -20,7 +20,8 @@ const STOREYS: usize = 5;
 fn shake(law: impl InterfaceLaw + 'static, recorder: Recorder) -> Result<Summary> {
     // Storeys of 3 m, 30 t/m and 60 MN/m² on a mat 8 m wide; soil with a shear wave speed of 250 m/s.
     let storeys = [Storey::new(3.0, 30.0e3, 60.0e6); STOREYS];
-    let building = ShearBuilding::new(8.0, 60.0e3, 4.0e5, &storeys)?.with_damping_ratio(0.05)?;
+    let building =
+        ShearBuilding::new(8.0, 60.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.05)?;
     let soil = Soil::new(1900.0 * 250.0_f64.powi(2), 0.33, 1900.0)?;
 
     let mut builder = Simulation::builder(5.0e-3);
@@ -57,8 +58,11 @@ fn main() -> Result<()> {
     for storey in (0..STOREYS).rev() {
         print!("{:<8}", storey + 1);
         for (_, summary) in &cases {
-            let peak = |k: usize| summary.probes[k].1.largest().value.abs();
-            print!("{:>12.1}{:>10.2}", 1e-3 * peak(2 * storey), 1e3 * peak(2 * storey + 1));
+            let peak = |what| {
+                let extremes = summary.probe(&format!("{what} {}", storey + 1))?;
+                Ok::<f64, basemat::Error>(extremes.largest().magnitude())
+            };
+            print!("{:>12.1}{:>10.2}", 1e-3 * peak("shear")?, 1e3 * peak("drift")?);
         }
         println!();
     }

@@ -46,8 +46,8 @@ fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Summary> {
         .ground(HalfPlaneGround::strip(soil, -HALF_WIDTH..HALF_WIDTH, 16)?)
         .interface(Coulomb::new(FRICTION)?)
         .motion(motion)
-        .probe(Probe::acceleration("top, m/s²", top))
-        .probe(Probe::acceleration("edge, up, m/s²", edge))
+        .probe(Probe::acceleration("top", top))
+        .probe(Probe::acceleration("edge, up", edge))
         .build()?;
     let mut histories = Recorder::new().start(&simulation)?;
     histories.run(&mut simulation, 2800)?;

@@ -20,12 +20,12 @@ const LOW: [f64; 2] = [10.0, 13.0];
 
 fn tall() -> Result<ShearBuilding> {
     let storeys = [Storey::new(3.0, 60.0e3, 90.0e6); 8];
-    ShearBuilding::new(TALL[0], 120.0e3, 1.5e6, &storeys)?.with_damping_ratio(0.05)
+    ShearBuilding::new(TALL[0], 120.0e3, 1.5e6, &storeys)?.with_stiffness_damping(0.05)
 }
 
 fn low() -> Result<ShearBuilding> {
     let storeys = [Storey::new(3.0, 60.0e3, 120.0e6); 3];
-    ShearBuilding::new(LOW[0], 100.0e3, 0.9e6, &storeys)?.with_damping_ratio(0.05)
+    ShearBuilding::new(LOW[0], 100.0e3, 0.9e6, &storeys)?.with_stiffness_damping(0.05)
 }
 
 /// Eight elements under a base.
@@ -75,19 +75,18 @@ fn peaks(mut simulation: Simulation) -> Result<Vec<Peaks>> {
 
 fn main() -> Result<()> {
     let (first, second) = (tall()?, low()?);
-    let roofs = [vec![(first.floor(7)?, 1.0)], vec![(second.floor(2)?, 1.0)]];
-    let probe = |name: &str, row: &[(usize, f64)]| Probe::acceleration(name, row.to_vec());
+    let roofs = [("tall", first.roof()), ("low", second.roof())];
+    let [on_tall, on_low] = roofs.map(|(name, roof)| Probe::acceleration(name, roof));
 
-    let alone = simulation(first, &[strip(TALL)?], vec![probe("tall", &roofs[0])])?;
+    let alone = simulation(first, &[strip(TALL)?], vec![on_tall.clone()])?;
     let mut apart = peaks(alone)?;
     // The same building, moved to its place: a group of one.
     let moved = StructureGroup::new().with(second, LOW[1])?;
-    apart.extend(peaks(simulation(moved, &[strip(LOW)?], vec![probe("low", &roofs[1])])?)?);
+    apart.extend(peaks(simulation(moved, &[strip(LOW)?], vec![on_low.clone()])?)?);
 
     let group = StructureGroup::new().with(tall()?, TALL[1])?.with(low()?, LOW[1])?;
     // Unknowns of a member come after those of the members before it.
-    let probes =
-        vec![probe("tall", &group.row(0, &roofs[0])), probe("low", &group.row(1, &roofs[1]))];
+    let probes = vec![group.probe(0, on_tall)?, group.probe(1, on_low)?];
     let together = peaks(simulation(group, &[strip(TALL)?, strip(LOW)?], probes)?)?;
 
     println!("El Centro 1940, soil with 150 m/s, friction 0.5, 2 m between the buildings\n");

@@ -106,7 +106,7 @@ fn main() -> basemat::Result<()> {
     for (name, run) in cases {
         println!(
             "{name:<28}{:>11.1} mm{:>11.1} mm{:>16.1e}",
-            1e3 * run.slip.value,
+            1e3 * run.largest_slip.value,
             1e3 * run.residual_slip,
             run.ledger_residual
         );

@@ -94,8 +94,8 @@ fn main() -> basemat::Result<()> {
         .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 10)?)
         .interface(Coulomb::new(0.4)?)
         .motion(el_centro_1940())
-        .probe(Probe::displacement("first drift, m", drift))
-        .probe(Probe::acceleration("roof acceleration, m/s²", vec![(roof, 1.0)]))
+        .probe(Probe::displacement("first drift", drift))
+        .probe(Probe::acceleration("roof acceleration", vec![(roof, 1.0)]))
         .build()?;
 
     // The observer sees every step; it could return `Flow::Stop`.

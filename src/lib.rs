@@ -18,7 +18,7 @@
 //!
 //! // Five storeys on a base 10 m wide, soil with a shear wave speed of 205 m/s.
 //! let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
-//! let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_damping_ratio(0.05)?;
+//! let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.05)?;
 //! let weight = STANDARD_GRAVITY * building.total_mass();
 //! let roof = building.floor(4)?;
 //! let soil = Soil::new(80.0e6, 0.33, 1900.0)?;

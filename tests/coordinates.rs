@@ -67,7 +67,7 @@ fn modes_and_unknowns_agree() {
     let damped = || tower(SI, Some(RayleighDamping::from_ratios([2.0, 20.0], [0.05; 2]).unwrap()));
     let building = || {
         let storeys = [Storey::new(1.5, 3.0e3, 2.0e6); 4];
-        ShearBuilding::new(4.0, 5e3, 1e4, &storeys).unwrap().with_damping_ratio(0.03).unwrap()
+        ShearBuilding::new(4.0, 5e3, 1e4, &storeys).unwrap().with_stiffness_damping(0.03).unwrap()
     };
     let base = || scene(SI, 0.6);
     let scenes: [(&str, Make<'_>); 8] = [

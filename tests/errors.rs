@@ -17,7 +17,7 @@ use basemat::interface::{
     Activation, Bonded, Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
 };
 use basemat::motion::{Baseline, FreeField, FreeFieldFn, Record, RickerDisplacement};
-use basemat::structure::{ContactNode, Structure, Triplets};
+use basemat::structure::{ContactNode, Row, Structure, Triplets};
 use basemat::{Error, Simulation, Soil, StepError};
 
 use scene::{bed, block};
@@ -232,12 +232,23 @@ fn builders_refuse_parts_that_do_not_fit() {
     }
     assert!(matches!(unbuilt("interface law", good().interfaces(vec![])), Error::Scene { .. }));
 
-    let probe = Probe::velocity("far", vec![(3, 1.0)]);
-    let error = unbuilt("unknown of a probe", good().probe(probe));
-    assert_eq!(error, Error::Index { quantity: "unknown of a probe", index: 3, bound: 3 });
-    refused("weight of a probe", &NOT_FINITE, |x| {
-        good().probe(Probe::displacement("bad", vec![(0, x)])).build().map(drop)
-    });
+    let probe = Probe::velocity("far", 3);
+    let error = unbuilt("probe", good().probe(probe));
+    let source = Box::new(Error::Index { quantity: "unknown", index: 3, bound: 3 });
+    assert_eq!(error, Error::Probe { name: "far".to_owned(), source });
+    for bad in NOT_FINITE {
+        let probe = Probe::displacement("bad", (0, bad));
+        let error = unbuilt("probe 'bad': weight of an unknown", good().probe(probe));
+        assert!(
+            matches!(error, Error::Probe { source, .. } if matches!(*source, Error::Input { .. }))
+        );
+    }
+
+    // Two probes of one name: which would `Run::probe` tell of?
+    let probes = [Probe::displacement("u", 0), Probe::velocity("v", 0), Probe::velocity("u", 1)];
+    let error = unbuilt("called 'u'", good().probes(probes.clone()));
+    assert_eq!(error, Error::DuplicateName { quantity: "probe", name: "u".to_owned() });
+    assert!(good().probes(probes[..2].to_vec()).build().is_ok());
 
     // Twice as wide as the block.
     let wide = SpringGround::new(-4.0..4.0, 4, 1e7, 1e7).unwrap();
@@ -421,7 +432,7 @@ fn structures_with_a_bad_base_are_refused() {
     });
     refused("weight of a contact node", &NOT_FINITE, |x| {
         let mut nodes = ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2]);
-        nodes[0].vertical[0].1 = x;
+        nodes[0].vertical = (1, x).into();
         with(nodes).build().map(drop)
     });
     let none = Spoilt { unknowns: 0, nodes: empty_base(), ..Spoilt::sound() };
@@ -435,7 +446,9 @@ fn structures_with_a_bad_base_are_refused() {
 }
 
 fn empty_base() -> Vec<ContactNode> {
-    [-2.0, 2.0].map(|x| ContactNode { x, horizontal: vec![], vertical: vec![] }).into()
+    [-2.0, 2.0]
+        .map(|x| ContactNode { x, horizontal: Row::default(), vertical: Row::default() })
+        .into()
 }
 
 #[test]

@@ -4,9 +4,11 @@
 #[path = "support/scenes.rs"]
 mod scenes;
 
+use basemat::coupled::Probe;
 use basemat::motion::{SpectralOrdinate, el_centro_1940};
 use basemat::plot::{self, Curve, Svg};
 use basemat::results::{Histories, Quantity, Recorder, Wireframe};
+use basemat::structure::RigidBlock;
 use basemat::{Error, Simulation};
 use scenes::{SI, block, friction, scene};
 
@@ -141,12 +143,23 @@ fn bad_requests_are_errors() {
     assert!(matches!(shapes(&histories, &[0.1], 1.0), Err(Error::Scene { .. })));
     assert!(plot::animation("T", &shape, &histories, 1.0, 1.0).is_err());
     let runs = [("a", &histories)];
-    let fault = plot::probe_history("T", &runs, "nobody", 1.0, "y");
+    let fault = plot::probe_history("T", &runs, "nobody");
     assert!(matches!(fault, Err(Error::Name { .. })));
     // A folder cannot be made beneath a file.
     let nowhere = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml/picture.svg");
     let fault = plot::history("T", &runs, Quantity::BaseShear).unwrap().save(nowhere);
     assert!(matches!(fault, Err(Error::Write { .. })));
+    let with = |probe| {
+        let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(0.35));
+        let simulation = builder.probe(probe).build().unwrap();
+        Recorder::new().start(&simulation).unwrap()
+    };
+    let turn = || Probe::displacement("turn", RigidBlock::ROTATION);
+    let [length, angle] = [with(turn()), with(turn().in_unit("rad"))];
+    let svg = plot::probe_history("T", &[("a", &angle)], "turn").unwrap();
+    assert!(svg.as_str().contains("turn, mrad"));
+    let fault = plot::probe_history("T", &[("a", &angle), ("b", &length)], "turn");
+    assert!(matches!(fault, Err(Error::Scene { .. })));
 
     let (histories, shape) = recorded(Recorder::new().motion(1));
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {

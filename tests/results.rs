@@ -67,7 +67,7 @@ fn histories_and_peaks_are_those_of_the_states() {
     assert_eq!(summary.base_shear.lowest.value, lowest);
     assert!(lowest < 0.0);
     let top_peak = top.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    assert_eq!(summary.probes[0].1.largest().value.abs(), top_peak);
+    assert_eq!(summary.probe("top").unwrap().largest().magnitude(), top_peak);
 
     for (e, envelope) in histories.envelope().iter().enumerate() {
         let pressures = || states.iter().map(|s| s.contact[e].pressure);
@@ -283,6 +283,79 @@ fn broadened_peaks_are_plateaus() {
     }
     assert!(broadened(&[spectrum[1], spectrum[0]], 0.1).is_err());
     assert!(broadened(&[ordinate(f64::NAN, 1.0)], 0.1).is_err());
+}
+
+/// Values stay SI in files and turn into what engineers read where they are printed, a label that
+/// nobody knows stays.
+#[test]
+fn probes_come_with_their_unit() {
+    let build = || {
+        scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION)).probes([
+            Probe::displacement("slide", RigidBlock::HORIZONTAL),
+            Probe::displacement("turn", RigidBlock::ROTATION).in_unit("rad"),
+            Probe::velocity("rate", (RigidBlock::HORIZONTAL, 100.0)).in_unit("cm/s"),
+            Probe::acceleration("shake", RigidBlock::HORIZONTAL),
+            Probe::displacement("bare", RigidBlock::VERTICAL).in_unit(""),
+        ])
+    };
+    let mut simulation = build().build().unwrap();
+    let mut histories = Recorder::new().start(&simulation).unwrap();
+    let run = histories.run(&mut simulation, STEPS).unwrap();
+    let summary = histories.summary();
+    let (page, mut table) = (summary.to_string(), Comparison::new());
+    table.extend([("a", summary.clone())]);
+    let (run_page, table_page) = (run.to_string(), table.to_string());
+    let labels = [
+        ("slide", "mm", 1e3),
+        ("turn", "mrad", 1e3),
+        ("rate", "cm/s", 1.0),
+        ("shake", "m/s²", 1.0),
+    ];
+    for (name, unit, factor) in labels {
+        let peak = run.probe(name).unwrap();
+        assert_eq!(peak, summary.probe(name).unwrap().largest(), "{name}");
+        assert!(peak.value != 0.0);
+        for text in [&page, &run_page, &table_page] {
+            let line = text.lines().find(|line| line.trim().starts_with(name)).unwrap();
+            let words: Vec<&str> = line.split_whitespace().collect();
+            assert!(words.contains(&unit), "{line}");
+            let shown = |word: &&str| {
+                let value: f64 = word.parse().unwrap_or(f64::NAN);
+                (value - factor * peak.value).abs() < 1e-3 * factor * peak.magnitude()
+            };
+            assert!(words.iter().any(|word| shown(word)), "{line}, not {}", factor * peak.value);
+        }
+    }
+    let mut file = Vec::new();
+    histories.write_csv(&mut file).unwrap();
+    let text = String::from_utf8(file).unwrap();
+    let wanted = ",slide [m],turn [rad],rate [cm/s],shake [m/s²],bare,";
+    assert!(text.lines().next().unwrap().contains(wanted));
+    let csv = table.csv();
+    assert!(csv.lines().next().unwrap().ends_with(wanted.trim_end_matches(',')));
+    let last: Vec<&str> = csv.lines().nth(1).unwrap().split(',').collect();
+    let turn = run.probe("turn").unwrap().value;
+    assert_eq!(last[last.len() - 4].parse(), Ok(turn));
+
+    let nobody = Error::Name { quantity: "probe", name: "nobody".to_owned() };
+    assert_eq!(run.probe("nobody"), Err(nobody.clone()));
+    assert_eq!(summary.probe("nobody"), Err(nobody));
+}
+
+#[test]
+fn cases_with_other_probes_or_units_have_no_common_rows() {
+    let summary = |probe: Probe| {
+        let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION));
+        let simulation = builder.probe(probe).build().unwrap();
+        Recorder::new().start(&simulation).unwrap().summary()
+    };
+    let tilt = || Probe::displacement("tilt", RigidBlock::ROTATION);
+    let same: Comparison = ["a", "b"].map(|name| (name, summary(tilt()))).into_iter().collect();
+    assert_eq!(same.cases().len(), 2);
+    assert!(same.to_string().contains("tilt"));
+    let mixed = [("a", summary(tilt())), ("b", summary(tilt().in_unit("rad")))];
+    let mixed: Comparison = mixed.into_iter().collect();
+    assert!(!mixed.to_string().contains("tilt") && !mixed.csv().contains("tilt"));
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! Several structures on one ground.
 
 use basemat::bem::{HalfPlaneGround, History, SpringGround, Strip};
-use basemat::coupled::{Coordinates, SimulationBuilder, State};
+use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{RickerDisplacement, STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
-    ContactNode, CraigBampton, ModalDamping, RigidBlock, ShearBuilding, Storey, Structure,
+    ContactNode, CraigBampton, ModalDamping, RigidBlock, Row, ShearBuilding, Storey, Structure,
     StructureGroup, Triplets, WithSprings,
 };
 use basemat::{CheckpointError, Error, Result, Simulation, Soil};
@@ -19,7 +19,7 @@ fn soil() -> Soil {
 fn tower() -> ShearBuilding {
     let storeys = [Storey::new(3.0, 15.0e3, 25.0e6); 4];
     let tower = ShearBuilding::new(4.0, 30.0e3, 8.0e4, &storeys).unwrap();
-    tower.with_damping_ratio(0.04).unwrap()
+    tower.with_stiffness_damping(0.04).unwrap()
 }
 
 fn block() -> RigidBlock {
@@ -356,4 +356,41 @@ fn foundations_that_end_nowhere_are_refused() {
         let built = base().structure(pair).ground(half_plane(&strips)).build();
         assert!(matches!(built, Err(Error::Index { bound: 4, .. })), "{:?}", built.err());
     }
+}
+
+/// GOAL: a probe of one member never reads another one.
+/// CONFIG: a tower of seven unknowns before a block of three.
+#[test]
+fn rows_and_probes_stay_within_their_member() {
+    let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 5.0).unwrap();
+    assert_eq!(group.row(0, tower().roof()).unwrap(), Row::from(6));
+    assert_eq!(group.row(1, 2).unwrap(), Row::from(9));
+    // The tower's eighth unknown would be the block's first.
+    let quantity = "unknown of a structure of the group";
+    assert_eq!(group.row(0, 7), Err(Error::Index { quantity, index: 7, bound: 7 }));
+    for index in [3, usize::MAX] {
+        assert_eq!(group.row(1, index), Err(Error::Index { quantity, index, bound: 3 }));
+    }
+    let quantity = "structure of the group";
+    assert_eq!(group.row(2, 0), Err(Error::Index { quantity, index: 2, bound: 2 }));
+    assert!(matches!(group.row(0, (0, f64::NAN)), Err(Error::Input { .. })));
+
+    // A section has displacements and velocities, and all of them move.
+    let rows = tower().shear(1).unwrap();
+    let alone = Probe::section("shear", &rows);
+    let group = StructureGroup::new().with(block(), -5.0).unwrap().with(tower(), 0.0).unwrap();
+    let moved = group.probe(1, alone.clone()).unwrap();
+    assert_eq!(moved.name, "shear");
+    for (moved, alone) in
+        [(&moved.displacement, &alone.displacement), (&moved.velocity, &alone.velocity)]
+    {
+        assert!(!alone.is_empty());
+        let expected: Row = alone.into_iter().map(|&(index, weight)| (index + 3, weight)).collect();
+        assert_eq!(*moved, expected);
+    }
+    assert!(moved.acceleration.is_empty());
+    let error = group.probe(0, alone).unwrap_err();
+    let source =
+        Error::Index { quantity: "unknown of a structure of the group", index: 4, bound: 3 };
+    assert_eq!(error, Error::Probe { name: "shear".to_owned(), source: Box::new(source) });
 }

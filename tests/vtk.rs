@@ -10,7 +10,7 @@ use basemat::coupled::State;
 use basemat::fem::{Beam, Direction, Mesh};
 use basemat::interface::Mode;
 use basemat::results::{Histories, Recorder, WirePoint, Wireframe};
-use basemat::structure::{FemModel, RigidBlock, ShearBuilding, Storey};
+use basemat::structure::{FemModel, RigidBlock, Row, ShearBuilding, Storey};
 use basemat::{Error, vtk};
 use scenes::{SI, block, friction, scene, tower};
 
@@ -170,7 +170,7 @@ fn bad_requests_are_errors() {
         assert!(matches!(series(name, &shape, &histories), Error::Scene { .. }));
     }
     // More unknowns than the run has.
-    let point = WirePoint { position: [0.0; 2], horizontal: vec![(98, 1.0)], vertical: vec![] };
+    let point = WirePoint { position: [0.0; 2], horizontal: 98.into(), vertical: Row::default() };
     let other = Wireframe::new(vec![point.clone()], vec![vec![0]]).unwrap();
     assert!(matches!(series("a", &other, &histories), Error::Index { index: 98, bound: 98, .. }));
     let simulation = scene(SI, 0.6).structure(block(SI)).interface(friction(0.3)).build().unwrap();
@@ -187,7 +187,7 @@ fn bad_requests_are_errors() {
     assert!(Wireframe::new(vec![point.clone()], vec![vec![0, 1]]).is_err());
     let nan = WirePoint { position: [f64::NAN, 0.0], ..point.clone() };
     assert!(Wireframe::new(vec![nan], vec![]).is_err());
-    let infinite = WirePoint { vertical: vec![(0, f64::INFINITY)], ..point };
+    let infinite = WirePoint { vertical: (0, f64::INFINITY).into(), ..point };
     assert!(Wireframe::new(vec![infinite], vec![]).is_err());
     assert!(Wireframe::of_block(&block(SI), 0.0).is_err());
 }

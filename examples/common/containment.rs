@@ -107,7 +107,7 @@ impl Containment {
         let model = FemModel::on_base(mesh)?;
         if self.damping > 0.0 {
             let damping = RayleighDamping::from_ratios([1.0, 10.0], [self.damping; 2])?;
-            return Ok(model.with_damping(damping));
+            return Ok(model.with_rayleigh(damping));
         }
         Ok(model)
     }

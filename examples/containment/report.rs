@@ -21,7 +21,7 @@ fn paper_shear(kind: Kind) -> Option<f64> {
 
 /// Prints the table of all cases beside the paper's ratios.
 pub(crate) fn print_table(results: &[Outcome]) {
-    let bonded = results.first().map_or(1.0, Outcome::peak_shear);
+    let bonded = results.first().map_or(1.0, |outcome| outcome.peak_shear);
     println!(
         "\n{:<14}{:>22}{:>12}{:>16}{:>9}{:>10}{:>10}{:>10}{:>10}{:>9}{:>9}",
         "",
@@ -47,15 +47,15 @@ pub(crate) fn print_table(results: &[Outcome]) {
         println!(
             "{:<14}{:>11.1}{:>11.0}{:>12.1}{:>8.3}{:>8}{:>9.0}{:>10.3}{:>10.3}{:>10.2}{:>10.1e}{:>9.1}{:>9.1}",
             outcome.case.name,
-            1e-3 * outcome.peak_shear(),
-            pounds_per_foot(outcome.peak_shear()),
-            1e-3 * run.base_shear.value.abs(),
-            outcome.peak_shear() / bonded,
+            1e-3 * outcome.peak_shear,
+            pounds_per_foot(outcome.peak_shear),
+            1e-3 * run.base_shear.magnitude(),
+            outcome.peak_shear / bonded,
             paper,
             100.0 * run.uplifted_fraction.value,
-            1e3 * run.slip.value.abs(),
+            1e3 * run.largest_slip.magnitude(),
             1e3 * run.residual_slip + 0.0,
-            1e3 * outcome.peak_roof(),
+            1e3 * outcome.peak_roof,
             run.ledger_residual,
             run.wall.as_secs_f64(),
             1e6 * run.wall.as_secs_f64() / run.steps.max(1) as f64,
@@ -70,7 +70,7 @@ pub(crate) fn print_table(results: &[Outcome]) {
 
 /// Writes `summary.csv`, a row per case.
 pub(crate) fn write_summary(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
-    let bonded = results.first().map_or(1.0, Outcome::peak_shear);
+    let bonded = results.first().map_or(1.0, |outcome| outcome.peak_shear);
     let mut writer = csv::Writer::from_path(folder.join("summary.csv"))?;
     writer.write_record([
         "case",
@@ -95,13 +95,13 @@ pub(crate) fn write_summary(folder: &Path, results: &[Outcome]) -> Result<(), An
         writer.write_record([
             outcome.case.name.clone(),
             friction,
-            outcome.peak_shear().to_string(),
-            run.base_shear.value.abs().to_string(),
-            (outcome.peak_shear() / bonded).to_string(),
+            outcome.peak_shear.to_string(),
+            run.base_shear.magnitude().to_string(),
+            (outcome.peak_shear / bonded).to_string(),
             run.uplifted_fraction.value.to_string(),
-            run.slip.value.abs().to_string(),
+            run.largest_slip.magnitude().to_string(),
             run.residual_slip.to_string(),
-            outcome.peak_roof().to_string(),
+            outcome.peak_roof.to_string(),
             run.ledger_residual.to_string(),
             run.steps.to_string(),
             run.wall.as_secs_f64().to_string(),

@@ -48,12 +48,12 @@ impl Reading {
         let mut simulation = self.with_scheme(builder)?.build()?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above zero")]
         let run = simulation.run((self.duration / time_step).round() as usize, |_| {})?;
-        let probe = run.probe("base shear").map_or(0.0, |peak| peak.value);
+        let probe = run.probe("base shear")?.value;
         Ok(Row {
             shear: [probe, run.base_shear.value].map(|force| pounds_per_foot(force.abs())),
             uplift: run.uplifted_fraction.value,
-            slip: run.slip.value,
-            cycles: run.fallbacks.iter().sum(),
+            slip: run.largest_slip.value,
+            cycles: run.fallbacks.total(),
         })
     }
 

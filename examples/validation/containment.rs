@@ -35,7 +35,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         computed.push(result.ok_or("a run did not end")??);
     }
     let shear: Vec<f64> =
-        computed.iter().map(|outcome| outcome.peak_shear() / POUND_FORCE_PER_FOOT).collect();
+        computed.iter().map(|outcome| outcome.peak_shear / POUND_FORCE_PER_FOOT).collect();
     let ledger = computed.iter().fold(0.0_f64, |m, outcome| worse(m, outcome.run.ledger_residual));
     let mut checks = vec![
         Check::below("bonded: peak base shear, relative", (shear[0] / PAPER[0] - 1.0).abs(), 1e-2),

@@ -167,7 +167,7 @@ pub(crate) fn building(duration: f64) -> Result<Scene, AnyError> {
         parts: Box::new(|builder| {
             let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
             let building =
-                ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_damping_ratio(0.05)?;
+                ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.05)?;
             Ok(builder.structure(building).interface(Bonded).motion(el_centro_1940()))
         }),
     })

@@ -70,7 +70,7 @@ pub struct Advice {
     pub time_step: f64,
     /// Expected relative error of the strip's horizontal stiffness, and of that in rocking, with so
     /// many elements: root mean square over `0.1 ≤ a₀ ≤ 4`.
-    pub stiffness_errors: [f64; 2],
+    pub stiffness_error: StiffnessError,
     /// Kind of history.
     pub history: History,
     /// The tolerance that was asked for.
@@ -217,7 +217,7 @@ pub fn advise(
         elements: enough,
         grading: Grading::Cosine,
         time_step: step * unit,
-        stiffness_errors: stiffness_errors(enough),
+        stiffness_error: stiffness_error(enough),
         history: History::Auto,
         tolerance,
         mesh_error: mesh(enough),
@@ -236,8 +236,9 @@ fn largest_step(value: f64) -> Result<f64> {
 }
 
 /// Errors of the strip's horizontal and rocking stiffness on so many graded elements.
-fn stiffness_errors(elements: usize) -> [f64; 2] {
-    [HORIZONTAL, ROCKING].map(|factor| factor / (elements as f64).powi(2))
+fn stiffness_error(elements: usize) -> StiffnessError {
+    let [horizontal, rocking] = [HORIZONTAL, ROCKING].map(|f| f / (elements as f64).powi(2));
+    StiffnessError { horizontal, rocking }
 }
 
 struct Estimate {
@@ -261,8 +262,7 @@ impl Estimate {
 
     /// Relative change of V by the errors of stiffness that Q elements bring.
     fn mesh_error(&self, elements: usize, norm: f64) -> f64 {
-        let [horizontal, rocking] = stiffness_errors(elements);
-        let error = StiffnessError { horizontal, rocking };
+        let error = stiffness_error(elements);
         self.change(norm, |a| {
             self.sketch.shear(a, error) - self.sketch.shear(a, StiffnessError::default())
         })

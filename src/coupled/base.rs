@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use super::coordinates::{Modes, Row};
+use super::coordinates::{Modes, SteppedRow};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, finite};
 use crate::linalg::{dot, wide_multiply_add};
-use crate::structure::{ContactNode, Structure, Triplets, foundation_nodes};
+use crate::structure::{ContactNode, Row, Structure, Triplets, foundation_nodes};
 
 /// (unknown, weight) pairs.
 type Terms = Vec<(usize, f64)>;
@@ -32,7 +32,7 @@ pub(crate) struct Base {
 struct Footing {
     nodes: Range<usize>,
     elements: Range<usize>,
-    rotation: Row,
+    rotation: SteppedRow,
 }
 
 impl Base {
@@ -61,7 +61,7 @@ impl Base {
             });
             let footing = Footing {
                 elements: element..end,
-                rotation: Row::new(&chord_rotation(&nodes[own.clone()]), None),
+                rotation: SteppedRow::new(&chord_rotation(&nodes[own.clone()]), None),
                 nodes: own,
             };
             if end <= element {
@@ -91,13 +91,13 @@ impl Base {
     pub(crate) fn decouple(&mut self, modes: &Modes) {
         self.modal.clear();
         for terms in &self.rows {
-            if let Row::Modes(weights) = Row::new(terms, Some(modes)) {
+            if let SteppedRow::Modes(weights) = SteppedRow::new(terms, Some(modes)) {
                 self.modal.extend(weights);
             }
         }
         for footing in &mut self.foundations {
             let terms = chord_rotation(&self.nodes[footing.nodes.clone()]);
-            footing.rotation = Row::new(&terms, Some(modes));
+            footing.rotation = SteppedRow::new(&terms, Some(modes));
         }
     }
 
@@ -162,7 +162,7 @@ impl Base {
         for node in &self.nodes {
             for (component, terms) in [&node.horizontal, &node.vertical].into_iter().enumerate() {
                 for (direction, ride) in ride.iter().enumerate().filter(|_| !terms.is_empty()) {
-                    let moved: f64 = terms.iter().map(|&(j, weight)| weight * ride[j]).sum();
+                    let moved = terms.value(ride);
                     let needed = if component == direction { 1.0 } else { 0.0 };
                     worst = worst.max((moved - needed).abs());
                 }
@@ -196,7 +196,7 @@ fn check_nodes(nodes: &[ContactNode], unknowns: usize) -> Result<()> {
     }
     for node in nodes {
         finite("coordinate of a contact node", node.x)?;
-        for &(index, weight) in node.horizontal.iter().chain(&node.vertical) {
+        for &(index, weight) in node.horizontal.terms().iter().chain(&node.vertical) {
             finite("weight of a contact node", weight)?;
             if index >= unknowns {
                 let quantity = "unknown of a contact node";
@@ -239,7 +239,7 @@ fn chord_rotation(nodes: &[ContactNode]) -> Terms {
     terms
 }
 
-fn accumulate(row: &mut Terms, terms: &[(usize, f64)], factor: f64) {
+fn accumulate(row: &mut Terms, terms: &Row, factor: f64) {
     for &(index, weight) in terms {
         match row.iter_mut().find(|(j, _)| *j == index) {
             Some((_, sum)) => *sum += factor * weight,

@@ -6,9 +6,9 @@ use super::model::Model;
 use super::modes::ContactSearch;
 use super::operators::Operators;
 use super::preload::{Placement, StaticState};
+use super::probe::Probe;
 use super::scheme::{Midpoint, TimeScheme};
 use super::simulation::Simulation;
-use super::state::Probe;
 use crate::bem::Ground;
 use crate::error::{Error, Result, finite, not_negative, positive};
 use crate::interface::{ContactScene, InterfaceLaw};
@@ -137,10 +137,17 @@ impl SimulationBuilder {
         self
     }
 
-    /// A quantity to read off at every step, see [`super::State::probes`].
+    /// A quantity to read off at every step, see [`super::State::probes`]. Names must differ.
     #[must_use]
     pub fn probe(mut self, probe: Probe) -> Self {
         self.probes.push(probe);
+        self
+    }
+
+    /// Several of them, after those given before.
+    #[must_use]
+    pub fn probes(mut self, probes: impl IntoIterator<Item = Probe>) -> Self {
+        self.probes.extend(probes);
         self
     }
 
@@ -169,7 +176,8 @@ impl SimulationBuilder {
     /// Checks the parts against each other, finds the static state and factors what stays constant.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a missing part, the typed error of whatever is wrong with a given one,
+    /// [`Error::Scene`] for a missing part, [`Error::Probe`] and [`Error::DuplicateName`] for a probe
+    /// of an unknown that is not there or a name that comes twice, the typed error of whatever is wrong with a given one,
     /// [`Error::Preload`] if the structure cannot stand, [`Error::IllConditioned`] if double
     /// precision cannot carry the scene.
     pub fn build(self) -> Result<Simulation> {
@@ -196,18 +204,7 @@ impl SimulationBuilder {
         }
         let mut base = Base::of(structure.as_ref(), &elements)?;
         let mut model = Model::new(structure, &base)?;
-        for probe in &self.probes {
-            for &(index, weight) in probe.rows().into_iter().flatten() {
-                finite("weight of a probe", weight)?;
-                if index >= unknowns {
-                    return Err(Error::Index {
-                        quantity: "unknown of a probe",
-                        index,
-                        bound: unknowns,
-                    });
-                }
-            }
-        }
+        super::probe::check(&self.probes, unknowns)?;
         ground.prepare(time_step)?;
         if self.steps > 0 {
             ground.reserve(self.steps)?;

@@ -155,14 +155,14 @@ fn parts(matrices: &[&SparseMatrix]) -> usize {
 
 /// A weighted sum of unknowns, in the coordinates that are stepped.
 #[derive(Debug, Clone)]
-pub(crate) enum Row {
+pub(crate) enum SteppedRow {
     /// (unknown, weight) pairs.
     Unknowns(Vec<(usize, f64)>),
     /// A weight for every mode; none for a sum of nothing.
     Modes(Vec<f64>),
 }
 
-impl Row {
+impl SteppedRow {
     pub(crate) fn new(terms: &[(usize, f64)], modes: Option<&Modes>) -> Self {
         let Some(modes) = modes else { return Self::Unknowns(terms.to_vec()) };
         if terms.is_empty() {

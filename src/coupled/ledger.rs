@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::results::unit::number;
+
 use super::coordinates::Motion;
 use super::scheme::SchemeCoefficients;
 use super::simulation::Simulation;
@@ -199,30 +201,30 @@ impl Simulation {
     }
 }
 
+/// Energies in kJ/m.
 impl fmt::Display for Ledger {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "energy, J/m:  input {:.4e}", self.input)?;
-        writeln!(f, "  kinetic     {:>12.4e}    strain      {:>12.4e}", self.kinetic, self.strain)?;
-        writeln!(f, "  soil        {:>12.4e}    contact     {:>12.4e}", self.soil, self.contact)?;
-        writeln!(
-            f,
-            "  damping     {:>12.4e}    numerical   {:>12.4e}",
-            self.damping, self.numerical
-        )?;
-        if self.hysteresis != 0.0 {
-            writeln!(f, "  hysteresis  {:>12.4e}", self.hysteresis)?;
+        let shown = |energy: f64| number(1e-3 * energy);
+        writeln!(f, "energy, kJ/m: input {}", shown(self.input))?;
+        let pairs = [
+            [("kinetic", self.kinetic), ("strain", self.strain)],
+            [("soil", self.soil), ("contact", self.contact)],
+            [("damping", self.damping), ("numerical", self.numerical)],
+        ];
+        for [(left, first), (right, second)] in pairs {
+            let [first, second] = [first, second].map(shown);
+            writeln!(f, "  {left:<12}{first:>12}    {right:<12}{second:>12}")?;
         }
-        if self.layer != 0.0 {
-            writeln!(f, "  layer       {:>12.4e}", self.layer)?;
+        for (name, energy) in [("hysteresis", self.hysteresis), ("layer", self.layer)] {
+            if energy != 0.0 {
+                writeln!(f, "  {name:<12}{:>12}", shown(energy))?;
+            }
         }
-        write!(
-            f,
-            "  preload     {:>12.4e}    residual    {:>12.1e}",
-            self.preload,
-            self.residual()
-        )?;
+        let (preload, residual) = (shown(self.preload), self.residual());
+        write!(f, "  {:<12}{preload:>12}    {:<12}{residual:>12.1e}", "preload", "residual")?;
         if self.soil_error_bound > 0.0 {
-            write!(f, "\n  soil within {:>12.1e}    (approximate history)", self.soil_error_bound)?;
+            let bound = shown(self.soil_error_bound);
+            write!(f, "\n  {:<12}{bound:>12}    (approximate history)", "soil within")?;
         }
         Ok(())
     }

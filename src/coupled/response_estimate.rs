@@ -28,11 +28,13 @@ type C = Complex<f64>;
 const SWAYING: f64 = 0.7;
 const SWAY_HEIGHT: f64 = 0.7;
 
-/// Relative errors of the strip's stiffnesses.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct StiffnessError {
-    pub(super) horizontal: f64,
-    pub(super) rocking: f64,
+/// Relative errors of a strip's stiffnesses.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StiffnessError {
+    /// Of the horizontal one.
+    pub horizontal: f64,
+    /// Of that in rocking.
+    pub rocking: f64,
 }
 
 /// A sketch of structure and soil in dimensionless numbers.

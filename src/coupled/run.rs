@@ -5,8 +5,12 @@ use std::time::Duration;
 
 use super::ledger::Ledger;
 use super::modes::SearchMethod;
-use super::state::{Probe, State, Transition};
+use super::peak::{Extremes, Peak, ProbePeak, named};
+use super::probe::Probe;
+use super::state::{State, Transition};
 use crate::bem::ContactElement;
+use crate::error::Result;
+use crate::results::unit::{number, printed};
 
 /// Whether a run goes on after an observer has seen a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,23 +24,6 @@ pub enum Flow {
 impl From<()> for Flow {
     fn from((): ()) -> Self {
         Flow::Continue
-    }
-}
-
-/// A value of largest magnitude, with its sign, and when it occurred.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Peak {
-    /// The value, with its sign.
-    pub value: f64,
-    /// When, s.
-    pub time: f64,
-}
-
-impl Peak {
-    pub(crate) fn see(&mut self, value: f64, time: f64) {
-        if value.abs() > self.value.abs() {
-            *self = Self { value, time };
-        }
     }
 }
 
@@ -107,6 +94,23 @@ impl fmt::Display for Warning {
     }
 }
 
+/// Steps whose contact modes the first search did not find, see
+/// [`SearchMethod`](super::SearchMethod).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Fallbacks {
+    /// Steps that Gauss–Seidel over the elements solved.
+    pub gauss_seidel: usize,
+    /// Steps that needed a path of solutions to be followed.
+    pub path: usize,
+}
+
+impl Fallbacks {
+    /// Steps that needed either.
+    pub fn total(&self) -> usize {
+        self.gauss_seidel + self.path
+    }
+}
+
 /// Summary of a run; forces per metre of thickness, on the soil.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
@@ -118,19 +122,19 @@ pub struct Run {
     /// Largest base shear, N/m.
     pub base_shear: Peak,
     /// Largest change of base moment against the static state, N·m/m.
-    pub base_moment: Peak,
+    pub base_moment_change: Peak,
     /// Smallest and largest normal force, N/m.
-    pub normal_force: [f64; 2],
+    pub normal_force: Extremes,
     /// Largest uplifted fraction of the base.
     pub uplifted_fraction: Peak,
     /// Largest slip of any element, m; tangential motion while it is open counts.
-    pub slip: Peak,
+    pub largest_slip: Peak,
     /// Mean slip at the end, m.
     pub residual_slip: f64,
     /// Largest base rotation, rad.
     pub base_rotation: Peak,
-    /// Largest values of the probes, by name.
-    pub probes: Vec<(String, Peak)>,
+    /// Largest values of the probes, in the order they were given to the builder.
+    pub probes: Vec<ProbePeak>,
     /// Every change of contact mode.
     pub transitions: Vec<Transition>,
     /// The ledger at the end.
@@ -139,8 +143,8 @@ pub struct Run {
     pub ledger_residual: f64,
     /// Linear solves of the mode search, in all.
     pub trials: usize,
-    /// Steps that needed Gauss–Seidel, and steps that needed path following.
-    pub fallbacks: [usize; 2],
+    /// Steps that the first search for contact modes did not solve.
+    pub fallbacks: Fallbacks,
     /// Warnings.
     pub warnings: Vec<Warning>,
     /// Wall time, observers included; zero where there is no clock (WebAssembly).
@@ -155,18 +159,25 @@ impl Run {
             steps: 0,
             time: start.time,
             base_shear: Peak::default(),
-            base_moment: Peak::default(),
-            normal_force: [start.normal_force; 2],
+            base_moment_change: Peak::default(),
+            normal_force: Extremes::of(start.normal_force, start.time),
             uplifted_fraction: Peak { value: start.uplifted_fraction, time: start.time },
-            slip: Peak::default(),
+            largest_slip: Peak::default(),
             residual_slip: start.mean_slip,
             base_rotation: Peak::default(),
-            probes: probes.iter().map(|p| (p.name.clone(), Peak::default())).collect(),
+            probes: probes
+                .iter()
+                .map(|probe| ProbePeak {
+                    name: probe.name.clone(),
+                    unit: probe.unit.clone(),
+                    peak: Peak::default(),
+                })
+                .collect(),
             transitions: Vec::new(),
             ledger: start.ledger,
             ledger_residual: 0.0,
             trials: 0,
-            fallbacks: [0; 2],
+            fallbacks: Fallbacks::default(),
             warnings: Vec::new(),
             wall: Duration::ZERO,
             shortest: elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min),
@@ -178,24 +189,23 @@ impl Run {
         let time = state.time;
         self.steps += 1;
         self.base_shear.see(state.base_shear, time);
-        self.base_moment.see(state.base_moment - self.static_moment, time);
-        self.normal_force[0] = self.normal_force[0].min(state.normal_force);
-        self.normal_force[1] = self.normal_force[1].max(state.normal_force);
+        self.base_moment_change.see(state.base_moment - self.static_moment, time);
+        self.normal_force.see(state.normal_force, time);
         self.uplifted_fraction.see(state.uplifted_fraction, time);
         for contact in &state.contact {
-            self.slip.see(contact.slip, time);
+            self.largest_slip.see(contact.slip, time);
         }
         self.base_rotation.see(state.base_rotation, time);
-        for ((_, peak), value) in self.probes.iter_mut().zip(&state.probes) {
-            peak.see(*value, time);
+        for (probe, value) in self.probes.iter_mut().zip(&state.probes) {
+            probe.peak.see(*value, time);
         }
         self.transitions.extend_from_slice(&state.transitions);
         self.ledger_residual = self.ledger_residual.max(state.ledger.residual());
         self.trials += state.trials;
         match state.method {
             SearchMethod::ActiveSet => {}
-            SearchMethod::GaussSeidel => self.fallbacks[0] += 1,
-            SearchMethod::Path => self.fallbacks[1] += 1,
+            SearchMethod::GaussSeidel => self.fallbacks.gauss_seidel += 1,
+            SearchMethod::Path => self.fallbacks.path += 1,
         }
     }
 
@@ -205,7 +215,7 @@ impl Run {
         self.ledger = state.ledger;
         self.wall = wall;
         self.warnings = Warning::all(
-            self.slip.value,
+            self.largest_slip.value,
             self.shortest,
             self.base_rotation.value,
             state.ledger.residual(),
@@ -219,42 +229,48 @@ impl Run {
     }
 
     /// Largest value of the probe called `name`.
-    pub fn probe(&self, name: &str) -> Option<Peak> {
-        self.probes.iter().find(|(probe, _)| probe == name).map(|(_, peak)| *peak)
+    ///
+    /// # Errors
+    /// [`Error::Name`](crate::Error::Name) if there is none.
+    pub fn probe(&self, name: &str) -> Result<Peak> {
+        named(&self.probes, name, |probe| &probe.name).map(|probe| probe.peak)
     }
 }
 
+/// Numbers in kN, mm, mrad and per cent; probes in their unit.
 impl fmt::Display for Run {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let per_step = self.wall.as_secs_f64() / self.steps.max(1) as f64 * 1e6;
+        let steps = self.steps.max(1) as f64;
+        let wall = self.wall.as_secs_f64();
         writeln!(
             f,
-            "{} steps to t = {:.3} s in {:.2} s ({per_step:.1} µs per step, {:.2} solves per step, \
+            "{} steps to t = {:.3} s in {wall:.2} s ({:.1} µs per step, {:.2} solves per step, \
              fallbacks {}/{})",
             self.steps,
             self.time,
-            self.wall.as_secs_f64(),
-            self.trials as f64 / self.steps.max(1) as f64,
-            self.fallbacks[0],
-            self.fallbacks[1],
+            wall / steps * 1e6,
+            self.trials as f64 / steps,
+            self.fallbacks.gauss_seidel,
+            self.fallbacks.path,
         )?;
-        let mut line = |name: &str, peak: Peak, unit: &str| {
-            writeln!(f, "  {name:<28}{:>13.5e} {unit:<6} at {:.3} s", peak.value, peak.time)
+        let names = self.probes.iter().map(|probe| probe.name.chars().count());
+        let width = names.fold(22, usize::max);
+        let mut line = |name: &str, peak: Peak, (factor, unit): (f64, &str)| {
+            let value = number(factor * peak.value);
+            writeln!(f, "  {name:<width$}{value:>12} {unit:<6} at {:.3} s", peak.time)
         };
-        line("base shear", self.base_shear, "N/m")?;
-        line("base moment (change)", self.base_moment, "N·m/m")?;
-        line("uplifted fraction", self.uplifted_fraction, "")?;
-        line("slip", self.slip, "m")?;
-        line("base rotation", self.base_rotation, "rad")?;
-        for (name, peak) in &self.probes {
-            line(name, *peak, "")?;
+        line("base shear", self.base_shear, printed("N/m"))?;
+        line("base moment, change", self.base_moment_change, printed("N·m/m"))?;
+        line("normal force, least", self.normal_force.lowest, printed("N/m"))?;
+        line("normal force, largest", self.normal_force.highest, printed("N/m"))?;
+        line("uplifted part", self.uplifted_fraction, (100.0, "%"))?;
+        line("largest slip", self.largest_slip, printed("m"))?;
+        line("base rotation", self.base_rotation, printed("rad"))?;
+        for probe in &self.probes {
+            line(&probe.name, probe.peak, printed(&probe.unit))?;
         }
-        writeln!(f, "  {:<28}{:>13.5e} m", "mean slip at the end", self.residual_slip)?;
-        writeln!(
-            f,
-            "  {:<28}{:>13.5e} to {:.5e} N/m",
-            "normal force", self.normal_force[0], self.normal_force[1]
-        )?;
+        let residual = number(1e3 * self.residual_slip);
+        writeln!(f, "  {:<width$}{residual:>12} mm", "mean slip at the end")?;
         let opened = self.transitions.iter().filter(|t| t.is_debonding()).count();
         let closed = self.transitions.iter().filter(|t| t.is_rebonding()).count();
         writeln!(

@@ -4,15 +4,16 @@ use super::base::Base;
 use super::builder::SimulationBuilder;
 use super::conditioning::Conditioning;
 use super::contact::ContactSolver;
-use super::coordinates::{Motion, Row};
+use super::coordinates::{Motion, SteppedRow};
 use super::ledger::Ledger;
 use super::model::Model;
 use super::modes::{ContactSearch, ModeSearch, SearchMethod};
 use super::operators::Operators;
 use super::preload::StaticState;
+use super::probe::Probe;
 use super::run::{Flow, Run};
 use super::scheme::SchemeCoefficients;
-use super::state::{Foundation, Probe, State};
+use super::state::{Foundation, State};
 use crate::bem::full_plane::GroundStability;
 use crate::bem::{ContactElement, Ground, HistoryChoice};
 use crate::error::Result;
@@ -48,7 +49,7 @@ pub struct Simulation {
     pub(super) operators: Operators,
     pub(super) probes: Vec<Probe>,
     /// Displacement, velocity and acceleration of each probe.
-    pub(super) probe_rows: Vec<[Row; 3]>,
+    pub(super) probe_rows: Vec<[SteppedRow; 3]>,
     /// Element midpoints relative to the point of the base moment.
     pub(super) arms: Vec<f64>,
     pub(super) solver: ContactSolver,
@@ -168,8 +169,11 @@ impl Simulation {
         let (static_force, static_energy) = parts.model.nonlinear_state(&at.displacement);
         let elements = parts.ground.elements().to_vec();
         let modes_of = parts.model.modes.as_deref();
-        let probe_rows =
-            parts.probes.iter().map(|p| p.rows().map(|row| Row::new(row, modes_of))).collect();
+        let probe_rows = parts
+            .probes
+            .iter()
+            .map(|p| p.rows().map(|row| SteppedRow::new(row.terms(), modes_of)))
+            .collect();
         let mut simulation = Self {
             time_step: parts.time_step,
             coefficients: parts.coefficients,

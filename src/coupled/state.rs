@@ -4,7 +4,6 @@ use super::coordinates::Motion;
 use super::ledger::Ledger;
 use super::modes::SearchMethod;
 use crate::interface::{ContactState, Mode};
-use crate::structure::SectionRows;
 
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -120,7 +119,7 @@ impl State {
     ///
     /// These three are worked out when they are first asked for in a step: a structure that is
     /// stepped in its modes pays for all n² of them then, and nothing otherwise. A few quantities
-    /// at every step are cheaper as a [`Probe`].
+    /// at every step are cheaper as a [`Probe`](super::Probe).
     pub fn displacement(&self) -> &[f64] {
         self.motion.unknowns(0)
     }
@@ -138,49 +137,5 @@ impl State {
     /// Largest |slip| of any element, m.
     pub fn largest_slip(&self) -> f64 {
         self.contact.iter().fold(0.0, |m, c| m.max(c.slip.abs()))
-    }
-}
-
-/// A quantity read off at every step: a weighted sum of displacements, velocities, accelerations.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Probe {
-    /// Name, for tables.
-    pub name: String,
-    /// (unknown, weight) pairs on the displacement (change against the static state).
-    pub displacement: Vec<(usize, f64)>,
-    /// (unknown, weight) pairs on the velocity.
-    pub velocity: Vec<(usize, f64)>,
-    /// (unknown, weight) pairs on the acceleration.
-    pub acceleration: Vec<(usize, f64)>,
-}
-
-impl Probe {
-    /// Displacement given by (unknown, weight) pairs.
-    pub fn displacement(name: impl Into<String>, row: Vec<(usize, f64)>) -> Self {
-        Self { name: name.into(), displacement: row, ..Self::default() }
-    }
-
-    /// Velocity given by (unknown, weight) pairs.
-    pub fn velocity(name: impl Into<String>, row: Vec<(usize, f64)>) -> Self {
-        Self { name: name.into(), velocity: row, ..Self::default() }
-    }
-
-    /// Acceleration given by (unknown, weight) pairs.
-    pub fn acceleration(name: impl Into<String>, row: Vec<(usize, f64)>) -> Self {
-        Self { name: name.into(), acceleration: row, ..Self::default() }
-    }
-
-    /// A section resultant of a structure.
-    pub fn section(name: impl Into<String>, rows: &SectionRows) -> Self {
-        Self {
-            name: name.into(),
-            displacement: rows.displacement.clone(),
-            velocity: rows.velocity.clone(),
-            acceleration: rows.acceleration.clone(),
-        }
-    }
-
-    pub(super) fn rows(&self) -> [&[(usize, f64)]; 3] {
-        [&self.displacement, &self.velocity, &self.acceleration]
     }
 }

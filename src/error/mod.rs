@@ -14,6 +14,8 @@ pub use mesh_file::MeshFileError;
 pub use record::RecordError;
 pub use step::StepError;
 
+use crate::fem::Direction;
+
 /// Result of every fallible function of the crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
@@ -66,6 +68,45 @@ pub enum Error {
         quantity: &'static str,
         /// The name that was given.
         name: String,
+    },
+    /// A name that must be given once only.
+    #[error("more than one {quantity} is called '{name}'")]
+    DuplicateName {
+        /// What has the name.
+        quantity: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// A probe that does not fit the structure.
+    #[error("probe '{name}': {source}")]
+    Probe {
+        /// Name of the probe.
+        name: String,
+        /// What is wrong with it.
+        source: Box<Error>,
+    },
+    /// A point at which there is no node.
+    #[error(
+        "no node at ({x}, {y}): the nearest, at ({}, {}), is {distance} m away",
+        nearest[0], nearest[1]
+    )]
+    NoNode {
+        /// Coordinate of the point to the right, m.
+        x: f64,
+        /// Coordinate of the point upwards, m.
+        y: f64,
+        /// Coordinates of the nearest node, m.
+        nearest: [f64; 2],
+        /// How far that is away, m.
+        distance: f64,
+    },
+    /// A node that no element moves in the direction that was asked for.
+    #[error("node {node} has no unknown in direction {direction:?}: no element needs one there")]
+    NoUnknown {
+        /// The node.
+        node: usize,
+        /// The direction.
+        direction: Direction,
     },
     /// A part of the scene that was not given, or does not fit another part.
     #[error("{quantity}: {needed}")]

@@ -4,6 +4,10 @@ use super::element::Element;
 use super::numbering::Numbering;
 use crate::error::{Error, Result, finite, not_negative};
 
+/// Farthest that a node may be from where it is looked for, over the size of the mesh: far below
+/// any element, far above the rounding of a coordinate.
+const SAME_POINT: f64 = 1e-6;
+
 /// Nodes and elements.
 ///
 /// ```
@@ -86,7 +90,28 @@ impl Mesh {
         &self.elements
     }
 
-    /// Node nearest to (`x`, `y`), the first one when several are; `None` for an empty mesh.
+    /// Node at (`x`, `y`), m: the nearest one, which may be a millionth of the mesh's size away.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless both are finite, [`Error::Size`] for an empty mesh, [`Error::NoNode`]
+    /// with the nearest node if there is none at this point.
+    pub fn node_at(&self, x: f64, y: f64) -> Result<usize> {
+        finite("x of the node", x)?;
+        finite("y of the node", y)?;
+        let needed = 1;
+        let found =
+            self.nearest_node(x, y).ok_or(Error::Size { quantity: "nodes", found: 0, needed })?;
+        let nearest = self.nodes[found];
+        let distance = (nearest[0] - x).hypot(nearest[1] - y);
+        if distance <= SAME_POINT * self.extent() {
+            Ok(found)
+        } else {
+            Err(Error::NoNode { x, y, nearest, distance })
+        }
+    }
+
+    /// Node nearest to (`x`, `y`), however far that is, the first one when several are; `None` for
+    /// an empty mesh. [`Mesh::node_at`] refuses a point without a node.
     pub fn nearest_node(&self, x: f64, y: f64) -> Option<usize> {
         let distance = |node: &[f64; 2]| (node[0] - x).hypot(node[1] - y);
         let pairs = self.nodes.iter().map(distance).enumerate();
@@ -113,6 +138,11 @@ impl Mesh {
 
     /// A length far below that of any element: the default tolerance for equal heights, m.
     pub(crate) fn tolerance(&self) -> f64 {
+        1e-9 * self.extent()
+    }
+
+    /// Width or height of the mesh, whichever is larger, m.
+    fn extent(&self) -> f64 {
         let extent = |axis: usize| {
             let values = self.nodes.iter().map(|node| node[axis]);
             let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |range, value| {
@@ -120,7 +150,7 @@ impl Mesh {
             });
             (high - low).max(0.0)
         };
-        1e-9 * extent(0).max(extent(1))
+        extent(0).max(extent(1))
     }
 
     /// Lets every element take the static state; `displacement` in the unknowns of `numbering`.

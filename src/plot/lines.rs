@@ -6,6 +6,7 @@ use super::axes::{COLORS, chart, draw_curve, range_of};
 use super::key::{Sample, draw_key};
 use super::svg::{Svg, picture};
 use crate::error::{Error, Result};
+use crate::results::unit::printed;
 use crate::results::{Histories, Quantity};
 
 /// Stretches of a curve that are drawn by their extremes: more than pixels help nobody.
@@ -69,43 +70,43 @@ pub fn history(title: &str, runs: &[(&str, &Histories)], quantity: Quantity) -> 
             .collect(),
     };
     let list: Vec<Curve> = runs.iter().map(curve).collect();
-    let name = quantity.name();
-    let y = if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") };
-    curves(title, "time, s", &y, &list)
+    curves(title, "time, s", &with_unit(quantity.name(), unit), &list)
 }
 
-/// A probe of one or more runs over time, multiplied by `factor`; `y` describes it, unit included.
+/// A probe of one or more runs over time, in its unit, or the one that engineers read for it (see
+/// [`Probe::in_unit`](crate::coupled::Probe::in_unit)).
 ///
 /// # Errors
-/// [`Error::Name`] if a run has no such probe, and as for [`curves`].
-pub fn probe_history(
-    title: &str,
-    runs: &[(&str, &Histories)],
-    probe: &str,
-    factor: f64,
-    y: &str,
-) -> Result<Svg> {
+/// [`Error::Name`] if a run has no such probe, [`Error::Scene`] if the runs have it in different
+/// units, and as for [`curves`].
+pub fn probe_history(title: &str, runs: &[(&str, &Histories)], probe: &str) -> Result<Svg> {
+    let mut units = Vec::with_capacity(runs.len());
+    for (_, histories) in runs {
+        units.push(&histories.probes()[histories.probe_index(probe)?].unit[..]);
+    }
+    if units.windows(2).any(|pair| pair[0] != pair[1]) {
+        return Err(Error::Scene { quantity: "unit of a probe", needed: "the same in all runs" });
+    }
+    let (factor, unit) = printed(units.first().copied().unwrap_or_default());
     let curve = |&(name, histories): &(&str, &Histories)| {
         let values = histories.probe(probe)?.iter().map(|value| factor * value);
         let points = histories.times().iter().copied().zip(values).collect();
         Ok(Curve { name: name.to_owned(), points })
     };
     let list = runs.iter().map(curve).collect::<Result<Vec<Curve>>>()?;
-    curves(title, "time, s", y, &list)
+    curves(title, "time, s", &with_unit(probe, unit), &list)
+}
+
+/// Description of an axis.
+fn with_unit(name: &str, unit: &str) -> String {
+    if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
 }
 
 /// Factor from SI, and the unit that engineers read.
 fn engineering_unit(quantity: Quantity) -> (f64, &'static str) {
     match quantity {
-        Quantity::BaseShear | Quantity::NormalForce => (1e-3, "kN/m"),
-        Quantity::BaseMoment => (1e-3, "kN·m/m"),
-        Quantity::BaseRotation => (1e3, "mrad"),
         Quantity::UpliftedFraction => (1e2, "%"),
-        Quantity::MeanSlip
-        | Quantity::LargestSlip
-        | Quantity::FreeFieldHorizontal
-        | Quantity::FreeFieldVertical => (1e3, "mm"),
-        Quantity::SlidingSafety | Quantity::OverturningSafety => (1.0, ""),
+        other => printed(other.unit()),
     }
 }
 

@@ -3,20 +3,19 @@
 use std::fmt;
 use std::path::Path;
 
-use super::Summary;
-use super::page::{factor, number};
+use super::page::factor;
 use super::table::Table;
 use crate::error::{Result, write_file};
+use super::unit::{labelled, number, printed};
+use super::{ProbeExtremes, Summary};
 
 /// Summaries side by side; prints as a table with a row per quantity and a column per case.
 ///
 /// ```no_run
 /// # fn summaries() -> Vec<(f64, basemat::results::Summary)> { vec![] }
 /// use basemat::results::Comparison;
-/// let mut comparison = Comparison::new();
-/// for (friction, summary) in summaries() {
-///     comparison.add(format!("friction {friction}"), summary);
-/// }
+/// let named = summaries().into_iter().map(|(friction, s)| (format!("friction {friction}"), s));
+/// let comparison: Comparison = named.collect();
 /// println!("{comparison}");
 /// comparison.save_csv("cases.csv")?;
 /// # Ok::<(), basemat::Error>(())
@@ -95,25 +94,27 @@ impl Comparison {
             self.cases.is_empty() || self.cases.iter().any(|(_, s)| (row.4)(s).is_some())
         };
         let mut rows: Vec<_> = ROWS.iter().filter(known).map(line).collect();
-        for (k, name) in self.probe_names().into_iter().enumerate() {
+        for (k, probe) in self.common_probes().iter().enumerate() {
+            let (factor, unit) = printed(&probe.unit);
             let value = |summary: &Summary| {
-                summary.probes.get(k).map_or("–".to_owned(), |(_, e)| number(e.largest().value))
+                let own = summary.probes.get(k).map(|own| own.extremes.largest().value);
+                own.map_or("–".to_owned(), |value| number(factor * value))
             };
-            let mut cells = vec![name, "SI".to_owned()];
+            let mut cells = vec![probe.name.clone(), unit.to_owned()];
             cells.extend(self.cases.iter().map(|(_, summary)| value(summary)));
             rows.push(cells);
         }
         Table { heading, rows }
     }
 
-    /// Names of the probes, if all cases have the same ones.
-    fn probe_names(&self) -> Vec<String> {
-        let names = |summary: &Summary| {
-            summary.probes.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>()
-        };
-        let mut all = self.cases.iter().map(|(_, summary)| names(summary));
-        let first = all.next().unwrap_or_default();
-        if all.all(|other| other == first) { first } else { Vec::new() }
+    /// Probes of the first case, if all cases have the same ones.
+    fn common_probes(&self) -> &[ProbeExtremes] {
+        fn labels(summary: &Summary) -> impl Iterator<Item = (&str, &str)> {
+            summary.probes.iter().map(|probe| (&probe.name[..], &probe.unit[..]))
+        }
+        let Some(((_, first), others)) = self.cases.split_first() else { return &[] };
+        let same = others.iter().all(|(_, other)| labels(other).eq(labels(first)));
+        if same { &first.probes } else { &[] }
     }
 
     /// The table as Markdown.
@@ -129,20 +130,35 @@ impl Comparison {
         write_file(path.as_ref(), self.csv())
     }
 
-    /// A line per case and a column per quantity, in SI units and full precision; empty where a
-    /// case has no value.
+    /// A line per case and a column per quantity, in SI units (probes in their own, which stands in
+    /// the heading) and full precision; empty where a case has no value.
     pub fn csv(&self) -> String {
         let mut heading = vec!["case".to_owned()];
         heading.extend(ROWS.iter().map(|row| row.2.to_owned()));
-        heading.extend(self.probe_names());
-        let probes = self.probe_names().len();
+        let probes = self.common_probes();
+        heading.extend(probes.iter().map(|probe| labelled(&probe.name, &probe.unit)));
         let line = |(name, summary): &(String, Summary)| {
             let values = ROWS.iter().map(|row| (row.4)(summary));
-            let peaks = summary.probes.iter().take(probes).map(|(_, e)| Some(e.largest().value));
+            let own = summary.probes.iter().take(probes.len());
+            let peaks = own.map(|probe| Some(probe.extremes.largest().value));
             let cells = values.chain(peaks).map(|v| v.map_or(String::new(), |v| v.to_string()));
             std::iter::once(name.clone()).chain(cells).collect()
         };
         Table { heading, rows: self.cases.iter().map(line).collect() }.csv()
+    }
+}
+
+impl<S: Into<String>> FromIterator<(S, Summary)> for Comparison {
+    fn from_iter<I: IntoIterator<Item = (S, Summary)>>(cases: I) -> Self {
+        let mut comparison = Self::new();
+        comparison.extend(cases);
+        comparison
+    }
+}
+
+impl<S: Into<String>> Extend<(S, Summary)> for Comparison {
+    fn extend<I: IntoIterator<Item = (S, Summary)>>(&mut self, cases: I) {
+        self.cases.extend(cases.into_iter().map(|(name, summary)| (name.into(), summary)));
     }
 }
 

@@ -7,6 +7,7 @@ use std::path::Path;
 use super::envelope::{self, ElementEnvelope};
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
 use super::safety::{against_overturning, against_sliding};
+use super::unit::labelled;
 use super::{Extremes, Quantity, Recorder, Sliding, Uplift};
 use crate::bem::ContactElement;
 use crate::coupled::{Ledger, Peak, Probe, Run, Simulation, State};
@@ -172,7 +173,12 @@ impl Histories {
         self.probe_index(name).map(|index| &self.probe_values[index][..])
     }
 
-    pub(super) fn probe_index(&self, name: &str) -> Result<usize> {
+    /// The probes, in the order they were given to the builder.
+    pub fn probes(&self) -> &[Probe] {
+        &self.probes
+    }
+
+    pub(crate) fn probe_index(&self, name: &str) -> Result<usize> {
         let unknown = || Error::Name { quantity: "probe", name: name.to_owned() };
         self.probes.iter().position(|probe| probe.name == name).ok_or_else(unknown)
     }
@@ -230,7 +236,8 @@ impl Histories {
     }
 
     /// Writes times, scalars, probes and the ledger's input as CSV: a heading and a line for every
-    /// kept step. Commas, quotes and line ends in names of probes become spaces.
+    /// kept step. Names of probes have their unit in brackets; commas, quotes and line ends in them
+    /// become spaces.
     ///
     /// # Errors
     /// Those of `out`.
@@ -240,7 +247,8 @@ impl Histories {
             write!(out, ",{}", quantity.heading())?;
         }
         for probe in &self.probes {
-            write!(out, ",{}", probe.name.replace([',', '"', '\n', '\r'], " "))?;
+            let heading = labelled(&probe.name, &probe.unit);
+            write!(out, ",{}", heading.replace([',', '"', '\n', '\r'], " "))?;
         }
         writeln!(out, ",input_energy_j_per_m")?;
         for (k, time) in self.times.iter().enumerate() {

@@ -55,7 +55,6 @@
 mod comparison;
 mod energy;
 mod envelope;
-mod extremes;
 mod floor;
 mod frames;
 mod histories;
@@ -66,13 +65,14 @@ mod safety;
 mod sliding;
 mod summary;
 mod table;
+pub(crate) mod unit;
 mod uplift;
 mod wireframe;
 
+pub use crate::coupled::{Extremes, ProbeExtremes};
 pub use comparison::Comparison;
 pub use energy::EnergyShares;
 pub use envelope::ElementEnvelope;
-pub use extremes::Extremes;
 pub use floor::{broadened, log_spaced};
 pub use frames::{ContactFrame, MotionFrame};
 pub use histories::Histories;

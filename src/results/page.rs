@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::table::Table;
+use super::unit::{number, printed};
 use super::{Extremes, Summary};
 use crate::coupled::Peak;
 
@@ -11,8 +12,8 @@ const MOST_ROWS: usize = 12;
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [begin, end] = self.times;
-        writeln!(f, "Run of {} steps from t = {begin:.3} s to {end:.3} s", self.steps)?;
+        let Self { steps, start, end, .. } = self;
+        writeln!(f, "Run of {steps} steps from t = {start:.3} s to {end:.3} s")?;
         if self.static_normal_force > 0.0 {
             writeln!(f, "Weight on the base: {:.1} kN/m", 1e-3 * self.static_normal_force)?;
         }
@@ -46,7 +47,10 @@ impl Summary {
             row("normal force", "kN/m", 1e-3, &self.normal_force),
             row("base rotation", "mrad", 1e3, &self.base_rotation),
         ];
-        rows.extend(self.probes.iter().map(|(name, extremes)| row(name, "SI", 1.0, extremes)));
+        rows.extend(self.probes.iter().map(|probe| {
+            let (factor, unit) = printed(&probe.unit);
+            row(&probe.name, unit, factor, &probe.extremes)
+        }));
         Table { heading: heading.map(str::to_owned).to_vec(), rows }
     }
 
@@ -144,25 +148,6 @@ impl Summary {
             None => writeln!(f, "\nEnergy: input {:.4} kJ/m", 1e-3 * self.ledger.input)?,
         }
         write!(f, "  ledger open by at most {:.1e} of its largest term", self.ledger_residual)
-    }
-}
-
-/// Below this, in units of engineers, a number is rounding.
-const NOTHING: f64 = 1e-9;
-
-/// Five figures, no exponents where they can be helped; no negative zero.
-pub(super) fn number(value: f64) -> String {
-    let magnitude = value.abs();
-    if magnitude < NOTHING {
-        "0".to_owned()
-    } else if !(1e-3..1e6).contains(&magnitude) {
-        format!("{value:.3e}")
-    } else if magnitude >= 1e3 {
-        format!("{value:.1}")
-    } else if magnitude >= 1.0 {
-        format!("{value:.3}")
-    } else {
-        format!("{value:.5}")
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::{ElementEnvelope, EnergyShares, Extremes, Histories, Quantity, Sliding, Uplift};
 use crate::bem::ContactElement;
-use crate::coupled::{Ledger, Peak, Warning};
+use crate::coupled::{Ledger, Peak, ProbeExtremes, Warning, named};
+use crate::error::Result;
 
 /// What a run came to; printed, a page for a report.
 #[derive(Debug, Clone)]
@@ -10,8 +11,10 @@ use crate::coupled::{Ledger, Peak, Warning};
 pub struct Summary {
     /// Steps recorded.
     pub steps: usize,
-    /// Beginning and end, s.
-    pub times: [f64; 2],
+    /// Time at its beginning, s.
+    pub start: f64,
+    /// Time at its end, s.
+    pub end: f64,
     /// Normal force at the start: the weight, N/m.
     pub static_normal_force: f64,
     /// Base shear, N/m.
@@ -22,8 +25,8 @@ pub struct Summary {
     pub normal_force: Extremes,
     /// Rotation of the base, rad.
     pub base_rotation: Extremes,
-    /// The probes, by name.
-    pub probes: Vec<(String, Extremes)>,
+    /// The probes, in the order they were given to the builder.
+    pub probes: Vec<ProbeExtremes>,
     /// Uplift.
     pub uplift: Uplift,
     /// Sliding.
@@ -52,17 +55,26 @@ impl Histories {
         let tally = &self.tally;
         let shortest =
             self.elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min);
-        let names = self.probes.iter().map(|probe| probe.name.clone());
         let sliding_safety = self.extremes(Quantity::SlidingSafety).lowest;
         Summary {
             steps: tally.steps,
-            times: [tally.start, tally.end],
+            start: tally.start,
+            end: tally.end,
             static_normal_force: tally.static_normal_force,
             base_shear: self.extremes(Quantity::BaseShear),
             base_moment: self.extremes(Quantity::BaseMoment),
             normal_force: self.extremes(Quantity::NormalForce),
             base_rotation: self.extremes(Quantity::BaseRotation),
-            probes: names.zip(tally.probes.iter().copied()).collect(),
+            probes: self
+                .probes
+                .iter()
+                .zip(&tally.probes)
+                .map(|(probe, extremes)| ProbeExtremes {
+                    name: probe.name.clone(),
+                    unit: probe.unit.clone(),
+                    extremes: *extremes,
+                })
+                .collect(),
             uplift: tally.uplift,
             sliding: tally.sliding.clone(),
             least_sliding_safety: (!self.recorder.friction.is_empty()).then_some(sliding_safety),
@@ -83,6 +95,14 @@ impl Histories {
 }
 
 impl Summary {
+    /// Smallest and largest value of the probe called `name`.
+    ///
+    /// # Errors
+    /// [`Error::Name`](crate::Error::Name) if there is none.
+    pub fn probe(&self, name: &str) -> Result<Extremes> {
+        named(&self.probes, name, |probe| &probe.name).map(|probe| probe.extremes)
+    }
+
     /// The element with the largest pressure, and that pressure, Pa.
     pub fn largest_pressure(&self) -> Option<(&ElementEnvelope, Peak)> {
         self.envelope

@@ -2,17 +2,17 @@
 
 use crate::error::{Error, Result, finite, positive};
 use crate::fem::Direction;
-use crate::structure::{FemModel, RigidBlock, ShearBuilding, Structure};
+use crate::structure::{FemModel, RigidBlock, Row, ShearBuilding, Structure};
 
 /// A point of a [`Wireframe`]: its place, and its displacement as weighted sums of unknowns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WirePoint {
     /// Coordinates [x, y] at rest, m.
     pub position: [f64; 2],
-    /// Horizontal displacement (to the right): (unknown, weight) pairs.
-    pub horizontal: Vec<(usize, f64)>,
-    /// Vertical displacement (up): (unknown, weight) pairs.
-    pub vertical: Vec<(usize, f64)>,
+    /// Horizontal displacement (to the right).
+    pub horizontal: Row,
+    /// Vertical displacement (up).
+    pub vertical: Row,
 }
 
 /// Points and cells of a structure, for pictures and for ParaView.
@@ -51,7 +51,7 @@ impl Wireframe {
             for value in point.position {
                 finite("coordinate of a wireframe", value)?;
             }
-            for &(_, weight) in point.horizontal.iter().chain(&point.vertical) {
+            for &(_, weight) in point.horizontal.terms().iter().chain(point.vertical.terms()) {
                 finite("weight of a wireframe", weight)?;
             }
         }
@@ -69,7 +69,7 @@ impl Wireframe {
 
     /// Nodes and elements of a finite-element model.
     pub fn of_model(model: &FemModel) -> Self {
-        // Of a follower of a rigid link, what it follows.
+        // Of a follower of a rigid link, what it follows; a node without unknowns stays.
         let row = |node, direction| model.row(node, direction).unwrap_or_default();
         let point = |(node, position): (usize, &[f64; 2])| WirePoint {
             position: *position,
@@ -118,7 +118,7 @@ impl Wireframe {
             for end in &base {
                 let horizontal = match level.checked_sub(1) {
                     None => end.horizontal.clone(),
-                    Some(storey) => vec![(building.floor(storey)?, 1.0)],
+                    Some(storey) => building.floor(storey)?.into(),
                 };
                 let vertical = end.vertical.clone();
                 points.push(WirePoint { position: [end.x, height], horizontal, vertical });
@@ -149,8 +149,8 @@ impl Wireframe {
     /// # Errors
     /// [`Error::Index`] if a point is moved by an unknown that is not there.
     pub fn displacements(&self, unknowns: &[f64]) -> Result<Vec<[f64; 2]>> {
-        let sum = |row: &[(usize, f64)]| {
-            row.iter().try_fold(0.0, |sum, &(index, weight)| {
+        let sum = |row: &Row| {
+            row.terms().iter().try_fold(0.0, |sum, &(index, weight)| {
                 let value = unknowns.get(index).ok_or(Error::Index {
                     quantity: "unknown of a wireframe",
                     index,

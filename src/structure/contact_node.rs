@@ -2,25 +2,24 @@
 
 use std::ops::Range;
 
+use super::Row;
 use crate::error::{Error, Result};
 
 /// A point of the base: where it is, and how the unknowns move it.
-///
-/// Each displacement of the point is a weighted sum of unknowns: `(index, weight)` pairs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactNode {
     /// Coordinate along the surface, m.
     pub x: f64,
     /// Horizontal displacement (to the right) as a weighted sum of unknowns.
-    pub horizontal: Vec<(usize, f64)>,
+    pub horizontal: Row,
     /// Vertical displacement (up) as a weighted sum of unknowns.
-    pub vertical: Vec<(usize, f64)>,
+    pub vertical: Row,
 }
 
 impl ContactNode {
     /// A node with a horizontal and a vertical unknown of its own.
     pub fn free(x: f64, horizontal: usize, vertical: usize) -> Self {
-        Self { x, horizontal: vec![(horizontal, 1.0)], vertical: vec![(vertical, 1.0)] }
+        Self { x, horizontal: horizontal.into(), vertical: vertical.into() }
     }
 
     /// A point of a rigid flat base with unknowns `[horizontal, vertical, rotation]` at `center`.
@@ -28,8 +27,8 @@ impl ContactNode {
         let [horizontal, vertical, rotation] = unknowns;
         Self {
             x,
-            horizontal: vec![(horizontal, 1.0)],
-            vertical: vec![(vertical, 1.0), (rotation, x - center)],
+            horizontal: horizontal.into(),
+            vertical: [(vertical, 1.0), (rotation, x - center)].into(),
         }
     }
 

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::matrix_model::SYMMETRIC;
 use super::recovery::{Basis, Recovery};
-use super::{ContactNode, Structure, Triplets};
+use super::{ContactNode, Row, Structure, Triplets};
 use crate::error::{Error, Result, not_negative};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
 
@@ -29,14 +29,14 @@ use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
 /// let material = Material::new(3.0e9, 0.2, 2400.0)?;
 /// let mesh = Mesh::layered_block(-5.0..5.0, 8, &[Layer::new(20.0, 16, material)])?;
 /// let model = FemModel::on_base(mesh)?;
-/// let roof = model.unknown(model.nearest_node(0.0, 20.0), Direction::X).unwrap_or(0);
+/// let roof = model.row(model.node_at(0.0, 20.0)?, Direction::X)?;
 /// assert_eq!(model.unknowns(), 306);
 ///
 /// let reduced = CraigBampton::new(12).reduce(model)?;
 /// assert_eq!(reduced.unknowns(), 2 * 9 + 12);
 /// // A probe on an unknown that is no longer there:
-/// let row = reduced.recovery().row(&[(roof, 1.0)])?;
-/// assert_eq!(row.len(), 30);
+/// let row = reduced.recovery().row(roof)?;
+/// assert_eq!(row.terms().len(), 30);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -161,7 +161,7 @@ struct Parts {
 impl Parts {
     fn new(n: usize, contact: &[ContactNode], more: &[usize]) -> Result<Self> {
         let of_contact =
-            contact.iter().flat_map(|node| node.horizontal.iter().chain(&node.vertical));
+            contact.iter().flat_map(|node| node.horizontal.terms().iter().chain(&node.vertical));
         let mut is_kept = vec![false; n];
         for index in of_contact.map(|&(index, _)| index).chain(more.iter().copied()) {
             let bound = n;
@@ -186,9 +186,7 @@ impl Parts {
     }
 
     fn renumbered(&self, node: &ContactNode) -> ContactNode {
-        let row = |terms: &[(usize, f64)]| {
-            terms.iter().map(|&(index, weight)| (self.place[index], weight)).collect()
-        };
+        let row = |row: &Row| row.map_unknowns(|index| self.place[index]);
         ContactNode { x: node.x, horizontal: row(&node.horizontal), vertical: row(&node.vertical) }
     }
 

@@ -3,7 +3,7 @@
 use super::rayleigh::RayleighDamping;
 use super::rigid_links::RigidLinks;
 use super::section::{Section, SectionRows};
-use super::{ContactNode, Structure, Triplets};
+use super::{ContactNode, Row, Structure, Triplets};
 use crate::error::{Error, Result, finite, positive};
 use crate::fem::{
     Direction, MassKind, Mesh, Numbering, Quantity, assemble, assemble_damping,
@@ -24,8 +24,10 @@ use crate::fem::{
 /// let model = FemModel::on_base(mesh)?;
 /// assert_eq!(model.unknowns(), 2 * 9 * 17);
 /// assert_eq!(model.contact_nodes().len(), 9);
-/// let roof = model.nearest_node(0.0, 20.0);
-/// assert_eq!(model.unknown(roof, Direction::X), Some(2 * (16 * 9 + 4)));
+/// let roof = model.node_at(0.0, 20.0)?;
+/// assert_eq!(model.row(roof, Direction::X)?.terms(), [(2 * (16 * 9 + 4), 1.0)]);
+/// // There is nothing 200 m up.
+/// assert!(model.node_at(0.0, 200.0).is_err());
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug)]
@@ -109,7 +111,7 @@ impl FemModel {
     /// The same structure with Rayleigh damping, beside that of its elements. The geometric
     /// stiffness of P–Δ has no share in it.
     #[must_use]
-    pub fn with_damping(self, damping: RayleighDamping) -> Self {
+    pub fn with_rayleigh(self, damping: RayleighDamping) -> Self {
         Self { damping, ..self }
     }
 
@@ -136,7 +138,7 @@ impl FemModel {
     /// assert_eq!(model.unknowns(), 6);
     /// assert_eq!(model.unknown(top, Direction::X), Some(3));
     /// // The right end rises with the foot and by 2 m times its rotation.
-    /// assert_eq!(model.row(right, Direction::Y), Some(vec![(1, 1.0), (2, 2.0)]));
+    /// assert_eq!(model.row(right, Direction::Y)?.terms(), [(1, 1.0), (2, 2.0)]);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -150,10 +152,10 @@ impl FemModel {
         links.link(&self.mesh, &self.numbering, leader, followers)?;
         let mut linked = Self { links: Some(links), ..self };
         for place in 0..linked.feet.len() {
-            let row = |direction| linked.row(linked.feet[place], direction).unwrap_or_default();
-            let (horizontal, vertical) = (row(Direction::X), row(Direction::Y));
-            let node = &mut linked.contact[place];
-            (node.horizontal, node.vertical) = (horizontal, vertical);
+            let row = |direction| linked.row(linked.feet[place], direction);
+            let (horizontal, vertical) = (row(Direction::X)?, row(Direction::Y)?);
+            let x = linked.contact[place].x;
+            linked.contact[place] = ContactNode { x, horizontal, vertical };
         }
         match linked.p_delta {
             Some(gravity) => linked.with_p_delta(gravity),
@@ -166,20 +168,41 @@ impl FemModel {
         &self.mesh
     }
 
-    /// Index of the unknown of `node` in `direction`, if there is one.
+    /// Index of the unknown of `node` in `direction`, if it has one of its own: a follower of a rigid
+    /// link has none. What a probe or a spring needs is its [`row`](FemModel::row).
     pub fn unknown(&self, node: usize, direction: Direction) -> Option<usize> {
         let unknown = self.numbering.unknown(node, direction)?;
         self.links.as_ref().map_or(Some(unknown), |links| links.remaining(node, unknown))
     }
 
-    /// Motion of `node` in `direction` as a weighted sum of unknowns, if it has one: the unknown
-    /// itself, or what the rigid link of a follower makes of its leader's.
-    pub fn row(&self, node: usize, direction: Direction) -> Option<Vec<(usize, f64)>> {
-        let own = [(self.numbering.unknown(node, direction)?, 1.0)];
-        Some(self.links.as_ref().map_or(own.to_vec(), |links| links.row(&own)))
+    /// Motion of `node` in `direction` as a weighted sum of unknowns: the unknown itself, or what
+    /// the rigid link of a follower makes of its leader's.
+    ///
+    /// # Errors
+    /// [`Error::Index`] for a node that does not exist, [`Error::NoUnknown`] for one that no element
+    /// moves in this direction.
+    pub fn row(&self, node: usize, direction: Direction) -> Result<Row> {
+        let bound = self.mesh.nodes().len();
+        if node >= bound {
+            return Err(Error::Index { quantity: "node", index: node, bound });
+        }
+        let unknown = self.numbering.unknown(node, direction);
+        let unknown = unknown.ok_or(Error::NoUnknown { node, direction })?;
+        let own = [(unknown, 1.0)];
+        Ok(self.links.as_ref().map_or(own.into(), |links| links.row(&own).into()))
     }
 
-    /// Node nearest to (`x`, `y`), m; the first one when several are.
+    /// Node at (`x`, `y`), m, to a millionth of the model's size.
+    ///
+    /// # Errors
+    /// [`Error::NoNode`] if there is none, with the nearest one; [`Error::Input`] unless both are
+    /// finite.
+    pub fn node_at(&self, x: f64, y: f64) -> Result<usize> {
+        self.mesh.node_at(x, y)
+    }
+
+    /// Node nearest to (`x`, `y`), m, however far that is; the first one when several are.
+    /// [`FemModel::node_at`] refuses a point without a node.
     pub fn nearest_node(&self, x: f64, y: f64) -> usize {
         self.mesh.nearest_node(x, y).unwrap_or(0)
     }
@@ -266,9 +289,10 @@ impl FemModel {
             }
             let [displacement, velocity, acceleration] = [0, 1, 2].map(|order| {
                 let row = weighted_rows(&weights, &matrices[order]);
-                self.links.as_ref().map_or_else(|| row.clone(), |links| links.row(&row))
+                self.links.as_ref().map_or_else(|| row.clone(), |links| links.row(&row)).into()
             });
-            SectionRows { displacement, velocity, acceleration }
+            let unit = if direction == Direction::Rotation { "N·m/m" } else { "N/m" };
+            SectionRows { unit, displacement, velocity, acceleration }
         };
         Ok(Section {
             height,

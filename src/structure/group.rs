@@ -1,6 +1,7 @@
 //! Several structures on one ground.
 
-use super::{ContactNode, InternalEnergy, Structure, Triplets};
+use super::{ContactNode, InternalEnergy, Row, Structure, Triplets};
+use crate::coupled::Probe;
 use crate::error::{CheckpointError, Error, Result, finite};
 
 /// A structure of the group and where it stands.
@@ -32,7 +33,9 @@ struct Member {
 /// let group = StructureGroup::new()
 ///     .with(RigidBlock::new(4.0, 8.0, 1500.0)?, 0.0)?
 ///     .with(RigidBlock::new(3.0, 4.0, 1500.0)?, 6.0)?;
-/// assert_eq!(group.row(1, &[(RigidBlock::HORIZONTAL, 1.0)]), [(3 + RigidBlock::HORIZONTAL, 1.0)]);
+/// assert_eq!(group.row(1, RigidBlock::HORIZONTAL)?.terms(), [(3, 1.0)]);
+/// // The first block has no fourth unknown: that is one of the other block.
+/// assert!(group.row(0, 3).is_err());
 /// let mut simulation = Simulation::builder(0.005)
 ///     .ground(HalfPlaneGround::under(&group, Soil::new(40.0e6, 0.33, 1800.0)?, 6)?)
 ///     .structure(group)
@@ -100,11 +103,27 @@ impl StructureGroup {
         self.members.is_empty()
     }
 
-    /// A weighted sum of the unknowns of structure `member` in those of the group; empty if there is
-    /// no such structure.
-    pub fn row(&self, member: usize, row: &[(usize, f64)]) -> Vec<(usize, f64)> {
-        let first = self.members.get(member).map(|member| member.first_unknown);
-        first.map_or_else(Vec::new, |first| row.iter().map(|&(i, w)| (first + i, w)).collect())
+    /// A weighted sum of the unknowns of structure `member` (0: the leftmost) in those of the group.
+    ///
+    /// # Errors
+    /// [`Error::Index`] for a structure that is not there, or an unknown that it does not have;
+    /// [`Error::Input`] for a weight that is not finite.
+    pub fn row(&self, member: usize, row: impl Into<Row>) -> Result<Row> {
+        let (bound, row) = (self.members.len(), row.into());
+        let quantity = "structure of the group";
+        let own = self.members.get(member);
+        let own = own.ok_or(Error::Index { quantity, index: member, bound })?;
+        row.check("unknown of a structure of the group", own.unknowns)?;
+        Ok(row.map_unknowns(|index| own.first_unknown.saturating_add(index)))
+    }
+
+    /// A probe of structure `member` as one of the group, with its name and unit; section resultants
+    /// too.
+    ///
+    /// # Errors
+    /// [`Error::Probe`] with the reason of [`StructureGroup::row`].
+    pub fn probe(&self, member: usize, probe: Probe) -> Result<Probe> {
+        probe.try_map_rows(|row| self.row(member, row))
     }
 
     fn write(&self, matrix: &mut Triplets, write: impl Fn(&dyn Structure, &mut Triplets)) {
@@ -132,11 +151,13 @@ impl Structure for StructureGroup {
         for member in &self.members {
             for mut node in member.structure.contact_nodes() {
                 node.x += member.shift;
-                for (index, _) in node.horizontal.iter_mut().chain(&mut node.vertical) {
-                    // What is not an unknown of the member must not be one of the group.
-                    let own = *index < member.unknowns;
-                    *index = if own { *index + member.first_unknown } else { usize::MAX };
-                }
+                // What is not an unknown of the member must not be one of the group.
+                let place = |index| {
+                    let own = index < member.unknowns;
+                    if own { index + member.first_unknown } else { usize::MAX }
+                };
+                node.horizontal = node.horizontal.map_unknowns(place);
+                node.vertical = node.vertical.map_unknowns(place);
                 all.push(node);
             }
         }

@@ -98,7 +98,7 @@ fn check_contact(contact: &[ContactNode], order: usize) -> Result<()> {
     }
     for node in contact {
         crate::error::finite("coordinate of a contact node", node.x)?;
-        for &(index, weight) in node.horizontal.iter().chain(&node.vertical) {
+        for &(index, weight) in node.horizontal.terms().iter().chain(&node.vertical) {
             crate::error::finite("weight of a contact node", weight)?;
             if index >= order {
                 let quantity = "unknown of a contact node";

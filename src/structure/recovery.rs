@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use crate::error::{Error, Result, finite, same_length};
+use super::Row;
+use crate::coupled::Probe;
+use crate::error::{Result, same_length};
 use crate::linalg::{SparseMatrix, row_products, wide_transposed_multiply_add};
 
 /// Columns of A T held at a time.
@@ -81,29 +83,35 @@ impl Recovery {
         &self.basis.kept
     }
 
-    /// A weighted sum of the full model's unknowns as one of the reduced model's, for a
-    /// [`Probe`](crate::coupled::Probe) or a spring: (unknown, weight) pairs.
+    /// A weighted sum of the full model's unknowns as one of the reduced model's, for a spring or a
+    /// wireframe.
     ///
     /// # Errors
-    /// [`Error::Index`] for an unknown that the full model does not have, [`Error::Input`] for a
+    /// [`Error::Index`](crate::Error::Index) for an unknown that the full model does not have, [`Error::Input`](crate::Error::Input) for a
     /// weight that is not finite.
-    pub fn row(&self, terms: &[(usize, f64)]) -> Result<Vec<(usize, f64)>> {
-        for &(index, weight) in terms {
-            finite("weight of an unknown", weight)?;
-            if index >= self.basis.full {
-                let bound = self.basis.full;
-                return Err(Error::Index { quantity: "unknown of the full model", index, bound });
-            }
+    pub fn row(&self, row: impl Into<Row>) -> Result<Row> {
+        let full = row.into();
+        full.check("unknown of the full model", self.basis.full)?;
+        if full.is_empty() {
+            return Ok(full);
         }
-        let weight = |row: &[f64]| terms.iter().map(|&(index, weight)| weight * row[index]).sum();
-        Ok(self.basis.rows().map(weight).enumerate().collect())
+        Ok(self.basis.rows().map(|values| full.value(values)).enumerate().collect())
+    }
+
+    /// A probe of the full model as one of the reduced model, with its name and unit; section
+    /// resultants too.
+    ///
+    /// # Errors
+    /// [`Error::Probe`](crate::Error::Probe) with the reason of [`Recovery::row`].
+    pub fn probe(&self, probe: Probe) -> Result<Probe> {
+        probe.try_map_rows(|row| self.row(row))
     }
 
     /// The full model's unknowns, from the reduced model's: displacements, velocities or
     /// accelerations.
     ///
     /// # Errors
-    /// [`Error::Size`] unless there is a value for each reduced unknown.
+    /// [`Error::Size`](crate::Error::Size) unless there is a value for each reduced unknown.
     pub fn full(&self, reduced: &[f64]) -> Result<Vec<f64>> {
         same_length("list of reduced unknowns", reduced.len(), self.basis.order())?;
         let mut full = vec![0.0; self.basis.full];

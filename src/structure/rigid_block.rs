@@ -1,6 +1,6 @@
 //! Rigid block on its flat base.
 
-use super::{ContactNode, Structure, Triplets};
+use super::{ContactNode, Row, Structure, Triplets};
 use crate::error::{Result, finite, not_negative, positive};
 
 /// Rigid body with a flat base: unknowns `[u_x, u_y, θ]` at the middle of the base.
@@ -97,13 +97,13 @@ impl RigidBlock {
     }
 
     /// Horizontal displacement at `height` (m) above the base, as a weighted sum of unknowns.
-    pub fn horizontal_at(&self, height: f64) -> Vec<(usize, f64)> {
-        vec![(Self::HORIZONTAL, 1.0), (Self::ROTATION, -height)]
+    pub fn horizontal_at(&self, height: f64) -> Row {
+        [(Self::HORIZONTAL, 1.0), (Self::ROTATION, -height)].into()
     }
 
     /// Vertical displacement at coordinate `x` (m) of the surface, as a weighted sum of unknowns.
-    pub fn vertical_at(&self, x: f64) -> Vec<(usize, f64)> {
-        vec![(Self::VERTICAL, 1.0), (Self::ROTATION, x - self.center)]
+    pub fn vertical_at(&self, x: f64) -> Row {
+        [(Self::VERTICAL, 1.0), (Self::ROTATION, x - self.center)].into()
     }
 }
 

@@ -1,30 +1,38 @@
 //! Forces that pass through a horizontal cut.
 
+use super::Row;
+
 /// Linear function of displacement, velocity and acceleration, as sparse rows.
-///
-/// Each row is a list of `(index of the unknown, weight)`.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SectionRows {
-    /// Weights of the displacements, N/m.
-    pub displacement: Vec<(usize, f64)>,
+    /// Unit of the resultant: "N/m" for a force, "N·m/m" for a moment.
+    pub unit: &'static str,
+    /// Weights of the displacements.
+    pub displacement: Row,
     /// Weights of the velocities: dashpots and stiffness-proportional damping.
-    pub velocity: Vec<(usize, f64)>,
+    pub velocity: Row,
     /// Weights of the accelerations: the share of the mass above that sits on the cut's nodes.
-    pub acceleration: Vec<(usize, f64)>,
+    pub acceleration: Row,
+}
+
+impl Default for SectionRows {
+    /// A force that is zero.
+    fn default() -> Self {
+        Self {
+            unit: "N/m",
+            displacement: Row::default(),
+            velocity: Row::default(),
+            acceleration: Row::default(),
+        }
+    }
 }
 
 impl SectionRows {
     /// The resultant's value; slices of all unknowns, indices beyond their ends count as zero.
     pub fn value(&self, displacement: &[f64], velocity: &[f64], acceleration: &[f64]) -> f64 {
-        let pairs = [
-            (&self.displacement, displacement),
-            (&self.velocity, velocity),
-            (&self.acceleration, acceleration),
-        ];
-        let row_value = |(row, values): (&Vec<(usize, f64)>, &[f64])| -> f64 {
-            row.iter().map(|&(index, weight)| weight * values.get(index).unwrap_or(&0.0)).sum()
-        };
-        pairs.into_iter().map(row_value).sum()
+        self.displacement.value(displacement)
+            + self.velocity.value(velocity)
+            + self.acceleration.value(acceleration)
     }
 }
 

@@ -1,19 +1,18 @@
 //! Hysteretic springs on the unknowns of a structure.
 
 use super::hysteresis::{Hysteresis, InternalEnergy};
-use super::{ContactNode, Structure, Triplets};
-use crate::error::{CheckpointError, Error, Result, finite};
+use super::{ContactNode, Row, Structure, Triplets};
+use crate::error::{CheckpointError, Result};
 
-/// A spring and the deformation l·u that it sees, as (unknown, weight) pairs.
+/// A spring and the deformation l·u that it sees.
 struct Spring {
-    row: Vec<(usize, f64)>,
+    row: Row,
     law: Box<dyn Hysteresis>,
 }
 
 impl Spring {
     fn deformation(&self, displacement: &[f64]) -> f64 {
-        let at = |index: usize| displacement.get(index).copied().unwrap_or(0.0);
-        self.row.iter().map(|&(index, weight)| weight * at(index)).sum()
+        self.row.value(displacement)
     }
 }
 
@@ -25,17 +24,11 @@ impl Springs {
     /// Adds a spring to a structure of so many unknowns.
     pub(super) fn add(
         &mut self,
-        row: Vec<(usize, f64)>,
+        row: Row,
         law: Box<dyn Hysteresis>,
         unknowns: usize,
     ) -> Result<()> {
-        for &(index, weight) in &row {
-            finite("weight of a spring's deformation", weight)?;
-            if index >= unknowns {
-                let quantity = "unknown of a spring";
-                return Err(Error::Index { quantity, index, bound: unknowns });
-            }
-        }
+        row.check("unknown of a spring", unknowns)?;
         self.0.push(Spring { row, law });
         Ok(())
     }
@@ -51,7 +44,7 @@ impl Springs {
     pub(super) fn force(&self, displacement: &[f64], force: &mut [f64]) {
         for spring in &self.0 {
             let value = spring.law.response(spring.deformation(displacement)).force;
-            for &(i, weight) in &spring.row {
+            for &(i, weight) in spring.row.terms() {
                 if let Some(force) = force.get_mut(i) {
                     *force += weight * value;
                 }
@@ -151,17 +144,13 @@ impl WithSprings {
         Self { structure: Box::new(structure), springs: Springs::default() }
     }
 
-    /// The same with one more spring, which sees the deformation `row`: (unknown, weight) pairs.
+    /// The same with one more spring, which sees the deformation `row`.
     ///
     /// # Errors
-    /// [`Error::Index`] for an unknown that the structure does not have, [`Error::Input`] for a
+    /// [`Error::Index`](crate::Error::Index) for an unknown that the structure does not have, [`Error::Input`](crate::Error::Input) for a
     /// weight that is not finite.
-    pub fn spring(
-        mut self,
-        row: Vec<(usize, f64)>,
-        law: impl Hysteresis + 'static,
-    ) -> Result<Self> {
-        self.springs.add(row, Box::new(law), self.structure.unknowns())?;
+    pub fn spring(mut self, row: impl Into<Row>, law: impl Hysteresis + 'static) -> Result<Self> {
+        self.springs.add(row.into(), Box::new(law), self.structure.unknowns())?;
         Ok(self)
     }
 }

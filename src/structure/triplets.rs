@@ -52,11 +52,12 @@ impl Triplets {
         self.add(second, first, -stiffness);
     }
 
-    /// Adds `factor · l lᵀ`, where the row vector l is given as `(index, weight)` pairs: the matrix
-    /// of a spring (or dashpot) that sees the deformation l·u.
-    pub fn add_outer(&mut self, row: &[(usize, f64)], factor: f64) {
-        for &(i, a) in row {
-            for &(j, b) in row {
+    /// Adds `factor · l lᵀ`, where the row vector l is a [`Row`](super::Row) or a list of (unknown,
+    /// weight) terms: the matrix of a spring (or dashpot) that sees the deformation l·u.
+    pub fn add_outer(&mut self, row: impl AsRef<[(usize, f64)]>, factor: f64) {
+        let terms = row.as_ref();
+        for &(i, a) in terms {
+            for &(j, b) in terms {
                 self.add(i, j, factor * a * b);
             }
         }

@@ -33,7 +33,7 @@ fn damping_matrix_is_alpha_m_plus_beta_k_plus_dashpots() {
         mesh
     };
     let rayleigh = RayleighDamping::new(0.3, 0.002).unwrap();
-    let model = FemModel::on_base(mesh(Some(500.0))).unwrap().with_damping(rayleigh);
+    let model = FemModel::on_base(mesh(Some(500.0))).unwrap().with_rayleigh(rayleigh);
     let found = damping(&model);
     let (m, k) = (mass(&model), stiffness(&model));
     for i in 0..found.len() {

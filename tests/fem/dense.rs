@@ -1,6 +1,6 @@
 //! Small dense linear algebra, plain enough to be right at sight.
 
-use basemat::structure::{Structure, Triplets};
+use basemat::structure::{Row, Structure, Triplets};
 
 pub(crate) type Matrix = Vec<Vec<f64>>;
 
@@ -47,8 +47,8 @@ pub(crate) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |peak, value| value.abs().max(peak))
 }
 
-pub(crate) fn row_value(row: &[(usize, f64)], values: &[f64]) -> f64 {
-    row.iter().map(|&(index, weight)| weight * values[index]).sum()
+pub(crate) fn row_value(row: &Row, values: &[f64]) -> f64 {
+    row.terms().iter().map(|&(index, weight)| weight * values[index]).sum()
 }
 
 /// Rows and columns `keep`.

@@ -173,7 +173,7 @@ fn structures_refuse_bad_numbers() {
     let building = of(good).unwrap();
     refused(&NOT_FINITE, |x| building.clone().centered_at(x));
     refused(&BAD_OR_ZERO_ALLOWED, |x| building.clone().with_p_delta(x));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| building.clone().with_damping_ratio(x));
+    refused(&BAD_OR_ZERO_ALLOWED, |x| building.clone().with_stiffness_damping(x));
     for found in [building.floor(2).map(drop), building.drift(2).map(drop)] {
         assert!(matches!(found, Err(Error::Index { index: 2, bound: 2, .. })));
     }

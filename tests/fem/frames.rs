@@ -3,7 +3,7 @@
 use crate::dense::{dot, eigenvalues, form, largest, mass, multiply, part, solve_held, stiffness};
 use basemat::Error;
 use basemat::fem::{Beam, Direction, Layer, LumpedMass, MassKind, Material, Mesh};
-use basemat::structure::{ContactNode, FemModel, RigidBlock, Structure};
+use basemat::structure::{ContactNode, FemModel, RigidBlock, Row, Structure};
 
 const E: f64 = 30.0e9;
 const AREA: f64 = 0.4;
@@ -144,7 +144,7 @@ fn lumped_rotary_inertia_is_that_of_the_sections() {
 fn a_block_of_followers_is_a_rigid_block() {
     let material = Material::new(1e9, 0.3, 2000.0).unwrap();
     let mut mesh = Mesh::layered_block(-2.0..2.0, 4, &[Layer::new(6.0, 5, material)]).unwrap();
-    let leader = mesh.nearest_node(0.0, 0.0).unwrap();
+    let leader = mesh.node_at(0.0, 0.0).unwrap();
     let mark = LumpedMass::new(leader, 1e-12).unwrap().with_rotary_inertia(1e-12).unwrap();
     mesh.add(mark).unwrap();
     let all: Vec<usize> = (0..mesh.nodes().len()).filter(|node| *node != leader).collect();
@@ -161,7 +161,7 @@ fn a_block_of_followers_is_a_rigid_block() {
     let feet = linked.contact_nodes();
     assert_eq!(feet.len(), 5);
     assert_eq!(feet[0], ContactNode::rigid(-2.0, 0.0, [0, 1, 2]));
-    assert_eq!(feet[2].vertical, [(1, 1.0)]);
+    assert_eq!(feet[2].vertical, Row::from(1));
     // The section at the base sees the same resultants in either numbering.
     let section = linked.section(0.0, 0.0).unwrap();
     let up = [0.0, 1.0, 0.0];
@@ -187,13 +187,16 @@ fn arms_lengthen_a_cantilever() {
     assert_eq!(model.unknown(2, Direction::X), None);
     let n = model.unknowns();
     let row = model.row(2, Direction::X).unwrap();
+    // The leader's motion and its turn times the arm.
+    let [lead, turn] = [Direction::X, Direction::Rotation].map(|d| model.row(1, d).unwrap());
+    assert_eq!(row, lead + -arm * turn);
     let mut force = vec![0.0; n];
     for &(index, weight) in &row {
         force[index] += 1000.0 * weight;
     }
     let held: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
     let found = solve_held(&stiffness(&model), &force, &held);
-    let at = |row: &[(usize, f64)]| row.iter().map(|&(i, w)| w * found[i]).sum::<f64>();
+    let at = |row: &Row| row.terms().iter().map(|&(i, w)| w * found[i]).sum::<f64>();
     let (l, a) = (LENGTH, arm);
     let exact = 1000.0 * (l.powi(3) / 3.0 + l * l * a + l * a * a) / (E * INERTIA);
     assert!((at(&row) / exact - 1.0).abs() < 1e-10);

@@ -57,8 +57,8 @@ fn ratios_go_from_the_lowest_mode_and_the_last_one_stays() {
         assert!((a / b - 1.0).abs() < 1e-10, "{a} {b}");
     }
     let rayleigh = RayleighDamping::new(0.3, 0.0).unwrap();
-    let both = ModalDamping::new(&[0.0]).unwrap().on(tower().with_damping(rayleigh)).unwrap();
-    assert_eq!(damping(&both), damping(&tower().with_damping(rayleigh)));
+    let both = ModalDamping::new(&[0.0]).unwrap().on(tower().with_rayleigh(rayleigh)).unwrap();
+    assert_eq!(damping(&both), damping(&tower().with_rayleigh(rayleigh)));
 }
 
 #[test]

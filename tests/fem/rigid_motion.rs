@@ -31,7 +31,7 @@ fn menagerie(formulation: QuadFormulation, seed: u64) -> FemModel {
     mesh.add(LumpedMass::new(4, 800.0).unwrap()).unwrap();
     mesh.add(LumpedMass::new(5, 500.0).unwrap().with_rotary_inertia(90.0).unwrap()).unwrap();
     let rayleigh = RayleighDamping::new(0.0, 0.01).unwrap();
-    FemModel::on_base(mesh).unwrap().with_damping(rayleigh)
+    FemModel::on_base(mesh).unwrap().with_rayleigh(rayleigh)
 }
 
 #[test]

@@ -26,8 +26,8 @@ fn frame_on_block() -> [FemModel; 2] {
     }];
     models.map(|mesh| {
         let mut mesh = mesh.unwrap();
-        let roof = mesh.nearest_node(1.0, 5.0).unwrap();
-        let foot = mesh.nearest_node(3.0, CUT).unwrap();
+        let roof = mesh.node_at(1.0, 5.0).unwrap();
+        let foot = mesh.node_at(3.0, CUT).unwrap();
         let top = mesh.add_node(3.5, 6.0).unwrap();
         // The second beam stands on the cut itself: its foot's moment passes through, too.
         for nodes in [[roof, top], [foot, top]] {
@@ -38,7 +38,7 @@ fn frame_on_block() -> [FemModel; 2] {
         mesh.add(Dashpot::axial([foot, roof], 6.0e4).unwrap()).unwrap();
         let base = mesh.nodes_at_height(mesh.lowest(), 1e-9).unwrap();
         let model = FemModel::new(mesh, &base).unwrap();
-        model.with_damping(RayleighDamping::new(0.0, 0.003).unwrap())
+        model.with_rayleigh(RayleighDamping::new(0.0, 0.003).unwrap())
     })
 }
 
@@ -46,7 +46,7 @@ fn frame_on_block() -> [FemModel; 2] {
 #[test]
 fn static_load_passes_through_every_section() {
     let [model, _] = frame_on_block();
-    let top = model.nearest_node(3.5, 6.0);
+    let top = model.node_at(3.5, 6.0).unwrap();
     let mut load = vec![0.0; model.unknowns()];
     load[model.unknown(top, Direction::X).unwrap()] = 700.0;
     load[model.unknown(top, Direction::Y).unwrap()] = -300.0;
@@ -69,7 +69,7 @@ fn static_load_passes_through_every_section() {
 fn moving_structure_keeps_the_balance_of_its_upper_part() {
     let [model, upper] = frame_on_block();
     let n = model.unknowns();
-    let first = model.nearest_node(-1.0, CUT);
+    let first = model.node_at(-1.0, CUT).unwrap();
     assert_eq!(model.unknowns() - upper.unknowns(), 2 * first);
     let [u, v, a] = [1, 2, 3].map(|seed| noise(n, seed));
     let force: Vec<f64> = multiply(&stiffness(&model), &u)

@@ -4,7 +4,9 @@ use crate::dense::{
     assert_symmetric, damping, eigenvalues, form, largest, mass, multiply, noise, part, row_value,
     stiffness,
 };
-use basemat::structure::{ShearBuilding, Storey, Structure};
+use basemat::Error;
+use basemat::fem::{Direction, Layer, Material, Mesh};
+use basemat::structure::{FemModel, Row, ShearBuilding, Storey, Structure};
 use std::f64::consts::{PI, TAU};
 
 fn uneven() -> ShearBuilding {
@@ -53,7 +55,7 @@ fn first_frequency_of_an_uneven_building_is_that_of_jacobi() {
 
 #[test]
 fn rigid_motions_meet_no_force_and_all_the_mass() {
-    let building = uneven().with_damping_ratio(0.05).unwrap();
+    let building = uneven().with_stiffness_damping(0.05).unwrap();
     for matrix in [stiffness(&building), damping(&building), mass(&building)] {
         assert_symmetric(&matrix);
     }
@@ -73,7 +75,7 @@ fn rigid_motions_meet_no_force_and_all_the_mass() {
 /// Force on the floors from `storey` upwards = shear that they pass on to what is below.
 #[test]
 fn storey_shear_is_the_sum_of_the_forces_above() {
-    let bare = uneven().with_damping_ratio(0.03).unwrap();
+    let bare = uneven().with_stiffness_damping(0.03).unwrap();
     for building in [bare.clone(), bare.with_p_delta(9.81).unwrap()] {
         let (u, v) = (noise(6, 1), noise(6, 2));
         let (k, c) = (stiffness(&building), damping(&building));
@@ -96,7 +98,7 @@ fn storey_shear_is_the_sum_of_the_forces_above() {
 #[test]
 fn damping_ratio_is_that_of_the_first_mode() {
     let building = uneven();
-    let damped = building.clone().with_damping_ratio(0.04).unwrap();
+    let damped = building.clone().with_stiffness_damping(0.04).unwrap();
     let floors = [3, 4, 5];
     let (k, c) = (stiffness(&damped), damping(&damped));
     let extra = c[5][5] - damping(&building)[5][5];
@@ -147,4 +149,46 @@ fn building_stands_where_it_is_put() {
     assert_eq!([nodes[0].x, nodes[1].x], [16.0, 24.0]);
     assert_eq!(uneven().total_mass(), 4000.0);
     assert_eq!(uneven().floor(2).unwrap(), 5);
+}
+
+/// What the drifts add up to, and what is left of a floor's motion without that of the base.
+#[test]
+fn sway_is_the_sum_of_the_drifts_below() {
+    let building = uneven();
+    let moved = [0.3, -0.2, 0.05, 0.7, -0.4, 1.1];
+    let mut drifts = 0.0;
+    for (storey, height) in [4.0, 7.0, 10.5].into_iter().enumerate() {
+        drifts += building.drift(storey).unwrap().value(&moved);
+        let sway = building.sway(storey).unwrap();
+        assert!((sway.value(&moved) - drifts).abs() < 1e-14, "{storey}");
+        assert!(sway.value(&TURN).abs() < 1e-14);
+        let floor = Row::from(building.floor(storey).unwrap());
+        let by_base = floor.sway(&building, height).unwrap();
+        assert!((by_base.value(&moved) - drifts).abs() < 1e-14, "{storey}");
+        let apart = floor.relative_to_base(&building).unwrap().value(&moved);
+        assert!((apart - (moved[3 + storey] - 0.3)).abs() < 1e-14);
+    }
+    assert_eq!(building.roof(), building.floor(2).unwrap());
+    assert!(building.sway(3).is_err());
+}
+
+/// A frame of finite elements that only moves as a whole does not sway.
+#[test]
+fn rigid_motions_are_no_sway() {
+    let material = Material::new(1e9, 0.3, 2000.0).unwrap();
+    let mesh = Mesh::layered_block(1.0..5.0, 4, &[Layer::new(6.0, 5, material)]).unwrap();
+    let model = FemModel::on_base(mesh).unwrap();
+    let corner = model.row(model.node_at(1.0, 6.0).unwrap(), Direction::X).unwrap();
+    let sway = corner.sway(&model, 6.0).unwrap();
+    for direction in [Direction::X, Direction::Y, Direction::Rotation] {
+        let motion = model.rigid_motion(direction, [0.7, -0.3]);
+        assert!(sway.value(&motion).abs() < 1e-14, "{direction:?}");
+    }
+    // Relative to the base alone, a turn is left: −6 m times it.
+    let turn = model.rigid_motion(Direction::Rotation, [3.0, 0.0]);
+    let apart = corner.relative_to_base(&model).unwrap().value(&turn);
+    assert!((apart + 6.0).abs() < 1e-14);
+    for bad in [f64::NAN, f64::INFINITY] {
+        assert!(matches!(corner.sway(&model, bad), Err(Error::Input { .. })));
+    }
 }

@@ -192,7 +192,7 @@ impl Recipe {
                 if damped {
                     let frequencies = [2.0 / frame.time, 20.0 / frame.time];
                     let damping = RayleighDamping::from_ratios(frequencies, [0.05; 2])?;
-                    builder.structure(model.with_damping(damping))
+                    builder.structure(model.with_rayleigh(damping))
                 } else {
                     builder.structure(model)
                 }
@@ -204,7 +204,7 @@ impl Recipe {
                 let building =
                     ShearBuilding::new(width, 3e4 * mass, inertia, &vec![storey; count])?;
                 let ratio = if damped { 0.05 } else { 0.0 };
-                builder.structure(building.with_damping_ratio(ratio)?)
+                builder.structure(building.with_stiffness_damping(ratio)?)
             }
         })
     }

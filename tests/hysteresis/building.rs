@@ -13,7 +13,7 @@ use basemat::{Simulation, Soil};
 fn five_storeys() -> ShearBuilding {
     let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
     let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys).unwrap();
-    building.with_damping_ratio(0.02).unwrap()
+    building.with_stiffness_damping(0.02).unwrap()
 }
 
 const LEVEL: IsolationLevel =

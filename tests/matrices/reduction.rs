@@ -11,11 +11,11 @@ use basemat::structure::{
 use super::model::{on_soil, tower};
 
 fn damped() -> FemModel {
-    tower(6, 12).with_damping(RayleighDamping::from_ratios([1.0, 8.0], [0.03; 2]).unwrap())
+    tower(6, 12).with_rayleigh(RayleighDamping::from_ratios([1.0, 8.0], [0.03; 2]).unwrap())
 }
 
 fn top(model: &FemModel) -> usize {
-    model.unknown(model.nearest_node(0.0, 15.0), Direction::X).unwrap()
+    model.unknown(model.node_at(0.0, 15.0).unwrap(), Direction::X).unwrap()
 }
 
 /// A x for a matrix of the structure.
@@ -79,7 +79,7 @@ fn marches_like_the_full_model() {
     let steps = 500;
     let full = {
         let model = damped();
-        let row = vec![(top(&model), 1.0)];
+        let row = top(&model);
         let mut simulation = on_soil(model)
             .probe(Probe::displacement("top", row))
             .coordinates(Coordinates::Unknowns)
@@ -98,9 +98,9 @@ fn marches_like_the_full_model() {
         let reduced = CraigBampton::new(modes).reduce(model).unwrap();
         assert_eq!(reduced.unknowns(), 14 + modes);
         let recovery = reduced.recovery();
-        let row = recovery.row(&[(unknown, 1.0)]).unwrap();
-        let mut simulation =
-            on_soil(reduced).probe(Probe::displacement("top", row)).build().unwrap();
+        let probe = recovery.probe(Probe::displacement("top", unknown)).unwrap();
+        assert!(probe.velocity.is_empty() && probe.acceleration.is_empty());
+        let mut simulation = on_soil(reduced).probe(probe).build().unwrap();
         let (mut apart, mut step) = ([0.0_f64; 2], 0);
         let run = simulation
             .run(steps, |state| {
@@ -139,7 +139,7 @@ fn springs_on_kept_unknowns_are_those_of_the_full_model() {
     let reduced = CraigBampton::new(60).keep(&[unknown]).reduce(model).unwrap();
     let recovery = reduced.recovery();
     let place = recovery.kept().iter().position(|kept| *kept == unknown).unwrap();
-    let row = recovery.row(&brace).unwrap();
+    let row = recovery.row(&brace[..]).unwrap();
     for (index, weight) in &row {
         let is_end = *index == place || recovery.kept().get(*index) == Some(&left);
         assert_eq!(weight.abs(), f64::from(u8::from(is_end)), "{index}");
@@ -209,8 +209,10 @@ fn what_cannot_be_reduced_is_refused() {
     }
     let recovery = reduced().recovery();
     assert_eq!(recovery.full_unknowns(), 18);
-    assert!(matches!(recovery.row(&[(18, 1.0)]), Err(Error::Index { .. })));
-    assert!(matches!(recovery.row(&[(0, f64::NAN)]), Err(Error::Input { .. })));
+    assert!(matches!(recovery.row(18), Err(Error::Index { .. })));
+    let probe = Probe::displacement("far", 18);
+    assert!(matches!(recovery.probe(probe), Err(Error::Probe { name, .. }) if name == "far"));
+    assert!(matches!(recovery.row((0, f64::NAN)), Err(Error::Input { .. })));
     assert!(matches!(recovery.full(&[0.0; 3]), Err(Error::Size { .. })));
     // A matrix of another order gets entries out of range, which it reports when it is used.
     reduced().mass(&mut Triplets::new(0));

@@ -99,7 +99,7 @@ impl Scene {
             alternating: (square_of_alternating / force.len() as f64).sqrt(),
             rms_above: (square / fast.len() as f64).sqrt(),
             peak_above: fast.iter().fold(0.0, |m, f| m.max(f.abs())),
-            peak_slip: run.slip.value.abs(),
+            peak_slip: run.largest_slip.value.abs(),
             residual_slip: run.residual_slip,
             uplift: run.uplifted_fraction.value,
             rotation: run.base_rotation.value.abs(),

@@ -80,7 +80,7 @@ pub(crate) fn tower(frame: Frame, damping: Option<RayleighDamping>) -> FemModel 
     let mesh = Mesh::layered_block(-half..half, 6, &layers).unwrap();
     let model = FemModel::on_base(mesh).unwrap();
     match damping {
-        Some(damping) => model.with_damping(damping),
+        Some(damping) => model.with_rayleigh(damping),
         None => model,
     }
 }

@@ -1,0 +1,91 @@
+//! Largest and smallest values of a run, and when they occurred.
+
+use crate::error::{Error, Result};
+
+/// A value of largest magnitude, with its sign, and when it occurred.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Peak {
+    /// The value, with its sign.
+    pub value: f64,
+    /// When, s.
+    pub time: f64,
+}
+
+impl Peak {
+    /// The value without its sign.
+    pub fn magnitude(&self) -> f64 {
+        self.value.abs()
+    }
+
+    pub(crate) fn see(&mut self, value: f64, time: f64) {
+        if value.abs() > self.value.abs() {
+            *self = Self { value, time };
+        }
+    }
+}
+
+/// Smallest and largest value, and when they occurred; of equal ones the first. NaN does not count
+/// unless there is nothing else.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extremes {
+    /// The smallest value.
+    pub lowest: Peak,
+    /// The largest value.
+    pub highest: Peak,
+}
+
+impl Extremes {
+    /// Of one value.
+    pub(crate) fn of(value: f64, time: f64) -> Self {
+        let peak = Peak { value, time };
+        Self { lowest: peak, highest: peak }
+    }
+
+    pub(crate) fn see(&mut self, value: f64, time: f64) {
+        if value < self.lowest.value || self.lowest.value.is_nan() {
+            self.lowest = Peak { value, time };
+        }
+        if value > self.highest.value || self.highest.value.is_nan() {
+            self.highest = Peak { value, time };
+        }
+    }
+
+    /// The one of larger magnitude, with its sign.
+    pub fn largest(&self) -> Peak {
+        if self.lowest.value.abs() > self.highest.value.abs() { self.lowest } else { self.highest }
+    }
+}
+
+/// Largest value of a probe, by magnitude.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct ProbePeak {
+    /// Name of the probe.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// The value, and when.
+    pub peak: Peak,
+}
+
+/// Smallest and largest value of a probe.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct ProbeExtremes {
+    /// Name of the probe.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// The values, and when.
+    pub extremes: Extremes,
+}
+
+/// The entry of a list called `name`.
+pub(crate) fn named<'a, T>(
+    list: &'a [T],
+    name: &str,
+    name_of: impl Fn(&T) -> &String,
+) -> Result<&'a T> {
+    let unknown = || Error::Name { quantity: "probe", name: name.to_owned() };
+    list.iter().find(|entry| name_of(entry) == name).ok_or_else(unknown)
+}

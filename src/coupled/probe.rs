@@ -1,0 +1,113 @@
+//! Quantities that are read off at every step.
+
+use crate::error::{Error, Result};
+use crate::structure::{Row, SectionRows};
+
+/// A quantity read off at every step: a weighted sum of displacements, velocities, accelerations.
+///
+/// Displacements are absolute (their changes against the static state), and ride with the ground;
+/// [`Row::relative_to_base`] and [`Row::sway`] take the motion of the base out of them.
+///
+/// ```
+/// use basemat::coupled::Probe;
+/// use basemat::structure::{ShearBuilding, Storey};
+///
+/// let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
+/// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?;
+/// let probes = [
+///     Probe::acceleration("roof", building.roof()),
+///     Probe::displacement("lowest drift", building.drift(0)?),
+///     Probe::displacement("sway of the roof", building.sway(4)?),
+///     Probe::section("base shear", &building.shear(0)?),
+///     Probe::displacement("rotation", ShearBuilding::ROTATION).in_unit("rad"),
+/// ];
+/// assert_eq!(probes.map(|probe| probe.unit), ["m/s²", "m", "m", "N/m", "rad"]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Probe {
+    /// Name, for tables; no two probes of a simulation have the same.
+    pub name: String,
+    /// Unit, for tables; empty for none. Values are what the weights make of SI units, whatever it
+    /// says.
+    pub unit: String,
+    /// Sum of displacements (changes against the static state).
+    pub displacement: Row,
+    /// Sum of velocities.
+    pub velocity: Row,
+    /// Sum of accelerations.
+    pub acceleration: Row,
+}
+
+impl Probe {
+    /// Displacement (m): an unknown, or a weighted sum of some.
+    pub fn displacement(name: impl Into<String>, row: impl Into<Row>) -> Self {
+        Self { displacement: row.into(), ..Self::new(name, "m") }
+    }
+
+    /// Velocity (m/s): an unknown's, or a weighted sum of some.
+    pub fn velocity(name: impl Into<String>, row: impl Into<Row>) -> Self {
+        Self { velocity: row.into(), ..Self::new(name, "m/s") }
+    }
+
+    /// Acceleration (m/s²): an unknown's, or a weighted sum of some.
+    pub fn acceleration(name: impl Into<String>, row: impl Into<Row>) -> Self {
+        Self { acceleration: row.into(), ..Self::new(name, "m/s²") }
+    }
+
+    /// A section resultant of a structure: a force (N/m) or a moment (N·m/m).
+    pub fn section(name: impl Into<String>, rows: &SectionRows) -> Self {
+        Self {
+            displacement: rows.displacement.clone(),
+            velocity: rows.velocity.clone(),
+            acceleration: rows.acceleration.clone(),
+            ..Self::new(name, rows.unit)
+        }
+    }
+
+    /// The same probe with another label of its unit, for a rotation for example; values stay.
+    ///
+    /// Printed tables and pictures turn the labels "m", "rad", "N/m" and "N·m/m" into mm, mrad, kN/m
+    /// and kN·m/m, and leave others as they are; files are in the probe's unit.
+    #[must_use]
+    pub fn in_unit(self, unit: impl Into<String>) -> Self {
+        Self { unit: unit.into(), ..self }
+    }
+
+    fn new(name: impl Into<String>, unit: &str) -> Self {
+        Self { name: name.into(), unit: unit.to_owned(), ..Self::default() }
+    }
+
+    pub(super) fn rows(&self) -> [&Row; 3] {
+        [&self.displacement, &self.velocity, &self.acceleration]
+    }
+
+    /// The same probe with its rows in other unknowns; an error names the probe.
+    pub(crate) fn try_map_rows(self, map: impl Fn(Row) -> Result<Row>) -> Result<Self> {
+        let [displacement, velocity, acceleration] =
+            [self.displacement, self.velocity, self.acceleration].map(map);
+        let named = |row: Result<Row>| {
+            row.map_err(|source| Error::Probe { name: self.name.clone(), source: source.into() })
+        };
+        let (displacement, velocity) = (named(displacement)?, named(velocity)?);
+        let acceleration = named(acceleration)?;
+        Ok(Self { name: self.name, unit: self.unit, displacement, velocity, acceleration })
+    }
+}
+
+/// Refuses probes of unknowns that there are not, and two of the same name.
+pub(super) fn check(probes: &[Probe], unknowns: usize) -> Result<()> {
+    let mut names = std::collections::BTreeSet::new();
+    for probe in probes {
+        let name = || probe.name.clone();
+        for row in probe.rows() {
+            let named = |source| Error::Probe { name: name(), source: Box::new(source) };
+            row.check("unknown", unknowns).map_err(named)?;
+        }
+        if !names.insert(&probe.name) {
+            return Err(Error::DuplicateName { quantity: "probe", name: name() });
+        }
+    }
+    Ok(())
+}

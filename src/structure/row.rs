@@ -1,0 +1,229 @@
+//! Weighted sums of unknowns.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use super::Structure;
+use crate::error::{Error, Result, finite, positive};
+
+/// A weighted sum of a structure's unknowns: a displacement of a point, a drift, a rotation.
+///
+/// It is kept as (unknown, weight) terms, in the order they were given; an unknown that comes more
+/// than once counts with the sum of its weights. Whatever takes a row takes a bare unknown (with
+/// weight one), a term, or a list of terms too.
+///
+/// ```
+/// use basemat::structure::Row;
+///
+/// let roof = Row::from(7);
+/// assert_eq!(roof.terms(), [(7, 1.0)]);
+/// let drift = Row::from(7) - Row::from(6) + 3.0 * Row::from(2);
+/// assert_eq!(drift, Row::from([(7, 1.0), (6, -1.0), (2, 3.0)]));
+/// let unknowns = [0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.1, 0.2];
+/// assert!((drift.value(&unknowns) - 0.13).abs() < 1e-15);
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Row(Vec<(usize, f64)>);
+
+impl Row {
+    /// The (unknown, weight) terms.
+    pub fn terms(&self) -> &[(usize, f64)] {
+        &self.0
+    }
+
+    /// Whether it is a sum of nothing.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The sum for these values of all unknowns (displacements, velocities or accelerations);
+    /// unknowns beyond their end count as zero.
+    pub fn value(&self, unknowns: &[f64]) -> f64 {
+        let at = |index: usize| unknowns.get(index).copied().unwrap_or(0.0);
+        self.0.iter().map(|&(index, weight)| weight * at(index)).sum()
+    }
+
+    /// This displacement to the right less that of the base's middle: what an observer on the base
+    /// sees, its rotation left in.
+    ///
+    /// The base is that of `structure`, of which the row's unknowns must be, from its first contact
+    /// node to its last.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a structure with fewer than two contact nodes.
+    pub fn relative_to_base(&self, structure: &dyn Structure) -> Result<Self> {
+        let [translation, _] = base_motion(structure)?;
+        Ok(self.clone() - translation)
+    }
+
+    /// The displacement to the right of a point `height` (m) above the base less the rigid motion of
+    /// the base there, translation and rotation: how far the structure has bent.
+    ///
+    /// ```
+    /// use basemat::structure::{RigidBlock, Row, ShearBuilding, Storey};
+    ///
+    /// // Nothing bends in a rigid block.
+    /// let block = RigidBlock::new(4.0, 10.0, 2000.0)?;
+    /// let sway = block.horizontal_at(10.0).sway(&block, 10.0)?;
+    /// assert!(sway.value(&[0.3, 0.1, 0.02]).abs() < 1e-15);
+    ///
+    /// // A roof at 6 m that has moved by 0.1 m, on a base that has moved by 0.02 m and turned by
+    /// // 0.01 to the left.
+    /// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 40.0e6); 2])?;
+    /// let roof = Row::from(building.roof());
+    /// let moved = [0.02, 0.0, 0.01, 0.0, 0.1];
+    /// assert!((roof.relative_to_base(&building)?.value(&moved) - 0.08).abs() < 1e-15);
+    /// assert!((roof.sway(&building, 6.0)?.value(&moved) - 0.14).abs() < 1e-15);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a structure with fewer than two contact nodes, [`Error::Input`] for a
+    /// height that is not finite or contact nodes at one place.
+    pub fn sway(&self, structure: &dyn Structure, height: f64) -> Result<Self> {
+        finite("height above the base", height)?;
+        let [translation, rotation] = base_motion(structure)?;
+        Ok(self.clone() - translation + height * rotation)
+    }
+
+    /// The same sum of unknowns with other numbers.
+    pub(super) fn map_unknowns(&self, number: impl Fn(usize) -> usize) -> Self {
+        self.0.iter().map(|&(index, weight)| (number(index), weight)).collect()
+    }
+
+    /// Error for a weight that is not finite, or an unknown at `bound` or beyond, which the error
+    /// calls `quantity`.
+    pub(crate) fn check(&self, quantity: &'static str, bound: usize) -> Result<()> {
+        for &(index, weight) in &self.0 {
+            finite("weight of an unknown", weight)?;
+            if index >= bound {
+                return Err(Error::Index { quantity, index, bound });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Displacement to the right of the base's middle, and rotation of its chord.
+fn base_motion(structure: &dyn Structure) -> Result<[Row; 2]> {
+    let nodes = structure.contact_nodes();
+    let [left, .., right] = &nodes[..] else {
+        let (found, needed) = (nodes.len(), 2);
+        return Err(Error::Size { quantity: "contact nodes", found, needed });
+    };
+    let per_width = 1.0 / positive("width of the base", right.x - left.x)?;
+    let translation = 0.5 * left.horizontal.clone() + 0.5 * right.horizontal.clone();
+    let rotation = per_width * (right.vertical.clone() - left.vertical.clone());
+    Ok([translation, rotation])
+}
+
+impl From<usize> for Row {
+    /// One unknown, with weight one.
+    fn from(unknown: usize) -> Self {
+        Self(vec![(unknown, 1.0)])
+    }
+}
+
+impl From<(usize, f64)> for Row {
+    fn from(term: (usize, f64)) -> Self {
+        Self(vec![term])
+    }
+}
+
+impl From<Vec<(usize, f64)>> for Row {
+    fn from(terms: Vec<(usize, f64)>) -> Self {
+        Self(terms)
+    }
+}
+
+impl From<&[(usize, f64)]> for Row {
+    fn from(terms: &[(usize, f64)]) -> Self {
+        Self(terms.to_vec())
+    }
+}
+
+impl<const N: usize> From<[(usize, f64); N]> for Row {
+    fn from(terms: [(usize, f64); N]) -> Self {
+        Self(terms.to_vec())
+    }
+}
+
+impl<const N: usize> From<&[(usize, f64); N]> for Row {
+    fn from(terms: &[(usize, f64); N]) -> Self {
+        Self(terms.to_vec())
+    }
+}
+
+impl From<&Row> for Row {
+    fn from(row: &Row) -> Self {
+        row.clone()
+    }
+}
+
+impl FromIterator<(usize, f64)> for Row {
+    fn from_iter<I: IntoIterator<Item = (usize, f64)>>(terms: I) -> Self {
+        Self(terms.into_iter().collect())
+    }
+}
+
+impl AsRef<[(usize, f64)]> for Row {
+    fn as_ref(&self) -> &[(usize, f64)] {
+        &self.0
+    }
+}
+
+impl Add for Row {
+    type Output = Self;
+
+    fn add(mut self, other: Self) -> Self {
+        for (index, weight) in other.0 {
+            match self.0.iter_mut().find(|term| term.0 == index) {
+                Some(term) => term.1 += weight,
+                None => self.0.push((index, weight)),
+            }
+        }
+        self
+    }
+}
+
+impl Neg for Row {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        -1.0 * self
+    }
+}
+
+impl Sub for Row {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul<Row> for f64 {
+    type Output = Row;
+
+    fn mul(self, mut row: Row) -> Row {
+        row.0.iter_mut().for_each(|term| term.1 *= self);
+        row
+    }
+}
+
+impl IntoIterator for Row {
+    type Item = (usize, f64);
+    type IntoIter = std::vec::IntoIter<(usize, f64)>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
+    }
+}
+
+impl<'a> IntoIterator for &'a Row {
+    type Item = &'a (usize, f64);
+    type IntoIter = std::slice::Iter<'a, (usize, f64)>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.iter()
+    }
+}
