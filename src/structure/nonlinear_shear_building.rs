@@ -59,6 +59,12 @@ impl NonlinearShearBuilding {
     ///
     /// The building's damping ratio, if set, stays that of its storeys.
     ///
+    /// With [`ShearBuilding::with_p_delta`] the weight W on the isolators pushes them down the
+    /// slope of a base that turns, with W θ, and turns it with W d by its drift d. The softening
+    /// −W/h of columns is not theirs: a slider's weight is in its law already (W/R of a
+    /// [`FrictionPendulum`](super::FrictionPendulum)), and the stiffness of rubber bearings is to be
+    /// given as it is under their load.
+    ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless the level's height and slab mass and the law's
     /// first stiffness are positive, its inertia and damping not negative.
@@ -74,17 +80,19 @@ impl NonlinearShearBuilding {
             stiffness: positive("first stiffness of the isolators", law.response(0.0).tangent)?,
             damping: not_negative("damping of the isolators", level.damping)?,
         };
-        Self::new(building.on_storey(storey)?).with_law(0, law)
+        Self::new(building.on_isolators(storey)?).with_law(0, law)
     }
 
     /// The same building with `storey` (0: the lowest) following `law`.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey,
-    /// [`Error::Scene`](crate::Error::Scene) when it has a law already.
+    /// [`Error::Scene`](crate::Error::Scene) when it has a law already,
+    /// [`Error::Input`](crate::Error::Input) when the law's first stiffness does not hold the storey
+    /// up against its P–Δ.
     pub fn with_law(mut self, storey: usize, law: impl Hysteresis + 'static) -> Result<Self> {
         let drift = self.building.drift(storey)?;
-        self.building.release(storey)?;
+        self.building.release(storey, law.response(0.0).tangent)?;
         self.springs.add(drift, Box::new(law), self.building.unknowns())?;
         Ok(self)
     }

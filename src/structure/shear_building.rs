@@ -54,6 +54,8 @@ pub struct ShearBuilding {
     storeys: Vec<Storey>,
     /// Whether a storey's stiffness is left to a law of [`super::NonlinearShearBuilding`].
     released: Vec<bool>,
+    /// Whether storey 0 is a level of isolators: see [`ShearBuilding::add_p_delta`].
+    isolated: bool,
     center: f64,
     stiffness_damping: f64,
     gravity: f64,
@@ -94,6 +96,7 @@ impl ShearBuilding {
             base_inertia,
             storeys: storeys.to_vec(),
             released: vec![false; storeys.len()],
+            isolated: false,
             center: 0.0,
             stiffness_damping: 0.0,
             gravity: 0.0,
@@ -128,12 +131,18 @@ impl ShearBuilding {
     }
 
     /// The same building with the P–Δ effect of the floors' weight: inextensible columns lower
-    /// what they carry by `(u_j − u_(j−1))²/(2 h_j)`.
+    /// what they carry by `(u_j − u_(j−1))²/(2 h_j)`, and so take W/h off the stiffness of a storey
+    /// that carries the weight W.
     ///
     /// # Errors
-    /// [`Error::Input`] unless `gravity` (m/s²) is finite and not negative.
+    /// [`Error::Input`] unless `gravity` (m/s²) is finite and not negative and every storey stands:
+    /// its columns' height is above W/k, at which they would buckle.
     pub fn with_p_delta(self, gravity: f64) -> Result<Self> {
-        Ok(Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self })
+        let building = Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self };
+        for (index, storey) in building.storeys.iter().enumerate() {
+            building.carries_its_weight(index, storey.stiffness)?;
+        }
+        Ok(building)
     }
 
     /// The storeys, from below.
@@ -241,17 +250,19 @@ impl ShearBuilding {
         square.sqrt() / TAU
     }
 
-    /// The same building with `storey` below its lowest one.
-    pub(super) fn on_storey(mut self, storey: Storey) -> Result<Self> {
+    /// The same building with a level of isolators below its lowest storey.
+    pub(super) fn on_isolators(mut self, storey: Storey) -> Result<Self> {
         self.storeys.insert(0, storey);
         self.released.insert(0, false);
+        self.isolated = true;
         finite("mass of the building", self.total_mass())?;
         Ok(self)
     }
 
-    /// Leaves the stiffness of `storey` to somebody else.
-    pub(super) fn release(&mut self, storey: usize) -> Result<()> {
+    /// Leaves the stiffness of `storey` to somebody else, who begins with `tangent`.
+    pub(super) fn release(&mut self, storey: usize, tangent: f64) -> Result<()> {
         self.floor(storey)?;
+        self.carries_its_weight(storey, tangent)?;
         if std::mem::replace(&mut self.released[storey], true) {
             let needed = "one law at most";
             return Err(Error::Scene { quantity: "law of a storey", needed });
@@ -278,6 +289,45 @@ impl ShearBuilding {
     /// Weight that the columns of `storey` carry, N.
     fn weight_on(&self, storey: usize) -> f64 {
         self.gravity * self.storeys[storey..].iter().map(|storey| storey.mass).sum::<f64>()
+    }
+
+    /// On a held base K is a chain of storeys, positive definite if every link of it, k − W/h, is
+    /// positive.
+    fn carries_its_weight(&self, storey: usize, stiffness: f64) -> Result<()> {
+        let height = self.storeys[storey].height;
+        if self.gravity == 0.0
+            || self.isolated && storey == 0
+            || stiffness * height > self.weight_on(storey)
+        {
+            return Ok(());
+        }
+        Err(Error::Input {
+            quantity: "height of a storey with P–Δ",
+            value: height,
+            needed: "above W/k, the weight it carries over its stiffness: its columns buckle",
+        })
+    }
+
+    /// Adds the curvature of the weight's potential.
+    ///
+    /// Columns lower it by half a sway's square over their height. A level of isolators has no
+    /// columns: a slider moves along the plane of the turned base, which lifts the weight W by d θ
+    /// − h θ²/2 for a drift d at the height h. What d² does to it is in the isolators' law: W/R of
+    /// a pendulum, and the stiffness of a rubber bearing as measured under its load.
+    fn add_p_delta(&self, matrix: &mut Triplets) {
+        for (index, storey) in self.storeys.iter().enumerate() {
+            let weight = self.weight_on(index);
+            if self.isolated && index == 0 {
+                for (unknown, sign) in Self::sway_row(0) {
+                    matrix.add(unknown, Self::ROTATION, sign * weight);
+                    matrix.add(Self::ROTATION, unknown, sign * weight);
+                }
+                // d = u_1 − u_0 + h θ: of d θ comes h θ² more.
+                matrix.add(Self::ROTATION, Self::ROTATION, weight * storey.height);
+            } else {
+                matrix.add_outer(&Self::sway_row(index), -weight / storey.height);
+            }
+        }
     }
 
     fn rotary_inertia(&self) -> f64 {
@@ -316,10 +366,7 @@ impl Structure for ShearBuilding {
     fn stiffness(&self, matrix: &mut Triplets) {
         self.add_drifts(matrix, |_, stiffness| stiffness);
         if self.gravity > 0.0 {
-            for (index, storey) in self.storeys.iter().enumerate() {
-                let softening = self.weight_on(index) / storey.height;
-                matrix.add_outer(Self::sway_row(index), -softening);
-            }
+            self.add_p_delta(matrix);
         }
     }
 

@@ -2,4 +2,5 @@
 
 mod building;
 mod laws;
+mod p_delta;
 mod refused;
