@@ -16,15 +16,14 @@ use std::path::Path;
 use std::time::Instant;
 
 use basemat::coupled::Coordinates;
-use basemat::structure::{ContactNode, CraigBampton, Structure, Triplets};
+use basemat::structure::{ContactNode, CraigBampton, Row, Structure, Triplets};
 use basemat::{Result, Simulation};
 use tower::{TIME_STEP, Tower, damped, scene};
 
 const MODES: usize = 20;
 
-/// Writes the tower's matrices and returns its contact nodes and the unknown that is the sway of its
-/// top.
-fn write_files(mass: &Path, stiffness: &Path) -> Result<(Vec<ContactNode>, usize)> {
+/// Writes the tower's matrices and returns its contact nodes and the sway of its top.
+fn write_files(mass: &Path, stiffness: &Path) -> Result<(Vec<ContactNode>, Row)> {
     let tower = Tower::new()?;
     tower.mass.write_matrix_market(mass)?;
     tower.stiffness.write_matrix_market(stiffness)?;

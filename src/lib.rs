@@ -166,10 +166,10 @@ mod matrix;
 pub mod motion;
 #[cfg(feature = "plot")]
 pub mod plot;
+pub mod prelude;
 #[cfg(test)]
 #[path = "../tests/support/random.rs"]
 mod random;
-pub mod prelude;
 pub mod reference;
 pub mod results;
 mod soil;

@@ -7,7 +7,7 @@ use basemat::fem::{Direction, Layer, MassKind, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
-    ContactNode, FemModel, MatrixModel, RayleighDamping, Structure, Triplets,
+    ContactNode, FemModel, MatrixModel, RayleighDamping, Row, Structure, Triplets,
 };
 use basemat::{Result, Simulation, Soil};
 
@@ -18,8 +18,8 @@ pub(crate) struct Tower {
     pub(crate) mass: Triplets,
     pub(crate) stiffness: Triplets,
     pub(crate) contact: Vec<ContactNode>,
-    /// The unknown that is the sway of its top.
-    pub(crate) top: usize,
+    /// The sway of its top.
+    pub(crate) top: Row,
 }
 
 impl Tower {
@@ -31,7 +31,7 @@ impl Tower {
         let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(model.unknowns()));
         model.mass(&mut mass);
         model.stiffness(&mut stiffness);
-        let top = model.unknown(model.nearest_node(0.0, 100.0), Direction::X).unwrap_or(0);
+        let top = model.row(model.node_at(0.0, 100.0)?, Direction::X)?;
         Ok(Self { mass, stiffness, contact: model.contact_nodes(), top })
     }
 }
@@ -49,7 +49,7 @@ pub(crate) fn damped(
 /// The structure on soil, with the sway of its top as a probe, ready to march.
 pub(crate) fn scene(
     structure: impl Structure + 'static,
-    top: Vec<(usize, f64)>,
+    top: Row,
     coordinates: Coordinates,
 ) -> Result<Simulation> {
     let soil = Soil::new(200.0e6, 0.33, 1900.0)?;

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use super::page::factor;
 use super::table::Table;
-use crate::error::{Result, write_file};
 use super::unit::{labelled, number, printed};
 use super::{ProbeExtremes, Summary};
+use crate::error::{Result, write_file};
 
 /// Summaries side by side; prints as a table with a row per quantity and a column per case.
 ///

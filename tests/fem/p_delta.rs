@@ -211,7 +211,7 @@ fn forces_given_by_hand_stay() {
 #[test]
 fn p_delta_overturns_but_does_not_hold() {
     let model = portal(5.0e3, |_, beam| beam).with_p_delta(10.0).unwrap();
-    let model = model.with_damping(RayleighDamping::from_ratios([1.0, 5.0], [0.05; 2]).unwrap());
+    let model = model.with_rayleigh(RayleighDamping::from_ratios([1.0, 5.0], [0.05; 2]).unwrap());
     let matrix = stiffness(&model);
     let stiffest = matrix.iter().map(|row| largest(row)).fold(0.0, f64::max);
     for direction in [Direction::X, Direction::Y] {
@@ -226,7 +226,7 @@ fn p_delta_overturns_but_does_not_hold() {
         -compressions(&model).iter().enumerate().map(|(k, p)| p * arms(k)).sum::<f64>();
     assert!((moment / exact - 1.0).abs() < 1e-3, "{moment} {exact}");
     let undamped = portal(5.0e3, |_, beam| beam)
-        .with_damping(RayleighDamping::from_ratios([1.0, 5.0], [0.05; 2]).unwrap());
+        .with_rayleigh(RayleighDamping::from_ratios([1.0, 5.0], [0.05; 2]).unwrap());
     assert_eq!(damping(&model), damping(&undamped));
     // Nothing is held: it marches, and leans by its own weight where the ground is soft.
     let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
