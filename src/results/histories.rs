@@ -1,12 +1,11 @@
 //! The observer: histories of a run.
 
 use std::io::{self, Write};
-use std::ops::Range;
 use std::path::Path;
 
 use super::envelope::{self, ElementEnvelope};
+use super::foundation::{self, Footing};
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
-use super::safety::{against_overturning, against_sliding};
 use super::unit::labelled;
 use super::{Extremes, Quantity, Recorder, Sliding, Uplift};
 use crate::bem::ContactElement;
@@ -50,6 +49,7 @@ pub(super) struct Tally {
     pub(super) envelopes: Vec<ElementEnvelope>,
     pub(super) uplift: Uplift,
     pub(super) sliding: Sliding,
+    pub(super) foundations: Vec<Footing>,
     pub(super) input: Peak,
     pub(super) ledger: Ledger,
     pub(super) ledger_residual: f64,
@@ -60,7 +60,8 @@ impl Histories {
     pub(super) fn new(recorder: Recorder, simulation: &Simulation) -> Self {
         let state = simulation.state();
         let elements = simulation.elements().to_vec();
-        let values = scalars(&recorder.friction, &elements, state);
+        let foundations = foundation::start(state, &recorder.friction, &elements);
+        let values = scalars(state, &foundations);
         let mut histories = Self {
             probes: simulation.probes().to_vec(),
             time_step: simulation.time_step(),
@@ -81,6 +82,7 @@ impl Histories {
                 envelopes: envelope::start(&elements, state),
                 uplift: Uplift::start(state.uplifted_fraction, state.time),
                 sliding: Sliding::start(state),
+                foundations,
                 input: Peak { value: state.ledger.input, time: state.time },
                 ledger: state.ledger,
                 ledger_residual: 0.0,
@@ -133,7 +135,9 @@ impl Histories {
         if !fits {
             return;
         }
-        let values = scalars(&self.recorder.friction, &self.elements, state);
+        let footings = &mut self.tally.foundations;
+        foundation::see(footings, state, &self.recorder.friction, &self.elements);
+        let values = scalars(state, footings);
         self.tally.see(state, &values);
         self.keep(state, &values);
     }
@@ -284,14 +288,8 @@ impl Tally {
 }
 
 /// One value for each [`Quantity`], in the order of [`Quantity::ALL`].
-fn scalars(
-    friction: &[f64],
-    elements: &[ContactElement],
-    state: &State,
-) -> [f64; Quantity::ALL.len()] {
-    // One coefficient for all elements, or one each.
-    let of =
-        |own: &Range<usize>| if friction.len() > 1 { &friction[own.clone()] } else { friction };
+fn scalars(state: &State, foundations: &[Footing]) -> [f64; Quantity::ALL.len()] {
+    let [sliding, overturning] = foundation::least(foundations);
     Quantity::ALL.map(|quantity| match quantity {
         Quantity::BaseShear => state.base_shear,
         Quantity::BaseMoment => state.base_moment,
@@ -302,18 +300,7 @@ fn scalars(
         Quantity::BaseRotation => state.base_rotation,
         Quantity::FreeFieldHorizontal => state.free_field[0],
         Quantity::FreeFieldVertical => state.free_field[1],
-        Quantity::SlidingSafety if friction.is_empty() => f64::NAN,
-        Quantity::SlidingSafety => least(state, &|own| {
-            against_sliding(of(&own), &elements[own.clone()], &state.contact[own])
-        }),
-        Quantity::OverturningSafety => {
-            least(state, &|own| against_overturning(&elements[own.clone()], &state.contact[own]))
-        }
+        Quantity::SlidingSafety => sliding,
+        Quantity::OverturningSafety => overturning,
     })
-}
-
-/// The least of a factor over the foundations, those in flight left out; NaN if all are.
-fn least(state: &State, factor: &dyn Fn(Range<usize>) -> f64) -> f64 {
-    let own = state.foundations.iter().map(|foundation| factor(foundation.elements.clone()));
-    own.fold(f64::NAN, f64::min)
 }

@@ -18,12 +18,18 @@ impl fmt::Display for Summary {
             writeln!(f, "Weight on the base: {:.1} kN/m", 1e-3 * self.static_normal_force)?;
         }
         writeln!(f, "\n{}", self.peaks().text())?;
+        if self.foundations.len() > 1 {
+            writeln!(f, "{}", self.each_foundation().text())?;
+        }
         if let Some(coefficient) = self.shear_coefficient() {
             writeln!(f, "Largest base shear: {coefficient:.3} of the weight")?;
         }
         self.safety(f)?;
         self.uplift_and_sliding(f)?;
-        writeln!(f, "\nPressure under the base\n{}", self.pressures().text())?;
+        let shown = self.pressures();
+        let (all, some) = (self.envelope.len(), shown.rows.len());
+        let part = if some < all { format!(", {some} of {all} elements") } else { String::new() };
+        writeln!(f, "\nPressure under the base{part}\n{}", shown.text())?;
         self.energies(f)?;
         for warning in &self.warnings {
             write!(f, "\nwarning: {warning}")?;
@@ -52,6 +58,37 @@ impl Summary {
             row(&probe.name, unit, factor, &probe.extremes)
         }));
         Table { heading: heading.map(str::to_owned).to_vec(), rows }
+    }
+
+    /// Largest magnitudes, a line for each foundation.
+    fn each_foundation(&self) -> Table {
+        let heading = [
+            "Foundation, m",
+            "shear kN/m",
+            "moment kN·m/m",
+            "rotation mrad",
+            "uplift %",
+            "mean slip mm",
+            "safety, sliding",
+            "overturning",
+        ];
+        let row = |own: &super::FoundationSummary| {
+            let [left, right] = own.ends;
+            vec![
+                format!("{left:.2} to {right:.2}"),
+                number(1e-3 * own.base_shear.largest().value),
+                number(1e-3 * own.base_moment.largest().value),
+                number(1e3 * own.base_rotation.largest().value),
+                number(100.0 * own.uplifted_fraction.value),
+                number(1e3 * own.mean_slip.largest().value),
+                own.least_sliding_safety.map_or("–".to_owned(), |peak| factor(peak.value)),
+                factor(own.least_overturning_safety.value),
+            ]
+        };
+        Table {
+            heading: heading.map(str::to_owned).to_vec(),
+            rows: self.foundations.iter().map(row).collect(),
+        }
     }
 
     fn safety(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -126,7 +163,10 @@ impl Summary {
                 format!("{:.3}", envelope.open),
             ]
         };
-        let kept = |k: &usize| k.is_multiple_of(every) || *k == last;
+        // Whatever is left out, the largest pressure is not.
+        let place = |k: &usize| self.envelope[*k].pressure.highest.value;
+        let largest = (0..self.envelope.len()).max_by(|a, b| place(a).total_cmp(&place(b)));
+        let kept = |k: &usize| k.is_multiple_of(every) || *k == last || Some(*k) == largest;
         let shown = self.envelope.iter().enumerate().filter(|(k, _)| kept(k));
         Table {
             heading: heading.map(str::to_owned).to_vec(),

@@ -1,6 +1,9 @@
 //! A run in numbers.
 
-use super::{ElementEnvelope, EnergyShares, Extremes, Histories, Quantity, Sliding, Uplift};
+use super::{
+    ElementEnvelope, EnergyShares, Extremes, FoundationSummary, Histories, Quantity, Sliding,
+    Uplift,
+};
 use crate::bem::ContactElement;
 use crate::coupled::{Ledger, Peak, ProbeExtremes, Warning, named};
 use crate::error::Result;
@@ -31,9 +34,11 @@ pub struct Summary {
     pub uplift: Uplift,
     /// Sliding.
     pub sliding: Sliding,
-    /// Least factor of safety against sliding; `None` without a friction coefficient.
+    /// Each foundation by itself, from left to right.
+    pub foundations: Vec<FoundationSummary>,
+    /// Least factor of safety against sliding, of several foundations the least; `None` without a friction coefficient.
     pub least_sliding_safety: Option<Peak>,
-    /// Least factor of safety against overturning.
+    /// Least factor of safety against overturning, of several foundations the least.
     pub least_overturning_safety: Peak,
     /// Envelopes of the contact elements, from left to right.
     pub envelope: Vec<ElementEnvelope>,
@@ -77,6 +82,7 @@ impl Histories {
                 .collect(),
             uplift: tally.uplift,
             sliding: tally.sliding.clone(),
+            foundations: tally.foundations.iter().map(|own| own.summary.clone()).collect(),
             least_sliding_safety: (!self.recorder.friction.is_empty()).then_some(sliding_safety),
             least_overturning_safety: self.extremes(Quantity::OverturningSafety).lowest,
             envelope: tally.envelopes.clone(),
