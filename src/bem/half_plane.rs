@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use super::choice::{HistoryChoice, HistoryOptions, SavedChoice};
 use super::patch::check_order;
+use super::strip::strips_under;
 use super::{
     ContactElement, Grading, Ground, History, PatchKernel, SharedKernels, StaticKernel, Strip,
 };
 use crate::error::{CheckpointError, Error, Result};
 use crate::history::{ConvolutionHistory, ExponentialHistory};
 use crate::soil::Soil;
-use crate::structure::{Structure, foundation_nodes};
+use crate::structure::Structure;
 
 /// Homogeneous elastic half-plane with one or several strips on its surface.
 ///
@@ -111,12 +112,7 @@ impl HalfPlaneGround {
     /// As for [`HalfPlaneGround::new`] and [`Strip::new`]; [`Error::Size`] or [`Error::Index`] for a
     /// structure without foundations.
     pub fn under(structure: &dyn Structure, soil: Soil, count: usize) -> Result<Self> {
-        let nodes = structure.contact_nodes();
-        let strips: Result<Vec<_>> = foundation_nodes(nodes.len(), &structure.foundation_ends())?
-            .into_iter()
-            .map(|own| Strip::uniform(nodes[own.start].x..nodes[own.end - 1].x, count))
-            .collect();
-        Self::new(soil, &strips?)
+        Self::new(soil, &strips_under(structure, count)?)
     }
 
     /// Several strips from left to right, which talk through the soil.

@@ -1,7 +1,10 @@
 //! Winkler's spring bed: a ground without memory.
 
-use super::{ContactElement, Ground};
+use super::patch::check_order;
+use super::strip::strips_under;
+use super::{ContactElement, Ground, Strip};
 use crate::error::{CheckpointError, Error, Result, not_negative, positive, same_length};
+use crate::structure::Structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
@@ -41,7 +44,35 @@ impl SpringGround {
         normal_stiffness: f64,
         tangential_stiffness: f64,
     ) -> Result<Self> {
-        let elements = super::Strip::uniform(range, count)?.elements();
+        Self::on_strips(&[Strip::uniform(range, count)?], normal_stiffness, tangential_stiffness)
+    }
+
+    /// The same under each foundation of `structure`, as wide as that is, of `count` equal elements.
+    ///
+    /// # Errors
+    /// As for [`HalfPlaneGround::under`](super::HalfPlaneGround::under) and [`SpringGround::new`].
+    pub fn under(
+        structure: &dyn Structure,
+        count: usize,
+        normal_stiffness: f64,
+        tangential_stiffness: f64,
+    ) -> Result<Self> {
+        let strips = strips_under(structure, count)?;
+        Self::on_strips(&strips, normal_stiffness, tangential_stiffness)
+    }
+
+    /// The same under several strips, from left to right.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for no strips, [`Error::Input`] for strips that overlap or are out of order,
+    /// and as for [`SpringGround::new`].
+    pub fn on_strips(
+        strips: &[Strip],
+        normal_stiffness: f64,
+        tangential_stiffness: f64,
+    ) -> Result<Self> {
+        let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
+        check_order(&elements)?;
         positive("normal stiffness of the spring bed", normal_stiffness)?;
         positive("tangential stiffness of the spring bed", tangential_stiffness)?;
         Ok(Self {

@@ -1,7 +1,10 @@
 //! Strips of contact elements on the surface.
 
+use std::ops::Range;
+
 use super::ContactElement;
 use crate::error::{Error, Result, finite, positive};
+use crate::structure::{Structure, foundation_nodes};
 
 /// How element lengths vary along a strip.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -103,4 +106,12 @@ impl Strip {
     pub fn elements(&self) -> Vec<ContactElement> {
         self.nodes.windows(2).map(|n| ContactElement { left: n[0], right: n[1] }).collect()
     }
+}
+
+/// Strips of `count` equal elements under each foundation of `structure`.
+pub(super) fn strips_under(structure: &dyn Structure, count: usize) -> Result<Vec<Strip>> {
+    let nodes = structure.contact_nodes();
+    let foundations = foundation_nodes(nodes.len(), &structure.foundation_ends())?;
+    let strip = |own: Range<usize>| Strip::uniform(nodes[own.start].x..nodes[own.end - 1].x, count);
+    foundations.into_iter().map(strip).collect()
 }
