@@ -30,6 +30,11 @@ impl Row {
         &self.0
     }
 
+    /// The terms, one after the other.
+    pub fn iter(&self) -> std::slice::Iter<'_, (usize, f64)> {
+        self.0.iter()
+    }
+
     /// Whether it is a sum of nothing.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -43,7 +48,7 @@ impl Row {
     }
 
     /// This displacement to the right less that of the base's middle: what an observer on the base
-    /// sees, its rotation left in.
+    /// sees, its rotation left in. The base's slip on the ground is taken out, too.
     ///
     /// The base is that of `structure`, of which the row's unknowns must be, from its first contact
     /// node to its last.
