@@ -65,13 +65,13 @@ impl Structure for Building {
     // the building up, and a rigid ride must give no force.
     fn stiffness(&self, matrix: &mut Triplets) {
         for storey in 0..FLOORS {
-            matrix.add_outer(&self.drift(storey), self.storey_stiffness);
+            matrix.add_outer(self.drift(storey), self.storey_stiffness);
         }
     }
 
     fn damping(&self, matrix: &mut Triplets) {
         for storey in 0..FLOORS {
-            matrix.add_outer(&self.drift(storey), self.storey_dashpot);
+            matrix.add_outer(self.drift(storey), self.storey_dashpot);
         }
     }
 }

@@ -20,7 +20,7 @@
 //! let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
 //! let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.05)?;
 //! let weight = STANDARD_GRAVITY * building.total_mass();
-//! let roof = building.floor(4)?;
+//! let roof = building.roof();
 //! let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
 //!
 //! let mut simulation = Simulation::builder(0.01)
@@ -28,7 +28,7 @@
 //!     .structure(building)
 //!     .interface(Coulomb::new(0.4)?)
 //!     .motion(el_centro_1940())
-//!     .probe(Probe::displacement("roof", vec![(roof, 1.0)]))
+//!     .probe(Probe::displacement("roof", roof))
 //!     .build()?;
 //!
 //! // Before it shakes, the ground carries the weight and nothing else.

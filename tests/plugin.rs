@@ -131,7 +131,7 @@ impl Structure for Hardening {
     }
 
     fn stiffness(&self, matrix: &mut Triplets) {
-        matrix.add_outer(&DRIFT, SPRING);
+        matrix.add_outer(DRIFT, SPRING);
     }
 
     fn is_linear(&self) -> bool {
@@ -146,7 +146,7 @@ impl Structure for Hardening {
     }
 
     fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets) {
-        matrix.add_outer(&DRIFT, 3.0 * self.cubic * Self::drift(displacement).powi(2));
+        matrix.add_outer(DRIFT, 3.0 * self.cubic * Self::drift(displacement).powi(2));
     }
 
     fn commit(&mut self, displacement: &[f64]) {

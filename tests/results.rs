@@ -323,7 +323,7 @@ fn probes_come_with_their_unit() {
                 let value: f64 = word.parse().unwrap_or(f64::NAN);
                 (value - factor * peak.value).abs() < 1e-3 * factor * peak.magnitude()
             };
-            assert!(words.iter().any(|word| shown(word)), "{line}, not {}", factor * peak.value);
+            assert!(words.iter().any(shown), "{line}, not {}", factor * peak.value);
         }
     }
     let mut file = Vec::new();

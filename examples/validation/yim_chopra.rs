@@ -84,12 +84,12 @@ impl Structure for Model {
     }
 
     fn stiffness(&self, matrix: &mut Triplets) {
-        matrix.add_outer(&[(3, 1.0), (0, -1.0), (2, self.height)], self.stiffness);
-        matrix.add_outer(&[(3, 1.0), (0, -1.0)], -self.leaning());
+        matrix.add_outer([(3, 1.0), (0, -1.0), (2, self.height)], self.stiffness);
+        matrix.add_outer([(3, 1.0), (0, -1.0)], -self.leaning());
     }
 
     fn damping(&self, matrix: &mut Triplets) {
-        matrix.add_outer(&[(3, 1.0), (0, -1.0), (2, self.height)], self.damping);
+        matrix.add_outer([(3, 1.0), (0, -1.0), (2, self.height)], self.damping);
     }
 }
 

@@ -196,7 +196,7 @@ fn check_nodes(nodes: &[ContactNode], unknowns: usize) -> Result<()> {
     }
     for node in nodes {
         finite("coordinate of a contact node", node.x)?;
-        for &(index, weight) in node.horizontal.terms().iter().chain(&node.vertical) {
+        for &(index, weight) in node.horizontal.iter().chain(&node.vertical) {
             finite("weight of a contact node", weight)?;
             if index >= unknowns {
                 let quantity = "unknown of a contact node";

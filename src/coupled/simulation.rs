@@ -169,11 +169,8 @@ impl Simulation {
         let (static_force, static_energy) = parts.model.nonlinear_state(&at.displacement);
         let elements = parts.ground.elements().to_vec();
         let modes_of = parts.model.modes.as_deref();
-        let probe_rows = parts
-            .probes
-            .iter()
-            .map(|p| p.rows().map(|row| SteppedRow::new(row.terms(), modes_of)))
-            .collect();
+        let rows = |p: &Probe| p.rows().map(|row| SteppedRow::new(row.terms(), modes_of));
+        let probe_rows = parts.probes.iter().map(rows).collect();
         let mut simulation = Self {
             time_step: parts.time_step,
             coefficients: parts.coefficients,

@@ -51,7 +51,7 @@ impl Wireframe {
             for value in point.position {
                 finite("coordinate of a wireframe", value)?;
             }
-            for &(_, weight) in point.horizontal.terms().iter().chain(point.vertical.terms()) {
+            for &(_, weight) in point.horizontal.iter().chain(point.vertical.terms()) {
                 finite("weight of a wireframe", weight)?;
             }
         }
@@ -150,7 +150,7 @@ impl Wireframe {
     /// [`Error::Index`] if a point is moved by an unknown that is not there.
     pub fn displacements(&self, unknowns: &[f64]) -> Result<Vec<[f64; 2]>> {
         let sum = |row: &Row| {
-            row.terms().iter().try_fold(0.0, |sum, &(index, weight)| {
+            row.iter().try_fold(0.0, |sum, &(index, weight)| {
                 let value = unknowns.get(index).ok_or(Error::Index {
                     quantity: "unknown of a wireframe",
                     index,

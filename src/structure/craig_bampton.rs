@@ -161,7 +161,7 @@ struct Parts {
 impl Parts {
     fn new(n: usize, contact: &[ContactNode], more: &[usize]) -> Result<Self> {
         let of_contact =
-            contact.iter().flat_map(|node| node.horizontal.terms().iter().chain(&node.vertical));
+            contact.iter().flat_map(|node| node.horizontal.iter().chain(&node.vertical));
         let mut is_kept = vec![false; n];
         for index in of_contact.map(|&(index, _)| index).chain(more.iter().copied()) {
             let bound = n;

@@ -25,7 +25,7 @@ pub(super) const SYMMETRIC: f64 = 1e-9;
 ///     mass.add(unknown, unknown, value);
 /// }
 /// let mut stiffness = Triplets::new(4);
-/// stiffness.add_outer(&[(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
+/// stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
 /// let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
 /// let model = MatrixModel::new(mass, stiffness, contact)?;
 /// assert_eq!(model.unknowns(), 4);
@@ -98,7 +98,7 @@ fn check_contact(contact: &[ContactNode], order: usize) -> Result<()> {
     }
     for node in contact {
         crate::error::finite("coordinate of a contact node", node.x)?;
-        for &(index, weight) in node.horizontal.terms().iter().chain(&node.vertical) {
+        for &(index, weight) in node.horizontal.iter().chain(&node.vertical) {
             crate::error::finite("weight of a contact node", weight)?;
             if index >= order {
                 let quantity = "unknown of a contact node";

@@ -30,6 +30,11 @@ impl Row {
         &self.0
     }
 
+    /// The terms, one after the other.
+    pub fn iter(&self) -> std::slice::Iter<'_, (usize, f64)> {
+        self.0.iter()
+    }
+
     /// Whether it is a sum of nothing.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -43,13 +48,15 @@ impl Row {
     }
 
     /// This displacement to the right less that of the base's middle: what an observer on the base
-    /// sees, its rotation left in.
+    /// sees, its rotation left in. The base's slip on the ground is taken out, too.
     ///
-    /// The base is that of `structure`, of which the row's unknowns must be, from its first contact
-    /// node to its last.
+    /// The base is that of `structure`, from its first contact node to its last; the row must be one
+    /// of its unknowns. In a group that is a member, before
+    /// [`StructureGroup::row`](super::StructureGroup::row) moves the row.
     ///
     /// # Errors
-    /// [`Error::Size`] for a structure with fewer than two contact nodes.
+    /// [`Error::Size`] for a structure with fewer than two contact nodes, [`Error::Input`] for
+    /// contact nodes at one place.
     pub fn relative_to_base(&self, structure: &dyn Structure) -> Result<Self> {
         let [translation, _] = base_motion(structure)?;
         Ok(self.clone() - translation)

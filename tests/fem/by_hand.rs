@@ -30,7 +30,7 @@ impl Structure for FiveStoreys {
 
     fn stiffness(&self, matrix: &mut Triplets) {
         for (below, floor) in [(0, 3), (3, 4), (4, 5), (5, 6), (6, 7)] {
-            matrix.add_outer(&[(floor, 1.0), (below, -1.0), (2, self.height)], self.stiffness);
+            matrix.add_outer([(floor, 1.0), (below, -1.0), (2, self.height)], self.stiffness);
         }
     }
 }

@@ -48,7 +48,7 @@ pub(crate) fn largest(values: &[f64]) -> f64 {
 }
 
 pub(crate) fn row_value(row: &Row, values: &[f64]) -> f64 {
-    row.terms().iter().map(|&(index, weight)| weight * values[index]).sum()
+    row.iter().map(|&(index, weight)| weight * values[index]).sum()
 }
 
 /// Rows and columns `keep`.

@@ -250,7 +250,7 @@ fn without_mass_or_unknowns_there_are_no_modes() {
     let mast = || {
         let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(4));
         (0..3).for_each(|unknown| mass.add(unknown, unknown, 1e4));
-        stiffness.add_outer(&[(3, 1.0), (0, -1.0), (2, 5.0)], 4e6);
+        stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4e6);
         let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
         MatrixModel::new(mass, stiffness, contact).unwrap()
     };

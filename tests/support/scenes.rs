@@ -135,7 +135,7 @@ impl Structure for Rider {
     }
 
     fn stiffness(&self, matrix: &mut Triplets) {
-        matrix.add_outer(&[(0, -1.0), (2, 6.0), (3, 1.0)], 1e6);
+        matrix.add_outer([(0, -1.0), (2, 6.0), (3, 1.0)], 1e6);
     }
 
     fn is_linear(&self) -> bool {
@@ -152,7 +152,7 @@ impl Structure for Rider {
 
     fn nonlinear_tangent(&self, u: &[f64], matrix: &mut Triplets) {
         let stretch = u[3] - u[0] + 6.0 * u[2];
-        matrix.add_outer(&[(0, -1.0), (2, 6.0), (3, 1.0)], 3e9 * stretch * stretch);
+        matrix.add_outer([(0, -1.0), (2, 6.0), (3, 1.0)], 3e9 * stretch * stretch);
     }
 
     /// Elastic, without memory.
