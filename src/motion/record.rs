@@ -6,7 +6,7 @@ use super::integral::{Instant, integrate};
 use super::{Baseline, RecordFormat};
 use crate::error::{Error, RecordError, Result, finite, positive};
 
-/// Most samples that [`Record::resample`] makes.
+/// Most samples that [`Record::resampled`] makes.
 const MOST_SAMPLES: f64 = 1e8;
 
 /// Ground acceleration at equal time steps, with its velocity and displacement.
@@ -155,7 +155,7 @@ impl Record {
     ///
     /// ```
     /// let record = basemat::motion::el_centro_1940();
-    /// let fine = record.resample(0.005)?;
+    /// let fine = record.resampled(0.005)?;
     /// assert_eq!(fine.len(), 4 * 1559 + 1);
     /// assert!((fine.displacements()[6236] - record.displacements()[1559]).abs() < 1e-12);
     /// # Ok::<(), basemat::Error>(())
@@ -163,7 +163,7 @@ impl Record {
     ///
     /// # Errors
     /// [`Error::Input`] unless the step is positive and gives at most 10⁸ samples.
-    pub fn resample(&self, time_step: f64) -> Result<Self> {
+    pub fn resampled(&self, time_step: f64) -> Result<Self> {
         positive("new time step of the record", time_step)?;
         let duration = self.duration();
         // slack for a step that divides the duration but for rounding
