@@ -1,9 +1,11 @@
 //! Nodes and the elements between them.
 
+use std::sync::Arc;
+
 use super::element::Element;
 use crate::error::{Error, Result, finite, not_negative};
 
-/// Nodes and elements.
+/// Nodes and elements. Clones share their elements, which never change.
 ///
 /// ```
 /// use basemat::fem::{Beam, LumpedMass, Mesh};
@@ -16,10 +18,10 @@ use crate::error::{Error, Result, finite, not_negative};
 /// assert_eq!(mesh.elements().len(), 2);
 /// # Ok::<(), basemat::Error>(())
 /// ```
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Mesh {
     nodes: Vec<[f64; 2]>,
-    elements: Vec<Box<dyn Element>>,
+    elements: Vec<Arc<dyn Element>>,
 }
 
 impl std::fmt::Debug for Mesh {
@@ -71,7 +73,7 @@ impl Mesh {
             }
         }
         element.check(&self.coordinates(nodes))?;
-        self.elements.push(Box::new(element));
+        self.elements.push(Arc::new(element));
         Ok(self.elements.len() - 1)
     }
 
@@ -80,9 +82,14 @@ impl Mesh {
         &self.nodes
     }
 
-    /// All elements.
-    pub fn elements(&self) -> &[Box<dyn Element>] {
-        &self.elements
+    /// All elements, in the order in which they were added.
+    pub fn elements(&self) -> impl ExactSizeIterator<Item = &dyn Element> + Clone {
+        self.elements.iter().map(AsRef::as_ref)
+    }
+
+    /// The element of this index; `None` if there is none.
+    pub fn element(&self, index: usize) -> Option<&dyn Element> {
+        self.elements.get(index).map(AsRef::as_ref)
     }
 
     /// Node nearest to (`x`, `y`), the first one when several are; `None` for an empty mesh.

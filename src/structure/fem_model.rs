@@ -28,7 +28,7 @@ use crate::fem::{
 /// assert_eq!(model.unknown(roof, Direction::X), Some(2 * (16 * 9 + 4)));
 /// # Ok::<(), basemat::Error>(())
 /// ```
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct FemModel {
     mesh: Mesh,
     numbering: Numbering,
@@ -227,7 +227,7 @@ impl FemModel {
         let is_above = |points: &[[f64; 2]]| sides(points) == (true, false);
         let fault =
             |needed| Error::Input { quantity: "height of the section", value: height, needed };
-        let elements = self.mesh.elements().iter();
+        let elements = self.mesh.elements();
         let mut all = elements.map(|element| sides(&self.mesh.coordinates(element.nodes())));
         if all.clone().any(|side| side == (true, true)) {
             return Err(fault("a height that no element crosses"));
