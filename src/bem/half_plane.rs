@@ -221,7 +221,7 @@ impl Ground for HalfPlaneGround {
 
     fn increment_error_bound(&self) -> f64 {
         let history = self.prepared.as_ref().and_then(|prepared| prepared.history.as_ref());
-        history.map_or(0.0, |history| history.increment_error_bound())
+        history.map_or(0.0, ConvolutionHistory::increment_error_bound)
     }
 
     /// Which history was chosen for how many steps, and what it says.
