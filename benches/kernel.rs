@@ -14,7 +14,7 @@ fn kernels(criterion: &mut Criterion) {
     criterion.bench_function("half-plane impulse", |b| b.iter(|| plane.impulse(black_box(1.3))));
     criterion.bench_function("half-plane step", |b| b.iter(|| plane.heaviside(black_box(1.3))));
     // c_P Δt = half an element, twenty elements: fronts are inside until lag 120.
-    let kernel = InfluenceKernel::new(&soil, 0.25).expect("valid step");
+    let kernel = InfluenceKernel::new(soil, 0.25).expect("valid step");
     let element = |i: u32| ContactElement { left: f64::from(i), right: f64::from(i + 1) };
     let mut group = criterion.benchmark_group("step coefficients");
     let mut slices = [[0.0; 120]; 3];

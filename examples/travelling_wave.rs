@@ -62,8 +62,8 @@ fn main() -> Result<()> {
         el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 })?.padded(LEAD, 8.0)?;
     // Where all of these waves arrive first.
     let origin = -HALF_WIDTH;
-    let inclined = PlaneWave::sv(&soil, angle.to_radians())?;
-    let rayleigh = PlaneWave::rayleigh(&soil);
+    let inclined = PlaneWave::sv(soil, angle.to_radians())?;
+    let rayleigh = PlaneWave::rayleigh(soil);
 
     println!(
         "Tower of {} m × {HEIGHT} m, friction {FRICTION}, soil of 200 m/s, El Centro 1940",
@@ -76,9 +76,11 @@ fn main() -> Result<()> {
     );
     let mut comparison = Comparison::new();
     comparison.add("vertical", shake(soil, record.clone())?);
-    comparison
-        .add(format!("SV, {angle}°"), shake(soil, inclined.with_horizontal(&record, origin)?)?);
-    comparison.add("Rayleigh", shake(soil, rayleigh.with_horizontal(&record, origin)?)?);
+    comparison.add(
+        format!("SV, {angle}°"),
+        shake(soil, inclined.field_from_horizontal(&record, origin)?)?,
+    );
+    comparison.add("Rayleigh", shake(soil, rayleigh.field_from_horizontal(&record, origin)?)?);
     comparison.add("run", shake(soil, TravellingWave::new(record, velocity, origin)?)?);
     println!("{comparison}");
     Ok(())

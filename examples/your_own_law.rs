@@ -14,11 +14,14 @@
 //!
 //! The solver does the rest. A law has no memory of its own: what it needs of the past is in
 //! [`StepStart`], the end of the step before. Here that is the speed at which the element slid.
+//!
+//! Where only the coefficient of Coulomb's law shall change, a closure in [`VariableFriction`] is
+//! enough: the last but one row of the table.
 
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::Run;
 use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+    Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance, VariableFriction,
 };
 use basemat::motion::el_centro_1940;
 use basemat::structure::RigidBlock;
@@ -47,15 +50,20 @@ impl InterfaceLaw for VelocityWeakening {
     }
 
     fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
-        // shear − (±friction) · pressure = 0
-        let cone =
-            |friction: f64| Condition { shear: 1.0, pressure: -friction, ..Condition::default() };
+        // ±shear − friction · pressure = 0, divided by the friction where that is large: up to
+        // infinite friction the condition then stays one.
+        let cone = |side: f64| {
+            let friction = self.friction(start);
+            let [shear, pressure] =
+                if friction > 1.0 { [side / friction, -1.0] } else { [side, -friction] };
+            Condition { shear, pressure, ..Condition::default() }
+        };
         let closed = Condition::gap_is(0.0);
         match mode {
             Mode::Stick => [closed, Condition::slip_is(start.state.slip)],
             // The structure slides to the right and drags the soil along: shear is positive.
-            Mode::SlipRight => [closed, cone(self.friction(start))],
-            Mode::SlipLeft => [closed, cone(-self.friction(start))],
+            Mode::SlipRight => [closed, cone(1.0)],
+            Mode::SlipLeft => [closed, cone(-1.0)],
             Mode::Open => [Condition::pressure_is(0.0), Condition::shear_is(0.0)],
         }
     }
@@ -76,6 +84,9 @@ impl InterfaceLaw for VelocityWeakening {
             _ if trial.pressure < -tolerance.traction => Mode::Open,
             Mode::Stick if trial.shear > limit => Mode::SlipRight,
             Mode::Stick if trial.shear < -limit => Mode::SlipLeft,
+            // Shear against the sense of slip is that of a pressure below zero.
+            Mode::SlipRight if trial.shear < -tolerance.traction => Mode::Open,
+            Mode::SlipLeft if trial.shear > tolerance.traction => Mode::Open,
             // Friction must not push: an element that slides the wrong way sticks.
             Mode::SlipRight if advance < -tolerance.length => Mode::Stick,
             Mode::SlipLeft if advance > tolerance.length => Mode::Stick,
@@ -97,9 +108,12 @@ fn slide(law: impl InterfaceLaw + 'static) -> basemat::Result<Run> {
 }
 
 fn main() -> basemat::Result<()> {
+    let own = VelocityWeakening { slow: 0.3, fast: 0.25, speed: 0.1 };
+    let closure = VariableFriction::new(|start| 0.25 + 0.05 * (-start.slip_rate.abs() / 0.1).exp());
     let cases = [
         ("Coulomb, 0.30", slide(Coulomb::new(0.3)?)?),
-        ("0.30 slow, 0.25 fast", slide(VelocityWeakening { slow: 0.3, fast: 0.25, speed: 0.1 })?),
+        ("0.30 slow, 0.25 fast", slide(own)?),
+        ("the same, from a closure", slide(closure)?),
         ("Coulomb, 0.25", slide(Coulomb::new(0.25)?)?),
     ];
     println!("{:<28}{:>14}{:>14}{:>16}", "law", "largest slip", "residual slip", "ledger residual");

@@ -34,7 +34,7 @@ fn ratio_on_table(
     tolerance: f64,
 ) -> f64 {
     let soil = Soil::new(1.0, poisson, 1.0).unwrap();
-    let advice = advise(&soil, outline, &pulse_content(), tolerance).unwrap();
+    let advice = advise(soil, outline, &pulse_content(), tolerance).unwrap();
     let table = table(&format!("td_{file}.csv"));
     let wanted = Series::new(&table, "V");
     let mut simulation = Simulation::builder(advice.time_step)
@@ -94,7 +94,7 @@ fn as_asked(scene: &str, ratio: f64) {
 fn errors_of_stiffness_are_those_of_the_strip() {
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
     let outline = Outline::new(2.0, 4.0, 4.0).unwrap();
-    let advice = advise(&soil, &outline, &pulse_content(), 0.01).unwrap();
+    let advice = advise(soil, &outline, &pulse_content(), 0.01).unwrap();
     let square = (advice.elements as f64).powi(2);
     let expected =
         [advice.stiffness_error.horizontal, advice.stiffness_error.rocking].map(|e| e * square);
@@ -219,7 +219,7 @@ fn a_record_comes_out_as_asked() {
     };
     let largest = |forces: &[f64]| forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
     for tolerance in [0.1, 0.03] {
-        let advice = advise(&soil, &outline, &content, tolerance).unwrap();
+        let advice = advise(soil, &outline, &content, tolerance).unwrap();
         let step = advice.time_step;
         let forces = shear(step, advice.ground(soil, -5.0..5.0).unwrap());
         let mut history = Difference::default();
@@ -240,7 +240,7 @@ fn advice_follows_its_tolerance() {
     let outline = Outline::new(10.0, 15.0, 150.0e3).unwrap();
     let mut last: Option<Advice> = None;
     for tolerance in [0.5, 0.2, 0.05, 0.01, 2e-3, 3e-4] {
-        let advice = advise(&soil, &outline, &content, tolerance).unwrap();
+        let advice = advise(soil, &outline, &content, tolerance).unwrap();
         let worst = advice.mesh_error.max(advice.step_error).max(advice.peak_error);
         assert!(worst <= tolerance / std::f64::consts::SQRT_2 * (1.0 + 1e-9), "{advice}");
         if let Some(last) = last {
@@ -257,8 +257,7 @@ fn advice_follows_its_tolerance() {
     )
     .unwrap();
     let larger = Outline::new(20.0, 30.0, 600.0e3).unwrap();
-    let [a, b] =
-        [advise(&soil, &outline, &content, 0.01), advise(&scaled, &larger, &content, 0.01)];
+    let [a, b] = [advise(soil, &outline, &content, 0.01), advise(scaled, &larger, &content, 0.01)];
     assert_eq!(a.unwrap().elements, b.unwrap().elements);
 }
 
@@ -295,14 +294,14 @@ fn bad_inputs_are_refused() {
         refused(outline.with_frequency(bad, 0.05));
         refused(FrequencyContent::flat(bad));
         refused(content.frequency_below(bad));
-        refused(advise(&soil, &outline, &content, bad));
+        refused(advise(soil, &outline, &content, bad));
     }
     for bad in [-0.1, f64::NAN, f64::INFINITY] {
         refused(outline.with_frequency(1.0, bad));
     }
     refused(content.frequency_below(1.1));
-    refused(advise(&soil, &outline, &content, 0.6));
-    refused(advise(&soil, &outline, &content, 9e-5));
+    refused(advise(soil, &outline, &content, 0.6));
+    refused(advise(soil, &outline, &content, 9e-5));
     refused(FrequencyContent::of(&Record::new(0.01, vec![0.0; 10]).unwrap()));
     refused(FrequencyContent::of(&Record::new(0.01, vec![1e200; 10]).unwrap()));
     // Extremes of what is accepted: an error or an advice, never a panic.
@@ -314,10 +313,10 @@ fn bad_inputs_are_refused() {
             outline.with_frequency(size, 0.0),
             outline.with_frequency(1.0, size),
         ] {
-            let _ = advise(&soil, &outline.unwrap(), &content, 0.01);
+            let _ = advise(soil, &outline.unwrap(), &content, 0.01);
         }
         if let Ok(content) = FrequencyContent::flat(size) {
-            let _ = advise(&soil, &outline, &content, 0.01);
+            let _ = advise(soil, &outline, &content, 0.01);
         }
     }
 }

@@ -131,7 +131,7 @@ fn absurd_counts_do_not_panic() {
 
     let left = ContactElement { left: 0.0, right: 1.0 };
     let right = ContactElement { left: 1.0, right: 2.0 };
-    let kernel = InfluenceKernel::new(&soil(), 1e-30).unwrap();
+    let kernel = InfluenceKernel::new(soil(), 1e-30).unwrap();
     let pair = kernel.pair(right, left).unwrap();
     assert_eq!(pair.coupling_ends(), usize::MAX);
     pair.fill(usize::MAX, &mut [0.0; 2], &mut [0.0; 2], &mut [0.0; 2]).unwrap();
@@ -140,18 +140,18 @@ fn absurd_counts_do_not_panic() {
 #[test]
 fn kernels() {
     let element = |left: f64, right: f64| ContactElement { left, right };
-    refused("time step", &BAD, |x| InfluenceKernel::new(&soil(), x));
-    let kernel = InfluenceKernel::new(&soil(), 1e-3).unwrap();
+    refused("time step", &BAD, |x| InfluenceKernel::new(soil(), x));
+    let kernel = InfluenceKernel::new(soil(), 1e-3).unwrap();
     let unit = element(0.0, 1.0);
     for bad in [element(f64::NAN, 1.0), element(0.0, f64::INFINITY), element(1.0, 0.0)] {
         assert!(matches!(kernel.pair(bad, unit), Err(Error::Input { .. })));
         assert!(matches!(kernel.coefficients(unit, bad, 1), Err(Error::Input { .. })));
-        let statics = StaticKernel::new(&soil(), 1.0).unwrap();
+        let statics = StaticKernel::new(soil(), 1.0).unwrap();
         assert!(matches!(statics.coefficients(bad, unit), Err(Error::Input { .. })));
         assert!(PatchKernel::new(soil(), vec![bad], 1e-3).is_err());
     }
     refused("lag", &[0.0], |_| kernel.coefficients(unit, unit, 0));
-    refused("reference length", &BAD, |x| StaticKernel::new(&soil(), x));
+    refused("reference length", &BAD, |x| StaticKernel::new(soil(), x));
     let pair = kernel.pair(unit, unit).unwrap();
     let uneven = pair.fill(1, &mut [0.0; 3], &mut [0.0; 2], &mut [0.0; 3]);
     assert!(matches!(error_with("xx", uneven), Error::Size { found: 2, needed: 3, .. }));
@@ -182,7 +182,7 @@ fn motions() {
         assert!(matches!(error_with("samples", Record::new(0.1, few)), Error::Record { .. }));
     }
     let record = Record::new(0.1, vec![0.0, 1.0, 0.0, -1.0]).unwrap();
-    refused("new time step", &BAD, |x| record.resample(x));
+    refused("new time step", &BAD, |x| record.resampled(x));
     refused("scale factor", &NOT_FINITE, |x| record.scaled(x));
     refused("wanted peak", &BAD, |x| record.scaled_to_peak(x));
     assert!(record.with_baseline(Baseline::VelocityPolynomial { degree: 0 }).is_err());

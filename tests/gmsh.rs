@@ -65,7 +65,7 @@ fn the_manuals_example_is_read() {
     assert_eq!((gmsh.surfaces(), gmsh.lines().len()), (vec![""], 0));
     let mesh = gmsh.mesh(&[("", concrete())]).unwrap();
     assert_eq!(mesh.nodes()[4], [2.0, 0.0]);
-    let nodes: Vec<_> = mesh.elements().iter().map(|quad| quad.nodes().to_vec()).collect();
+    let nodes: Vec<_> = mesh.elements().map(|quad| quad.nodes().to_vec()).collect();
     assert_eq!(nodes, [[0, 1, 2, 3], [1, 4, 5, 2]]);
 }
 
@@ -105,7 +105,7 @@ fn written(mesh: &Mesh, lower: usize, contact: &[usize]) -> String {
     for (entity, range) in [(1, 0..lower), (2, lower..quads)] {
         let _ = writeln!(text, "2 {entity} 3 {}", range.len());
         for k in range {
-            let mut nodes = mesh.elements()[k].nodes().to_vec();
+            let mut nodes = mesh.element(k).unwrap().nodes().to_vec();
             if k % 2 == 1 {
                 nodes.reverse();
             }

@@ -39,7 +39,7 @@ fn difference(strips: &[Strip], poisson: f64, reserve: usize, steps: usize) -> f
     let soil = Soil::new(8e7, poisson, 2000.0).unwrap();
     let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
     let time_step = 1.5e-3;
-    let kernel = InfluenceKernel::new(&soil, time_step).unwrap();
+    let kernel = InfluenceKernel::new(soil, time_step).unwrap();
     let patch = PatchKernel::new(soil, elements.clone(), time_step).unwrap();
     let mut history = DirectHistory::new(Arc::new(patch));
     history.reserve(reserve).unwrap();

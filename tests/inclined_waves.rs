@@ -16,7 +16,7 @@ fn surface_motion_leaves_no_traction() {
         let numbers: Vec<f64> = fields[1..].iter().map(|field| field.parse().unwrap()).collect();
         let (kind, poisson, angle) = (fields[0], numbers[0], numbers[1].to_radians());
         let make = if kind == "sv" { PlaneWave::sv } else { PlaneWave::p };
-        let wave = make(&soil(poisson), angle).unwrap();
+        let wave = make(soil(poisson), angle).unwrap();
         for (found, known) in wave.amplification().iter().flatten().zip(&numbers[2..]) {
             assert!((found - known).abs() < 1e-11, "{row}: {found}");
         }
@@ -34,15 +34,12 @@ fn surface_motion_leaves_no_traction() {
 fn the_other_way_is_the_mirror_image() {
     for make in [PlaneWave::sv, PlaneWave::p] {
         for angle in [0.3, 0.9] {
-            let [right, left] = [angle, -angle].map(|angle| make(&soil(0.3), angle).unwrap());
+            let [right, left] = [angle, -angle].map(|angle| make(soil(0.3), angle).unwrap());
             let reversed = right.reversed();
             assert_eq!(left.apparent_velocity(), reversed.apparent_velocity());
             // An incident P wave from the right pushes to the left.
-            let sign = if make(&soil(0.3), 0.0).unwrap().amplification()[0][0] == 0.0 {
-                -1.0
-            } else {
-                1.0
-            };
+            let sign =
+                if make(soil(0.3), 0.0).unwrap().amplification()[0][0] == 0.0 { -1.0 } else { 1.0 };
             for (a, b) in left.amplification().iter().zip(reversed.amplification()) {
                 for (a, b) in a.iter().zip(b) {
                     assert!((a - sign * b).abs() < 1e-14);
@@ -54,7 +51,7 @@ fn the_other_way_is_the_mirror_image() {
 
 #[test]
 fn vertical_incidence_doubles_one_component() {
-    let [s, p] = [PlaneWave::sv, PlaneWave::p].map(|make| make(&soil(0.3), 0.0).unwrap());
+    let [s, p] = [PlaneWave::sv, PlaneWave::p].map(|make| make(soil(0.3), 0.0).unwrap());
     for (found, known) in [(s, [[2.0, 0.0], [0.0, 0.0]]), (p, [[0.0, 0.0], [2.0, 0.0]])] {
         for (a, b) in found.amplification().iter().flatten().zip(known.iter().flatten()) {
             assert!((a - b).abs() < 1e-14);
@@ -62,16 +59,16 @@ fn vertical_incidence_doubles_one_component() {
         assert!(found.apparent_velocity().is_infinite());
     }
     let record = el_centro_1940();
-    let field = s.with_horizontal(&record, 0.0).unwrap();
+    let field = s.field_from_horizontal(&record, 0.0).unwrap();
     assert_eq!(field.displacement(50.0, 7.0), [record.displacement_at(7.0), 0.0]);
-    assert!(s.with_vertical(&record, 0.0).is_err());
-    assert!(p.with_horizontal(&record, 0.0).is_err());
+    assert!(s.field_from_vertical(&record, 0.0).is_err());
+    assert!(p.field_from_horizontal(&record, 0.0).is_err());
     // At 45 degrees SV moves the surface up and down only.
-    let wave = PlaneWave::sv(&soil(0.3), std::f64::consts::FRAC_PI_4).unwrap();
-    assert!(wave.with_horizontal(&record, 0.0).is_err());
+    let wave = PlaneWave::sv(soil(0.3), std::f64::consts::FRAC_PI_4).unwrap();
+    assert!(wave.field_from_horizontal(&record, 0.0).is_err());
     for angle in [f64::NAN, f64::INFINITY, 1.6, -1.6] {
         assert!(
-            PlaneWave::sv(&soil(0.3), angle).is_err() && PlaneWave::p(&soil(0.3), angle).is_err()
+            PlaneWave::sv(soil(0.3), angle).is_err() && PlaneWave::p(soil(0.3), angle).is_err()
         );
     }
 }
@@ -80,7 +77,7 @@ fn vertical_incidence_doubles_one_component() {
 /// the sense of the ellipse: backwards at the top.
 #[test]
 fn rayleigh_waves_are_retrograde_ellipses() {
-    let wave = PlaneWave::rayleigh(&soil(0.25));
+    let wave = PlaneWave::rayleigh(soil(0.25));
     let [[one, zero], [none, up]] = wave.amplification();
     assert_eq!([one, zero, none], [1.0, 0.0, 0.0]);
     assert!((up - 0.8475 / 0.5773).abs() < 2e-4, "{up}");
@@ -91,7 +88,7 @@ fn rayleigh_waves_are_retrograde_ellipses() {
     let window = |t: f64| (-(t - 10.0).powi(2) / 8.0).exp();
     let samples = (0..4001).map(|k| f64::from(k) * 0.005).map(|t| window(t) * (omega * t).cos());
     let record = Record::new(0.005, samples.collect()).unwrap();
-    let field = wave.with_horizontal(&record, 0.0).unwrap();
+    let field = wave.field_from_horizontal(&record, 0.0).unwrap();
     let highest = (0..400)
         .map(|k| 10.0 + 0.0025 * f64::from(k))
         .max_by(|&a, &b| field.displacement(0.0, a)[1].total_cmp(&field.displacement(0.0, b)[1]))

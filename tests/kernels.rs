@@ -28,7 +28,7 @@ fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
 #[test]
 fn step_coefficients_match_sixty_digits() {
     for row in rows(include_str!("data/influence.csv")) {
-        let kernel = InfluenceKernel::new(&soil(row[0]), row[1]).unwrap();
+        let kernel = InfluenceKernel::new(soil(row[0]), row[1]).unwrap();
         let receiver = ContactElement { left: row[2], right: row[3] };
         let source = ContactElement { left: row[4], right: row[5] };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
@@ -338,7 +338,7 @@ fn nothing_arrives_early_and_bad_input_is_refused() {
         let ground = soil(nu);
         let near = ContactElement { left: 0.0, right: 1.0 };
         let far = ContactElement { left: 11.0, right: 12.0 };
-        let kernel = InfluenceKernel::new(&ground, 0.01).unwrap();
+        let kernel = InfluenceKernel::new(ground, 0.01).unwrap();
         let pair = kernel.pair(far, near).unwrap();
         let quiet = pair.at(9);
         if ground.pressure_wave_speed() < 100.0 {
@@ -360,9 +360,9 @@ fn nothing_arrives_early_and_bad_input_is_refused() {
     }
     let ground = soil(0.3);
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(InfluenceKernel::new(&ground, bad).is_err());
+        assert!(InfluenceKernel::new(ground, bad).is_err());
     }
-    let kernel = InfluenceKernel::new(&ground, 0.1).unwrap();
+    let kernel = InfluenceKernel::new(ground, 0.1).unwrap();
     let good = ContactElement { left: 0.0, right: 1.0 };
     for bad in [(0.0, 0.0), (1.0, 0.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
         let bad = ContactElement { left: bad.0, right: bad.1 };

@@ -20,7 +20,7 @@ fn kinds() -> Vec<(&'static str, Run)> {
     let rate = friction(0.4).with_activation(Activation::Rate { closed_below: 1e-9 }).unwrap();
     let theta = Theta::new(0.6).unwrap();
     let base = || scene(SI, 0.6);
-    let layer = ThinLayer::new(&soil(SI), 1.0, 0.3).unwrap();
+    let layer = ThinLayer::new(soil(SI), 1.0, 0.3).unwrap();
     vec![
         ("bonded", run(base().structure(tower(SI, None)).interface(Bonded), 300)),
         ("uplift", run(base().structure(block(SI)).interface(friction(f64::INFINITY)), 400)),

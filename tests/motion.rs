@@ -16,7 +16,7 @@ use support::{close, table};
 fn bad_samples_and_steps_are_refused() {
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(Record::new(step, vec![0.0; 3]), Err(Error::Input { .. })), "{step}");
-        assert!(matches!(el_centro_1940().resample(step), Err(Error::Input { .. })), "{step}");
+        assert!(matches!(el_centro_1940().resampled(step), Err(Error::Input { .. })), "{step}");
         assert!(el_centro_1940().scaled_to_peak(step).is_err(), "{step}");
     }
     for sample in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -29,7 +29,7 @@ fn bad_samples_and_steps_are_refused() {
         let reason = RecordError::TooShort { found: count, needed: 2 };
         assert_eq!(error, Error::Record { file: "samples".into(), line: 0, reason });
     }
-    assert!(el_centro_1940().resample(1e-9).is_err());
+    assert!(el_centro_1940().resampled(1e-9).is_err());
     assert!(Record::new(1.0, vec![0.0; 3]).unwrap().scaled_to_peak(1.0).is_err());
 }
 
@@ -76,7 +76,7 @@ fn el_centro_1940_peaks() {
     close("u at the end", record.displacement_at(record.duration()), d_end, 5e-7, 0.0);
     close("Arias", record.arias_intensity(), arias, 5e-7, 0.0);
     // between the samples the peaks are at least as large, as a fine resampling finds too
-    let fine = record.resample(0.02 / 64.0).unwrap();
+    let fine = record.resampled(0.02 / 64.0).unwrap();
     let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
     assert!(record.peak_velocity() >= at_samples);
     close("PGV", largest(fine.velocities()), record.peak_velocity(), 1e-6, 0.0);
@@ -112,23 +112,23 @@ fn motion_outside_the_record() {
 #[test]
 fn resampling_keeps_the_function() {
     let record = el_centro_1940();
-    let fine = record.resample(0.0025).unwrap();
+    let fine = record.resampled(0.0025).unwrap();
     for k in 0..4000 {
         let time = f64::from(k) * 0.0077;
         close("a", fine.acceleration_at(time), record.acceleration_at(time), 1e-11, 0.0);
         close("v", fine.velocity_at(time), record.velocity_at(time), 1e-12, 0.0);
         close("u", fine.displacement_at(time), record.displacement_at(time), 1e-12, 0.0);
     }
-    assert_eq!(fine.resample(0.02).unwrap().len(), record.len());
+    assert_eq!(fine.resampled(0.02).unwrap().len(), record.len());
     // a step that does not divide the duration ends after the record, at zero
-    let odd = Record::new(1.0, vec![3.0, 3.0]).unwrap().resample(0.4).unwrap();
+    let odd = Record::new(1.0, vec![3.0, 3.0]).unwrap().resampled(0.4).unwrap();
     assert_eq!(odd.accelerations(), [3.0, 3.0, 3.0, 0.0]);
 }
 
 /// Every treatment of El Centro: what it promises at the end, and what it makes least.
 #[test]
 fn baselines_keep_their_promises() {
-    let record = el_centro_1940().resample(0.01).unwrap();
+    let record = el_centro_1940().resampled(0.01).unwrap();
     let end = record.duration();
     let square = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>() * 0.01;
     let treat = |baseline| record.with_baseline(baseline).unwrap();
@@ -236,7 +236,7 @@ fn bad_baselines_are_refused() {
 #[test]
 fn free_fields_agree_with_their_sources() {
     let record = el_centro_1940();
-    let vertical = record.scaled(-0.5).unwrap().resample(0.03).unwrap();
+    let vertical = record.scaled(-0.5).unwrap().resampled(0.03).unwrap();
     let both = VerticalIncidence::new(record.clone()).with_vertical(vertical.clone());
     let only_vertical = VerticalIncidence::vertical(vertical.clone());
     let from = VerticalIncidence::from(record.clone());

@@ -501,8 +501,8 @@ fn own_free_field() {
 struct Toy(Soil);
 
 impl FundamentalSolution for Toy {
-    fn soil(&self) -> &Soil {
-        &self.0
+    fn soil(&self) -> Soil {
+        self.0
     }
 
     fn displacement(&self, offset: [f64; 2], time: f64, _: LoadHistory) -> Result<[[f64; 2]; 2]> {

@@ -478,7 +478,7 @@ type Laws = Vec<Box<dyn InterfaceLaw>>;
 #[test]
 fn friction_is_that_of_the_laws() {
     let coulomb = |friction| Coulomb::new(friction).unwrap();
-    let layer = |friction| ThinLayer::new(&soil(SI), 0.5, friction).unwrap();
+    let layer = |friction| ThinLayer::new(soil(SI), 0.5, friction).unwrap();
     let start = |laws: Laws, recorder: Recorder| {
         let builder = scene(SI, 0.6).structure(block(SI)).interfaces(laws);
         let mut simulation = builder.build().unwrap();

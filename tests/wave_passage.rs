@@ -42,7 +42,8 @@ fn fast_waves_are_vertical_incidence() {
         pairs.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / largest
     };
     let run = |velocity| TravellingWave::new(record.clone(), velocity, -HALF).unwrap();
-    let inclined = |angle| PlaneWave::sv(&soil, angle).unwrap().with_horizontal(&record, -HALF);
+    let inclined =
+        |angle| PlaneWave::sv(soil, angle).unwrap().field_from_horizontal(&record, -HALF);
     assert!(away(shear(run(1e10))) < 1e-4);
     assert!(away(shear(inclined(1e-8).unwrap())) < 1e-4);
     assert!(away(shear(run(200.0))) > 0.05);

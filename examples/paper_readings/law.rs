@@ -31,7 +31,7 @@ impl Reading {
             Sense::Velocity => SlipSense::Velocity,
             Sense::LastVelocity => SlipSense::LastVelocity,
         };
-        let layer = ThinLayer::new(soil, self.neighbour_height(), friction)?
+        let layer = ThinLayer::new(*soil, self.neighbour_height(), friction)?
             .with_thickness_ratio(self.ratio)?
             .with_debonded_share(self.debonded)?
             .with_friction_limit(limit)
@@ -49,7 +49,7 @@ impl Reading {
 
     /// A layer that never lets go.
     pub(crate) fn glue(&self, soil: &Soil) -> basemat::Result<Box<dyn InterfaceLaw>> {
-        let layer = ThinLayer::new(soil, self.neighbour_height(), f64::INFINITY)?;
+        let layer = ThinLayer::new(*soil, self.neighbour_height(), f64::INFINITY)?;
         Ok(Box::new(Glue(layer.with_thickness_ratio(self.ratio)?)))
     }
 }

@@ -126,7 +126,7 @@ fn paper_interface(
 ) -> basemat::Result<SimulationBuilder> {
     let (soil, height) = (scene.containment.soil()?, scene.containment.layer_height());
     let layer =
-        |friction| ThinLayer::new(&soil, height, friction)?.with_thickness_ratio(scene.ratio);
+        |friction| ThinLayer::new(soil, height, friction)?.with_thickness_ratio(scene.ratio);
     let Some(friction) = friction else {
         let layer = layer(f64::INFINITY)?;
         let glue = |_| Box::new(Glue(layer)) as Box<dyn InterfaceLaw>;

@@ -154,7 +154,7 @@ impl Scene {
             Law::Bonded => builder.interface(Bonded),
             Law::Coulomb(friction) => builder.interface(Coulomb::new(friction)?),
             Law::Layer(ratio, debonded) => {
-                let layer = ThinLayer::new(soil, 1.0, 0.4)?
+                let layer = ThinLayer::new(*soil, 1.0, 0.4)?
                     .with_thickness_ratio(ratio)?
                     .with_debonded_share(debonded)?;
                 let builder = builder.interface(layer);

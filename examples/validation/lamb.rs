@@ -52,7 +52,7 @@ fn errors(name: &str, poisson: f64) -> Result<[f64; 3], AnyError> {
 
 /// Mean displacement `[xx, zx, zz]` of an element after a traction was held for `steps` steps.
 fn held(soil: &Soil, distance: f64, time: f64, steps: usize) -> Result<[f64; 3], AnyError> {
-    let kernel = InfluenceKernel::new(soil, time / steps as f64)?;
+    let kernel = InfluenceKernel::new(*soil, time / steps as f64)?;
     let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
     let pair = kernel.pair(element(distance), element(0.0))?;
     Ok((1..=steps)
@@ -62,7 +62,7 @@ fn held(soil: &Soil, distance: f64, time: f64, steps: usize) -> Result<[f64; 3],
 
 /// Relative distance of late step coefficients from their limit: u grows by (1−ν)/(π μ) ln t.
 fn late(poisson: f64) -> Result<f64, AnyError> {
-    let kernel = InfluenceKernel::new(&Soil::new(1.0, poisson, 1.0)?, 0.5)?;
+    let kernel = InfluenceKernel::new(Soil::new(1.0, poisson, 1.0)?, 0.5)?;
     let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
     let lag = 100_000;
     let limit = (1.0 - poisson) / PI * (lag as f64 / (lag as f64 - 1.0)).ln();
@@ -127,7 +127,7 @@ fn figure() -> Result<Figure, AnyError> {
         }
         let points = points.into_iter().map(|row| (row[1], row[2])).collect();
         right = right.circles(&format!("{place}, table"), color, points);
-        let kernel = InfluenceKernel::new(&soil, 0.02)?;
+        let kernel = InfluenceKernel::new(soil, 0.02)?;
         let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
         let pair = kernel.pair(element(distance), element(0.0))?;
         let (mut sum, mut found) = (0.0, vec![(0.0, 0.0)]);

@@ -48,7 +48,7 @@ pub(crate) fn check(short: bool, bar: &ProgressBar) -> Result<Vec<Checked>, AnyE
     let mut list = Vec::new();
     for case in cases {
         for &tolerance in case.tolerances {
-            let advice = advise(&case.scene.soil, &case.outline, &case.content, tolerance)?;
+            let advice = advise(case.scene.soil, &case.outline, &case.content, tolerance)?;
             let history = Past::of(advice.history);
             let settings = Settings::new(advice.elements, advice.grading, advice.time_step);
             let settings = Settings { history, ..settings };

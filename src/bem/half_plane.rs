@@ -125,7 +125,7 @@ impl HalfPlaneGround {
         // The logarithm needs a length that fixes the datum; one well above the patch keeps the
         // static matrix positive definite, and the settlement it stands for cancels in all results.
         let span = elements[elements.len() - 1].right - elements[0].left;
-        let statics = StaticKernel::new(&soil, 10.0 * span)?;
+        let statics = StaticKernel::new(soil, 10.0 * span)?;
         let options = HistoryOptions::default();
         let shared = SharedKernels::default();
         Ok(Self { soil, elements, statics, options, own_history: None, shared, prepared: None })
@@ -179,8 +179,8 @@ impl HalfPlaneGround {
     }
 
     /// The soil.
-    pub fn soil(&self) -> &Soil {
-        &self.soil
+    pub fn soil(&self) -> Soil {
+        self.soil
     }
 
     /// Before the first step, with a history where none is to be chosen.
@@ -240,7 +240,7 @@ impl Ground for HalfPlaneGround {
 
     fn increment_error_bound(&self) -> f64 {
         let history = self.prepared.as_ref().and_then(|prepared| prepared.history.as_ref());
-        history.map_or(0.0, |history| history.increment_error_bound())
+        history.map_or(0.0, ConvolutionHistory::increment_error_bound)
     }
 
     /// Which history was chosen for how many steps, and what it says.

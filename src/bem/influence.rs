@@ -42,7 +42,7 @@ pub struct Influence {
 /// ```
 /// use basemat::bem::{ContactElement, InfluenceKernel};
 /// let soil = basemat::Soil::new(80.0e6, 0.25, 2000.0)?;
-/// let kernel = InfluenceKernel::new(&soil, 1.0e-3)?;
+/// let kernel = InfluenceKernel::new(soil, 1.0e-3)?;
 /// let left = ContactElement { left: 0.0, right: 1.0 };
 /// let right = ContactElement { left: 1.0, right: 2.0 };
 /// let influence = kernel.coefficients(left, right, 3)?;
@@ -68,7 +68,7 @@ impl InfluenceKernel {
     ///
     /// # Errors
     /// [`Error::Input`] unless the time step is finite and above zero.
-    pub fn new(soil: &Soil, time_step: f64) -> Result<Self> {
+    pub fn new(soil: Soil, time_step: f64) -> Result<Self> {
         positive("time step", time_step)?;
         let step = positive("shear wave travel in a step", soil.shear_wave_speed() * time_step)?;
         let rayleigh = Rayleigh::new(soil);

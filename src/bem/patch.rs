@@ -49,7 +49,7 @@ impl PatchKernel {
     /// [`Error::Size`] for none.
     pub fn new(soil: Soil, elements: Vec<ContactElement>, time_step: f64) -> Result<Self> {
         check_order(&elements)?;
-        let kernel = InfluenceKernel::new(&soil, time_step)?;
+        let kernel = InfluenceKernel::new(soil, time_step)?;
         let span = elements[elements.len() - 1].right - elements[0].left;
         let shortest = elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min);
         if shortest < SHORTEST * span {

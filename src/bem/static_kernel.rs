@@ -22,7 +22,7 @@ impl StaticKernel {
     ///
     /// # Errors
     /// [`crate::Error::Input`] unless the reference length is finite and above zero.
-    pub fn new(soil: &Soil, reference: f64) -> Result<Self> {
+    pub fn new(soil: Soil, reference: f64) -> Result<Self> {
         positive("reference length", reference)?;
         Ok(Self {
             logarithm: -(1.0 - soil.poisson()) / (std::f64::consts::PI * soil.shear_modulus()),
@@ -108,7 +108,7 @@ mod tests {
     #[test]
     fn means_match_quadrature() {
         let soil = Soil::new(2.0, 0.3, 1.0).unwrap();
-        let kernel = StaticKernel::new(&soil, 3.0).unwrap();
+        let kernel = StaticKernel::new(soil, 3.0).unwrap();
         // Midpoint rule over the receiver of the exact line integral over the source.
         for (p, q) in [
             (element(0.0, 1.0), element(1.5, 3.0)),
@@ -135,7 +135,7 @@ mod tests {
     fn self_term_is_the_closed_form() {
         // (1/l) ∫∫ ln|x−ξ| = l (ln l − 3/2).
         let soil = Soil::new(1.0, 0.25, 1.0).unwrap();
-        let kernel = StaticKernel::new(&soil, 1.0).unwrap();
+        let kernel = StaticKernel::new(soil, 1.0).unwrap();
         let found = kernel.coefficients(element(2.0, 4.0), element(2.0, 4.0)).unwrap();
         let expected = -0.75 / std::f64::consts::PI * 2.0 * (2.0_f64.ln() - 1.5);
         assert!((found.zz - expected).abs() < 1e-15);

@@ -145,7 +145,7 @@ struct Line {
 /// let content = FrequencyContent::of(&el_centro_1940())?;
 /// // 10 m wide, 15 m high, 150 t/m, 2 Hz with 5 % of damping
 /// let outline = Outline::new(10.0, 15.0, 150.0e3)?.with_frequency(2.0, 0.05)?;
-/// let advice = advise(&soil, &outline, &content, 0.01)?;
+/// let advice = advise(soil, &outline, &content, 0.01)?;
 /// println!("{advice}");
 /// assert!((8..40).contains(&advice.elements));
 /// assert!(advice.time_step > 1.0e-3 && advice.time_step < 2.0e-2);
@@ -157,7 +157,7 @@ struct Line {
 /// [`Error::Input`] for a tolerance out of range or one that would take more than a thousand
 /// elements, and when outline and soil are so far apart that numbers overflow.
 pub fn advise(
-    soil: &Soil,
+    soil: Soil,
     outline: &Outline,
     content: &FrequencyContent,
     tolerance: f64,

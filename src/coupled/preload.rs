@@ -110,7 +110,7 @@ pub(crate) fn solve(
 ) -> Result<StaticState> {
     let (n, count) = (model.unknowns, base.lengths().len());
     let size = 2 * count;
-    let smooth: Vec<_> = laws.iter().map(|law| law.smooth()).collect();
+    let smooth: Vec<_> = laws.iter().map(InterfaceLaw::smooth).collect();
     let laws = match placement {
         // A base that never opens is not set down, it is cast.
         Placement::Frictionless if laws.iter().any(|law| law.modes().contains(&Mode::Open)) => {

@@ -53,7 +53,7 @@ pub(super) struct Sketch {
 
 impl Sketch {
     /// From mass over ρB², height over B, and the a₀ and damping ratio of the sway.
-    pub(super) fn new(soil: &Soil, mass: f64, height: f64, sway: Option<[f64; 2]>) -> Self {
+    pub(super) fn new(soil: Soil, mass: f64, height: f64, sway: Option<[f64; 2]>) -> Self {
         let poisson = soil.poisson();
         let oscillation = (3.0 - 4.0 * poisson).ln() / (2.0 * PI);
         Self {
@@ -131,7 +131,7 @@ mod tests {
             (0.0, 1.0, [1.321, 2.074], [1.551, 0.566]),
             (0.0, 4.0, [1.176, 8.028], [1.133, 3.668]),
         ] {
-            let found = Sketch::new(&soil(poisson), 1.0, 1.0, None).stiffness(a);
+            let found = Sketch::new(soil(poisson), 1.0, 1.0, None).stiffness(a);
             for (found, wanted) in found.into_iter().zip([k_h, k_r]) {
                 let wanted = C::new(wanted[0], wanted[1]);
                 let error = (found - wanted).norm() / wanted.norm();
@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn limits_are_the_strips() {
         let strip = RigidStrip::new(soil(0.3), 1.0).unwrap();
-        let sketch = Sketch::new(&soil(0.3), 2.0, 3.0, Some([1.0, 0.05]));
+        let sketch = Sketch::new(soil(0.3), 2.0, 3.0, Some([1.0, 0.05]));
         let [_, rocking] = sketch.stiffness(1e-9);
         assert!((rocking.re / strip.bonded_rocking_stiffness() - 1.0).abs() < 1e-8);
         let [horizontal, rocking] = sketch.stiffness(1e6).map(|k| k.im / 1e6);
@@ -153,7 +153,7 @@ mod tests {
         let slow = sketch.shear(1e-4, StiffnessError::default());
         assert!((slow.re / (-2.0 * 1e-8) - 1.0).abs() < 1e-2, "{slow}");
         // Fast motion of a rigid mass: the ground pushes against its own dashpot.
-        let rigid = Sketch::new(&soil(0.3), 2.0, 1e-3, None);
+        let rigid = Sketch::new(soil(0.3), 2.0, 1e-3, None);
         let fast = rigid.shear(1e4, StiffnessError::default());
         assert!((fast.norm() / (strip.horizontal_dashpot() * 1e4) - 1.0).abs() < 1e-2, "{fast}");
     }

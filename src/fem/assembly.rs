@@ -84,7 +84,7 @@ pub(crate) fn assemble(
         for value in &mut block {
             *value *= factor;
         }
-        numbering.of_element(element.as_ref(), &mut indices);
+        numbering.of_element(element, &mut indices);
         matrix.add_block(&indices, &block);
     }
 }

@@ -52,10 +52,10 @@ pub enum MassKind {
 /// let mut mesh = Mesh::new();
 /// let ends = vec![mesh.add_node(0.0, 0.0)?, mesh.add_node(1.0, 0.0)?];
 /// mesh.add(Tie(ends))?;
-/// assert_eq!(mesh.elements()[0].order(), 2);
+/// assert_eq!(mesh.element(0).map(|tie| tie.order()), Some(2));
 /// # Ok::<(), basemat::Error>(())
 /// ```
-pub trait Element: Send {
+pub trait Element: Send + Sync {
     /// Its nodes, as indices into the mesh.
     fn nodes(&self) -> &[usize];
 

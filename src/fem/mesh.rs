@@ -1,5 +1,7 @@
 //! Nodes and the elements between them.
 
+use std::sync::Arc;
+
 use super::element::Element;
 use super::numbering::Numbering;
 use crate::error::{Error, Result, finite, not_negative};
@@ -8,7 +10,7 @@ use crate::error::{Error, Result, finite, not_negative};
 /// any element, far above the rounding of a coordinate.
 const SAME_POINT: f64 = 1e-6;
 
-/// Nodes and elements.
+/// Nodes and elements. Clones share their elements, which never change.
 ///
 /// ```
 /// use basemat::fem::{Beam, LumpedMass, Mesh};
@@ -21,10 +23,10 @@ const SAME_POINT: f64 = 1e-6;
 /// assert_eq!(mesh.elements().len(), 2);
 /// # Ok::<(), basemat::Error>(())
 /// ```
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Mesh {
     nodes: Vec<[f64; 2]>,
-    elements: Vec<Box<dyn Element>>,
+    elements: Vec<Arc<dyn Element>>,
 }
 
 impl std::fmt::Debug for Mesh {
@@ -76,7 +78,7 @@ impl Mesh {
             }
         }
         element.check(&self.coordinates(nodes))?;
-        self.elements.push(Box::new(element));
+        self.elements.push(Arc::new(element));
         Ok(self.elements.len() - 1)
     }
 
@@ -85,9 +87,14 @@ impl Mesh {
         &self.nodes
     }
 
-    /// All elements.
-    pub fn elements(&self) -> &[Box<dyn Element>] {
-        &self.elements
+    /// All elements, in the order in which they were added.
+    pub fn elements(&self) -> impl ExactSizeIterator<Item = &dyn Element> + Clone {
+        self.elements.iter().map(AsRef::as_ref)
+    }
+
+    /// The element of this index; `None` if there is none.
+    pub fn element(&self, index: usize) -> Option<&dyn Element> {
+        self.elements.get(index).map(AsRef::as_ref)
     }
 
     /// Node at (`x`, `y`), m: the nearest one, which may be a millionth of the mesh's size away.

@@ -98,8 +98,8 @@ fn polar(offset: [f64; 2]) -> Result<(f64, [f64; 2])> {
 }
 
 impl FundamentalSolution for FullPlane {
-    fn soil(&self) -> &Soil {
-        &self.soil
+    fn soil(&self) -> Soil {
+        self.soil
     }
 
     fn displacement(

@@ -55,7 +55,7 @@ const CLOSE: f64 = 1e-4;
 impl HalfPlane {
     /// The half-plane of a soil.
     pub fn new(soil: Soil) -> Self {
-        let rayleigh = Rayleigh::new(&soil);
+        let rayleigh = Rayleigh::new(soil);
         let mut plane = Self {
             soil,
             branches: Branches::new(rayleigh),
@@ -304,8 +304,8 @@ impl HalfPlane {
 }
 
 impl FundamentalSolution for HalfPlane {
-    fn soil(&self) -> &Soil {
-        &self.soil
+    fn soil(&self) -> Soil {
+        self.soil
     }
 
     /// Load and receiver on the surface: `offset[1]` must be 0. [`LoadHistory::Impulse`] leaves

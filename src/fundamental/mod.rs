@@ -33,7 +33,7 @@ pub enum LoadHistory {
 /// Displacements and tractions of an elastic plane or half-plane under a line load.
 pub trait FundamentalSolution: Send + Sync {
     /// The soil.
-    fn soil(&self) -> &Soil;
+    fn soil(&self) -> Soil;
 
     /// `u[i][j]`: displacement i at `offset` (x, z) from a load in direction j, `time` after it
     /// began; zero before the first arrival.

@@ -46,7 +46,7 @@ pub struct Rayleigh {
 
 impl Rayleigh {
     /// Roots for a soil.
-    pub fn new(soil: &Soil) -> Self {
+    pub fn new(soil: Soil) -> Self {
         let nu = soil.poisson();
         let a2 = soil.speed_ratio_squared();
         let h = 0.5 / (1.0 - nu);
@@ -149,7 +149,7 @@ impl Rayleigh {
 impl Soil {
     /// Rayleigh (R) wave speed, m/s: the speed of the surface wave (Achenbach 1973, § 5.11).
     pub fn rayleigh_wave_speed(&self) -> f64 {
-        self.shear_wave_speed() * Rayleigh::new(self).speed_ratio()
+        self.shear_wave_speed() * Rayleigh::new(*self).speed_ratio()
     }
 }
 
@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn known_wave_speeds() {
         // nu = 1/4: y = (3 + sqrt 3)/4 exactly; nu = 0: c_R^2 = 3 - sqrt 5.
-        let quarter = Rayleigh::new(&soil(0.25));
+        let quarter = Rayleigh::new(soil(0.25));
         assert!((quarter.rayleigh_root() - (3.0 + 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
         let [[first, _], [second, _]] = quarter.other_roots();
         assert!((first - (3.0 - 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
@@ -177,7 +177,7 @@ mod tests {
     fn small_root_keeps_its_relative_precision() {
         // c (C1 - C2 c + ...) = g^4 with C1 = -P'(a^2).
         for nu in [1e-1, 1e-3, 1e-6, -1e-4] {
-            let r = Rayleigh::new(&soil(nu));
+            let r = Rayleigh::new(soil(nu));
             let (near, _) = r.shifted_roots(r.discriminant(), 0.0);
             let c = -near.re;
             let k = r.g + 2.0 * c;
@@ -189,7 +189,7 @@ mod tests {
     #[test]
     fn factors_multiply_to_the_polynomial() {
         for nu in [-0.9, -0.5, 0.0, 1e-4, 0.2, 0.25, 0.2630, 0.263_082_06, 0.45, 0.4999] {
-            let r = Rayleigh::new(&soil(nu));
+            let r = Rayleigh::new(soil(nu));
             for y in [0.0, 0.1, 0.3, 0.9, 1.0, 1.1, 2.0, 5.0] {
                 let k: f64 = 1.0 - 2.0 * y;
                 let direct = k.powi(4) + 16.0 * y * y * (y - r.a2) * (1.0 - y);

@@ -22,7 +22,8 @@ pub enum Activation {
 /// Hard unilateral contact with Coulomb friction: stick, slip to either side, open.
 ///
 /// Signorini's conditions normal to the base, |τ| ≤ friction · p along it, slip in the direction
-/// of the shear traction. Infinite friction is "uplift only", zero friction a smooth base.
+/// of the shear traction. Infinite friction is "uplift only", zero friction a smooth base. For a
+/// coefficient that changes there is [`VariableFriction`](super::VariableFriction).
 ///
 /// ```
 /// use basemat::interface::Coulomb;
@@ -63,6 +64,11 @@ impl Coulomb {
     /// Law without friction.
     pub(super) fn smooth() -> Self {
         Self { friction: 0.0, tensile_strength: 0.0, activation: Activation::Gap }
+    }
+
+    /// The same with another coefficient, unchecked.
+    pub(super) fn with_coefficient(self, friction: f64) -> Self {
+        Self { friction, ..self }
     }
 
     /// With a tensile strength (Pa) that holds an element until it first opens; friction is then

@@ -7,10 +7,12 @@
 mod bonded;
 mod coulomb;
 mod thin_layer;
+mod variable_friction;
 
 pub use bonded::Bonded;
 pub use coulomb::{Activation, Coulomb};
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
+pub use variable_friction::VariableFriction;
 
 use crate::error::Result;
 

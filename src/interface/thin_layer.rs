@@ -73,7 +73,7 @@ pub enum SlipSense {
 /// use basemat::{Soil, interface::ThinLayer};
 /// let soil = Soil::new(80.0e6, 1.0 / 3.0, 1900.0)?;
 /// // Under finite elements 2 m high: a layer of 0.2 m.
-/// let layer = ThinLayer::new(&soil, 2.0, 0.4)?;
+/// let layer = ThinLayer::new(soil, 2.0, 0.4)?;
 /// assert!((layer.stiffness()[1] / (80.0e6 / 0.2) - 1.0).abs() < 1e-12);
 /// assert!((layer.stiffness()[0] / (320.0e6 / 0.2) - 1.0).abs() < 1e-12);
 /// assert!(layer.with_thickness_ratio(0.0).is_err());
@@ -98,7 +98,7 @@ impl ThinLayer {
     /// # Errors
     /// [`Error::Input`] for a height that is not finite and above zero, or a friction coefficient
     /// that is NaN or negative.
-    pub fn new(soil: &Soil, neighbour_height: f64, friction: f64) -> Result<Self> {
+    pub fn new(soil: Soil, neighbour_height: f64, friction: f64) -> Result<Self> {
         positive("height of the element beside the thin layer", neighbour_height)?;
         let (shear, nu) = (soil.shear_modulus(), soil.poisson());
         let normal = 2.0 * shear * (1.0 - nu) / (1.0 - 2.0 * nu);

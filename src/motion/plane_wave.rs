@@ -34,8 +34,8 @@ const SMALLEST: f64 = 1e-9;
 /// use basemat::{Soil, motion::{FreeField, PlaneWave, el_centro_1940}};
 /// let soil = Soil::new(80.0e6, 0.25, 1900.0)?;
 /// // SV at 20° from the vertical, running to the right; horizontal motion is El Centro's.
-/// let wave = PlaneWave::sv(&soil, 20.0_f64.to_radians())?;
-/// let field = wave.with_horizontal(&el_centro_1940(), -10.0)?;
+/// let wave = PlaneWave::sv(soil, 20.0_f64.to_radians())?;
+/// let field = wave.field_from_horizontal(&el_centro_1940(), -10.0)?;
 /// let [horizontal, vertical] = field.displacement(-10.0, 5.0);
 /// assert!((horizontal - el_centro_1940().displacement_at(5.0)).abs() < 1e-15);
 /// assert!((vertical / horizontal + 0.41535).abs() < 1e-5);
@@ -54,7 +54,7 @@ impl PlaneWave {
     ///
     /// # Errors
     /// [`Error::Input`] unless |`angle`| < π/2.
-    pub fn sv(soil: &Soil, angle: f64) -> Result<Self> {
+    pub fn sv(soil: Soil, angle: f64) -> Result<Self> {
         let speed = soil.shear_wave_speed();
         let (p, a, b, g, rayleigh) = slownesses(soil, angle, speed)?;
         let scale = Complex::real(1.0 / speed) / rayleigh;
@@ -69,7 +69,7 @@ impl PlaneWave {
     ///
     /// # Errors
     /// [`Error::Input`] unless |`angle`| < π/2.
-    pub fn p(soil: &Soil, angle: f64) -> Result<Self> {
+    pub fn p(soil: Soil, angle: f64) -> Result<Self> {
         let (speed, shear) = (soil.pressure_wave_speed(), soil.shear_wave_speed());
         let (p, a, b, g, rayleigh) = slownesses(soil, angle, speed)?;
         let scale = Complex::real(speed / (shear * shear)) / rayleigh;
@@ -81,7 +81,7 @@ impl PlaneWave {
     }
 
     /// Rayleigh wave to the right, of unit horizontal displacement.
-    pub fn rayleigh(soil: &Soil) -> Self {
+    pub fn rayleigh(soil: Soil) -> Self {
         let shear = soil.shear_wave_speed();
         let slowness = Rayleigh::new(soil).arrival() / shear;
         let decay = (slowness * slowness - soil.pressure_wave_speed().powi(-2)).sqrt();
@@ -117,18 +117,18 @@ impl PlaneWave {
     ///
     /// # Errors
     /// [`Error::Input`] if the wave has no horizontal component.
-    pub fn with_horizontal(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
+    pub fn field_from_horizontal(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
         let ratio = ratio("horizontal component of the wave", self.vertical, self.horizontal)?;
         let field = VerticalIncidence::new(record.clone()).with_vertical(follow(record, ratio)?);
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
 
     /// The free field in which `record` is the vertical motion at `origin`, as for
-    /// [`PlaneWave::with_horizontal`].
+    /// [`PlaneWave::field_from_horizontal`].
     ///
     /// # Errors
     /// [`Error::Input`] if the wave has no vertical component.
-    pub fn with_vertical(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
+    pub fn field_from_vertical(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
         let ratio = ratio("vertical component of the wave", self.horizontal, self.vertical)?;
         let field = VerticalIncidence::new(follow(record, ratio)?).with_vertical(record.clone());
         TravellingWave::new(field, self.apparent_velocity(), origin)
@@ -136,11 +136,7 @@ impl PlaneWave {
 }
 
 /// p, a, b, g and R of the file's head, for a wave of this speed.
-fn slownesses(
-    soil: &Soil,
-    angle: f64,
-    speed: f64,
-) -> Result<(f64, Complex, Complex, f64, Complex)> {
+fn slownesses(soil: Soil, angle: f64, speed: f64) -> Result<(f64, Complex, Complex, f64, Complex)> {
     if angle.is_nan() || angle.abs() >= FRAC_PI_2 {
         let quantity = "angle of incidence";
         return Err(Error::Input { quantity, value: angle, needed: "between -pi/2 and pi/2" });

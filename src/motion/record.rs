@@ -192,7 +192,7 @@ impl Record {
     ///
     /// ```
     /// let record = basemat::motion::el_centro_1940();
-    /// let fine = record.resample(0.005)?;
+    /// let fine = record.resampled(0.005)?;
     /// assert_eq!(fine.len(), 4 * 1559 + 1);
     /// assert!((fine.displacements()[6236] - record.displacements()[1559]).abs() < 1e-12);
     /// # Ok::<(), basemat::Error>(())
@@ -200,7 +200,7 @@ impl Record {
     ///
     /// # Errors
     /// [`Error::Input`] unless the step is positive and gives at most 10⁸ samples.
-    pub fn resample(&self, time_step: f64) -> Result<Self> {
+    pub fn resampled(&self, time_step: f64) -> Result<Self> {
         positive("new time step of the record", time_step)?;
         let duration = self.duration();
         // slack for a step that divides the duration but for rounding

@@ -16,7 +16,7 @@ use crate::error::{Result, finite, positive};
 /// ```
 /// use basemat::{Soil, reference::flamant_relative_settlement};
 /// let soil = Soil::new(1.0, 0.5 - 1e-12, 1.0)?;
-/// let settlement = flamant_relative_settlement(&soil, 2.0, 1.0, 1.0_f64.exp())?;
+/// let settlement = flamant_relative_settlement(soil, 2.0, 1.0, 1.0_f64.exp())?;
 /// assert!((settlement - 1.0 / std::f64::consts::PI).abs() < 1e-11);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -24,7 +24,7 @@ use crate::error::{Result, finite, positive};
 /// # Errors
 /// [`Error::Input`](crate::Error::Input) unless the load is finite and the distances are finite
 /// and above zero.
-pub fn flamant_relative_settlement(soil: &Soil, load: f64, near: f64, far: f64) -> Result<f64> {
+pub fn flamant_relative_settlement(soil: Soil, load: f64, near: f64, far: f64) -> Result<f64> {
     finite("line load", load)?;
     positive("near distance from the load", near)?;
     positive("far distance from the load", far)?;
@@ -39,13 +39,13 @@ pub fn flamant_relative_settlement(soil: &Soil, load: f64, near: f64, far: f64) 
 /// ```
 /// use basemat::{Soil, reference::flamant_horizontal_displacement};
 /// let soil = Soil::new(1.0, 0.25, 1.0)?;
-/// assert_eq!(flamant_horizontal_displacement(&soil, 8.0, 3.0)?, -1.0);
+/// assert_eq!(flamant_horizontal_displacement(soil, 8.0, 3.0)?, -1.0);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 ///
 /// # Errors
 /// [`Error::Input`](crate::Error::Input) unless load and position are finite.
-pub fn flamant_horizontal_displacement(soil: &Soil, load: f64, x: f64) -> Result<f64> {
+pub fn flamant_horizontal_displacement(soil: Soil, load: f64, x: f64) -> Result<f64> {
     finite("line load", load)?;
     finite("position on the surface", x)?;
     let sign = if x == 0.0 { 0.0 } else { x.signum() };
@@ -83,7 +83,7 @@ pub fn flamant_radial_stress(load: f64, distance: f64, angle: f64) -> Result<f64
 /// ```
 /// use basemat::{Soil, reference::kelvin_relative_displacement};
 /// let soil = Soil::new(1.0, 0.25, 1.0)?;
-/// let u = kelvin_relative_displacement(&soil, [6.0, 0.0], [1.0, 1.0], 2.0_f64.sqrt())?;
+/// let u = kelvin_relative_displacement(soil, [6.0, 0.0], [1.0, 1.0], 2.0_f64.sqrt())?;
 /// assert!((u[0] - 0.5 / std::f64::consts::PI).abs() < 1e-15 && u[0] == u[1]);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -92,7 +92,7 @@ pub fn flamant_radial_stress(load: f64, distance: f64, angle: f64) -> Result<f64
 /// [`Error::Input`](crate::Error::Input) unless all numbers are finite and the distance of the
 /// point and the datum above zero.
 pub fn kelvin_relative_displacement(
-    soil: &Soil,
+    soil: Soil,
     force: [f64; 2],
     point: [f64; 2],
     datum: f64,

@@ -76,7 +76,7 @@ impl Wireframe {
             horizontal: row(node, Direction::X),
             vertical: row(node, Direction::Y),
         };
-        let elements = model.mesh().elements().iter();
+        let elements = model.mesh().elements();
         Self {
             points: model.mesh().nodes().iter().enumerate().map(point).collect(),
             cells: elements.map(|element| element.nodes().to_vec()).collect(),

@@ -30,7 +30,7 @@ use crate::fem::{
 /// assert!(model.node_at(0.0, 200.0).is_err());
 /// # Ok::<(), basemat::Error>(())
 /// ```
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct FemModel {
     pub(super) mesh: Mesh,
     pub(super) numbering: Numbering,
@@ -258,7 +258,7 @@ impl FemModel {
         let is_above = |points: &[[f64; 2]]| sides(points) == (true, false);
         let fault =
             |needed| Error::Input { quantity: "height of the section", value: height, needed };
-        let elements = self.mesh.elements().iter();
+        let elements = self.mesh.elements();
         let mut all = elements.map(|element| sides(&self.mesh.coordinates(element.nodes())));
         if all.clone().any(|side| side == (true, true)) {
             return Err(fault("a height that no element crosses"));

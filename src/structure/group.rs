@@ -177,15 +177,15 @@ impl Structure for StructureGroup {
     }
 
     fn mass(&self, matrix: &mut Triplets) {
-        self.write(matrix, |structure, block| structure.mass(block));
+        self.write(matrix, Structure::mass);
     }
 
     fn stiffness(&self, matrix: &mut Triplets) {
-        self.write(matrix, |structure, block| structure.stiffness(block));
+        self.write(matrix, Structure::stiffness);
     }
 
     fn damping(&self, matrix: &mut Triplets) {
-        self.write(matrix, |structure, block| structure.damping(block));
+        self.write(matrix, Structure::damping);
     }
 
     fn load(&self, time: f64, load: &mut [f64]) {

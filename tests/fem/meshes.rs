@@ -1,7 +1,7 @@
 //! Layered blocks and look-up of nodes.
 
 use basemat::Error;
-use basemat::fem::{Direction, Layer, LumpedMass, Material, Mesh, QuadFormulation, Truss};
+use basemat::fem::{Direction, Layer, LumpedMass, Material, Mesh, Quad4, QuadFormulation, Truss};
 use basemat::structure::{FemModel, Row, Structure};
 
 fn soft() -> Material {
@@ -22,10 +22,19 @@ fn layered_block_runs_from_the_base_upwards() {
     assert_eq!(heights, [0.0, 1.0, 3.0, 5.0, 7.0]);
     let line: Vec<f64> = mesh.nodes()[..4].iter().map(|node| node[0]).collect();
     assert_eq!(line, [-3.0, -1.0, 1.0, 3.0]);
-    assert_eq!(mesh.elements()[3].nodes(), [4, 5, 9, 8]);
+    assert_eq!(mesh.element(3).unwrap().nodes(), [4, 5, 9, 8]);
     assert_eq!(mesh.nodes_at_height(3.0, 1e-9).unwrap(), [8, 9, 10, 11]);
     assert_eq!(mesh.nearest_node(1.4, 4.8), Some(14));
     assert_eq!(Mesh::new().nearest_node(0.0, 0.0), None);
+    assert!(mesh.element(12).is_none());
+    // A clone grows by itself.
+    let mut larger = mesh.clone();
+    larger.add(Quad4::new([0, 1, 5, 4], stiff, QuadFormulation::OnePoint)).unwrap();
+    assert_eq!((mesh.elements().len(), larger.elements().len()), (12, 13));
+    let last = larger.elements().last().unwrap();
+    assert_eq!(last.nodes(), [0, 1, 5, 4]);
+    let model = FemModel::on_base(mesh).unwrap();
+    assert_eq!(model.clone().unknowns(), model.unknowns());
 }
 
 /// A point without a node is refused, however near the next one: nobody shall read the wrong one.

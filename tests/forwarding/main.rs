@@ -3,6 +3,7 @@
 //! Doubles answer every method of their trait with something else than its default and write down
 //! what they were asked; the list of methods is that of the trait's source, so that a method that
 //! is added there and forgotten in a list of forwarded ones is found.
+#![allow(clippy::needless_pass_by_value, reason = "parts are given away, as to a builder")]
 
 mod doubles;
 mod structure;

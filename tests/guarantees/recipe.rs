@@ -135,7 +135,7 @@ impl Recipe {
             Law::UpliftOnly => builder.interface(Coulomb::uplift_only()),
             Law::Bonded => builder.interface(Bonded),
             Law::ThinLayer(friction, share) => {
-                let layer = ThinLayer::new(&self.soil(frame), frame.length, friction)?;
+                let layer = ThinLayer::new(self.soil(frame), frame.length, friction)?;
                 builder.interface(layer.with_debonded_share(share)?)
             }
         };

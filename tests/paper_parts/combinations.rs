@@ -7,7 +7,7 @@ use basemat::interface::{Activation, Bonded, FrictionLimit, InterfaceLaw, ThinLa
 use basemat::{Error, Simulation, StepError};
 
 fn layer() -> ThinLayer {
-    ThinLayer::new(&soil(SI), 1.0, 0.3).unwrap()
+    ThinLayer::new(soil(SI), 1.0, 0.3).unwrap()
 }
 
 fn start(half_plane: bool) -> SimulationBuilder {
@@ -133,7 +133,7 @@ fn combinations_without_sense_are_refused() {
         assert!(layer().with_thickness_ratio(value).is_err(), "{value}");
     }
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(ThinLayer::new(&soil(SI), value, 0.3).is_err());
+        assert!(ThinLayer::new(soil(SI), value, 0.3).is_err());
         assert!(ThinLayer::from_stiffness(value, 1.0, 0.3).is_err());
         assert!(ThinLayer::from_stiffness(1.0, value, 0.3).is_err());
     }
@@ -142,16 +142,16 @@ fn combinations_without_sense_are_refused() {
         assert!(layer().with_slip_stiffness_share(value).is_err());
     }
     for friction in [-0.1, f64::NAN, f64::NEG_INFINITY] {
-        assert!(ThinLayer::new(&soil(SI), 1.0, friction).is_err());
+        assert!(ThinLayer::new(soil(SI), 1.0, friction).is_err());
     }
-    assert!(ThinLayer::new(&soil(SI), 1.0, f64::INFINITY).is_ok());
+    assert!(ThinLayer::new(soil(SI), 1.0, f64::INFINITY).is_ok());
 }
 
 /// What is left of the shear stiffness in slip means nothing where nothing slips.
 #[test]
 fn slip_stiffness_without_slip_changes_nothing() {
     let run = |share| {
-        let layer = ThinLayer::new(&soil(SI), 1.0, f64::INFINITY).unwrap();
+        let layer = ThinLayer::new(soil(SI), 1.0, f64::INFINITY).unwrap();
         let layer = layer.with_slip_stiffness_share(share).unwrap();
         let mut simulation = start(true).interface(layer).gravity(GRAVITY).build().unwrap();
         let run = simulation.run(300, |_| {}).unwrap();

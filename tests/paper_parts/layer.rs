@@ -12,7 +12,7 @@ const LENGTH: f64 = 1.3;
 const HEIGHT: f64 = 0.8;
 
 fn layer(ratio: f64) -> ThinLayer {
-    ThinLayer::new(&soil(SI), HEIGHT, 0.3).unwrap().with_thickness_ratio(ratio).unwrap()
+    ThinLayer::new(soil(SI), HEIGHT, 0.3).unwrap().with_thickness_ratio(ratio).unwrap()
 }
 
 /// Nodal forces of a thin quadrilateral, nodes counter-clockwise from below left.
@@ -171,7 +171,7 @@ fn conditioning_of_the_contact_operator() {
     println!("none: {hard:.4}");
     assert!(bottom > 0.0);
     for ratio in [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
-        let law = ThinLayer::new(&super::scenes::soil(SI), 1.0, 0.3).unwrap();
+        let law = ThinLayer::new(super::scenes::soil(SI), 1.0, 0.3).unwrap();
         let law = law.with_thickness_ratio(ratio).unwrap();
         let (soft, _) = condition(law.compliance(Mode::Stick));
         println!("{ratio:e}: {soft:.4}");

@@ -125,7 +125,7 @@ impl ConvolutionQuadrature {
                 needed: "below 1e5",
             });
         }
-        let late = views.iter().map(|view| log_terms(&soil, view, reach)).collect();
+        let late = views.iter().map(|view| log_terms(soil, view, reach)).collect();
         let lags = first_lag(method, rho).next_power_of_two();
         let segments = segments.to_vec();
         let early = vec![];
@@ -152,7 +152,7 @@ impl ConvolutionQuadrature {
 
     /// Blocks of all views at δ(ζ)/Δt, with the free term.
     fn blocks(&self, zeta: Complex64) -> impl Iterator<Item = Block> {
-        let plane = LaplacePlane::new(&self.soil, self.method.symbol(zeta) / self.time_step);
+        let plane = LaplacePlane::new(self.soil, self.method.symbol(zeta) / self.time_step);
         self.views.iter().map(move |view| {
             let mut block = integrate(&plane, view);
             if view.own {

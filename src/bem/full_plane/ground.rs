@@ -203,8 +203,8 @@ impl FullPlaneGround {
     }
 
     /// The soil.
-    pub fn soil(&self) -> &Soil {
-        &self.soil
+    pub fn soil(&self) -> Soil {
+        self.soil
     }
 
     /// The boundary.
@@ -306,10 +306,10 @@ impl Ground for FullPlaneGround {
         same_length("static compliance", matrix.len(), 4 * count * count)?;
         let datum = 10.0 * (elements[count - 1].right - elements[0].left);
         if self.boundary.is_flat() {
-            return StaticKernel::new(&self.soil, datum)?.compliance(elements, matrix);
+            return StaticKernel::new(self.soil, datum)?.compliance(elements, matrix);
         }
         let (segments, contact) = (self.boundary.segments(), self.boundary.contact());
-        static_compliance(&self.soil, segments, contact, datum, matrix)
+        static_compliance(self.soil, segments, contact, datum, matrix)
     }
 
     /// The incident field at the midpoints, if there is one; the scene's own motion otherwise.

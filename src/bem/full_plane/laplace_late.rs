@@ -35,7 +35,7 @@ pub(super) type LogTerms = [[f64; 8]; TERMS];
 ///
 /// With I₀ and I₁/z of the factors ln s in K₀ → −I₀ and K₁/z → I₁/z, ψ = Σ p_k (s r)^{2k} and
 /// χ = Σ q_k (s r)^{2k}; r^{2k−2} x_i x_j and its likes are polynomials on the element.
-pub(super) fn log_terms(soil: &Soil, view: &View, unit: f64) -> LogTerms {
+pub(super) fn log_terms(soil: Soil, view: &View, unit: f64) -> LogTerms {
     let line = view.line();
     let (p, q) = radial_terms(soil);
     let (center, half) = (0.5 * (line.low + line.high), 0.5 * (line.high - line.low));
@@ -79,7 +79,7 @@ pub(super) fn log_terms(soil: &Soil, view: &View, unit: f64) -> LogTerms {
 }
 
 /// `p_k` and `q_k` with time in units of 1/c₂ per length: (s r/c₂)^{2k}.
-fn radial_terms(soil: &Soil) -> ([f64; TERMS], [f64; TERMS]) {
+fn radial_terms(soil: Soil) -> ([f64; TERMS], [f64; TERMS]) {
     let ratio = soil.speed_ratio_squared();
     let slow = soil.shear_wave_speed();
     let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density() * slow * slow);

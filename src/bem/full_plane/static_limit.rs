@@ -41,7 +41,7 @@ fn primitive(square: [f64; 2], lame: f64, s: f64, h: f64, datum: f64) -> [f64; 7
 /// Static displacements of the elements `contact` per unit traction on them, 2Q × 2Q in the order
 /// of contact vectors; all other elements free.
 pub(super) fn static_compliance(
-    soil: &Soil,
+    soil: Soil,
     segments: &[Segment],
     contact: &[usize],
     datum: f64,

@@ -79,8 +79,8 @@ impl TimeKernel {
     }
 
     /// The soil.
-    pub fn soil(&self) -> &Soil {
-        &self.soil
+    pub fn soil(&self) -> Soil {
+        self.soil
     }
 
     /// Seconds per step.
