@@ -73,6 +73,7 @@ mod operators;
 mod path;
 mod preload;
 mod response_estimate;
+mod ride;
 mod run;
 mod scheme;
 mod simulation;
