@@ -75,6 +75,7 @@ mod peak;
 mod preload;
 mod probe;
 mod response_estimate;
+mod ride;
 mod run;
 mod scheme;
 mod simulation;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::base::Base;
 use super::coordinates::Modes;
+use super::ride;
 use crate::error::{Error, Result, same_length};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 use crate::matrix::Matrix;
@@ -20,9 +21,6 @@ mod cost {
     /// Per cubed number of modes, once.
     pub(super) const MODES: f64 = 3.0;
 }
-
-/// Largest error of a ride of 1 at the contact nodes: far above rounding, and what a weight may be off.
-const RIDE: f64 = 1e-6;
 
 /// Assembled matrices of a structure, and how it rides with the ground.
 pub(crate) struct Model {
@@ -193,11 +191,9 @@ impl Model {
         let mut matrix = Triplets::new(n);
         self.stiffness.add_to(1.0, &mut matrix);
         tangent.add_to(1.0, &mut matrix);
-        let diagonal = |m: &Triplets| {
-            m.entries().iter().filter(|(i, j, _)| i == j).fold(0.0_f64, |a, e| a.max(e.2.abs()))
-        };
-        let stiffness = diagonal(&matrix);
-        let tie = if stiffness > 0.0 { stiffness } else { 1.0 };
+        let untied = SparseMatrix::new("stiffness matrix", &matrix)?;
+        let stiffest = largest(&untied.diagonal());
+        let tie = if stiffest > 0.0 { stiffest } else { 1.0 };
         let [mut horizontal, mut vertical] = [vec![0.0; n], vec![0.0; n]];
         base.tie_nodes(tie, &mut matrix, [&mut horizontal, &mut vertical]);
         let name = "stiffness matrix with its base held";
@@ -208,10 +204,7 @@ impl Model {
             return Err(Error::Singular { matrix: name, order: n });
         }
         let ride = [horizontal, vertical];
-        if base.ride_error(&ride) > RIDE {
-            let needed = "must ride freely: no stiffness to a fixed point";
-            return Err(Error::Scene { quantity: "structure", needed });
-        }
+        ride::check(&untied, &ride, base.ride_error(&ride))?;
         Ok(ride)
     }
 }

@@ -60,7 +60,7 @@ use crate::error::{CheckpointError, Result};
 ///
 /// No support is fixed, the ground holds the structure up: neither K nor the tangent of f at rest
 /// may resist a rigid ride to the right or upwards. Structures with stiffness to a fixed point are
-/// refused when a simulation is built.
+/// refused when a simulation is built ([`Error::Supported`](crate::Error::Supported)).
 ///
 /// All forces are per metre of thickness.
 ///

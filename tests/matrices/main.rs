@@ -3,3 +3,4 @@
 mod market;
 mod model;
 mod reduction;
+mod ride;
