@@ -1,7 +1,11 @@
-//! Waves at an angle: surface motion against an independent solution, limits, and a base under one.
+//! Waves at an angle: surface motion against an independent solution, limits, and closed forms of
+//! the component that is a Hilbert transform.
 
-use basemat::Soil;
-use basemat::motion::{FreeField, PlaneWave, Record, TravellingWave, el_centro_1940};
+mod support;
+
+use basemat::motion::{Baseline, FreeField, PlaneWave, Record, TravellingWave, el_centro_1940};
+use basemat::{Error, Soil};
+use support::table;
 
 fn soil(poisson: f64) -> Soil {
     Soil::new(80e6, poisson, 1900.0).unwrap()
@@ -95,6 +99,134 @@ fn rayleigh_waves_are_retrograde_ellipses() {
         .unwrap();
     assert!(field.velocity(0.0, highest)[0] < -0.9 / omega);
     assert!(field.displacement(0.0, highest)[0].abs() < 0.05 / (omega * omega));
+}
+
+/// Speed over that of shear waves and axes of the ellipse, from the root of Rayleigh's function
+/// (2 − q)² = 4 √(1−q) √(1−q c₂²/c₁²), q = c²/c₂², found with 30 digits by mpmath; the last is the
+/// limit ν = 1/2.
+#[test]
+fn rayleigh_waves_have_the_roots_of_other_precision() {
+    for (poisson, speed, ratio, tolerance) in [
+        (0.0, 0.874_032_048_897_642_1, 1.272_019_649_514_069, 1e-12),
+        (0.25, 0.919_401_686_761_966_1, 1.467_889_825_013_870_6, 1e-12),
+        (1.0 / 3.0, 0.932_525_905_931_154_9, 1.565_197_717_383_639_4, 1e-12),
+        (0.4, 0.942_195_433_116_383_8, 1.659_784_924_279_507_5, 1e-12),
+        (0.49, 0.954_074_354_139_504_6, 1.818_844_476_567_570_5, 1e-12),
+        (0.5 - 1e-10, 0.955_312_501_025_631_5, 1.839_286_755_214_161, 1e-9),
+    ] {
+        let soil = soil(poisson);
+        let wave = PlaneWave::rayleigh(&soil);
+        let [_, [none, up]] = wave.amplification();
+        assert_eq!(none, 0.0);
+        assert!((up / ratio - 1.0).abs() < tolerance, "{poisson}: {up}");
+        let found = wave.apparent_velocity() / soil.shear_wave_speed();
+        assert!((found / speed - 1.0).abs() < tolerance, "{poisson}: {found}");
+    }
+}
+
+/// A wave whose vertical component is `factor` times the Hilbert transform of the horizontal one.
+fn rayleigh() -> (PlaneWave, f64) {
+    let wave = PlaneWave::rayleigh(&soil(1.0 / 3.0));
+    let factor = wave.amplification()[1][1];
+    (wave, factor)
+}
+
+/// Pulses of displacement whose transforms are known: a Gaussian, of which most is long-period and
+/// whose transform fades as 1/t, and Ricker's. Nothing is left to the record's ends: it is cut a
+/// short while after the pulse, and the transform asked for long after and before.
+#[test]
+fn the_late_component_of_a_pulse_has_its_closed_form() {
+    let table = table("hilbert_pulses.csv");
+    let (width, centre, step) = (0.7, 6.0, 0.0025);
+    let (wave, factor) = rayleigh();
+    // Second derivatives in x = (t − centre)/width.
+    let gaussian = |x: f64| (x * x - 1.0) * (-0.5 * x * x).exp();
+    let ricker = |x: f64| (x * x * (6.0 - x * x) - 3.0) * (-0.5 * x * x).exp();
+    for (column, second) in [(0, &gaussian as &dyn Fn(f64) -> f64), (1, &ricker)] {
+        let rows = table.rows(["x", "gaussian", "ricker"]);
+        let samples = (0..4800).map(|k| second((f64::from(k) * step - centre) / width));
+        let record = Record::new(step, samples.map(|a| a / (width * width)).collect()).unwrap();
+        let field = wave.with_horizontal(&record, 0.0).unwrap();
+        let vertical = |x: f64| field.displacement(0.0, centre + width * x)[1] / factor;
+        // Both are measured from where they are at x = 0, where the transforms vanish.
+        let start = vertical(0.0);
+        for row in rows {
+            let (x, known) = (row[0], row[1 + column]);
+            let found = vertical(x) - start;
+            assert!((found - known).abs() < 3e-6, "{x}: {found} {known}");
+            if column == 0 {
+                // The derivative of Dawson's integral D is 1 − 2xD.
+                let slope = (2.0 / std::f64::consts::PI).sqrt() - x * known;
+                let found = field.velocity(0.0, centre + width * x)[1] / factor * width;
+                assert!((found - slope).abs() < 1e-5, "{x}: {found} {slope}");
+            }
+        }
+    }
+}
+
+/// However long the quiet time around it, a record has the same transform: none of it is missing.
+#[test]
+fn quiet_time_changes_nothing_but_the_start() {
+    let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();
+    let beyond = PlaneWave::sv(&soil(1.0 / 3.0), 35.0_f64.to_radians()).unwrap();
+    for wave in [rayleigh().0, beyond] {
+        let times = [0.5, 2.0, 10.0, 20.0, 30.0, 40.0, 90.0];
+        let moved = |before: f64, after: f64| {
+            let padded = record.padded(before, after).unwrap();
+            let field = wave.with_horizontal(&padded, 0.0).unwrap();
+            let at = |time: f64| field.displacement(0.0, before + time)[1];
+            let drift = padded.velocity_at(padded.duration()).abs();
+            (times.map(|time| at(time) - at(0.0)), field.velocity(0.0, 0.0)[1], drift)
+        };
+        let (bare, jolt, _) = moved(0.0, 0.0);
+        for (before, after) in
+            [(2.0, 0.0), (60.0, 0.0), (1000.0, 0.0), (2.0, 8.0), (60.0, 60.0), (1000.0, 1000.0)]
+        {
+            let (padded, less, drift) = moved(before, after);
+            for (time, (a, b)) in times.iter().zip(bare.iter().zip(padded)) {
+                // A sample of zero after a last one that is not leaves a little velocity, which
+                // goes on for as long as the record is padded.
+                let slack = 1e-9 + 3.0 * drift * time;
+                assert!((a - b).abs() < slack, "{time} s: {a} {b} with {before} and {after} s");
+            }
+            assert!(less.abs() < jolt.abs());
+        }
+        // Far away the velocity is the record's first moment over the square of the distance.
+        let ratio = moved(500.0, 0.0).1 / moved(1000.0, 0.0).1;
+        assert!((ratio - 4.0).abs() < 0.3, "{ratio}");
+    }
+}
+
+/// The vertical component given: the horizontal one leads it by what it lags otherwise.
+#[test]
+fn either_component_may_be_given() {
+    let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();
+    let record = record.padded(5.0, 0.0).unwrap();
+    let (wave, factor) = rayleigh();
+    let down = wave.with_horizontal(&record, 0.0).unwrap();
+    let along = wave.with_vertical(&record, 0.0).unwrap();
+    for time in [-3.0, 4.0, 9.1, 17.0, 60.0] {
+        let [given, late] = down.displacement(0.0, time);
+        let [lead, same] = along.displacement(0.0, time);
+        assert_eq!(given, same);
+        assert!((late + factor * factor * lead).abs() < 1e-12, "{late} {lead}");
+    }
+}
+
+/// What goes on moving has no transform.
+#[test]
+fn records_that_do_not_end_at_rest_are_refused() {
+    let drifting = Record::new(0.1, vec![0.0, 1.0, 0.0, -0.9, 0.0]).unwrap();
+    let (wave, _) = rayleigh();
+    for outcome in [wave.with_horizontal(&drifting, 0.0), wave.with_vertical(&drifting, 0.0)] {
+        let Err(Error::Input { quantity, value, .. }) = outcome else { panic!("accepted") };
+        assert_eq!(quantity, "velocity at the end of the record");
+        assert!((value - 0.01).abs() < 1e-12);
+    }
+    assert!(wave.with_horizontal(&Record::new(0.1, vec![0.0; 5]).unwrap(), 0.0).is_ok());
+    // In phase it does not matter.
+    let steep = PlaneWave::sv(&soil(0.25), 0.3).unwrap();
+    assert!(steep.with_horizontal(&drifting, 0.0).is_ok());
 }
 
 /// The transform of a Gaussian-windowed cosine is the windowed sine, to the width of the window;

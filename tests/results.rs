@@ -256,6 +256,8 @@ fn floors_of_a_light_rigid_block_ride_on_the_ground() {
     assert_eq!(record.accelerations(), histories.probe("top").unwrap());
 }
 
+/// As the guide words it: the peak at f_j is as wide as 0.85 f_j to 1.15 f_j, and its slopes go on
+/// from there, every point of them moved as the peak is.
 #[test]
 fn broadened_peaks_are_plateaus() {
     let ordinate = |period: f64, value: f64| SpectralOrdinate {
@@ -265,16 +267,34 @@ fn broadened_peaks_are_plateaus() {
         pseudo_acceleration: 3.0 * value,
         acceleration: 4.0 * value,
     };
-    // A triangle of height three over ln T, its top at 1 s.
+    // A triangle of height three over ln T, its top at f_j = 1 Hz.
     let shape = |period: f64| 3.0 - period.ln().abs();
     let periods = log_spaced(0.1, 10.0, 401).unwrap();
     let spectrum: Vec<_> = periods.iter().map(|&t| ordinate(t, shape(t))).collect();
     for (wide, &period) in broadened(&spectrum, 0.15).unwrap().iter().zip(&periods) {
-        // What is largest between the two ends of the window.
-        let (low, high) = (period / 1.15, period / 0.85);
-        let known = if (low..high).contains(&1.0) { 3.0 } else { shape(low).max(shape(high)) };
-        assert!((wide.displacement - known).abs() < 1e-12, "{period}");
+        let frequency = 1.0 / period;
+        let known = if (0.85..=1.15).contains(&frequency) {
+            3.0
+        } else if frequency < 0.85 {
+            // What stood at the frequency f stands at 0.85 f now.
+            shape(0.85 / frequency)
+        } else {
+            shape(1.15 / frequency)
+        };
+        assert!((wide.displacement - known).abs() < 1e-12, "{frequency}");
         assert_eq!(wide.acceleration, 4.0 * wide.displacement);
+    }
+    // A peak of one period: where it is seen.
+    let mut lonely: Vec<_> = periods.iter().map(|&t| ordinate(t, 0.0)).collect();
+    let spike = 200;
+    lonely[spike] = ordinate(periods[spike], 1.0);
+    for (wide, &period) in broadened(&lonely, 0.15).unwrap().iter().zip(&periods) {
+        let share = periods[spike] / period;
+        if (0.851..1.149).contains(&share) {
+            assert_eq!(wide.displacement, 1.0, "{share}");
+        } else if !(0.83..1.17).contains(&share) {
+            assert_eq!(wide.displacement, 0.0, "{share}");
+        }
     }
     assert_eq!(broadened(&spectrum, 0.0).unwrap(), spectrum);
     assert!(broadened(&[], 0.15).unwrap().is_empty());

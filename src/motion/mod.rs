@@ -18,6 +18,7 @@ mod integral;
 mod intensity;
 mod k_net;
 mod lines;
+mod out_of_phase;
 mod peer;
 mod plane_wave;
 mod reader;

@@ -19,6 +19,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::out_of_phase::OutOfPhase;
 use super::{Record, TravellingWave, VerticalIncidence};
 use crate::error::{Error, Result};
 use crate::fundamental::Rayleigh;
@@ -111,15 +112,35 @@ impl PlaneWave {
     /// The free field in which `record` is the horizontal motion at `origin` (m), the edge of the
     /// base that the wave reaches first; the vertical motion follows.
     ///
-    /// Where the components are out of phase, the vertical one is a Hilbert transform, which
-    /// precedes its cause: give the record some quiet time before and after it with
-    /// [`Record::padded`], and a baseline that ends at rest.
+    /// Where the components are out of phase, the vertical one contains the Hilbert transform of
+    /// the horizontal one over all time: it begins before the record does and fades after it, as 1/t
+    /// (as ln t if the ground does not come back). It is measured from t = 0, when it moves already;
+    /// its velocity then, which [`FreeField::velocity`](super::FreeField::velocity) tells, is a jolt at the start of a run. Quiet
+    /// time before the record makes the jolt small, and changes nothing else: see
+    /// [`Record::padded`]. The record must end at rest: see [`Baseline`](super::Baseline).
+    ///
+    /// ```
+    /// use basemat::{Soil, motion::{Baseline, FreeField, PlaneWave, el_centro_1940}};
+    /// let wave = PlaneWave::rayleigh(Soil::new(80.0e6, 1.0 / 3.0, 1900.0)?);
+    /// let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 })?;
+    /// let jolt = |quiet| -> basemat::Result<f64> {
+    ///     Ok(wave.field_from_horizontal(&record.padded(quiet, 0.0)?, 0.0)?.velocity(0.0, 0.0)[1].abs())
+    /// };
+    /// assert!(jolt(20.0)? < 0.1 * jolt(0.0)?);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] if the wave has no horizontal component.
+    /// [`Error::Input`] if the wave has no horizontal component, or if it is out of phase and the
+    /// record's last velocity above 1 % of its peak.
     pub fn field_from_horizontal(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
         let ratio = ratio("horizontal component of the wave", self.vertical, self.horizontal)?;
-        let field = VerticalIncidence::new(record.clone()).with_vertical(follow(record, ratio)?);
+        if ratio.im != 0.0 {
+            let field = OutOfPhase::new(record, false, ratio)?;
+            return TravellingWave::new(field, self.apparent_velocity(), origin);
+        }
+        let vertical = record.scaled(ratio.re)?;
+        let field = VerticalIncidence::new(record.clone()).with_vertical(vertical);
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
 
@@ -127,10 +148,15 @@ impl PlaneWave {
     /// [`PlaneWave::field_from_horizontal`].
     ///
     /// # Errors
-    /// [`Error::Input`] if the wave has no vertical component.
+    /// [`Error::Input`] if the wave has no vertical component, and as for
+    /// [`PlaneWave::with_horizontal`].
     pub fn field_from_vertical(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
         let ratio = ratio("vertical component of the wave", self.horizontal, self.vertical)?;
-        let field = VerticalIncidence::new(follow(record, ratio)?).with_vertical(record.clone());
+        if ratio.im != 0.0 {
+            let field = OutOfPhase::new(record, true, ratio)?;
+            return TravellingWave::new(field, self.apparent_velocity(), origin);
+        }
+        let field = VerticalIncidence::new(record.scaled(ratio.re)?).with_vertical(record.clone());
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
 }
@@ -161,15 +187,4 @@ fn ratio(quantity: &'static str, other: Complex, given: Complex) -> Result<Compl
     } else {
         Err(Error::Input { quantity, value: given.abs(), needed: "not zero at this angle" })
     }
-}
-
-/// The component that is `ratio` times `record`.
-fn follow(record: &Record, ratio: Complex) -> Result<Record> {
-    let direct = record.scaled(ratio.re)?;
-    if ratio.im == 0.0 {
-        return Ok(direct);
-    }
-    let late = record.hilbert_transform()?;
-    let sum = direct.accelerations().iter().zip(late.accelerations());
-    Record::new(record.time_step(), sum.map(|(a, b)| a + ratio.im * b).collect())
 }

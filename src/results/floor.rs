@@ -75,8 +75,10 @@ pub fn log_spaced(first: f64, last: f64, count: usize) -> Result<Vec<f64>> {
 /// A spectrum whose peaks are broadened to frequencies `share` lower and higher, for what is not
 /// known of soil and structure: 0.15 in U.S. NRC Regulatory Guide 1.122, rev. 1 (1978).
 ///
-/// Every ordinate becomes the largest between (1 − share) and (1 + share) times its frequency;
-/// between the given periods the spectrum is linear in the logarithm of the period.
+/// The ordinate at every frequency f is spread over (1 − share) f to (1 + share) f, and the largest
+/// that is spread to a frequency counts: at the period T that of the given spectrum between
+/// (1 − share) T and (1 + share) T. Between the given periods the spectrum is linear in the
+/// logarithm of the period.
 ///
 /// # Errors
 /// [`Error::Input`] unless 0 ≤ `share` < 1 and the periods increase.
@@ -92,7 +94,7 @@ pub fn broadened(spectrum: &[SpectralOrdinate], share: f64) -> Result<Vec<Spectr
         last = ordinate.period;
     }
     let widen = |centre: &SpectralOrdinate| {
-        let (from, to) = (centre.period / (1.0 + share), centre.period / (1.0 - share));
+        let (from, to) = (centre.period * (1.0 - share), centre.period * (1.0 + share));
         let largest = |value: &dyn Fn(&SpectralOrdinate) -> f64| {
             let inside = spectrum.iter().filter(|o| o.period >= from && o.period <= to);
             let ends = [from, to].map(|period| between(spectrum, period, value));

@@ -1,0 +1,171 @@
+//! Ground motions whose components are out of phase.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | v | velocity of the given component, zero outside the record |
+//! | V = H\[v\], W = ∫₀ᵗ V | velocity and displacement that every harmonic has a quarter of a period late |
+
+use std::f64::consts::PI;
+
+use super::hilbert::hilbert;
+use super::{FreeField, Record};
+use crate::error::{Error, Result};
+use crate::fundamental::complex::Complex;
+
+/// Largest velocity at the end of a record, relative to its peak, that passes for rest.
+const REST: f64 = 0.01;
+
+/// Free field, the same at all points, of a record and a component that is a complex `ratio` times
+/// it: its real part in phase, its imaginary part a quarter of a period late.
+pub(super) struct OutOfPhase {
+    given: Record,
+    given_is_vertical: bool,
+    ratio: Complex,
+    late: Late,
+}
+
+impl OutOfPhase {
+    pub(super) fn new(given: &Record, given_is_vertical: bool, ratio: Complex) -> Result<Self> {
+        Ok(Self { given: given.clone(), given_is_vertical, ratio, late: Late::new(given)? })
+    }
+
+    /// Both components from the given one and W or V.
+    fn both(&self, given: f64, late: f64) -> [f64; 2] {
+        let other = self.ratio.re * given + self.ratio.im * late;
+        if self.given_is_vertical { [other, given] } else { [given, other] }
+    }
+}
+
+impl FreeField for OutOfPhase {
+    fn displacement(&self, _x: f64, time: f64) -> [f64; 2] {
+        self.both(self.given.displacement_at(time), self.late.at(time)[0])
+    }
+
+    fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
+        self.both(self.given.velocity_at(time), self.late.at(time)[1])
+    }
+}
+
+/// W and V at any time: sampled as long before and after the record as it lasts, and beyond, where
+/// the record is far away, summed.
+struct Late {
+    step: f64,
+    /// v at the samples of the record.
+    source: Vec<f64>,
+    /// V at the samples and at as many times before and after.
+    velocity: Vec<f64>,
+    /// W there.
+    displacement: Vec<f64>,
+}
+
+impl Late {
+    fn new(record: &Record) -> Result<Self> {
+        let end = record.velocity_at(record.duration());
+        if end.abs() > REST * record.peak_velocity() {
+            return Err(Error::Input {
+                quantity: "velocity at the end of the record",
+                value: end,
+                needed: "at most 1 % of its peak for components out of phase (see Baseline)",
+            });
+        }
+        let (step, source) = (record.time_step(), record.velocities().to_vec());
+        // Velocity and displacement, not acceleration, are transformed: what the transform of an
+        // acceleration was before t = 0 would be missing from its integrals.
+        let velocity = hilbert(&source, source.len())?;
+        let displacement = integral(&velocity, step, source.len());
+        Ok(Self { step, source, velocity, displacement })
+    }
+
+    /// `[W, V]`.
+    fn at(&self, time: f64) -> [f64; 2] {
+        let last = self.velocity.len() - 1;
+        let place = time / self.step + self.source.len() as f64;
+        if !(place >= 0.0 && place < last as f64) {
+            return self.far(time);
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..last")]
+        let k = place as usize;
+        let x = place - k as f64;
+        // The cubic with these values and slopes.
+        let [w0, w1] = [self.displacement[k], self.displacement[k + 1]];
+        let [v0, v1] = [self.velocity[k], self.velocity[k + 1]];
+        let rise = (w1 - w0) / self.step;
+        let (b, c) = (3.0 * rise - 2.0 * v0 - v1, v0 + v1 - 2.0 * rise);
+        let displacement = w0 + self.step * x * (v0 + x * (b + x * c));
+        [displacement, v0 + x * (2.0 * b + 3.0 * x * c)]
+    }
+
+    /// `[W, V]` where 1/(t − τ) hardly changes from sample to sample.
+    fn far(&self, time: f64) -> [f64; 2] {
+        let count = self.source.len() as f64;
+        let last = self.velocity.len() - 1;
+        let (edge, index) = if time < 0.0 { (-count, 0) } else { (last as f64 - count, last) };
+        let mut sums = [0.0; 2];
+        for (j, v) in self.source.iter().enumerate() {
+            let distance = time / self.step - j as f64;
+            sums[0] += v * (distance / (edge - j as f64)).ln();
+            sums[1] += v / distance;
+        }
+        [self.displacement[index] + self.step * sums[0] / PI, sums[1] / PI]
+    }
+}
+
+/// Integral of samples from sample `zero` on, each interval under the cubic through four of them.
+fn integral(samples: &[f64], step: f64, zero: usize) -> Vec<f64> {
+    let last = samples.len() - 1;
+    let interval = |k: usize| {
+        let trapezoid = samples[k] + samples[k + 1];
+        let outer =
+            if k == 0 || k + 1 == last { trapezoid } else { samples[k - 1] + samples[k + 2] };
+        step * (13.0 * trapezoid - outer) / 24.0
+    };
+    let mut sums = Vec::with_capacity(samples.len());
+    let mut sum = 0.0;
+    sums.push(sum);
+    for k in 0..last {
+        sum += interval(k);
+        sums.push(sum);
+    }
+    let start = sums[zero];
+    sums.iter_mut().for_each(|sum| *sum -= start);
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::{Baseline, el_centro_1940};
+
+    /// W, an integral of the transformed velocity, is the transformed displacement.
+    #[test]
+    fn displacement_is_the_transform_of_the_displacement() {
+        let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();
+        let count = record.len();
+        let late = Late::new(&record).unwrap();
+        let direct = hilbert(record.displacements(), count).unwrap();
+        for (found, known) in late.displacement.iter().zip(&direct) {
+            assert!((found - (known - direct[count])).abs() < 1e-5, "{found} {known}");
+        }
+    }
+
+    /// No seam where the sums take over, and V is the slope of W everywhere.
+    #[test]
+    fn far_and_near_meet() {
+        let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();
+        let late = Late::new(&record).unwrap();
+        let count = record.len() as f64;
+        for place in [-count, 2.0 * count - 1.0] {
+            for side in [-1e-3, 1e-3] {
+                let time = (place + side) * record.time_step();
+                let (near, far) = (late.at(time), late.far(time));
+                assert!((near[0] - far[0]).abs() < 1e-9 && (near[1] - far[1]).abs() < 1e-9);
+            }
+        }
+        for time in [-300.0, -40.0, -31.3, -5.005, -0.003, 0.507, 12.301, 40.0, 62.4, 63.0, 500.0] {
+            let h = 1e-4;
+            let slope = (late.at(time + h)[0] - late.at(time - h)[0]) / (2.0 * h);
+            let velocity = late.at(time)[1];
+            assert!((slope - velocity).abs() < 1e-6, "{time}: {slope} {velocity}");
+        }
+    }
+}
