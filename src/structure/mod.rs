@@ -26,6 +26,7 @@ pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
 };
 pub use matrix_model::MatrixModel;
+pub(crate) use matrix_model::check_mass;
 pub use modal_damping::{ModalDamping, WithModalDamping};
 pub use nonlinear_shear_building::{IsolationLevel, NonlinearShearBuilding};
 pub use rayleigh::RayleighDamping;
