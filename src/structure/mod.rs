@@ -11,6 +11,7 @@ mod modal_damping;
 mod nonlinear_shear_building;
 mod rayleigh;
 mod recovery;
+mod rides;
 mod rigid_block;
 mod rigid_links;
 mod section;
