@@ -2,9 +2,11 @@
 
 use std::fmt::Write;
 
+use basemat::bem::{HalfPlaneGround, Strip};
 use basemat::fem::{GmshMesh, Layer, Material, Mesh};
+use basemat::interface::Bonded;
 use basemat::structure::{FemModel, Structure, Triplets};
-use basemat::{Error, MeshFileError};
+use basemat::{Error, MeshFileError, Simulation, Soil};
 use proptest::prelude::*;
 
 fn concrete() -> Material {
@@ -199,6 +201,118 @@ fn groups_that_are_not_there_are_named() {
     // A quadrilateral that crosses itself has an area of neither sign.
     let crossed = read(&MANUAL.replacen("1 1 2 3 4", "1 1 3 2 4", 1)).unwrap();
     assert!(crossed.mesh(&[("", concrete())]).is_err());
+}
+
+#[test]
+fn what_is_announced_must_be_there() {
+    let with = |from: &str, to: &str| refusal(&MANUAL.replacen(from, to, 1));
+    let nodes = with("1 6 1 6", "1 7 1 6");
+    assert_eq!(nodes, (18, MeshFileError::Count { what: "nodes", found: 6, announced: 7 }));
+    let elements = with("1 2 1 2", "1 1 1 2");
+    assert_eq!(elements, (24, MeshFileError::Count { what: "elements", found: 2, announced: 1 }));
+    let (line, reason) = with("2 1 3 2", "2 1 10 2");
+    assert!(line == 22 && reason.to_string().contains("SecondOrderIncomplete"), "{reason}");
+}
+
+/// Gmsh leaves some 10⁻¹⁷ of z when a plane mesh was turned or extruded; that is of no account.
+#[test]
+fn the_plane_is_as_flat_as_rounding_leaves_it() {
+    let with = |z: &str| read(&MANUAL.replacen("0. 1. 0.", &format!("0. 1. {z}"), 1));
+    assert_eq!(with("1e-17").unwrap(), read(MANUAL).unwrap());
+    assert!(with("-1e-10").is_ok());
+    assert!(with("1e-6").is_err() && with("-1e-6").is_err());
+}
+
+#[test]
+fn a_group_has_one_material() {
+    let gmsh = read(MANUAL).unwrap();
+    let soft = Material::new(1.0e9, 0.2, 2400.0).unwrap();
+    let error = gmsh.mesh(&[("", concrete()), ("", soft)]).unwrap_err();
+    assert!(matches!(error, Error::MeshFile { reason: MeshFileError::Twice { .. }, .. }));
+}
+
+/// A square of the second order, clockwise: corners and the nodes between them are turned round.
+#[test]
+fn clockwise_elements_of_the_second_order_are_turned() {
+    let text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 8 1 8\n2 1 0 8\n\
+        1\n2\n3\n4\n5\n6\n7\n8\n0 0 0\n0 2 0\n2 2 0\n2 0 0\n0 1 0\n1 2 0\n2 1 0\n1 0 0\n$EndNodes\n\
+        $Elements\n1 1 1 1\n2 1 16 1\n1 1 2 3 4 5 6 7 8\n$EndElements\n";
+    let mesh = read(text).unwrap().mesh(&[("", concrete())]).unwrap();
+    let nodes = mesh.elements()[0].nodes();
+    let places: Vec<[f64; 2]> = nodes.iter().map(|&node| mesh.nodes()[node]).collect();
+    let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+    assert_eq!(places[..4], corners);
+    for k in 0..4 {
+        let (a, b) = (corners[k], corners[(k + 1) % 4]);
+        assert_eq!(places[4 + k], [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]);
+    }
+}
+
+/// Three squares in a row; what is below them is a line each for the first and the last.
+const STRIPS: &str = "$MeshFormat\n4.1 0 8\n$EndMeshFormat
+$PhysicalNames\n1\n1 7 \"base\"\n$EndPhysicalNames
+$Entities\n0 1 1 0\n1 0 0 0 3 0 0 1 7 0\n1 0 0 0 3 1 0 0 0\n$EndEntities
+$Nodes\n1 8 1 8\n2 1 0 8\n1\n2\n3\n4\n5\n6\n7\n8
+0 0 0\n1 0 0\n2 0 0\n3 0 0\n0 1 0\n1 1 0\n2 1 0\n3 1 0\n$EndNodes
+$Elements\n2 5 1 5\n1 1 1 2\n1 4 3\n2 1 2\n2 1 3 3\n3 1 2 6 5\n4 2 3 7 6\n5 3 4 8 7\n$EndElements
+";
+
+#[test]
+fn a_base_with_a_gap_is_two_foundations() {
+    let gmsh = read(STRIPS).unwrap();
+    let error = gmsh.line("base").unwrap_err().to_string();
+    assert!(error.contains("2 pieces"), "{error}");
+    let lines = gmsh.foundations("base").unwrap();
+    assert_eq!(lines, [[0, 1], [2, 3]]);
+    let mesh = || gmsh.mesh(&[("", concrete())]).unwrap();
+    let model = FemModel::on_foundations(mesh(), &lines).unwrap();
+    assert_eq!((model.contact_nodes().len(), model.foundation_ends()), (4, vec![1]));
+    let build = |model: FemModel, strips: &[std::ops::Range<f64>]| {
+        let strips: Vec<Strip> =
+            strips.iter().map(|range| Strip::uniform(range.clone(), 4).unwrap()).collect();
+        let ground = HalfPlaneGround::new(Soil::new(80.0e6, 0.33, 1900.0).unwrap(), &strips);
+        let builder = Simulation::builder(0.01).structure(model).ground(ground.unwrap());
+        builder.interface(Bonded).gravity(9.81).build()
+    };
+    let built = build(model, &[0.0..1.0, 2.0..3.0]).unwrap();
+    assert_eq!(built.state().foundations.len(), 2);
+    let whole = || FemModel::on_foundations(mesh(), &[vec![0, 1, 2, 3]]).unwrap();
+    assert!(whole().foundation_ends().is_empty());
+    let built = build(whole(), std::slice::from_ref(&(0.0..3.0))).unwrap();
+    assert_eq!(built.state().foundations.len(), 1);
+    // Between the strips there is no base.
+    let two = FemModel::on_foundations(mesh(), &lines).unwrap();
+    assert!(build(two, std::slice::from_ref(&(0.0..3.0))).is_err());
+    for bad in
+        [&[][..], &[vec![0, 1], vec![2]], &[vec![2, 3], vec![0, 1]], &[vec![0, 1], vec![1, 2]]]
+    {
+        assert!(FemModel::on_foundations(mesh(), bad).is_err(), "{bad:?}");
+    }
+    // With the middle closed it is one line.
+    let closed = STRIPS.replacen("2 5 1 5\n1 1 1 2\n", "2 6 1 6\n1 1 1 3\n9 3 2\n", 1);
+    assert_eq!(read(&closed).unwrap().line("base").unwrap(), [0, 1, 2, 3]);
+}
+
+/// The middle square belongs to another partition: its surface is an entity of its own.
+#[test]
+fn partitions_keep_their_groups() {
+    let parted = STRIPS
+        .replacen("$EndPhysicalNames", "2 4 \"wall\"\n$EndPhysicalNames", 1)
+        .replacen("Names\n1\n", "Names\n2\n", 1)
+        .replacen(
+            "$EndEntities",
+            "$EndEntities\n$PartitionedEntities\n2\n1\n5 1\n0 1 2 0\n\
+             2 1 1 2 1 2 0 0 0 3 0 0 1 7 0\n8 2 1 1 1 0 0 0 3 1 0 1 4 0\n\
+             9 2 1 1 2 1 0 0 2 1 0 1 4 1 2\n$EndPartitionedEntities",
+            1,
+        )
+        .replacen("2 5 1 5\n1 1 1 2", "3 5 1 5\n1 2 1 2", 1)
+        .replacen("2 1 3 3", "2 8 3 2", 1)
+        .replacen("4 2 3 7 6\n5 3 4 8 7", "5 3 4 8 7\n2 9 3 1\n4 2 3 7 6", 1);
+    let gmsh = read(&parted).unwrap();
+    assert_eq!((gmsh.surfaces(), gmsh.lines()), (vec!["wall"], vec!["base"]));
+    assert_eq!(gmsh.foundations("base").unwrap().len(), 2);
+    assert_eq!(gmsh.mesh(&[("wall", concrete())]).unwrap().elements().len(), 3);
 }
 
 proptest! {

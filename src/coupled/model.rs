@@ -6,9 +6,9 @@ use super::base::Base;
 use super::coordinates::Modes;
 use super::ride;
 use crate::error::{Error, Result, same_length};
-use crate::linalg::{SparseFactor, SparseMatrix, largest};
+use crate::linalg::{SparseFactor, SparseMatrix, indefinite_row, largest};
 use crate::matrix::Matrix;
-use crate::structure::{InternalEnergy, Structure, Triplets};
+use crate::structure::{InternalEnergy, Structure, Triplets, check_mass};
 
 /// Times in nanoseconds that choose the coordinates, as measured by `benches/step.rs`.
 mod cost {
@@ -21,6 +21,11 @@ mod cost {
     /// Per cubed number of modes, once.
     pub(super) const MODES: f64 = 3.0;
 }
+
+/// Springs that hold the base where it must not give way, relative to the largest stiffness.
+const HELD: f64 = 1e6;
+/// What assembly and factors leave of a zero, relative to the diagonal.
+const ROUNDING: f64 = 1e-12;
 
 /// Assembled matrices of a structure, and how it rides with the ground.
 pub(crate) struct Model {
@@ -52,6 +57,7 @@ impl Model {
             SparseMatrix::new(name, &triplets)
         };
         let mass = assemble("mass matrix", &|m| structure.mass(m))?;
+        check_mass(&mass)?;
         let damping = assemble("damping matrix", &|m| structure.damping(m))?;
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
         let linear = structure.is_linear();
@@ -198,6 +204,9 @@ impl Model {
         base.tie_nodes(tie, &mut matrix, [&mut horizontal, &mut vertical]);
         let name = "stiffness matrix with its base held";
         let mut factor = SparseFactor::new(name, &matrix)?;
+        if self.linear && !factor.is_positive_definite() {
+            self.check_stiffness(base, tie)?;
+        }
         factor.solve(&mut horizontal);
         factor.solve(&mut vertical);
         if horizontal.iter().chain(&vertical).any(|r| !r.is_finite()) {
@@ -206,5 +215,25 @@ impl Model {
         let ride = [horizontal, vertical];
         ride::check(&untied, &ride, base.ride_error(&ride))?;
         Ok(ride)
+    }
+
+    /// Refuses a symmetric K that is not positive semi-definite where the base is held.
+    fn check_stiffness(&self, base: &Base, tie: f64) -> Result<()> {
+        const NAME: &str = "stiffness matrix with its base held";
+        let mut matrix = Triplets::new(self.unknowns);
+        self.stiffness.add_to(1.0, &mut matrix);
+        let [mut horizontal, mut vertical] = [(); 2].map(|()| vec![0.0; self.unknowns]);
+        base.tie_nodes(HELD * tie, &mut matrix, [&mut horizontal, &mut vertical]);
+        let matrix = SparseMatrix::new(NAME, &matrix)?;
+        if matrix.asymmetry() > ROUNDING {
+            return Ok(());
+        }
+        match indefinite_row(&matrix, ROUNDING) {
+            Some(row) => {
+                let diagonal = self.stiffness.diagonal()[row];
+                Err(Error::Indefinite { matrix: NAME, row, diagonal })
+            }
+            None => Ok(()),
+        }
     }
 }

@@ -19,6 +19,16 @@ pub enum MeshFileError {
         /// What is there twice.
         what: String,
     },
+    /// A section has more or fewer things than it says.
+    #[error("{found} {what}, but {announced} are announced")]
+    Count {
+        /// What is counted.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many the section says.
+        announced: u64,
+    },
     /// A field is not what it must be.
     #[error("'{text}' is no {what}")]
     NotA {

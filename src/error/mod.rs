@@ -189,6 +189,20 @@ pub enum Error {
         /// Share of the axial forces at which it buckles.
         factor: f64,
     },
+    /// A matrix with which a motion would give energy away without end: a negative mass, or columns
+    /// under more than their buckling load.
+    #[error(
+        "{matrix} is not positive semi-definite: it shows at row {row}, which has {diagonal:e} on the \
+         diagonal"
+    )]
+    Indefinite {
+        /// Name of the matrix.
+        matrix: &'static str,
+        /// Row, and unknown, at which it shows.
+        row: usize,
+        /// Entry on the diagonal there.
+        diagonal: f64,
+    },
     /// A matrix of the step that double precision cannot carry.
     #[error(
         "{matrix}: condition about {condition:.1e}, but double precision carries {limit:.0e}; what \

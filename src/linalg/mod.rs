@@ -18,6 +18,6 @@ pub(crate) use lanczos::lowest_modes;
 pub(crate) use product::{
     dense_multiply_add, dot, largest, row_products, wide_multiply_add, wide_transposed_multiply_add,
 };
-pub(crate) use sparse::SparseFactor;
+pub(crate) use sparse::{SparseFactor, indefinite_row};
 
 pub(crate) use crate::matrix::SparseMatrix;

@@ -1,6 +1,7 @@
 //! Factors of sparse matrices.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltError;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
     factorize_symbolic_cholesky,
@@ -34,7 +35,7 @@ impl SparseFactor {
         let singular = || Error::Singular { matrix: name, order: matrix.order() };
         let columns = by_columns(&matrix).ok_or_else(singular)?;
         let symmetric = matrix.asymmetry() <= 1e-13;
-        let factor = if symmetric { Self::cholesky(&columns) } else { None };
+        let factor = if symmetric { Self::cholesky(&columns).ok() } else { None };
         factor.or_else(|| Self::lu(&columns)).and_then(Self::probed).ok_or_else(singular)
     }
 
@@ -42,9 +43,14 @@ impl SparseFactor {
     /// matrix.
     pub(crate) fn positive_definite(name: &'static str, matrix: &SparseMatrix) -> Result<Self> {
         by_columns(matrix)
-            .and_then(|columns| Self::cholesky(&columns))
+            .and_then(|columns| Self::cholesky(&columns).ok())
             .and_then(Self::probed)
             .ok_or_else(|| Error::Singular { matrix: name, order: matrix.order() })
+    }
+
+    /// Whether the matrix was found positive definite.
+    pub(crate) fn is_positive_definite(&self) -> bool {
+        matches!(self.kind, Kind::Cholesky { .. })
     }
 
     /// A singular matrix may pass LU with a pivot of rounding size: it shows in a solve.
@@ -54,14 +60,15 @@ impl SparseFactor {
         probe.iter().all(|x| x.is_finite()).then_some(self)
     }
 
-    fn cholesky(matrix: &SparseColMat<usize, f64>) -> Option<Self> {
+    /// Or the row at which the matrix is found not to be positive definite.
+    fn cholesky(matrix: &SparseColMat<usize, f64>) -> std::result::Result<Self, usize> {
         let symbolic = factorize_symbolic_cholesky(
             matrix.symbolic(),
             Side::Lower,
             SymmetricOrdering::Amd,
             CholeskySymbolicParams::default(),
         )
-        .ok()?;
+        .map_err(|_| 0_usize)?;
         let mut values = vec![0.0; symbolic.len_val()];
         let mut buffer = MemBuffer::new(
             symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default()),
@@ -76,9 +83,12 @@ impl SparseFactor {
                 MemStack::new(&mut buffer),
                 Spec::default(),
             )
-            .ok()?;
+            .map_err(|LltError::NonPositivePivot { index }| {
+                let forward = symbolic.perm().map(|order| order.arrays().0);
+                forward.map_or(index, |rows| rows.get(index).copied().unwrap_or(0))
+            })?;
         let buffer = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
-        Some(Self { order: matrix.nrows(), kind: Kind::Cholesky { symbolic, values }, buffer })
+        Ok(Self { order: matrix.nrows(), kind: Kind::Cholesky { symbolic, values }, buffer })
     }
 
     fn lu(matrix: &SparseColMat<usize, f64>) -> Option<Self> {
@@ -162,6 +172,34 @@ impl SparseFactor {
     }
 }
 
+/// Row of a symmetric matrix at which it is found not to be positive semi-definite, if it is not;
+/// eigenvalues count from −`tolerance` in the matrix scaled to a diagonal of one. Costs a sparse
+/// Cholesky factor, or next to nothing if the matrix is diagonal.
+pub(crate) fn indefinite_row(matrix: &SparseMatrix, tolerance: f64) -> Option<usize> {
+    let diagonal = matrix.diagonal();
+    if let Some(row) = diagonal.iter().position(|value| *value < 0.0) {
+        return Some(row);
+    }
+    let mut scaled = Triplets::new(matrix.order());
+    let mut coupled = false;
+    for (row, column, value) in matrix.entries() {
+        let scale = diagonal[row].sqrt() * diagonal[column].sqrt();
+        if row != column && value != 0.0 {
+            coupled = true;
+            if value.abs() > (1.0 + tolerance) * scale {
+                return Some(row);
+            }
+            scaled.add(row, column, value / scale);
+        }
+    }
+    if !coupled {
+        return None;
+    }
+    (0..matrix.order()).for_each(|row| scaled.add(row, row, 1.0 + tolerance));
+    let scaled = SparseMatrix::new("scaled matrix", &scaled).ok()?;
+    SparseFactor::cholesky(&by_columns(&scaled)?).err()
+}
+
 /// The same matrix, compressed by columns.
 fn by_columns(matrix: &SparseMatrix) -> Option<SparseColMat<usize, f64>> {
     let order = matrix.order();
@@ -202,6 +240,31 @@ mod tests {
                 assert!((a - b).abs() < 1e-13);
             }
         }
+    }
+
+    /// Chains with one spring of the other sign: indefinite, whatever the diagonal says.
+    #[test]
+    fn indefinite_matrices_are_told_by_a_row() {
+        for (negative, tolerance) in [(None, 1e-12), (Some(17), 1e-12), (Some(17), 1e-6)] {
+            let mut chain = Triplets::new(40);
+            chain.add(0, 0, 5.0e6);
+            for i in 1..40 {
+                chain.add_spring(i - 1, i, if Some(i) == negative { -1.0e5 } else { 4.0e6 });
+            }
+            let matrix = SparseMatrix::new("test", &chain).unwrap();
+            assert_eq!(indefinite_row(&matrix, tolerance).is_some(), negative.is_some());
+            assert!(matrix.diagonal().iter().all(|k| *k > 0.0));
+        }
+        let rows = |entries: &[(usize, usize, f64)]| {
+            let mut matrix = Triplets::new(3);
+            entries.iter().for_each(|&(i, j, value)| matrix.add(i, j, value));
+            indefinite_row(&SparseMatrix::new("test", &matrix).unwrap(), 1e-6)
+        };
+        assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -1e-3)]), Some(1));
+        assert_eq!(rows(&[(0, 0, 1.0), (0, 2, 1e-3), (2, 0, 1e-3)]), Some(0));
+        // Singular ones are none: a row of zeros, a mass on a weighted sum of unknowns.
+        assert_eq!(rows(&[(0, 0, 1.0)]), None);
+        assert_eq!(rows(&[(0, 0, 4.0), (0, 1, 6.0), (1, 0, 6.0), (1, 1, 9.0)]), None);
     }
 
     #[test]

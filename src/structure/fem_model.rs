@@ -38,6 +38,8 @@ pub struct FemModel {
     /// Nodes of the mesh that touch the ground, and how they do.
     feet: Vec<usize>,
     contact: Vec<ContactNode>,
+    /// Contact nodes that are the last of their foundation, all but the last foundation's.
+    ends: Vec<usize>,
     mass_kind: MassKind,
     damping: RayleighDamping,
     /// Acceleration of gravity of the weight whose axial forces make P–Δ.
@@ -87,10 +89,57 @@ impl FemModel {
             links: None,
             feet: contact.to_vec(),
             contact: nodes,
+            ends: Vec::new(),
             mass_kind: MassKind::default(),
             damping: RayleighDamping::default(),
             p_delta: None,
         })
+    }
+
+    /// Structure on separate foundations, each of which touches the ground with the nodes of one
+    /// line, from left to right: between two lines there is no base.
+    ///
+    /// ```
+    /// use basemat::fem::{Beam, Mesh};
+    /// use basemat::structure::{FemModel, Structure};
+    ///
+    /// // A portal frame on two strips 2 m wide.
+    /// let mut mesh = Mesh::new();
+    /// let mut lines = Vec::new();
+    /// let mut tops = Vec::new();
+    /// for x in [-4.0, 4.0] {
+    ///     let line = [x - 1.0, x, x + 1.0].map(|x| mesh.add_node(x, 0.0));
+    ///     let line = line.into_iter().collect::<Result<Vec<_>, _>>()?;
+    ///     let top = mesh.add_node(x, 5.0)?;
+    ///     for ends in [[line[0], line[1]], [line[1], line[2]], [line[1], top]] {
+    ///         mesh.add(Beam::new(ends, 30.0e9, 0.5, 0.01, 2400.0)?)?;
+    ///     }
+    ///     lines.push(line);
+    ///     tops.push(top);
+    /// }
+    /// mesh.add(Beam::new([tops[0], tops[1]], 30.0e9, 0.5, 0.01, 2400.0)?)?;
+    /// let frame = FemModel::on_foundations(mesh, &lines)?;
+    /// assert_eq!((frame.contact_nodes().len(), frame.foundation_ends()), (6, vec![2]));
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`FemModel::new`], of every line and all of them in a row; [`Error::Size`] without
+    /// lines.
+    pub fn on_foundations(mesh: Mesh, lines: &[Vec<usize>]) -> Result<Self> {
+        if let Some(short) = lines.iter().find(|line| line.len() < 2) {
+            let quantity = "contact nodes of a foundation";
+            return Err(Error::Size { quantity, found: short.len(), needed: 2 });
+        }
+        let mut ends: Vec<usize> = lines
+            .iter()
+            .scan(0, |nodes, line| {
+                *nodes += line.len();
+                Some(*nodes - 1)
+            })
+            .collect();
+        ends.pop();
+        Ok(Self { ends, ..Self::new(mesh, &lines.concat())? })
     }
 
     /// Structure that touches the ground with all its lowest nodes.
@@ -335,6 +384,10 @@ impl Structure for FemModel {
 
     fn contact_nodes(&self) -> Vec<ContactNode> {
         self.contact.clone()
+    }
+
+    fn foundation_ends(&self) -> Vec<usize> {
+        self.ends.clone()
     }
 
     fn mass(&self, matrix: &mut Triplets) {

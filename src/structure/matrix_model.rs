@@ -3,10 +3,13 @@
 use super::rayleigh::RayleighDamping;
 use super::{ContactNode, Structure, Triplets};
 use crate::error::{Error, Result, same_length};
-use crate::linalg::SparseMatrix;
+use crate::linalg::{SparseMatrix, indefinite_row};
 
 /// Relative difference of mirrored entries up to which a matrix counts as symmetric.
 pub(super) const SYMMETRIC: f64 = 1e-9;
+/// Negative masses up to this, relative to those on the diagonal, are rounding: what a file with
+/// seven digits leaves of a singular matrix.
+const SEMI_DEFINITE: f64 = 1e-6;
 
 /// A structure given by mass, damping and stiffness matrices, from another program for example.
 ///
@@ -46,16 +49,15 @@ impl MatrixModel {
     /// # Errors
     /// [`Error::Size`] for matrices without rows or of different order and for fewer than two
     /// contact nodes, [`Error::Index`] and [`Error::Input`] for entries, coordinates or weights out
-    /// of range or not finite, [`Error::Scene`] for a mass matrix that is not symmetric.
+    /// of range or not finite, [`Error::Scene`] for a mass matrix that is not symmetric,
+    /// [`Error::Indefinite`] for one with a negative mass.
     pub fn new(mass: Triplets, stiffness: Triplets, contact: Vec<ContactNode>) -> Result<Self> {
         let order = mass.order();
         if order == 0 {
             return Err(Error::Size { quantity: "mass matrix", found: 0, needed: 1 });
         }
         let inertia = SparseMatrix::new("mass matrix", &mass)?;
-        if inertia.asymmetry() > SYMMETRIC {
-            return Err(Error::Scene { quantity: "mass matrix", needed: "must be symmetric" });
-        }
+        check_mass(&inertia)?;
         check("stiffness matrix", &stiffness, order)?;
         check_contact(&contact, order)?;
         Ok(Self { mass, damping: Triplets::new(order), stiffness, contact })
@@ -83,6 +85,18 @@ impl MatrixModel {
             }
         }
         self
+    }
+}
+
+/// Refuses a mass matrix that is not symmetric or not positive semi-definite.
+pub(crate) fn check_mass(mass: &SparseMatrix) -> Result<()> {
+    const NAME: &str = "mass matrix";
+    if mass.asymmetry() > SYMMETRIC {
+        return Err(Error::Scene { quantity: NAME, needed: "must be symmetric" });
+    }
+    match indefinite_row(mass, SEMI_DEFINITE) {
+        Some(row) => Err(Error::Indefinite { matrix: NAME, row, diagonal: mass.diagonal()[row] }),
+        None => Ok(()),
     }
 }
 

@@ -12,6 +12,7 @@ mod nonlinear_shear_building;
 mod p_delta;
 mod rayleigh;
 mod recovery;
+mod rides;
 mod rigid_block;
 mod rigid_links;
 mod row;
@@ -29,6 +30,7 @@ pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
 };
 pub use matrix_model::MatrixModel;
+pub(crate) use matrix_model::check_mass;
 pub use modal_damping::{ModalDamping, WithModalDamping};
 pub use nonlinear_shear_building::{IsolationLevel, NonlinearShearBuilding};
 pub use rayleigh::RayleighDamping;

@@ -1,8 +1,9 @@
 //! Damping given mode by mode.
 
+use super::rides::rigid_momenta;
 use super::{ContactNode, InternalEnergy, Structure, Triplets};
 use crate::error::{Error, Result, not_negative};
-use crate::linalg::{SparseMatrix, generalised_modes, largest};
+use crate::linalg::{SparseMatrix, dot, generalised_modes};
 
 /// Damping ratios of a structure's own modes: C = M Φ diag(2 ζ ω) Φᵀ M.
 ///
@@ -40,8 +41,10 @@ short_debug! {
 
 /// Most unknowns: C is a full matrix.
 const MOST: usize = 3000;
-/// Eigenvalues below this, relative to the largest, are those of rigid motions.
-const RIGID: f64 = 1e-10;
+/// A mode with more of its momentum in rigid motions is one. Their eigenvalues do not tell: rounding
+/// leaves them anything small, and in fine meshes the lowest modes that are not rigid are 10⁻¹² of
+/// the highest.
+const RIGID: f64 = 0.5;
 
 impl ModalDamping {
     /// Damping with the ratio ζ of each mode that is not rigid, from the lowest; the last ratio is
@@ -64,7 +67,9 @@ impl ModalDamping {
     /// # Errors
     /// [`Error::Input`] for more than 3000 unknowns, of which a
     /// [`CraigBampton`](super::CraigBampton) reduction leaves fewer; [`Error::Scene`] when the matrices
-    /// are not symmetric or the mass is not positive definite; and what is wrong with their entries.
+    /// are not symmetric, the mass is not positive definite or a motion that is not rigid meets no
+    /// stiffness or a negative one; [`Error::Singular`] when contact nodes at rest do not hold the
+    /// structure; and what is wrong with the entries.
     pub fn on(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
         let n = structure.unknowns();
         if n > MOST {
@@ -87,18 +92,25 @@ impl ModalDamping {
             return Err(scene);
         }
         let (values, vectors) = generalised_modes(&stiffness, &mass).ok_or(scene)?;
-        let zero = RIGID * largest(&values);
+        let rides = rigid_momenta(&structure.contact_nodes(), &stiffness, &mass)?;
         let mut damping = vec![0.0; n * n];
         let mut frequencies = Vec::new();
         let (mut mode, mut momentum) = (vec![0.0; n], vec![0.0; n]);
-        for (j, value) in values.iter().enumerate().filter(|(_, value)| **value > zero) {
+        for (j, value) in values.iter().enumerate() {
+            for (i, entry) in mode.iter_mut().enumerate() {
+                *entry = vectors[i * n + j];
+            }
+            if rides.iter().map(|ride| dot(ride, &mode).powi(2)).sum::<f64>() > RIGID {
+                continue;
+            }
+            if *value <= 0.0 {
+                let needed = "must resist every motion that is not rigid";
+                return Err(Error::Scene { quantity: "structure with modal damping", needed });
+            }
             let last = self.ratios.len() - 1;
             let ratio = self.ratios[frequencies.len().min(last)];
             let circular = value.sqrt();
             frequencies.push(circular / std::f64::consts::TAU);
-            for (i, entry) in mode.iter_mut().enumerate() {
-                *entry = vectors[i * n + j];
-            }
             momentum.fill(0.0);
             mass.multiply_add(1.0, &mode, &mut momentum);
             for (row, a) in damping.chunks_exact_mut(n).zip(&momentum) {

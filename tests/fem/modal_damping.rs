@@ -1,9 +1,9 @@
 //! Modal damping: its eigenvalues, its rigid motions, and the march in modes.
 
-use crate::dense::{damping, eigenvalues, largest, mass, multiply, stiffness};
+use crate::dense::{damping, eigenvalues, form, largest, mass, multiply, stiffness};
 use basemat::bem::SpringGround;
 use basemat::coupled::Coordinates;
-use basemat::fem::{Direction, Layer, Material, Mesh};
+use basemat::fem::{Beam, Direction, Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
@@ -80,6 +80,60 @@ fn modes_and_unknowns_march_alike() {
     let (modes, unknowns) = (march(Coordinates::Modes), march(Coordinates::Unknowns));
     assert!((modes.0 / unknowns.0 - 1.0).abs() < 1e-8, "{modes:?} {unknowns:?}");
     assert!((modes.1 / unknowns.1 - 1.0).abs() < 1e-8, "{modes:?} {unknowns:?}");
+}
+
+/// Bending modes of a free bar are φ = cosh βx + cos βx − κ (sinh βx + sin βx) with cos βL cosh βL = 1
+/// (Blevins 1979, table 8-1). In so fine a mesh their eigenvalues are 10⁻¹¹ of the highest or less.
+#[test]
+fn the_lowest_modes_of_a_fine_mesh_are_damped() {
+    const ELEMENTS: usize = 400;
+    let (length, modulus, area, inertia, density) = (30.0, 30.0e9, 0.5, 0.01, 2400.0);
+    let bar = || {
+        let mut mesh = Mesh::new();
+        for k in 0..=ELEMENTS {
+            mesh.add_node(length * k as f64 / ELEMENTS as f64, 0.0).unwrap();
+        }
+        for k in 0..ELEMENTS {
+            mesh.add(Beam::new([k, k + 1], modulus, area, inertia, density).unwrap()).unwrap();
+        }
+        FemModel::new(mesh, &[0, ELEMENTS]).unwrap()
+    };
+    let ratios = [0.05, 0.04, 0.03, 0.02];
+    let damped = ModalDamping::new(&ratios).unwrap().on(bar()).unwrap();
+    assert_eq!(damped.frequencies().len(), 3 * (ELEMENTS + 1) - 3);
+    let model = bar();
+    let (mass, damping) = (mass(&model), damping(&damped));
+    let betas: [f64; 3] = [4.730_040_744_862_704, 7.853_204_624_095_838, 10.995_607_838_001_671];
+    for (k, beta) in betas.into_iter().enumerate() {
+        let kappa = (beta.cosh() - beta.cos()) / (beta.sinh() - beta.sin());
+        let mut mode = vec![0.0; 3 * (ELEMENTS + 1)];
+        for (node, values) in mode.chunks_exact_mut(3).enumerate() {
+            let z = beta * node as f64 / ELEMENTS as f64;
+            values[1] = z.cosh() + z.cos() - kappa * (z.sinh() + z.sin());
+            values[2] = beta / length * (z.sinh() - z.sin() - kappa * (z.cosh() + z.cos()));
+        }
+        let circular = (beta / length).powi(2) * f64::sqrt(modulus * inertia / (density * area));
+        let ratio = form(&mode, &damping, &mode) / (2.0 * circular * form(&mode, &mass, &mode));
+        assert!((ratio / ratios[k] - 1.0).abs() < 1e-4, "mode {}: {ratio}", k + 1);
+        let frequency = damped.frequencies()[k] * std::f64::consts::TAU;
+        assert!((frequency / circular - 1.0).abs() < 1e-5, "mode {}: {frequency}", k + 1);
+    }
+}
+
+/// What has two footings and no stiffness between them rides in six ways, what has P–Δ still in three.
+#[test]
+fn rigid_motions_are_counted_by_what_they_are() {
+    use basemat::structure::StructureGroup;
+    let one = ModalDamping::new(&[0.05]).unwrap().on(tower()).unwrap().frequencies().len();
+    assert_eq!(one, tower().unknowns() - 3);
+    let block = RigidBlock::new(2.0, 2.0, 2000.0).unwrap();
+    let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block, 9.0).unwrap();
+    let two = ModalDamping::new(&[0.05]).unwrap().on(group).unwrap();
+    assert_eq!(two.frequencies().len(), one);
+    let storeys = [Storey::new(3.0, 2.0e4, 4.0e7); 3];
+    let building = ShearBuilding::new(10.0, 5.0e4, 4.0e5, &storeys).unwrap();
+    let leaning = ModalDamping::new(&[0.05]).unwrap().on(building.with_p_delta(9.81).unwrap());
+    assert_eq!(leaning.unwrap().frequencies().len(), 3);
 }
 
 /// A structure whose mass matrix has a zero.

@@ -1,6 +1,6 @@
 //! A structure by its matrices is the structure that they came from.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{HalfPlaneGround, SpringGround};
 use basemat::coupled::SimulationBuilder;
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Coulomb;
@@ -123,4 +123,77 @@ fn stiff_structures_ride_freely() {
         let fixed = matches!(built, Err(Error::Supported { .. }));
         assert!(!fixed, "{modulus:e}: {:?}", built.err());
     }
+}
+
+/// A rigid block with a negative mass on a spring.
+struct Light(RigidBlock);
+impl Structure for Light {
+    fn unknowns(&self) -> usize {
+        4
+    }
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.0.contact_nodes()
+    }
+    fn mass(&self, matrix: &mut Triplets) {
+        self.0.mass(matrix);
+        matrix.add(3, 3, -1000.0);
+    }
+    fn stiffness(&self, matrix: &mut Triplets) {
+        matrix.add_spring(0, 3, 4.0e6);
+    }
+}
+
+/// A mass below zero would let energy grow without end beside a closed ledger.
+#[test]
+fn negative_masses_are_refused() {
+    let of = |entries: &[(usize, usize, f64)]| {
+        let mut mass = Triplets::new(4);
+        (0..3).for_each(|unknown| mass.add(unknown, unknown, 2.0e4));
+        entries.iter().for_each(|&(i, j, value)| mass.add(i, j, value));
+        let mut stiffness = Triplets::new(4);
+        stiffness.add_outer(&[(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
+        MatrixModel::new(mass, stiffness, ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]))
+    };
+    let negative = of(&[(3, 3, -1000.0)]);
+    let named = |row, diagonal| Error::Indefinite { matrix: "mass matrix", row, diagonal };
+    assert_eq!(negative.unwrap_err(), named(3, -1000.0));
+    // Positive on the diagonal, and negative for u_0 and u_3 in opposite ways.
+    let skew = of(&[(3, 3, 1.0e4), (0, 3, 1.5e4), (3, 0, 1.5e4)]);
+    assert!(matches!(skew, Err(Error::Indefinite { row: 0, .. })), "{skew:?}");
+    // A mass on a weighted sum of unknowns, and none at all, are singular, not negative.
+    for legal in [&[(3, 3, 2.0e4), (0, 3, 2.0e4), (3, 0, 2.0e4)][..], &[]] {
+        assert!(on_soil(of(legal).unwrap()).build().is_ok());
+    }
+    let built = on_soil(Light(RigidBlock::new(6.0, 10.0, 2000.0).unwrap())).build();
+    assert_eq!(built.err(), Some(named(3, -1000.0)));
+}
+
+/// Under more than its buckling load a mast of two hinged bars gives energy away, the base at rest.
+/// A block's own P–Δ does so only where the base may turn, and is as it should be.
+#[test]
+fn negative_stiffness_on_a_held_base_is_refused() {
+    let mast = |load: f64| {
+        let mut mass = Triplets::new(5);
+        (0..5).for_each(|unknown| mass.add(unknown, unknown, 1.0e4));
+        let mut stiffness = Triplets::new(5);
+        for (row, sway) in [
+            ([(3, 1.0), (0, -1.0), (2, 5.0)], [(3, 1.0), (0, -1.0)]),
+            ([(4, 1.0), (3, -1.0), (2, 5.0)], [(4, 1.0), (3, -1.0)]),
+        ] {
+            stiffness.add_outer(&row, 1.0e6);
+            stiffness.add_outer(&sway, -load / 5.0);
+        }
+        let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
+        on_soil(MatrixModel::new(mass, stiffness, contact).unwrap()).gravity(0.0).build()
+    };
+    assert!(mast(0.999 * 5.0e6).is_ok());
+    let refused = mast(1.001 * 5.0e6).err();
+    assert!(matches!(refused, Some(Error::Indefinite { .. })), "{refused:?}");
+    let slender = RigidBlock::new(1.0, 4.0, 2000.0).unwrap().with_p_delta(9.81).unwrap();
+    let built = Simulation::builder(0.01)
+        .structure(slender)
+        .ground(SpringGround::new(-0.5..0.5, 4, 1.0e9, 1.0e9).unwrap())
+        .interface(Coulomb::new(0.4).unwrap())
+        .build();
+    assert!(built.is_ok(), "{:?}", built.err());
 }

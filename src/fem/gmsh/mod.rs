@@ -2,19 +2,20 @@
 
 mod parse;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
 use std::path::Path;
 
-use super::{Material, Mesh, Quad4, QuadFormulation};
+use super::{Material, Mesh, Quad4, Quad8, QuadFormulation};
 use crate::error::{Error, MeshFileError, Result};
 
 /// A mesh of quadrilaterals as Gmsh writes it: file format 4.1, ASCII (`gmsh -2 -format msh41`).
 ///
 /// Quadrilaterals get their material, and lines their meaning, from the names of physical groups.
 /// An element that belongs to several groups counts with the first of them; one in none has the
-/// name "". Points and lines that nobody asks for are passed over; triangles, elements of higher
-/// order and nodes outside the plane z = 0 are refused. Clockwise quadrilaterals are turned round.
+/// name "". Points and lines that nobody asks for are passed over; triangles and nodes outside the
+/// plane z = 0 are refused. Clockwise quadrilaterals are turned round. Elements of the second order
+/// have eight nodes (`Mesh.SecondOrderIncomplete = 1`) and become [`Quad8`]s.
 ///
 /// ```
 /// use basemat::fem::{GmshMesh, Material};
@@ -40,16 +41,19 @@ pub struct GmshMesh {
     file: String,
     /// Coordinates of the nodes that quadrilaterals use, in the order of the file.
     nodes: Vec<[f64; 2]>,
-    quads: Vec<Cell<4>>,
-    lines: Vec<Cell<2>>,
+    quads: Vec<Cell>,
+    lines: Vec<Cell>,
 }
 
 /// An element: the name of its group, and its nodes as indices.
 #[derive(Debug, Clone, PartialEq)]
-struct Cell<const N: usize> {
+struct Cell {
     group: String,
-    nodes: [usize; N],
+    nodes: Vec<usize>,
 }
+
+/// Distance from the plane z = 0 that is rounding, relative to the size of the mesh.
+const FLAT: f64 = 1e-9;
 
 impl GmshMesh {
     /// Reads a `.msh` file.
@@ -77,8 +81,8 @@ impl GmshMesh {
         let refuse = |(line, reason)| Error::MeshFile { file: name.to_owned(), line, reason };
         let raw = parse::read(source).map_err(refuse)?;
         let mut used = BTreeMap::new();
-        let quads = raw.cells.iter().filter(|cell| cell.nodes.len() == 4);
-        for cell in quads.clone() {
+        let quads = raw.cells.iter().filter(|cell| cell.is_quadrilateral());
+        for cell in quads {
             for &tag in &cell.nodes {
                 let place =
                     raw.places.get(&tag).ok_or_else(|| refuse((cell.line, no_node(tag))))?;
@@ -88,31 +92,28 @@ impl GmshMesh {
         // In the order of the file, whatever the tags.
         let index: BTreeMap<u64, usize> =
             used.values().enumerate().map(|(k, &tag)| (tag, k)).collect();
-        let mut nodes = Vec::with_capacity(index.len());
-        for &place in used.keys() {
-            let [x, y, z] = raw.coordinates[place].values;
-            if z != 0.0 {
-                let text = format!("a node at z = {z}");
-                let line = raw.coordinates[place].line;
-                return Err(refuse((line, MeshFileError::Unsupported { text })));
-            }
-            nodes.push([x, y]);
+        let points = || used.keys().map(|&place| &raw.coordinates[place]);
+        let size = points().fold(0.0_f64, |most, point| {
+            let [x, y, _] = point.values;
+            most.max(x.abs()).max(y.abs())
+        });
+        if let Some(point) = points().find(|point| point.values[2].abs() > FLAT * size) {
+            let text = format!("a node at z = {}", point.values[2]);
+            return Err(refuse((point.line, MeshFileError::Unsupported { text })));
         }
+        let nodes = points().map(|point| [point.values[0], point.values[1]]).collect();
         let mut mesh = Self { file: name.to_owned(), nodes, quads: Vec::new(), lines: Vec::new() };
         for cell in &raw.cells {
+            // Lines of the geometry that no quadrilateral touches mean nothing here.
+            let places: Option<Vec<usize>> =
+                cell.nodes.iter().map(|tag| index.get(tag).copied()).collect();
+            let Some(mut nodes) = places else { continue };
             let group = raw.group(cell);
-            let place = |k: usize| index.get(&cell.nodes[k]).copied();
-            match cell.nodes.len() {
-                4 => {
-                    let Some(all) = four(place) else { continue };
-                    mesh.quads.push(Cell { group, nodes: mesh.counter_clockwise(all) });
-                }
-                _ => {
-                    // Lines of the geometry that no quadrilateral touches mean nothing here.
-                    if let (Some(from), Some(to)) = (place(0), place(1)) {
-                        mesh.lines.push(Cell { group, nodes: [from, to] });
-                    }
-                }
+            if cell.is_quadrilateral() {
+                mesh.turn_counter_clockwise(&mut nodes);
+                mesh.quads.push(Cell { group, nodes });
+            } else {
+                mesh.lines.push(Cell { group, nodes });
             }
         }
         Ok(mesh)
@@ -137,13 +138,13 @@ impl GmshMesh {
     /// keep their indices.
     ///
     /// # Errors
-    /// [`Error::MeshFile`] for a group without a material here, or a material without a group; errors of
-    /// [`Mesh::add`] for quadrilaterals without area or with a reflex corner.
+    /// [`Error::MeshFile`] for a group without a material here or with two of them, or a material
+    /// without a group; errors of [`Mesh::add`] for quadrilaterals without area or with a reflex corner.
     pub fn mesh(&self, materials: &[(&str, Material)]) -> Result<Mesh> {
         self.mesh_of(materials, QuadFormulation::default())
     }
 
-    /// [`GmshMesh::mesh`] with another formulation of the quadrilaterals.
+    /// [`GmshMesh::mesh`] with another formulation of the quadrilaterals of four nodes.
     ///
     /// # Errors
     /// As for [`GmshMesh::mesh`].
@@ -156,6 +157,12 @@ impl GmshMesh {
         if let Some((name, _)) = materials.iter().find(|(name, _)| !surfaces.contains(name)) {
             return Err(self.missing(format!("surface '{name}'")));
         }
+        for (k, (name, _)) in materials.iter().enumerate() {
+            if materials[..k].iter().any(|(other, _)| other == name) {
+                let what = format!("the material of surface '{name}'");
+                return Err(self.refuse(MeshFileError::Twice { what }));
+            }
+        }
         let mut mesh = Mesh::new();
         for &[x, y] in &self.nodes {
             mesh.add_node(x, y)?;
@@ -164,7 +171,13 @@ impl GmshMesh {
             let Some((_, material)) = materials.iter().find(|(name, _)| *name == quad.group) else {
                 return Err(self.missing(format!("material for its surface '{}'", quad.group)));
             };
-            mesh.add(Quad4::new(quad.nodes, *material, formulation))?;
+            match *quad.nodes {
+                [a, b, c, d] => mesh.add(Quad4::new([a, b, c, d], *material, formulation))?,
+                [a, b, c, d, ab, bc, cd, da] => {
+                    mesh.add(Quad8::new([a, b, c, d, ab, bc, cd, da], *material))?
+                }
+                _ => continue,
+            };
         }
         Ok(mesh)
     }
@@ -172,45 +185,82 @@ impl GmshMesh {
     /// Nodes of the lines of group `name`, from left to right: the contact nodes of a base.
     ///
     /// # Errors
-    /// [`Error::MeshFile`] if there is no such group.
+    /// [`Error::MeshFile`] if there is no such group, or its lines have a gap:
+    /// [`GmshMesh::foundations`] gives what is between gaps.
     pub fn line(&self, name: &str) -> Result<Vec<usize>> {
-        let own = self.lines.iter().filter(|line| line.group == name);
-        let mut nodes: Vec<usize> = own.flat_map(|line| line.nodes).collect();
-        if nodes.is_empty() {
+        let mut pieces = self.foundations(name)?;
+        match (pieces.pop(), pieces.len()) {
+            (Some(line), 0) => Ok(line),
+            (_, others) => {
+                let text = format!(
+                    "line '{name}' as one: it is in {} pieces, which `GmshMesh::foundations` gives",
+                    others + 1
+                );
+                Err(self.refuse(MeshFileError::Unsupported { text }))
+            }
+        }
+    }
+
+    /// Nodes of the lines of group `name`, from left to right, for each piece that hangs together,
+    /// from left to right: the contact nodes of separate footings, for [`FemModel::on_foundations`].
+    /// Footings with names of their own are a [`line`](GmshMesh::line) each.
+    ///
+    /// [`FemModel::on_foundations`]: crate::structure::FemModel::on_foundations
+    ///
+    /// # Errors
+    /// [`Error::MeshFile`] if there is no such group.
+    pub fn foundations(&self, name: &str) -> Result<Vec<Vec<usize>>> {
+        let mut pieces: Vec<BTreeSet<usize>> = Vec::new();
+        for line in self.lines.iter().filter(|line| line.group == name) {
+            let mut joined: BTreeSet<usize> = line.nodes.iter().copied().collect();
+            pieces.retain_mut(|piece| {
+                let apart = line.nodes.iter().all(|node| !piece.contains(node));
+                if !apart {
+                    joined.append(piece);
+                }
+                apart
+            });
+            pieces.push(joined);
+        }
+        if pieces.is_empty() {
             return Err(self.missing(format!("line '{name}'")));
         }
         let x = |node: usize| self.nodes[node][0];
-        nodes.sort_by(|&a, &b| x(a).total_cmp(&x(b)).then(a.cmp(&b)));
-        nodes.dedup();
-        Ok(nodes)
+        let from_the_left = |piece: BTreeSet<usize>| {
+            let mut nodes: Vec<usize> = piece.into_iter().collect();
+            nodes.sort_by(|&a, &b| x(a).total_cmp(&x(b)).then(a.cmp(&b)));
+            nodes
+        };
+        let mut pieces: Vec<Vec<usize>> = pieces.into_iter().map(from_the_left).collect();
+        pieces.sort_by(|a, b| x(a[0]).total_cmp(&x(b[0])));
+        Ok(pieces)
     }
 
     fn missing(&self, what: String) -> Error {
-        Error::MeshFile {
-            file: self.file.clone(),
-            line: 0,
-            reason: MeshFileError::Missing { what },
+        self.refuse(MeshFileError::Missing { what })
+    }
+
+    fn refuse(&self, reason: MeshFileError) -> Error {
+        Error::MeshFile { file: self.file.clone(), line: 0, reason }
+    }
+
+    /// Corners first, then the nodes between them, as Gmsh has them and [`Quad8`].
+    fn turn_counter_clockwise(&self, nodes: &mut [usize]) {
+        let place = |k: usize| self.nodes[nodes[k]];
+        let [a, b, c, d] = [place(0), place(1), place(2), place(3)];
+        let area = (c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]);
+        if area < 0.0 {
+            nodes[1..4].reverse();
+            nodes[4..].reverse();
         }
     }
-
-    fn counter_clockwise(&self, nodes: [usize; 4]) -> [usize; 4] {
-        let [a, b, c, d] = nodes.map(|node| self.nodes[node]);
-        let area = (c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]);
-        let [p, q, r, s] = nodes;
-        if area < 0.0 { [p, s, r, q] } else { nodes }
-    }
-}
-
-fn four(place: impl Fn(usize) -> Option<usize>) -> Option<[usize; 4]> {
-    Some([place(0)?, place(1)?, place(2)?, place(3)?])
 }
 
 fn no_node(tag: u64) -> MeshFileError {
     MeshFileError::Missing { what: format!("node {tag}") }
 }
 
-fn names<const N: usize>(cells: &[Cell<N>]) -> Vec<&str> {
-    let all: std::collections::BTreeSet<&str> =
-        cells.iter().map(|cell| cell.group.as_str()).collect();
+fn names(cells: &[Cell]) -> Vec<&str> {
+    let all: BTreeSet<&str> = cells.iter().map(|cell| cell.group.as_str()).collect();
     all.into_iter().collect()
 }

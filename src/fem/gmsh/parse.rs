@@ -17,7 +17,8 @@ pub(super) struct Point {
     pub(super) line: usize,
 }
 
-/// An element of the file: 2 or 4 nodes by their tags, and where it stands.
+/// An element of the file, a line of 2 or 3 nodes or a quadrilateral of 4 or 8, by their tags, and
+/// where it stands.
 #[derive(Debug)]
 pub(super) struct RawCell {
     /// Dimension and tag of its entity.
@@ -38,6 +39,12 @@ pub(super) struct Raw {
     names: BTreeMap<(u8, i64), String>,
 }
 
+impl RawCell {
+    pub(super) fn is_quadrilateral(&self) -> bool {
+        self.nodes.len() > 3
+    }
+}
+
 impl Raw {
     /// Name of the physical group of `cell`; a group without a name is called by its number.
     pub(super) fn group(&self, cell: &RawCell) -> String {
@@ -56,7 +63,8 @@ pub(super) fn read(source: impl Read) -> Reason<Raw> {
         match section.as_str() {
             "MeshFormat" => format(&mut fields)?,
             "PhysicalNames" => physical_names(&mut fields, &mut raw)?,
-            "Entities" => entities(&mut fields, &mut raw)?,
+            "Entities" => entities(&mut fields, &mut raw, false)?,
+            "PartitionedEntities" => partitioned_entities(&mut fields, &mut raw)?,
             "Nodes" => nodes(&mut fields, &mut raw)?,
             "Elements" => elements(&mut fields, &mut raw)?,
             _ => {
@@ -97,7 +105,18 @@ fn physical_names(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
     Ok(())
 }
 
-fn entities(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
+/// The parts into which a mesh was cut: entities of their own, with the groups of their parents.
+fn partitioned_entities(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
+    let _: u64 = fields.next("number of partitions")?;
+    let ghosts: u64 = fields.next("number of ghost entities")?;
+    for _ in 0..ghosts {
+        let _: i64 = fields.next("tag of a ghost entity")?;
+        let _: i64 = fields.next("partition")?;
+    }
+    entities(fields, raw, true)
+}
+
+fn entities(fields: &mut Fields<impl Read>, raw: &mut Raw, partitioned: bool) -> Reason<()> {
     let mut counts = [0_usize; 4];
     for count in &mut counts {
         *count = fields.next("number of entities")?;
@@ -105,6 +124,14 @@ fn entities(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
     for (dimension, count) in (0_u8..).zip(counts) {
         for _ in 0..count {
             let tag: i64 = fields.next("tag of an entity")?;
+            if partitioned {
+                let _: u8 = fields.next("dimension of the parent")?;
+                let _: i64 = fields.next("tag of the parent")?;
+                let partitions: u64 = fields.next("number of partitions")?;
+                for _ in 0..partitions {
+                    let _: i64 = fields.next("partition")?;
+                }
+            }
             // A point has its coordinates, the others the corners of a box.
             for _ in 0..if dimension == 0 { 3 } else { 6 } {
                 let _: f64 = fields.next("coordinate of an entity")?;
@@ -128,10 +155,7 @@ fn entities(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
 }
 
 fn nodes(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
-    let blocks: usize = fields.next("number of blocks")?;
-    for what in ["number of nodes", "smallest tag", "largest tag"] {
-        let _: u64 = fields.next(what)?;
-    }
+    let (blocks, announced) = counts(fields, "number of nodes")?;
     for _ in 0..blocks {
         let dimension: usize = fields.next("dimension of an entity")?;
         let _: i64 = fields.next("tag of an entity")?;
@@ -155,40 +179,54 @@ fn nodes(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
             }
         }
     }
-    Ok(())
+    fields.agree("nodes", raw.coordinates.len(), announced)
+}
+
+/// Numbers of blocks and of what is in them; then come the smallest and the largest tag.
+fn counts(fields: &mut Fields<impl Read>, what: &'static str) -> Reason<(u64, u64)> {
+    let counts = (fields.next("number of blocks")?, fields.next(what)?);
+    for tag in ["smallest tag", "largest tag"] {
+        let _: u64 = fields.next(tag)?;
+    }
+    Ok(counts)
+}
+
+/// Number of nodes of an element of this type of Gmsh's.
+fn size_of(kind: u32) -> Result<usize, MeshFileError> {
+    let what = match kind {
+        15 => return Ok(1),
+        1 => return Ok(2),
+        8 => return Ok(3),
+        3 => return Ok(4),
+        16 => return Ok(8),
+        2 | 9 => "triangles: let Gmsh recombine them (Mesh.RecombineAll = 1)",
+        10 => "quadrilaterals of nine nodes: Mesh.SecondOrderIncomplete = 1 leaves out the ninth",
+        _ => "needed are lines and quadrilaterals of the first or second order",
+    };
+    Err(MeshFileError::Unsupported { text: format!("elements of type {kind} ({what})") })
 }
 
 fn elements(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
-    let blocks: usize = fields.next("number of blocks")?;
-    for what in ["number of elements", "smallest tag", "largest tag"] {
-        let _: u64 = fields.next(what)?;
-    }
+    let (blocks, announced) = counts(fields, "number of elements")?;
+    let mut found = 0;
     for _ in 0..blocks {
         let entity = (fields.next("dimension of an entity")?, fields.next("tag of an entity")?);
         let kind: u32 = fields.next("type of elements")?;
         let count: usize = fields.next("number of elements")?;
-        // Lines, quadrilaterals and points of the first order.
-        let size = match kind {
-            1 => 2,
-            3 => 4,
-            15 => 1,
-            _ => {
-                let text = format!("elements of type {kind}; needed are quadrilaterals (3)");
-                return Err(fields.refuse(MeshFileError::Unsupported { text }));
-            }
-        };
+        let size = size_of(kind).map_err(|reason| fields.refuse(reason))?;
         for _ in 0..count {
             let _: u64 = fields.next("tag of an element")?;
             let mut nodes = Vec::with_capacity(size);
             for _ in 0..size {
                 nodes.push(fields.next("tag of a node")?);
             }
+            found += 1;
             if size > 1 {
                 raw.cells.push(RawCell { entity, nodes, line: fields.line });
             }
         }
     }
-    Ok(())
+    fields.agree("elements", found, announced)
 }
 
 /// The fields of a text, one after the other, with the line that they stand in.
@@ -258,6 +296,14 @@ impl<R: Read> Fields<R> {
         }
         let text = value.to_string();
         Err(self.refuse(MeshFileError::NotA { what: "finite number", text }))
+    }
+
+    /// Refuses another number of things than was announced.
+    fn agree(&self, what: &'static str, found: usize, announced: u64) -> Reason<()> {
+        if u64::try_from(found) == Ok(announced) {
+            return Ok(());
+        }
+        Err(self.refuse(MeshFileError::Count { what, found, announced }))
     }
 
     /// Text between quotation marks, on the present line.

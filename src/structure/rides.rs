@@ -1,0 +1,93 @@
+//! The motions of a structure that strain nothing.
+
+use super::{ContactNode, Triplets};
+use crate::error::Result;
+use crate::linalg::{SparseFactor, SparseMatrix, dot};
+
+/// A part of a ride with less of its momentum than this is rounding.
+const NOTHING: f64 = 1e-8;
+/// What is left of a ride beside the others, if it is none of its own.
+const DEPENDENT: f64 = 1e-6;
+
+/// Momenta M r of the rigid motions r, with r·M r = 1 and all others zero: to the right, upwards and
+/// turning, of every part of the structure that hangs together by its stiffness.
+///
+/// A motion that strains nothing follows from that of the contact nodes, whatever the unknowns
+/// mean: K r + γ Nᵀ(N r − t) = 0, where N gives the nodes' displacements and t what they shall be.
+pub(super) fn rigid_momenta(
+    contact: &[ContactNode],
+    stiffness: &SparseMatrix,
+    mass: &SparseMatrix,
+) -> Result<Vec<Vec<f64>>> {
+    let n = mass.order();
+    let largest = stiffness.diagonal().into_iter().fold(0.0_f64, |most, k| most.max(k.abs()));
+    let tie = if largest > 0.0 { largest } else { 1.0 };
+    let center = contact.iter().map(|node| node.x).sum::<f64>() / contact.len().max(1) as f64;
+    let mut matrix = Triplets::new(n);
+    stiffness.add_to(1.0, &mut matrix);
+    let mut rides = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+    for node in contact {
+        matrix.add_outer(&node.horizontal, tie);
+        matrix.add_outer(&node.vertical, tie);
+        let [right, up, turn] = &mut rides;
+        node.horizontal.iter().for_each(|&(j, weight)| right[j] += tie * weight);
+        for &(j, weight) in &node.vertical {
+            up[j] += tie * weight;
+            turn[j] += tie * weight * (node.x - center);
+        }
+    }
+    let mut factor = SparseFactor::new("stiffness matrix with its base held", &matrix)?;
+    let parts = parts(stiffness);
+    let (mut motions, mut momenta): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
+    for ride in &mut rides {
+        factor.solve(ride);
+        let whole = mass.form(ride, ride).sqrt();
+        for part in &parts {
+            let mut motion = vec![0.0; n];
+            part.iter().for_each(|&i| motion[i] = ride[i]);
+            let norm = mass.form(&motion, &motion).sqrt();
+            if !(norm > NOTHING * whole) {
+                continue;
+            }
+            motion.iter_mut().for_each(|x| *x /= norm);
+            for (other, momentum) in motions.iter().zip(&momenta) {
+                let share = dot(momentum, &motion);
+                motion.iter_mut().zip(other).for_each(|(x, y)| *x -= share * y);
+            }
+            let rest = mass.form(&motion, &motion).sqrt();
+            if rest > DEPENDENT {
+                motion.iter_mut().for_each(|x| *x /= rest);
+                let mut momentum = vec![0.0; n];
+                mass.multiply_add(1.0, &motion, &mut momentum);
+                motions.push(motion);
+                momenta.push(momentum);
+            }
+        }
+    }
+    Ok(momenta)
+}
+
+/// Sets of unknowns that no stiffness couples to those of another set.
+fn parts(stiffness: &SparseMatrix) -> Vec<Vec<usize>> {
+    let n = stiffness.order();
+    let mut parent: Vec<usize> = (0..n).collect();
+    let root = |parent: &mut [usize], mut i: usize| {
+        while parent[i] != i {
+            parent[i] = parent[parent[i]];
+            i = parent[i];
+        }
+        i
+    };
+    for (row, column, value) in stiffness.entries() {
+        if value != 0.0 {
+            let (a, b) = (root(&mut parent, row), root(&mut parent, column));
+            parent[a.max(b)] = a.min(b);
+        }
+    }
+    let mut sets = vec![Vec::new(); n];
+    for i in 0..n {
+        sets[root(&mut parent, i)].push(i);
+    }
+    sets.retain(|set| !set.is_empty());
+    sets
+}
