@@ -85,7 +85,7 @@ fn main() -> Result<()> {
     let roofs = [&bonded, &free].map(|run| run.floor_spectrum("roof", &periods, 0.05));
     let [held, loose] = roofs;
     let spectra =
-        [("free field", &ground), ("roof, bonded", &held?), ("roof, uplift and slip", &loose?)];
+        [("free field", &ground[..]), ("roof, bonded", &held?), ("roof, uplift and slip", &loose?)];
     save("spectra", plot::spectra("Floor response spectra, 5 % damping", &spectra)?)?;
 
     let rotation = free.extremes(Quantity::BaseRotation);
