@@ -84,12 +84,12 @@ fn every_picture_has_title_labels_units_and_legend() {
     // A rigid block has no dampers.
     assert!(!words(&svg).contains("damping"));
     let svg = plot::deformed_shapes("Shape", &shape, &histories, &[0.1, 0.4], 20.0).unwrap();
-    shows(&svg, &["Shape, displacements × 20", "at rest", "t = 0.10 s", "t = 0.40 s", "y, m"]);
+    shows(&svg, &["Shape", "displacements × 20", "at rest", "t = 0.10 s", "t = 0.40 s", "y, m"]);
     let svg = plot::animation("A < B & C", &shape, &histories, 20.0, 1.0).unwrap();
     shows(&svg, &["A &lt; B &amp; C"]);
     // Path, bar of time and 40 times; no base, for its frames are others than the structure's.
     assert_eq!(svg.as_str().matches("<animate ").count(), 2 + 40);
-    shows(&svg, &["t = 0.00 s", "t = 0.49 s", "structure: 2 m", "displacements: 100 mm"]);
+    shows(&svg, &["t = 0.00 s", "t = 0.49 s", "structure: 2 m", "displacements: 100 mm", "× 20"]);
     let (histories, shape) = recorded(Recorder::new().contact(5).motion(5));
     let svg = plot::animation("Block", &shape, &histories, 20.0, 1.0).unwrap();
     shows(&svg, &modes);
@@ -282,6 +282,9 @@ fn foundations_far_apart_leave_no_sheet_blank() {
             plot::animation(&title, &shape, &histories, 1e9, 1.0),
         ] {
             assert_readable(svg.unwrap().as_str(), &name);
+        }
+        if distances.len() == 4 {
+            shows(&plot::mode_map("T", &histories).unwrap(), &["1000000", "gap 5 m"]);
         }
         for quantity in Quantity::ALL {
             let runs = [(title.as_str(), &histories); 9];

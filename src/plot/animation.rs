@@ -7,7 +7,7 @@ use plotters::style::RGBColor;
 use super::mode_map::shown;
 use super::shape::{SOIL, SURFACE, bounds, places};
 use super::svg::Svg;
-use super::text::{fitted, width};
+use super::text::{fitted, short, width};
 use crate::error::{Error, Result, positive};
 use crate::results::{Histories, Wireframe};
 
@@ -56,7 +56,7 @@ pub fn animation(
     let screen = Screen::of(&moved);
     let duration = format!("{:.3}s", (times[times.len() - 1] - times[0]) * slowness);
 
-    let mut out = head(title, magnification);
+    let mut out = head(title);
     out += &screen.ground();
     out += &base(histories, &screen, frames.len(), &duration);
     let paths: Vec<String> = moved.iter().map(|places| screen.path(shape, places)).collect();
@@ -138,13 +138,16 @@ impl Screen {
             "<path fill=\"none\" stroke=\"#444\" stroke-width=\"2\" \
              d=\"M{ASIDE} {}v10M{ASIDE} {y}H{end:.1}M{end:.1} {}v10\"/>\n\
              <text x=\"{ASIDE}\" y=\"{}\">structure: {}</text>\n\
-             <text x=\"{ASIDE}\" y=\"{}\">displacements: {}</text>\n",
+             <text x=\"{ASIDE}\" y=\"{}\">displacements: {}</text>\n\
+             <text x=\"{ASIDE}\" y=\"{}\">(magnified × {})</text>\n",
             y - 5.0,
             y - 5.0,
             y + 24.0,
             metres(length),
             y + 44.0,
-            metres(length / magnification)
+            metres(length / magnification),
+            y + 64.0,
+            short(magnification)
         )
     }
 }
@@ -158,18 +161,16 @@ fn round_below(most: f64) -> f64 {
 
 /// A length in m or mm.
 fn metres(length: f64) -> String {
-    let (value, unit) = if length < 0.5 { (1e3 * length, "mm") } else { (length, "m") };
-    if (0.01..1e4).contains(&value) {
-        let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-        format!("{rounded} {unit}")
+    if length < 0.5 {
+        format!("{} mm", short(1e3 * length))
     } else {
-        format!("{value:.1e} {unit}")
+        format!("{} m", short(length))
     }
 }
 
-fn head(title: &str, magnification: f64) -> String {
+fn head(title: &str) -> String {
     // Sizes of fonts are those of SVG here, plotters' are 1.24 times as large.
-    let title = fitted(&format!("{title}, displacements × {magnification}"), 25, WIDTH - 40.0);
+    let title = fitted(title, 25, WIDTH - 40.0);
     let title = title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \

@@ -5,7 +5,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::axes::{Axis, Chart, LABEL};
 use super::svg::Drawing;
-use super::text::width;
+use super::text::{short, width};
 use super::ticks::linear;
 use crate::bem::ContactElement;
 
@@ -92,7 +92,13 @@ impl Base {
             let share = (piece.right - piece.left) / (range.end - range.start);
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "to 11")]
             let count = ((share * MARKS as f64).round() as usize).max(2);
-            for (x, name) in linear(&(piece.left..piece.right), count).marks {
+            let ticks = linear(&(piece.left..piece.right), count);
+            if ticks.offset.is_some() {
+                // Numbers too long for an axis: about where it is.
+                marks.push((piece.start, short(piece.left)));
+                continue;
+            }
+            for (x, name) in ticks.marks {
                 marks.push((piece.start + x - piece.left, name));
             }
         }
@@ -112,7 +118,7 @@ pub(super) fn label_breaks(
     let mut texts = Vec::new();
     for gap in &base.breaks {
         let (from, to) = (place(at(gap.from)), place(at(gap.to)));
-        let text = format!("gap {} m", (100.0 * gap.width).round() / 100.0);
+        let text = format!("gap {} m", short(gap.width));
         let (wide, high) = (from.0.abs_diff(to.0), from.1.abs_diff(to.1));
         if f64::from(wide) > width(&text, LABEL.1) || high >= LABEL.1 {
             texts.push(Text::new(text, at(0.5 * (gap.from + gap.to)), style.clone()));

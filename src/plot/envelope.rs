@@ -41,7 +41,7 @@ pub fn pressure_envelope(title: &str, histories: &Histories) -> Result<Svg> {
     let strokes = [COLORS[1], COLORS[5], COLORS[0]].map(Stroke::plain);
     let key = curves.iter().zip(strokes).map(|((name, _), stroke)| (*name, Sample::Line(stroke)));
     Sheet::new(title, Key::of(key)).picture(|area| {
-        let top = range.end;
+        let top = range.end - 0.04 * (range.end - range.start);
         let mut chart = chart(area, &base.axis(), &Axis::linear(range, "pressure, kPa"), true)?;
         label_breaks(&mut chart, &base, |place| (place, top))?;
         for ((_, value), stroke) in curves.into_iter().zip(strokes) {

@@ -6,6 +6,7 @@ use super::axes::{Axis, chart, draw_curve, drawable};
 use super::key::{Key, Sample};
 use super::stroke::Stroke;
 use super::svg::{Sheet, Svg};
+use super::text::short;
 use crate::error::{Error, Result, finite, positive};
 use crate::results::{Histories, MotionFrame, Wireframe};
 
@@ -97,8 +98,9 @@ pub fn deformed_shapes(
         Some(k) => Stroke::nth(k),
     };
     let lines = (0..drawn.len()).map(|k| (drawn[k].0.as_str(), Sample::Line(stroke(k))));
-    let key = Key::of(lines.chain([("soil", Sample::Area(SOIL))]));
-    let sheet = Sheet::new(&format!("{title}, displacements × {magnification}"), key);
+    let scale = format!("displacements × {}", short(magnification));
+    let rest = [("soil", Sample::Area(SOIL)), (&scale, Sample::Nothing)];
+    let sheet = Sheet::new(title, Key::of(lines.chain(rest)));
     let [x, y] = ranges(bounds(&all), sheet.room());
     sheet.picture(|area| {
         let axes = (Axis::linear(x.clone(), "x, m"), Axis::linear(y.clone(), "y, m"));

@@ -69,6 +69,15 @@ pub(super) fn fitted(text: &str, size: u32, room: f64) -> String {
     lines(text, size, room, 1).swap_remove(0)
 }
 
+/// A number in four digits.
+pub(super) fn short(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        format!("{value:.3e}").parse::<f64>().unwrap_or(value).to_string()
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -87,5 +96,19 @@ mod tests {
         // A word too long for a line is broken, and what follows is not lost.
         let broken = lines(&format!("{} end", "x".repeat(15)), 15, 80.0, 9);
         assert_eq!(broken.concat().replace(' ', ""), format!("{}end", "x".repeat(15)));
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (0.0, "0"),
+            (50.0, "50"),
+            (1.0 / 3.0, "0.3333"),
+            (123_456.0, "123500"),
+            (1.234e-7, "1.2e-7"),
+            (2e9, "2.0e9"),
+        ] {
+            assert_eq!(short(value), text);
+        }
     }
 }

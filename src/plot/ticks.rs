@@ -63,7 +63,7 @@ fn number(value: f64, step: f64) -> String {
         return plain;
     }
     let short = format!("{value:.*e}", digits(exponent(value) - exponent(step)));
-    if plain.len() <= 6 { plain } else { short }
+    if plain.len() <= short.len().max(6) { plain } else { short }
 }
 
 /// Marks at 1, 2, 5, 10, … of a logarithmic axis; places are powers of ten.
@@ -121,6 +121,7 @@ mod tests {
             None,
         );
         expected(100.000_01..100.000_02, &tiny, Some("100.000010"));
+        expected(1e6..1e6 + 4.0, &["1000000", "1000001", "1000002", "1000003", "1000004"], None);
         expected(0.0..3e6, &["0", "1e6", "2e6", "3e6"], None);
         expected(-2e-9..2e-9, &["-2e-9", "-1e-9", "0", "1e-9", "2e-9"], None);
         for range in [-1e60..1e60, 1e-60..3e-60, 1e12..1e12 + 2000.0, -1e-300..2e59] {
