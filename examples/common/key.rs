@@ -19,7 +19,7 @@ pub(crate) enum Sample {
 
 /// Pixels beside the names, for a letter of theirs, and for a line.
 const SIDE: usize = 52;
-const LETTER: usize = 9;
+const LETTER: usize = 8;
 const LINE: i32 = 24;
 
 /// Draws the key at the right of the sheet, from `top` down; gives back what is left of it.

@@ -60,10 +60,10 @@ fn curves(
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Shown {
     Stick,
+    Open,
     /// Touching without a pressure, between stick and open: the law's modes of slip where friction
     /// is infinite.
     Weightless,
-    Open,
     SlipLeft,
     SlipRight,
 }

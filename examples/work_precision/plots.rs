@@ -112,6 +112,7 @@ fn panel(
         .configure_mesh()
         .x_desc("processor time, s")
         .y_desc(label)
+        .x_labels(5)
         .x_label_formatter(&|x| power(*x))
         .y_label_formatter(&|y| power(*y))
         .label_style(("sans-serif", 15))

@@ -17,10 +17,10 @@ const COLUMNS: usize = 1000;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Shown {
     Stick,
+    Open,
     /// Touching without a pressure: what "slip" is with infinite friction, the one state between
     /// stick and open.
     Weightless,
-    Open,
     SlipLeft,
     SlipRight,
 }

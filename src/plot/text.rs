@@ -33,9 +33,9 @@ pub(super) fn lines(text: &str, size: u32, room: f64, most: usize) -> Vec<String
     'all: for word in text.split_whitespace() {
         let mut line = lines.len() - 1;
         if !lines[line].is_empty() {
-            if width(&format!("{} {word}", lines[line]), size) <= room {
-                lines[line].push(' ');
-            } else if lines.len() == most {
+            // The last line takes of the word what it can.
+            let fits = width(&format!("{} {word}", lines[line]), size) <= room;
+            if fits || lines.len() == most {
                 lines[line].push(' ');
             } else {
                 lines.push(String::new());

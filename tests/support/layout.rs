@@ -21,17 +21,17 @@ pub(crate) fn assert_readable(svg: &str, name: &str) {
 /// As the renderer of PNG files lays it out, in a font that is wider than the one of those files.
 #[cfg(feature = "png")]
 fn texts(svg: &str) -> (Vec<Placed>, [f64; 2]) {
-    use resvg::usvg::{Group, Node, Options, Tree};
+    use resvg::usvg::{Group, Node, Options, TextChunk, TextSpan, Tree};
     fn collect(group: &Group, texts: &mut Vec<Placed>) {
         for node in group.children() {
             match node {
                 Node::Group(group) => collect(group, texts),
                 Node::Text(text) => {
-                    let words: String = text.chunks().iter().map(|chunk| chunk.text()).collect();
+                    let words: String = text.chunks().iter().map(TextChunk::text).collect();
                     let place = text.abs_bounding_box();
                     let sides = [place.left(), place.top(), place.right(), place.bottom()];
-                    let mut spans = text.chunks().iter().flat_map(|chunk| chunk.spans());
-                    if spans.any(|span| span.is_visible()) {
+                    let mut spans = text.chunks().iter().flat_map(TextChunk::spans);
+                    if spans.any(TextSpan::is_visible) {
                         texts.push((words, sides.map(f64::from)));
                     }
                 }
