@@ -146,7 +146,7 @@ fn the_late_component_of_a_pulse_has_its_closed_form() {
         let rows = table.rows(["x", "gaussian", "ricker"]);
         let samples = (0..4800).map(|k| second((f64::from(k) * step - centre) / width));
         let record = Record::new(step, samples.map(|a| a / (width * width)).collect()).unwrap();
-        let field = wave.with_horizontal(&record, 0.0).unwrap();
+        let field = wave.field_from_horizontal(&record, 0.0).unwrap();
         let vertical = |x: f64| field.displacement(0.0, centre + width * x)[1] / factor;
         // Both are measured from where they are at x = 0, where the transforms vanish.
         let start = vertical(0.0);
@@ -173,7 +173,7 @@ fn quiet_time_changes_nothing_but_the_start() {
         let times = [0.5, 2.0, 10.0, 20.0, 30.0, 40.0, 90.0];
         let moved = |before: f64, after: f64| {
             let padded = record.padded(before, after).unwrap();
-            let field = wave.with_horizontal(&padded, 0.0).unwrap();
+            let field = wave.field_from_horizontal(&padded, 0.0).unwrap();
             let at = |time: f64| field.displacement(0.0, before + time)[1];
             let drift = padded.velocity_at(padded.duration()).abs();
             (times.map(|time| at(time) - at(0.0)), field.velocity(0.0, 0.0)[1], drift)
@@ -203,8 +203,8 @@ fn either_component_may_be_given() {
     let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();
     let record = record.padded(5.0, 0.0).unwrap();
     let (wave, factor) = rayleigh();
-    let down = wave.with_horizontal(&record, 0.0).unwrap();
-    let along = wave.with_vertical(&record, 0.0).unwrap();
+    let down = wave.field_from_horizontal(&record, 0.0).unwrap();
+    let along = wave.field_from_vertical(&record, 0.0).unwrap();
     for time in [-3.0, 4.0, 9.1, 17.0, 60.0] {
         let [given, late] = down.displacement(0.0, time);
         let [lead, same] = along.displacement(0.0, time);
@@ -218,15 +218,17 @@ fn either_component_may_be_given() {
 fn records_that_do_not_end_at_rest_are_refused() {
     let drifting = Record::new(0.1, vec![0.0, 1.0, 0.0, -0.9, 0.0]).unwrap();
     let (wave, _) = rayleigh();
-    for outcome in [wave.with_horizontal(&drifting, 0.0), wave.with_vertical(&drifting, 0.0)] {
+    for outcome in
+        [wave.field_from_horizontal(&drifting, 0.0), wave.field_from_vertical(&drifting, 0.0)]
+    {
         let Err(Error::Input { quantity, value, .. }) = outcome else { panic!("accepted") };
         assert_eq!(quantity, "velocity at the end of the record");
         assert!((value - 0.01).abs() < 1e-12);
     }
-    assert!(wave.with_horizontal(&Record::new(0.1, vec![0.0; 5]).unwrap(), 0.0).is_ok());
+    assert!(wave.field_from_horizontal(&Record::new(0.1, vec![0.0; 5]).unwrap(), 0.0).is_ok());
     // In phase it does not matter.
     let steep = PlaneWave::sv(&soil(0.25), 0.3).unwrap();
-    assert!(steep.with_horizontal(&drifting, 0.0).is_ok());
+    assert!(steep.field_from_horizontal(&drifting, 0.0).is_ok());
 }
 
 /// The transform of a Gaussian-windowed cosine is the windowed sine, to the width of the window;

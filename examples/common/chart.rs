@@ -4,6 +4,10 @@ use std::path::Path;
 
 use plotters::prelude::*;
 
+#[path = "key.rs"]
+pub(crate) mod key;
+use key::Sample;
+
 pub(crate) const SIZE: (u32, u32) = (1200, 640);
 /// Points per curve: more than pixels help nobody.
 const POINTS: usize = 4000;
@@ -39,7 +43,12 @@ pub(crate) fn draw(
 
     let root = SVGBackend::new(path, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
-    let mut chart = ChartBuilder::on(&root)
+    let color = |k: usize| COLORS[k % COLORS.len()];
+    let names = curves.iter().enumerate();
+    let entries: Vec<_> =
+        names.map(|(k, (name, _))| (name.clone(), Sample::Line(color(k)))).collect();
+    let area = key::draw(&root, 64, &entries)?;
+    let mut chart = ChartBuilder::on(&area)
         .caption(title, ("sans-serif", 24))
         .margin(16)
         .x_label_area_size(48)
@@ -55,19 +64,9 @@ pub(crate) fn draw(
         .axis_desc_style(("sans-serif", 18))
         .light_line_style(WHITE)
         .draw()?;
-    for (k, (name, line)) in curves.into_iter().enumerate() {
-        let color = COLORS[k % COLORS.len()];
-        chart.draw_series(LineSeries::new(line, color.stroke_width(1)))?.label(name).legend(
-            move |(x, y)| PathElement::new(vec![(x, y), (x + 24, y)], color.stroke_width(3)),
-        );
+    for (k, (_, line)) in curves.into_iter().enumerate() {
+        chart.draw_series(LineSeries::new(line, color(k).stroke_width(1)))?;
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .background_style(WHITE.mix(0.85))
-        .border_style(BLACK.mix(0.3))
-        .label_font(("sans-serif", 16))
-        .draw()?;
     root.present()?;
     Ok(())
 }

@@ -7,6 +7,7 @@ use plotters::prelude::*;
 
 use super::AnyError;
 use super::case::{Kind, Outcome};
+use super::chart::key::{self, Sample};
 use super::chart::{self, SIZE};
 use super::report::file_stem;
 
@@ -14,14 +15,14 @@ use super::report::file_stem;
 pub(crate) fn draw_all(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
     curves(
         &folder.join("roof_horizontal.svg"),
-        "Horizontal motion at A, a roof corner (absolute)",
+        "Horizontal displacement of A, a roof corner (absolute, right is positive)",
         "displacement, mm",
         results,
         |outcome, k| 1e3 * outcome.histories.roof[k][0],
     )?;
     curves(
         &folder.join("roof_vertical.svg"),
-        "Vertical motion at A, a roof corner (absolute) (up)",
+        "Vertical displacement of A, a roof corner (absolute, up is positive)",
         "displacement, mm",
         results,
         |outcome, k| 1e3 * outcome.histories.roof[k][1],
@@ -55,12 +56,55 @@ fn curves(
     chart::draw(path, title, unit, results.iter().map(curve).collect())
 }
 
-fn color(mode: Mode) -> RGBColor {
-    match mode {
-        Mode::Stick => RGBColor(222, 230, 236),
-        Mode::SlipLeft => RGBColor(255, 166, 43),
-        Mode::SlipRight => RGBColor(214, 39, 40),
-        Mode::Open => RGBColor(22, 72, 120),
+/// What an element does, as drawn; where several share a column the greater shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Shown {
+    Stick,
+    Open,
+    /// Touching without a pressure, between stick and open: the law's modes of slip where friction
+    /// is infinite.
+    Weightless,
+    SlipLeft,
+    SlipRight,
+}
+
+impl Shown {
+    fn of(mode: Mode, kind: Kind) -> Self {
+        match mode {
+            Mode::Stick => Self::Stick,
+            Mode::Open => Self::Open,
+            _ if kind == Kind::Coulomb(f64::INFINITY) => Self::Weightless,
+            Mode::SlipLeft => Self::SlipLeft,
+            Mode::SlipRight => Self::SlipRight,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Stick => "stick",
+            Self::Weightless => "touching without pressure",
+            Self::Open => "open",
+            Self::SlipLeft => "slip to the left",
+            Self::SlipRight => "slip to the right",
+        }
+    }
+
+    fn color(self) -> RGBColor {
+        match self {
+            Self::Stick => RGBColor(222, 230, 236),
+            Self::Weightless => RGBColor(118, 172, 214),
+            Self::Open => RGBColor(22, 72, 120),
+            Self::SlipLeft => RGBColor(255, 166, 43),
+            Self::SlipRight => RGBColor(214, 39, 40),
+        }
+    }
+
+    /// What a case can show.
+    fn key(kind: Kind) -> Vec<Self> {
+        match kind {
+            Kind::Coulomb(f64::INFINITY) => vec![Self::Stick, Self::Weightless, Self::Open],
+            _ => vec![Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Open],
+        }
     }
 }
 
@@ -72,77 +116,51 @@ fn mode_map(path: &Path, outcome: &Outcome) -> Result<(), AnyError> {
     let half = 0.5 * outcome.width;
     let length = outcome.width / count as f64;
     let every = kept.modes.len().div_ceil(1000).max(1);
-    let rank = |mode: Mode| match mode {
-        Mode::Stick => 0,
-        Mode::Open => 1,
-        Mode::SlipLeft => 2,
-        Mode::SlipRight => 3,
-    };
 
     let root = SVGBackend::new(path, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
     let title = format!("Contact modes, {}", outcome.case.name);
-    let mut chart = ChartBuilder::on(&root)
+    let shown = Shown::key(outcome.case.kind);
+    let entries: Vec<_> =
+        shown.iter().map(|what| (what.name().to_owned(), Sample::Area(what.color()))).collect();
+    let area = key::draw(&root, 64, &entries)?;
+    let mut chart = ChartBuilder::on(&area)
         .caption(title, ("sans-serif", 24))
         .margin(16)
         .x_label_area_size(48)
         .y_label_area_size(76)
-        .build_cartesian_2d(0.0..end, -half..1.7 * half)?;
+        .build_cartesian_2d(0.0..end, -half..half)?;
     chart
         .configure_mesh()
         .disable_mesh()
         .x_desc("time, s")
         .y_desc("place along the base, m (right is up)")
         .x_label_formatter(&|x| format!("{x:.0}"))
-        .y_label_formatter(&|y| if *y > half { String::new() } else { format!("{y:.0}") })
+        .y_label_formatter(&|y| format!("{y:.0}"))
         .label_style(("sans-serif", 16))
         .axis_desc_style(("sans-serif", 18))
         .draw()?;
     for element in 0..count {
         let mut begin = 0.0;
-        let mut shown: Option<Mode> = None;
         let row = element as f64 * length - half;
-        let columns: Vec<(f64, Mode)> = kept
+        let columns: Vec<(f64, Shown)> = kept
             .modes
             .chunks(every)
             .zip(kept.time.chunks(every))
             .filter_map(|(modes, time)| {
-                let mode = modes.iter().map(|m| m[element]).max_by_key(|m| rank(*m))?;
-                Some((*time.last()?, mode))
+                let kind = outcome.case.kind;
+                let rarest = modes.iter().map(|m| Shown::of(m[element], kind)).max()?;
+                Some((*time.last()?, rarest))
             })
             .collect();
         // One rectangle per stretch of equal mode keeps the file small.
-        for (k, &(time, mode)) in columns.iter().enumerate() {
-            let next = columns.get(k + 1).map(|c| c.1);
-            shown.get_or_insert(mode);
-            if next != Some(mode) {
-                let area = [(begin, row + 0.04 * length), (time, row + 0.96 * length)];
-                chart.draw_series([Rectangle::new(area, color(mode).filled())])?;
-                begin = time;
-                shown = None;
-            }
+        for stretch in columns.chunk_by(|a, b| a.1 == b.1) {
+            let (end, what) = stretch[stretch.len() - 1];
+            let area = [(begin, row + 0.04 * length), (end, row + 0.96 * length)];
+            chart.draw_series([Rectangle::new(area, what.color().filled())])?;
+            begin = end;
         }
     }
-    for (mode, name) in [
-        (Mode::Stick, "stick"),
-        (Mode::SlipLeft, "slip to the left"),
-        (Mode::SlipRight, "slip to the right"),
-        (Mode::Open, "open"),
-    ] {
-        chart
-            .draw_series(std::iter::once(Rectangle::new([(0.0, -half); 2], color(mode).filled())))?
-            .label(name)
-            .legend(move |(x, y)| {
-                Rectangle::new([(x, y - 6), (x + 24, y + 6)], color(mode).filled())
-            });
-    }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .background_style(WHITE.mix(0.9))
-        .border_style(BLACK.mix(0.3))
-        .label_font(("sans-serif", 16))
-        .draw()?;
     root.present()?;
     Ok(())
 }

@@ -15,7 +15,7 @@ const CELL: [i32; 2] = [36, 22];
 /// Room for labels to the left of a panel, above it and below it.
 const ROOM: [i32; 3] = [128, 66, 76];
 const GAP: i32 = 26;
-const LEGEND: i32 = 78;
+const LEGEND: i32 = 96;
 const ACTIVE: RGBColor = RGBColor(240, 158, 56);
 const ERROR: RGBColor = RGBColor(110, 110, 116);
 
@@ -187,20 +187,14 @@ fn legend(root: &Area, top: i32) -> Result<(), AnyError> {
     entry(ACTIVE, "not growing, but the soil gives energy: log₁₀ of its share", 370)?;
     entry(growth_color(0.03), "grows: growth per step", 180)?;
     entry(ERROR, "error", 80)?;
-    text(
-        root,
-        "U: growth is foretold, and the crate refuses unless told otherwise. Errors: C contact \
-         modes not found, N not finite, P no static state, M matrix singular, I ill-conditioned, \
-         S another step error, E other",
-        [14, top + 30],
-        12,
-        HPos::Left,
-    )?;
-    text(
-        root,
-        "solves per step: * some steps by Gauss–Seidel   ** some by path following",
-        [14, top + 48],
-        12,
-        HPos::Left,
-    )
+    let notes = [
+        "U: growth is foretold, and the crate refuses unless told otherwise",
+        "errors: C contact modes not found, N not finite, P no static state, M matrix singular, \
+         I ill-conditioned, S another step error, E other",
+        "solves per step: * some steps by Gauss–Seidel, ** some by path following",
+    ];
+    for (k, note) in notes.into_iter().enumerate() {
+        text(root, note, [14, top + 30 + 18 * count_of(k)], 12, HPos::Left)?;
+    }
+    Ok(())
 }

@@ -160,7 +160,12 @@ impl Panel {
     fn draw(&self, area: &Area) -> Result<(), AnyError> {
         // Signs reach beyond their place.
         let signs = |s: &Series| matches!(s.style, Style::Circles | Style::Crosses);
-        let sides = if self.series.iter().any(signs) { 0.06 } else { 0.0 };
+        let sides = match (self.series.iter().any(signs), self.categories.is_empty()) {
+            // Names as well.
+            (_, false) => 0.12,
+            (true, true) => 0.06,
+            (false, true) => 0.0,
+        };
         let x = self.range([sides; 2], false, |p| p.0);
         let y = self.range(self.room, self.logarithmic, |p| p.1);
         let mut builder = ChartBuilder::on(area);

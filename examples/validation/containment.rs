@@ -69,7 +69,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     };
     let right = Panel::new("interface", "peak base shear, 1000 lb/ft")
         .legend(SeriesLabelPosition::UpperRight)
-        .categories(&["bonded", "uplift only", "friction 0.4", "0.3", "0.2"])
+        .categories(&["bonded", "uplift only", "friction 0.4", "friction 0.3", "friction 0.2"])
         .room(0.1, 0.1)
         .crosses("Patel & Spyrakos, Table 1", RED, numbered(&PAPER))
         .circles("basemat", BLUE, numbered(&shear));

@@ -11,6 +11,8 @@
 mod advice;
 mod catalogue;
 mod force;
+#[path = "../common/key.rs"]
+mod key;
 mod options;
 mod plots;
 mod report;

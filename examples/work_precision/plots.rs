@@ -3,16 +3,16 @@
 use std::path::Path;
 
 use basemat::bem::Grading;
-use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::AnyError;
+use super::key::{self, Area, Sample};
 use super::settings::{HISTORIES, Past, SCHEMES, Scheme};
 use super::sweep::{Outcome, Point};
 
-const SIZE: (u32, u32) = (1280, 620);
+const SIZE: (u32, u32) = (1480, 620);
+const FRONT: RGBColor = RGBColor(214, 39, 40);
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Chart<'a, 'b> = ChartContext<
     'a,
     SVGBackend<'b>,
@@ -37,6 +37,7 @@ enum Shape {
     Circle,
     Triangle,
     Cross,
+    Ring,
 }
 
 fn families() -> Vec<Family> {
@@ -56,11 +57,12 @@ fn families() -> Vec<Family> {
         .chain(SCHEMES.iter().map(|&scheme| (scheme.name(), HISTORIES[0], scheme)));
     let mut list = Vec::new();
     for ((name, history, scheme), color) in kinds.zip(colors.iter().cycle()) {
-        for (grading, word, shape) in [
-            (Grading::Uniform, "uniform", Shape::Circle),
-            (Grading::Cosine, "cosine", Shape::Triangle),
-        ] {
-            let shape = if scheme == Scheme::Midpoint { shape } else { Shape::Cross };
+        let shapes = match scheme {
+            Scheme::Midpoint => [Shape::Circle, Shape::Triangle],
+            _ => [Shape::Cross, Shape::Ring],
+        };
+        let gradings = [(Grading::Uniform, "uniform"), (Grading::Cosine, "cosine")];
+        for ((grading, word), shape) in gradings.into_iter().zip(shapes) {
             let name = format!("{word}, {name}");
             list.push(Family { name, color: *color, shape, grading, history, scheme });
         }
@@ -74,6 +76,11 @@ pub(crate) fn draw(path: &Path, sweep: &Outcome) -> Result<(), AnyError> {
     root.fill(&WHITE)?;
     let title = format!("Base shear, {}: error against processor time", sweep.scene);
     let body = root.titled(&title, ("sans-serif", 24))?;
+    let mut entries = vec![("front: none faster and closer".to_owned(), Sample::Line(FRONT))];
+    let families = families().into_iter();
+    let there = families.filter(|family| sweep.points.iter().any(|point| family.holds(point)));
+    entries.extend(there.map(|family| (family.name.clone(), family.sample())));
+    let body = key::draw(&body, 30, &entries)?;
     let halves = body.split_evenly((1, 2));
     panel(&halves[0], "error of the history (relative L2)", sweep, true, |p| p.errors.history)?;
     panel(&halves[1], "error of the peak (relative)", sweep, false, |p| p.errors.peak)?;
@@ -95,11 +102,7 @@ fn panel(
         let low = values().fold(f64::INFINITY, f64::min);
         0.6 * low..1.8 * values().fold(0.0, f64::max)
     };
-    // Room for the legend below the points.
-    let mut errors = range(&|p| place(p).1);
-    if front {
-        errors.start *= 0.005;
-    }
+    let errors = range(&|p| place(p).1);
     let mut chart: Chart = ChartBuilder::on(area)
         .margin(14)
         .x_label_area_size(48)
@@ -109,6 +112,7 @@ fn panel(
         .configure_mesh()
         .x_desc("processor time, s")
         .y_desc(label)
+        .x_labels(5)
         .x_label_formatter(&|x| power(*x))
         .y_label_formatter(&|y| power(*y))
         .label_style(("sans-serif", 15))
@@ -118,13 +122,7 @@ fn panel(
     if front {
         let mut line: Vec<_> = sweep.points.iter().filter(|point| point.front).map(place).collect();
         line.sort_by(|a, b| a.0.total_cmp(&b.0));
-        chart
-            .draw_series(LineSeries::new(line, RGBColor(214, 39, 40).stroke_width(2)))?
-            .label("front: none faster and closer")
-            .legend(|(x, y)| {
-                let style = RGBColor(214, 39, 40).stroke_width(2);
-                PathElement::new(vec![(x, y), (x + 18, y)], style)
-            });
+        chart.draw_series(LineSeries::new(line, FRONT.stroke_width(2)))?;
     }
     for family in families() {
         let points: Vec<_> =
@@ -132,15 +130,6 @@ fn panel(
         if !points.is_empty() {
             family.draw(&mut chart, points)?;
         }
-    }
-    if front {
-        chart
-            .configure_series_labels()
-            .position(SeriesLabelPosition::LowerLeft)
-            .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.3))
-            .label_font(("sans-serif", 14))
-            .draw()?;
     }
     Ok(())
 }
@@ -151,25 +140,25 @@ impl Family {
         s.grading == self.grading && s.history == self.history && s.scheme == self.scheme
     }
 
+    fn sample(&self) -> Sample {
+        match self.shape {
+            Shape::Circle => Sample::Circle(self.color),
+            Shape::Triangle => Sample::Triangle(self.color),
+            Shape::Cross => Sample::Cross(self.color),
+            Shape::Ring => Sample::Ring(self.color),
+        }
+    }
+
     fn draw(&self, chart: &mut Chart, points: Vec<(f64, f64)>) -> Result<(), AnyError> {
-        let style = self.color.filled();
+        let (points, style) = (points.into_iter(), self.color.filled());
         // Each shape is a type of its own.
         match self.shape {
-            Shape::Circle => chart
-                .draw_series(points.into_iter().map(|at| Circle::new(at, 4, style)))?
-                .label(&self.name)
-                .legend(move |(x, y)| Circle::new((x + 9, y), 4, style)),
-            Shape::Triangle => chart
-                .draw_series(points.into_iter().map(|at| TriangleMarker::new(at, 5, style)))?
-                .label(&self.name)
-                .legend(move |(x, y)| TriangleMarker::new((x + 9, y), 5, style)),
-            Shape::Cross => chart
-                .draw_series(points.into_iter().map(|at| Cross::new(at, 4, self.color)))?
-                .label(&self.name)
-                .legend({
-                    let color = self.color;
-                    move |(x, y)| Cross::new((x + 9, y), 4, color)
-                }),
+            Shape::Circle => chart.draw_series(points.map(|at| Circle::new(at, 4, style)))?,
+            Shape::Triangle => {
+                chart.draw_series(points.map(|at| TriangleMarker::new(at, 5, style)))?
+            }
+            Shape::Cross => chart.draw_series(points.map(|at| Cross::new(at, 4, self.color)))?,
+            Shape::Ring => chart.draw_series(points.map(|at| Circle::new(at, 4, self.color)))?,
         };
         Ok(())
     }

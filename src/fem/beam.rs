@@ -182,19 +182,28 @@ impl Element for Beam {
         }
     }
 
-    fn set_static_state(&mut self, coordinates: &[[f64; 2]], displacement: &[f64], gravity: f64) {
+    fn in_static_state(
+        &self,
+        coordinates: &[[f64; 2]],
+        displacement: &[f64],
+        gravity: f64,
+    ) -> Option<Box<dyn Element>> {
         let (Some(line), &[x0, y0, _, x1, y1, _]) = (Line::between(coordinates), displacement)
         else {
-            return;
+            return None;
         };
-        if !self.is_given {
-            let lengthening = line.lengthening([x0, y0], [x1, y1]);
-            self.compression = -self.axial_stiffness / line.length * lengthening;
-            // The nodes' displacements are exact, so that is the mean; between them hangs its own
-            // weight.
-            let rise = coordinates[1][1] - coordinates[0][1];
-            self.taper = self.mass_per_length * gravity * rise;
+        if self.is_given {
+            return None;
         }
+        let lengthening = line.lengthening([x0, y0], [x1, y1]);
+        // The nodes' displacements are exact, so the compression is the mean; between them hangs
+        // the element's own weight.
+        let rise = coordinates[1][1] - coordinates[0][1];
+        Some(Box::new(Self {
+            compression: -self.axial_stiffness / line.length * lengthening,
+            taper: self.mass_per_length * gravity * rise,
+            ..self.clone()
+        }))
     }
 
     fn compression(&self) -> Option<f64> {

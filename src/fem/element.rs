@@ -72,16 +72,17 @@ pub trait Element: Send + Sync {
     /// not of its stiffness-proportional damping. Default: none.
     fn geometric_stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
 
-    /// Takes the static state under the structure's weight, from which the geometric stiffness
-    /// follows: `displacement` holds the element's unknowns there, `gravity` (m/s²) acts
-    /// downwards. Called by
-    /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta). Default: no P–Δ.
-    fn set_static_state(
-        &mut self,
+    /// This element with the geometric stiffness of the static state under the structure's weight:
+    /// `displacement` holds the element's unknowns there, `gravity` (m/s²) acts downwards. Called by
+    /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta). Default: `None`, the
+    /// element stays what it is.
+    fn in_static_state(
+        &self,
         _coordinates: &[[f64; 2]],
         _displacement: &[f64],
         _gravity: f64,
-    ) {
+    ) -> Option<Box<dyn Element>> {
+        None
     }
 
     /// The compressive axial force (N, negative for tension) of its geometric stiffness, the mean
@@ -116,6 +117,11 @@ impl<T: Element + ?Sized> Element for Box<T> {
         fn nodes(&self) -> &[usize];
         fn directions(&self) -> &[Direction];
         fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
+        fn geometric_stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
+        fn in_static_state(
+            &self, coordinates: &[[f64; 2]], displacement: &[f64], gravity: f64
+        ) -> Option<Box<dyn Element>>;
+        fn compression(&self) -> Option<f64>;
         fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]);
         fn damping(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
         fn check(&self, coordinates: &[[f64; 2]]) -> Result<()>;

@@ -174,7 +174,9 @@ impl Mesh {
             let own: Vec<f64> = indices.iter().map(value).collect();
             let points: Vec<[f64; 2]> =
                 element.nodes().iter().map(|&index| self.nodes[index]).collect();
-            element.set_static_state(&points, &own, gravity);
+            if let Some(changed) = element.in_static_state(&points, &own, gravity) {
+                *element = Arc::from(changed);
+            }
         }
     }
 

@@ -65,11 +65,18 @@ impl Element for Truss {
         }
     }
 
-    fn set_static_state(&mut self, coordinates: &[[f64; 2]], displacement: &[f64], _gravity: f64) {
-        if let (Some(line), &[x0, y0, x1, y1]) = (Line::between(coordinates), displacement) {
-            let lengthening = line.lengthening([x0, y0], [x1, y1]);
-            self.compression = -self.young_modulus * self.area / line.length * lengthening;
-        }
+    fn in_static_state(
+        &self,
+        coordinates: &[[f64; 2]],
+        displacement: &[f64],
+        _gravity: f64,
+    ) -> Option<Box<dyn Element>> {
+        let (Some(line), &[x0, y0, x1, y1]) = (Line::between(coordinates), displacement) else {
+            return None;
+        };
+        let lengthening = line.lengthening([x0, y0], [x1, y1]);
+        let compression = -self.young_modulus * self.area / line.length * lengthening;
+        Some(Box::new(Self { compression, ..self.clone() }))
     }
 
     fn compression(&self) -> Option<f64> {

@@ -45,9 +45,9 @@ impl Record {
     /// Exact for the band-limited function through the samples, zero outside them. The transform
     /// begins before the record and ends after it; what is outside is lost, so give the record
     /// quiet time with [`Record::padded`]. As every record it is integrated from rest, so its
-    /// displacement lacks what came before: [`PlaneWave::with_horizontal`] makes displacements.
+    /// displacement lacks what came before: [`PlaneWave::field_from_horizontal`] makes displacements.
     ///
-    /// [`PlaneWave::with_horizontal`]: super::PlaneWave::with_horizontal
+    /// [`PlaneWave::field_from_horizontal`]: super::PlaneWave::field_from_horizontal
     ///
     /// # Errors
     /// [`Error::Input`] if a value is not finite.

@@ -149,7 +149,7 @@ impl PlaneWave {
     ///
     /// # Errors
     /// [`Error::Input`] if the wave has no vertical component, and as for
-    /// [`PlaneWave::with_horizontal`].
+    /// [`PlaneWave::field_from_horizontal`].
     pub fn field_from_vertical(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
         let ratio = ratio("vertical component of the wave", self.horizontal, self.vertical)?;
         if ratio.im != 0.0 {

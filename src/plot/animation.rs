@@ -2,22 +2,29 @@
 
 use std::fmt::Write;
 
-use super::mode_map::{MODES, color};
-use super::shape::{bounds, places};
+use plotters::style::RGBColor;
+
+use super::mode_map::shown;
+use super::shape::{SOIL, SURFACE, bounds, places};
 use super::svg::Svg;
+use super::text::{fitted, short, width};
 use crate::error::{Error, Result, positive};
 use crate::results::{Histories, Wireframe};
 
-const WIDTH: f64 = 900.0;
-const HEIGHT: f64 = 620.0;
+const WIDTH: f64 = 940.0;
+const HEIGHT: f64 = 640.0;
 /// The structure is drawn inside this box: left, top, right, bottom.
-const BOX: [f64; 4] = [40.0, 60.0, 700.0, 520.0];
+const BOX: [f64; 4] = [40.0, 60.0, 690.0, 520.0];
+/// Left end of the key, the scale and the clock.
+const ASIDE: f64 = 725.0;
 /// More frames than these make files that browsers choke on.
 const MOST_FRAMES: usize = 600;
+/// Changes of the clock.
+const MOST_TIMES: usize = 150;
 
 /// The structure in motion, displacements relative to the ground and times `magnification`, with
-/// the contact mode of every element below it and a bar of time. One second of the run takes
-/// `slowness` seconds.
+/// the surface of the soil, the contact mode of every element below it, a clock, and a bar for the
+/// scale of lengths and of displacements. One second of the run takes `slowness` seconds.
 ///
 /// Frames of contact are shown if they were kept as often as those of motion.
 ///
@@ -43,13 +50,15 @@ pub fn animation(
         let (quantity, needed) = ("frames of an animation", "600 or fewer: keep fewer of them");
         return Err(Error::Input { quantity, value: frames.len() as f64, needed });
     }
-    let (begin, end) = (frames[0].time, frames[frames.len() - 1].time);
+    let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
     let moved: Vec<Vec<[f64; 2]>> =
         frames.iter().map(|frame| places(shape, frame, magnification)).collect::<Result<_>>()?;
     let screen = Screen::of(&moved);
-    let duration = format!("{:.3}s", (end - begin) * slowness);
+    let duration = format!("{:.3}s", (times[times.len() - 1] - times[0]) * slowness);
 
-    let mut out = head(title, magnification);
+    let mut out = head(title);
+    out += &screen.ground();
+    out += &base(histories, &screen, frames.len(), &duration);
     let paths: Vec<String> = moved.iter().map(|places| screen.path(shape, places)).collect();
     let _ = writeln!(
         out,
@@ -59,8 +68,8 @@ pub fn animation(
         paths[0],
         paths.join(";")
     );
-    out += &base(histories, &screen, frames.len(), &duration);
-    out += &time_bar(begin, end, &duration);
+    out += &screen.bar(magnification);
+    out += &clock(&times, &duration);
     Ok(Svg::new(out + "</svg>\n"))
 }
 
@@ -74,7 +83,8 @@ struct Screen {
 
 impl Screen {
     fn of(moved: &[Vec<[f64; 2]>]) -> Self {
-        let all: Vec<[f64; 2]> = moved.iter().flatten().copied().collect();
+        let mut all: Vec<[f64; 2]> = moved.iter().flatten().copied().collect();
+        all.push([all[0][0], 0.0]);
         let [low, high] = bounds(&all);
         let span = [0, 1].map(|k| (high[k] - low[k]).max(1e-6));
         let [left, top, right, bottom] = BOX;
@@ -105,47 +115,100 @@ impl Screen {
         }
         path
     }
-}
 
-fn head(title: &str, magnification: f64) -> String {
-    let title = title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
-         width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"sans-serif\" font-size=\"15\">\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n\
-         <text x=\"{}\" y=\"34\" font-size=\"20\" text-anchor=\"middle\">{title}, displacements × \
-         {magnification}</text>\n",
-        0.5 * WIDTH
-    );
-    for (k, (mode, name)) in MODES.iter().enumerate() {
-        let y = 80.0 + 26.0 * k as f64;
-        let _ = writeln!(
-            out,
-            "<rect x=\"725\" y=\"{:.0}\" width=\"22\" height=\"14\" fill=\"{}\"/>\
-             <text x=\"755\" y=\"{y:.0}\">{name}</text>",
-            y - 12.0,
-            hex(*mode)
-        );
+    /// The soil and its surface.
+    fn ground(&self) -> String {
+        let [left, _, right, bottom] = BOX;
+        let [_, surface] = self.place([0.0; 2]);
+        format!(
+            "<rect x=\"{left}\" y=\"{surface:.1}\" width=\"{}\" height=\"{:.1}\" fill=\"{}\"/>\n\
+             <path stroke=\"{}\" stroke-width=\"1.5\" d=\"M{left} {surface:.1}H{right}\"/>\n",
+            right - left,
+            bottom + 30.0 - surface,
+            hex(SOIL),
+            hex(SURFACE)
+        )
     }
-    out
+
+    /// A bar, and how many metres it is of the structure and of its displacements.
+    fn bar(&self, magnification: f64) -> String {
+        let length = round_below(150.0 / self.scale);
+        let (end, y) = (ASIDE + self.scale * length, 300.0);
+        format!(
+            "<path fill=\"none\" stroke=\"#444\" stroke-width=\"2\" \
+             d=\"M{ASIDE} {}v10M{ASIDE} {y}H{end:.1}M{end:.1} {}v10\"/>\n\
+             <text x=\"{ASIDE}\" y=\"{}\">structure: {}</text>\n\
+             <text x=\"{ASIDE}\" y=\"{}\">displacements: {}</text>\n\
+             <text x=\"{ASIDE}\" y=\"{}\">(magnified × {})</text>\n",
+            y - 5.0,
+            y - 5.0,
+            y + 24.0,
+            metres(length),
+            y + 44.0,
+            metres(length / magnification),
+            y + 64.0,
+            short(magnification)
+        )
+    }
 }
 
-fn hex(mode: crate::interface::Mode) -> String {
-    let c = color(mode);
-    format!("#{:02x}{:02x}{:02x}", c.0, c.1, c.2)
+/// 1, 2 or 5 times a power of ten.
+fn round_below(most: f64) -> f64 {
+    let power = 10.0_f64.powf(most.log10().floor());
+    let factor = [5.0, 2.0, 1.0].into_iter().find(|factor| factor * power <= most);
+    factor.unwrap_or(1.0) * power
 }
 
-/// A rectangle for every contact element, coloured by its mode.
+/// A length in m or mm.
+fn metres(length: f64) -> String {
+    if length < 0.5 {
+        format!("{} mm", short(1e3 * length))
+    } else {
+        format!("{} m", short(length))
+    }
+}
+
+fn head(title: &str) -> String {
+    // Sizes of fonts are those of SVG here, plotters' are 1.24 times as large.
+    let title = fitted(title, 25, WIDTH - 40.0);
+    let title = title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
+         width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"sans-serif\" font-size=\"14\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n\
+         <text x=\"{}\" y=\"34\" font-size=\"20\" text-anchor=\"middle\">{title}</text>\n",
+        0.5 * WIDTH
+    )
+}
+
+fn hex(RGBColor(red, green, blue): RGBColor) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// A rectangle for every contact element, coloured by its mode, and the key to the colours.
 fn base(histories: &Histories, screen: &Screen, frames: usize, duration: &str) -> String {
     let contact: Vec<_> = histories.contact_frames().collect();
     let mut out = String::new();
     if contact.len() != frames {
         return out;
     }
+    let (shown, key) = shown(&contact);
+    for (k, what) in key.into_iter().enumerate() {
+        let y = 80.0 + 26.0 * k as f64;
+        let _ = writeln!(
+            out,
+            "<rect x=\"{ASIDE}\" y=\"{:.0}\" width=\"22\" height=\"14\" fill=\"{}\"/>\
+             <text x=\"{}\" y=\"{y:.0}\">{}</text>",
+            y - 12.0,
+            hex(what.color()),
+            ASIDE + 30.0,
+            what.name()
+        );
+    }
     for (e, element) in histories.elements().iter().enumerate() {
         let [left, _] = screen.place([element.left, 0.0]);
         let [right, _] = screen.place([element.right, 0.0]);
-        let colors: Vec<String> = contact.iter().map(|frame| hex(frame.modes[e])).collect();
+        let colors: Vec<String> = shown.iter().map(|modes| hex(modes[e].color())).collect();
         let _ = writeln!(
             out,
             "<rect x=\"{:.1}\" y=\"{}\" width=\"{:.1}\" height=\"14\" fill=\"{}\">\
@@ -161,17 +224,43 @@ fn base(histories: &Histories, screen: &Screen, frames: usize, duration: &str) -
     out
 }
 
-fn time_bar(begin: f64, end: f64, duration: &str) -> String {
-    let (left, right, y) = (120.0, 780.0, 580.0);
-    format!(
-        "<rect x=\"{left}\" y=\"{y}\" width=\"{width}\" height=\"8\" fill=\"#ddd\"/>\
-         <rect x=\"{left}\" y=\"{y}\" width=\"0\" height=\"8\" fill=\"#444\">\
-         <animate attributeName=\"width\" from=\"0\" to=\"{width}\" dur=\"{duration}\" \
+/// The running time: a bar, and one text after the other, for SMIL cannot count.
+fn clock(times: &[f64], duration: &str) -> String {
+    let (begin, end) = (times[0], times[times.len() - 1]);
+    let (first, last) = (format!("{begin:.2} s"), format!("{end:.2} s"));
+    let room = 30.0 + width(&first, 18).max(width(&last, 18));
+    let (left, length, y) = (room, WIDTH - 2.0 * room, 600.0);
+    let mut out = format!(
+        "<rect x=\"{left:.1}\" y=\"{y}\" width=\"{length:.1}\" height=\"8\" fill=\"#ddd\"/>\
+         <rect x=\"{left:.1}\" y=\"{y}\" width=\"0\" height=\"8\" fill=\"#444\">\
+         <animate attributeName=\"width\" from=\"0\" to=\"{length:.1}\" dur=\"{duration}\" \
          repeatCount=\"indefinite\"/></rect>\n\
-         <text x=\"{}\" y=\"590\" text-anchor=\"end\">{begin:.2} s</text>\
-         <text x=\"{}\" y=\"590\">{end:.2} s</text>\n",
+         <text x=\"{:.1}\" y=\"{}\" text-anchor=\"end\">{first}</text>\
+         <text x=\"{:.1}\" y=\"{}\">{last}</text>\n",
         left - 10.0,
-        right + 10.0,
-        width = right - left
-    )
+        y + 9.0,
+        left + length + 10.0,
+        y + 9.0
+    );
+    // The last frame has no duration: what is shown begins at the others.
+    let every = (times.len() - 1).div_ceil(MOST_TIMES);
+    let shown: Vec<f64> = times[..times.len() - 1].iter().copied().step_by(every).collect();
+    let share = |time: f64| ((time - begin) / (end - begin)).clamp(0.0, 1.0);
+    for (k, &time) in shown.iter().enumerate() {
+        let from = share(time);
+        let until = shown.get(k + 1).map_or(1.0, |&next| share(next));
+        // Visible from the first instant on, or from its own.
+        let (still, states, moments) = if k == 0 {
+            ("visible", "visible;hidden", format!("0;{until:.5}"))
+        } else {
+            ("hidden", "hidden;visible;hidden", format!("0;{from:.5};{until:.5}"))
+        };
+        let _ = writeln!(
+            out,
+            "<text x=\"{ASIDE}\" y=\"400\" font-size=\"20\" visibility=\"{still}\">t = {time:.2} s\
+             <animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"{duration}\" \
+             repeatCount=\"indefinite\" values=\"{states}\" keyTimes=\"{moments}\"/></text>"
+        );
+    }
+    out
 }

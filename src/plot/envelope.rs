@@ -1,22 +1,24 @@
 //! Pressure envelope under the base.
 
-use plotters::prelude::*;
-
-use super::axes::{COLORS, chart, draw_curve, range_of};
-use super::key::{Sample, draw_key};
-use super::svg::{Svg, picture};
+use super::axes::{Axis, chart, draw_curve, range_of};
+use super::base::{Base, label_breaks};
+use super::key::{Key, Sample};
+use super::stroke::{COLORS, Stroke};
+use super::svg::{Sheet, Svg};
 use crate::error::Result;
 use crate::results::{ElementEnvelope, Histories};
 
 /// Value of an element, as drawn.
 type Value = fn(&ElementEnvelope) -> f64;
 
-/// Largest, static and least pressure along the base, in steps as the elements have them.
+/// Largest, static and least pressure along the base, in steps as the elements have them; wide gaps
+/// between foundations are drawn short.
 ///
 /// # Errors
 /// Those of drawing, for values beyond all bounds.
 pub fn pressure_envelope(title: &str, histories: &Histories) -> Result<Svg> {
     let envelope = histories.envelope();
+    let base = Base::of(envelope.iter().map(|e| e.element));
     let curves: [(&str, Value); 3] = [
         ("largest", |e| 1e-3 * e.pressure.highest.value),
         ("static", |e| 1e-3 * e.static_pressure),
@@ -26,29 +28,24 @@ pub fn pressure_envelope(title: &str, histories: &Histories) -> Result<Svg> {
         let mut points: Vec<(f64, f64)> = Vec::with_capacity(3 * envelope.len());
         for e in envelope {
             // A gap between two strips is a gap of the curve.
-            if points.last().is_some_and(|last| e.element.left - last.0 > 1e-6 * e.element.length())
-            {
+            let left = base.place(e.element.left);
+            if points.last().is_some_and(|last| left - last.0 > 1e-6 * e.element.length()) {
                 points.push((f64::NAN, f64::NAN));
             }
-            points.extend([(e.element.left, value(e)), (e.element.right, value(e))]);
+            points.extend([(left, value(e)), (left + e.element.length(), value(e))]);
         }
         points
     };
-    let (left, right) = (
-        envelope.first().map_or(0.0, |e| e.element.left),
-        envelope.last().map_or(1.0, |e| e.element.right),
-    );
     let values = curves.iter().flat_map(|(_, value)| envelope.iter().map(value));
     let range = range_of(values.chain([0.0]));
-    let colors = [COLORS[1], COLORS[5], COLORS[0]];
-    let key: Vec<_> =
-        curves.iter().zip(colors).map(|((name, _), color)| (*name, Sample::Line(color))).collect();
-    picture(|area| {
-        let area = draw_key(area, &key)?;
-        let y = (range, "pressure, kPa");
-        let mut chart = chart(&area, title, (left..right, "x along the base, m"), y, true)?;
-        for ((_, value), color) in curves.into_iter().zip(colors) {
-            draw_curve(&mut chart, &steps(value), color.stroke_width(2))?;
+    let strokes = [COLORS[1], COLORS[5], COLORS[0]].map(Stroke::plain);
+    let key = curves.iter().zip(strokes).map(|((name, _), stroke)| (*name, Sample::Line(stroke)));
+    Sheet::new(title, Key::of(key)).picture(|area| {
+        let top = range.end - 0.04 * (range.end - range.start);
+        let mut chart = chart(area, &base.axis(), &Axis::linear(range, "pressure, kPa"), true)?;
+        label_breaks(&mut chart, &base, |place| (place, top))?;
+        for ((_, value), stroke) in curves.into_iter().zip(strokes) {
+            draw_curve(&mut chart, &steps(value), stroke, 2)?;
         }
         Ok(())
     })

@@ -2,45 +2,93 @@
 
 use plotters::prelude::*;
 
-use super::svg::{Area, Drawing, SIZE};
+use super::stroke::Stroke;
+use super::svg::{Area, Drawing};
+use super::text::{lines, width};
 
-/// Names beyond this are cut.
-const LONGEST: usize = 30;
-/// Pixels for a letter, and beside the names.
-const LETTER: u32 = 8;
-const SIDE: u32 = 46;
-const LINE: i32 = 24;
+const FONT: (&str, u32) = ("sans-serif", 15);
+/// Names wider than this go on in a second line, and are cut after a third.
+const WIDEST: f64 = 230.0;
+const LINES: usize = 3;
+/// Names beyond these are counted only.
+const ENTRIES: usize = 42;
+/// Pixels beside the names, for a line of text, and between two names.
+const SIDE: u32 = 52;
+const LINE: i32 = 18;
+const GAP: i32 = 6;
 
 /// How a name is shown.
 #[derive(Clone, Copy)]
 pub(super) enum Sample {
-    Line(RGBColor),
+    Line(Stroke),
     Area(RGBColor),
+    Nothing,
 }
 
-/// Width of the strip for these names, pixels.
-pub(super) fn width<'n>(names: impl Iterator<Item = &'n str>) -> u32 {
-    let longest = names.map(|name| name.chars().count().min(LONGEST)).max().unwrap_or(0);
-    SIDE + LETTER * u32::try_from(longest).unwrap_or(0)
-}
+/// Names in lines, with their samples.
+pub(super) struct Key(Vec<(Vec<String>, Sample)>);
 
-/// Draws the key, and gives back what it leaves of the sheet.
-pub(super) fn draw_key<'b>(area: &Area<'b>, entries: &[(&str, Sample)]) -> Drawing<Area<'b>> {
-    let strip = width(entries.iter().map(|(name, _)| *name));
-    let (chart, key) = area.split_horizontally(SIZE.0 - strip);
-    let mut y = 58;
-    for (name, sample) in entries {
-        match sample {
-            Sample::Line(color) => {
-                key.draw(&PathElement::new([(4, y), (28, y)], color.stroke_width(3)))?;
-            }
-            Sample::Area(color) => {
-                key.draw(&Rectangle::new([(4, y - 7), (28, y + 7)], color.filled()))?;
-            }
+impl Key {
+    pub(super) fn of<'n>(entries: impl IntoIterator<Item = (&'n str, Sample)>) -> Self {
+        let entries: Vec<_> = entries.into_iter().collect();
+        // One line of a text is no better than the text itself.
+        let shown = if entries.len() > ENTRIES + 1 { ENTRIES } else { entries.len() };
+        let split = |name: &str| lines(name, FONT.1, WIDEST, LINES);
+        let mut list: Vec<_> =
+            entries[..shown].iter().map(|(name, sample)| (split(name), *sample)).collect();
+        if shown < entries.len() {
+            let rest = format!("… and {} more", entries.len() - shown);
+            list.push((split(&rest), Sample::Nothing));
         }
-        let shown: String = name.chars().take(LONGEST).collect();
-        key.draw(&Text::new(shown, (36, y - 6), ("sans-serif", 15)))?;
-        y += LINE;
+        Self(list)
     }
-    Ok(chart)
+
+    /// Curves in their order.
+    pub(super) fn of_curves<'n>(names: impl IntoIterator<Item = &'n str>) -> Self {
+        let names = names.into_iter().enumerate();
+        Self::of(names.map(|(k, name)| (name, Sample::Line(Stroke::nth(k)))))
+    }
+
+    /// Width of the strip, pixels.
+    pub(super) fn width(&self) -> u32 {
+        let widths = self.0.iter().flat_map(|(name, _)| name).map(|line| width(line, FONT.1));
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "to WIDEST")]
+        let widest = widths.fold(0.0, f64::max).ceil() as u32;
+        SIDE + widest
+    }
+
+    /// Height of the strip, pixels.
+    pub(super) fn height(&self) -> u32 {
+        let lines: usize = self.0.iter().map(|(name, _)| name.len()).sum();
+        let text = LINE.unsigned_abs() * u32::try_from(lines).unwrap_or(u32::MAX / 100);
+        text + GAP.unsigned_abs() * u32::try_from(self.0.len()).unwrap_or(0) + 24
+    }
+
+    /// Draws it from the top of the strip.
+    pub(super) fn draw(&self, strip: &Area<'_>) -> Drawing<()> {
+        let mut y = 18;
+        for (name, sample) in &self.0 {
+            match *sample {
+                Sample::Line(stroke) => {
+                    let style = stroke.color.stroke_width(3);
+                    strip.draw(&PathElement::new([(4, y), (32, y)], style))?;
+                    if let Some(marker) = stroke.marker {
+                        let corners =
+                            marker.iter().map(|(dx, dy)| (18 + dx, y + dy)).collect::<Vec<_>>();
+                        strip.draw(&Polygon::new(corners, stroke.color.filled()))?;
+                    }
+                }
+                Sample::Area(color) => {
+                    strip.draw(&Rectangle::new([(6, y - 7), (30, y + 7)], color.filled()))?;
+                }
+                Sample::Nothing => {}
+            }
+            for line in name {
+                strip.draw(&Text::new(line.clone(), (38, y - 6), FONT))?;
+                y += LINE;
+            }
+            y += GAP;
+        }
+        Ok(())
+    }
 }

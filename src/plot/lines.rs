@@ -2,17 +2,20 @@
 
 use plotters::prelude::*;
 
-use super::axes::{COLORS, chart, draw_curve, range_of};
-use super::key::{Sample, draw_key};
-use super::svg::{Svg, picture};
+use super::axes::{Axis, chart, draw_curve, range_of};
+use super::key::{Key, Sample};
+use super::stroke::Stroke;
+use super::svg::{Sheet, Svg};
 use crate::error::{Error, Result};
 use crate::results::unit::printed;
 use crate::results::{Histories, Quantity};
 
 /// Stretches of a curve that are drawn by their extremes: more than pixels help nobody.
 const BUCKETS: usize = 1500;
-/// Factors of safety above this are not shown.
-const MOST_SAFETY: f64 = 5.0;
+/// Demands above this are drawn here.
+const MOST_DEMAND: f64 = 4.0;
+/// What is reached where a demand is one.
+const LIMIT: RGBColor = RGBColor(120, 120, 120);
 
 /// A named curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,28 +26,39 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
 }
 
-/// Curves in one chart, with the descriptions of the axes, units included.
+/// Curves in one chart, with the descriptions of the axes, units included. The first seven differ
+/// by colour, further ones by markers as well.
 ///
 /// # Errors
 /// [`Error::Size`] without a point.
 pub fn curves(title: &str, x: &str, y: &str, curves: &[Curve]) -> Result<Svg> {
+    with_limit(title, x, y, curves, None)
+}
+
+/// Curves, and a level line at one of that name.
+fn with_limit(title: &str, x: &str, y: &str, curves: &[Curve], limit: Option<&str>) -> Result<Svg> {
     let all = || curves.iter().flat_map(|curve| &curve.points);
     if all().next().is_none() {
         return Err(Error::Size { quantity: "points of a chart", found: 0, needed: 1 });
     }
     let x_range = range_of(all().map(|point| point.0));
-    let y_range = range_of(all().map(|point| point.1));
+    let levels = limit.iter().flat_map(|_| [0.0, 1.0]);
+    let y_range = range_of(all().map(|point| point.1).chain(levels));
     // Time needs no margin.
     let inner = (x_range.end - x_range.start) * 0.06 / 1.12;
     let x_range = x_range.start + inner..x_range.end - inner;
-    let color = |k: usize| COLORS[k % COLORS.len()];
-    let key: Vec<_> =
-        (0..curves.len()).map(|k| (curves[k].name.as_str(), Sample::Line(color(k)))).collect();
-    picture(|area| {
-        let area = draw_key(area, &key)?;
-        let mut chart = chart(&area, title, (x_range, x), (y_range, y), true)?;
+    let names = curves.iter().enumerate();
+    let entries = names.map(|(k, curve)| (curve.name.as_str(), Sample::Line(Stroke::nth(k))));
+    let limits = limit.map(|name| (name, Sample::Line(Stroke::plain(LIMIT))));
+    Sheet::new(title, Key::of(entries.chain(limits))).picture(|area| {
+        let (x, y) = (Axis::linear(x_range.clone(), x), Axis::linear(y_range, y));
+        let mut chart = chart(area, &x, &y, true)?;
+        if limit.is_some() {
+            let ends = [(x_range.start, 1.0), (x_range.end, 1.0)];
+            draw_curve(&mut chart, &ends, Stroke::plain(LIMIT), 2)?;
+        }
         for (k, curve) in curves.iter().enumerate() {
-            draw_curve(&mut chart, &thinned(&curve.points), color(k).stroke_width(2))?;
+            draw_curve(&mut chart, &thinned(&curve.points), Stroke::nth(k), 2)?;
         }
         Ok(())
     })
@@ -52,25 +66,40 @@ pub fn curves(title: &str, x: &str, y: &str, curves: &[Curve]) -> Result<Svg> {
 
 /// One quantity of one or more runs over time, in kN, mm, mrad or per cent.
 ///
+/// Factors of safety are drawn as their inverse, demand over capacity: a curve from zero that shows
+/// at one what was reached, where the factor itself would leave every chart. Of a bonded base it
+/// can be larger; values above four are drawn at four, and the axis says so.
+///
 /// # Errors
 /// As for [`curves`].
 pub fn history(title: &str, runs: &[(&str, &Histories)], quantity: Quantity) -> Result<Svg> {
+    let limit = match quantity {
+        Quantity::SlidingSafety => Some("1: sliding"),
+        Quantity::OverturningSafety => Some("1: on its edge"),
+        _ => None,
+    };
     let (factor, unit) = engineering_unit(quantity);
-    let limited = matches!(quantity, Quantity::SlidingSafety | Quantity::OverturningSafety);
-    let value = |&value: &f64| {
-        if limited && value > MOST_SAFETY { f64::NAN } else { factor * value }
+    let value = |&value: &f64| match limit {
+        Some(_) => value.recip().min(MOST_DEMAND),
+        None => factor * value,
+    };
+    let points = |histories: &Histories| -> Vec<(f64, f64)> {
+        let values = histories.series(quantity).iter().map(value);
+        histories.times().iter().copied().zip(values).collect()
     };
     let curve = |&(name, histories): &(&str, &Histories)| Curve {
-        name: name.to_owned(),
-        points: histories
-            .times()
-            .iter()
-            .copied()
-            .zip(histories.series(quantity).iter().map(value))
-            .collect(),
+        name: name.into(),
+        points: points(histories),
     };
     let list: Vec<Curve> = runs.iter().map(curve).collect();
-    curves(title, "time, s", &with_unit(quantity.name(), unit), &list)
+    let name = quantity.name();
+    let cut = list.iter().flat_map(|curve| &curve.points).any(|point| point.1 == MOST_DEMAND);
+    let y = match (limit, unit) {
+        (Some(_), _) if cut => format!("1 / {name} (larger ones drawn at {MOST_DEMAND})"),
+        (Some(_), _) => format!("1 / {name}"),
+        (None, unit) => with_unit(name, unit),
+    };
+    with_limit(title, "time, s", &y, &list, limit)
 }
 
 /// A probe of one or more runs over time, in its unit, or the one that engineers read for it (see
@@ -106,6 +135,8 @@ fn with_unit(name: &str, unit: &str) -> String {
 fn engineering_unit(quantity: Quantity) -> (f64, &'static str) {
     match quantity {
         Quantity::UpliftedFraction => (1e2, "%"),
+        // Inverted.
+        Quantity::SlidingSafety | Quantity::OverturningSafety => (1.0, ""),
         other => printed(other.unit()),
     }
 }

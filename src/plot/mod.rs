@@ -26,6 +26,7 @@
 
 mod animation;
 mod axes;
+mod base;
 mod energy;
 mod envelope;
 mod key;
@@ -35,7 +36,10 @@ mod mode_map;
 mod png;
 mod shape;
 mod spectra;
+mod stroke;
 mod svg;
+mod text;
+mod ticks;
 
 pub use animation::animation;
 pub use energy::energy;

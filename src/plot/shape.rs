@@ -2,9 +2,11 @@
 
 use plotters::prelude::*;
 
-use super::axes::{COLORS, chart, draw_curve, drawable};
-use super::key::{self, Sample, draw_key};
-use super::svg::{SIZE, Svg, picture};
+use super::axes::{Axis, chart, draw_curve, drawable};
+use super::key::{Key, Sample};
+use super::stroke::Stroke;
+use super::svg::{Sheet, Svg};
+use super::text::short;
 use crate::error::{Error, Result, finite, positive};
 use crate::results::{Histories, MotionFrame, Wireframe};
 
@@ -27,6 +29,10 @@ pub(super) fn places(
         }
     }
 }
+
+/// The soil below its surface, which is y = 0, and the surface itself.
+pub(super) const SOIL: RGBColor = RGBColor(238, 229, 214);
+pub(super) const SURFACE: RGBColor = RGBColor(125, 98, 62);
 
 /// Least and largest coordinates [x, y].
 pub(super) fn bounds(places: &[[f64; 2]]) -> [[f64; 2]; 2] {
@@ -85,30 +91,32 @@ pub fn deformed_shapes(
         let name = format!("t = {:.2} s", frame.time);
         drawn.push((name, places(shape, &frame, magnification)?));
     }
-    let all: Vec<[f64; 2]> = drawn.iter().flat_map(|(_, places)| places.clone()).collect();
-    let color = |k: usize| match k.checked_sub(1) {
-        None => RGBColor(170, 170, 170),
-        Some(k) => COLORS[k % COLORS.len()],
+    let mut all: Vec<[f64; 2]> = drawn.iter().flat_map(|(_, places)| places.clone()).collect();
+    all.push([all[0][0], 0.0]);
+    let stroke = |k: usize| match k.checked_sub(1) {
+        None => Stroke::plain(RGBColor(170, 170, 170)),
+        Some(k) => Stroke::nth(k),
     };
-    let key: Vec<_> =
-        (0..drawn.len()).map(|k| (drawn[k].0.as_str(), Sample::Line(color(k)))).collect();
-    let strip = key::width(key.iter().map(|(name, _)| *name));
-    let [x, y] = ranges(bounds(&all), strip);
-    picture(|area| {
-        let area = draw_key(area, &key)?;
-        let title = format!("{title}, displacements × {magnification}");
-        let mut chart = chart(&area, &title, (x, "x, m"), (y, "y, m"), false)?;
+    let lines = (0..drawn.len()).map(|k| (drawn[k].0.as_str(), Sample::Line(stroke(k))));
+    let scale = format!("displacements × {}", short(magnification));
+    let rest = [("soil", Sample::Area(SOIL)), (&scale, Sample::Nothing)];
+    let sheet = Sheet::new(title, Key::of(lines.chain(rest)));
+    let [x, y] = ranges(bounds(&all), sheet.room());
+    sheet.picture(|area| {
+        let axes = (Axis::linear(x.clone(), "x, m"), Axis::linear(y.clone(), "y, m"));
+        let mut chart = chart(area, &axes.0, &axes.1, false)?;
+        let soil = Rectangle::new([(x.start, y.start), (x.end, 0.0)], SOIL.filled());
+        chart.draw_series([soil])?;
+        draw_curve(&mut chart, &[(x.start, 0.0), (x.end, 0.0)], Stroke::plain(SURFACE), 2)?;
         for (k, (_, places)) in drawn.iter().enumerate() {
-            draw_curve(&mut chart, &outlines(shape, places), color(k).stroke_width(1))?;
+            draw_curve(&mut chart, &outlines(shape, places), stroke(k), 1)?;
         }
         Ok(())
     })
 }
 
-/// Ranges of both axes at one scale, beside a key of `strip` pixels.
-fn ranges([low, high]: [[f64; 2]; 2], strip: u32) -> [std::ops::Range<f64>; 2] {
-    // The plotting area without labels, title and margins.
-    let (width, height) = (f64::from(SIZE.0 - strip) - 126.0, f64::from(SIZE.1) - 106.0);
+/// Ranges of both axes at one scale, in a room of [width, height] pixels.
+fn ranges([low, high]: [[f64; 2]; 2], [width, height]: [f64; 2]) -> [std::ops::Range<f64>; 2] {
     let span = [0, 1].map(|k| (high[k] - low[k]).max(1e-6) * 1.1);
     let scale = (span[0] / width).max(span[1] / height);
     let middle = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];

@@ -1,10 +1,9 @@
 //! Response spectra.
 
-use plotters::prelude::*;
-
-use super::axes::{COLORS, DESCRIPTION, LABEL, TITLE, drawable};
-use super::key::{Sample, draw_key};
-use super::svg::{Svg, picture};
+use super::axes::{Axis, chart, draw_curve, drawable};
+use super::key::Key;
+use super::stroke::Stroke;
+use super::svg::{Sheet, Svg};
 use crate::error::{Error, Result};
 use crate::motion::SpectralOrdinate;
 
@@ -35,39 +34,14 @@ pub fn spectra(title: &str, spectra: &[(&str, &[SpectralOrdinate])]) -> Result<S
     // A single period has no width, and nothing at all no height.
     let periods = if last > first { first..last } else { 0.5 * first..2.0 * first };
     let top = if top > 1e-60 { 1.08 * top } else { 1.0 };
-    let vertical = super::axes::label(&(0.0..top));
-    let color = |k: usize| COLORS[k % COLORS.len()];
-    let key: Vec<_> = (0..spectra.len()).map(|k| (spectra[k].0, Sample::Line(color(k)))).collect();
-    picture(|area| {
-        let area = draw_key(area, &key)?;
-        let mut chart = ChartBuilder::on(&area)
-            .caption(title, TITLE)
-            .margin(14)
-            .margin_right(24)
-            .x_label_area_size(48)
-            .y_label_area_size(88)
-            .build_cartesian_2d(periods.log_scale(), 0.0..top)?;
-        chart
-            .configure_mesh()
-            .x_desc("period, s")
-            .y_desc("pseudo-acceleration, m/s²")
-            .x_label_formatter(&|value| period(*value))
-            .y_label_formatter(&vertical)
-            .label_style(LABEL)
-            .axis_desc_style(DESCRIPTION)
-            .light_line_style(WHITE)
-            .draw()?;
+    Sheet::new(title, Key::of_curves(spectra.iter().map(|(name, _)| *name))).picture(|area| {
+        let x = Axis::logarithmic(periods, "period, s");
+        let y = Axis::linear(0.0..top, "pseudo-acceleration, m/s²");
+        let mut chart = chart(area, &x, &y, true)?;
         for (k, (_, spectrum)) in spectra.iter().enumerate() {
-            let points = spectrum.iter().map(|o| (o.period, o.pseudo_acceleration));
-            let points = points.filter(|point| drawable(point.1));
-            chart.draw_series(LineSeries::new(points, color(k).stroke_width(2)))?;
+            let points = spectrum.iter().map(|o| (o.period.log10(), o.pseudo_acceleration));
+            draw_curve(&mut chart, &points.collect::<Vec<_>>(), Stroke::nth(k), 2)?;
         }
         Ok(())
     })
-}
-
-/// 0.05, 0.1, 2, 10.
-fn period(value: f64) -> String {
-    let text = format!("{value:.3}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

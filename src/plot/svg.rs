@@ -3,11 +3,20 @@
 use std::path::Path;
 
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::axes::{ABOVE, BELOW, LEFT, RIGHT};
+use super::key::Key;
+use super::text::lines;
 use crate::error::{Error, Result, write_file};
 
-/// Size of the pictures, pixels.
-pub(super) const SIZE: (u32, u32) = (1100, 560);
+/// Size of the pictures, pixels; they are higher where title or key need it.
+const SIZE: (u32, u32) = (1100, 560);
+const TITLE: (&str, u32) = ("sans-serif", 22);
+/// Lines of a title; the rest is cut. Pixels for one, and above and below them.
+const TITLE_LINES: usize = 2;
+const TITLE_LINE: u32 = 26;
+const TITLE_ROOM: u32 = 16;
 
 /// Text of a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -23,7 +32,8 @@ impl Svg {
         &self.0
     }
 
-    /// Writes it to a file; its folder is made if it is not there.
+    /// Writes it to a file; its folder is made if it is not there. The text is SVG whatever the
+    /// file's name: programs expect `.svg`. For bitmaps there is `Svg::save_png` (feature `png`).
     ///
     /// # Errors
     /// [`Error::Write`] if that fails.
@@ -38,17 +48,63 @@ pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 /// Whatever goes wrong while drawing into memory.
 pub(super) type Drawing<T> = std::result::Result<T, Box<dyn std::error::Error + Send + Sync>>;
 
-/// Draws on a white sheet.
-pub(super) fn picture(draw: impl FnOnce(&Area<'_>) -> Drawing<()>) -> Result<Svg> {
-    let mut text = String::new();
-    {
-        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-        let drawn = area.fill(&WHITE).map_err(Into::into).and_then(|()| draw(&area));
-        let done = drawn.and_then(|()| area.present().map_err(Into::into));
-        done.map_err(|_| Error::Scene {
-            quantity: "picture",
-            needed: "values that a chart can show: finite, and not all too large",
-        })?;
+/// Title and key with the room between them.
+pub(super) struct Sheet {
+    title: Vec<String>,
+    key: Key,
+    height: u32,
+}
+
+impl Sheet {
+    pub(super) fn new(title: &str, key: Key) -> Self {
+        let title = lines(title, TITLE.1, f64::from(SIZE.0) - 40.0, TITLE_LINES);
+        let mut sheet = Self { title, key, height: SIZE.1 };
+        let top = sheet.top();
+        sheet.height = (SIZE.1 + top - TITLE_LINE - TITLE_ROOM).max(top + sheet.key.height());
+        sheet
     }
-    Ok(Svg::new(text))
+
+    /// Height of the title, pixels.
+    fn top(&self) -> u32 {
+        TITLE_ROOM + TITLE_LINE * u32::try_from(self.title.len()).unwrap_or(1)
+    }
+
+    /// Width and height between the axes of a chart, pixels.
+    pub(super) fn room(&self) -> [f64; 2] {
+        [
+            f64::from(SIZE.0 - self.key.width() - LEFT - RIGHT),
+            f64::from(self.height - self.top() - ABOVE - BELOW),
+        ]
+    }
+
+    /// Draws title, key and what `chart` draws beside it on a white sheet.
+    pub(super) fn picture(&self, chart: impl FnOnce(&Area<'_>) -> Drawing<()>) -> Result<Svg> {
+        let mut text = String::new();
+        {
+            let area = SVGBackend::with_string(&mut text, (SIZE.0, self.height));
+            let area = area.into_drawing_area();
+            let drawn = self.draw(&area, chart);
+            let done = drawn.and_then(|()| area.present().map_err(Into::into));
+            done.map_err(|_| Error::Scene {
+                quantity: "picture",
+                needed: "values that a chart can show: finite, and not all too large",
+            })?;
+        }
+        Ok(Svg::new(text))
+    }
+
+    fn draw(&self, area: &Area<'_>, chart: impl FnOnce(&Area<'_>) -> Drawing<()>) -> Drawing<()> {
+        area.fill(&WHITE)?;
+        let style = TextStyle::from(TITLE.into_font()).pos(Pos::new(HPos::Center, VPos::Center));
+        let middle = i32::try_from(SIZE.0 / 2).unwrap_or(0);
+        let mut y = 24;
+        for line in self.title.iter().filter(|line| !line.is_empty()) {
+            area.draw(&Text::new(line.clone(), (middle, y), style.clone()))?;
+            y += i32::try_from(TITLE_LINE).unwrap_or(0);
+        }
+        let (_, body) = area.split_vertically(self.top());
+        let (left, strip) = body.split_horizontally(SIZE.0 - self.key.width());
+        self.key.draw(&strip)?;
+        chart(&left)
+    }
 }

@@ -268,6 +268,21 @@ impl Element for Double {
         matrix[0] += CORRECT;
     }
 
+    fn geometric_stiffness(&self, _: &[[f64; 2]], matrix: &mut [f64]) {
+        self.0.asked("geometric_stiffness");
+        matrix[0] += 4.0 * CORRECT;
+    }
+
+    fn in_static_state(&self, _: &[[f64; 2]], _: &[f64], _: f64) -> Option<Box<dyn Element>> {
+        self.0.asked("in_static_state");
+        Some(Box::new(Double(self.0.clone())))
+    }
+
+    fn compression(&self) -> Option<f64> {
+        self.0.asked("compression");
+        Some(CORRECT)
+    }
+
     fn mass(&self, _: &[[f64; 2]], _: MassKind, matrix: &mut [f64]) {
         self.0.asked("mass");
         matrix[0] += 2.0 * CORRECT;

@@ -187,9 +187,12 @@ fn boxed_elements() {
         assert_eq!(part.nodes(), [5]);
         assert_eq!(part.directions().len(), 2);
         part.stiffness(&[], &mut matrix);
+        part.geometric_stiffness(&[], &mut matrix);
         part.mass(&[], MassKind::Lumped, &mut matrix);
         part.damping(&[], &mut matrix);
-        assert_eq!(matrix, [6.0 * CORRECT]);
+        assert_eq!(matrix, [10.0 * CORRECT]);
+        assert!(part.in_static_state(&[], &[], 9.0).is_some());
+        assert_eq!(part.compression(), Some(CORRECT));
         assert_eq!(part.check(&[]), Err(doubles::refusal()));
         assert_eq!(part.order(), 11);
     }

@@ -1,0 +1,114 @@
+//! How wide text will be, and what to do where there is no room for it.
+//!
+//! Whoever shows the SVG chooses the font: widths are estimates for a wide one (DejaVu Sans, not
+//! condensed), so that others fit as well.
+
+/// plotters divides sizes of fonts by this.
+const FONT_SCALE: f64 = 1.24;
+/// What stands for the rest of a text that was cut.
+const CUT: char = '…';
+
+/// Width of a letter over the font's size.
+fn letter(c: char) -> f64 {
+    match c {
+        'i' | 'j' | 'l' | 'I' | '|' | '!' | '.' | ',' | ':' | ';' | '\'' | ' ' => 0.37,
+        'm' | 'w' | 'M' | 'W' | '%' | '@' | '—' | '…' | 'Æ' | 'Œ' | 'Ω' => 1.01,
+        '0'..='9' | 'a'..='z' => 0.64,
+        // Hangul, Kana, Chinese, signs and pictures are square.
+        '\u{1100}'..='\u{115f}' | '\u{2e80}'.. => 1.1,
+        _ => 0.82,
+    }
+}
+
+/// Width of a text, pixels, in a font of so many points of plotters.
+pub(super) fn width(text: &str, size: u32) -> f64 {
+    text.chars().map(letter).sum::<f64>() * f64::from(size) / FONT_SCALE
+}
+
+/// The text in lines of at most `room` pixels, between words where that can be; what needs more
+/// than `most` lines is cut, and ends in "…".
+pub(super) fn lines(text: &str, size: u32, room: f64, most: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    let mut cut = false;
+    'all: for word in text.split_whitespace() {
+        let mut line = lines.len() - 1;
+        if !lines[line].is_empty() {
+            // The last line takes of the word what it can.
+            let fits = width(&format!("{} {word}", lines[line]), size) <= room;
+            if fits || lines.len() == most {
+                lines[line].push(' ');
+            } else {
+                lines.push(String::new());
+                line += 1;
+            }
+        }
+        for c in word.chars() {
+            let wider = width(&format!("{}{c}", lines[line]), size) > room;
+            if wider && lines.len() == most {
+                cut = true;
+                break 'all;
+            }
+            if wider {
+                lines.push(String::new());
+                line += 1;
+            }
+            lines[line].push(c);
+        }
+    }
+    if let (true, Some(last)) = (cut, lines.last_mut()) {
+        while !last.is_empty() && width(&format!("{last}{CUT}"), size) > room {
+            last.pop();
+        }
+        *last = format!("{}{CUT}", last.trim_end());
+    }
+    lines
+}
+
+/// The text, cut where it is wider than `room` pixels.
+pub(super) fn fitted(text: &str, size: u32, room: f64) -> String {
+    lines(text, size, room, 1).swap_remove(0)
+}
+
+/// A number in four digits.
+pub(super) fn short(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        format!("{value:.3e}").parse::<f64>().unwrap_or(value).to_string()
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_break_between_words_and_end_in_a_sign_if_cut() {
+        assert_eq!(lines("", 15, 100.0, 2), [""]);
+        assert_eq!(lines("base shear", 15, 400.0, 2), ["base shear"]);
+        assert_eq!(lines("base shear", 15, 60.0, 2), ["base", "shear"]);
+        assert_eq!(fitted("base shear", 15, 60.0), "base s…");
+        let long = "x".repeat(1000);
+        let three = lines(&long, 15, 80.0, 3);
+        assert_eq!(three.len(), 3);
+        assert!(three[2].ends_with('…') && !three[1].ends_with('…'));
+        assert!(three.iter().all(|line| width(line, 15) <= 80.0));
+        // A word too long for a line is broken, and what follows is not lost.
+        let broken = lines(&format!("{} end", "x".repeat(15)), 15, 80.0, 9);
+        assert_eq!(broken.concat().replace(' ', ""), format!("{}end", "x".repeat(15)));
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (0.0, "0"),
+            (50.0, "50"),
+            (1.0 / 3.0, "0.3333"),
+            (123_456.0, "123500"),
+            (1.234e-7, "1.2e-7"),
+            (2e9, "2.0e9"),
+        ] {
+            assert_eq!(short(value), text);
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Where the texts of an SVG are: none may leave the sheet or touch another.
+
+/// A text and its box: left, top, right, bottom.
+type Placed = (String, [f64; 4]);
+
+/// Panics if a text that can be seen is not on the sheet, or touches another one.
+pub(crate) fn assert_readable(svg: &str, name: &str) {
+    let (texts, [width, height]) = texts(svg);
+    assert!(!texts.is_empty(), "{name}: no texts");
+    for (k, (text, place)) in texts.iter().enumerate() {
+        let [left, top, right, bottom] = *place;
+        let inside = left >= 0.0 && top >= 0.0 && right <= width && bottom <= height;
+        assert!(inside, "{name}: {text:?} at {place:?} leaves {width} by {height}");
+        for (other, [l, t, r, b]) in &texts[..k] {
+            let apart = right <= *l || *r <= left || bottom <= *t || *b <= top;
+            assert!(apart, "{name}: {text:?} at {place:?} touches {other:?} at {:?}", [l, t, r, b]);
+        }
+    }
+}
+
+/// As the renderer of PNG files lays it out, in a font that is wider than the one of those files.
+#[cfg(feature = "png")]
+fn texts(svg: &str) -> (Vec<Placed>, [f64; 2]) {
+    use resvg::usvg::{Group, Node, Options, TextChunk, TextSpan, Tree};
+    fn collect(group: &Group, texts: &mut Vec<Placed>) {
+        for node in group.children() {
+            match node {
+                Node::Group(group) => collect(group, texts),
+                Node::Text(text) => {
+                    let words: String = text.chunks().iter().map(TextChunk::text).collect();
+                    let place = text.abs_bounding_box();
+                    let sides = [place.left(), place.top(), place.right(), place.bottom()];
+                    let mut spans = text.chunks().iter().flat_map(TextChunk::spans);
+                    if spans.any(TextSpan::is_visible) {
+                        texts.push((words, sides.map(f64::from)));
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    let mut options = Options::default();
+    options.fontdb_mut().load_font_data(dejavu::sans::regular().to_vec());
+    options.fontdb_mut().set_sans_serif_family("DejaVu Sans");
+    let tree = Tree::from_str(svg, &options).unwrap();
+    let mut texts = Vec::new();
+    collect(tree.root(), &mut texts);
+    (texts, [tree.size().width(), tree.size().height()].map(f64::from))
+}
+
+/// By the attributes that plotters and the animation write, 0.6 of the font's size for a letter.
+#[cfg(not(feature = "png"))]
+fn texts(svg: &str) -> (Vec<Placed>, [f64; 2]) {
+    let attribute = |tag: &str, name: &str| {
+        let value = tag.split(&format!(" {name}=\"")).nth(1)?;
+        value.split('"').next().map(str::to_owned)
+    };
+    let number = |tag: &str, name: &str| attribute(tag, name).and_then(|text| text.parse().ok());
+    let sheet = svg.split('>').next().unwrap();
+    let size = ["width", "height"].map(|side| number(sheet, side).unwrap());
+    let default: f64 = number(sheet, "font-size").unwrap_or(16.0);
+    let mut texts = Vec::new();
+    for piece in svg.split("<text").skip(1) {
+        let (tag, rest) = piece.split_once('>').unwrap();
+        let words = rest.split('<').next().unwrap().trim();
+        let words = words.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&");
+        if words.is_empty() || attribute(tag, "visibility").as_deref() == Some("hidden") {
+            continue;
+        }
+        let em = number(tag, "font-size").unwrap_or(default);
+        let length = 0.6 * em * words.chars().count() as f64;
+        let [x, y] = ["x", "y"].map(|name| number(tag, name).unwrap());
+        let start = match attribute(tag, "text-anchor").as_deref() {
+            Some("middle") => -0.5 * length,
+            Some("end") => -length,
+            _ => 0.0,
+        };
+        let shift = match attribute(tag, "dy").as_deref() {
+            Some("0.76em") => 0.76 * em,
+            Some("0.5ex") => 0.25 * em,
+            Some("-0.5ex") => -0.25 * em,
+            _ => 0.0,
+        };
+        let (top, bottom) = (shift - 0.76 * em, shift + 0.24 * em);
+        let place = match attribute(tag, "transform") {
+            None => [x + start, y + top, x + start + length, y + bottom],
+            // Turned to the left.
+            Some(turn) if turn.starts_with("rotate(270") => {
+                [x + top, y - start - length, x + bottom, y - start]
+            }
+            Some(turn) => panic!("{turn}"),
+        };
+        texts.push((words, place));
+    }
+    (texts, size)
+}
