@@ -115,7 +115,7 @@ fn rayleigh_waves_have_the_roots_of_other_precision() {
         (0.5 - 1e-10, 0.955_312_501_025_631_5, 1.839_286_755_214_161, 1e-9),
     ] {
         let soil = soil(poisson);
-        let wave = PlaneWave::rayleigh(&soil);
+        let wave = PlaneWave::rayleigh(soil);
         let [_, [none, up]] = wave.amplification();
         assert_eq!(none, 0.0);
         assert!((up / ratio - 1.0).abs() < tolerance, "{poisson}: {up}");
@@ -126,7 +126,7 @@ fn rayleigh_waves_have_the_roots_of_other_precision() {
 
 /// A wave whose vertical component is `factor` times the Hilbert transform of the horizontal one.
 fn rayleigh() -> (PlaneWave, f64) {
-    let wave = PlaneWave::rayleigh(&soil(1.0 / 3.0));
+    let wave = PlaneWave::rayleigh(soil(1.0 / 3.0));
     let factor = wave.amplification()[1][1];
     (wave, factor)
 }
@@ -168,7 +168,7 @@ fn the_late_component_of_a_pulse_has_its_closed_form() {
 #[test]
 fn quiet_time_changes_nothing_but_the_start() {
     let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();
-    let beyond = PlaneWave::sv(&soil(1.0 / 3.0), 35.0_f64.to_radians()).unwrap();
+    let beyond = PlaneWave::sv(soil(1.0 / 3.0), 35.0_f64.to_radians()).unwrap();
     for wave in [rayleigh().0, beyond] {
         let times = [0.5, 2.0, 10.0, 20.0, 30.0, 40.0, 90.0];
         let moved = |before: f64, after: f64| {
@@ -227,7 +227,7 @@ fn records_that_do_not_end_at_rest_are_refused() {
     }
     assert!(wave.field_from_horizontal(&Record::new(0.1, vec![0.0; 5]).unwrap(), 0.0).is_ok());
     // In phase it does not matter.
-    let steep = PlaneWave::sv(&soil(0.25), 0.3).unwrap();
+    let steep = PlaneWave::sv(soil(0.25), 0.3).unwrap();
     assert!(steep.field_from_horizontal(&drifting, 0.0).is_ok());
 }
 
