@@ -12,7 +12,7 @@ use basemat::interface::{Coulomb, Mode};
 use basemat::motion::{SpectralOrdinate, el_centro_1940};
 use basemat::plot::{self, Curve, Svg};
 use basemat::results::{Histories, Quantity, Recorder, WirePoint, Wireframe};
-use basemat::structure::{RigidBlock, StructureGroup};
+use basemat::structure::{RigidBlock, Row, StructureGroup};
 use basemat::{Error, Simulation};
 use layout::assert_readable;
 use scenes::{SI, block, friction, scene};
@@ -259,8 +259,8 @@ fn apart(distances: &[f64]) -> (Histories, Wireframe) {
         group = group.with(block(SI), *distance).unwrap();
         strips.push(Strip::uniform(distance - 2.0..distance + 2.0, 4).unwrap());
         let first = points.len();
-        let shift = |row: &[(usize, f64)]| {
-            row.iter().map(|(unknown, weight)| (unknown + 3 * (k + 1), *weight)).collect()
+        let shift = |row: &Row| {
+            row.into_iter().map(|(unknown, weight)| (unknown + 3 * (k + 1), *weight)).collect()
         };
         let moved = single.points().iter().map(|point| WirePoint {
             position: [point.position[0] + distance, point.position[1]],
