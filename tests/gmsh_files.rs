@@ -51,7 +51,7 @@ fn elements_groups_and_lines_are_those_of_the_file() {
         assert_eq!(gmsh.lines(), ["base", "roof"]);
         let model = model(&gmsh);
         let elements = model.mesh().elements();
-        assert!(elements.iter().all(|element| element.nodes().len() == nodes));
+        assert!(elements.clone().all(|element| element.nodes().len() == nodes));
         for (line, height) in [("base", 0.0), ("roof", 5.0)] {
             let line: Vec<[f64; 2]> =
                 gmsh.line(line).unwrap().into_iter().map(|node| gmsh.nodes()[node]).collect();
