@@ -84,11 +84,11 @@ fn all_parts_can_be_shown() {
 #[test]
 fn simulations_can_move_between_threads() {
     fn is_send<T: Send>() {}
+    fn is_sync<T: Sync>() {}
     is_send::<Simulation>();
     is_send::<SimulationBuilder>();
     is_send::<Run>();
     is_send::<basemat::coupled::State>();
-    fn is_sync<T: Sync>() {}
     is_sync::<basemat::structure::ReducedModel>();
     let mut simulation =
         shaken().structure(block()).ground(bed(4)).interface(Bonded).build().unwrap();
