@@ -15,7 +15,7 @@ const SEMI_DEFINITE: f64 = 1e-6;
 ///
 /// The unknowns are absolute displacements in m and rotations in rad, in any order; the structure
 /// is **free**, without supports: the ground holds it up, so a rigid ride must give no elastic
-/// force. Matrices are per metre of thickness. They may come from Matrix Market files
+/// force beyond rounding (entries of ten digits may leave too much, those of twelve do not). Matrices are per metre of thickness. They may come from Matrix Market files
 /// ([`Triplets::read_matrix_market`]); large models march faster after a
 /// [`CraigBampton`](super::CraigBampton) reduction.
 ///
