@@ -39,6 +39,11 @@ fn peer_headers_vary() {
         "ACCELERATION TIME SERIES IN UNITS OF G\nNPTS=   4, DT=   .0100 SEC,\n",
         "ACCELERATION TIME HISTORY IN UNITS OF G.\nNPTS= 4, DT= .01000 SEC\n",
         "ACCELERATION TIME SERIES IN UNITS OF G\nNPTS=4, DT=.01\n",
+        "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz\n\
+         NPTS=   4, DT=  .01000 SEC\n",
+        "Acceleration time series in units of g (9.81)\n4  .01  NPTS, DT\n",
+        "ACCELERATION TIME SERIES (G)\nNPTS= 4, DT= .01\n",
+        "UNITS OF G\nNPTS=      4  DT=  0.0100 SEC,\n",
         "ACCELERATION TIME SERIES IN UNITS OF G\n   4    .0100    NPTS, DT\n",
         "ACCELERATION TIME SERIES IN UNITS OF G\n 4, 0.0100, NPTS, DT\n",
         "ACCELERATION TIME SERIES IN UNITS OF G\nNPTS =   4, DT =  1.0E-02SEC\n",
@@ -64,11 +69,32 @@ fn peer_files_that_do_not_hold_what_they_say_are_refused() {
     }
     let (_, reason) = refusal(&format!("{PEER_TITLE}no numbers\n"), &PeerFormat);
     assert!(matches!(reason, RecordError::Missing { .. }));
-    for other in ["VELOCITY TIME SERIES IN UNITS OF CM/S", "ACCELERATION IN UNITS OF CM/S/S"] {
+    for other in [
+        "VELOCITY TIME SERIES IN UNITS OF CM/S",
+        "VELOCITY TIME SERIES (CM/S)",
+        "VELOCITY TIME HISTORY",
+        "DISPLACEMENT TIME SERIES IN UNITS OF CM",
+        "ACCELERATION IN UNITS OF CM/S/S",
+        "ACCELERATION TIME SERIES (CM/S/S)",
+        "ACCELERATION TIME SERIES IN UNITS OF GAL",
+    ] {
         let text = format!("{PEER_TITLE}{other}\nNPTS= 2, DT= .01 SEC\n1 2\n");
         let (line, reason) = refusal(&text, &PeerFormat);
         assert!(line == 3 && matches!(reason, RecordError::NotAcceleration { .. }), "{reason}");
     }
+}
+
+#[test]
+fn peer_files_must_name_their_unit() {
+    for header in ["", "SAN FRANCISCO (G)\n", "ACCELERATION TIME SERIES\n"] {
+        let text = format!("{PEER_TITLE}{header}NPTS= 2, DT= .01 SEC\n1 2\n");
+        let (line, reason) = refusal(&text, &PeerFormat);
+        assert_eq!(line, if header.is_empty() { 3 } else { 4 });
+        assert_eq!(reason, RecordError::Missing { quantity: "unit (UNITS OF G)" });
+    }
+    // A step that is a number, but no record's.
+    let text = format!("{PEER_TITLE}UNITS OF G\nNPTS= 2, DT= 1e308 SEC\n1 2\n");
+    assert!(matches!(refusal(&text, &PeerFormat), (0, RecordError::Unusable(_))));
 }
 
 fn counted(found: usize, needed: usize) -> RecordError {
@@ -160,6 +186,67 @@ fn cosmos_takes_the_interval_from_its_real_header() {
     assert!(matches!(reason, RecordError::NotAcceleration { .. }));
 }
 
+/// What Fortran prints without a space between.
+#[test]
+fn full_columns_may_touch() {
+    let csmip = |format: &str, body: &str| {
+        let title = "4 points of accel data equally spaced at  .020 sec, in cm/sec2.";
+        format!("{title} {format}\n{body}\n")
+    };
+    let read = |format: &str, body: &str| read(&csmip(format, body), &CosmosFormat::default());
+    let wanted = [0.091_234_5, 0.101_234_5, 0.111_234_5, 0.123_45];
+    same(&read("(4F8.5)", " 9.1234510.1234511.1234512.34500").unwrap(), 0.02, &wanted);
+    same(&read("(2F8.5)", " 9.1234510.12345\n11.1234512.345").unwrap(), 0.02, &wanted);
+    same(&read(",Format=4F8.5", " 9.1234510.1234511.1234512.34500").unwrap(), 0.02, &wanted);
+    same(&read("(2I4)", "12345678\n   1  -2").unwrap(), 0.02, &[12.34, 56.78, 0.01, -0.02]);
+    same(
+        &read("(4D9.2)", " 1.00D+02 2.00D+01-3.00D+00 4.00D-01").unwrap(),
+        0.02,
+        &[1.0, 0.2, -0.03, 0.004],
+    );
+    // Lines that do not keep to the format are read as they stand.
+    same(&read("(8F10.5)", "1 -2.5\n3 4").unwrap(), 0.02, &[0.01, -0.025, 0.03, 0.04]);
+    same(&read("", "1 -2.5 3-4").unwrap(), 0.02, &[0.01, -0.025, 0.03, -0.04]);
+    for (format, body) in [
+        // Too wide for its column, as Fortran marks it.
+        ("(4F8.5)", " 1.00000******** 2.00000 3.00000"),
+        // Without the format nothing tells where one number ends.
+        ("", "9.1234510.1234511.1234512.34500"),
+    ] {
+        let (line, reason) = refusal(&csmip(format, body), &CosmosFormat::default());
+        assert!(line == 2 && matches!(reason, RecordError::NotANumber { .. }), "{reason}");
+    }
+}
+
+/// A thousandth of a gal is no gal, and a gallery no unit.
+#[test]
+fn units_of_cosmos_files_are_words() {
+    let with = |units: &str| {
+        CSMIP.replace("in cm/sec2. (8f10.3)", units).replace("Corrected", "Galileo Street")
+    };
+    let unit = AccelerationUnit::MetrePerSecondSquared;
+    for units in ["in mgal. (8f10.3)", "units=mgal", "in cm/sec. (8f10.3)", "units=counts (50)"] {
+        for format in [CosmosFormat::default(), CosmosFormat::default().with_unit(unit)] {
+            let (line, reason) = refusal(&with(units), &format);
+            assert!(line == 2 && matches!(reason, RecordError::NotAcceleration { .. }), "{units}");
+        }
+    }
+    let values = [1.0, -12345.678, 3.0];
+    for (units, factor) in
+        [("in gal. (8f10.3)", 0.01), ("units=cm/s^2 (4)", 0.01), ("in G (8f10.3)", GRAVITY)]
+    {
+        let record = read(&with(units), &CosmosFormat::default().with_unit(unit)).unwrap();
+        same(&record, 0.02, &values.map(|a| a * factor));
+    }
+    // Old files name no unit.
+    let old = with("");
+    assert!(matches!(
+        refusal(&old, &CosmosFormat::default()),
+        (2, RecordError::NotAcceleration { .. })
+    ));
+    same(&read(&old, &CosmosFormat::default().with_unit(unit)).unwrap(), 0.02, &values);
+}
+
 /// El Centro, printed as each of the formats print, comes back to the digits printed.
 #[test]
 fn el_centro_survives_all_formats() {
@@ -177,8 +264,30 @@ fn el_centro_survives_all_formats() {
         "{count} points of accel data equally spaced at  .020 sec, in cm/sec2. (8f10.3)\n{}",
         rows(in_g.iter().map(|a| format!("{:10.4}", a * 100.0 * GRAVITY)).collect(), 8)
     );
-    let formats: [(String, &dyn RecordFormat); 2] =
-        [(peer, &PeerFormat), (csmip, &CosmosFormat::default())];
+    let gal: Vec<f64> = record.accelerations().iter().map(|a| a * 100.0).collect();
+    let mut header = vec![-999.0; 100];
+    header[33] = 20.0;
+    let cosmos = format!(
+        "Corrected acceleration (Format v01.20 with 13 text lines)\n\
+         100 Real-header values follow on  17 lines, Format= (6F13.6)\n{}\
+         {count} acceleration pts, approx  31 secs, units=cm/s^2 (4),Format=(10F9.4)\n{}\
+         End-of-data for Chan  1 acceleration\n",
+        rows(header.iter().map(|value| format!("{value:13.6}")).collect(), 6),
+        rows(gal.iter().map(|a| format!("{a:9.4}")).collect(), 10)
+    );
+    // Counts of a ten-thousandth of a gal.
+    let k_net = format!(
+        "Origin Time       1940/05/19 13:36:00\nStation Code      ELC\nSampling Freq(Hz) 50Hz\n\
+         Duration Time(s)  31.2\nDir.              N-S\nScale Factor      2000(gal)/20000000\n\
+         Max. Acc. (gal)   312.655\nMemo.\n{}",
+        rows(gal.iter().map(|a| format!("{:9.0}", a * 1e4)).collect(), 8)
+    );
+    let formats: [(String, &dyn RecordFormat); 4] = [
+        (peer, &PeerFormat),
+        (csmip, &CosmosFormat::default()),
+        (cosmos, &CosmosFormat::default()),
+        (k_net, &KNetFormat),
+    ];
     for (text, format) in formats {
         let read = read(&text, format).unwrap();
         assert_eq!((read.len(), read.time_step()), (count, 0.02));

@@ -43,9 +43,17 @@ fn reader_takes_every_usual_layout() {
         "# a comment\ntime, acceleration\n# another\n0 , 0\n0.02 , 1.5\n0.04 , -0.25\n# end",
         "\u{feff}t a\n0 0 9 9\n0.02 1.5 x y\n0.04 -0.25\n",
         "5.00,0\n5.02,1.5\n5.04,-0.25\n",
+        "time; acceleration\r\n0;0\r\n0.02 ; 1.5\r\n0.04;\t-0.25\r\n",
     ] {
         assert_eq!(read(text).unwrap(), wanted, "{text:?}");
     }
+    let alone = ColumnFormat::equally_spaced(METRIC, 0.02);
+    for text in ["0\n1.5\n-0.25", "# 0.02 s\nacceleration\n 0.0 \r\n\n+1.5\n-25e-2\n"] {
+        assert_eq!(Record::from_reader("text", text.as_bytes(), &alone).unwrap(), wanted);
+    }
+    let third = alone.with_acceleration_column(3).with_samples(3);
+    let text = b"9;9;0\n9;x;1.5\n8;9;-0.25\n";
+    assert_eq!(Record::from_reader("text", &text[..], &third).unwrap(), wanted);
     let swapped = b"1 0.0 0\n2 1.5 0.02\n3 -0.25 0.04\n";
     let format = metric().with_columns(3, 2).with_samples(3);
     assert_eq!(Record::from_reader("text", &swapped[..], &format).unwrap(), wanted);
@@ -82,7 +90,7 @@ fn units_are_converted() {
 #[test]
 fn reader_refuses_with_line_and_reason() {
     let format = metric();
-    let cases: [(&[u8], usize, RecordError); 17] = [
+    let cases: [(&[u8], usize, RecordError); 20] = [
         (b"", 0, RecordError::TooShort { found: 0, needed: 2 }),
         (b"# only\n\ncomments\n", 0, RecordError::TooShort { found: 0, needed: 2 }),
         (b"0 1\n", 1, RecordError::TooShort { found: 1, needed: 2 }),
@@ -93,6 +101,10 @@ fn reader_refuses_with_line_and_reason() {
         (b"0 1\n1\n", 2, RecordError::Column { found: 1, needed: 2 }),
         (b"0,1\n1,\n", 2, not_a_number("")),
         (b"0,1\n,1\n", 2, not_a_number("")),
+        (b"0;1\n1;;1\n", 2, not_a_number("")),
+        // Decimal commas.
+        (b"0;1\n0,02;1\n", 2, not_a_number("0,02")),
+        (b"0;1\n1;1,5\n", 2, not_a_number("1,5")),
         (b"t a\nt a\n0 0\n1 1\n", 2, not_a_number("t")),
         (b"0 0\nt a\n1 1\n", 2, not_a_number("t")),
         (b"0 x\n1 1\n", 1, not_a_number("x")),
@@ -119,6 +131,38 @@ fn reader_refuses_wrong_columns_and_counts() {
     // the acceleration taken for the time
     let found = refusal(b"0 1\n1 3\n2 9\n", &metric().with_columns(2, 1));
     assert_eq!(found, (3, RecordError::UnequalStep { found: 6.0, expected: 2.0 }));
+}
+
+#[test]
+fn a_single_column_is_single() {
+    let alone = ColumnFormat::equally_spaced(METRIC, 0.02);
+    let found = refusal(b"1\n2 3\n", &alone);
+    assert_eq!(found, (2, RecordError::SeveralColumns { found: 2 }));
+    let found = refusal(b"0.00,1\n0.02,2\n", &alone);
+    assert_eq!(found, (1, RecordError::SeveralColumns { found: 2 }));
+    let found = refusal(b"1\n2\n3\n", &alone.with_samples(2));
+    assert_eq!(found, (3, RecordError::SampleCount { found: 3, needed: 2 }));
+    let found = refusal(b"1\n2\n", &alone.with_acceleration_column(2));
+    assert_eq!(found, (1, RecordError::Column { found: 1, needed: 2 }));
+    for step in [0.0, -0.02, f64::NAN, f64::INFINITY] {
+        let format = ColumnFormat::equally_spaced(METRIC, step);
+        let (line, reason) = refusal(b"1\n2\n", &format);
+        assert!(line == 0 && matches!(reason, RecordError::Unusable(_)), "{reason}");
+    }
+    // A time column after all.
+    let record = Record::from_reader("", &b"0 5\n1 6\n"[..], &alone.with_columns(1, 2)).unwrap();
+    assert_eq!((record.time_step(), record.accelerations()), (1.0, &[5.0, 6.0][..]));
+}
+
+#[test]
+fn numbers_that_make_no_record_name_the_file() {
+    let (line, reason) = refusal(b"0 1e200\n1e200 1e200\n", &metric());
+    assert_eq!(line, 0);
+    let RecordError::Unusable(error) = reason else { panic!("{reason}") };
+    assert!(
+        matches!(*error, Error::Input { quantity: "displacement of the record", .. }),
+        "{error}"
+    );
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Files of ground motions.
 
+use super::Error;
+
 /// What is wrong with a line of a record.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -79,6 +81,15 @@ pub enum RecordError {
         /// Channel asked for.
         needed: usize,
     },
+    /// A line has several columns where one was expected.
+    #[error("{found} columns, but one was expected (name the one of the acceleration)")]
+    SeveralColumns {
+        /// Columns found.
+        found: usize,
+    },
+    /// The numbers can be read, but make no record.
+    #[error("{0}")]
+    Unusable(Box<Error>),
     /// A line is too long to be one of numbers.
     #[error("no line end in {bytes} bytes")]
     LineTooLong {

@@ -2,6 +2,7 @@
 
 use std::io::{BufReader, Read};
 
+use super::fixed_columns::FixedColumns;
 use crate::bounded_line::read_line;
 use crate::error::{Error, RecordError, Result};
 
@@ -23,6 +24,11 @@ impl<'a> Lines<'a> {
 
     /// The next line, or none at the end.
     pub(super) fn next(&mut self) -> Reason<Option<String>> {
+        Ok(self.next_columns()?.map(|line| line.trim_start().to_owned()))
+    }
+
+    /// The next line with the white space at its beginning.
+    fn next_columns(&mut self) -> Reason<Option<String>> {
         let line = self.number + 1;
         if !read_line(&mut self.source, &mut self.bytes).map_err(|unread| (line, unread.into()))? {
             return Ok(None);
@@ -31,7 +37,7 @@ impl<'a> Lines<'a> {
         // Bytes that are not UTF-8 become signs that are no number; in comments they do not matter.
         let lossy = String::from_utf8_lossy(&self.bytes);
         let text = if line == 1 { lossy.trim_start_matches('\u{feff}') } else { &lossy };
-        Ok(Some(text.trim().to_owned()))
+        Ok(Some(text.trim_end().to_owned()))
     }
 
     /// The error for the last line given.
@@ -74,15 +80,37 @@ pub(super) fn push_numbers(
     Ok(())
 }
 
+/// Appends the numbers of a line of these columns; free ones if it does not keep to them.
+fn push_columns(
+    line: &str,
+    columns: Option<FixedColumns>,
+    values: &mut Vec<f64>,
+) -> std::result::Result<(), RecordError> {
+    // Double precision prints 1.5D+02.
+    let value = |field: &str| number(&field.replace(['D', 'd'], "E")).ok();
+    let fields = columns.and_then(|columns| columns.fields(line));
+    let numbers =
+        fields.and_then(|fields| fields.into_iter().map(value).collect::<Option<Vec<_>>>());
+    match numbers {
+        Some(numbers) => values.extend(numbers),
+        None => push_numbers(line, values)?,
+    }
+    Ok(())
+}
+
 /// Reads exactly `needed` numbers, from the next line on.
-pub(super) fn read_numbers(lines: &mut Lines, needed: usize) -> Reason<Vec<f64>> {
+pub(super) fn read_numbers(
+    lines: &mut Lines,
+    needed: usize,
+    columns: Option<FixedColumns>,
+) -> Reason<Vec<f64>> {
     let mut values = Vec::new();
     while values.len() < needed {
-        let Some(line) = lines.next()? else {
+        let Some(line) = lines.next_columns()? else {
             let found = values.len();
             return Err(lines.refuse(RecordError::SampleCount { found, needed }));
         };
-        push_numbers(&line, &mut values).map_err(|reason| lines.refuse(reason))?;
+        push_columns(&line, columns, &mut values).map_err(|reason| lines.refuse(reason))?;
     }
     if values.len() > needed {
         let found = values.len();
@@ -127,7 +155,9 @@ pub(super) fn scaled(values: Vec<f64>, factor: f64) -> Vec<f64> {
 /// Time step and acceleration as a record, errors named after `file`.
 pub(super) fn record(file: &str, parsed: Reason<(f64, Vec<f64>)>) -> Result<super::Record> {
     let (step, samples) = parsed.map_err(refused(file))?;
-    super::Record::new(step, samples)
+    // What no single line is to blame for.
+    let reason = |error| RecordError::Unusable(Box::new(error));
+    super::Record::new(step, samples).map_err(|error| refused(file)((0, reason(error))))
 }
 
 #[cfg(test)]

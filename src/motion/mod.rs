@@ -12,6 +12,7 @@ mod content;
 mod cosmos;
 mod el_centro;
 mod filter;
+mod fixed_columns;
 mod format;
 mod hilbert;
 mod integral;

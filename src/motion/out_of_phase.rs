@@ -143,9 +143,12 @@ mod tests {
         let count = record.len();
         let late = Late::new(&record).unwrap();
         let direct = hilbert(record.displacements(), count).unwrap();
-        for (found, known) in late.displacement.iter().zip(&direct) {
-            assert!((found - (known - direct[count])).abs() < 1e-5, "{found} {known}");
-        }
+        let differences =
+            late.displacement.iter().zip(&direct).map(|(w, u)| w - (u - direct[count]));
+        let worst = differences.fold(0.0_f64, |most, d| most.max(d.abs()));
+        // The corners of the record are above the highest frequency of its samples, and seen by the
+        // two ways differently; displacements are 0.2 m.
+        assert!(worst < 1e-4, "{worst:e}");
     }
 
     /// No seam where the sums take over, and V is the slope of W everywhere.

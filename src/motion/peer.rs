@@ -8,6 +8,7 @@ use super::lines::{
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
 
+const G: AccelerationUnit = AccelerationUnit::StandardGravity;
 /// Lines among which the number of points and the time step must stand.
 const HEADER_LINES: usize = 12;
 
@@ -16,8 +17,10 @@ const HEADER_LINES: usize = 12;
 /// A header of text, of which the last line gives the number of points and the time step, as
 /// `NPTS=  5372, DT=   .0100 SEC` or, in older files, `5372  .0100  NPTS, DT`; then the
 /// acceleration in units of g, several to a line. Numbers may touch where the second is negative.
-/// Files of velocity or displacement, and other units than g, are refused, and so is a file with
-/// fewer or more numbers than it says.
+/// A line of the header must say that the unit is g: `ACCELERATION TIME SERIES IN UNITS OF G`, with
+/// or without text behind it (`. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz`), or
+/// `ACCELERATION TIME HISTORY (G)`. Files that do not, files of velocity or displacement, other
+/// units, and fewer or more numbers than a file says are refused.
 ///
 /// ```
 /// use basemat::motion::{PeerFormat, Record};
@@ -42,27 +45,56 @@ impl RecordFormat for PeerFormat {
 
 fn read(lines: &mut Lines) -> Reason<(f64, Vec<f64>)> {
     let missing = RecordError::Missing { quantity: "number of points and time step (NPTS, DT)" };
+    let mut in_g = false;
     let (points, step) = loop {
         let line = match lines.next()? {
             Some(line) if lines.number <= HEADER_LINES => line.to_ascii_uppercase(),
             _ => return Err(lines.refuse(missing)),
         };
-        if let Some((_, unit)) = line.split_once("UNITS OF") {
-            let unit = unit.trim().trim_end_matches('.');
-            let acceleration = !(line.contains("VELOCITY") || line.contains("DISPLACEMENT"));
-            if !(acceleration && matches!(unit, "G" | "G'S")) {
+        match acceleration_in_g(&line) {
+            Some(false) => {
                 let text = line.chars().take(60).collect();
                 return Err(lines.refuse(RecordError::NotAcceleration { text }));
             }
+            said => in_g |= said.is_some(),
         }
         if line.contains("NPTS") && line.contains("DT") {
             break header(&line).ok_or_else(|| lines.refuse(missing))?;
         }
     };
-    let factor = AccelerationUnit::StandardGravity.in_metres_per_second_squared();
-    let values = read_numbers(lines, points)?;
+    if !in_g {
+        return Err(lines.refuse(RecordError::Missing { quantity: "unit (UNITS OF G)" }));
+    }
+    let factor = G.in_metres_per_second_squared();
+    let values = read_numbers(lines, points, None)?;
     end_of_numbers(lines, points)?;
     Ok((step, scaled(values, factor)))
+}
+
+/// Whether a line of the header, in upper case, says that the numbers are accelerations in g, or
+/// something else; none if it says neither.
+fn acceleration_in_g(line: &str) -> Option<bool> {
+    let kind = ["ACCELERATION", "VELOCITY", "DISPLACEMENT"].map(|kind| line.contains(kind));
+    // The word after `key`, whatever follows it.
+    let word = |key| {
+        let after = line.split_once(key)?.1.trim_start();
+        after.split([' ', '\t', '.', ',', ';', '(', ')']).next()
+    };
+    let unit = match word("UNITS OF") {
+        None if kind[0] => word(" IN ").or_else(|| word("(")).filter(|&unit| is_unit(unit)),
+        stated => stated,
+    };
+    match (kind, unit) {
+        ([_, false, false], Some(unit)) => Some(AccelerationUnit::named(unit) == Some(G)),
+        ([_, false, false], None) => None,
+        // A title may well speak of velocity.
+        (_, unit) => (unit.is_some() || line.contains("TIME")).then_some(false),
+    }
+}
+
+/// Whether a word after ACCELERATION may be meant as its unit.
+fn is_unit(word: &str) -> bool {
+    AccelerationUnit::named(word).is_some() || word.contains("/S")
 }
 
 /// Number of points and time step.
@@ -74,4 +106,41 @@ fn header(line: &str) -> Option<(usize, f64)> {
         (fields.next()?.parse().ok()?, fields.next()?.parse().ok()?)
     };
     Some((count(points)?, Some(step).filter(|&step| step > 0.0 && step.is_finite())?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_say_what_the_numbers_are() {
+        for (line, known) in [
+            ("ACCELERATION TIME SERIES IN UNITS OF G", Some(true)),
+            ("ACCELERATION TIME HISTORY IN UNITS OF G.", Some(true)),
+            (
+                "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 HZ LP=40.0 HZ",
+                Some(true),
+            ),
+            ("ACCELERATION TIME HISTORY IN UNITS OF G (9.81)", Some(true)),
+            ("ACCELERATION TIME SERIES (G)", Some(true)),
+            ("ACCELERATION TIME SERIES IN G", Some(true)),
+            ("ACCELERATION IN UNITS OF G'S", Some(true)),
+            ("UNITS OF G", Some(true)),
+            ("UNITS OF GAL", Some(false)),
+            ("ACCELERATION TIME SERIES IN UNITS OF CM/S/S", Some(false)),
+            ("ACCELERATION TIME SERIES (CM/S/S)", Some(false)),
+            ("ACCELERATION OF 5/19/40 (10/15/79)", None),
+            ("VELOCITY TIME SERIES (CM/S)", Some(false)),
+            ("VELOCITY TIME SERIES IN UNITS OF G", Some(false)),
+            ("VELOCITY TIME HISTORY", Some(false)),
+            ("DISPLACEMENT TIME SERIES IN UNITS OF CM", Some(false)),
+            ("PEER NGA STRONG MOTION DATABASE RECORD", None),
+            ("IMPERIAL VALLEY 10/15/79 2319, EL CENTRO ARRAY 6, 230 (G)", None),
+            ("CORRECTED ACCELERATION (STATION 117)", None),
+            ("STUDY OF VELOCITY PULSES", None),
+            ("", None),
+        ] {
+            assert_eq!(acceleration_in_g(line), known, "{line}");
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! Reader of text files with a column of time and one of acceleration.
+//! Reader of text files with a column of acceleration, and mostly one of time.
 
 use std::io::Read;
 
@@ -14,15 +14,17 @@ const STEP_TOLERANCE: f64 = 0.01;
 /// How a text file holds a record: which columns, which unit.
 ///
 /// What is understood:
-/// * lines of numbers separated by commas, spaces or tabs (a comma with spaces around it is one
-///   separator; two commas enclose an empty field), the decimal point a `.`;
+/// * lines of numbers separated by commas, semicolons, spaces or tabs (a comma with spaces around it
+///   is one separator; two commas enclose an empty field), the decimal point a `.` (a comma beside
+///   semicolons is refused);
 /// * empty lines and comment lines that start with `#`, anywhere;
 /// * one header line, before all numbers, in which no field is a number;
 /// * line ends `\n` or `\r\n`, and a byte-order mark.
 ///
 /// The time column must advance by equal steps, to 1 % of a step (for rounded print); the time
 /// step is their mean, rounded to twelve digits. The first time may be any: the record counts
-/// from there. A file cut within its last number cannot be told from a whole one: give
+/// from there. Files without a time column are read by [`equally_spaced`](Self::equally_spaced). A
+/// file cut within its last number cannot be told from a whole one: give
 /// [`with_samples`](Self::with_samples) where the count is known.
 ///
 /// ```
@@ -32,24 +34,56 @@ const STEP_TOLERANCE: f64 = 0.01;
 /// let error = Record::from_reader("my.txt", text.as_bytes(), &format).unwrap_err();
 /// assert_eq!(error.to_string(), "my.txt, line 3: time advances by 0.02 s, but by 0.01 s before");
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ColumnFormat {
-    time: usize,
-    acceleration: usize,
+    time: Time,
+    /// None: the only one.
+    acceleration: Option<usize>,
     unit: AccelerationUnit,
     samples: Option<usize>,
+}
+
+/// Where the time step comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Time {
+    /// The column of times, s.
+    Column(usize),
+    /// The step itself, s.
+    Step(f64),
 }
 
 impl ColumnFormat {
     /// Time (s) in the first column, acceleration in `unit` in the second.
     pub fn new(unit: AccelerationUnit) -> Self {
-        Self { time: 1, acceleration: 2, unit, samples: None }
+        Self { time: Time::Column(1), acceleration: Some(2), unit, samples: None }
+    }
+
+    /// A single column of acceleration in `unit` every `time_step` (s): a line with more than one
+    /// number is refused, unless [`with_acceleration_column`](Self::with_acceleration_column) says
+    /// which counts. A step that is not positive is refused when a file is read.
+    ///
+    /// ```
+    /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
+    /// let format = ColumnFormat::equally_spaced(AccelerationUnit::StandardGravity, 0.02);
+    /// let record = Record::from_reader("a.txt", "0.0\n0.1\n-0.2\n".as_bytes(), &format)?;
+    /// assert_eq!((record.len(), record.duration()), (3, 0.04));
+    /// assert!(Record::from_reader("a.txt", "0 0\n0.02 0.1\n".as_bytes(), &format).is_err());
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn equally_spaced(unit: AccelerationUnit, time_step: f64) -> Self {
+        Self { time: Time::Step(time_step), acceleration: None, unit, samples: None }
     }
 
     /// Other columns, counted from 1; column 0 is refused when a file is read.
     #[must_use]
     pub fn with_columns(self, time: usize, acceleration: usize) -> Self {
-        Self { time, acceleration, ..self }
+        Self { time: Time::Column(time), acceleration: Some(acceleration), ..self }
+    }
+
+    /// Another column of acceleration, counted from 1; the others do not matter.
+    #[must_use]
+    pub fn with_acceleration_column(self, column: usize) -> Self {
+        Self { acceleration: Some(column), ..self }
     }
 
     /// Refuses files that have not exactly this number of samples.
@@ -83,7 +117,10 @@ fn read(lines: &mut Lines, format: &ColumnFormat) -> Reason<(f64, Vec<f64>)> {
     if let Some(needed) = format.samples.filter(|&needed| needed != found) {
         return Err((last_line, RecordError::SampleCount { found, needed }));
     }
-    let step = equal_step(&samples)?;
+    let step = match format.time {
+        Time::Column(_) => equal_step(&samples)?,
+        Time::Step(step) => step,
+    };
     let factor = format.unit.in_metres_per_second_squared();
     Ok((step, samples.iter().map(|sample| sample.acceleration * factor).collect()))
 }
@@ -101,17 +138,27 @@ fn read_samples(lines: &mut Lines, format: &ColumnFormat) -> Reason<Vec<Sample>>
         header_may_come = false;
         if !is_header {
             let value = |column| column_value(&fields, column).map_err(|why| lines.refuse(why));
-            let (time, acceleration) = (value(format.time)?, value(format.acceleration)?);
+            let time = match format.time {
+                Time::Column(column) => value(column)?,
+                Time::Step(_) => 0.0,
+            };
+            if format.acceleration.is_none() && fields.len() > 1 {
+                return Err(lines.refuse(RecordError::SeveralColumns { found: fields.len() }));
+            }
+            let acceleration = value(format.acceleration.unwrap_or(1))?;
             samples.push(Sample { line: lines.number, time, acceleration });
         }
     }
     Ok(samples)
 }
 
-/// Fields of a line: commas separate, and so does white space between two fields.
+/// Fields of a line: commas or else semicolons separate, and so does white space between two
+/// fields.
 fn fields(text: &str) -> Vec<&str> {
     let mut fields = Vec::new();
-    for piece in text.split(',') {
+    // Beside semicolons a comma would be one of decimals: left in its field, which is no number.
+    let separator = if text.contains(';') { ';' } else { ',' };
+    for piece in text.split(separator) {
         if piece.trim().is_empty() {
             fields.push("");
         } else {

@@ -38,4 +38,29 @@ impl AccelerationUnit {
             Self::InchPerSecondSquared => 0.0254,
         }
     }
+
+    /// The unit that files call so, by the whole name; upper or lower case.
+    pub(super) fn named(name: &str) -> Option<Self> {
+        let name = name.trim().trim_end_matches('.').to_ascii_lowercase();
+        match name.as_str() {
+            "g" | "g's" | "gs" => return Some(Self::StandardGravity),
+            "gal" | "gals" => return Some(Self::Gal),
+            _ => {}
+        }
+        let (length, time) = name.split_once('/')?;
+        if !matches!(
+            time.trim(),
+            "s2" | "s^2" | "s**2" | "s/s" | "sec2" | "sec^2" | "sec**2" | "sec/sec"
+        ) {
+            return None;
+        }
+        match length.trim() {
+            "m" => Some(Self::MetrePerSecondSquared),
+            "cm" => Some(Self::Gal),
+            "mm" => Some(Self::MillimetrePerSecondSquared),
+            "ft" => Some(Self::FootPerSecondSquared),
+            "in" => Some(Self::InchPerSecondSquared),
+            _ => None,
+        }
+    }
 }

@@ -4,7 +4,7 @@ use basemat::structure::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber,
     NonlinearShearBuilding, RigidBlock, ShearBuilding, Storey, Structure, WithSprings,
 };
-use basemat::{Error, Result};
+use basemat::{CheckpointError, Error, Result};
 
 const BAD: [f64; 5] = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
@@ -90,6 +90,31 @@ fn springs_need_unknowns_that_exist() {
     assert!(block().is_linear());
     assert!(matches!(block().spring(vec![(3, 1.0)], law()), Err(Error::Index { .. })));
     assert!(is_input(block().spring(vec![(0, f64::NAN)], law())));
+}
+
+#[test]
+fn saved_states_that_are_not_finite_are_refused() {
+    let laws: [Box<dyn Hysteresis>; 4] = [
+        Box::new(law()),
+        Box::new(LeadRubber::from_strength(1e6, 1e5).unwrap()),
+        Box::new(FrictionPendulum::new(1e6, 2.0, 0.05).unwrap()),
+        Box::new(BoucWen::new(1e7, 1e5, 0.1).unwrap()),
+    ];
+    for mut law in laws {
+        law.commit(0.05);
+        let (saved, before) = (law.save(), law.response(0.03));
+        for place in 0..saved.len() {
+            for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let mut wrong = saved.clone();
+                wrong[place] = bad;
+                let error = law.restore(&wrong).unwrap_err();
+                let corrupt = CheckpointError::Corrupt { quantity: "state of a hysteretic spring" };
+                assert_eq!(error, Error::Checkpoint(corrupt), "{place}: {bad}");
+                assert_eq!(law.response(0.03), before);
+            }
+        }
+        law.restore(&saved).unwrap();
+    }
 }
 
 #[test]

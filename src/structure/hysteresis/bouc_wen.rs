@@ -111,7 +111,12 @@ impl Hysteresis for BoucWen {
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
         match values {
-            &[deformation, z, dissipated] if z.abs() <= 1.0 && dissipated >= 0.0 => {
+            &[deformation, z, dissipated]
+                if deformation.is_finite()
+                    && z.abs() <= 1.0
+                    && dissipated.is_finite()
+                    && dissipated >= 0.0 =>
+            {
                 (self.deformation, self.z, self.dissipated) = (deformation, z, dissipated);
                 Ok(())
             }

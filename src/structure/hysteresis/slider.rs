@@ -59,7 +59,9 @@ impl Slider {
 
     pub(super) fn restore(&mut self, values: &[f64]) -> Result<()> {
         match values {
-            &[slip, dissipated] if dissipated >= 0.0 => {
+            &[slip, dissipated]
+                if slip.is_finite() && dissipated.is_finite() && dissipated >= 0.0 =>
+            {
                 (self.slip, self.dissipated) = (slip, dissipated);
                 Ok(())
             }
