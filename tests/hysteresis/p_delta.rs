@@ -68,7 +68,9 @@ fn the_weight_on_isolators_has_the_curvature_of_its_potential() {
         let mut triplets = Triplets::new(9);
         isolated.stiffness(&mut triplets);
         let mut full = [[0.0; 9]; 9];
-        triplets.entries().iter().for_each(|&(i, j, value)| full[i][j] += value);
+        for &(i, j, value) in triplets.entries() {
+            full[i][j] += value;
+        }
         full
     };
     let (with, without) = (stiffness(10.0), stiffness(0.0));
