@@ -29,7 +29,9 @@ fn model(gmsh: &GmshMesh) -> FemModel {
 /// Matrix times vector.
 fn product(matrix: &Triplets, vector: &[f64]) -> Vec<f64> {
     let mut sum = vec![0.0; vector.len()];
-    matrix.entries().iter().for_each(|&(i, j, value)| sum[i] += value * vector[j]);
+    for &(i, j, value) in matrix.entries() {
+        sum[i] += value * vector[j];
+    }
     sum
 }
 

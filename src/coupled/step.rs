@@ -23,6 +23,9 @@ use crate::linalg::{dot, largest, wide_transposed_multiply_add};
 const NEWTON_ITERATIONS: usize = 40;
 /// Out-of-balance force at which Newton's iteration ends, relative to the largest force.
 const NEWTON_TOLERANCE: f64 = 1e-12;
+/// Change of an unknown in a step, in any units that somebody may use, beyond which no structure is
+/// left.
+const RUNAWAY: f64 = 1e15;
 
 impl Simulation {
     /// Makes one step and returns the new state.
@@ -51,6 +54,10 @@ impl Simulation {
         let finite = self.work.increment.iter().all(|x| x.is_finite());
         if !finite {
             return Err(failed(StepError::NotFinite { quantity: "displacement of the structure" }));
+        }
+        let increment = largest(&self.work.increment);
+        if increment > RUNAWAY {
+            return Err(failed(StepError::Runaway { increment }));
         }
         self.commit(step, time, &ride);
         self.state.trials = trials;

@@ -42,6 +42,13 @@ pub enum StepError {
         /// Name of the quantity.
         quantity: &'static str,
     },
+    /// The structure has lost its stability and runs away: under its weight on yielding columns
+    /// (P–Δ), by a negative damping, with a ground that grows. The ledger closes all the same.
+    #[error("the structure runs away: it moves by {increment:e} in one step")]
+    Runaway {
+        /// Largest change of an unknown in the step, m or rad (in modes, times the root of a mass).
+        increment: f64,
+    },
     /// A matrix of the step is singular.
     #[error("{matrix} is singular")]
     Singular {

@@ -257,7 +257,9 @@ mod tests {
         }
         let rows = |entries: &[(usize, usize, f64)]| {
             let mut matrix = Triplets::new(3);
-            entries.iter().for_each(|&(i, j, value)| matrix.add(i, j, value));
+            for &(i, j, value) in entries {
+                matrix.add(i, j, value);
+            }
             indefinite_row(&SparseMatrix::new("test", &matrix).unwrap(), 1e-6)
         };
         assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -1e-3)]), Some(1));

@@ -44,19 +44,25 @@ pub(super) fn rigid_momenta(
         let whole = mass.form(ride, ride).sqrt();
         for part in &parts {
             let mut motion = vec![0.0; n];
-            part.iter().for_each(|&i| motion[i] = ride[i]);
+            for &i in part {
+                motion[i] = ride[i];
+            }
             let norm = mass.form(&motion, &motion).sqrt();
-            if !(norm > NOTHING * whole) {
+            if norm.is_nan() || norm <= NOTHING * whole {
                 continue;
             }
-            motion.iter_mut().for_each(|x| *x /= norm);
+            for x in &mut motion {
+                *x /= norm;
+            }
             for (other, momentum) in motions.iter().zip(&momenta) {
                 let share = dot(momentum, &motion);
                 motion.iter_mut().zip(other).for_each(|(x, y)| *x -= share * y);
             }
             let rest = mass.form(&motion, &motion).sqrt();
             if rest > DEPENDENT {
-                motion.iter_mut().for_each(|x| *x /= rest);
+                for x in &mut motion {
+                    *x /= rest;
+                }
                 let mut momentum = vec![0.0; n];
                 mass.multiply_add(1.0, &motion, &mut momentum);
                 motions.push(motion);

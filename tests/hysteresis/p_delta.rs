@@ -1,14 +1,14 @@
 //! P–Δ of isolated and yielding buildings: what the weight does, and what it may not.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{HalfPlaneGround, SpringGround};
 use basemat::coupled::{Probe, Run};
-use basemat::interface::Coulomb;
+use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
     Bilinear, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber, NonlinearShearBuilding,
     ShearBuilding, Storey, Structure, Triplets,
 };
-use basemat::{Error, Simulation, Soil};
+use basemat::{Error, Simulation, Soil, StepError};
 
 const LEVEL: IsolationLevel =
     IsolationLevel { height: 0.3, slab_mass: 30.0e3, slab_inertia: 2.5e5, damping: 0.0 };
@@ -68,7 +68,9 @@ fn the_weight_on_isolators_has_the_curvature_of_its_potential() {
         let mut triplets = Triplets::new(9);
         isolated.stiffness(&mut triplets);
         let mut full = [[0.0; 9]; 9];
-        triplets.entries().iter().for_each(|&(i, j, value)| full[i][j] += value);
+        for &(i, j, value) in triplets.entries() {
+            full[i][j] += value;
+        }
         full
     };
     let (with, without) = (stiffness(10.0), stiffness(0.0));
@@ -118,4 +120,27 @@ fn columns_that_would_buckle_are_refused() {
     };
     assert!(under(6667.0).is_ok());
     assert!(matches!(under(6666.0), Err(Error::Input { value: 3.0, .. })));
+}
+
+/// Columns that yield and do not harden buckle under what they carry: the end of the building, and of
+/// the run, not a drift of 10⁸⁰ m with a closed ledger.
+#[test]
+fn a_collapse_ends_the_run() {
+    let storeys = [Storey::new(3.0, 20.0e3, 4.0e6)];
+    let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys).unwrap();
+    let building = NonlinearShearBuilding::new(building.with_p_delta(10.0).unwrap());
+    let building = building.with_law(0, Bilinear::new(4.0e6, 2.0e4, 1e-3).unwrap()).unwrap();
+    let mut simulation = Simulation::builder(0.05)
+        .structure(building)
+        .ground(SpringGround::new(-5.0..5.0, 4, 1.0e9, 1.0e9).unwrap())
+        .interface(Bonded)
+        .motion(el_centro_1940())
+        .build()
+        .unwrap();
+    let Err(Error::Step { step, source, .. }) = simulation.run(2000, |_| {}) else {
+        panic!("collapsed unnoticed");
+    };
+    assert!(matches!(source, StepError::Runaway { increment } if increment > 1e15), "{source}");
+    assert_eq!(simulation.state().step + 1, step);
+    assert!(step < 1000, "{step}");
 }

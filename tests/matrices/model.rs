@@ -149,7 +149,9 @@ fn negative_masses_are_refused() {
     let of = |entries: &[(usize, usize, f64)]| {
         let mut mass = Triplets::new(4);
         (0..3).for_each(|unknown| mass.add(unknown, unknown, 2.0e4));
-        entries.iter().for_each(|&(i, j, value)| mass.add(i, j, value));
+        for &(i, j, value) in entries {
+            mass.add(i, j, value);
+        }
         let mut stiffness = Triplets::new(4);
         stiffness.add_outer(&[(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
         MatrixModel::new(mass, stiffness, ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]))
