@@ -237,7 +237,7 @@ fn every_text_can_be_read_whatever_is_drawn() {
     };
     for (from, to) in [(0.05, 2.0), (1e-6, 1e6), (0.3, 0.3), (1.0, 1.001), (0.02, 10.0)] {
         let spectrum = [ordinate(from), ordinate(to)];
-        let name = long("floor ");
+        let name = long("storey ");
         let list = [(name.as_str(), &spectrum[..]); 9];
         let svg = plot::spectra(&title, &list).unwrap();
         assert_readable(svg.as_str(), &format!("spectra from {from} to {to}"));
