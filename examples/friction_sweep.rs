@@ -10,12 +10,8 @@
 //! far too small for a design; the way to do it is the point. [`Sweep`] runs the cases on all
 //! processors if the crate is built with the feature `rayon`.
 
-use basemat::bem::HalfPlaneGround;
-use basemat::interface::Coulomb;
-use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
-use basemat::results::{Recorder, Summary};
-use basemat::structure::RigidBlock;
-use basemat::{Result, Simulation, Soil, Sweep};
+use basemat::Result;
+use basemat::prelude::*;
 use clap::Parser;
 
 const FRICTIONS: [f64; 4] = [0.15, 0.25, 0.35, 0.5];
@@ -36,8 +32,7 @@ fn motions() -> Result<Vec<(&'static str, Record)>> {
     let stretched =
         |factor: f64| Record::new(factor * record.time_step(), record.accelerations().to_vec());
     let pulse = |period: f64| {
-        let sine = |k: u32| (std::f64::consts::TAU * f64::from(k) / 100.0).sin();
-        Record::new(period / 100.0, (0..=100).map(sine).collect())
+        Record::from_fn(0.01 * period, period, |time| (std::f64::consts::TAU * time / period).sin())
     };
     Ok(vec![
         ("El Centro", record.clone()),
@@ -49,17 +44,18 @@ fn motions() -> Result<Vec<(&'static str, Record)>> {
     ])
 }
 
-fn slide(friction: f64, motion: Record) -> Result<Summary> {
+/// Largest mean slip of the block's base (m) in 15 s.
+fn slide(friction: f64, motion: Record) -> Result<f64> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+    let block = RigidBlock::new(8.0, 4.0, 2000.0)?;
     let mut simulation = Simulation::builder(0.01)
-        .structure(RigidBlock::new(8.0, 4.0, 2000.0)?)
-        .ground(HalfPlaneGround::strip(soil, -4.0..4.0, 8)?)
+        .ground(HalfPlaneGround::under(&block, soil, 8)?)
+        .structure(block)
         .interface(Coulomb::new(friction)?)
         .motion(motion)
         .build()?;
-    let mut histories = Recorder::new().start(&simulation)?;
-    histories.run(&mut simulation, 1500)?;
-    Ok(histories.summary())
+    let summary = Recorder::new().run(&mut simulation, 1500)?.summary();
+    Ok(summary.sliding.peak.magnitude())
 }
 
 fn main() -> Result<()> {
@@ -67,24 +63,16 @@ fn main() -> Result<()> {
     let motions = motions()?;
     let (kinds, peaks) = (motions.len(), PEAKS.len());
 
-    // One number for each case: friction is the slowest index, the motion the fastest.
-    let mut slips = vec![Err("not run".to_owned()); FRICTIONS.len() * peaks * kinds];
-    Sweep::new(slips.len()).run(
-        |case| {
-            let (motion, rest) = (case.index() % kinds, case.index() / kinds);
-            let peak = PEAKS[rest % peaks] * STANDARD_GRAVITY;
-            slide(FRICTIONS[rest / peaks], motions[motion].1.scaled_to_peak(peak)?)
-        },
-        |index, result| {
-            // A case that fails is told of and does not stop the others.
-            slips[index] = result
-                .map(|summary| summary.sliding.peak.magnitude())
-                .map_err(|error: basemat::Error| error.to_string());
-        },
-    );
+    // One number for each case: friction is the slowest index, the motion the fastest. A case that
+    // fails is told of below and does not stop the others.
+    let slips = Sweep::new(FRICTIONS.len() * peaks * kinds).collect(|case| {
+        let (motion, rest) = (case.index() % kinds, case.index() / kinds);
+        let peak = PEAKS[rest % peaks] * STANDARD_GRAVITY;
+        slide(FRICTIONS[rest / peaks], motions[motion].1.scaled_to_peak(peak)?)
+    });
     let slip = |f: usize, p: usize, m: usize| &slips[(f * peaks + p) * kinds + m];
 
-    println!("Largest slip in mm, scaled to {} g\n", PEAKS[2]);
+    println!("Largest mean slip of the base in mm, motions scaled to {} g\n", PEAKS[2]);
     print!("{:<26}", "friction");
     for friction in FRICTIONS {
         print!("{friction:>9.2}");

@@ -9,15 +9,11 @@
 
 use std::path::PathBuf;
 
-use basemat::bem::HalfPlaneGround;
-use basemat::coupled::Probe;
 use basemat::fem::{Direction, Layer, Material, Mesh};
-use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
-use basemat::motion::el_centro_1940;
 use basemat::plot::{self, Svg};
-use basemat::results::{Comparison, Histories, Quantity, Recorder, Wireframe, log_spaced};
-use basemat::structure::{FemModel, RayleighDamping};
-use basemat::{Result, Simulation, Soil, vtk};
+use basemat::prelude::*;
+use basemat::results::{Wireframe, log_spaced};
+use basemat::{Result, vtk};
 use clap::Parser;
 
 const STEPS: usize = 2400;
@@ -39,18 +35,17 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Histories, Wireframe)> {
     let roof = tower.row(tower.node_at(0.0, 20.0)?, Direction::X)?;
     // The structure moves into the simulation: its shape is kept for the pictures.
     let shape = Wireframe::of_model(&tower);
-    let soil = Soil::new(1900.0 * 250.0_f64.powi(2), 0.33, 1900.0)?;
+    let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
+        .ground(HalfPlaneGround::under(&tower, soil, 16)?)
         .structure(tower)
-        .ground(HalfPlaneGround::strip(soil, -4.0..4.0, 16)?)
         .interface(law)
         .motion(el_centro_1940())
         .probe(Probe::acceleration("roof", roof))
         .build()?;
+    // Base and structure at every sixth step, for pictures in time.
     let recorder = Recorder::new().contact(6).motion(6);
-    let mut histories = recorder.start(&simulation)?;
-    histories.run(&mut simulation, STEPS)?;
-    Ok((histories, shape))
+    Ok((recorder.run(&mut simulation, STEPS)?, shape))
 }
 
 fn main() -> Result<()> {

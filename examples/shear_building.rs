@@ -7,13 +7,8 @@
 //! Each storey gets two probes, one for the shear in its columns and one for its drift. Probes are
 //! weighted sums of the structure's unknowns; the building hands out the weights.
 
-use basemat::bem::HalfPlaneGround;
-use basemat::coupled::Probe;
-use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
-use basemat::motion::el_centro_1940;
-use basemat::results::{Comparison, Recorder, Summary};
-use basemat::structure::{ShearBuilding, Storey};
-use basemat::{Result, Simulation, Soil};
+use basemat::Result;
+use basemat::prelude::*;
 
 const STOREYS: usize = 5;
 
@@ -22,23 +17,22 @@ fn shake(law: impl InterfaceLaw + 'static, recorder: Recorder) -> Result<Summary
     let storeys = [Storey::new(3.0, 30.0e3, 60.0e6); STOREYS];
     let building =
         ShearBuilding::new(8.0, 60.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.05)?;
-    let soil = Soil::new(1900.0 * 250.0_f64.powi(2), 0.33, 1900.0)?;
+    let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
 
-    let mut builder = Simulation::builder(5.0e-3);
+    let mut probes = Vec::new();
     for storey in 0..STOREYS {
-        builder = builder
-            .probe(Probe::section(format!("shear {}", storey + 1), &building.shear(storey)?))
-            .probe(Probe::displacement(format!("drift {}", storey + 1), building.drift(storey)?));
+        probes.push(Probe::section(format!("shear {}", storey + 1), &building.shear(storey)?));
+        probes.push(Probe::displacement(format!("drift {}", storey + 1), building.drift(storey)?));
     }
-    let mut simulation = builder
+    let mut simulation = Simulation::builder(5.0e-3)
+        .ground(HalfPlaneGround::under(&building, soil, 12)?)
         .structure(building)
-        .ground(HalfPlaneGround::strip(soil, -4.0..4.0, 12)?)
         .interface(law)
         .motion(el_centro_1940())
+        .probes(probes)
         .build()?;
-    let mut histories = recorder.start(&simulation)?;
-    histories.run(&mut simulation, 2400)?;
-    Ok(histories.summary())
+    let steps = simulation.steps_for(12.0);
+    Ok(recorder.run(&mut simulation, steps)?.summary())
 }
 
 fn main() -> Result<()> {

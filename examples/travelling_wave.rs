@@ -12,13 +12,9 @@
 //! motion along. Both rock the tower even before it sways. A whole record that comes as a Rayleigh
 //! wave is an extreme: its vertical motion is larger than the horizontal one.
 
-use basemat::bem::HalfPlaneGround;
-use basemat::coupled::Probe;
-use basemat::interface::Coulomb;
-use basemat::motion::{Baseline, FreeField, PlaneWave, TravellingWave, el_centro_1940};
-use basemat::results::{Comparison, Recorder, Summary};
-use basemat::structure::RigidBlock;
-use basemat::{Result, Simulation, Soil};
+use basemat::Result;
+use basemat::motion::{Baseline, PlaneWave, TravellingWave};
+use basemat::prelude::*;
 use clap::Parser;
 
 const HALF_WIDTH: f64 = 5.0;
@@ -42,21 +38,20 @@ fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Summary> {
     let tower = RigidBlock::new(2.0 * HALF_WIDTH, HEIGHT, 600.0)?;
     let (top, edge) = (tower.horizontal_at(HEIGHT), tower.vertical_at(HALF_WIDTH));
     let mut simulation = Simulation::builder(5.0e-3)
+        .ground(HalfPlaneGround::under(&tower, soil, 16)?)
         .structure(tower)
-        .ground(HalfPlaneGround::strip(soil, -HALF_WIDTH..HALF_WIDTH, 16)?)
         .interface(Coulomb::new(FRICTION)?)
         .motion(motion)
         .probe(Probe::acceleration("top", top))
         .probe(Probe::acceleration("edge, up", edge))
         .build()?;
-    let mut histories = Recorder::new().start(&simulation)?;
-    histories.run(&mut simulation, 2800)?;
-    Ok(histories.summary())
+    let steps = simulation.steps_for(LEAD + 12.0);
+    Ok(Recorder::new().run(&mut simulation, steps)?.summary())
 }
 
 fn main() -> Result<()> {
     let Options { angle, velocity } = Options::parse();
-    let soil = Soil::new(1900.0 * 200.0_f64.powi(2), 0.33, 1900.0)?;
+    let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
     // Starts and ends at rest, as the Rayleigh wave needs it.
     let record =
         el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 })?.padded(LEAD, 8.0)?;
@@ -70,7 +65,7 @@ fn main() -> Result<()> {
         2.0 * HALF_WIDTH
     );
     println!(
-        "Velocities along the surface: SV at {angle}° {:.0} m/s, Rayleigh {:.0} m/s, run {velocity:.0} m/s\n",
+        "Velocities along the surface: SV at {angle}° {:.0} m/s, Rayleigh {:.0} m/s, on surface {velocity:.0} m/s\n",
         inclined.apparent_velocity(),
         rayleigh.apparent_velocity()
     );
@@ -81,7 +76,7 @@ fn main() -> Result<()> {
         shake(soil, inclined.field_from_horizontal(&record, origin)?)?,
     );
     comparison.add("Rayleigh", shake(soil, rayleigh.field_from_horizontal(&record, origin)?)?);
-    comparison.add("run", shake(soil, TravellingWave::new(record, velocity, origin)?)?);
+    comparison.add("on surface", shake(soil, TravellingWave::new(record, velocity, origin)?)?);
     println!("{comparison}");
     Ok(())
 }

@@ -18,14 +18,8 @@
 //! Where only the coefficient of Coulomb's law shall change, a closure in [`VariableFriction`] is
 //! enough: the last but one row of the table.
 
-use basemat::bem::HalfPlaneGround;
-use basemat::coupled::Run;
-use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance, VariableFriction,
-};
-use basemat::motion::el_centro_1940;
-use basemat::structure::RigidBlock;
-use basemat::{Simulation, Soil};
+use basemat::interface::{Condition, ContactState, Mode, StepStart, Tolerance, VariableFriction};
+use basemat::prelude::*;
 
 /// Friction that falls from `slow` to `fast` as the speed of sliding (m/s) grows, as that of
 /// bearings and of many rocks does: fast + (slow − fast) e^(−|v|/speed).
@@ -98,9 +92,10 @@ impl InterfaceLaw for VelocityWeakening {
 /// A squat block that slides before it rocks, 10 s of El Centro at one and a half times its size.
 fn slide(law: impl InterfaceLaw + 'static) -> basemat::Result<Run> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+    let block = RigidBlock::new(8.0, 4.0, 2000.0)?;
     Simulation::builder(5.0e-3)
-        .structure(RigidBlock::new(8.0, 4.0, 2000.0)?)
-        .ground(HalfPlaneGround::strip(soil, -4.0..4.0, 8)?)
+        .ground(HalfPlaneGround::under(&block, soil, 8)?)
+        .structure(block)
         .interface(law)
         .motion(el_centro_1940().scaled(1.5)?)
         .build()?

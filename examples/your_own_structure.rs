@@ -8,12 +8,7 @@
 //! the points of its base, and its matrices; everything else (ground, contact, time steps, energy
 //! ledger) comes with the crate. Four methods are needed, `damping` is the fifth below.
 
-use basemat::bem::HalfPlaneGround;
-use basemat::coupled::Probe;
-use basemat::interface::Coulomb;
-use basemat::motion::el_centro_1940;
-use basemat::structure::{ContactNode, Structure, Triplets};
-use basemat::{Simulation, Soil};
+use basemat::prelude::*;
 
 const FLOORS: usize = 5;
 
@@ -90,12 +85,12 @@ fn main() -> basemat::Result<()> {
 
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
+        .ground(HalfPlaneGround::under(&building, soil, 10)?)
         .structure(building)
-        .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 10)?)
         .interface(Coulomb::new(0.4)?)
         .motion(el_centro_1940())
         .probe(Probe::displacement("first drift", drift))
-        .probe(Probe::acceleration("roof acceleration", vec![(roof, 1.0)]))
+        .probe(Probe::acceleration("roof acceleration", roof))
         .build()?;
 
     // The observer sees every step; it could return `Flow::Stop`.
