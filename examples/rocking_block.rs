@@ -85,7 +85,9 @@ fn main() -> Result<()> {
         println!();
     }
     if warned {
-        println!("\n* rotations of more than 100 mrad are not small: the geometry is off by a percent");
+        println!(
+            "\n* rotations of more than 100 mrad are not small: the geometry is off by a percent"
+        );
     }
     Ok(())
 }
