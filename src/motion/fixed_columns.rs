@@ -27,7 +27,10 @@ impl FixedColumns {
         let letter = item.find(|sign: char| !sign.is_ascii_digit())?;
         let (repeat, rest) = item.split_at(letter);
         let width = rest.strip_prefix(['F', 'f', 'E', 'e', 'G', 'g', 'D', 'd', 'I', 'i'])?;
-        let whole = width.split_once('.').map_or(width, |(whole, _)| whole);
+        let (whole, decimals) = width.split_once('.').unwrap_or((width, ""));
+        if !decimals.chars().all(|sign| sign.is_ascii_digit() || matches!(sign, 'E' | 'e')) {
+            return None;
+        }
         let repeat = if repeat.is_empty() { 1 } else { repeat.parse().ok()? };
         let width = whole.parse().ok()?;
         let known = (1..=MOST).contains(&repeat) && (1..=MOST).contains(&width);

@@ -127,7 +127,9 @@ fn integral(samples: &[f64], step: f64, zero: usize) -> Vec<f64> {
         sums.push(sum);
     }
     let start = sums[zero];
-    sums.iter_mut().for_each(|sum| *sum -= start);
+    for sum in &mut sums {
+        *sum -= start;
+    }
     sums
 }
 
