@@ -2,13 +2,14 @@
 
 use super::rayleigh::RayleighDamping;
 use super::rigid_links::RigidLinks;
-use super::section::{Section, SectionRows};
 use super::{ContactNode, Row, Structure, Triplets};
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Error, Result, positive};
 use crate::fem::{
-    Direction, MassKind, Mesh, Numbering, Quantity, assemble, assemble_damping,
-    assemble_geometric_stiffness, assemble_mass, assemble_stiffness,
+    Direction, MassKind, Mesh, Numbering, assemble_damping, assemble_geometric_stiffness,
+    assemble_mass, assemble_stiffness,
 };
+
+pub(super) const ALL_DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Rotation];
 
 /// Finite-element structure on a flat base.
 ///
@@ -40,8 +41,8 @@ pub struct FemModel {
     contact: Vec<ContactNode>,
     /// Contact nodes that are the last of their foundation, all but the last foundation's.
     ends: Vec<usize>,
-    mass_kind: MassKind,
-    damping: RayleighDamping,
+    pub(super) mass_kind: MassKind,
+    pub(super) damping: RayleighDamping,
     /// Acceleration of gravity of the weight whose axial forces make P–Δ.
     pub(super) p_delta: Option<f64>,
 }
@@ -264,7 +265,7 @@ impl FemModel {
     }
 
     /// The same by any numbering.
-    fn fill_rigid_motion(
+    pub(super) fn fill_rigid_motion(
         &self,
         direction: Direction,
         point: [f64; 2],
@@ -285,72 +286,6 @@ impl FemModel {
         }
     }
 
-    /// Forces that the part above `height` (m) exerts on the part below, moments about
-    /// (`reference`, `height`).
-    ///
-    /// The nodes at this height are the cut; elements that lie in it count as below. The rows are
-    /// −K, −C and −M of the elements above, summed over the nodes of the cut.
-    ///
-    /// # Errors
-    /// [`Error::Input`] when a number is not finite, no node lies at `height`, no element above
-    /// it, or an element crosses it.
-    pub fn section(&self, height: f64, reference: f64) -> Result<Section> {
-        finite("height of the section", height)?;
-        finite("reference point of the section", reference)?;
-        let tolerance = self.mesh.tolerance();
-        let cut = self.mesh.nodes_at_height(height, tolerance)?;
-        let sides = |points: &[[f64; 2]]| {
-            let above = points.iter().any(|point| point[1] > height + tolerance);
-            let below = points.iter().any(|point| point[1] < height - tolerance);
-            (above, below)
-        };
-        let is_above = |points: &[[f64; 2]]| sides(points) == (true, false);
-        let fault =
-            |needed| Error::Input { quantity: "height of the section", value: height, needed };
-        let elements = self.mesh.elements();
-        let mut all = elements.map(|element| sides(&self.mesh.coordinates(element.nodes())));
-        if all.clone().any(|side| side == (true, true)) {
-            return Err(fault("a height that no element crosses"));
-        }
-        if cut.is_empty() || !all.any(|side| side == (true, false)) {
-            return Err(fault("the height of a row of nodes with elements above it"));
-        }
-        let sum = |quantity, factor: f64| {
-            let mut matrix = Triplets::new(self.numbering.unknowns());
-            assemble(&self.mesh, &self.numbering, quantity, -factor, is_above, &mut matrix);
-            matrix
-        };
-        let matrices = [
-            vec![sum(Quantity::Stiffness, 1.0), sum(Quantity::GeometricStiffness, 1.0)],
-            vec![sum(Quantity::Stiffness, self.damping.stiffness()), sum(Quantity::Damping, 1.0)],
-            vec![sum(Quantity::Mass(self.mass_kind), 1.0)],
-        ];
-        // The work of the cut's forces on a rigid motion is their resultant.
-        let rows = |direction: Direction, sign: f64| {
-            let number = |node, own| self.numbering.unknown(node, own);
-            let mut motion = vec![0.0; self.numbering.unknowns()];
-            self.fill_rigid_motion(direction, [reference, height], &mut motion, number);
-            let mut weights = vec![0.0; motion.len()];
-            for &node in &cut {
-                for unknown in ALL_DIRECTIONS.iter().filter_map(|&d| number(node, d)) {
-                    weights[unknown] = sign * motion[unknown];
-                }
-            }
-            let [displacement, velocity, acceleration] = [0, 1, 2].map(|order| {
-                let row = weighted_rows(&weights, &matrices[order]);
-                self.links.as_ref().map_or_else(|| row.clone(), |links| links.row(&row)).into()
-            });
-            let unit = if direction == Direction::Rotation { "N·m/m" } else { "N/m" };
-            SectionRows { unit, displacement, velocity, acceleration }
-        };
-        Ok(Section {
-            height,
-            shear: rows(Direction::X, 1.0),
-            compression: rows(Direction::Y, -1.0),
-            moment: rows(Direction::Rotation, 1.0),
-        })
-    }
-
     /// Adds what `fill` adds in the mesh's unknowns, in those that remain.
     pub(super) fn condensed(&self, matrix: &mut Triplets, fill: impl Fn(&mut Triplets)) {
         match &self.links {
@@ -362,19 +297,6 @@ impl FemModel {
             }
         }
     }
-}
-
-const ALL_DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Rotation];
-
-/// wᵀ A for the sum A of `matrices`, zeros left out.
-fn weighted_rows(weights: &[f64], matrices: &[Triplets]) -> Vec<(usize, f64)> {
-    let mut sums = vec![0.0; weights.len()];
-    for &(row, column, value) in matrices.iter().flat_map(Triplets::entries) {
-        if let (Some(weight), Some(sum)) = (weights.get(row), sums.get_mut(column)) {
-            *sum += weight * value;
-        }
-    }
-    sums.into_iter().enumerate().filter(|&(_, value)| value != 0.0).collect()
 }
 
 impl Structure for FemModel {
