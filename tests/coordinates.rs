@@ -2,15 +2,18 @@
 
 #[path = "support/scenes.rs"]
 mod scenes;
+#[path = "support/wrapped.rs"]
+mod wrapped;
 
 use basemat::Error;
 use basemat::coupled::{Coordinates, Midpoint, Newmark, Probe, SimulationBuilder, State, Theta};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::structure::{
-    ContactNode, FemModel, RayleighDamping, ShearBuilding, Storey, Structure, Triplets,
+    FemModel, RayleighDamping, Row, ShearBuilding, Storey, Structure, Triplets,
 };
 use scenes::{Rider, SI, block, friction, scene, shake, states, tower};
+use wrapped::{Pulled, needed_from};
 
 /// Makes a scene, as often as it is called.
 type Make<'a> = &'a dyn Fn() -> SimulationBuilder;
@@ -37,29 +40,10 @@ fn apart<'a>(one: &'a [State], two: &'a [State], quantity: impl Fn(&'a State) ->
     apart / scale
 }
 
-/// A tower that somebody pulls at the top.
-struct Pulled(FemModel);
-
-impl Structure for Pulled {
-    fn unknowns(&self) -> usize {
-        self.0.unknowns()
-    }
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.0.contact_nodes()
-    }
-    fn mass(&self, matrix: &mut Triplets) {
-        self.0.mass(matrix);
-    }
-    fn stiffness(&self, matrix: &mut Triplets) {
-        self.0.stiffness(matrix);
-    }
-    fn damping(&self, matrix: &mut Triplets) {
-        self.0.damping(matrix);
-    }
-    fn load(&self, time: f64, load: &mut [f64]) {
-        let last = load.len() - 2;
-        load[last] += 2e4 * (20.0 * time).sin();
-    }
+/// Somebody pulls it at the top.
+fn pulled(tower: FemModel) -> impl Structure {
+    let along = Row::from(tower.unknowns() - 2);
+    Pulled { structure: tower, along, force: |time: f64| 2e4 * (20.0 * time).sin() }
 }
 
 #[test]
@@ -75,7 +59,7 @@ fn modes_and_unknowns_agree() {
         ("sliding", &|| base().structure(tower(SI, None)).interface(friction(0.3))),
         ("uplift", &|| base().structure(tower(SI, None)).interface(friction(f64::INFINITY))),
         ("smooth", &|| base().structure(damped()).interface(friction(0.0))),
-        ("pulled", &|| base().structure(Pulled(damped())).interface(friction(0.4))),
+        ("pulled", &|| base().structure(pulled(damped())).interface(friction(0.4))),
         ("block", &|| base().structure(block(SI)).interface(friction(0.3))),
         ("building", &|| base().structure(building()).interface(friction(0.5))),
         ("bonded building", &|| base().structure(building()).interface(Bonded)),
@@ -160,18 +144,7 @@ fn modes_of_a_large_structure_agree() {
 fn modes_are_refused_where_they_do_not_decouple() {
     struct Dashpot(FemModel);
     impl Structure for Dashpot {
-        fn unknowns(&self) -> usize {
-            self.0.unknowns()
-        }
-        fn contact_nodes(&self) -> Vec<ContactNode> {
-            self.0.contact_nodes()
-        }
-        fn mass(&self, matrix: &mut Triplets) {
-            self.0.mass(matrix);
-        }
-        fn stiffness(&self, matrix: &mut Triplets) {
-            self.0.stiffness(matrix);
-        }
+        needed_from!(0);
         fn damping(&self, matrix: &mut Triplets) {
             matrix.add_spring(0, 40, 1e4);
         }

@@ -1,0 +1,56 @@
+//! Structures that are another one but for what a test needs.
+#![allow(dead_code, unused_imports, reason = "each binary uses its own part")]
+
+use basemat::structure::{Row, Structure, Triplets};
+
+/// What every structure must say, as a field says it.
+macro_rules! needed_from {
+    ($field:tt) => {
+        fn unknowns(&self) -> usize {
+            self.$field.unknowns()
+        }
+
+        fn contact_nodes(&self) -> Vec<basemat::structure::ContactNode> {
+            self.$field.contact_nodes()
+        }
+
+        fn mass(&self, matrix: &mut basemat::structure::Triplets) {
+            self.$field.mass(matrix);
+        }
+
+        fn stiffness(&self, matrix: &mut basemat::structure::Triplets) {
+            self.$field.stiffness(matrix);
+        }
+    };
+}
+pub(crate) use needed_from;
+
+/// A structure of which nothing but what every structure must say is left.
+pub(crate) struct Bare<S>(pub(crate) S);
+
+impl<S: Structure> Structure for Bare<S> {
+    needed_from!(0);
+}
+
+/// A structure that a force pulls.
+pub(crate) struct Pulled<S, F> {
+    pub(crate) structure: S,
+    /// Displacement in the direction of the force of the point it acts on.
+    pub(crate) along: Row,
+    /// The force at a time, N/m.
+    pub(crate) force: F,
+}
+
+impl<S: Structure, F: Fn(f64) -> f64 + Send + 'static> Structure for Pulled<S, F> {
+    needed_from!(structure);
+
+    fn damping(&self, matrix: &mut Triplets) {
+        self.structure.damping(matrix);
+    }
+
+    fn load(&self, time: f64, load: &mut [f64]) {
+        for &(unknown, weight) in self.along.terms() {
+            load[unknown] += weight * (self.force)(time);
+        }
+    }
+}
