@@ -1,0 +1,37 @@
+//! Interface laws, time schemes and ground motions.
+
+use basemat::Error;
+use basemat::coupled::Theta;
+use basemat::interface::{Activation, Coulomb};
+use basemat::motion::{Baseline, Record, RickerDisplacement};
+
+use super::{BAD, NEGATIVE, NOT_FINITE, error_with, refused};
+
+#[test]
+fn laws_and_schemes() {
+    refused("friction", &[-0.1, f64::NAN, f64::NEG_INFINITY], Coulomb::new);
+    let law = Coulomb::uplift_only();
+    refused("tensile strength", &NEGATIVE, |x| law.with_tensile_strength(x));
+    refused("gap below", &NEGATIVE, |closed_below| {
+        law.with_activation(Activation::Rate { closed_below })
+    });
+    refused("theta", &[0.0, 0.49, 1.01, f64::NAN], Theta::new);
+}
+
+#[test]
+fn motions() {
+    refused("time step of the record", &BAD, |x| Record::new(x, vec![0.0; 3]));
+    refused("acceleration", &NOT_FINITE, |x| Record::new(0.1, vec![0.0, x, 0.0]));
+    for few in [vec![], vec![1.0]] {
+        assert!(matches!(error_with("samples", Record::new(0.1, few)), Error::Record { .. }));
+    }
+    let record = Record::new(0.1, vec![0.0, 1.0, 0.0, -1.0]).unwrap();
+    refused("new time step", &BAD, |x| record.resampled(x));
+    refused("scale factor", &NOT_FINITE, |x| record.scaled(x));
+    refused("wanted peak", &BAD, |x| record.scaled_to_peak(x));
+    assert!(record.with_baseline(Baseline::VelocityPolynomial { degree: 0 }).is_err());
+    assert!(record.with_baseline(Baseline::RestToRest { degree: 9 }).is_err());
+    refused("amplitude", &NOT_FINITE, |x| RickerDisplacement::new(x, 0.1, 1.0));
+    refused("width", &BAD, |x| RickerDisplacement::new(1.0, x, 1.0));
+    refused("center", &[0.0, f64::NAN, f64::INFINITY], |x| RickerDisplacement::new(1.0, 0.1, x));
+}

@@ -1,0 +1,118 @@
+//! Soils, strips, grounds and their kernels.
+
+use basemat::bem::{
+    ContactElement, Grading, Ground, HalfPlaneGround, InfluenceKernel, PatchKernel, SpringGround,
+    StaticKernel, Strip,
+};
+use basemat::{Error, Soil};
+
+use super::{BAD, NEGATIVE, NOT_FINITE, error_with, refused, soil};
+use crate::scene::bed;
+
+#[test]
+fn soils() {
+    refused("shear modulus", &BAD, |x| Soil::new(x, 0.3, 1.0));
+    refused("density", &BAD, |x| Soil::new(1.0, 0.3, x));
+    let out_of_range = [-1.0, 0.5, 0.7, -3.0, f64::NAN, f64::INFINITY];
+    refused("Poisson's ratio", &out_of_range, |x| Soil::new(1.0, x, 1.0));
+    refused("shear wave speed", &BAD, |x| Soil::from_wave_speeds(x, 2.0, 1.0));
+    refused("pressure wave speed", &BAD, |x| Soil::from_wave_speeds(1.0, x, 1.0));
+    refused("density", &BAD, |x| Soil::from_wave_speeds(1.0, 2.0, x));
+    error_with("Poisson's ratio", Soil::from_wave_speeds(1.0, 1.1, 1.0));
+    error_with("shear wave speed", Soil::new(1e-300, 0.3, 1e300));
+}
+
+#[test]
+fn strips_and_grounds() {
+    refused("left end", &NOT_FINITE, |x| Strip::uniform(x..1.0, 2));
+    refused("right end", &NOT_FINITE, |x| Strip::new(0.0..x, 2, Grading::Cosine));
+    refused("length of the strip", &[0.0, -1.0], |x| Strip::uniform(0.0..x, 2));
+    refused("number of contact elements", &[0.0], |_| Strip::uniform(0.0..1.0, 0));
+    refused("strip node", &NOT_FINITE, |x| Strip::from_nodes(vec![0.0, x, 2.0]));
+    refused("length of a contact element", &[0.0], |_| Strip::from_nodes(vec![1.0, 1.0]));
+    let found = error_with("strip nodes", Strip::from_nodes(vec![1.0]));
+    assert!(matches!(found, Error::Size { found: 1, needed: 2, .. }));
+
+    refused("length of the strip", &[-1.0], |x| HalfPlaneGround::strip(soil(), 0.0..x, 2));
+    refused("number of contact", &[0.0], |_| HalfPlaneGround::graded_strip(soil(), 0.0..1.0, 0));
+    let none = error_with("contact elements", HalfPlaneGround::new(soil(), &[]));
+    assert!(matches!(none, Error::Size { found: 0, needed: 1, .. }));
+    let strip = |left: f64| Strip::uniform(left..left + 2.0, 2).unwrap();
+    refused("left end of a contact element", &[1.0, -2.0], |x| {
+        HalfPlaneGround::new(soil(), &[strip(0.0), strip(x)])
+    });
+
+    refused("normal stiffness", &BAD, |x| SpringGround::new(0.0..1.0, 2, x, 1.0));
+    refused("tangential stiffness", &BAD, |x| SpringGround::new(0.0..1.0, 2, 1.0, x));
+    refused("normal dashpot", &NEGATIVE, |x| bed(2).with_dashpots(x, 0.0));
+    refused("tangential dashpot", &NEGATIVE, |x| bed(2).with_dashpots(0.0, x));
+    refused("theta", &[0.49, 1.01, f64::NAN], |x| bed(2).with_theta(x));
+    refused("time step", &BAD, |x| bed(2).prepare(x));
+    refused("time step", &BAD, |x| HalfPlaneGround::strip(soil(), 0.0..1.0, 2)?.prepare(x));
+}
+
+#[test]
+fn an_unprepared_half_plane_says_so() {
+    let mut ground = HalfPlaneGround::strip(soil(), 0.0..1.0, 1).unwrap();
+    error_with("prepare", ground.instantaneous(&mut [0.0; 4]));
+    error_with("prepare", ground.history(&mut [0.0; 2]));
+    error_with("prepare", ground.reserve(10));
+}
+
+#[test]
+fn an_unprepared_spring_bed_says_so() {
+    let mut bed = SpringGround::new(0.0..1.0, 1, 1e6, 1e6).unwrap();
+    error_with("prepare", bed.instantaneous(&mut [0.0; 4]));
+    error_with("prepare", bed.history(&mut [0.0; 2]));
+}
+
+/// Counts as large as they come are refused or cut, not allocated.
+#[test]
+fn absurd_counts_do_not_panic() {
+    for count in [0, 1_000_000_000_000, usize::MAX] {
+        error_with("number of contact elements", HalfPlaneGround::strip(soil(), 0.0..1.0, count));
+        error_with("number of contact elements", SpringGround::new(0.0..1.0, count, 1.0, 1.0));
+    }
+    let mut ground = HalfPlaneGround::strip(soil(), 0.0..1.0, 1).unwrap();
+    ground.prepare(0.01).unwrap();
+    ground.reserve(usize::MAX).unwrap();
+
+    // Steps beside which the fronts' passage is no time at all must not split pieces without end.
+    for step in [1e200, 1e300] {
+        ground.prepare(step).unwrap();
+        assert!(ground.instantaneous(&mut [0.0; 4]).is_ok());
+    }
+
+    let left = ContactElement { left: 0.0, right: 1.0 };
+    let right = ContactElement { left: 1.0, right: 2.0 };
+    let kernel = InfluenceKernel::new(soil(), 1e-30).unwrap();
+    let pair = kernel.pair(right, left).unwrap();
+    assert_eq!(pair.coupling_ends(), usize::MAX);
+    pair.fill(usize::MAX, &mut [0.0; 2], &mut [0.0; 2], &mut [0.0; 2]).unwrap();
+}
+
+#[test]
+fn kernels() {
+    let element = |left: f64, right: f64| ContactElement { left, right };
+    refused("time step", &BAD, |x| InfluenceKernel::new(soil(), x));
+    let kernel = InfluenceKernel::new(soil(), 1e-3).unwrap();
+    let unit = element(0.0, 1.0);
+    for bad in [element(f64::NAN, 1.0), element(0.0, f64::INFINITY), element(1.0, 0.0)] {
+        assert!(matches!(kernel.pair(bad, unit), Err(Error::Input { .. })));
+        assert!(matches!(kernel.coefficients(unit, bad, 1), Err(Error::Input { .. })));
+        let statics = StaticKernel::new(soil(), 1.0).unwrap();
+        assert!(matches!(statics.coefficients(bad, unit), Err(Error::Input { .. })));
+        assert!(PatchKernel::new(soil(), vec![bad], 1e-3).is_err());
+    }
+    refused("lag", &[0.0], |_| kernel.coefficients(unit, unit, 0));
+    refused("reference length", &BAD, |x| StaticKernel::new(soil(), x));
+    let pair = kernel.pair(unit, unit).unwrap();
+    let uneven = pair.fill(1, &mut [0.0; 3], &mut [0.0; 2], &mut [0.0; 3]);
+    assert!(matches!(error_with("xx", uneven), Error::Size { found: 2, needed: 3, .. }));
+    error_with("first lag", pair.fill(0, &mut [0.0], &mut [0.0], &mut [0.0]));
+
+    refused("time step", &BAD, |x| PatchKernel::new(soil(), vec![unit], x));
+    error_with("contact elements", PatchKernel::new(soil(), vec![], 1e-3));
+    let overlapping = vec![unit, element(0.5, 1.5)];
+    error_with("left end", PatchKernel::new(soil(), overlapping, 1e-3));
+}

@@ -1,0 +1,90 @@
+//! A structure to be spoilt in one thing.
+
+use basemat::Simulation;
+use basemat::coupled::SimulationBuilder;
+use basemat::interface::Bonded;
+use basemat::structure::{ContactNode, Structure, Triplets};
+
+use crate::scene::bed;
+
+/// A structure of which one part is spoilt.
+#[derive(Clone)]
+pub(crate) struct Spoilt {
+    pub(crate) unknowns: usize,
+    pub(crate) nodes: Vec<ContactNode>,
+    pub(crate) mass: (usize, usize, f64),
+    pub(crate) stiffness: (usize, usize, f64),
+    pub(crate) damping: (usize, usize, f64),
+    pub(crate) tangent: Option<(usize, usize, f64)>,
+    pub(crate) shrinks: bool,
+    pub(crate) load_from: f64,
+    pub(crate) push: f64,
+}
+
+impl Spoilt {
+    pub(crate) fn sound() -> Self {
+        Self {
+            unknowns: 3,
+            nodes: ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2]),
+            mass: (0, 0, 0.0),
+            stiffness: (0, 0, 0.0),
+            damping: (0, 0, 0.0),
+            tangent: None,
+            shrinks: false,
+            load_from: f64::INFINITY,
+            push: 0.0,
+        }
+    }
+
+    pub(crate) fn scene(self) -> SimulationBuilder {
+        Simulation::builder(1e-3).structure(self).ground(bed(4)).interface(Bonded).gravity(9.81)
+    }
+}
+
+impl Structure for Spoilt {
+    fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.nodes.clone()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        for i in 0..self.unknowns.min(3) {
+            matrix.add(i, i, 1e4);
+        }
+        let (row, column, value) = self.mass;
+        matrix.add(row, column, value);
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        let (row, column, value) = self.stiffness;
+        matrix.add(row, column, value);
+        if self.shrinks {
+            *matrix = Triplets::new(1);
+        }
+    }
+
+    fn damping(&self, matrix: &mut Triplets) {
+        let (row, column, value) = self.damping;
+        matrix.add(row, column, value);
+    }
+
+    fn load(&self, time: f64, load: &mut [f64]) {
+        load[0] += self.push;
+        if time >= self.load_from {
+            load[0] = f64::NAN;
+        }
+    }
+
+    fn is_linear(&self) -> bool {
+        self.tangent.is_none()
+    }
+
+    fn nonlinear_tangent(&self, _: &[f64], matrix: &mut Triplets) {
+        if let Some((row, column, value)) = self.tangent {
+            matrix.add(row, column, value);
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! Steps that fail, and what is left then.
+
+use std::fmt::Debug;
+
+use basemat::interface::{
+    Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+};
+use basemat::motion::FreeFieldFn;
+use basemat::{Error, Simulation, StepError};
+
+use crate::builder::good;
+use crate::spoilt::Spoilt;
+
+/// The step that fails, with the state before and after the attempt.
+fn failing_step(mut simulation: Simulation) -> (Error, usize, Simulation) {
+    for accepted in 0..1000 {
+        let before = simulation.state().clone();
+        if let Err(error) = simulation.step() {
+            assert_eq!(*simulation.state(), before, "a failed step changes nothing");
+            assert_eq!(before.step, accepted);
+            return (error, accepted, simulation);
+        }
+    }
+    panic!("no step failed");
+}
+
+fn assert_not_finite(error: &Error, accepted: usize, part: &str) {
+    let Error::Step { step, time, source: StepError::NotFinite { quantity } } = error else {
+        panic!("{error:?}");
+    };
+    assert_eq!(*step, accepted + 1);
+    assert!((time - *step as f64 * 1e-3).abs() < 1e-12);
+    let message = error.to_string();
+    assert!(quantity.contains(part), "{quantity}");
+    assert!(message.contains(&format!("step {step} (t = ")) && message.contains("not finite"));
+}
+
+#[test]
+fn a_free_field_that_breaks_leaves_the_last_accepted_step() {
+    let broken = FreeFieldFn::new(|_, t| [if t > 0.0105 { f64::NAN } else { t * t }, 0.0]);
+    let law = Coulomb::new(0.3).unwrap();
+    let simulation = good().interface(law).motion(broken).gravity(9.81).build().unwrap();
+    let (error, accepted, mut simulation) = failing_step(simulation);
+    assert_eq!(accepted, 10);
+    assert_not_finite(&error, accepted, "free field");
+    // Again, and through `run`: the same error, the same state.
+    let seen = simulation.state().clone();
+    assert_eq!(simulation.run(5, |_| {}).unwrap_err(), error);
+    assert_eq!(*simulation.state(), seen);
+    assert!(seen.displacement().iter().all(|u| u.is_finite()));
+}
+
+#[test]
+fn a_load_that_breaks_leaves_the_last_accepted_step() {
+    for tangent in [None, Some((0, 0, 0.0))] {
+        let structure = Spoilt { load_from: 0.0101, tangent, ..Spoilt::sound() };
+        let (error, accepted, _) = failing_step(structure.scene().build().unwrap());
+        assert_not_finite(&error, accepted, "displacement");
+        assert_eq!(accepted, 10);
+    }
+}
+
+/// A law that is never content.
+struct Fickle;
+
+impl InterfaceLaw for Fickle {
+    fn modes(&self) -> &[Mode] {
+        &[Mode::Stick, Mode::Open]
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        Coulomb::uplift_only().conditions(mode, start)
+    }
+
+    fn next_mode(&self, mode: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+        if mode == Mode::Stick { Mode::Open } else { Mode::Stick }
+    }
+}
+
+#[test]
+fn modes_that_are_not_found_are_an_error_with_residual_and_modes() {
+    let (error, accepted, _) = failing_step(good().interface(Fickle).build().unwrap());
+    assert_eq!(accepted, 0);
+    let Error::Step { step: 1, source: StepError::Contact { iterations, residual, modes }, .. } =
+        &error
+    else {
+        panic!("{error:?}");
+    };
+    assert!(*iterations > 0 && !residual.is_nan());
+    assert_eq!(modes.len(), 4);
+    let message = error.to_string();
+    assert!(
+        message.contains("residual") && message.contains("modes [") && message.contains("0.001")
+    );
+}
+
+#[test]
+fn errors_are_ordinary_errors() {
+    fn is_error<T: std::error::Error + Send + Sync + Clone + Debug + 'static>() {}
+    is_error::<Error>();
+    is_error::<StepError>();
+    let (error, ..) = failing_step(good().interface(Fickle).build().unwrap());
+    assert!(std::error::Error::source(&error).is_some());
+}

@@ -1,0 +1,105 @@
+//! Structures whose matrices, base or loads make no sense.
+
+use basemat::coupled::Placement;
+use basemat::interface::{Bonded, Coulomb};
+use basemat::structure::{ContactNode, Row};
+use basemat::{Error, Simulation};
+
+use super::{NOT_FINITE, refused};
+use crate::builder::unbuilt;
+use crate::scene::bed;
+use crate::spoilt::Spoilt;
+
+#[test]
+fn structures_that_write_out_of_range_or_nan_are_refused() {
+    assert!(Spoilt::sound().scene().build().is_ok());
+    let sound = Spoilt::sound;
+    for entry in [(3, 0, 1.0), (0, 3, 1.0), (usize::MAX, 0, 1.0)] {
+        let index = entry.0.max(entry.1);
+        for (name, spoilt) in [
+            ("mass matrix", Spoilt { mass: entry, ..sound() }),
+            ("stiffness matrix", Spoilt { stiffness: entry, ..sound() }),
+            ("damping matrix", Spoilt { damping: entry, ..sound() }),
+            ("tangent of the nonlinear force", Spoilt { tangent: Some(entry), ..sound() }),
+        ] {
+            let error = unbuilt(name, spoilt.scene());
+            assert_eq!(error, Error::Index { quantity: name, index, bound: 3 });
+        }
+    }
+    refused("mass matrix", &NOT_FINITE, |x| {
+        Spoilt { mass: (0, 0, x), ..sound() }.scene().build().map(drop)
+    });
+    refused("stiffness matrix", &NOT_FINITE, |x| {
+        Spoilt { stiffness: (0, 0, x), ..sound() }.scene().build().map(drop)
+    });
+    refused("damping matrix", &NOT_FINITE, |x| {
+        Spoilt { damping: (0, 0, x), ..sound() }.scene().build().map(drop)
+    });
+    refused("tangent", &NOT_FINITE, |x| {
+        Spoilt { tangent: Some((0, 0, x)), ..sound() }.scene().build().map(drop)
+    });
+    let error = unbuilt("stiffness matrix", Spoilt { shrinks: true, ..sound() }.scene());
+    assert!(matches!(error, Error::Size { found: 1, needed: 3, .. }));
+    refused("load at t = 0", &[f64::NAN], |_| {
+        Spoilt { load_from: 0.0, ..sound() }.scene().build().map(drop)
+    });
+}
+
+#[test]
+fn structures_with_a_bad_base_are_refused() {
+    let with = |nodes: Vec<ContactNode>| Spoilt { nodes, ..Spoilt::sound() }.scene();
+    let error = unbuilt("contact nodes", with(vec![ContactNode::free(0.0, 0, 1)]));
+    assert!(matches!(error, Error::Size { found: 1, needed: 2, .. }));
+    let far = vec![ContactNode::free(-2.0, 0, 1), ContactNode::free(2.0, 0, 9)];
+    let error = unbuilt("unknown of a contact node", with(far));
+    assert!(matches!(error, Error::Index { index: 9, bound: 3, .. }));
+    refused("coordinate of a contact node", &NOT_FINITE, |x| {
+        with(vec![ContactNode::free(-2.0, 0, 1), ContactNode::free(x, 0, 1)]).build().map(drop)
+    });
+    refused("coordinate of a contact node", &[-2.0, -3.0], |x| {
+        with(vec![ContactNode::free(-2.0, 0, 1), ContactNode::free(x, 0, 1)]).build().map(drop)
+    });
+    refused("weight of a contact node", &NOT_FINITE, |x| {
+        let mut nodes = ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2]);
+        nodes[0].vertical = (1, x).into();
+        with(nodes).build().map(drop)
+    });
+    let none = Spoilt { unknowns: 0, nodes: empty_base(), ..Spoilt::sound() };
+    assert!(matches!(
+        Simulation::builder(1e-3).structure(none).ground(bed(4)).interface(Bonded).build(),
+        Err(Error::Size { found: 0, .. } | Error::Index { .. })
+    ));
+    // The base moves with one unknown only: nothing turns it, nothing moves it sideways.
+    let floating = unbuilt("singular", with(empty_base()));
+    assert!(matches!(floating, Error::Singular { order: 3, .. }));
+}
+
+fn empty_base() -> Vec<ContactNode> {
+    [-2.0, 2.0]
+        .map(|x| ContactNode { x, horizontal: Row::default(), vertical: Row::default() })
+        .into()
+}
+
+#[test]
+fn a_structure_that_slides_away_under_its_static_load_is_refused() {
+    let pushed = || Spoilt { push: 1e4, ..Spoilt::sound() };
+    let law = Coulomb::new(0.3).unwrap();
+    // Set down without friction, nothing holds it; with friction of 0.3 its weight does.
+    let error = unbuilt("no static equilibrium", pushed().scene().interface(law));
+    assert!(matches!(error, Error::Preload { iterations: 1.., .. }), "{error:?}");
+    let placed = pushed().scene().interface(law).placement(Placement::WithInterfaceLaw);
+    let shear = placed.build().unwrap().state().base_shear;
+    assert!((shear - 1e4).abs() < 1e-4, "{shear}");
+}
+
+#[test]
+fn structures_without_end_are_refused() {
+    // More unknowns than any machine holds.
+    let endless = Spoilt { unknowns: usize::MAX, ..Spoilt::sound() };
+    match endless.scene().build().err() {
+        Some(Error::Input { quantity, .. }) => {
+            assert_eq!(quantity, "number of unknowns of the structure");
+        }
+        other => panic!("{other:?}"),
+    }
+}

@@ -1,0 +1,58 @@
+//! All parts can be printed, and a simulation can go to another thread.
+
+use std::sync::Arc;
+
+use basemat::bem::{Ground, HalfPlaneGround, PatchKernel};
+use basemat::coupled::{Run, SimulationBuilder};
+use basemat::history::DirectHistory;
+use basemat::interface::Bonded;
+use basemat::motion::TravellingWave;
+use basemat::structure::{StructureGroup, WithSprings};
+use basemat::{Error, Simulation};
+
+use super::{STEP, push, shaken, soil};
+use crate::scene::{bed, block};
+
+#[test]
+fn all_parts_can_be_shown() {
+    fn shown(part: &dyn std::fmt::Debug, words: &[&str]) {
+        let text = format!("{part:?}");
+        assert!(text.len() < 2000, "{text}");
+        for word in words {
+            assert!(text.contains(word), "{word} in {text}");
+        }
+    }
+    let builder = || shaken().structure(block()).interface(Bonded);
+    shown(&builder(), &["time_step: 0.002", "structure: true", "ground: false", "gravity: 9.81"]);
+    // What is refused can be unwrapped.
+    assert!(matches!(builder().build().unwrap_err(), Error::Scene { quantity: "ground", .. }));
+    let mut simulation = builder().ground(bed(4)).build().unwrap();
+    simulation.step().unwrap();
+    shown(&simulation, &["unknowns: 3", "elements: 4", "step: 1"]);
+    let ground = || HalfPlaneGround::strip(soil(), -2.0..2.0, 6).unwrap();
+    shown(&ground(), &["Soil", "elements: 6"]);
+    let kernel = Arc::new(PatchKernel::new(soil(), ground().elements().to_vec(), STEP).unwrap());
+    shown(&DirectHistory::new(kernel), &["elements: 6", "steps: 0"]);
+    shown(&WithSprings::new(block()), &["unknowns: 3", "springs: 0"]);
+    shown(&StructureGroup::new(), &["structures: 0"]);
+    shown(&TravellingWave::new(push(), 500.0, 1.0).unwrap(), &["500.0", "origin: 1.0"]);
+    shown(&basemat::Sweep::new(3), &["count: 3"]);
+}
+
+#[test]
+fn simulations_can_move_between_threads() {
+    fn is_send<T: Send>() {}
+    fn is_sync<T: Sync>() {}
+    is_send::<Simulation>();
+    is_send::<SimulationBuilder>();
+    is_send::<Run>();
+    is_send::<basemat::coupled::State>();
+    is_sync::<basemat::structure::ReducedModel>();
+    let mut simulation =
+        shaken().structure(block()).ground(bed(4)).interface(Bonded).build().unwrap();
+    let moved = std::thread::spawn(move || {
+        simulation.run(10, |_| {}).unwrap();
+        simulation.state().step
+    });
+    assert_eq!(moved.join().unwrap(), 10);
+}
