@@ -1,0 +1,52 @@
+//! A cavity against its closed form.
+
+use basemat::bem::full_plane::{BoundaryMarch, Given, TimeKernel};
+
+use super::{circle, soil};
+use crate::support::series::{whole, within};
+use crate::support::table;
+
+/// Largest error of the radial displacement over 0 < t ≤ 8, relative to the static value ½, and
+/// the largest departure of an element from the mean.
+fn cavity_errors(poisson: f64, count: usize, time_step: f64) -> [f64; 2] {
+    let segments = circle(count, true);
+    let kernel = TimeKernel::new(soil(poisson), &segments, time_step).unwrap();
+    let mut march =
+        BoundaryMarch::new(Box::new(kernel), &vec![Given::Traction; 2 * count]).unwrap();
+    // Pressure on the wall is a traction against the outward normal.
+    let values: Vec<f64> =
+        (0..2).flat_map(|k| segments.iter().map(move |s| -s.normal()[k])).collect();
+    let table = table("cavity_step_pressure.csv");
+    let column = table.column(if poisson == 0.0 { "u_nu0" } else { "u_nu025" });
+    let (mut worst, mut uneven, mut seen) = (0.0_f64, 0.0_f64, 0);
+    for n in 1..=whole(8.0 / time_step) {
+        march.step(&values).unwrap();
+        let u = march.displacement();
+        let radial: Vec<f64> = segments
+            .iter()
+            .enumerate()
+            .map(|(k, s)| -(u[k] * s.normal()[0] + u[count + k] * s.normal()[1]))
+            .collect();
+        let mean = radial.iter().sum::<f64>() / count as f64;
+        uneven = radial.iter().fold(uneven, |m, r| m.max((r - mean).abs() / 0.5));
+        let place = n as f64 * time_step / 0.2;
+        if (place - place.round()).abs() < 1e-9 {
+            worst = worst.max((mean - column[whole(place) - 1]).abs() / 0.5);
+            seen += 1;
+        }
+    }
+    assert!(seen >= 20);
+    [worst, uneven]
+}
+
+/// GOAL: curved boundaries, first order in element and step.
+/// SCENE: cavity under a pressure switched on at once, β from 1.3 to 2.6, where nothing grows.
+/// REFERENCE: closed form in the Laplace domain (K₀, K₁).
+#[test]
+fn cavity_under_a_sudden_pressure() {
+    let runs =
+        [(24, 0.2), (48, 0.1), (96, 0.1)].map(|(count, step)| cavity_errors(0.25, count, step));
+    let [even, odd] = [0, 1].map(|k| runs.map(|run| run[k]));
+    within("cavity", &["24", "48", "96"], &even, &[9.5e-2, 3.3e-2, 2.6e-2]);
+    within("cavity, unevenness", &["24", "48", "96"], &odd, &[1e-9; 3]);
+}

@@ -1,0 +1,109 @@
+//! The flat boundary against the half-plane.
+
+use basemat::bem::full_plane::{Boundary, CqMethod, FullPlaneGround};
+use basemat::bem::{Ground, HalfPlaneGround, Strip};
+
+use super::soil;
+use crate::support::close;
+use crate::support::series::{Error as SeriesError, within};
+use crate::truncation::{Mesh, block_errors, impedance_errors, rocking};
+
+fn time_mesh(elements: usize, free: usize, beta: f64) -> Mesh {
+    Mesh { elements, free, beta, quadrature: None }
+}
+
+/// GOAL: the flat boundary is the half-plane, but for its truncated surface.
+/// SCENE: bonded massless rigid strip of 8 elements, β = 1.15.
+/// REFERENCE: impedances by a spectral method. The coupling, a small number that comes from H and the
+/// free surface alone, is poor for every step and hardly better with twice the elements.
+#[test]
+fn impedances_of_the_bonded_strip() {
+    for (free, limits) in
+        [(5, [4.2e-2, 4.6e-2, 1.5e-1, 5.2e-1]), (10, [4.2e-2, 4.6e-2, 1.5e-1, 4.2e-1])]
+    {
+        let errors = impedance_errors("0333", 1.0 / 3.0, time_mesh(8, free, 1.15));
+        within(&format!("{free} free"), &["khh", "kvv", "krr", "khr"], &errors, &limits);
+    }
+}
+
+/// GOAL: what the truncated free surface leaves. The direct impedances are those of the mesh with or
+/// without free elements; the coupling, which comes from the free surface and from H alone, tends
+/// to the half-plane's with the root of the surface's length.
+/// SCENE: as before by convolution quadrature (BDF2), which is bounded with any of these surfaces.
+/// REFERENCE: impedances by a spectral method.
+#[test]
+fn coupling_settles_with_the_length_of_the_free_surface() {
+    let mesh = |free| Mesh { elements: 8, free, beta: 1.15, quadrature: Some(CqMethod::Bdf2) };
+    let ground = |free| mesh(free).ground(soil(1.0 / 3.0));
+    let step = mesh(0).time_step(soil(1.0 / 3.0));
+    assert!(ground(20).assess(step).unwrap().is_bounded());
+    let errors = [0, 5, 20, 80].map(|free| impedance_errors("0333", 1.0 / 3.0, mesh(free)));
+    for (errors, coupling) in errors.iter().zip([4.6e-1, 3.3e-1, 2.4e-1, 1.4e-1]) {
+        let limits = [4.3e-2, 4.2e-2, 7.8e-2, coupling];
+        within("BDF2", &["khh", "kvv", "krr", "khr"], errors, &limits);
+    }
+    for k in 0..3 {
+        let all = errors.map(|errors| errors[k]);
+        let (least, most) = all.iter().fold((1.0_f64, 0.0_f64), |m, e| (m.0.min(*e), m.1.max(*e)));
+        assert!(most < 1.2 * least, "{k}: {all:?}");
+    }
+    // The last quadrupling of the length: by 2^(2 · 0.4).
+    close("order", (errors[2][3] / errors[3][3]).log2() / 2.0, 0.4, 0.1, 0.0);
+}
+
+/// GOAL: both soils tend to the same answer in a coupled run.
+/// SCENE: bonded rigid block under a Ricker pulse, 5 free elements on either side, β = 1.
+#[test]
+fn rigid_block_on_both_grounds() {
+    for (count, free, limits) in [(8, 5, [6.2e-2, 7.6e-2, 3e-2]), (16, 5, [2.2e-2, 3.8e-2, 3.2e-2])]
+    {
+        let errors = block_errors(time_mesh(count, free, 1.0));
+        within(&format!("{count}, {free}"), &["u_base", "theta", "V"], &errors, &limits);
+    }
+}
+
+/// GOAL: contact with friction copes with an operator that is not symmetric.
+/// SCENE: a block that rocks and slides, 5 free elements on either side, β = 2.
+#[test]
+fn rocking_and_sliding_on_both_grounds() {
+    let [(slip, uplift), (other_slip, other_uplift)] = rocking(8, 5, 2.0);
+    println!("uplift {uplift} {other_uplift}, slip {:?} {:?}", slip.last(), other_slip.last());
+    let mut error = SeriesError::default();
+    slip.iter().zip(&other_slip).for_each(|(a, b)| error.add(*a, *b));
+    within("rocking", &["slip"], &[error.relative()], &[1e-2]);
+    assert!(uplift > 0.0 && (uplift - other_uplift).abs() < 0.13);
+}
+
+/// GOAL: the static limit of the boundary equation is the half-plane's.
+/// SCENE: a surface of which the last element dips by a millionth, so that it counts as uneven.
+/// REFERENCE: the half-plane's static compliance; between two elements, as there is no datum.
+#[test]
+fn static_compliance_tends_to_the_half_planes() {
+    let mut half = HalfPlaneGround::strip(soil(0.3), -1.0..1.0, 4).unwrap();
+    half.prepare(0.1).unwrap();
+    let mut wanted = [0.0; 64];
+    half.static_compliance(&mut wanted).unwrap();
+    // From the left element: z and x displacements between the two on the right, and how z and x
+    // move each other.
+    let measures = |matrix: &[f64]| {
+        let at = |i: usize, j: usize| matrix[i * 8 + j];
+        [at(2, 0) - at(3, 0), at(6, 4) - at(7, 4), at(3, 4), at(7, 0)]
+    };
+    let errors: [[f64; 4]; 3] = [5, 20, 80].map(|free| {
+        let flat = Boundary::flat(&[Strip::uniform(-1.0..1.0, 4).unwrap()], free).unwrap();
+        let mut segments = flat.segments().to_vec();
+        segments.last_mut().unwrap().to[1] += 1e-6;
+        let boundary = Boundary::new(segments, flat.contact()).unwrap();
+        assert!(!boundary.is_flat());
+        let ground = FullPlaneGround::new(soil(0.3), boundary);
+        let mut found = [0.0; 64];
+        ground.static_compliance(&mut found).unwrap();
+        let [found, wanted] = [measures(&found), measures(&wanted)];
+        std::array::from_fn(|k| (found[k] / wanted[k] - 1.0).abs())
+    });
+    // Midpoints against means, and elements as long as a quarter of the strip, leave a few percent.
+    for (errors, coupling) in errors.iter().zip([1.2e-1, 1.1e-1, 8.5e-2]) {
+        let limits = [1.7e-2, 1.7e-2, coupling, coupling];
+        within("static", &["zz", "xx", "zx", "xz"], errors, &limits);
+    }
+}

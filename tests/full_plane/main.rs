@@ -1,0 +1,44 @@
+//! Full-plane boundary elements: coefficients, cavities, and the ground against the half-plane.
+
+mod cavity;
+mod coefficients;
+mod half_plane;
+mod incident_waves;
+mod refused;
+#[path = "../support/mod.rs"]
+mod support;
+#[path = "../support/truncation.rs"]
+mod truncation;
+
+use std::f64::consts::PI;
+
+use basemat::Soil;
+use basemat::bem::full_plane::{BoundaryKernel, Segment, TimeKernel};
+
+fn soil(poisson: f64) -> Soil {
+    Soil::new(1.0, poisson, 1.0).unwrap()
+}
+
+/// G and H of a lag.
+fn coefficients(kernel: &TimeKernel, lag: usize) -> [Vec<f64>; 2] {
+    let size = 2 * kernel.segments().len();
+    let (mut g, mut h) = (vec![7.0; size * size], vec![7.0; size * size]);
+    kernel.coefficients(lag, &mut g, &mut h).unwrap();
+    [g, h]
+}
+
+/// Polygon around a hole of area π, the soil outside (or inside).
+fn circle(count: usize, outside: bool) -> Vec<Segment> {
+    let angle = 2.0 * PI / count as f64;
+    let radius = (PI / (0.5 * count as f64 * angle.sin())).sqrt();
+    let node = |k: usize| {
+        let a = (k % count) as f64 * angle;
+        [radius * a.sin(), radius * a.cos()]
+    };
+    (0..count)
+        .map(|k| {
+            let (from, to) = (node(k), node(k + 1));
+            if outside { Segment { from, to } } else { Segment { from: to, to: from } }
+        })
+        .collect()
+}

@@ -1,0 +1,74 @@
+//! Input that makes no sense, and two motions at once.
+
+use basemat::bem::Ground;
+use basemat::bem::full_plane::{
+    Boundary, BoundaryMarch, FullPlaneGround, Given, Segment, TimeKernel, VerticalWaves,
+};
+use basemat::interface::Bonded;
+use basemat::motion::{AtRest, RickerDisplacement};
+use basemat::structure::RigidBlock;
+use basemat::{Error, Simulation};
+
+use super::soil;
+use crate::incident_waves::{canyon, waves};
+
+/// GOAL: no silent answers: a boundary that is not flat needs its incident field, and that one does
+/// not go with a motion of the scene.
+#[test]
+fn two_motions_are_refused() {
+    let mut ground = FullPlaneGround::new(soil(0.25), canyon(0.5));
+    assert!(matches!(ground.prepare(0.5), Err(Error::Scene { .. })));
+    let mut ground = ground.with_incident_field(waves()).skip_assessment();
+    ground.prepare(0.5).unwrap();
+    let mut out = [0.0; 8];
+    ground.free_field(&RickerDisplacement::new(1.0, 0.8, 4.0).unwrap(), 4.0, &mut out);
+    assert!(out.iter().all(|x| x.is_nan()));
+    assert!(matches!(ground.history(&mut out), Err(Error::Scene { .. })));
+    // A simulation passes the reason on.
+    let ground = FullPlaneGround::new(soil(0.25), canyon(0.5)).with_incident_field(waves());
+    let elements = ground.elements().to_vec();
+    let width = elements[elements.len() - 1].right - elements[0].left;
+    let center = elements[0].left + 0.5 * width;
+    let block = RigidBlock::new(width, 0.5, 1.0).unwrap().centered_at(center).unwrap();
+    let simulation = Simulation::builder(0.5)
+        .structure(block)
+        .ground(ground.skip_assessment())
+        .interface(Bonded)
+        .motion(RickerDisplacement::new(1.0, 0.8, 4.0).unwrap());
+    let error = simulation.build().map_or_else(Some, |mut s| s.step().err());
+    let message = error.unwrap().to_string();
+    assert!(message.contains("ground motion"), "{message}");
+}
+
+#[test]
+fn bad_input_is_refused() {
+    let soil = soil(0.25);
+    let flat = |x: f64| Segment { from: [x, 0.0], to: [x + 1.0, 0.0] };
+    let mut ground = FullPlaneGround::strip(soil, -1.0..1.0, 2, 2).unwrap();
+    assert!(matches!(ground.history(&mut [0.0; 4]), Err(Error::Scene { .. })));
+    assert!(matches!(ground.instantaneous(&mut [0.0; 16]), Err(Error::Scene { .. })));
+    assert!(matches!(ground.reserve(9), Err(Error::Scene { .. })));
+    for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(ground.prepare(step), Err(Error::Input { .. })));
+    }
+    ground.prepare(0.5).unwrap();
+    assert!(matches!(ground.history(&mut [0.0; 3]), Err(Error::Size { .. })));
+    assert!(matches!(ground.instantaneous(&mut [0.0; 15]), Err(Error::Size { .. })));
+    assert!(matches!(ground.static_compliance(&mut [0.0; 15]), Err(Error::Size { .. })));
+    ground.commit(&[]);
+    let [empty, nan, point] =
+        [vec![], vec![flat(f64::NAN)], vec![Segment { from: [1.0; 2], to: [1.0; 2] }]];
+    assert!(matches!(Boundary::new(empty, &[]), Err(Error::Size { .. })));
+    assert!(matches!(Boundary::new(nan, &[0]), Err(Error::Input { .. })));
+    assert!(matches!(Boundary::new(point, &[0]), Err(Error::Input { .. })));
+    assert!(matches!(Boundary::new(vec![flat(0.0)], &[1]), Err(Error::Index { .. })));
+    assert!(matches!(Boundary::new(vec![flat(0.0)], &[]), Err(Error::Size { .. })));
+    assert!(matches!(Boundary::new(vec![flat(0.0), flat(0.3)], &[0]), Err(Error::Input { .. })));
+    let slope = vec![Segment { from: [0.0, 0.0], to: [1.0, 0.1] }];
+    assert!(matches!(Boundary::new(slope, &[0]), Err(Error::Input { .. })));
+    let kernel = || Box::new(TimeKernel::new(soil, &[flat(0.0)], 0.5).unwrap());
+    assert!(matches!(BoundaryMarch::new(kernel(), &[]), Err(Error::Size { .. })));
+    let mut march = BoundaryMarch::new(kernel(), &[Given::Traction; 2]).unwrap();
+    assert!(matches!(march.step(&[1.0]), Err(Error::Size { .. })));
+    assert!(matches!(VerticalWaves::new(soil, AtRest, f64::NAN), Err(Error::Input { .. })));
+}
