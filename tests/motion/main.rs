@@ -1,0 +1,8 @@
+//! Ground-motion records: integration, peaks, baselines, free fields.
+
+mod baselines;
+mod filters;
+mod free_fields;
+mod records;
+#[path = "../support/mod.rs"]
+mod support;
