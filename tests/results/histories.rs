@@ -1,0 +1,139 @@
+//! Histories and peaks against the states.
+
+use basemat::Error;
+use basemat::results::{EnergyShares, Quantity, Recorder};
+
+use super::{FRICTION, STEPS, recorded};
+
+/// Everything once more, from the states and by other means.
+#[test]
+fn histories_and_peaks_are_those_of_the_states() {
+    let (states, histories, simulation) = recorded(Recorder::new().contact(1));
+    let elements = simulation.elements();
+    let times: Vec<f64> = states.iter().map(|s| s.time).collect();
+    assert_eq!(histories.times(), times);
+    let shear: Vec<f64> = states.iter().map(|s| s.base_shear).collect();
+    assert_eq!(histories.series(Quantity::BaseShear), shear);
+    let rotation: Vec<f64> = states.iter().map(|s| s.base_rotation).collect();
+    assert_eq!(histories.series(Quantity::BaseRotation), rotation);
+    let top: Vec<f64> = states.iter().map(|s| s.probes[0]).collect();
+    assert_eq!(histories.probe("top").unwrap(), top);
+    assert_eq!(histories.ledgers()[STEPS], states[STEPS].ledger);
+
+    let summary = histories.summary();
+    let peak = (0..=STEPS).max_by(|&a, &b| shear[a].total_cmp(&shear[b])).unwrap();
+    let found = summary.base_shear.highest;
+    assert_eq!((found.value, found.time), (shear[peak], times[peak]));
+    let lowest = shear.iter().copied().fold(f64::INFINITY, f64::min);
+    assert_eq!(summary.base_shear.lowest.value, lowest);
+    assert!(lowest < 0.0);
+    let top_peak = top.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    assert_eq!(summary.probe("top").unwrap().largest().magnitude(), top_peak);
+
+    for (e, envelope) in histories.envelope().iter().enumerate() {
+        let pressures = || states.iter().map(|s| s.contact[e].pressure);
+        assert_eq!(envelope.pressure.highest.value, pressures().fold(0.0, f64::max));
+        assert_eq!(envelope.pressure.lowest.value, pressures().fold(1e99, f64::min));
+        assert_eq!(envelope.static_pressure, states[0].contact[e].pressure);
+        let gap = states.iter().map(|s| s.contact[e].gap).fold(-1e99, f64::max);
+        assert_eq!(envelope.gap.value, gap);
+        let open = states[1..].iter().filter(|s| !s.modes[e].is_closed()).count();
+        assert!((envelope.open - open as f64 * simulation.time_step()).abs() < 1e-9);
+        assert_eq!(envelope.element, elements[e]);
+    }
+
+    // Stretches of uplift as runs in a string.
+    let letters: String =
+        states[1..].iter().map(|s| if s.uplifted_fraction > 0.0 { 'u' } else { ' ' }).collect();
+    let stretches: Vec<usize> = letters.split_whitespace().map(str::len).collect();
+    let uplift = summary.uplift;
+    let dt = simulation.time_step();
+    assert!(stretches.len() > 2, "{letters}");
+    assert_eq!(uplift.count, stretches.len());
+    assert!((uplift.duration - dt * stretches.iter().sum::<usize>() as f64).abs() < 1e-9);
+    assert!((uplift.longest - dt * *stretches.iter().max().unwrap() as f64).abs() < 1e-9);
+
+    // Slip events as runs of letters for the direction.
+    let letters: Vec<char> = states
+        .windows(2)
+        .map(|pair| {
+            let closed: Vec<_> = pair[1].modes.iter().filter(|mode| mode.is_closed()).collect();
+            let slides = !closed.is_empty() && closed.iter().all(|mode| mode.is_slip());
+            match (slides, pair[1].mean_slip > pair[0].mean_slip) {
+                (false, _) => ' ',
+                (true, true) => 'r',
+                (true, false) => 'l',
+            }
+        })
+        .collect();
+    let sliding = &summary.sliding;
+    let events = letters.chunk_by(|a, b| a == b).filter(|run| run[0] != ' ').count();
+    assert!(events > 2, "{letters:?}");
+    assert_eq!(sliding.events.len(), events);
+    let slid = letters.iter().filter(|&&letter| letter != ' ').count();
+    assert!((sliding.duration - dt * slid as f64).abs() < 1e-9);
+    assert_eq!(sliding.residual, states[STEPS].mean_slip);
+    let way: f64 = sliding.events.iter().map(|event| event.slip.abs()).sum();
+    assert!((way / sliding.path - 1.0).abs() < 1e-12);
+    let peak = states.iter().fold(0.0_f64, |m, s| m.max(s.mean_slip.abs()));
+    assert_eq!(sliding.peak.value.abs(), peak);
+
+    // Safety from the resultants that the state has of its own.
+    let half = 2.0;
+    for (k, state) in states.iter().enumerate() {
+        let sliding = FRICTION * state.normal_force / state.base_shear.abs();
+        let overturning = state.normal_force * half / state.base_moment.abs();
+        for (quantity, known) in
+            [(Quantity::SlidingSafety, sliding), (Quantity::OverturningSafety, overturning)]
+        {
+            let found = histories.series(quantity)[k];
+            if state.normal_force == 0.0 {
+                assert!(found.is_nan());
+                continue;
+            }
+            assert!(known > 1e6 || (found / known - 1.0).abs() < 1e-8, "{found} {known}");
+            assert!(found > 1.0 - 1e-9);
+        }
+    }
+    let least = summary.least_sliding_safety.unwrap();
+    assert!((least.value - 1.0).abs() < 1e-9);
+
+    // Energy: shares of the last ledger, which close.
+    let shares = summary.energy.unwrap();
+    let ledger = states[STEPS].ledger;
+    assert_eq!(shares, EnergyShares::of(&ledger).unwrap());
+    assert!((shares.sum() - 1.0).abs() < 1e-9);
+    assert!((shares.contact * ledger.input / ledger.contact - 1.0).abs() < 1e-12);
+    assert!(shares.soil > 0.05 && shares.contact > 0.05);
+
+    // Frames are the states.
+    let frames: Vec<_> = histories.contact_frames().collect();
+    assert_eq!(frames.len(), STEPS + 1);
+    assert!(frames.iter().zip(&states).all(|(f, s)| f.states == s.contact && f.modes == s.modes));
+}
+
+#[test]
+fn thinned_histories_keep_the_peaks_of_all_steps() {
+    let (states, histories, _) = recorded(Recorder::new().every(7).contact(20).motion(50));
+    let (_, all, _) = recorded(Recorder::new());
+    assert_eq!(histories.times().len(), 1 + STEPS / 7);
+    for (k, &shear) in histories.series(Quantity::BaseShear).iter().enumerate() {
+        assert_eq!(shear, states[7 * k].base_shear);
+    }
+    for quantity in Quantity::ALL {
+        assert_eq!(histories.extremes(quantity), all.extremes(quantity));
+    }
+    assert_eq!(histories.envelope(), all.envelope());
+    assert_eq!(histories.summary().sliding, all.summary().sliding);
+    // Time, 11 scalars, 2 probes, 11 terms of the ledger.
+    assert_eq!(all.bytes(), 8 * (1 + 11 + 2 + 11) * (STEPS + 1));
+    assert!(histories.bytes() < all.bytes());
+    assert_eq!(histories.contact_frames().count(), 21);
+    let frames: Vec<_> = histories.motion_frames().collect();
+    assert_eq!(frames.len(), 9);
+    for (k, frame) in frames.iter().enumerate() {
+        assert_eq!(frame.displacement, states[50 * k].displacement());
+        assert_eq!(frame.velocity, states[50 * k].velocity());
+    }
+    assert!(matches!(histories.acceleration_record("top acceleration"), Err(Error::Scene { .. })));
+}

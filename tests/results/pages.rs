@@ -1,0 +1,131 @@
+//! What is printed and written: pages, tables, units.
+
+use basemat::Error;
+use basemat::coupled::Probe;
+use basemat::results::{Comparison, Quantity, Recorder};
+use basemat::structure::RigidBlock;
+
+use super::{FRICTION, STEPS, recorded};
+use crate::scenes::{SI, block, friction, scene};
+
+/// Values stay SI in files and turn into what engineers read where they are printed, a label that
+/// nobody knows stays.
+#[test]
+fn probes_come_with_their_unit() {
+    let build = || {
+        scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION)).probes([
+            Probe::displacement("slide", RigidBlock::HORIZONTAL),
+            Probe::displacement("turn", RigidBlock::ROTATION).in_unit("rad"),
+            Probe::velocity("rate", (RigidBlock::HORIZONTAL, 100.0)).in_unit("cm/s"),
+            Probe::acceleration("shake", RigidBlock::HORIZONTAL),
+            Probe::displacement("bare", RigidBlock::VERTICAL).in_unit(""),
+        ])
+    };
+    let mut simulation = build().build().unwrap();
+    let mut histories = Recorder::new().start(&simulation).unwrap();
+    let run = histories.run(&mut simulation, STEPS).unwrap();
+    let summary = histories.summary();
+    let (page, mut table) = (summary.to_string(), Comparison::new());
+    table.extend([("a", summary.clone())]);
+    let (run_page, table_page) = (run.to_string(), table.to_string());
+    let labels = [
+        ("slide", "mm", 1e3),
+        ("turn", "mrad", 1e3),
+        ("rate", "cm/s", 1.0),
+        ("shake", "m/s²", 1.0),
+    ];
+    for (name, unit, factor) in labels {
+        let peak = run.probe(name).unwrap();
+        assert_eq!(peak, summary.probe(name).unwrap().largest(), "{name}");
+        assert!(peak.value != 0.0);
+        for text in [&page, &run_page, &table_page] {
+            let line = text.lines().find(|line| line.trim().starts_with(name)).unwrap();
+            let words: Vec<&str> = line.split_whitespace().collect();
+            assert!(words.contains(&unit), "{line}");
+            let shown = |word: &&str| {
+                let value: f64 = word.parse().unwrap_or(f64::NAN);
+                (value - factor * peak.value).abs() < 1e-3 * factor * peak.magnitude()
+            };
+            assert!(words.iter().any(shown), "{line}, not {}", factor * peak.value);
+        }
+    }
+    let mut file = Vec::new();
+    histories.write_csv(&mut file).unwrap();
+    let text = String::from_utf8(file).unwrap();
+    let wanted = ",slide [m],turn [rad],rate [cm/s],shake [m/s²],bare,";
+    assert!(text.lines().next().unwrap().contains(wanted));
+    let csv = table.csv();
+    assert!(csv.lines().next().unwrap().ends_with(wanted.trim_end_matches(',')));
+    let last: Vec<&str> = csv.lines().nth(1).unwrap().split(',').collect();
+    let turn = run.probe("turn").unwrap().value;
+    assert_eq!(last[last.len() - 4].parse(), Ok(turn));
+
+    let nobody = Error::Name { quantity: "probe", name: "nobody".to_owned() };
+    assert_eq!(run.probe("nobody"), Err(nobody.clone()));
+    assert_eq!(summary.probe("nobody"), Err(nobody));
+}
+
+#[test]
+fn cases_with_other_probes_or_units_have_no_common_rows() {
+    let summary = |probe: Probe| {
+        let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION));
+        let simulation = builder.probe(probe).build().unwrap();
+        Recorder::new().start(&simulation).unwrap().summary()
+    };
+    let tilt = || Probe::displacement("tilt", RigidBlock::ROTATION);
+    let same: Comparison = ["a", "b"].map(|name| (name, summary(tilt()))).into_iter().collect();
+    assert_eq!(same.cases().len(), 2);
+    assert!(same.to_string().contains("tilt"));
+    let mixed = [("a", summary(tilt())), ("b", summary(tilt().in_unit("rad")))];
+    let mixed: Comparison = mixed.into_iter().collect();
+    assert!(!mixed.to_string().contains("tilt") && !mixed.csv().contains("tilt"));
+}
+
+#[test]
+fn pages_and_tables() {
+    let (_, histories, _) = recorded(Recorder::new());
+    let summary = histories.summary();
+    let page = summary.to_string();
+    println!("{page}");
+    for words in [
+        "Run of 400 steps",
+        "Least factor of safety against sliding: 1.000",
+        "slip events",
+        "friction and impact",
+        "Pressure under the base",
+    ] {
+        assert!(page.contains(words), "{words}\n{page}");
+    }
+    // No line too wide for a page.
+    assert!(page.lines().all(|line| line.chars().count() <= 100), "{page}");
+
+    let mut comparison = Comparison::new();
+    comparison.add("first, \"a\"", summary.clone());
+    comparison.add("second", summary.clone());
+    println!("{comparison}");
+    let csv = comparison.csv();
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines.len(), 3);
+    let columns = lines[0].split(',').count();
+    let values: Vec<&str> = lines[2].split(',').collect();
+    assert_eq!(values.len(), columns);
+    let column = lines[0].split(',').position(|name| name == "base_shear_n_per_m").unwrap();
+    assert_eq!(values[column].parse(), Ok(summary.base_shear.largest().value));
+    assert!(lines[1].starts_with("\"first, \"\"a\"\"\","));
+    let text = comparison.to_string();
+    assert!(text.lines().nth(2).unwrap().starts_with("base shear"));
+    let markdown = comparison.markdown();
+    assert!(markdown.lines().all(|line| line.matches('|').count() == 5), "{markdown}");
+    // Nothing to compare is a table, too.
+    assert!(Comparison::new().to_string().contains("base shear"));
+    assert_eq!(Comparison::new().csv().lines().count(), 1);
+
+    let mut file = Vec::new();
+    histories.write_csv(&mut file).unwrap();
+    let text = String::from_utf8(file).unwrap();
+    assert_eq!(text.lines().count(), STEPS + 2);
+    let columns = text.lines().next().unwrap().split(',').count();
+    assert!(text.lines().all(|line| line.split(',').count() == columns));
+    let last: Vec<&str> = text.lines().last().unwrap().split(',').collect();
+    assert_eq!(last[1].parse(), Ok(histories.series(Quantity::BaseShear)[STEPS]));
+}

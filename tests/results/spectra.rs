@@ -1,0 +1,86 @@
+//! Floor spectra, and broadened ones.
+
+use basemat::bem::HalfPlaneGround;
+use basemat::coupled::Probe;
+use basemat::interface::Bonded;
+use basemat::motion::{SpectralOrdinate, el_centro_1940};
+use basemat::results::{Recorder, broadened, log_spaced};
+use basemat::structure::RigidBlock;
+use basemat::{Simulation, Soil};
+
+/// A light block, bonded to stiff ground, moves as the ground does: so do its floors' spectra.
+#[test]
+fn floors_of_a_light_rigid_block_ride_on_the_ground() {
+    let ground = HalfPlaneGround::strip(Soil::new(2e9, 0.3, 2000.0).unwrap(), -2.0..2.0, 4);
+    let block = RigidBlock::new(4.0, 1.0, 10.0).unwrap();
+    let top = block.horizontal_at(1.0);
+    let mut simulation = Simulation::builder(0.01)
+        .structure(block)
+        .ground(ground.unwrap())
+        .interface(Bonded)
+        .motion(el_centro_1940())
+        .probe(Probe::acceleration("top", top))
+        .build()
+        .unwrap();
+    let mut histories = Recorder::new().start(&simulation).unwrap();
+    let run = histories.run(&mut simulation, 1500).unwrap();
+    assert_eq!(run.steps, 1500);
+    let periods = log_spaced(0.2, 3.0, 12).unwrap();
+    let floor = histories.floor_spectrum("top", &periods, 0.05).unwrap();
+    let ground = el_centro_1940().response_spectrum(&periods, 0.05).unwrap();
+    for (floor, ground) in floor.iter().zip(&ground) {
+        let ratio = floor.pseudo_acceleration / ground.pseudo_acceleration;
+        assert!((ratio - 1.0).abs() < 0.02, "T = {}: {ratio}", floor.period);
+    }
+    let record = histories.acceleration_record("top").unwrap();
+    assert_eq!(record.accelerations(), histories.probe("top").unwrap());
+}
+
+/// As the guide words it: the peak at f_j is as wide as 0.85 f_j to 1.15 f_j, and its slopes go on
+/// from there, every point of them moved as the peak is.
+#[test]
+fn broadened_peaks_are_plateaus() {
+    let ordinate = |period: f64, value: f64| SpectralOrdinate {
+        period,
+        displacement: value,
+        pseudo_velocity: 2.0 * value,
+        pseudo_acceleration: 3.0 * value,
+        acceleration: 4.0 * value,
+    };
+    // A triangle of height three over ln T, its top at f_j = 1 Hz.
+    let shape = |period: f64| 3.0 - period.ln().abs();
+    let periods = log_spaced(0.1, 10.0, 401).unwrap();
+    let spectrum: Vec<_> = periods.iter().map(|&t| ordinate(t, shape(t))).collect();
+    for (wide, &period) in broadened(&spectrum, 0.15).unwrap().iter().zip(&periods) {
+        let frequency = 1.0 / period;
+        let known = if (0.85..=1.15).contains(&frequency) {
+            3.0
+        } else if frequency < 0.85 {
+            // What stood at the frequency f stands at 0.85 f now.
+            shape(0.85 / frequency)
+        } else {
+            shape(1.15 / frequency)
+        };
+        assert!((wide.displacement - known).abs() < 1e-12, "{frequency}");
+        assert_eq!(wide.acceleration, 4.0 * wide.displacement);
+    }
+    // A peak of one period: where it is seen.
+    let mut lonely: Vec<_> = periods.iter().map(|&t| ordinate(t, 0.0)).collect();
+    let spike = 200;
+    lonely[spike] = ordinate(periods[spike], 1.0);
+    for (wide, &period) in broadened(&lonely, 0.15).unwrap().iter().zip(&periods) {
+        let share = periods[spike] / period;
+        if (0.851..1.149).contains(&share) {
+            assert_eq!(wide.displacement, 1.0, "{share}");
+        } else if !(0.83..1.17).contains(&share) {
+            assert_eq!(wide.displacement, 0.0, "{share}");
+        }
+    }
+    assert_eq!(broadened(&spectrum, 0.0).unwrap(), spectrum);
+    assert!(broadened(&[], 0.15).unwrap().is_empty());
+    for share in [-0.1, 1.0, f64::NAN, f64::INFINITY] {
+        assert!(broadened(&spectrum, share).is_err());
+    }
+    assert!(broadened(&[spectrum[1], spectrum[0]], 0.1).is_err());
+    assert!(broadened(&[ordinate(f64::NAN, 1.0)], 0.1).is_err());
+}
