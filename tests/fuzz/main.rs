@@ -2,7 +2,7 @@
 //! way, sources that fail midway, and a small corpus of files that are hard to read.
 //!
 //! `PROPTEST_CASES=100000 cargo test --release --test fuzz` looks longer. Checkpoints are read by
-//! serde: `tests/checkpoint.rs` damages those.
+//! serde: `tests/checkpoint/text.rs` damages those.
 
 #[path = "../support/mod.rs"]
 mod support;
