@@ -3,6 +3,8 @@
 
 #[path = "support/scenes.rs"]
 mod scenes;
+#[path = "support/wrapped.rs"]
+mod wrapped;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -11,8 +13,9 @@ use basemat::bem::{HalfPlaneGround, History, SpringGround};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, Theta};
 use basemat::interface::Bonded;
 use basemat::results::Recorder;
-use basemat::structure::{ContactNode, RayleighDamping, RigidBlock, Structure, Triplets};
+use basemat::structure::{RayleighDamping, RigidBlock, Structure, Triplets};
 use scenes::{SI, block, friction, scene, soil, tower};
+use wrapped::needed_from;
 
 /// The system's allocator, with a count for each thread.
 struct Counting;
@@ -54,16 +57,8 @@ static ALLOCATOR: Counting = Counting;
 struct Quadratic(RigidBlock);
 
 impl Structure for Quadratic {
-    fn unknowns(&self) -> usize {
-        3
-    }
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.0.contact_nodes()
-    }
-    fn mass(&self, matrix: &mut Triplets) {
-        self.0.mass(matrix);
-    }
-    fn stiffness(&self, _: &mut Triplets) {}
+    needed_from!(0);
+
     fn is_linear(&self) -> bool {
         false
     }

@@ -2,13 +2,15 @@
 
 #[path = "support/scenes.rs"]
 mod scenes;
+#[path = "support/wrapped.rs"]
+mod wrapped;
 
 use basemat::coupled::{Placement, State};
 use basemat::interface::{Bonded, Coulomb, Mode};
-use basemat::structure::Structure;
 use basemat::{Error, Simulation, StepError};
 use proptest::prelude::*;
 use scenes::{Frame, GRAVITY, SI, TIME_STEP, block, friction, scene, shake, states, tower};
+use wrapped::Pulled;
 
 const STEPS: usize = 400;
 
@@ -151,24 +153,9 @@ fn preload_is_in_equilibrium() {
 /// A weight beside the middle: the moment of the pressures is the weight times its arm.
 #[test]
 fn eccentric_preload_balances_moments() {
-    struct Leaning;
-    impl Structure for Leaning {
-        fn unknowns(&self) -> usize {
-            3
-        }
-        fn contact_nodes(&self) -> Vec<basemat::structure::ContactNode> {
-            block(SI).contact_nodes()
-        }
-        fn mass(&self, matrix: &mut basemat::structure::Triplets) {
-            block(SI).mass(matrix);
-        }
-        fn stiffness(&self, _: &mut basemat::structure::Triplets) {}
-        fn load(&self, _: f64, load: &mut [f64]) {
-            load[1] -= 2e5;
-            load[2] -= 2e5 * 1.3;
-        }
-    }
-    let build = scene(SI, 0.0).structure(Leaning).interface(friction(0.5)).build();
+    let along = block(SI).vertical_at(1.3);
+    let leaning = Pulled { structure: block(SI), along, force: |_| -2e5 };
+    let build = scene(SI, 0.0).structure(leaning).interface(friction(0.5)).build();
     let state = build.unwrap().state().clone();
     let weight = block(SI).total_mass() * GRAVITY + 2e5;
     assert!((state.normal_force / weight - 1.0).abs() < 1e-10);

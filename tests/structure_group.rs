@@ -1,14 +1,18 @@
 //! Several structures on one ground.
 
+#[path = "support/wrapped.rs"]
+mod wrapped;
+
 use basemat::bem::{HalfPlaneGround, History, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{RickerDisplacement, STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
-    ContactNode, CraigBampton, ModalDamping, RigidBlock, Row, ShearBuilding, Storey, Structure,
-    StructureGroup, Triplets, WithSprings,
+    CraigBampton, ModalDamping, RigidBlock, Row, ShearBuilding, Storey, Structure, StructureGroup,
+    Triplets, WithSprings,
 };
 use basemat::{CheckpointError, Error, Result, Simulation, Soil};
+use wrapped::needed_from;
 
 const STEP: f64 = 0.002;
 
@@ -221,19 +225,7 @@ struct Softening {
 }
 
 impl Structure for Softening {
-    fn unknowns(&self) -> usize {
-        3
-    }
-
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.block.contact_nodes()
-    }
-
-    fn mass(&self, matrix: &mut Triplets) {
-        self.block.mass(matrix);
-    }
-
-    fn stiffness(&self, _: &mut Triplets) {}
+    needed_from!(block);
 
     fn is_linear(&self) -> bool {
         false
@@ -326,33 +318,25 @@ fn foundations_stay_apart_in_every_wrapper() {
 }
 
 /// A block that names a last contact node of its own choice.
-struct Ends(usize);
+struct Ends(RigidBlock, usize);
 
 impl Structure for Ends {
-    fn unknowns(&self) -> usize {
-        3
-    }
-
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        block().contact_nodes()
-    }
+    needed_from!(0);
 
     fn foundation_ends(&self) -> Vec<usize> {
-        vec![self.0]
+        vec![self.1]
     }
-
-    fn mass(&self, matrix: &mut Triplets) {
-        block().mass(matrix);
-    }
-
-    fn stiffness(&self, _: &mut Triplets) {}
 }
 
 #[test]
 fn foundations_that_end_nowhere_are_refused() {
     let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
     for end in [2, usize::MAX] {
-        let pair = StructureGroup::new().with(block(), 0.0).unwrap().with(Ends(end), 5.0).unwrap();
+        let pair = StructureGroup::new()
+            .with(block(), 0.0)
+            .unwrap()
+            .with(Ends(block(), end), 5.0)
+            .unwrap();
         let built = base().structure(pair).ground(half_plane(&strips)).build();
         assert!(matches!(built, Err(Error::Index { bound: 4, .. })), "{:?}", built.err());
     }
