@@ -21,7 +21,7 @@ const HALF_WIDTH: f64 = 5.0;
 const HEIGHT: f64 = 20.0;
 const FRICTION: f64 = 0.4;
 /// Quiet time before the record: the vertical part of a Rayleigh wave precedes the horizontal one.
-const LEAD: f64 = 2.0;
+const LEAD: f64 = 10.0;
 
 /// A tower under waves from different directions.
 #[derive(Parser)]

@@ -159,10 +159,7 @@ fn numbers_that_make_no_record_name_the_file() {
     let (line, reason) = refusal(b"0 1e200\n1e200 1e200\n", &metric());
     assert_eq!(line, 0);
     let RecordError::Unusable(error) = reason else { panic!("{reason}") };
-    assert!(
-        matches!(*error, Error::Input { quantity: "displacement of the record", .. }),
-        "{error}"
-    );
+    assert!(matches!(*error, Error::Input { quantity: "velocity of the record", .. }), "{error}");
 }
 
 #[test]

@@ -51,12 +51,13 @@ pub use vertical_incidence::VerticalIncidence;
 
 /// Motion of the ground surface without the structure.
 pub trait FreeField: Send {
-    /// Displacement `[horizontal, vertical up]` (m) at surface point `x` (m) and `time` (s); zero
-    /// at and before t = 0.
+    /// Displacement `[horizontal, vertical up]` (m) at surface point `x` (m) and `time` (s).
+    ///
+    /// A run starts at rest at t = 0 and measures every element's motion from what it is then, so a
+    /// field should be at rest up to t = 0; what moves already starts with a jolt.
     fn displacement(&self, x: f64, time: f64) -> [f64; 2];
 
-    /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`; zero at and
-    /// before t = 0. Simulations ask for displacements only;
+    /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`. Simulations ask for displacements only;
     /// [`VerticalWaves`](crate::bem::full_plane::VerticalWaves) make stresses of velocities, and a
     /// ground of your own may need them.
     ///

@@ -27,6 +27,8 @@ pub(super) fn rigid_momenta(
     stiffness.add_to(1.0, &mut matrix);
     let mut rides = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
     for node in contact {
+        node.horizontal.check("unknown of a contact node", n)?;
+        node.vertical.check("unknown of a contact node", n)?;
         matrix.add_outer(&node.horizontal, tie);
         matrix.add_outer(&node.vertical, tie);
         let [right, up, turn] = &mut rides;

@@ -325,7 +325,7 @@ impl ShearBuilding {
                 // d = u_1 − u_0 + h θ: of d θ comes h θ² more.
                 matrix.add(Self::ROTATION, Self::ROTATION, weight * storey.height);
             } else {
-                matrix.add_outer(&Self::sway_row(index), -weight / storey.height);
+                matrix.add_outer(Self::sway_row(index), -weight / storey.height);
             }
         }
     }

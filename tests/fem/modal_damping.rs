@@ -7,7 +7,8 @@ use basemat::fem::{Beam, Direction, Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
-    FemModel, ModalDamping, RayleighDamping, RigidBlock, ShearBuilding, Storey, Structure, Triplets,
+    ContactNode, FemModel, ModalDamping, RayleighDamping, RigidBlock, ShearBuilding, Storey,
+    Structure, Triplets,
 };
 use basemat::{Error, Simulation};
 
@@ -167,4 +168,27 @@ fn bad_ratios_and_structures_are_refused() {
     let large = Mesh::layered_block(0.0..1.0, 40, &[Layer::new(1.0, 40, material)]).unwrap();
     let large = damping.on(FemModel::on_base(large).unwrap());
     assert!(matches!(large, Err(Error::Input { value: 3362.0, .. })));
+}
+
+/// A structure whose base is not made of its unknowns.
+struct Astray;
+
+impl Structure for Astray {
+    fn unknowns(&self) -> usize {
+        2
+    }
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        vec![ContactNode::free(0.0, 0, 1), ContactNode::free(1.0, usize::MAX, 2)]
+    }
+    fn mass(&self, matrix: &mut Triplets) {
+        matrix.add(0, 0, 1.0);
+        matrix.add(1, 1, 1.0);
+    }
+    fn stiffness(&self, _: &mut Triplets) {}
+}
+
+#[test]
+fn a_base_of_unknowns_that_are_not_there_is_refused() {
+    let fault = ModalDamping::new(&[0.05]).unwrap().on(Astray).unwrap_err();
+    assert!(matches!(fault, Error::Index { index: usize::MAX, bound: 2, .. }), "{fault}");
 }

@@ -41,7 +41,7 @@ fn cantilever(elements: usize, density: f64, tip: f64) -> (FemModel, Vec<usize>)
 }
 
 fn compressions(model: &FemModel) -> Vec<f64> {
-    model.mesh().elements().filter_map(|element| element.compression()).collect()
+    model.mesh().elements().filter_map(basemat::fem::Element::compression).collect()
 }
 
 /// Lowest circular frequency squared with the unknowns below `free` held.

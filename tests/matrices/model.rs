@@ -153,7 +153,7 @@ fn negative_masses_are_refused() {
             mass.add(i, j, value);
         }
         let mut stiffness = Triplets::new(4);
-        stiffness.add_outer(&[(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
+        stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
         MatrixModel::new(mass, stiffness, ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]))
     };
     let negative = of(&[(3, 3, -1000.0)]);
@@ -182,8 +182,8 @@ fn negative_stiffness_on_a_held_base_is_refused() {
             ([(3, 1.0), (0, -1.0), (2, 5.0)], [(3, 1.0), (0, -1.0)]),
             ([(4, 1.0), (3, -1.0), (2, 5.0)], [(4, 1.0), (3, -1.0)]),
         ] {
-            stiffness.add_outer(&row, 1.0e6);
-            stiffness.add_outer(&sway, -load / 5.0);
+            stiffness.add_outer(row, 1.0e6);
+            stiffness.add_outer(sway, -load / 5.0);
         }
         let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
         on_soil(MatrixModel::new(mass, stiffness, contact).unwrap()).gravity(0.0).build()

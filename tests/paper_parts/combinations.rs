@@ -125,7 +125,7 @@ fn layer_stores_energy() {
 #[test]
 fn combinations_without_sense_are_refused() {
     let still = layer().with_friction_limit(FrictionLimit::Static);
-    let refused = start(true).interface(still).build();
+    let refused = start(true).interface(still).gravity(0.0).build();
     assert!(matches!(refused, Err(Error::Scene { quantity, .. }) if quantity.contains("static")));
     assert!(start(true).interface(still).gravity(GRAVITY).build().is_ok());
     let bad = [0.0, -0.1, f64::NAN, f64::INFINITY, 1e-320];
