@@ -244,7 +244,10 @@ impl Outcome {
             (self.growth, 0.75 * rest as f64)
         };
         let grows = match &self.error {
-            Some(Error::Step { source: StepError::NotFinite { .. }, .. }) => true,
+            Some(Error::Step {
+                source: StepError::NotFinite { .. } | StepError::Runaway { .. },
+                ..
+            }) => true,
             // A march that fails in what its soil has blown up has not failed by itself.
             Some(_) => active && ratio > 1e3,
             // Soil and weight may give back to the structure what they hold.
