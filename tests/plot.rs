@@ -8,7 +8,7 @@ mod scenes;
 
 use basemat::bem::{HalfPlaneGround, Strip};
 use basemat::coupled::Probe;
-use basemat::interface::{Coulomb, Mode};
+use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::{SpectralOrdinate, el_centro_1940};
 use basemat::plot::{self, Curve, Svg};
 use basemat::results::{Histories, Quantity, Recorder, WirePoint, Wireframe};
@@ -67,6 +67,12 @@ fn every_picture_has_title_labels_units_and_legend() {
     }
     let svg = plot::history("Title", &runs, Quantity::SlidingSafety).unwrap();
     shows(&svg, &["1 / factor of safety, sliding", "1: sliding"]);
+    // Without a friction coefficient there is no demand to be drawn, however large.
+    let builder = scene(SI, 0.6).structure(block(SI)).interface(Bonded);
+    let mut bonded = builder.build().unwrap();
+    let bonded = Recorder::new().run(&mut bonded, 50).unwrap();
+    let svg = plot::history("Title", &[("held", &bonded)], Quantity::SlidingSafety).unwrap();
+    assert!(!words(&svg).contains("drawn at"));
     let svg = plot::history("a < b & c", &runs, Quantity::BaseMoment).unwrap();
     shows(&svg, &["a &lt; b &amp; c"]);
     shows(&svg, &["base moment, kN·m/m"]);

@@ -80,6 +80,8 @@ pub fn history(title: &str, runs: &[(&str, &Histories)], quantity: Quantity) -> 
     };
     let (factor, unit) = engineering_unit(quantity);
     let value = |&value: &f64| match limit {
+        // What has no value, in flight or without a friction coefficient, is not drawn.
+        Some(_) if value.is_nan() => f64::NAN,
         Some(_) => value.recip().min(MOST_DEMAND),
         None => factor * value,
     };
