@@ -25,7 +25,7 @@ fn shake(law: impl InterfaceLaw + 'static, recorder: Recorder) -> Result<Summary
         probes.push(Probe::displacement(format!("drift {}", storey + 1), building.drift(storey)?));
     }
     let mut simulation = Simulation::builder(5.0e-3)
-        .ground(HalfPlaneGround::under(&building, soil, 12)?)
+        .ground(HalfPlaneGround::under(soil, &building, 12)?)
         .structure(building)
         .interface(law)
         .motion(el_centro_1940())

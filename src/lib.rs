@@ -24,7 +24,7 @@
 //! let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
 //!
 //! let mut simulation = Simulation::builder(0.01)
-//!     .ground(HalfPlaneGround::under(&building, soil, 10)?)
+//!     .ground(HalfPlaneGround::under(soil, &building, 10)?)
 //!     .structure(building)
 //!     .interface(Coulomb::new(0.4)?)
 //!     .motion(el_centro_1940())

@@ -17,7 +17,7 @@ fn block() -> RigidBlock {
 fn simulation() -> Simulation {
     let block = block();
     Simulation::builder(0.01)
-        .ground(HalfPlaneGround::under(&block, soil(), 8).unwrap())
+        .ground(HalfPlaneGround::under(soil(), &block, 8).unwrap())
         .structure(block)
         .interface(Coulomb::new(0.5).unwrap())
         .motion(el_centro_1940())
@@ -58,17 +58,17 @@ fn strips_lie_under_foundations() {
     let ends = |ground: &HalfPlaneGround| {
         ground.elements().iter().map(|e| [e.left, e.right]).collect::<Vec<_>>()
     };
-    let ground = HalfPlaneGround::under(&block(), soil(), 8).unwrap();
+    let ground = HalfPlaneGround::under(soil(), &block(), 8).unwrap();
     assert_eq!(ends(&ground), ends(&HalfPlaneGround::strip(soil(), -3.0..3.0, 8).unwrap()));
 
     let nodes = vec![0.0, 1.0, 2.0, 5.0, 7.0, 10.0, 11.0];
     let several = Ends(nodes.clone(), vec![2, 4]);
-    let ground = HalfPlaneGround::under(&several, soil(), 3).unwrap();
+    let ground = HalfPlaneGround::under(soil(), &several, 3).unwrap();
     let strips = [0.0..2.0, 5.0..7.0, 10.0..11.0].map(|range| Strip::uniform(range, 3).unwrap());
     assert_eq!(ends(&ground), ends(&HalfPlaneGround::new(soil(), &strips).unwrap()));
 
     let under = |nodes: &[f64], ends: &[usize], count| {
-        HalfPlaneGround::under(&Ends(nodes.to_vec(), ends.to_vec()), soil(), count).err().unwrap()
+        HalfPlaneGround::under(soil(), &Ends(nodes.to_vec(), ends.to_vec()), count).err().unwrap()
     };
     assert!(matches!(under(&[], &[], 3), Error::Size { found: 0, .. }));
     assert!(matches!(under(&[1.0], &[], 3), Error::Size { found: 1, .. }));

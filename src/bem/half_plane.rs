@@ -103,7 +103,7 @@ impl HalfPlaneGround {
     /// ```
     /// use basemat::{Soil, bem::{Ground, HalfPlaneGround}, structure::RigidBlock};
     /// let block = RigidBlock::new(6.0, 4.0, 2400.0)?;
-    /// let ground = HalfPlaneGround::under(&block, Soil::new(80.0e6, 0.33, 1900.0)?, 12)?;
+    /// let ground = HalfPlaneGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, 12)?;
     /// assert_eq!((ground.elements()[0].left, ground.elements()[11].right), (-3.0, 3.0));
     /// # Ok::<(), basemat::Error>(())
     /// ```
@@ -111,7 +111,7 @@ impl HalfPlaneGround {
     /// # Errors
     /// As for [`HalfPlaneGround::new`] and [`Strip::new`]; [`Error::Size`] or [`Error::Index`] for a
     /// structure without foundations.
-    pub fn under(structure: &dyn Structure, soil: Soil, count: usize) -> Result<Self> {
+    pub fn under(soil: Soil, structure: &dyn Structure, count: usize) -> Result<Self> {
         Self::new(soil, &strips_under(structure, count)?)
     }
 

@@ -16,7 +16,7 @@
 //! let roof = block.horizontal_at(6.0);
 //! let weight = STANDARD_GRAVITY * block.total_mass();
 //! let mut simulation = Simulation::builder(0.01)
-//!     .ground(HalfPlaneGround::under(&block, Soil::new(80.0e6, 0.33, 1900.0)?, 8)?)
+//!     .ground(HalfPlaneGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, 8)?)
 //!     .structure(block)
 //!     .interface(Coulomb::new(0.4)?)
 //!     .motion(el_centro_1940())

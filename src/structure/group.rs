@@ -37,7 +37,7 @@ struct Member {
 /// // The first block has no fourth unknown: that is one of the other block.
 /// assert!(group.row(0, 3).is_err());
 /// let mut simulation = Simulation::builder(0.005)
-///     .ground(HalfPlaneGround::under(&group, Soil::new(40.0e6, 0.33, 1800.0)?, 6)?)
+///     .ground(HalfPlaneGround::under(Soil::new(40.0e6, 0.33, 1800.0)?, &group, 6)?)
 ///     .structure(group)
 ///     .interface(Coulomb::new(0.5)?)
 ///     .motion(el_centro_1940())
