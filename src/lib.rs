@@ -145,7 +145,7 @@
 //!
 //! Short programs that print a table: `shear_building`, `base_isolated`, `two_buildings`,
 //! `rocking_block`, `floor_spectra`, `friction_sweep`, `travelling_wave`, `from_matrices`; `pictures`
-//! draws everything (feature `plot`). What each prints is in `docs/examples.md`.
+//! draws everything (feature `png`). What each prints is in `docs/examples.md`.
 #![forbid(unsafe_code)]
 
 #[macro_use]

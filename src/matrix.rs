@@ -1,6 +1,6 @@
 //! Matrices of a structure: sparse in its unknowns, diagonal in its modes.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, same_length};
 use crate::linalg::largest;
 use crate::structure::Triplets;
 
@@ -17,6 +17,18 @@ pub(crate) struct SparseMatrix {
 }
 
 impl SparseMatrix {
+    /// The matrix that `fill` writes, which must be of this order.
+    pub(crate) fn assembled(
+        name: &'static str,
+        order: usize,
+        fill: &dyn Fn(&mut Triplets),
+    ) -> Result<Self> {
+        let mut triplets = Triplets::new(order);
+        fill(&mut triplets);
+        same_length(name, triplets.order(), order)?;
+        Self::new(name, &triplets)
+    }
+
     /// Sums the entries of `triplets` by place.
     pub(crate) fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
         let order = triplets.order();

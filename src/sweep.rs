@@ -63,7 +63,7 @@ impl<'a> Sweep<'a> {
         &self,
         run: impl Fn(&SweepCase<'_>) -> Result<T, E> + Sync,
     ) -> Vec<Result<T, E>> {
-        let mut results = Vec::with_capacity(self.count);
+        let mut results = Vec::new();
         self.run(run, |index, result| results.push((index, result)));
         results.sort_unstable_by_key(|(index, _)| *index);
         results.into_iter().map(|(_, result)| result).collect()

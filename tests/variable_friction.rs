@@ -41,9 +41,9 @@ fn a_constant_is_coulomb() {
     assert!(VariableFriction::new(|_| 0.3).with_tensile_strength(f64::NAN).is_err());
     let refused = Activation::Rate { closed_below: -1.0 };
     assert!(VariableFriction::new(|_| 0.3).with_activation(refused).is_err());
-    assert_eq!(VariableFriction::new(|_| 0.3).friction(), None);
-    assert_eq!(InterfaceLaw::friction(&friction(0.3)), Some(0.3));
-    assert_eq!(InterfaceLaw::friction(&Coulomb::uplift_only()), Some(f64::INFINITY));
+    assert_eq!(VariableFriction::new(|_| 0.3).friction_coefficient(), None);
+    assert_eq!(friction(0.3).friction_coefficient(), Some(0.3));
+    assert_eq!(Coulomb::uplift_only().friction_coefficient(), Some(f64::INFINITY));
 }
 
 /// GOAL: what slides has the coefficient of the speed at which it slid in the step before.

@@ -22,14 +22,14 @@ pub(crate) struct Base {
     rows: Vec<Terms>,
     /// The same in modes, row-major; empty if the coordinates are the unknowns.
     modal: Vec<f64>,
-    foundations: Vec<Footing>,
+    foundations: Vec<Outline>,
     lengths: Vec<f64>,
     nodes: Vec<ContactNode>,
 }
 
 /// One foundation: its nodes, its elements, and the rotation of its chord.
 #[derive(Debug, Clone)]
-struct Footing {
+struct Outline {
     nodes: Range<usize>,
     elements: Range<usize>,
     rotation: SteppedRow,
@@ -59,7 +59,7 @@ impl Base {
                 let middle = 0.5 * (nodes[last].x + next.x);
                 elements.partition_point(|element| element.center() < middle)
             });
-            let footing = Footing {
+            let footing = Outline {
                 elements: element..end,
                 rotation: SteppedRow::new(&chord_rotation(&nodes[own.clone()]), None),
                 nodes: own,

@@ -79,7 +79,8 @@ impl SimulationBuilder {
     }
 
     /// The ground. Contact is where its elements are: a part of the base beyond them hangs free, and
-    /// elements beyond the base are refused ([`bem::HalfPlaneGround::under`](crate::bem::HalfPlaneGround::under) has neither).
+    /// elements beyond the base are refused. Neither happens with
+    /// [`HalfPlaneGround::under`](crate::bem::HalfPlaneGround::under).
     #[must_use]
     pub fn ground(mut self, ground: impl Ground + 'static) -> Self {
         self.ground = Some(Box::new(ground));
@@ -176,10 +177,12 @@ impl SimulationBuilder {
     /// Checks the parts against each other, finds the static state and factors what stays constant.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a missing part, [`Error::Probe`] and [`Error::DuplicateName`] for a probe
-    /// of an unknown that is not there or a name that comes twice, the typed error of whatever is wrong with a given one,
-    /// [`Error::Preload`] if the structure cannot stand, [`Error::IllConditioned`] if double
-    /// precision cannot carry the scene.
+    /// [`Error::Scene`] for a missing part, the typed error of whatever is wrong with a given one.
+    /// [`Error::Supported`] for a structure that is held by more than the ground,
+    /// [`Error::Indefinite`] for a negative mass, or a stiffness that is negative with the base held.
+    /// [`Error::Probe`] and [`Error::DuplicateName`] for a probe of an unknown that is not there or a
+    /// name that comes twice. [`Error::Preload`] if the structure cannot stand,
+    /// [`Error::IllConditioned`] if double precision cannot carry the scene.
     pub fn build(self) -> Result<Simulation> {
         let time_step = positive("time step", self.time_step)?;
         not_negative("gravity", self.gravity)?;

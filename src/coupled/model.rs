@@ -50,12 +50,8 @@ impl Model {
         if unknowns == 0 {
             return Err(Error::Size { quantity: "list of unknowns", found: 0, needed: 1 });
         }
-        let assemble = |name, fill: &dyn Fn(&mut Triplets)| {
-            let mut triplets = Triplets::new(unknowns);
-            fill(&mut triplets);
-            same_length(name, triplets.order(), unknowns)?;
-            SparseMatrix::new(name, &triplets)
-        };
+        let assemble =
+            |name, fill: &dyn Fn(&mut Triplets)| SparseMatrix::assembled(name, unknowns, fill);
         let mass = assemble("mass matrix", &|m| structure.mass(m))?;
         check_mass(&mass)?;
         let damping = assemble("damping matrix", &|m| structure.damping(m))?;

@@ -250,7 +250,8 @@ impl Simulation {
 
     /// Friction coefficient of the laws: one for all elements, one each, or none unless all have one.
     pub(crate) fn friction(&self) -> Vec<f64> {
-        let each: Option<Vec<f64>> = self.laws.iter().map(InterfaceLaw::friction).collect();
+        let each: Option<Vec<f64>> =
+            self.laws.iter().map(InterfaceLaw::friction_coefficient).collect();
         each.unwrap_or_default()
     }
 

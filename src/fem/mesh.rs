@@ -161,12 +161,15 @@ impl Mesh {
     }
 
     /// Lets every element take the static state; `displacement` in the unknowns of `numbering`.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for an element that would then have other nodes or directions.
     pub(crate) fn set_static_state(
         &mut self,
         numbering: &Numbering,
         displacement: &[f64],
         gravity: f64,
-    ) {
+    ) -> Result<()> {
         let mut indices = Vec::new();
         for element in &mut self.elements {
             numbering.of_element(element.as_ref(), &mut indices);
@@ -175,9 +178,16 @@ impl Mesh {
             let points: Vec<[f64; 2]> =
                 element.nodes().iter().map(|&index| self.nodes[index]).collect();
             if let Some(changed) = element.in_static_state(&points, &own, gravity) {
+                if changed.nodes() != element.nodes()
+                    || changed.directions() != element.directions()
+                {
+                    let quantity = "element in the static state";
+                    return Err(Error::Scene { quantity, needed: "its own nodes and directions" });
+                }
                 *element = Arc::from(changed);
             }
         }
+        Ok(())
     }
 
     /// Coordinates of `nodes`, which must exist.

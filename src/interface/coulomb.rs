@@ -177,7 +177,7 @@ impl InterfaceLaw for Coulomb {
     }
 
     /// That of the law; what a tensile strength adds is left out.
-    fn friction(&self) -> Option<f64> {
+    fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction)
     }
 }

@@ -216,7 +216,7 @@ pub trait InterfaceLaw: Send {
     /// The friction coefficient, for the factor of safety against sliding
     /// ([`Recorder`](crate::results::Recorder)): the base resists by this times the pressure.
     /// Infinite for a law that never slides, `None` (the default) for one without such a number.
-    fn friction(&self) -> Option<f64> {
+    fn friction_coefficient(&self) -> Option<f64> {
         None
     }
 
@@ -242,7 +242,7 @@ impl<T: InterfaceLaw + ?Sized> InterfaceLaw for Box<T> {
         fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2];
         fn next_mode(&self, mode: Mode, start: &StepStart, trial: &ContactState, tolerance: Tolerance) -> Mode;
         fn compliance(&self, mode: Mode) -> [f64; 2];
-        fn friction(&self) -> Option<f64>;
+        fn friction_coefficient(&self) -> Option<f64>;
         fn smooth(&self) -> Box<dyn InterfaceLaw>;
         fn check(&self, scene: &ContactScene) -> Result<()>;
     }

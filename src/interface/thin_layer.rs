@@ -314,7 +314,7 @@ impl InterfaceLaw for ThinLayer {
     }
 
     /// That of the law, whatever its [`FrictionLimit`].
-    fn friction(&self) -> Option<f64> {
+    fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction)
     }
 

@@ -82,7 +82,7 @@ impl InterfaceLaw for VariableFriction {
 
     fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
         let law = self.at(start);
-        if InterfaceLaw::friction(&law).is_some_and(|friction| friction >= 0.0) {
+        if law.friction_coefficient().is_some_and(|friction| friction >= 0.0) {
             law.conditions(mode, start)
         } else {
             // No mode may pass with a coefficient that is none.

@@ -26,9 +26,9 @@ pub struct Comparison {
 }
 
 /// Name, unit and heading of a row, the factor from SI to the unit, and its value.
-type Row = (&'static str, &'static str, &'static str, f64, fn(&Summary) -> Option<f64>);
+type Line = (&'static str, &'static str, &'static str, f64, fn(&Summary) -> Option<f64>);
 
-const ROWS: [Row; 20] = [
+const ROWS: [Line; 20] = [
     ("base shear", "kN/m", "base_shear_n_per_m", 1e-3, |s| Some(s.base_shear.largest().value)),
     ("  at", "s", "base_shear_time_s", 1.0, |s| Some(s.base_shear.largest().time)),
     ("  over weight", "", "base_shear_over_weight", 1.0, Summary::shear_coefficient),
@@ -78,19 +78,19 @@ impl Comparison {
     fn table(&self) -> Table {
         let mut heading = vec![String::new(), "unit".to_owned()];
         heading.extend(self.cases.iter().map(|(name, _)| name.clone()));
-        let cell = |row: &Row, summary: &Summary| match (row.4)(summary) {
+        let cell = |row: &Line, summary: &Summary| match (row.4)(summary) {
             None => "–".to_owned(),
             Some(value) if row.2.ends_with("safety") => factor(value),
             Some(value) if row.2 == "slip_events" => format!("{value:.0}"),
             Some(value) => number(row.3 * value),
         };
-        let line = |row: &Row| {
+        let line = |row: &Line| {
             let mut cells = vec![row.0.to_owned(), row.1.to_owned()];
             cells.extend(self.cases.iter().map(|(_, summary)| cell(row, summary)));
             cells
         };
         // What no case has is no row.
-        let known = |row: &&Row| {
+        let known = |row: &&Line| {
             self.cases.is_empty() || self.cases.iter().any(|(_, s)| (row.4)(s).is_some())
         };
         let mut rows: Vec<_> = ROWS.iter().filter(known).map(line).collect();

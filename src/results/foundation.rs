@@ -41,13 +41,13 @@ pub struct FoundationSummary {
 
 /// A foundation while the run goes on.
 #[derive(Debug, Clone)]
-pub(super) struct Footing {
+pub(super) struct FootingTally {
     pub(super) summary: FoundationSummary,
     /// Factors of safety against sliding (NaN without a friction coefficient) and overturning now.
     safety: [f64; 2],
 }
 
-impl Footing {
+impl FootingTally {
     /// As it stands at the start, for one friction coefficient for all elements, one each, or none.
     fn start(
         state: &State,
@@ -104,14 +104,27 @@ impl Footing {
 }
 
 /// All foundations at the start.
-pub(super) fn start(state: &State, friction: &[f64], elements: &[ContactElement]) -> Vec<Footing> {
+pub(super) fn start(
+    state: &State,
+    friction: &[f64],
+    elements: &[ContactElement],
+) -> Vec<FootingTally> {
     let own = state.foundations.iter();
-    own.map(|foundation| Footing::start(state, foundation, friction, elements)).collect()
+    own.map(|foundation| FootingTally::start(state, foundation, friction, elements)).collect()
+}
+
+/// Whether the state's foundations are these.
+pub(super) fn fit(footings: &[FootingTally], state: &State) -> bool {
+    footings.len() == state.foundations.len()
+        && footings
+            .iter()
+            .zip(&state.foundations)
+            .all(|(own, other)| own.summary.elements == other.elements)
 }
 
 /// Takes in a step.
 pub(super) fn see(
-    footings: &mut [Footing],
+    footings: &mut [FootingTally],
     state: &State,
     friction: &[f64],
     elements: &[ContactElement],
@@ -122,9 +135,10 @@ pub(super) fn see(
 }
 
 /// The least factors of safety now, those in flight left out; NaN if all are.
-pub(super) fn least(footings: &[Footing]) -> [f64; 2] {
-    let lesser =
-        |least: [f64; 2], own: &Footing| [least[0].min(own.safety[0]), least[1].min(own.safety[1])];
+pub(super) fn least(footings: &[FootingTally]) -> [f64; 2] {
+    let lesser = |least: [f64; 2], own: &FootingTally| {
+        [least[0].min(own.safety[0]), least[1].min(own.safety[1])]
+    };
     footings.iter().fold([f64::NAN; 2], lesser)
 }
 

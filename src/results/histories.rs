@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::envelope::{self, ElementEnvelope};
-use super::foundation::{self, Footing};
+use super::foundation::{self, FootingTally};
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
 use super::unit::labelled;
 use super::{Extremes, Quantity, Recorder, Sliding, Uplift};
@@ -49,7 +49,7 @@ pub(super) struct Tally {
     pub(super) envelopes: Vec<ElementEnvelope>,
     pub(super) uplift: Uplift,
     pub(super) sliding: Sliding,
-    pub(super) foundations: Vec<Footing>,
+    pub(super) foundations: Vec<FootingTally>,
     pub(super) input: Peak,
     pub(super) ledger: Ledger,
     pub(super) ledger_residual: f64,
@@ -130,6 +130,8 @@ impl Histories {
     /// one are ignored.
     pub fn record(&mut self, state: &State) {
         let fits = state.contact.len() == self.elements.len()
+            && state.modes.len() == self.elements.len()
+            && foundation::fit(&self.tally.foundations, state)
             && state.probes.len() == self.probes.len()
             && state.time > self.tally.end;
         if !fits {
@@ -288,7 +290,7 @@ impl Tally {
 }
 
 /// One value for each [`Quantity`], in the order of [`Quantity::ALL`].
-fn scalars(state: &State, foundations: &[Footing]) -> [f64; Quantity::ALL.len()] {
+fn scalars(state: &State, foundations: &[FootingTally]) -> [f64; Quantity::ALL.len()] {
     let [sliding, overturning] = foundation::least(foundations);
     Quantity::ALL.map(|quantity| match quantity {
         Quantity::BaseShear => state.base_shear,

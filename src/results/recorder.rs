@@ -29,7 +29,7 @@ impl Recorder {
     }
 
     /// Another friction coefficient for the factor of safety against sliding than that of the
-    /// interface laws ([`InterfaceLaw::friction`](crate::interface::InterfaceLaw::friction)): for a
+    /// interface laws ([`InterfaceLaw::friction_coefficient`](crate::interface::InterfaceLaw::friction_coefficient)): for a
     /// bonded base, say, which has none.
     #[must_use]
     pub fn friction(self, coefficient: f64) -> Self {
@@ -62,8 +62,8 @@ impl Recorder {
         Self { motion: Some(steps), ..self }
     }
 
-    /// Makes up to `steps` steps of `simulation` and returns what was kept of them; all of it if a
-    /// step fails is wanted less often: see [`Recorder::start`] and [`Histories::run`] for that.
+    /// Makes up to `steps` steps of `simulation` and returns what was kept of them. To keep what was
+    /// recorded before a step that failed, see [`Recorder::start`] and [`Histories::run`].
     ///
     /// # Errors
     /// As for [`Recorder::start`], and those of [`Simulation::run`].

@@ -16,7 +16,7 @@ pub(crate) fn labelled(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") }
 }
 
-/// Below this, in units of engineers, a number is rounding.
+/// Below this, in units of engineers, a number is rounding: nobody measures 10⁻¹² N or m.
 const NOTHING: f64 = 1e-9;
 
 /// Five figures, no exponents where they can be helped; no negative zero.

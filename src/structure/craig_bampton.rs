@@ -104,9 +104,7 @@ impl CraigBampton {
             return Err(Error::Scene { quantity: "structure to be reduced", needed });
         }
         let assemble = |name, fill: &dyn Fn(&mut Triplets)| {
-            let mut triplets = Triplets::new(n);
-            fill(&mut triplets);
-            let matrix = SparseMatrix::new(name, &triplets)?;
+            let matrix = SparseMatrix::assembled(name, n, fill)?;
             if matrix.asymmetry() > SYMMETRIC {
                 return Err(Error::Scene { quantity: name, needed: "must be symmetric" });
             }

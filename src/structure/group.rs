@@ -152,9 +152,9 @@ impl Structure for StructureGroup {
             for mut node in member.structure.contact_nodes() {
                 node.x += member.shift;
                 // What is not an unknown of the member must not be one of the group.
-                let place = |index| {
+                let place = |index: usize| {
                     let own = index < member.unknowns;
-                    if own { index + member.first_unknown } else { usize::MAX }
+                    if own { index.saturating_add(member.first_unknown) } else { usize::MAX }
                 };
                 node.horizontal = node.horizontal.map_unknowns(place);
                 node.vertical = node.vertical.map_unknowns(place);

@@ -76,14 +76,13 @@ impl ModalDamping {
             let (quantity, value) = ("number of unknowns with modal damping", n as f64);
             return Err(Error::Input { quantity, value, needed: "3000 or fewer: reduce it first" });
         }
-        let (mut mass, mut stiffness) = (Triplets::new(n), Triplets::new(n));
-        structure.mass(&mut mass);
-        structure.stiffness(&mut stiffness);
-        if !structure.is_linear() {
-            structure.nonlinear_tangent(&vec![0.0; n], &mut stiffness);
-        }
-        let mass = SparseMatrix::new("mass matrix", &mass)?;
-        let stiffness = SparseMatrix::new("stiffness matrix", &stiffness)?;
+        let mass = SparseMatrix::assembled("mass matrix", n, &|matrix| structure.mass(matrix))?;
+        let stiffness = SparseMatrix::assembled("stiffness matrix", n, &|matrix| {
+            structure.stiffness(matrix);
+            if !structure.is_linear() {
+                structure.nonlinear_tangent(&vec![0.0; n], matrix);
+            }
+        })?;
         let scene = Error::Scene {
             quantity: "structure with modal damping",
             needed: "must have symmetric matrices and a positive definite mass",

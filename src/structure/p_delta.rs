@@ -65,7 +65,7 @@ impl FemModel {
             Some(links) => links.all(&displacement),
             None => displacement,
         };
-        self.mesh.set_static_state(&self.numbering, &displacement, gravity);
+        self.mesh.set_static_state(&self.numbering, &displacement, gravity)?;
         self.p_delta = Some(gravity);
         let held = HeldStructure::new(&self)?;
         if held.stands(1.0)? {

@@ -1,9 +1,12 @@
 //! Structures whose matrices, base or loads make no sense.
 
+use basemat::bem::HalfPlaneGround;
 use basemat::coupled::Placement;
 use basemat::interface::{Bonded, Coulomb};
-use basemat::structure::{ContactNode, Row};
-use basemat::{Error, Simulation};
+use basemat::structure::{
+    ContactNode, CraigBampton, ModalDamping, Row, Structure, StructureGroup, Triplets,
+};
+use basemat::{Error, Simulation, Soil};
 
 use super::{NOT_FINITE, refused};
 use crate::builder::unbuilt;
@@ -102,4 +105,41 @@ fn structures_without_end_are_refused() {
         }
         other => panic!("{other:?}"),
     }
+}
+
+/// A structure whose stiffness is of another order than it says.
+struct Grown;
+
+impl Structure for Grown {
+    fn unknowns(&self) -> usize {
+        3
+    }
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2])
+    }
+    fn mass(&self, matrix: &mut Triplets) {
+        (0..3).for_each(|i| matrix.add(i, i, 1e4));
+    }
+    fn stiffness(&self, matrix: &mut Triplets) {
+        *matrix = Triplets::new(7);
+    }
+}
+
+#[test]
+fn matrices_of_another_order_are_refused_by_whatever_reads_them() {
+    let refusal = Error::Size { quantity: "stiffness matrix", found: 7, needed: 3 };
+    let scene = Simulation::builder(1e-3).structure(Grown).ground(bed(4)).interface(Bonded);
+    assert_eq!(scene.build().unwrap_err(), refusal);
+    assert_eq!(ModalDamping::new(&[0.05]).unwrap().on(Grown).unwrap_err(), refusal);
+    assert_eq!(CraigBampton::new(0).reduce(Grown).unwrap_err(), refusal);
+}
+
+#[test]
+fn groups_of_endless_structures_are_refused() {
+    let endless = || Spoilt { unknowns: usize::MAX, ..Spoilt::sound() };
+    let group = StructureGroup::new().with(endless(), 0.0).unwrap().with(endless(), 9.0).unwrap();
+    let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
+    assert!(HalfPlaneGround::under(soil, &group, 4).is_ok());
+    let scene = Simulation::builder(1e-3).structure(group).ground(bed(4)).interface(Bonded);
+    assert!(matches!(scene.build(), Err(Error::Input { .. })));
 }

@@ -3,7 +3,7 @@
 use crate::dense::{damping, eigenvalues, form, largest, mass, multiply, part, stiffness};
 use basemat::Error;
 use basemat::bem::HalfPlaneGround;
-use basemat::fem::{Beam, Direction, LumpedMass, Mesh, Truss};
+use basemat::fem::{Beam, Direction, Element, LumpedMass, MassKind, Mesh, Truss};
 use basemat::interface::Coulomb;
 use basemat::structure::{FemModel, RayleighDamping, Structure};
 use basemat::{Simulation, Soil};
@@ -297,4 +297,39 @@ fn what_has_no_p_delta_is_refused() {
         "{:?}",
         refused.err()
     );
+}
+
+/// A rod that takes the static state as a reason to go elsewhere.
+struct Deserter {
+    nodes: [usize; 2],
+    directions: &'static [Direction],
+}
+
+impl Element for Deserter {
+    fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+    fn directions(&self) -> &[Direction] {
+        self.directions
+    }
+    fn stiffness(&self, _: &[[f64; 2]], _: &mut [f64]) {}
+    fn mass(&self, _: &[[f64; 2]], _: MassKind, _: &mut [f64]) {}
+    fn in_static_state(&self, _: &[[f64; 2]], _: &[f64], _: f64) -> Option<Box<dyn Element>> {
+        let elsewhere = if self.nodes[1] == 1 { [0, 999] } else { self.nodes };
+        Some(Box::new(Self { nodes: elsewhere, directions: &[Direction::Y] }))
+    }
+}
+
+#[test]
+fn elements_stay_where_they_are_in_the_static_state() {
+    for (ends, directions) in [([0, 1], &[Direction::Y][..]), ([1, 2], &[Direction::X][..])] {
+        let mut mesh = Mesh::new();
+        let nodes = [[0.0, 0.0], [2.0, 0.0], [0.0, 3.0]];
+        nodes.iter().for_each(|[x, y]| drop(mesh.add_node(*x, *y)));
+        mesh.add(Beam::new([0, 1], 1e9, 0.1, 1e-2, 100.0).unwrap()).unwrap();
+        mesh.add(Beam::new([0, 2], 1e9, 0.1, 1e-2, 100.0).unwrap()).unwrap();
+        mesh.add(Deserter { nodes: ends, directions }).unwrap();
+        let fault = FemModel::on_base(mesh).unwrap().with_p_delta(9.81).unwrap_err();
+        assert!(matches!(fault, Error::Scene { quantity, .. } if quantity.contains("static")));
+    }
 }

@@ -85,8 +85,8 @@ impl InterfaceLaw for Double {
         [CORRECT; 2]
     }
 
-    fn friction(&self) -> Option<f64> {
-        self.0.asked("friction");
+    fn friction_coefficient(&self) -> Option<f64> {
+        self.0.asked("friction_coefficient");
         Some(CORRECT)
     }
 

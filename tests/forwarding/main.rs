@@ -82,7 +82,7 @@ fn boxed_laws() {
         let next = part.next_mode(Mode::Open, &start, &ContactState::default(), tolerance);
         assert_eq!(next, Mode::SlipRight);
         assert_eq!(part.compliance(Mode::Open), [CORRECT; 2]);
-        assert_eq!(part.friction(), Some(CORRECT));
+        assert_eq!(part.friction_coefficient(), Some(CORRECT));
         assert_eq!(part.smooth().modes(), [Mode::SlipRight]);
     }
     let log = Log::default();

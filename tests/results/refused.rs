@@ -1,6 +1,7 @@
 //! Requests that cannot be met.
 
 use basemat::Error;
+use basemat::coupled::State;
 use basemat::results::{Recorder, log_spaced};
 
 use super::simulation;
@@ -55,6 +56,18 @@ fn bad_requests_are_errors() {
     other.time += 1.0;
     other.contact.pop();
     histories.record(&other);
+    // Those that somebody has meddled with.
+    let spoil: [&dyn Fn(&mut State); 3] = [
+        &|state| state.foundations[0].elements = 0..100,
+        &|state| state.foundations.clear(),
+        &|state| state.modes.truncate(1),
+    ];
+    for spoil in spoil {
+        let mut other = state.clone();
+        other.time += 1.0;
+        spoil(&mut other);
+        histories.record(&other);
+    }
     assert_eq!(histories.times().len(), 2);
     assert_eq!(histories.summary().steps, 1);
 }

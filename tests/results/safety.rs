@@ -104,7 +104,7 @@ impl InterfaceLaw for Nonsense {
         self.0.next_mode(mode, start, trial, tolerance)
     }
 
-    fn friction(&self) -> Option<f64> {
+    fn friction_coefficient(&self) -> Option<f64> {
         Some(f64::NAN)
     }
 }
