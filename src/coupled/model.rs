@@ -277,7 +277,9 @@ fn constrain(
     for mut constraint in constraints {
         let largest = constraint.iter().fold(0.0, |m: f64, (_, c)| m.max(c.abs()));
         if largest > 0.0 {
-            constraint.iter_mut().for_each(|(_, c)| *c /= largest);
+            for (_, c) in &mut constraint {
+                *c /= largest;
+            }
             constrained.add_outer(&constraint, penalty);
         }
     }

@@ -66,7 +66,6 @@ fn floors_tied_by_a_multiplier_march_as_one() {
     ] {
         let two = history(tied(coefficient, between, columns));
         let error = two.iter().zip(&merged).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-        println!("{coefficient:e} {between:e} {columns:?}: {:e}", error / largest);
         assert!(error < 1e-9 * largest, "{coefficient:e} {between:e} {columns:?}: {error:e}");
     }
 }
