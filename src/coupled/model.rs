@@ -22,9 +22,10 @@ mod cost {
     pub(super) const MODES: f64 = 3.0;
 }
 
-/// Springs that hold the base where it must not give way, relative to the largest stiffness.
+/// Springs that hold the base and constraints where they must not give way, relative to the largest
+/// stiffness.
 const HELD: f64 = 1e6;
-/// What assembly and factors leave of a zero, relative to the diagonal.
+/// What assembly and factors leave of a zero, relative to the diagonal and to the largest stiffness.
 const ROUNDING: f64 = 1e-12;
 
 /// Assembled matrices of a structure, and how it rides with the ground.
@@ -224,7 +225,9 @@ impl Model {
         if matrix.asymmetry() > ROUNDING {
             return Ok(());
         }
-        match indefinite_row(&matrix, ROUNDING) {
+        let multipliers = self.multipliers(&matrix);
+        let constrained = constrain(NAME, &matrix, &multipliers, HELD * tie)?;
+        match indefinite_row(&constrained, ROUNDING, ROUNDING * tie) {
             Some(row) => {
                 let diagonal = self.stiffness.diagonal()[row];
                 Err(Error::Indefinite { matrix: NAME, row, diagonal })
@@ -232,4 +235,49 @@ impl Model {
             None => Ok(()),
         }
     }
+
+    /// Which unknowns are Lagrange multipliers: forces that enter others' equations and whose own
+    /// equation is a constraint. Zeros are exact: a multiplier with the least mass m, on a coupling
+    /// c with a mass M, grows at the rate √(c / √(m M)).
+    fn multipliers(&self, stiffness: &SparseMatrix) -> Vec<bool> {
+        let mut multipliers: Vec<bool> = stiffness.diagonal().iter().map(|k| *k == 0.0).collect();
+        for matrix in self.sparse().iter().flat_map(|[mass, damping, _]| [mass, damping]) {
+            for (row, column, value) in matrix.entries() {
+                if value != 0.0 {
+                    multipliers[row] = false;
+                    multipliers[column] = false;
+                }
+            }
+        }
+        multipliers
+    }
+}
+
+/// A symmetric matrix with a spring of stiffness `penalty` in place of each Lagrange multiplier, on
+/// the sum of unknowns that this keeps at zero.
+fn constrain(
+    name: &'static str,
+    matrix: &SparseMatrix,
+    multipliers: &[bool],
+    penalty: f64,
+) -> Result<SparseMatrix> {
+    let mut constrained = Triplets::new(matrix.order());
+    let mut constraints = vec![Vec::new(); matrix.order()];
+    for (row, column, value) in matrix.entries() {
+        match (multipliers[row], multipliers[column]) {
+            (false, false) => constrained.add(row, column, value),
+            (true, false) => constraints[row].push((column, value)),
+            _ => {}
+        }
+    }
+    for mut constraint in constraints {
+        let largest = constraint.iter().fold(0.0, |m: f64, (_, c)| m.max(c.abs()));
+        if largest > 0.0 {
+            for (_, c) in &mut constraint {
+                *c /= largest;
+            }
+            constrained.add_outer(&constraint, penalty);
+        }
+    }
+    SparseMatrix::new(name, &constrained)
 }

@@ -172,14 +172,19 @@ impl SparseFactor {
     }
 }
 
-/// Row of a symmetric matrix at which it is found not to be positive semi-definite, if it is not;
-/// eigenvalues count from −`tolerance` in the matrix scaled to a diagonal of one. Costs a sparse
-/// Cholesky factor, or next to nothing if the matrix is diagonal.
-pub(crate) fn indefinite_row(matrix: &SparseMatrix, tolerance: f64) -> Option<usize> {
-    let diagonal = matrix.diagonal();
-    if let Some(row) = diagonal.iter().position(|value| *value < 0.0) {
+/// Row of a symmetric matrix at which it is found not to be positive semi-definite, if it is not.
+///
+/// Entries on the diagonal smaller than `floor` are rounding, and count as `floor`, negative ones up
+/// to it too; eigenvalues count from −`tolerance` in the matrix scaled to a diagonal of one. So what
+/// passes is semi-definite but for 2 `floor` on the diagonal and `tolerance` relative to it. Costs a
+/// sparse Cholesky factor, or next to nothing if the matrix is diagonal.
+pub(crate) fn indefinite_row(matrix: &SparseMatrix, tolerance: f64, floor: f64) -> Option<usize> {
+    let given = matrix.diagonal();
+    let negative = (0..given.len()).min_by(|i, j| given[*i].total_cmp(&given[*j]));
+    if let Some(row) = negative.filter(|row| given[*row] < -floor) {
         return Some(row);
     }
+    let diagonal: Vec<f64> = given.iter().map(|value| value.max(floor)).collect();
     let mut scaled = Triplets::new(matrix.order());
     let mut coupled = false;
     for (row, column, value) in matrix.entries() {
@@ -187,7 +192,7 @@ pub(crate) fn indefinite_row(matrix: &SparseMatrix, tolerance: f64) -> Option<us
         if row != column && value != 0.0 {
             coupled = true;
             if value.abs() > (1.0 + tolerance) * scale {
-                return Some(row);
+                return Some(if given[column] < given[row] { column } else { row });
             }
             scaled.add(row, column, value / scale);
         }
@@ -252,7 +257,7 @@ mod tests {
                 chain.add_spring(i - 1, i, if Some(i) == negative { -1.0e5 } else { 4.0e6 });
             }
             let matrix = SparseMatrix::new("test", &chain).unwrap();
-            assert_eq!(indefinite_row(&matrix, tolerance).is_some(), negative.is_some());
+            assert_eq!(indefinite_row(&matrix, tolerance, 1e-6).is_some(), negative.is_some());
             assert!(matrix.diagonal().iter().all(|k| *k > 0.0));
         }
         let rows = |entries: &[(usize, usize, f64)]| {
@@ -260,10 +265,20 @@ mod tests {
             for &(i, j, value) in entries {
                 matrix.add(i, j, value);
             }
-            indefinite_row(&SparseMatrix::new("test", &matrix).unwrap(), 1e-6)
+            indefinite_row(&SparseMatrix::new("test", &matrix).unwrap(), 1e-6, 1e-12)
         };
         assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -1e-3)]), Some(1));
-        assert_eq!(rows(&[(0, 0, 1.0), (0, 2, 1e-3), (2, 0, 1e-3)]), Some(0));
+        assert_eq!(rows(&[(0, 0, 1.0), (0, 2, 1e-3), (2, 0, 1e-3)]), Some(2));
+        assert_eq!(rows(&[(0, 0, 1e-4), (0, 2, 1e-3), (2, 0, 1e-3), (2, 2, 1e-3)]), Some(0));
+        // The most negative entry tells most.
+        assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -1e-9), (2, 2, -1e-3)]), Some(2));
+        // What is below the floor is rounding, just above it is not.
+        for (value, found) in [(0.99e-12, None), (1.01e-12, Some(1))] {
+            assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -value)]), found);
+        }
+        for (value, found) in [(0.99e-6, None), (1.01e-6, Some(1))] {
+            assert_eq!(rows(&[(0, 0, 1.0), (0, 1, value), (1, 0, value)]), found);
+        }
         // Singular ones are none: a row of zeros, a mass on a weighted sum of unknowns.
         assert_eq!(rows(&[(0, 0, 1.0)]), None);
         assert_eq!(rows(&[(0, 0, 4.0), (0, 1, 6.0), (1, 0, 6.0), (1, 1, 9.0)]), None);

@@ -10,6 +10,9 @@ pub(super) const SYMMETRIC: f64 = 1e-9;
 /// Negative masses up to this, relative to those on the diagonal, are rounding: what a file with
 /// seven digits leaves of a singular matrix.
 const SEMI_DEFINITE: f64 = 1e-6;
+/// Masses up to this, relative to the largest entry, are rounding: what reductions and sums leave
+/// of none. One bound for kg and kg m², which differ by far less.
+const MASSLESS: f64 = 1e-12;
 
 /// A structure given by mass, damping and stiffness matrices, from another program for example.
 ///
@@ -18,6 +21,10 @@ const SEMI_DEFINITE: f64 = 1e-6;
 /// force beyond rounding (entries of ten digits may leave too much, those of twelve do not). Matrices are per metre of thickness. They may come from Matrix Market files
 /// ([`Triplets::read_matrix_market`]); large models march faster after a
 /// [`CraigBampton`](super::CraigBampton) reduction.
+///
+/// The mass matrix must be positive semi-definite up to rounding (see [`Structure::mass`]), which is
+/// checked here; a symmetric stiffness matrix must be so where the base is held, Lagrange
+/// multipliers excepted (see [`Structure::stiffness`]), which is checked when a simulation is built.
 ///
 /// ```
 /// use basemat::structure::{ContactNode, MatrixModel, Structure, Triplets};
@@ -50,7 +57,7 @@ impl MatrixModel {
     /// [`Error::Size`] for matrices without rows or of different order and for fewer than two
     /// contact nodes, [`Error::Index`] and [`Error::Input`] for entries, coordinates or weights out
     /// of range or not finite, [`Error::Scene`] for a mass matrix that is not symmetric,
-    /// [`Error::Indefinite`] for one with a negative mass.
+    /// [`Error::Indefinite`] for one with a negative mass, more than rounding.
     pub fn new(mass: Triplets, stiffness: Triplets, contact: Vec<ContactNode>) -> Result<Self> {
         let order = mass.order();
         if order == 0 {
@@ -94,7 +101,8 @@ pub(crate) fn check_mass(mass: &SparseMatrix) -> Result<()> {
     if mass.asymmetry() > SYMMETRIC {
         return Err(Error::Scene { quantity: NAME, needed: "must be symmetric" });
     }
-    match indefinite_row(mass, SEMI_DEFINITE) {
+    let largest = mass.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
+    match indefinite_row(mass, SEMI_DEFINITE, MASSLESS * largest) {
         Some(row) => Err(Error::Indefinite { matrix: NAME, row, diagonal: mass.diagonal()[row] }),
         None => Ok(()),
     }

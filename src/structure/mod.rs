@@ -83,9 +83,21 @@ pub trait Structure: Any + Send {
     }
 
     /// Adds the mass matrix (n × n, kg/m) to `matrix`. Symmetric, positive semi-definite.
+    ///
+    /// Unknowns without mass are allowed. Rounding passes: entries on the diagonal down to −10⁻¹² of
+    /// the largest entry of the matrix, and eigenvalues down to −10⁻⁶ of the matrix scaled to a
+    /// diagonal of one. With more than that no simulation is built
+    /// ([`Error::Indefinite`](crate::Error::Indefinite)).
     fn mass(&self, matrix: &mut Triplets);
 
     /// Adds the stiffness matrix (n × n, N/m per metre) to `matrix`.
+    ///
+    /// Where it is symmetric and the structure linear, it must be positive semi-definite with the
+    /// base held, up to rounding (10⁻¹² of its largest entry on the diagonal), or no simulation is
+    /// built ([`Error::Indefinite`](crate::Error::Indefinite)). Lagrange multipliers are excepted:
+    /// an unknown with exactly zero on the diagonal, no mass and no damping, but coefficients cⱼ in
+    /// its row and column, is the force that keeps Σ cⱼ uⱼ = 0, and the rest must be positive
+    /// semi-definite for the displacements that this leaves.
     fn stiffness(&self, matrix: &mut Triplets);
 
     /// Adds the viscous damping matrix (n × n) to `matrix`. Default: none.

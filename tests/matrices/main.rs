@@ -4,3 +4,4 @@ mod market;
 mod model;
 mod reduction;
 mod ride;
+mod semi_definite;
