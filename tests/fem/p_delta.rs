@@ -325,7 +325,9 @@ fn elements_stay_where_they_are_in_the_static_state() {
     for (ends, directions) in [([0, 1], &[Direction::Y][..]), ([1, 2], &[Direction::X][..])] {
         let mut mesh = Mesh::new();
         let nodes = [[0.0, 0.0], [2.0, 0.0], [0.0, 3.0]];
-        nodes.iter().for_each(|[x, y]| drop(mesh.add_node(*x, *y)));
+        for [x, y] in nodes {
+            mesh.add_node(x, y).unwrap();
+        }
         mesh.add(Beam::new([0, 1], 1e9, 0.1, 1e-2, 100.0).unwrap()).unwrap();
         mesh.add(Beam::new([0, 2], 1e9, 0.1, 1e-2, 100.0).unwrap()).unwrap();
         mesh.add(Deserter { nodes: ends, directions }).unwrap();
