@@ -4,9 +4,11 @@ use std::ops::Range;
 
 use super::coordinates::{Modes, SteppedRow};
 use crate::bem::ContactElement;
-use crate::error::{Error, Result, finite};
+use crate::error::{Error, Result};
 use crate::linalg::{dot, wide_multiply_add};
-use crate::structure::{ContactNode, Row, Structure, Triplets, foundation_nodes};
+use crate::structure::{
+    ContactNode, Row, Structure, Triplets, check_contact_nodes, foundation_nodes,
+};
 
 /// (unknown, weight) pairs.
 type Terms = Vec<(usize, f64)>;
@@ -188,22 +190,9 @@ impl Base {
     }
 }
 
-/// Refuses too few nodes, nodes out of order, and unknowns that there are not.
+/// Refuses nodes that are none of these unknowns', and nodes out of order.
 fn check_nodes(nodes: &[ContactNode], unknowns: usize) -> Result<()> {
-    if nodes.len() < 2 {
-        let quantity = "list of contact nodes";
-        return Err(Error::Size { quantity, found: nodes.len(), needed: 2 });
-    }
-    for node in nodes {
-        finite("coordinate of a contact node", node.x)?;
-        for &(index, weight) in node.horizontal.iter().chain(&node.vertical) {
-            finite("weight of a contact node", weight)?;
-            if index >= unknowns {
-                let quantity = "unknown of a contact node";
-                return Err(Error::Index { quantity, index, bound: unknowns });
-            }
-        }
-    }
+    check_contact_nodes(nodes, unknowns)?;
     match nodes.windows(2).find(|pair| pair[1].x <= pair[0].x) {
         None => Ok(()),
         Some(pair) => Err(Error::Input {

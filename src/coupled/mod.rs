@@ -89,7 +89,7 @@ pub use conditioning::Conditioning;
 pub use coordinates::Coordinates;
 pub use ledger::Ledger;
 pub use modes::{ContactSearch, SearchMethod};
-pub(crate) use peak::named;
+pub(crate) use peak::probe_index;
 pub use peak::{Extremes, Peak, ProbeExtremes, ProbePeak};
 pub use preload::Placement;
 pub use probe::Probe;

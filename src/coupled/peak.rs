@@ -80,12 +80,12 @@ pub struct ProbeExtremes {
     pub extremes: Extremes,
 }
 
-/// The entry of a list called `name`.
-pub(crate) fn named<'a, T>(
-    list: &'a [T],
+/// Place of the probe called `name` in a list.
+pub(crate) fn probe_index<T>(
+    list: &[T],
     name: &str,
     name_of: impl Fn(&T) -> &String,
-) -> Result<&'a T> {
+) -> Result<usize> {
     let unknown = || Error::Name { quantity: "probe", name: name.to_owned() };
-    list.iter().find(|entry| name_of(entry) == name).ok_or_else(unknown)
+    list.iter().position(|entry| name_of(entry) == name).ok_or_else(unknown)
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::ledger::Ledger;
 use super::modes::SearchMethod;
-use super::peak::{Extremes, Peak, ProbePeak, named};
+use super::peak::{Extremes, Peak, ProbePeak, probe_index};
 use super::probe::Probe;
 use super::state::{State, Transition};
 use crate::bem::ContactElement;
@@ -233,7 +233,7 @@ impl Run {
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if there is none.
     pub fn probe(&self, name: &str) -> Result<Peak> {
-        named(&self.probes, name, |probe| &probe.name).map(|probe| probe.peak)
+        probe_index(&self.probes, name, |probe| &probe.name).map(|k| self.probes[k].peak)
     }
 }
 

@@ -15,10 +15,8 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 
 use super::Record;
+use super::record::MOST_SAMPLES;
 use crate::error::{Error, Result, not_negative};
-
-/// Most samples that a record may grow to.
-const MOST_SAMPLES: f64 = 1e8;
 
 impl Record {
     /// Record with zero acceleration for at least `before` and `after` (s) around it.

@@ -7,7 +7,7 @@ use super::{Baseline, RecordFormat};
 use crate::error::{Error, RecordError, Result, finite, positive};
 
 /// Most samples that are made at a time.
-const MOST_SAMPLES: f64 = 1e8;
+pub(super) const MOST_SAMPLES: f64 = 1e8;
 
 /// Ground acceleration at equal time steps, with its velocity and displacement.
 ///

@@ -9,8 +9,8 @@ use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
 use super::unit::labelled;
 use super::{Extremes, Quantity, Recorder, Sliding, Uplift};
 use crate::bem::ContactElement;
-use crate::coupled::{Ledger, Peak, Probe, Run, Simulation, State};
-use crate::error::{Error, Result, write_file};
+use crate::coupled::{Ledger, Peak, Probe, Run, Simulation, State, probe_index};
+use crate::error::{Result, write_file};
 
 /// Histories of a run, its peaks and envelopes: made by [`Recorder::start`], fed by
 /// [`Histories::record`].
@@ -185,8 +185,7 @@ impl Histories {
     }
 
     pub(crate) fn probe_index(&self, name: &str) -> Result<usize> {
-        let unknown = || Error::Name { quantity: "probe", name: name.to_owned() };
-        self.probes.iter().position(|probe| probe.name == name).ok_or_else(unknown)
+        probe_index(&self.probes, name, |probe| &probe.name)
     }
 
     /// The energy ledger at [`Histories::times`].

@@ -5,7 +5,7 @@ use super::{
     Uplift,
 };
 use crate::bem::ContactElement;
-use crate::coupled::{Ledger, Peak, ProbeExtremes, Warning, named};
+use crate::coupled::{Ledger, Peak, ProbeExtremes, Warning, probe_index};
 use crate::error::Result;
 
 /// What a run came to; printed, a page for a report.
@@ -106,7 +106,7 @@ impl Summary {
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if there is none.
     pub fn probe(&self, name: &str) -> Result<Extremes> {
-        named(&self.probes, name, |probe| &probe.name).map(|probe| probe.extremes)
+        probe_index(&self.probes, name, |probe| &probe.name).map(|k| self.probes[k].extremes)
     }
 
     /// The element with the largest pressure, and that pressure, Pa.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Row;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, finite};
 
 /// A point of the base: where it is, and how the unknowns move it.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +37,25 @@ impl ContactNode {
         let center = 0.5 * (left + right);
         vec![Self::rigid(left, center, unknowns), Self::rigid(right, center, unknowns)]
     }
+}
+
+/// Refuses too few nodes, places and weights that are not finite, and unknowns that there are not.
+pub(crate) fn check_contact_nodes(nodes: &[ContactNode], unknowns: usize) -> Result<()> {
+    if nodes.len() < 2 {
+        let quantity = "list of contact nodes";
+        return Err(Error::Size { quantity, found: nodes.len(), needed: 2 });
+    }
+    for node in nodes {
+        finite("coordinate of a contact node", node.x)?;
+        for &(index, weight) in (&node.horizontal).into_iter().chain(&node.vertical) {
+            finite("weight of a contact node", weight)?;
+            if index >= unknowns {
+                let quantity = "unknown of a contact node";
+                return Err(Error::Index { quantity, index, bound: unknowns });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Contact nodes of each foundation, for `count` nodes in all and those that are the last of a

@@ -1,7 +1,7 @@
 //! Structure given by its matrices.
 
 use super::rayleigh::RayleighDamping;
-use super::{ContactNode, Structure, Triplets};
+use super::{ContactNode, Structure, Triplets, check_contact_nodes};
 use crate::error::{Error, Result, same_length};
 use crate::linalg::{SparseMatrix, indefinite_row};
 
@@ -66,7 +66,7 @@ impl MatrixModel {
         let inertia = SparseMatrix::new("mass matrix", &mass)?;
         check_mass(&inertia)?;
         check("stiffness matrix", &stiffness, order)?;
-        check_contact(&contact, order)?;
+        check_contact_nodes(&contact, order)?;
         Ok(Self { mass, damping: Triplets::new(order), stiffness, contact })
     }
 
@@ -111,24 +111,6 @@ pub(crate) fn check_mass(mass: &SparseMatrix) -> Result<()> {
 fn check(name: &'static str, matrix: &Triplets, order: usize) -> Result<()> {
     same_length(name, matrix.order(), order)?;
     SparseMatrix::new(name, matrix).map(drop)
-}
-
-fn check_contact(contact: &[ContactNode], order: usize) -> Result<()> {
-    if contact.len() < 2 {
-        let found = contact.len();
-        return Err(Error::Size { quantity: "list of contact nodes", found, needed: 2 });
-    }
-    for node in contact {
-        crate::error::finite("coordinate of a contact node", node.x)?;
-        for &(index, weight) in node.horizontal.iter().chain(&node.vertical) {
-            crate::error::finite("weight of a contact node", weight)?;
-            if index >= order {
-                let quantity = "unknown of a contact node";
-                return Err(Error::Index { quantity, index, bound: order });
-            }
-        }
-    }
-    Ok(())
 }
 
 /// Adds `factor` times one matrix to another.

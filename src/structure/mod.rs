@@ -22,7 +22,7 @@ mod springs;
 mod triplets;
 
 pub use contact_node::ContactNode;
-pub(crate) use contact_node::foundation_nodes;
+pub(crate) use contact_node::{check_contact_nodes, foundation_nodes};
 pub use craig_bampton::{CraigBampton, ReducedModel};
 pub use fem_model::FemModel;
 pub use group::StructureGroup;

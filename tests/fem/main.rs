@@ -3,6 +3,8 @@
 mod beams;
 mod bending;
 mod by_hand;
+#[path = "../support/curvature.rs"]
+mod curvature;
 mod damping;
 mod dense;
 mod errors;

@@ -1,5 +1,6 @@
 //! Shear building: closed-form frequencies, free bodies, P–Δ.
 
+use crate::curvature::curvature;
 use crate::dense::{
     assert_symmetric, damping, eigenvalues, form, largest, mass, multiply, noise, part, row_value,
     stiffness,
@@ -112,7 +113,7 @@ fn p_delta_is_the_curvature_of_the_potential_energy() {
     let bare = uneven();
     let building = bare.clone().with_p_delta(9.81).unwrap();
     let (with, without) = (stiffness(&building), stiffness(&bare));
-    let energy = |u: &[f64]| {
+    let energy = |u: &[f64; 6]| {
         let mut height = 0.0;
         let mut below = u[0];
         let mut sum = 0.0;
@@ -123,17 +124,9 @@ fn p_delta_is_the_curvature_of_the_potential_energy() {
         }
         sum
     };
-    let step = 1e-3;
     for i in 0..6 {
         for j in 0..6 {
-            let at = |a: f64, b: f64| {
-                let mut u = [0.0; 6];
-                u[i] += a * step;
-                u[j] += b * step;
-                energy(&u)
-            };
-            let curvature = (at(1.0, 1.0) - at(1.0, -1.0) - at(-1.0, 1.0) + at(-1.0, -1.0))
-                / (4.0 * step * step);
+            let curvature = curvature(energy, [i, j], 1e-3);
             let found = with[i][j] - without[i][j];
             assert!((found - curvature).abs() < 0.02, "({i}, {j}): {found} {curvature}");
         }

@@ -1,5 +1,6 @@
 //! P–Δ of isolated and yielding buildings: what the weight does, and what it may not.
 
+use crate::curvature::curvature;
 use basemat::bem::{HalfPlaneGround, SpringGround};
 use basemat::coupled::{Probe, Run};
 use basemat::interface::{Bonded, Coulomb};
@@ -86,17 +87,9 @@ fn the_weight_on_isolators_has_the_curvature_of_its_potential() {
         }
         sum
     };
-    let step = 1e-3;
     for i in 0..9 {
         for j in 0..9 {
-            let at = |a: f64, b: f64| {
-                let mut u = [0.0; 9];
-                u[i] += a * step;
-                u[j] += b * step;
-                energy(&u)
-            };
-            let curvature = (at(1.0, 1.0) - at(1.0, -1.0) - at(-1.0, 1.0) + at(-1.0, -1.0))
-                / (4.0 * step * step);
+            let curvature = curvature(energy, [i, j], 1e-3);
             let found = with[i][j] - without[i][j];
             assert!((found - curvature).abs() < 1e-5 * 1.3e6, "({i}, {j}): {found} {curvature}");
         }
