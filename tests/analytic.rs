@@ -1,43 +1,24 @@
 //! Contact on the half-plane against closed forms and exact limits.
 
 mod support;
+#[path = "support/wrapped.rs"]
+mod wrapped;
 
 use basemat::bem::{Grading, Ground, HalfPlaneGround, Strip};
 use basemat::interface::Coulomb;
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::reference::{NoTensionStrip, SlidingBlock};
-use basemat::structure::{ContactNode, RigidBlock, Structure, Triplets};
+use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
 use std::f64::consts::PI;
+use support::rocking::quarter_period;
 use support::series::{Error, whole, within};
 use support::table;
+use wrapped::Pulled;
 
 /// Rigid block with a moment (counter-clockwise, about the middle of the base) that varies in time.
-struct Pushed<F> {
-    block: RigidBlock,
-    moment: F,
-}
-
-impl<F: Fn(f64) -> f64 + Send + 'static> Structure for Pushed<F> {
-    fn unknowns(&self) -> usize {
-        self.block.unknowns()
-    }
-
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.block.contact_nodes()
-    }
-
-    fn mass(&self, matrix: &mut Triplets) {
-        self.block.mass(matrix);
-    }
-
-    fn stiffness(&self, matrix: &mut Triplets) {
-        self.block.stiffness(matrix);
-    }
-
-    fn load(&self, time: f64, load: &mut [f64]) {
-        load[RigidBlock::ROTATION] += (self.moment)(time);
-    }
+fn pushed_block<F>(block: RigidBlock, moment: F) -> Pulled<RigidBlock, F> {
+    Pulled { structure: block, along: RigidBlock::ROTATION.into(), force: moment }
 }
 
 fn half_plane(soil: Soil, half_width: f64, elements: usize, grading: Grading) -> HalfPlaneGround {
@@ -50,7 +31,7 @@ fn punch(poisson: f64, eccentricity: f64, elements: usize, grading: Grading) -> 
     let soil = Soil::new(1.0, poisson, 1.0).unwrap();
     let block = RigidBlock::new(2.0, 1.0, 0.5).unwrap();
     let simulation = Simulation::builder(0.1)
-        .structure(Pushed { block, moment: move |_| -eccentricity })
+        .structure(pushed_block(block, move |_| -eccentricity))
         .ground(half_plane(soil, 1.0, elements, grading))
         .interface(Coulomb::new(0.0).unwrap())
         .gravity(1.0)
@@ -179,31 +160,6 @@ fn newmark_1965_sliding_on_stiff_soil() {
     }
 }
 
-/// Time that a rigid block on a soil without inertia needs from rest at `tilt` until it is upright.
-///
-/// Its moment is the one of a smooth no-tension strip: N b θ/(2θ_u) up to θ_u, N b (1 − θ_u/(2θ))
-/// above, less N h θ; `rate` is √(N h/I), I about the corner.
-fn quarter_period(tilt: f64, lift_off: f64, slenderness: f64, rate: f64) -> f64 {
-    let acceleration = |theta: f64| {
-        let arm =
-            if theta > lift_off { 1.0 - 0.5 * lift_off / theta } else { 0.5 * theta / lift_off };
-        -rate * rate * (slenderness * arm - theta)
-    };
-    let (mut theta, mut speed, mut time) = (tilt, 0.0, 0.0);
-    let step = 1e-5;
-    loop {
-        // Leapfrog.
-        speed += 0.5 * step * acceleration(theta);
-        let next = theta + step * speed;
-        if next <= 0.0 {
-            return time + step * theta / (theta - next);
-        }
-        theta = next;
-        speed += 0.5 * step * acceleration(theta);
-        time += step;
-    }
-}
-
 /// Quarter period of free rocking: found, on the rigid base of Housner, and with a soil that yields.
 fn rocking(shear_wave_speed: f64, elements: usize) -> [f64; 3] {
     let (b, h, gravity, poisson) = (0.5, 2.0, STANDARD_GRAVITY, 1.0 / 3.0);
@@ -218,7 +174,7 @@ fn rocking(shear_wave_speed: f64, elements: usize) -> [f64; 3] {
     let ground = half_plane(soil, b, elements, Grading::Cosine);
     let edge = ground.elements()[0].length();
     let mut simulation = Simulation::builder(time_step)
-        .structure(Pushed { block, moment: push })
+        .structure(pushed_block(block, push))
         .ground(ground)
         .interface(Coulomb::uplift_only())
         .gravity(gravity)

@@ -25,6 +25,8 @@ mod strip_impedance;
 mod support;
 mod three_storeys;
 mod transient;
+#[path = "../../tests/support/wrapped.rs"]
+mod wrapped;
 mod yim_chopra;
 
 use std::process::ExitCode;

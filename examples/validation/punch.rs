@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use basemat::bem::{ContactElement, Grading, Ground, HalfPlaneGround, Strip};
 use basemat::interface::{Bonded, Coulomb};
-use basemat::structure::{ContactNode, RigidBlock, Structure, Triplets};
+use basemat::structure::{RigidBlock, Structure};
 use basemat::{Simulation, Soil};
 use plotters::prelude::SeriesLabelPosition;
 
@@ -12,6 +12,7 @@ use super::AnyError;
 use super::chart::{BLUE, Figure, GREEN, Panel, RED};
 use super::outcome::{Case, Check, Outcome, worse};
 use super::support::table;
+use super::wrapped::Pulled;
 
 pub(crate) const CASE: Case = Case {
     name: "punch",
@@ -25,31 +26,9 @@ pub(crate) const CASE: Case = Case {
 const ECCENTRICITIES: [f64; 4] = [0.3, 0.6, 0.75, 0.9];
 
 /// Rigid block under a constant clockwise moment.
-struct Tilted {
-    block: RigidBlock,
-    moment: f64,
-}
-
-impl Structure for Tilted {
-    fn unknowns(&self) -> usize {
-        self.block.unknowns()
-    }
-
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.block.contact_nodes()
-    }
-
-    fn mass(&self, matrix: &mut Triplets) {
-        self.block.mass(matrix);
-    }
-
-    fn stiffness(&self, matrix: &mut Triplets) {
-        self.block.stiffness(matrix);
-    }
-
-    fn load(&self, _time: f64, load: &mut [f64]) {
-        load[RigidBlock::ROTATION] -= self.moment;
-    }
+fn tilted(moment: f64) -> basemat::Result<impl Structure> {
+    let structure = RigidBlock::new(2.0, 1.0, 0.5)?;
+    Ok(Pulled { structure, along: RigidBlock::ROTATION.into(), force: move |_| -moment })
 }
 
 /// Clockwise tilt, length of contact, and pressure of every element.
@@ -65,7 +44,7 @@ fn punch(poisson: f64, eccentricity: f64, elements: usize) -> Result<Found, AnyE
     let ground = HalfPlaneGround::new(soil, &[strip])?;
     let places = ground.elements().to_vec();
     let simulation = Simulation::builder(0.1)
-        .structure(Tilted { block: RigidBlock::new(2.0, 1.0, 0.5)?, moment: eccentricity })
+        .structure(tilted(eccentricity)?)
         .ground(ground)
         .interface(Coulomb::new(0.0)?)
         .gravity(1.0)
@@ -103,7 +82,7 @@ fn glued(poisson: f64, elements: usize) -> Result<[[f64; 2]; 2], AnyError> {
     let soil = Soil::new(1.0, poisson, 1.0)?;
     let strip = Strip::new(-1.0..1.0, elements, Grading::Cosine)?;
     let simulation = Simulation::builder(0.1)
-        .structure(Tilted { block: RigidBlock::new(2.0, 1.0, 0.5)?, moment: 1.0 })
+        .structure(tilted(1.0)?)
         .ground(HalfPlaneGround::new(soil, &[strip])?)
         .interface(Bonded)
         .gravity(1.0)

@@ -12,6 +12,7 @@ use plotters::prelude::SeriesLabelPosition;
 use super::AnyError;
 use super::chart::{BLUE, Figure, Panel, RED};
 use super::outcome::{Case, Check, Outcome, worse};
+use super::support::rocking::quarter_period;
 use super::support::series::{Error, whole};
 
 pub(crate) const CASE: Case = Case {
@@ -190,30 +191,8 @@ fn quarter(speed: f64, elements: usize) -> Result<[f64; 2], AnyError> {
     let lift_off = (1.0 - poisson) * weight() / (PI * soil.shear_modulus() * B);
     // Pressure on the last element acts at its middle: the block turns about that point.
     let slenderness = (B - 0.5 * edge) / H;
-    let yielding = quarter_on_yielding_soil(tilt, lift_off, slenderness, rate);
+    let yielding = quarter_period(tilt, lift_off, slenderness, rate);
     Ok([found / housner, found / yielding])
-}
-
-/// The same time on a half-plane without inertia: the moment of the smooth punch of the case
-/// `punch`, N b θ/(2θ₀) up to θ₀ and N b (1 − θ₀/(2θ)) above, less N h θ.
-fn quarter_on_yielding_soil(tilt: f64, lift_off: f64, slenderness: f64, rate: f64) -> f64 {
-    let acceleration = |theta: f64| {
-        let arm =
-            if theta > lift_off { 1.0 - 0.5 * lift_off / theta } else { 0.5 * theta / lift_off };
-        -rate * rate * (slenderness * arm - theta)
-    };
-    let (mut theta, mut speed, mut time) = (tilt, 0.0, 0.0);
-    let step = 1e-5;
-    loop {
-        speed += 0.5 * step * acceleration(theta);
-        let next = theta + step * speed;
-        if next <= 0.0 {
-            return time + step * theta / (theta - next);
-        }
-        theta = next;
-        speed += 0.5 * step * acceleration(theta);
-        time += step;
-    }
 }
 
 fn run(short: bool) -> Result<Outcome, AnyError> {

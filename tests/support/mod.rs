@@ -4,6 +4,7 @@
 pub(crate) mod cantilever;
 pub(crate) mod impedance;
 pub(crate) mod rigid_strip;
+pub(crate) mod rocking;
 pub(crate) mod series;
 
 use std::path::PathBuf;
