@@ -174,7 +174,7 @@ impl Histories {
     /// History of the probe called `name`, zero at the start of a run.
     ///
     /// # Errors
-    /// [`Error::Name`] if there is none.
+    /// [`Error::Name`](crate::Error::Name) if there is none.
     pub fn probe(&self, name: &str) -> Result<&[f64]> {
         self.probe_index(name).map(|index| &self.probe_values[index][..])
     }
@@ -232,7 +232,7 @@ impl Histories {
     /// Writes the CSV of [`Histories::write_csv`] to a file; its folder is made if it is not there.
     ///
     /// # Errors
-    /// [`Error::Write`] if that fails.
+    /// [`Error::Write`](crate::Error::Write) if that fails.
     pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
         let mut text = Vec::new();
         // Writing to memory cannot fail.
