@@ -155,6 +155,7 @@ mod short_debug;
 
 pub mod bem;
 mod bounded_line;
+pub mod contact;
 pub mod coupled;
 mod error;
 pub mod fem;

@@ -52,8 +52,8 @@ fn history(scene: Scene, (grading, elements): (Grading, usize), time_step: f64) 
         .run(whole(scene.duration / time_step), |state| {
             shear += state.base_shear / every as f64;
             if state.step % every == 0 {
-                history[0].push(state.displacement()[0]);
-                history[1].push(state.displacement()[2]);
+                history[0].push(state.absolute_displacement()[0]);
+                history[1].push(state.absolute_displacement()[2]);
                 history[2].push(shear);
                 shear = 0.0;
             }

@@ -43,7 +43,7 @@ fn outcome(builder: SimulationBuilder, parts: usize, duration: f64) -> Outcome {
     let run = simulation
         .run(samples * parts, |state| {
             if state.step % parts == 0 {
-                let u = state.displacement();
+                let u = state.absolute_displacement();
                 history.push([u[0], u[1], u[2]]);
             }
             at_once += usize::from(state.transitions.len() == state.modes.len());

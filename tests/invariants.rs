@@ -40,7 +40,7 @@ proptest! {
         prop_assert!(plain.iter().any(|s| s.uplifted_fraction > 0.0 || s.largest_slip() > 1e-4));
         let signs = [-1.0, 1.0, -1.0];
         for (k, sign) in signs.into_iter().enumerate() {
-            let of = |s: &State| s.displacement()[k];
+            let of = |s: &State| s.absolute_displacement()[k];
             let found = apart(plain.iter().zip(&mirror).map(|(a, b)| (of(a), sign * of(b))));
             prop_assert!(found < 1e-10, "unknown {k}: {found:e}");
         }
@@ -72,7 +72,7 @@ proptest! {
         };
         let (one, two, both) = (run(a), run(b), run(a + b));
         let sum = one.iter().zip(&two).zip(&both).flat_map(|((x, y), z)| {
-            x.displacement().iter().zip(y.displacement()).zip(z.displacement()).map(|((x, y), z)| (x + y, *z))
+            x.absolute_displacement().iter().zip(y.absolute_displacement()).zip(z.absolute_displacement()).map(|((x, y), z)| (x + y, *z))
         });
         let found = apart(sum);
         prop_assert!(found < 1e-11, "{found:e}");

@@ -98,12 +98,12 @@ fn structure_errors<const N: usize>(
 }
 
 fn base_motion(state: &State) -> f64 {
-    state.displacement()[0]
+    state.absolute_displacement()[0]
 }
 
 /// The tables count rotations and moments clockwise.
 fn rotation(state: &State) -> f64 {
-    -state.displacement()[2]
+    -state.absolute_displacement()[2]
 }
 
 fn shear(state: &State) -> f64 {
@@ -121,7 +121,7 @@ fn block_errors(
     density: f64,
     mesh: (Grading, usize, f64),
 ) -> [f64; 5] {
-    let roof = |state: &State| state.displacement()[0] - height * state.displacement()[2];
+    let roof = |state: &State| state.absolute_displacement()[0] - height * state.absolute_displacement()[2];
     structure_errors(
         &format!("td_block_SV_{name}.csv"),
         RigidBlock::new(2.0, height, density).unwrap(),
@@ -140,7 +140,7 @@ fn block_errors(
 fn cantilever_errors(mesh: (Grading, usize, f64), beams: usize) -> [f64; 6] {
     let cantilever = Cantilever::new(beams);
     let top = cantilever.top();
-    let tip = move |state: &State| state.displacement()[top];
+    let tip = move |state: &State| state.absolute_displacement()[top];
     let beam_shear = |state: &State| -state.base_shear - state.acceleration()[0];
     structure_errors(
         "td_EBcantilever_SV_nu0333.csv",
@@ -171,12 +171,12 @@ fn building_errors(mesh: (Grading, usize, f64)) -> [f64; 7] {
     // Storey displacements relative to the frame of the base.
     let relative = |j: usize| {
         move |state: &State| {
-            let u = state.displacement();
+            let u = state.absolute_displacement();
             u[2 + j] - u[0] + j as f64 * u[2]
         }
     };
     let storey_shear =
-        move |s: &State| first_shear.value(s.displacement(), s.velocity(), s.acceleration());
+        move |s: &State| first_shear.value(s.absolute_displacement(), s.velocity(), s.acceleration());
     structure_errors(
         "td_shearbuilding3_SV_nu0333_sig1.csv",
         building,

@@ -96,7 +96,7 @@ fn computed_tilt(elements: usize, time_step: f64, every: usize, samples: usize) 
         .run(every * samples, |state| {
             if state.step % every == 0 {
                 // Counter-clockwise here, down on the right there.
-                tilt.push(-state.displacement()[2]);
+                tilt.push(-state.absolute_displacement()[2]);
             }
         })
         .unwrap();

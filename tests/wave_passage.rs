@@ -82,7 +82,7 @@ fn a_light_rigid_base_averages_the_wave() {
                     known[2] += 0.01 * value * 3.0 * x / (HALF * HALF);
                 }
                 for ((found, known), (peak, scale)) in state
-                    .displacement()
+                    .absolute_displacement()
                     .iter()
                     .zip(known)
                     .zip(peaks.iter_mut().zip([0.02, 0.01, 0.01 / HALF]))

@@ -4,7 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use super::ledger::Ledger;
-use super::modes::SearchMethod;
+use crate::contact::SearchMethod;
 use super::peak::{Extremes, Peak, ProbePeak, probe_index};
 use super::probe::Probe;
 use super::state::{State, Transition};

@@ -87,7 +87,7 @@ impl MotionFrames {
 
     pub(super) fn keep(&mut self, state: &State) {
         self.times.push(state.time);
-        self.displacement.extend_from_slice(state.displacement());
+        self.displacement.extend_from_slice(state.absolute_displacement());
         self.velocity.extend_from_slice(state.velocity());
         self.free_field.push(state.free_field);
     }

@@ -46,7 +46,7 @@ impl Scales {
             length: or_one(
                 largest(contact().flat_map(|c| [c.gap, c.slip]))
                     .max(largest(states.iter().flat_map(|s| s.free_field)))
-                    .max(largest(states.iter().flat_map(|s| s.displacement().to_vec()))),
+                    .max(largest(states.iter().flat_map(|s| s.absolute_displacement().to_vec()))),
             ),
         }
     }
@@ -65,7 +65,7 @@ pub(crate) fn numbers_are_finite(states: &[State]) -> Result<(), TestCaseError> 
             state.base_rotation,
         ];
         let all = state
-            .displacement()
+            .absolute_displacement()
             .iter()
             .chain(state.velocity())
             .chain(state.acceleration())

@@ -43,7 +43,7 @@ fn tied(coefficient: f64, between: f64, columns: [f64; 2]) -> MatrixModel {
 fn history(model: MatrixModel) -> Vec<f64> {
     let mut simulation = on_soil(model).build().unwrap();
     let mut history = Vec::new();
-    simulation.run(500, |state| history.push(state.displacement()[3])).unwrap();
+    simulation.run(500, |state| history.push(state.absolute_displacement()[3])).unwrap();
     history
 }
 

@@ -52,7 +52,7 @@ fn run(builder: SimulationBuilder) -> (Run, Simulation) {
 
 #[track_caller]
 fn assert_same_motion(a: &Simulation, b: &Simulation, tolerance: f64) {
-    let (a, b) = (a.state().displacement(), b.state().displacement());
+    let (a, b) = (a.state().absolute_displacement(), b.state().absolute_displacement());
     let largest = a.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
     assert!(largest > 0.0);
     for (x, y) in a.iter().zip(b) {

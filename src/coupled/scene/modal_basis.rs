@@ -1,19 +1,24 @@
-//! The coordinates in which a structure is stepped: its unknowns, or its modes.
+//! Vibration modes as the coordinates in which a linear structure is stepped.
 //!
 //! | symbol | meaning |
 //! |---|---|
 //! | Φ | modes: K φ = λ M φ, Φᵀ M Φ = 1 |
 //! | q | modal coordinates, u = Φ q |
 //! | c | modal damping, Φᵀ C Φ = diag(c) |
+//! | R | influence vectors |
 //!
 //! In modes every matrix of the equation of motion is diagonal, so a step costs a few operations
 //! per mode, and as many per mode and contact component to meet the ground. Only the rows of Φ
 //! that the ground or a probe sees are needed in a step; the others wait until they are asked for.
+//!
+//! The rigid translations are modes of their own, exactly: R spans the first ones, and no deforming
+//! mode has a share of it.
 
-use std::sync::{Arc, OnceLock};
-
-use super::model::Model;
-use crate::linalg::{SparseMatrix, dot, generalised_modes, largest};
+use super::base::Terms;
+use super::influence::Influence;
+use super::parts::Parts;
+use crate::linalg::{dot, generalised_modes, largest};
+use crate::matrix::SparseMatrix;
 
 /// In which coordinates a linear structure is stepped. Results are the same to rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -31,9 +36,9 @@ pub enum Coordinates {
     Modes,
 }
 
-/// Modes of a structure.
+/// Vibration modes of a structure.
 #[derive(Debug)]
-pub(crate) struct Modes {
+pub(crate) struct ModalBasis {
     /// λ.
     pub(crate) stiffness: Vec<f64>,
     /// c.
@@ -51,17 +56,13 @@ const SMALLEST: f64 = 1e-8;
 /// Rigid motions in a plane.
 const RIGID_MOTIONS: usize = 3;
 
-impl Modes {
-    /// Modes of a linear model that is still in its unknowns.
-    pub(crate) fn of(model: &Model) -> Option<Self> {
-        let [mass, damping, stiffness] = model.sparse()?;
-        if model.linear { Self::new(mass, damping, stiffness) } else { None }
-    }
-
-    /// Modes that diagonalise all three matrices; `None` if there are none, or not well enough.
-    fn new(mass: &SparseMatrix, damping: &SparseMatrix, stiffness: &SparseMatrix) -> Option<Self> {
+impl ModalBasis {
+    /// Modes that diagonalise mass, damping and stiffness; `None` if there are none, or not well
+    /// enough.
+    pub(crate) fn new(matrices: [&SparseMatrix; 3], influence: &Influence) -> Option<Self> {
+        let [mass, damping, stiffness] = matrices;
         let n = mass.order();
-        if [mass, damping, stiffness].iter().any(|matrix| matrix.asymmetry() > 1e-13) {
+        if matrices.iter().any(|matrix| matrix.asymmetry() > 1e-13) {
             return None;
         }
         let (mut values, vectors) = generalised_modes(stiffness, mass)?;
@@ -70,17 +71,82 @@ impl Modes {
         let rigid = values.iter().filter(|value| value.abs() <= noise).count();
         // Below its noise an eigenvalue is a rigid motion's, unless there are too many of them.
         let smallest = values.iter().map(|v| v.abs()).filter(|v| *v > noise);
-        let most = RIGID_MOTIONS * parts(&[mass, damping, stiffness]);
-        if rigid > most || smallest.fold(top, f64::min) < SMALLEST * top {
+        let most = RIGID_MOTIONS * Parts::coupled(matrices).count();
+        let uncertain = smallest.fold(top, f64::min) < SMALLEST * top;
+        if rigid > most || uncertain || values.first().is_some_and(|least| *least < -noise) {
             return None;
         }
-        for value in &mut values {
-            if value.abs() <= noise {
-                *value = 0.0;
+        values[..rigid].fill(0.0);
+        let mut modes = Self { stiffness: values, damping: vec![0.0; n], vectors };
+        modes.separate_translations(rigid, mass, influence)?;
+        modes.decouple(mass, damping, stiffness).then_some(modes)
+    }
+
+    /// Makes the influence vectors the first of the `rigid` modes, the others orthogonal to them.
+    fn separate_translations(
+        &mut self,
+        rigid: usize,
+        mass: &SparseMatrix,
+        influence: &Influence,
+    ) -> Option<()> {
+        let n = self.count();
+        let mut column: Vec<Vec<f64>> =
+            (0..n).map(|j| (0..n).map(|i| self.vectors[i * n + j]).collect()).collect();
+        let mut basis: Vec<[Vec<f64>; 2]> = Vec::with_capacity(rigid);
+        let product = |vector: &[f64]| {
+            let mut product = vec![0.0; n];
+            mass.multiply_add(1.0, vector, &mut product);
+            product
+        };
+        // Twice is enough.
+        let project = |vector: &mut [f64], basis: &[[Vec<f64>; 2]]| {
+            for [own, image] in basis.iter().chain(basis) {
+                let share = dot(image, vector);
+                vector.iter_mut().zip(own).for_each(|(v, b)| *v -= share * b);
+            }
+        };
+        let normalise = |mut vector: Vec<f64>| {
+            let scale = dot(&vector, &product(&vector)).sqrt().recip();
+            vector.iter_mut().for_each(|v| *v *= scale);
+            let image = product(&vector);
+            scale.is_finite().then_some([vector, image])
+        };
+        for vector in influence.parts().iter().flat_map(|part| &part.vectors) {
+            if !vector.is_empty() {
+                let mut own = vec![0.0; n];
+                vector.iter().for_each(|&(i, r)| own[i] = r);
+                project(&mut own, &basis);
+                basis.push(normalise(own)?);
             }
         }
-        let mut modes = Self { stiffness: values, damping: vec![0.0; n], vectors };
-        modes.decouple(mass, damping, stiffness).then_some(modes)
+        if basis.len() > rigid {
+            return None;
+        }
+        let translations = basis.len();
+        while basis.len() < rigid {
+            // The rigid mode with most left over.
+            let norm = |vector: &Vec<f64>| dot(vector, &product(vector));
+            for vector in &mut column[..rigid] {
+                project(vector, &basis);
+            }
+            let most = (0..rigid).max_by(|a, b| norm(&column[*a]).total_cmp(&norm(&column[*b])))?;
+            let mut chosen = std::mem::replace(&mut column[most], vec![0.0; n]);
+            chosen = normalise(chosen)?.into_iter().next()?;
+            project(&mut chosen, &basis);
+            basis.push(normalise(chosen)?);
+        }
+        for vector in &mut column[rigid..] {
+            project(vector, &basis[..translations]);
+        }
+        for (own, [vector, _]) in column.iter_mut().zip(basis) {
+            *own = vector;
+        }
+        for (j, vector) in column.iter().enumerate() {
+            for (i, value) in vector.iter().enumerate() {
+                self.vectors[i * n + j] = *value;
+            }
+        }
+        Some(())
     }
 
     /// Finds c, and checks K φ = λ M φ and C φ = c M φ.
@@ -128,29 +194,23 @@ impl Modes {
         }
     }
 
+    /// Modal coordinates of a rigid translation, M its mass matrix: only rigid modes have a share.
+    pub(crate) fn coordinates(&self, vector: &Terms, mass: &SparseMatrix) -> Terms {
+        // u = Φ q and Φᵀ M Φ = 1: q = Φᵀ M u.
+        let n = self.count();
+        let [mut full, mut momentum, mut shares] = [(); 3].map(|()| vec![0.0; n]);
+        vector.iter().for_each(|&(i, r)| full[i] = r);
+        mass.multiply_add(1.0, &full, &mut momentum);
+        self.project(&momentum, &mut shares);
+        let noise = 1e-12 * largest(&shares);
+        let rigid = shares.into_iter().zip(&self.stiffness).enumerate();
+        rigid.filter(|(_, (q, k))| **k == 0.0 && q.abs() > noise).map(|(j, (q, _))| (j, q)).collect()
+    }
+
     /// Φ q.
-    fn unknowns(&self, modal: &[f64]) -> Vec<f64> {
+    pub(crate) fn unknowns(&self, modal: &[f64]) -> Vec<f64> {
         self.vectors.chunks_exact(self.count()).map(|row| dot(row, modal)).collect()
     }
-}
-
-/// Number of parts of the structure that no matrix connects.
-fn parts(matrices: &[&SparseMatrix]) -> usize {
-    let n = matrices[0].order();
-    let mut leader: Vec<usize> = (0..n).collect();
-    let find = |leader: &[usize], mut i: usize| {
-        while leader[i] != i {
-            i = leader[i];
-        }
-        i
-    };
-    for matrix in matrices {
-        for (row, column, _) in matrix.entries() {
-            let (a, b) = (find(&leader, row), find(&leader, column));
-            leader[a.max(b)] = a.min(b);
-        }
-    }
-    (0..n).filter(|&i| leader[i] == i).count()
 }
 
 /// A weighted sum of unknowns, in the coordinates that are stepped.
@@ -163,7 +223,7 @@ pub(crate) enum SteppedRow {
 }
 
 impl SteppedRow {
-    pub(crate) fn new(terms: &[(usize, f64)], modes: Option<&Modes>) -> Self {
+    pub(crate) fn new(terms: &[(usize, f64)], modes: Option<&ModalBasis>) -> Self {
         let Some(modes) = modes else { return Self::Unknowns(terms.to_vec()) };
         if terms.is_empty() {
             return Self::Modes(Vec::new());
@@ -184,60 +244,5 @@ impl SteppedRow {
             Self::Modes(weights) if weights.is_empty() => 0.0,
             Self::Modes(weights) => dot(weights, x),
         }
-    }
-}
-
-/// Displacement, velocity and acceleration in the coordinates that are stepped, and the unknowns
-/// once somebody has asked for them.
-#[derive(Clone)]
-pub(crate) struct Motion {
-    pub(crate) displacement: Vec<f64>,
-    pub(crate) velocity: Vec<f64>,
-    pub(crate) acceleration: Vec<f64>,
-    modes: Option<Arc<Modes>>,
-    unknowns: [OnceLock<Vec<f64>>; 3],
-}
-
-impl Motion {
-    /// At rest.
-    pub(crate) fn new(coordinates: usize, modes: Option<Arc<Modes>>) -> Self {
-        let zero = || vec![0.0; coordinates];
-        Self {
-            displacement: zero(),
-            velocity: zero(),
-            acceleration: zero(),
-            modes,
-            unknowns: Default::default(),
-        }
-    }
-
-    /// To be called when coordinates have changed.
-    pub(crate) fn changed(&mut self) {
-        self.unknowns.iter_mut().for_each(|seen| drop(seen.take()));
-    }
-
-    /// Unknowns of the displacement (0), velocity (1) or acceleration (2).
-    pub(crate) fn unknowns(&self, which: usize) -> &[f64] {
-        let coordinates = [&self.displacement, &self.velocity, &self.acceleration][which];
-        match &self.modes {
-            None => coordinates,
-            Some(modes) => self.unknowns[which].get_or_init(|| modes.unknowns(coordinates)),
-        }
-    }
-}
-
-impl PartialEq for Motion {
-    fn eq(&self, other: &Self) -> bool {
-        (0..3).all(|which| self.unknowns(which) == other.unknowns(which))
-    }
-}
-
-impl std::fmt::Debug for Motion {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Motion")
-            .field("displacement", &self.unknowns(0))
-            .field("velocity", &self.unknowns(1))
-            .field("acceleration", &self.unknowns(2))
-            .finish()
     }
 }

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::base::Base;
-use super::coordinates::Modes;
-use super::ride;
+use super::influence::Influence;
+use super::modal_basis::ModalBasis;
 use crate::error::{Error, Result, same_length};
-use crate::linalg::{SparseFactor, SparseMatrix, indefinite_row, largest};
+use crate::linalg::{SparseMatrix, indefinite_row};
 use crate::matrix::Matrix;
 use crate::structure::{InternalEnergy, Structure, Triplets, check_mass};
 
@@ -28,25 +28,21 @@ const HELD: f64 = 1e6;
 /// What assembly and factors leave of a zero, relative to the diagonal and to the largest stiffness.
 const ROUNDING: f64 = 1e-12;
 
-/// Assembled matrices of a structure, and how it rides with the ground.
+/// Assembled matrices of a structure and its influence vectors.
 pub(crate) struct Model {
-    pub(crate) structure: Box<dyn Structure>,
     pub(crate) unknowns: usize,
     pub(crate) mass: Matrix,
     pub(crate) damping: Matrix,
     pub(crate) stiffness: Matrix,
     pub(crate) linear: bool,
-    /// Coordinates when base and structure ride 1 m to the right and 1 m up.
-    pub(crate) ride: [Vec<f64>; 2],
+    /// Influence vectors in the coordinates that are stepped.
+    pub(crate) influence: Arc<Influence>,
     /// The modes, if they are the coordinates.
-    pub(crate) modes: Option<Arc<Modes>>,
-    /// Whether K must be spared the displacement of the ride: see [`Model::spare`].
-    rides_freely: bool,
-    tangent: Triplets,
+    pub(crate) modes: Option<Arc<ModalBasis>>,
 }
 
 impl Model {
-    pub(crate) fn new(structure: Box<dyn Structure>, base: &Base) -> Result<Self> {
+    pub(crate) fn new(structure: &dyn Structure, base: &Base) -> Result<Self> {
         let unknowns = structure.unknowns();
         if unknowns == 0 {
             return Err(Error::Size { quantity: "list of unknowns", found: 0, needed: 1 });
@@ -59,23 +55,26 @@ impl Model {
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
         let linear = structure.is_linear();
         let mut model = Self {
-            structure,
             unknowns,
             mass: Matrix::Sparse(mass),
             damping: Matrix::Sparse(damping),
             stiffness: Matrix::Sparse(stiffness),
             linear,
-            ride: [vec![0.0; unknowns], vec![0.0; unknowns]],
+            influence: Arc::default(),
             modes: None,
-            rides_freely: false,
-            tangent: Triplets::new(unknowns),
         };
-        model.ride = model.rigid_ride(base)?;
-        model.rides_freely = model.ride.iter().all(|ride| {
-            let mut force = vec![0.0; unknowns];
-            model.stiffness.multiply_add(1.0, ride, &mut force);
-            largest(&force) <= 1e-9 * model.stiffness.largest() * largest(ride)
-        });
+        let mut tangent = Tangent::new(unknowns);
+        tangent.refill(&model, structure, &vec![0.0; unknowns])?;
+        let mut at_rest = Triplets::new(unknowns);
+        model.stiffness.add_to(1.0, &mut at_rest);
+        tangent.matrix.add_to(1.0, &mut at_rest);
+        let at_rest = SparseMatrix::new("stiffness matrix", &at_rest)?;
+        if let Some([mass, damping, _]) = model.sparse() {
+            let check_sign =
+                |tie| if linear { model.check_stiffness(base, tie) } else { Ok(()) };
+            let influence = Influence::new(base, &at_rest, [mass, damping], &check_sign)?;
+            model.influence = Arc::new(influence);
+        }
         Ok(model)
     }
 
@@ -101,42 +100,30 @@ impl Model {
     }
 
     /// Goes over to modal coordinates.
-    pub(crate) fn decouple(&mut self, modes: Arc<Modes>) {
-        for ride in &mut self.ride {
-            // u = Φ q and Φᵀ M Φ = 1: q = Φᵀ M u.
-            let mut momentum = vec![0.0; self.unknowns];
-            self.mass.multiply_add(1.0, ride, &mut momentum);
-            ride.fill(0.0);
-            modes.project(&momentum, ride);
+    pub(crate) fn decouple(&mut self, modes: Arc<ModalBasis>) {
+        let mut influence = Influence::clone(&self.influence);
+        if let Some([mass, _, _]) = self.sparse() {
+            influence.map(|vector| modes.coordinates(vector, mass));
         }
+        self.influence = Arc::new(influence);
         self.mass = Matrix::Diagonal(vec![1.0; self.unknowns]);
         self.damping = Matrix::Diagonal(modes.damping.clone());
         self.stiffness = Matrix::Diagonal(modes.stiffness.clone());
         self.modes = Some(modes);
     }
 
-    /// Whether [`Model::spare`] does anything.
-    pub(crate) fn needs_sparing(&self) -> bool {
-        self.rides_freely && self.modes.is_none()
-    }
-
-    /// Takes a ride off a displacement before K acts on it. A ride strains nothing, but in
-    /// unknowns K would only find that out by cancellation, with an error that grows with the
-    /// stiffness times the displacement. In modes it has no stiffness to begin with.
-    pub(crate) fn spare(&self, displacement: &mut [f64], ride: [f64; 2]) {
-        if self.needs_sparing() {
-            let [horizontal, vertical] = &self.ride;
-            for ((u, h), v) in displacement.iter_mut().zip(horizontal).zip(vertical) {
-                *u -= h * ride[0] + v * ride[1];
-            }
-        }
-    }
-
     /// Adds the external load at `time`, weight excepted, minus `at_start`, to `load`; `scratch`
     /// has an entry for every unknown.
-    pub(crate) fn load(&self, time: f64, at_start: &[f64], scratch: &mut [f64], load: &mut [f64]) {
+    pub(crate) fn load(
+        &self,
+        structure: &dyn Structure,
+        time: f64,
+        at_start: &[f64],
+        scratch: &mut [f64],
+        load: &mut [f64],
+    ) {
         scratch.fill(0.0);
-        self.structure.load(time, scratch);
+        structure.load(time, scratch);
         for (now, at_start) in scratch.iter_mut().zip(at_start) {
             *now -= at_start;
         }
@@ -149,69 +136,15 @@ impl Model {
     /// f and its energies at a displacement; zero and unknown for a linear structure.
     pub(crate) fn nonlinear_state(
         &self,
+        structure: &dyn Structure,
         displacement: &[f64],
     ) -> (Vec<f64>, Option<InternalEnergy>) {
         let mut force = vec![0.0; self.unknowns];
         if self.linear {
             return (force, None);
         }
-        self.structure.nonlinear_force(displacement, &mut force);
-        (force, self.structure.nonlinear_energy(displacement))
-    }
-
-    /// ∂f/∂u at a displacement.
-    pub(crate) fn tangent(&mut self, displacement: &[f64]) -> Result<SparseMatrix> {
-        let mut tangent = SparseMatrix::default();
-        self.refill_tangent(displacement, &mut tangent)?;
-        Ok(tangent)
-    }
-
-    /// Overwrites `tangent` with ∂f/∂u at a displacement; allocates only for entries at new places.
-    pub(crate) fn refill_tangent(
-        &mut self,
-        displacement: &[f64],
-        tangent: &mut SparseMatrix,
-    ) -> Result<()> {
-        const NAME: &str = "tangent of the nonlinear force";
-        self.tangent.clear();
-        if !self.linear {
-            self.structure.nonlinear_tangent(displacement, &mut self.tangent);
-            same_length(NAME, self.tangent.order(), self.unknowns)?;
-        }
-        if tangent.order() != self.unknowns || !tangent.refill(&self.tangent) {
-            *tangent = SparseMatrix::new(NAME, &self.tangent)?;
-        }
-        Ok(())
-    }
-
-    /// A rigid ride leaves K u = 0 and moves the contact nodes by one: (K + γ NᵀN) r = γ Nᵀ 1 has
-    /// it as its solution for every γ, with no knowledge of what each unknown means. Where K resists
-    /// the ride, the nodes lag behind: such a ride would not weigh the structure.
-    fn rigid_ride(&mut self, base: &Base) -> Result<[Vec<f64>; 2]> {
-        let n = self.unknowns;
-        let at_rest = vec![0.0; n];
-        let tangent = self.tangent(&at_rest)?;
-        let mut matrix = Triplets::new(n);
-        self.stiffness.add_to(1.0, &mut matrix);
-        tangent.add_to(1.0, &mut matrix);
-        let untied = SparseMatrix::new("stiffness matrix", &matrix)?;
-        let stiffest = largest(&untied.diagonal());
-        let tie = if stiffest > 0.0 { stiffest } else { 1.0 };
-        let [mut horizontal, mut vertical] = [vec![0.0; n], vec![0.0; n]];
-        base.tie_nodes(tie, &mut matrix, [&mut horizontal, &mut vertical]);
-        let name = "stiffness matrix with its base held";
-        let mut factor = SparseFactor::new(name, &matrix)?;
-        if self.linear && !factor.is_positive_definite() {
-            self.check_stiffness(base, tie)?;
-        }
-        factor.solve(&mut horizontal);
-        factor.solve(&mut vertical);
-        if horizontal.iter().chain(&vertical).any(|r| !r.is_finite()) {
-            return Err(Error::Singular { matrix: name, order: n });
-        }
-        let ride = [horizontal, vertical];
-        ride::check(&untied, &ride, base.ride_error(&ride))?;
-        Ok(ride)
+        structure.nonlinear_force(displacement, &mut force);
+        (force, structure.nonlinear_energy(displacement))
     }
 
     /// Refuses a symmetric K that is not positive semi-definite where the base is held.
@@ -250,6 +183,37 @@ impl Model {
             }
         }
         multipliers
+    }
+}
+
+/// The tangent ∂f/∂u of the nonlinear force; empty for a linear structure.
+pub(crate) struct Tangent {
+    pub(crate) matrix: SparseMatrix,
+    entries: Triplets,
+}
+
+impl Tangent {
+    pub(crate) fn new(unknowns: usize) -> Self {
+        Self { matrix: SparseMatrix::default(), entries: Triplets::new(unknowns) }
+    }
+
+    /// Goes to the tangent at a displacement; allocates only for entries at new places.
+    pub(crate) fn refill(
+        &mut self,
+        model: &Model,
+        structure: &dyn Structure,
+        displacement: &[f64],
+    ) -> Result<()> {
+        const NAME: &str = "tangent of the nonlinear force";
+        self.entries.clear();
+        if !model.linear {
+            structure.nonlinear_tangent(displacement, &mut self.entries);
+            same_length(NAME, self.entries.order(), model.unknowns)?;
+        }
+        if self.matrix.order() != model.unknowns || !self.matrix.refill(&self.entries) {
+            self.matrix = SparseMatrix::new(NAME, &self.entries)?;
+        }
+        Ok(())
     }
 }
 

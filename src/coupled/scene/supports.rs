@@ -1,4 +1,4 @@
-//! Whether a structure rides freely: no stiffness to a fixed point.
+//! Whether a structure translates freely: no stiffness to a fixed point.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -23,8 +23,11 @@
 //! The reduced walls meet a force of 2e-10 of the largest stiffness in all, the springs one of 1e-9.
 //! A support is what is above all of the limits below.
 
+use super::model::{Model, Tangent};
+use super::static_state::StaticState;
 use crate::error::{Error, Result};
 use crate::linalg::{SparseMatrix, largest};
+use crate::structure::Structure;
 
 /// Largest lag: far above rounding, and what a weight may be off.
 const LAG: f64 = 1e-6;
@@ -41,27 +44,74 @@ const BENT: f64 = 1e-9;
 /// Largest |r − s| with which s is what r is meant to be.
 const WHOLE: f64 = 0.25;
 
-/// Names of the two rides.
+/// Translations (m) that no nonlinear force may resist.
+const TRANSLATIONS: [f64; 3] = [1e-3, 1.0, 1e3];
+
+/// Names of the two translations.
 const DIRECTIONS: [&str; 2] = ["to the right", "upwards"];
 
-/// Refuses a structure that does not ride freely. `stiffness` without what ties the contact nodes;
-/// `rides` to the right and upwards.
-pub(super) fn check(stiffness: &SparseMatrix, rides: &[Vec<f64>; 2], lag: f64) -> Result<()> {
-    for (ride, direction) in rides.iter().zip(DIRECTIONS) {
-        let resistance = Resistance::new(stiffness, ride);
+/// Refuses a structure that does not translate freely, and rounds its translations (to the right
+/// and upwards) to whole numbers where these are what they are meant to be. `stiffness` without
+/// what ties the contact nodes; `lag` is the error of the base under both translations.
+pub(super) fn check(
+    stiffness: &SparseMatrix,
+    translations: &mut [Vec<f64>; 2],
+    lag: impl Fn(&[Vec<f64>; 2]) -> f64,
+) -> Result<()> {
+    let lag = lag(translations);
+    for (translation, direction) in translations.iter_mut().zip(DIRECTIONS) {
+        let resistance = Resistance::new(stiffness, translation);
         if resistance.holds(lag) {
             let Resistance { force, unknown, share, .. } = resistance;
             return Err(Error::Supported { direction, force, unknown, share });
         }
+        if resistance.is_free {
+            translation.iter_mut().for_each(|r| *r = r.round());
+        }
     }
     if lag > LAG {
-        let needed = "its contact nodes must be able to ride together";
+        let needed = "its contact nodes must be able to translate together";
         return Err(Error::Scene { quantity: "structure", needed });
     }
     Ok(())
 }
 
-/// What the stiffness does to a ride.
+/// Refuses a nonlinear force that resists a translation from the static state by a millimetre, a
+/// metre or a kilometre: its structure is tied to a fixed point.
+pub(crate) fn check_force(
+    model: &Model,
+    structure: &dyn Structure,
+    at_rest: &StaticState,
+) -> Result<()> {
+    if model.linear {
+        return Ok(());
+    }
+    let n = model.unknowns;
+    let mut tangent = Tangent::new(n);
+    tangent.refill(model, structure, &at_rest.displacement)?;
+    let translations = model.influence.of_all(n);
+    for (translation, direction) in translations.iter().zip(DIRECTIONS) {
+        let [_, around] = products(&tangent.matrix, translation);
+        for distance in TRANSLATIONS {
+            let moved: Vec<f64> =
+                at_rest.displacement.iter().zip(translation).map(|(u, r)| u + distance * r).collect();
+            let mut force = vec![0.0; n];
+            structure.nonlinear_force(&moved, &mut force);
+            for (unknown, (force, before)) in force.iter().zip(&at_rest.force).enumerate() {
+                let force = force - before;
+                let scale = distance * around[unknown] + before.abs();
+                // Written so that NaN is refused.
+                if !(force.abs() <= ROW * scale) {
+                    let share = if scale > 0.0 { force.abs() / scale } else { f64::INFINITY };
+                    return Err(Error::Supported { direction, force, unknown, share });
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Resistance of the stiffness to a translation.
 struct Resistance {
     /// r·K r over |r|·|K| |r|, and over the largest stiffness.
     work: f64,
@@ -77,21 +127,21 @@ struct Resistance {
 }
 
 impl Resistance {
-    fn new(stiffness: &SparseMatrix, ride: &[f64]) -> Self {
-        let whole: Vec<f64> = ride.iter().map(|r| r.round()).collect();
-        let apart: Vec<f64> = ride.iter().zip(&whole).map(|(r, s)| r - s).collect();
+    fn new(stiffness: &SparseMatrix, translation: &[f64]) -> Self {
+        let whole: Vec<f64> = translation.iter().map(|r| r.round()).collect();
+        let apart: Vec<f64> = translation.iter().zip(&whole).map(|(r, s)| r - s).collect();
         let bent = largest(&apart);
-        let [force, around] = products(stiffness, ride);
-        let work: f64 = ride.iter().zip(&force).map(|(r, f)| r * f).sum();
-        let scale: f64 = ride.iter().zip(&around).map(|(r, f)| (r * f).abs()).sum();
+        let [force, around] = products(stiffness, translation);
+        let work: f64 = translation.iter().zip(&force).map(|(r, f)| r * f).sum();
+        let scale: f64 = translation.iter().zip(&around).map(|(r, f)| (r * f).abs()).sum();
         let is_whole = bent <= WHOLE;
         let [force, around] = if is_whole { products(stiffness, &whole) } else { [force, around] };
         let diagonal = stiffness.diagonal();
         let over = |scale: f64| if scale > 0.0 { work.abs() / scale } else { 0.0 };
-        let is_free = (0..ride.len())
+        let is_free = (0..translation.len())
             .all(|i| force[i].abs() <= ROW * around[i] + DIAGONAL * diagonal[i].abs());
         let share = |i: usize| if around[i] > 0.0 { force[i].abs() / around[i] } else { 0.0 };
-        let unknown = (0..ride.len()).fold(0, |a, b| if share(b) > share(a) { b } else { a });
+        let unknown = (0..translation.len()).fold(0, |a, b| if share(b) > share(a) { b } else { a });
         Self {
             work: over(scale),
             reaction: over(stiffest(stiffness, &diagonal)),

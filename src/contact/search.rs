@@ -7,7 +7,7 @@
 //! 3. If that does not settle: follow the solution from a load under which every element is open,
 //!    one change of mode at a time (see [`super::path`]).
 
-use super::contact::{ContactInput, ContactSolver};
+use super::problem::{ContactInput, ContactSolver};
 use super::path::Path;
 use crate::error::StepError;
 use crate::interface::{Condition, ContactState, Mode, Tolerance};
@@ -297,5 +297,5 @@ fn solve_element(
 }
 
 #[cfg(test)]
-#[path = "modes_tests.rs"]
+#[path = "search_tests.rs"]
 mod tests;

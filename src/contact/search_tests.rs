@@ -2,10 +2,10 @@
 
 use super::*;
 use crate::bem::{Ground, HalfPlaneGround};
-use crate::coupled::base::Base;
-use crate::coupled::model::Model;
-use crate::coupled::operators::Operators;
-use crate::coupled::scheme::{Midpoint, TimeScheme};
+use crate::coupled::scene::base::Base;
+use crate::coupled::scene::model::{Model, Tangent};
+use crate::coupled::scene::operators::{Factor, Operators};
+use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
 use crate::interface::{Activation, Coulomb, InterfaceLaw, StepStart};
 use crate::linalg::dense_multiply_add;
@@ -116,10 +116,12 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     };
     let unknowns = structure.unknowns();
     let base = Base::of(structure.as_ref(), ground.elements()).unwrap();
-    let mut model = Model::new(structure, &base).unwrap();
-    let tangent = model.tangent(&vec![0.0; unknowns]).unwrap();
+    let model = Model::new(structure.as_ref(), &base).unwrap();
+    let mut tangent = Tangent::new(unknowns);
+    tangent.refill(&model, structure.as_ref(), &vec![0.0; unknowns]).unwrap();
     let coefficients = Midpoint.coefficients(time_step);
-    let operators = Operators::new(&model, &base, &operator, &coefficients, tangent).unwrap();
+    let factor = Factor::new(&model, &coefficients, &tangent.matrix).unwrap();
+    let operators = Operators::new(&model, &base, &operator, factor, tangent.matrix);
     (operators.delassus, base.lengths().to_vec())
 }
 

@@ -14,7 +14,7 @@
 //! With tensile strength the law is not monotone and the path may break; then it is begun
 //! elsewhere, also with all elements pressed shut.
 
-use super::contact::{ContactInput, ContactSolver};
+use super::problem::{ContactInput, ContactSolver};
 use crate::interface::{ContactState, Mode, Tolerance};
 use crate::linalg::dot;
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::coordinates::{Modes, SteppedRow};
+use super::modal_basis::{ModalBasis, SteppedRow};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result};
 use crate::linalg::{dot, wide_multiply_add};
@@ -11,7 +11,7 @@ use crate::structure::{
 };
 
 /// (unknown, weight) pairs.
-type Terms = Vec<(usize, f64)>;
+pub(crate) type Terms = Vec<(usize, f64)>;
 
 /// B, which takes unknowns to element means of the base displacement (normal components down),
 /// and BᵀA, which takes tractions to forces on the structure's unknowns.
@@ -90,7 +90,7 @@ impl Base {
     }
 
     /// Goes over to modal coordinates.
-    pub(crate) fn decouple(&mut self, modes: &Modes) {
+    pub(crate) fn decouple(&mut self, modes: &ModalBasis) {
         self.modal.clear();
         for terms in &self.rows {
             if let SteppedRow::Modes(weights) = SteppedRow::new(terms, Some(modes)) {
@@ -103,9 +103,10 @@ impl Base {
         }
     }
 
-    /// The elements of each foundation.
-    pub(crate) fn foundations(&self) -> impl Iterator<Item = Range<usize>> + '_ {
-        self.foundations.iter().map(|footing| footing.elements.clone())
+    /// The contact nodes and the elements of each foundation.
+    pub(crate) fn foundations(&self) -> impl Iterator<Item = (&[ContactNode], Range<usize>)> + '_ {
+        let nodes = |footing: &Outline| &self.nodes[footing.nodes.clone()];
+        self.foundations.iter().map(move |footing| (nodes(footing), footing.elements.clone()))
     }
 
     /// Lengths A of the elements.
@@ -129,9 +130,9 @@ impl Base {
         }
     }
 
-    /// Mean motion `[right, up]` of the base, from its element means.
-    pub(crate) fn ride(&self, means: &[f64]) -> [f64; 2] {
-        let (down, along) = means.split_at(self.lengths.len());
+    /// Mean `[right, up]` of contact displacements (2Q) over the whole base.
+    pub(crate) fn mean(&self, displacement: &[f64]) -> [f64; 2] {
+        let (down, along) = displacement.split_at(self.lengths.len());
         let width: f64 = self.lengths.iter().sum();
         [dot(along, &self.lengths) / width, -dot(down, &self.lengths) / width]
     }
@@ -157,20 +158,39 @@ impl Base {
         self.foundations[foundation].rotation.of(u)
     }
 
-    /// Largest error of N r for rides of 1 to the right and 1 up, N the displacements of the contact
-    /// nodes. A component without terms belongs to nothing that could move.
-    pub(crate) fn ride_error(&self, ride: &[Vec<f64>; 2]) -> f64 {
+    /// Largest error of N r for translations of 1 to the right and 1 up, N the displacements of the
+    /// contact nodes. A component without terms belongs to nothing that could move.
+    pub(crate) fn translation_error(&self, translations: &[Vec<f64>; 2]) -> f64 {
         let mut worst = 0.0_f64;
-        for node in &self.nodes {
-            for (component, terms) in [&node.horizontal, &node.vertical].into_iter().enumerate() {
-                for (direction, ride) in ride.iter().enumerate().filter(|_| !terms.is_empty()) {
-                    let moved = terms.value(ride);
-                    let needed = if component == direction { 1.0 } else { 0.0 };
-                    worst = worst.max((moved - needed).abs());
-                }
+        for (direction, translation) in translations.iter().enumerate() {
+            for (terms, needed) in self.node_components(direction) {
+                worst = worst.max((terms.value(translation) - needed).abs());
             }
         }
         worst
+    }
+
+    /// Moves `translation` (to the right: 0; upwards: 1) by the little that the contact nodes miss
+    /// of 1 m.
+    pub(crate) fn translate_nodes(&self, direction: usize, translation: &mut [f64]) {
+        for _ in 0..4 {
+            for (terms, needed) in self.node_components(direction) {
+                let missing = needed - terms.value(translation);
+                let square: f64 = terms.iter().map(|(_, weight)| weight * weight).sum();
+                if missing != 0.0 && square > 0.0 {
+                    for &(i, weight) in terms {
+                        translation[i] += missing * weight / square;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Rows of the contact nodes, and their values under a translation of 1 m.
+    fn node_components(&self, direction: usize) -> impl Iterator<Item = (&Row, f64)> {
+        let components = self.nodes.iter().flat_map(|node| [&node.horizontal, &node.vertical]);
+        let moved = move |(k, row)| (row, if k % 2 == direction { 1.0 } else { 0.0 });
+        components.enumerate().map(moved).filter(|(row, _)| !row.is_empty())
     }
 
     /// Adds γ NᵀN to `matrix` and γ Nᵀ1 to the two right-hand sides (horizontal, vertical up),

@@ -1,24 +1,24 @@
 //! The static state under the structure's weight, contact conditions included.
 
 use super::base::Base;
-use super::contact::{ContactInput, ContactSolver};
-use super::model::Model;
-use super::modes::{ContactSearch, ModeSearch};
+use super::model::{Model, Tangent};
+use super::operators::condense;
 use crate::bem::Ground;
+use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, law_of};
 use crate::linalg::{
     SparseFactor, SparseMatrix, dot, largest, sparse_condition, wide_transposed_multiply_add,
 };
-use crate::structure::Triplets;
+use crate::structure::{InternalEnergy, Structure, Triplets};
 
 /// What friction does while the structure is placed on the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Placement {
-    /// The base is set down without friction and without adhesion, and sticks from then on. What
-    /// does not touch under weight alone starts open. Where no element's law ever opens (bonded),
-    /// the base is cast on the ground instead and holds from the beginning.
+    /// The base is placed without friction and without adhesion, and sticks from then on. What
+    /// does not touch under weight alone starts open. Where no element's law ever opens, the base
+    /// is bonded from the start.
     #[default]
     Frictionless,
     /// The interface law acts while the weight comes on, in one step.
@@ -33,6 +33,11 @@ pub(crate) struct StaticState {
     pub(crate) gap: Vec<f64>,
     pub(crate) displacement: Vec<f64>,
     pub(crate) modes: Vec<Mode>,
+    /// Load at t = 0, weight excepted.
+    pub(crate) load: Vec<f64>,
+    /// f(u) of a nonlinear structure, and its energies where it knows them.
+    pub(crate) force: Vec<f64>,
+    pub(crate) energy: Option<InternalEnergy>,
 }
 
 impl StaticState {
@@ -43,6 +48,9 @@ impl StaticState {
             gap: vec![0.0; elements],
             displacement: vec![0.0; unknowns],
             modes: vec![Mode::Stick; elements],
+            load: vec![0.0; unknowns],
+            force: Vec::new(),
+            energy: None,
         }
     }
 
@@ -101,7 +109,8 @@ const ROUNDING: f64 = 1e-6;
 /// Springs ε M to the last iterate make each iteration regular, and pull at nothing once it
 /// converges (proximal point method); Newton's linearisation of f goes along.
 pub(crate) fn solve(
-    model: &mut Model,
+    model: &Model,
+    structure: &dyn Structure,
     ground: &dyn Ground,
     base: &Base,
     laws: &[Box<dyn InterfaceLaw>],
@@ -112,7 +121,7 @@ pub(crate) fn solve(
     let size = 2 * count;
     let smooth: Vec<_> = laws.iter().map(InterfaceLaw::smooth).collect();
     let laws = match placement {
-        // A base that never opens is not set down, it is cast.
+        // A base that never opens is bonded from the start.
         Placement::Frictionless if laws.iter().any(|law| law.modes().contains(&Mode::Open)) => {
             &smooth
         }
@@ -121,7 +130,7 @@ pub(crate) fn solve(
     let mut soil = vec![0.0; size * size];
     ground.static_compliance(&mut soil)?;
     let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(&soil, base)
-        / model.mass.form(&model.ride[1], &model.ride[1]).max(f64::MIN_POSITIVE);
+        / total_mass(model).max(f64::MIN_POSITIVE);
 
     let stiffest = epsilon;
 
@@ -133,25 +142,26 @@ pub(crate) fn solve(
         *mode = law_of(laws, e).modes()[0];
     }
     let measure = Measure::new(model, load);
+    let mut tangent = Tangent::new(n);
     let mut compliance: Option<Compliance> = None;
     let mut free_jump = vec![0.0; size];
     let mut change = f64::INFINITY;
     let mut iterations = 0;
     while iterations < ITERATIONS {
         iterations += 1;
-        let tangent = model.tangent(&state.displacement)?;
+        tangent.refill(model, structure, &state.displacement)?;
         let current = match compliance.take() {
             Some(current) if model.linear => current,
             _ => {
                 solver.invalidate();
-                Compliance::new(model, &tangent, base, &soil, epsilon)?
+                Compliance::new(model, &tangent.matrix, base, &soil, epsilon)?
             }
         };
         let current = compliance.insert(current);
         // (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. Under the springs alone the structure
         // would sink by 1/PROXIMAL_SHARE settlements; so what τ₀ answers to is put in by the columns
         // that take out τ₁, and only what is out of balance is solved for.
-        let mut displacement = out_of_balance(model, base, load, &state);
+        let mut displacement = out_of_balance(model, structure, base, load, &state);
         current.factor.solve(&mut displacement);
         for (d, u) in displacement.iter_mut().zip(&state.displacement) {
             *d += u;
@@ -187,7 +197,7 @@ pub(crate) fn solve(
         let stalled = change <= 1e-10 && change >= 0.5 * previous;
         let late = iterations > LATE
             && change <= LATE_CHANGE
-            && change <= current.condition(model, &tangent, epsilon) * f64::EPSILON;
+            && change <= current.condition(model, &tangent.matrix, epsilon) * f64::EPSILON;
         // What nothing resists (a frictionless base along the ground) drifts for ever by the same
         // amount under what rounding leaves of the sums of K, a share that grows with its size.
         let drifts = change <= DRIFT && (change - previous).abs() <= 1e-3 * change;
@@ -210,10 +220,10 @@ pub(crate) fn solve(
             solver.invalidate();
         }
     }
-    let at_rest = model.tangent(&StaticState::weightless(count, n).displacement)?;
+    tangent.refill(model, structure, &vec![0.0; n])?;
     // Of the structure against springs as stiff as the first ones.
     let share = epsilon / stiffest;
-    let condition = compliance.map_or(1.0, |mut c| share * c.condition(model, &at_rest, epsilon));
+    let condition = compliance.map_or(1.0, |mut c| share * c.condition(model, &tangent.matrix, epsilon));
     Err(failure(condition, iterations, change))
 }
 
@@ -231,27 +241,33 @@ fn failure(condition: f64, iterations: usize, change: f64) -> Error {
     }
 }
 
-/// What of the load the tractions do not carry, over all of it: K resists no ride, so that they must
-/// carry its two resultants alone.
+/// Relative force imbalance: K resists no translation, so that tractions alone must carry the two
+/// resultants of the load.
 fn imbalance(model: &Model, base: &Base, load: &[f64], traction: &[f64]) -> f64 {
     let mut rest = load.to_vec();
     base.add_forces(-1.0, traction, &mut rest);
     let [mut worst, mut scale] = [0.0_f64; 2];
-    for ride in &model.ride {
-        worst = worst.max(dot(ride, &rest).abs());
-        scale = scale.max(ride.iter().zip(load).map(|(r, f)| (r * f).abs()).sum());
+    for vector in &model.influence.of_all(model.unknowns) {
+        worst = worst.max(dot(vector, &rest).abs());
+        scale = scale.max(vector.iter().zip(load).map(|(r, f)| (r * f).abs()).sum());
     }
     worst / scale.max(f64::MIN_POSITIVE)
 }
 
 /// load − K u − f(u) − BᵀAτ.
-fn out_of_balance(model: &Model, base: &Base, load: &[f64], state: &StaticState) -> Vec<f64> {
+fn out_of_balance(
+    model: &Model,
+    structure: &dyn Structure,
+    base: &Base,
+    load: &[f64],
+    state: &StaticState,
+) -> Vec<f64> {
     let mut rest = load.to_vec();
     model.stiffness.multiply_add(-1.0, &state.displacement, &mut rest);
     base.add_forces(-1.0, &state.traction, &mut rest);
     if !model.linear {
         let mut force = vec![0.0; rest.len()];
-        model.structure.nonlinear_force(&state.displacement, &mut force);
+        structure.nonlinear_force(&state.displacement, &mut force);
         rest.iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
     }
     rest
@@ -331,29 +347,10 @@ impl Compliance {
     }
 }
 
-/// Columns of K⁻¹BᵀA and the Delassus operator `soil` + B K⁻¹BᵀA.
-pub(crate) fn condense(
-    mut solve: impl FnMut(&mut [f64]),
-    base: &Base,
-    soil: &[f64],
-    unknowns: usize,
-) -> (Vec<f64>, Vec<f64>) {
-    let size = 2 * base.lengths().len();
-    let mut columns = vec![0.0; size * unknowns];
-    let mut delassus = soil.to_vec();
-    let mut unit = vec![0.0; size];
-    let mut means = vec![0.0; size];
-    for (i, column) in columns.chunks_exact_mut(unknowns.max(1)).enumerate() {
-        unit[i] = 1.0;
-        base.add_forces(1.0, &unit, column);
-        unit[i] = 0.0;
-        solve(column);
-        base.means(column, &mut means);
-        for (row, mean) in means.iter().enumerate() {
-            delassus[row * size + i] += mean;
-        }
-    }
-    (columns, delassus)
+/// Mass that a vertical translation moves.
+fn total_mass(model: &Model) -> f64 {
+    let [_, up] = model.influence.of_all(model.unknowns);
+    model.mass.form(&up, &up)
 }
 
 /// Vertical force per settlement of the soil under a uniform pressure.

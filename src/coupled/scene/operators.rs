@@ -1,56 +1,54 @@
-//! What stays constant from step to step while the structure's tangent does.
+//! Precomputed operators of a step, valid while the structure's tangent is unchanged.
 
 use super::base::Base;
 use super::model::Model;
-use super::preload::condense;
-use super::scheme::SchemeCoefficients;
+use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
 use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
 use crate::matrix::Matrix;
 use crate::structure::Triplets;
 
 /// The effective stiffness K_eff, factored, and the Delassus operator.
-pub(super) struct Operators {
+pub(crate) struct Operators {
     /// ∂f/∂u.
-    pub(super) tangent: SparseMatrix,
+    pub(crate) tangent: SparseMatrix,
     factor: Factor,
     /// Columns of K_eff⁻¹BᵀA, one after the other.
-    pub(super) columns: Vec<f64>,
+    pub(crate) columns: Vec<f64>,
     /// W = G¹ + B K_eff⁻¹ BᵀA, row-major.
-    pub(super) delassus: Vec<f64>,
+    pub(crate) delassus: Vec<f64>,
 }
 
 /// K_eff⁻¹.
-enum Factor {
+pub(crate) enum Factor {
     Sparse(Box<SparseFactor>),
     /// In modes: the reciprocals.
     Diagonal(Vec<f64>),
 }
 
-pub(super) const NAME: &str = "effective stiffness matrix";
+pub(crate) const NAME: &str = "effective stiffness matrix";
 
 impl Operators {
-    /// Factors K_eff = M, C, K + ∂f/∂u, each with the scheme's coefficient of Δu, and condenses it.
-    pub(super) fn new(
+    /// Condenses the factored K_eff of this tangent.
+    pub(crate) fn new(
         model: &Model,
         base: &Base,
         soil: &[f64],
-        coefficients: &SchemeCoefficients,
+        mut factor: Factor,
         tangent: SparseMatrix,
-    ) -> Result<Self> {
-        let mut factor = Factor::new(model, coefficients, &tangent)?;
+    ) -> Self {
         let solve = |rhs: &mut [f64]| factor.solve(rhs);
         let (columns, delassus) = condense(solve, base, soil, model.unknowns);
-        Ok(Self { tangent, factor, columns, delassus })
+        Self { tangent, factor, columns, delassus }
     }
 
     /// Overwrites `rhs` with K_eff⁻¹ rhs.
-    pub(super) fn solve(&mut self, rhs: &mut [f64]) {
+    pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
         self.factor.solve(rhs);
     }
 
     /// Condition of K_eff, scaled by its diagonal.
-    pub(super) fn condition(
+    pub(crate) fn condition(
         &mut self,
         model: &Model,
         coefficients: &SchemeCoefficients,
@@ -65,7 +63,7 @@ impl Operators {
     }
 
     /// Diagonal of K_eff without its inertia.
-    pub(super) fn stiffness_diagonal(
+    pub(crate) fn stiffness_diagonal(
         &self,
         model: &Model,
         coefficients: &SchemeCoefficients,
@@ -76,14 +74,6 @@ impl Operators {
         (0..model.unknowns)
             .map(|i| c * damping[i] + k * (stiffness[i] + tangent.get(i).copied().unwrap_or(0.0)))
             .collect()
-    }
-
-    /// Numbers that one solve reads in sparse coordinates.
-    pub(super) fn stored(&self) -> usize {
-        match &self.factor {
-            Factor::Sparse(factor) => factor.stored(),
-            Factor::Diagonal(values) => values.len(),
-        }
     }
 }
 
@@ -104,7 +94,8 @@ fn effective_stiffness(
 }
 
 impl Factor {
-    fn new(
+    /// Factors K_eff: M, C, K + ∂f/∂u, each with the scheme's coefficient of Δu.
+    pub(crate) fn new(
         model: &Model,
         coefficients: &SchemeCoefficients,
         tangent: &SparseMatrix,
@@ -126,10 +117,43 @@ impl Factor {
         Ok(Self::Sparse(Box::new(SparseFactor::new(NAME, &matrix)?)))
     }
 
+    /// Numbers that one solve reads.
+    pub(crate) fn stored(&self) -> usize {
+        match self {
+            Self::Sparse(factor) => factor.stored(),
+            Self::Diagonal(values) => values.len(),
+        }
+    }
+
     fn solve(&mut self, rhs: &mut [f64]) {
         match self {
             Self::Sparse(factor) => factor.solve(rhs),
             Self::Diagonal(inverse) => rhs.iter_mut().zip(inverse).for_each(|(x, d)| *x *= *d),
         }
     }
+}
+
+/// Columns of K⁻¹BᵀA and the Delassus operator `soil` + B K⁻¹BᵀA.
+pub(crate) fn condense(
+    mut solve: impl FnMut(&mut [f64]),
+    base: &Base,
+    soil: &[f64],
+    unknowns: usize,
+) -> (Vec<f64>, Vec<f64>) {
+    let size = 2 * base.lengths().len();
+    let mut columns = vec![0.0; size * unknowns];
+    let mut delassus = soil.to_vec();
+    let mut unit = vec![0.0; size];
+    let mut means = vec![0.0; size];
+    for (i, column) in columns.chunks_exact_mut(unknowns.max(1)).enumerate() {
+        unit[i] = 1.0;
+        base.add_forces(1.0, &unit, column);
+        unit[i] = 0.0;
+        solve(column);
+        base.means(column, &mut means);
+        for (row, mean) in means.iter().enumerate() {
+            delassus[row * size + i] += mean;
+        }
+    }
+    (columns, delassus)
 }
