@@ -135,7 +135,9 @@ pub(crate) fn summary(sweeps: &[Outcome], advice: &[Checked]) -> Result<String, 
     scenes.dedup();
 
     let mut text = fastest(sweeps)?;
-    text.push_str("\nAdvice put to the test, larger of both errors over the tolerance:\n\n| scene |");
+    text.push_str(
+        "\nAdvice put to the test, larger of both errors over the tolerance:\n\n| scene |",
+    );
     for tolerance in &tolerances {
         write!(text, " {} % |", 100.0 * tolerance)?;
     }
