@@ -1,21 +1,18 @@
 //! No step allocates once it is warm, whatever the scene.
 #![allow(unsafe_code, reason = "an allocator that counts has to be one")]
 
-#[path = "support/scenes.rs"]
-mod scenes;
-#[path = "support/wrapped.rs"]
-mod wrapped;
+mod support;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
+use crate::support::scenes::{SI, block, friction, scene, soil, tower};
+use crate::support::wrapped::needed_from;
 use basemat::bem::{HalfPlaneGround, History, SpringGround};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, Theta};
 use basemat::interface::Bonded;
 use basemat::results::Recorder;
 use basemat::structure::{RayleighDamping, RigidBlock, Structure, Triplets};
-use scenes::{SI, block, friction, scene, soil, tower};
-use wrapped::needed_from;
 
 /// The system's allocator, with a count for each thread.
 struct Counting;

@@ -2,13 +2,13 @@
 
 mod support;
 
+use crate::support::series::{Error, Series, print_errors, whole};
+use crate::support::table;
 use basemat::bem::{Grading, HalfPlaneGround, Strip};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::RickerDisplacement;
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
-use support::series::{Error, Series, print_errors, whole};
-use support::table;
 
 /// Sampling of the histories: all time steps are fractions of it.
 const SAMPLE: f64 = 0.2;

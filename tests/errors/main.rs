@@ -4,12 +4,12 @@
 
 mod builder;
 mod laws_and_motions;
-#[path = "../support/block_on_springs.rs"]
-mod scene;
 mod soils_and_grounds;
 mod spoilt;
 mod steps;
 mod structures;
+#[path = "../support/mod.rs"]
+mod support;
 
 use basemat::{Error, Soil};
 

@@ -7,7 +7,7 @@ use basemat::bem::{
 use basemat::{Error, Soil};
 
 use super::{BAD, NEGATIVE, NOT_FINITE, error_with, refused, soil};
-use crate::scene::bed;
+use crate::support::block_on_springs::bed;
 
 #[test]
 fn soils() {

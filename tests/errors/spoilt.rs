@@ -5,7 +5,7 @@ use basemat::coupled::SimulationBuilder;
 use basemat::interface::Bonded;
 use basemat::structure::{ContactNode, Structure, Triplets};
 
-use crate::scene::bed;
+use crate::support::block_on_springs::bed;
 
 /// A structure of which one part is spoilt.
 #[derive(Clone)]

@@ -8,8 +8,8 @@ use basemat::interface::{
 use basemat::motion::FreeFieldFn;
 use basemat::{Error, Simulation, StepError};
 
-use crate::builder::good;
-use crate::spoilt::Spoilt;
+use super::builder::good;
+use super::spoilt::Spoilt;
 
 /// The step that fails, with the state before and after the attempt.
 fn failing_step(mut simulation: Simulation) -> (Error, usize, Simulation) {

@@ -6,7 +6,7 @@ use basemat::bem::{Ground, HalfPlaneGround, Strip};
 use super::soil;
 use crate::support::close;
 use crate::support::series::{Error as SeriesError, within};
-use crate::truncation::{Mesh, block_errors, impedance_errors, rocking};
+use crate::support::truncation::{Mesh, block_errors, impedance_errors, rocking};
 
 fn time_mesh(elements: usize, free: usize, beta: f64) -> Mesh {
     Mesh { elements, free, beta, quadrature: None }

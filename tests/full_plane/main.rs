@@ -1,14 +1,17 @@
 //! Full-plane boundary elements: coefficients, cavities, and the ground against the half-plane.
 
+mod assessment;
 mod cavity;
 mod coefficients;
+mod convolution_quadrature;
+mod growth;
 mod half_plane;
 mod incident_waves;
+mod navier;
 mod refused;
+mod stability;
 #[path = "../support/mod.rs"]
 mod support;
-#[path = "../support/truncation.rs"]
-mod truncation;
 
 use std::f64::consts::PI;
 

@@ -5,7 +5,7 @@ use basemat::interface::Coulomb;
 use basemat::structure::FemModel;
 
 use super::{run, shaken};
-use crate::scene::bed;
+use crate::support::block_on_springs::bed;
 
 /// A column that is only a spring between two heights.
 struct Column([usize; 2]);

@@ -5,7 +5,7 @@ use basemat::interface::Coulomb;
 use basemat::motion::FreeField;
 
 use super::{STEP, run};
-use crate::scene::{bed, block};
+use crate::support::block_on_springs::{bed, block};
 
 /// A wave that runs along the surface, so that the elements do not move alike.
 pub(crate) struct Passing {

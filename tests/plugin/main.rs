@@ -1,18 +1,17 @@
 //! Implementations of every trait from outside the crate, run in a simulation.
 
 mod element;
+mod forwarding;
 mod free_field;
 mod fundamental_solution;
 mod ground;
 mod history;
 mod law;
-#[path = "../support/block_on_springs.rs"]
-mod scene;
 mod scheme;
 mod structure;
+#[path = "../support/mod.rs"]
+mod support;
 mod threads_and_texts;
-#[path = "../support/wrapped.rs"]
-mod wrapped;
 
 use std::sync::Arc;
 

@@ -6,9 +6,9 @@ use basemat::coupled::{Midpoint, SchemeCoefficients, Theta, TimeScheme};
 use basemat::interface::Bonded;
 
 use super::{assert_same_motion, run, shaken};
-use crate::scene::bed;
 use crate::structure::Hardening;
-use crate::wrapped::Bare;
+use crate::support::block_on_springs::bed;
+use crate::support::wrapped::Bare;
 
 /// Newmark's average acceleration, not one of the crate's.
 pub(crate) struct AverageAcceleration;

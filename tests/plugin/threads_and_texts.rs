@@ -11,7 +11,7 @@ use basemat::structure::{StructureGroup, WithSprings};
 use basemat::{Error, Simulation};
 
 use super::{STEP, push, shaken, soil};
-use crate::scene::{bed, block};
+use crate::support::block_on_springs::{bed, block};
 
 #[test]
 fn all_parts_can_be_shown() {

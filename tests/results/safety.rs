@@ -11,8 +11,8 @@ use basemat::structure::{RigidBlock, StructureGroup};
 use basemat::{Error, Simulation, Soil};
 
 use super::simulation;
-use crate::scenes::{SI, block, scene, soil};
-use crate::wrapped::Pulled;
+use crate::support::scenes::{SI, block, scene, soil};
+use crate::support::wrapped::Pulled;
 
 /// Pushed with H at height h, a block of weight W and width 2b stands with μW/H and Wb/(Hh).
 #[test]

@@ -9,7 +9,7 @@ use basemat::interface::Coulomb;
 use basemat::structure::RigidBlock;
 use basemat::{Result, Simulation, Soil};
 
-use crate::random::Random;
+use super::random::Random;
 
 /// Steps of a sequence: problems with the same matrix, each from where the last one ended.
 pub(crate) const STEPS: usize = 20;

@@ -3,7 +3,7 @@
 use basemat::Soil;
 use basemat::bem::{Ground, HalfPlaneGround, History};
 
-use crate::random::Random;
+use super::random::Random;
 
 /// A strip, its step and what drives it.
 #[derive(Debug, Clone, Copy)]

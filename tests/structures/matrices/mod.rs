@@ -1,0 +1,6 @@
+//! Structures given by their matrices: files, checks, and reduction.
+
+mod model;
+mod reduction;
+mod ride;
+mod semi_definite;
