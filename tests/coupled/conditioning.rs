@@ -1,6 +1,6 @@
 //! Condition numbers: estimates against the inverse, what they say of a run's error, and refusals.
 
-use crate::support::condition::condition_by_inverse;
+use crate::support::inverse::condition_by_inverse;
 use crate::support::scenes::{self, SI, TIME_STEP, friction, ground, scene};
 use basemat::bem::{Grading, Ground, HalfPlaneGround};
 use basemat::coupled::{Coordinates, Placement, SimulationBuilder, State};

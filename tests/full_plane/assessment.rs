@@ -1,5 +1,6 @@
 //! The full-plane ground assesses its march before it is prepared.
 
+use super::unit_soil;
 use crate::support::close;
 use basemat::bem::full_plane::{
     BoundaryKernel, ConvolutionQuadrature, CqMethod, FullPlaneGround, Segment, TimeKernel,
@@ -7,18 +8,13 @@ use basemat::bem::full_plane::{
 use basemat::bem::{Ground, HalfPlaneGround};
 use basemat::interface::Bonded;
 use basemat::structure::RigidBlock;
-use basemat::{Error, Result, Simulation, Soil};
+use basemat::{Error, Result, Simulation};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-/// μ = ρ = c₂ = 1, ν = 1/3: c₁ = 2.
-fn soil() -> Soil {
-    Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap()
-}
-
 /// Four unit elements with three free ones on either side.
 fn ground() -> FullPlaneGround {
-    FullPlaneGround::strip(soil(), -2.0..2.0, 4, 3).unwrap()
+    FullPlaneGround::strip(unit_soil(), -2.0..2.0, 4, 3).unwrap()
 }
 
 /// The time kernel; counts how often it is asked for coefficients.
@@ -122,7 +118,7 @@ fn a_simulation_is_refused_or_reports() {
     assert!(bounded.ground_stability().unwrap().is_bounded());
     assert!(build(ground().skip_assessment(), 0.25).unwrap().ground_stability().is_none());
     // A ground that is stable for every step has nothing to report.
-    let half = HalfPlaneGround::strip(soil(), -2.0..2.0, 4).unwrap();
+    let half = HalfPlaneGround::strip(unit_soil(), -2.0..2.0, 4).unwrap();
     assert!(half.stability().is_none());
 }
 

@@ -1,21 +1,10 @@
 //! Convolution quadrature of the full-plane boundary equation.
 
+use super::{flat, unit_soil};
 use crate::support::{close, table};
+use basemat::Error;
 use basemat::bem::full_plane::{BoundaryKernel, ConvolutionQuadrature, CqMethod, Segment};
 use basemat::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
-use basemat::{Error, Soil};
-
-/// μ = ρ = c₂ = 1, ν = 1/3: c₁ = 2.
-fn unit_soil() -> Soil {
-    Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap()
-}
-
-/// `count` unit elements of a flat surface.
-fn flat(count: u32) -> Vec<Segment> {
-    (0..count)
-        .map(|k| Segment { from: [f64::from(k), 0.0], to: [f64::from(k) + 1.0, 0.0] })
-        .collect()
-}
 
 /// A trench: flat, down, flat, up, flat, of unequal elements.
 fn trench() -> Vec<Segment> {

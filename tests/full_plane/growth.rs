@@ -1,6 +1,7 @@
 //! What the documentation of the full plane says on stability, figure by figure, and marches that
 //! confirm it.
 
+use super::{flat, soil};
 use crate::support::{close, random};
 use basemat::bem::Ground;
 use basemat::bem::full_plane::{
@@ -8,10 +9,6 @@ use basemat::bem::full_plane::{
     FullPlaneGround, Given, GroundStability, Segment, Stability, TimeKernel,
 };
 use basemat::{Result, Soil};
-
-fn soil(poisson: f64) -> Soil {
-    Soil::new(1.0, poisson, 1.0).unwrap()
-}
 
 /// Which coefficients: by convolution quadrature, or else the time kernel.
 type Method = Option<CqMethod>;
@@ -67,9 +64,7 @@ impl Case {
     /// all elements free of traction, or all held.
     fn march(self, held: bool, steps: usize) -> f64 {
         let count = self.elements + 2 * self.free;
-        let at = |k: u32| Segment { from: [f64::from(k), 0.0], to: [f64::from(k) + 1.0, 0.0] };
-        let segments: Vec<_> = (0..u32::try_from(count).unwrap()).map(at).collect();
-        let kernel = kernel(self.method, &segments, soil(self.poisson), self.step()).unwrap();
+        let kernel = kernel(self.method, &flat(count), soil(self.poisson), self.step()).unwrap();
         let given = if held { Given::Displacement } else { Given::Traction };
         let mut march = BoundaryMarch::new(kernel, &vec![given; 2 * count]).unwrap();
         march.reserve(steps).unwrap();

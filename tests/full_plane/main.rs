@@ -22,6 +22,16 @@ fn soil(poisson: f64) -> Soil {
     Soil::new(1.0, poisson, 1.0).unwrap()
 }
 
+/// μ = ρ = c₂ = 1, ν = 1/3: c₁ = 2.
+fn unit_soil() -> Soil {
+    soil(1.0 / 3.0)
+}
+
+/// `count` unit elements of a flat surface.
+fn flat(count: usize) -> Vec<Segment> {
+    (0..count).map(|k| Segment { from: [k as f64, 0.0], to: [k as f64 + 1.0, 0.0] }).collect()
+}
+
 /// G and H of a lag.
 fn coefficients(kernel: &TimeKernel, lag: usize) -> [Vec<f64>; 2] {
     let size = 2 * kernel.segments().len();

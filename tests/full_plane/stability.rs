@@ -1,22 +1,14 @@
 //! Growth and passivity of the full-plane boundary equations, and marches that confirm them.
 
+use super::{flat, unit_soil};
+use crate::support::inverse::inverse;
 use crate::support::{close, random};
 use basemat::bem::full_plane::{
     BoundaryCondition, BoundaryKernel, ConvolutionQuadrature, CqMethod, Segment, Stability,
     TimeKernel,
 };
 use basemat::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
-use basemat::{Error, Result, Soil};
-
-/// μ = ρ = c₂ = 1, ν = 1/3: c₁ = 2.
-fn unit_soil() -> Soil {
-    Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap()
-}
-
-/// `count` unit elements of a flat surface.
-fn flat(count: usize) -> Vec<Segment> {
-    (0..count).map(|k| Segment { from: [k as f64, 0.0], to: [k as f64 + 1.0, 0.0] }).collect()
-}
+use basemat::{Error, Result};
 
 /// Space–time integrals of the full-plane solution on a flat surface of unit elements, by a Gauss
 /// rule of its own: pieces end at the fronts, where sin² takes the root singularities away, and
@@ -164,31 +156,6 @@ fn marched_growth(kernel: &dyn BoundaryKernel, prescribed: bool, steps: usize) -
     let window = steps / 6;
     let mean = |end: usize| sizes[end - window..end].iter().sum::<f64>() / window as f64;
     ((mean(sizes.len()) - mean(sizes.len() - window)) / window as f64).exp_m1()
-}
-
-/// Inverse by Gauss–Jordan elimination with pivoting.
-fn inverse(matrix: &[f64], order: usize) -> Vec<f64> {
-    let mut work: Vec<Vec<f64>> = (0..order)
-        .map(|row| {
-            let unit = (0..order).map(|k| if k == row { 1.0 } else { 0.0 });
-            matrix[row * order..][..order].iter().copied().chain(unit).collect()
-        })
-        .collect();
-    for k in 0..order {
-        let pivot =
-            (k..order).max_by(|a, b| work[*a][k].abs().total_cmp(&work[*b][k].abs())).unwrap();
-        work.swap(k, pivot);
-        let head = work[k][k];
-        work[k].iter_mut().for_each(|x| *x /= head);
-        let line = work[k].clone();
-        for (row, entries) in work.iter_mut().enumerate() {
-            if row != k {
-                let factor = entries[k];
-                entries.iter_mut().zip(&line).for_each(|(x, y)| *x -= factor * y);
-            }
-        }
-    }
-    work.into_iter().flat_map(|row| row[order..].to_vec()).collect()
 }
 
 fn cq(beta: f64, method: CqMethod) -> ConvolutionQuadrature {

@@ -2,10 +2,11 @@
 
 use std::fmt::Write;
 
+use crate::support::dense;
 use basemat::bem::{HalfPlaneGround, Strip};
 use basemat::fem::{GmshMesh, Layer, Material, Mesh};
 use basemat::interface::Bonded;
-use basemat::structure::{FemModel, Structure, Triplets};
+use basemat::structure::{FemModel, Structure};
 use basemat::{Error, MeshFileError, Simulation, Soil};
 use proptest::prelude::*;
 
@@ -119,17 +120,7 @@ fn written(mesh: &Mesh, lower: usize, contact: &[usize]) -> String {
 }
 
 fn matrices(model: &FemModel) -> [Vec<f64>; 2] {
-    let n = model.unknowns();
-    let dense = |write: &dyn Fn(&mut Triplets)| {
-        let mut triplets = Triplets::new(n);
-        write(&mut triplets);
-        let mut full = vec![0.0; n * n];
-        for &(i, j, value) in triplets.entries() {
-            full[i * n + j] += value;
-        }
-        full
-    };
-    [dense(&|m| model.mass(m)), dense(&|m| model.stiffness(m))]
+    [dense::mass(model).concat(), dense::stiffness(model).concat()]
 }
 
 #[test]

@@ -3,6 +3,7 @@
 //! A block 6 m wide of two materials, the lower 2 m and the upper 3 m high, unstructured and recombined
 //! (`tests/data/gmsh/block.py`), on a named line.
 
+use crate::support::dense::{dot, product};
 use basemat::fem::{Direction, GmshMesh, Layer, Material, Mesh};
 use basemat::structure::{FemModel, Structure, Triplets};
 
@@ -24,19 +25,6 @@ fn upper() -> Material {
 fn model(gmsh: &GmshMesh) -> FemModel {
     let mesh = gmsh.mesh(&[("upper", upper()), ("lower", lower())]).unwrap();
     FemModel::new(mesh, &gmsh.line("base").unwrap()).unwrap()
-}
-
-/// Matrix times vector.
-fn product(matrix: &Triplets, vector: &[f64]) -> Vec<f64> {
-    let mut sum = vec![0.0; vector.len()];
-    for &(i, j, value) in matrix.entries() {
-        sum[i] += value * vector[j];
-    }
-    sum
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn stiffness(model: &FemModel) -> Triplets {

@@ -6,13 +6,9 @@ use basemat::{Error, MatrixFileError};
 use crate::support::random::Random;
 
 /// Dense sums of the entries.
+/// All entries, row by row.
 fn dense(matrix: &Triplets) -> Vec<f64> {
-    let n = matrix.order();
-    let mut values = vec![0.0; n * n];
-    for &(row, column, value) in matrix.entries() {
-        values[row * n + column] += value;
-    }
-    values
+    crate::support::dense::dense(matrix).concat()
 }
 
 fn data(name: &str) -> Triplets {

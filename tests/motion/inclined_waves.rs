@@ -11,16 +11,15 @@ fn soil(poisson: f64) -> Soil {
 
 #[test]
 fn surface_motion_leaves_no_traction() {
-    let table = include_str!("../data/inclined_waves.csv");
-    let rows = table.lines().filter(|line| !line.starts_with(['#', 'w']));
-    for row in rows {
-        let fields: Vec<_> = row.split(',').collect();
-        let numbers: Vec<f64> = fields[1..].iter().map(|field| field.parse().unwrap()).collect();
-        let (kind, poisson, angle) = (fields[0], numbers[0], numbers[1].to_radians());
+    let table = table("inclined_waves.csv");
+    let rows =
+        table.rows(["poisson", "angle_deg", "horizontal", "horizontal_late", "up", "up_late"]);
+    for (kind, row) in table.text("wave").into_iter().zip(rows) {
+        let (poisson, angle) = (row[0], row[1].to_radians());
         let make = if kind == "sv" { PlaneWave::sv } else { PlaneWave::p };
         let wave = make(soil(poisson), angle).unwrap();
-        for (found, known) in wave.amplification().iter().flatten().zip(&numbers[2..]) {
-            assert!((found - known).abs() < 1e-11, "{row}: {found}");
+        for (found, known) in wave.amplification().iter().flatten().zip(&row[2..]) {
+            assert!((found - known).abs() < 1e-11, "{kind} {row:?}: {found}");
         }
         let speed = if kind == "sv" {
             soil(poisson).shear_wave_speed()

@@ -11,3 +11,18 @@ mod records;
 mod response_spectrum;
 #[path = "../support/mod.rs"]
 mod support;
+
+use basemat::motion::{Record, RecordFormat};
+use basemat::{Error, RecordError};
+
+/// Line and reason of a text's refusal.
+#[track_caller]
+fn refusal(text: &(impl AsRef<[u8]> + ?Sized), format: &dyn RecordFormat) -> (usize, RecordError) {
+    match Record::from_reader("text", text.as_ref(), format) {
+        Err(Error::Record { file, line, reason }) => {
+            assert_eq!(file, "text");
+            (line, reason)
+        }
+        other => panic!("{other:?}"),
+    }
+}

@@ -1,5 +1,6 @@
 //! Files of the strong-motion databases: layouts in use, refusals, any bytes.
 
+use super::refusal;
 use basemat::motion::{
     AccelerationUnit, CosmosFormat, KNetFormat, PeerFormat, Record, RecordFormat, el_centro_1940,
 };
@@ -10,14 +11,6 @@ const GRAVITY: f64 = 9.80665;
 
 fn read(text: &str, format: &dyn RecordFormat) -> Result<Record, Error> {
     Record::from_reader("file", text.as_bytes(), format)
-}
-
-#[track_caller]
-fn refusal(text: &str, format: &dyn RecordFormat) -> (usize, RecordError) {
-    match read(text, format) {
-        Err(Error::Record { line, reason, .. }) => (line, reason),
-        other => panic!("{other:?}"),
-    }
 }
 
 #[track_caller]

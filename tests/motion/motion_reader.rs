@@ -1,5 +1,6 @@
 //! Reader of ground-motion records: layouts, units, refusals, any bytes.
 
+use super::refusal;
 use approx::assert_relative_eq;
 use basemat::motion::{AccelerationUnit, ColumnFormat, Record, el_centro_1940};
 use basemat::{Error, RecordError};
@@ -13,18 +14,6 @@ fn metric() -> ColumnFormat {
 
 fn read(text: &str) -> Result<Record, Error> {
     Record::from_reader("text", text.as_bytes(), &metric())
-}
-
-/// Line and reason of the refusal.
-#[track_caller]
-fn refusal(text: &[u8], format: &ColumnFormat) -> (usize, RecordError) {
-    match Record::from_reader("text", text, format) {
-        Err(Error::Record { file, line, reason }) => {
-            assert_eq!(file, "text");
-            (line, reason)
-        }
-        other => panic!("{other:?}"),
-    }
 }
 
 fn not_a_number(text: &str) -> RecordError {

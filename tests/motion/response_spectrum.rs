@@ -5,17 +5,11 @@ use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
 
 #[test]
 fn el_centro_agrees_with_matrix_exponentials() {
-    let table = include_str!("../data/response_spectra_el_centro.csv");
-    let rows = table.lines().filter(|line| !line.starts_with(['#', 'p']));
+    let columns = ["period_s", "damping", "pseudo_acceleration_g", "acceleration_g"];
     let record = el_centro_1940();
     let mut worst = 0.0_f64;
-    for row in rows {
-        let [period, damping, pseudo, total] = row
-            .split(',')
-            .map(|field| field.parse::<f64>().unwrap())
-            .collect::<Vec<_>>()
-            .try_into()
-            .unwrap();
+    let rows = table("response_spectra_el_centro.csv").rows(columns);
+    for [period, damping, pseudo, total] in rows {
         let found = record.response_spectrum(&[period], damping).unwrap()[0];
         for (found, known) in [(found.pseudo_acceleration, pseudo), (found.acceleration, total)] {
             // The table is printed to 9 decimals.

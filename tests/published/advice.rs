@@ -3,12 +3,13 @@
 
 use crate::support::cantilever::Cantilever;
 use crate::support::impedance::impedance_errors;
+use crate::support::sampled_block::under_pulse;
 use crate::support::series::{Error as Difference, Series, whole};
 use crate::support::table;
 use basemat::bem::{Grading, HalfPlaneGround, Strip};
 use basemat::coupled::{Advice, Outline, SimulationBuilder, advise};
 use basemat::interface::Bonded;
-use basemat::motion::{FrequencyContent, Record, RickerDisplacement, el_centro_1940};
+use basemat::motion::{FrequencyContent, Record, el_centro_1940};
 use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
 use basemat::{Error, Simulation, Soil};
 
@@ -35,14 +36,8 @@ fn ratio_on_table(
     let advice = advise(soil, outline, &pulse_content(), tolerance).unwrap();
     let table = table(&format!("td_{file}.csv"));
     let wanted = Series::new(&table, "V");
-    let mut simulation = Simulation::builder(advice.time_step)
-        .structure(structure)
-        .ground(advice.ground(soil, -1.0..1.0).unwrap())
-        .interface(Bonded)
-        .gravity(0.0)
-        .motion(RickerDisplacement::new(1.0, 1.0, 5.0).unwrap())
-        .build()
-        .unwrap();
+    let ground = advice.ground(soil, -1.0..1.0).unwrap();
+    let mut simulation = under_pulse(structure, ground, advice.time_step);
     let mut history = Difference::default();
     let steps = whole((wanted.duration() / advice.time_step).floor());
     let run = simulation

@@ -3,14 +3,13 @@
 use crate::support::cantilever::Cantilever;
 use crate::support::impedance::{impedance_errors, ricker};
 use crate::support::rigid_strip::{Contact, RigidStrip};
+use crate::support::sampled_block::under_pulse;
 use crate::support::series::{Error, Series, whole, within};
 use crate::support::table;
+use basemat::Soil;
 use basemat::bem::{Grading, HalfPlaneGround, Strip};
 use basemat::coupled::State;
-use basemat::interface::Bonded;
-use basemat::motion::RickerDisplacement;
 use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
-use basemat::{Simulation, Soil};
 
 /// Errors of `[uy_Fy, ux_Fx, th_Fx, ux_M, th_M]`.
 fn transient_errors(
@@ -68,14 +67,8 @@ fn structure_errors<const N: usize>(
     let columns = checks.map(|check| Series::new(&table, check.0));
     let soil = Soil::new(1.0, poisson, 1.0).unwrap();
     let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
-    let mut simulation = Simulation::builder(time_step)
-        .structure(structure)
-        .ground(HalfPlaneGround::new(soil, &[strip]).unwrap())
-        .interface(Bonded)
-        .gravity(0.0)
-        .motion(RickerDisplacement::new(1.0, 1.0, 5.0).unwrap())
-        .build()
-        .unwrap();
+    let ground = HalfPlaneGround::new(soil, &[strip]).unwrap();
+    let mut simulation = under_pulse(structure, ground, time_step);
     let mut errors = [Error::default(); N];
     let steps = whole(columns[0].duration() / time_step);
     let run = simulation

@@ -1,6 +1,6 @@
 //! Beams and trusses against beam theory.
 
-use super::dense::{eigenvalues, form, mass, part, solve_held, stiffness};
+use crate::support::dense::{eigenvalues, form, mass, part, solve_held, stiffness};
 use basemat::fem::{Beam, Direction, MassKind, Mesh, Truss};
 use basemat::structure::{FemModel, Structure};
 

@@ -1,6 +1,6 @@
 //! Bending of quadrilaterals: shear locking and its cure.
 
-use super::dense::{dot, form, solve_held, stiffness};
+use crate::support::dense::{dot, form, solve_held, stiffness};
 use basemat::fem::{Direction, Element, Layer, Material, Mesh, Quad4, QuadFormulation};
 use basemat::structure::{FemModel, Structure};
 

@@ -1,6 +1,6 @@
 //! Structures written by hand, against the crate's own.
 
-use super::dense::{mass, stiffness};
+use crate::support::dense::{mass, stiffness};
 use basemat::structure::{ContactNode, ShearBuilding, Storey, Structure, Triplets};
 
 /// Five storeys on a rigid base: `[u_x, u_y, θ]` and the floors.

@@ -1,6 +1,6 @@
 //! Rayleigh damping and dashpots.
 
-use super::dense::{damping, mass, stiffness};
+use crate::support::dense::{damping, mass, stiffness};
 use basemat::fem::{Dashpot, Direction, Layer, Material, Mesh, Spring};
 use basemat::structure::{FemModel, RayleighDamping};
 

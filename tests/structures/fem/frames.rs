@@ -1,6 +1,8 @@
 //! Beam–columns, rotary inertia and rigid links against closed forms.
 
-use super::dense::{dot, eigenvalues, form, largest, mass, multiply, part, solve_held, stiffness};
+use crate::support::dense::{
+    dot, eigenvalues, form, largest, mass, multiply, part, solve_held, stiffness,
+};
 use basemat::Error;
 use basemat::fem::{Beam, Direction, Layer, LumpedMass, MassKind, Material, Mesh};
 use basemat::structure::{ContactNode, FemModel, RigidBlock, Row, Structure};

@@ -4,7 +4,6 @@ mod beams;
 mod bending;
 mod by_hand;
 mod damping;
-mod dense;
 mod errors;
 mod frames;
 mod meshes;

@@ -1,6 +1,6 @@
 //! Modal damping: its eigenvalues, its rigid motions, and the march in modes.
 
-use super::dense::{damping, eigenvalues, form, largest, mass, multiply, stiffness};
+use crate::support::dense::{damping, eigenvalues, form, largest, mass, multiply, stiffness};
 use basemat::bem::SpringGround;
 use basemat::coupled::Coordinates;
 use basemat::fem::{Beam, Direction, Layer, Material, Mesh};

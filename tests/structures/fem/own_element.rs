@@ -1,6 +1,6 @@
 //! An element written outside the crate: the constant-strain triangle.
 
-use super::dense::{form, largest, mass, multiply, solve_held, stiffness};
+use crate::support::dense::{form, largest, mass, multiply, solve_held, stiffness};
 use basemat::fem::{Direction, Element, MassKind, Material, Mesh, Quad4, QuadFormulation};
 use basemat::structure::FemModel;
 

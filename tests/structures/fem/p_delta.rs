@@ -1,6 +1,6 @@
 //! Axial forces from the weight, and what they do: statics, buckling loads and frequencies.
 
-use super::dense::{damping, eigenvalues, form, largest, mass, multiply, part, stiffness};
+use crate::support::dense::{damping, eigenvalues, form, largest, mass, multiply, part, stiffness};
 use basemat::Error;
 use basemat::bem::HalfPlaneGround;
 use basemat::fem::{Beam, Direction, Element, LumpedMass, MassKind, Mesh, Truss};
@@ -120,7 +120,7 @@ fn a_mass_on_a_cantilever_buckles_it_as_euler_says() {
         let at = model.unknown(8, Direction::X).unwrap() - above[0];
         let mut load = vec![0.0; free.len()];
         load[at] = 1.0;
-        let found = 1.0 / super::dense::solve(&free, &load)[at] / tip;
+        let found = 1.0 / crate::support::dense::solve(&free, &load)[at] / tip;
         let (force, k) = (share * euler, (share * euler / BENDING).sqrt());
         let exact = force / (tip * ((k * LENGTH).tan() / k - LENGTH));
         assert!((found / exact - 1.0).abs() < 1e-5 / (1.0 - share), "{share}: {found} {exact}");

@@ -1,11 +1,11 @@
 //! The patch of distorted quadrilaterals of `MacNeal` & Harder (Finite Elements in Analysis and Design 1,
 //! 1985, fig. 1): boundary displacements of a constant strain must give that strain everywhere.
 
-use super::dense::{collect, dot, form, largest, multiply, solve_held};
+use crate::support::dense::{collect, dot, form, largest, multiply, solve_held};
 use basemat::fem::{Direction, Material, Mesh, Quad4, QuadFormulation};
 use basemat::structure::{FemModel, Structure};
 
-const POINTS: [[f64; 2]; 8] = [
+pub(crate) const POINTS: [[f64; 2]; 8] = [
     [0.0, 0.0],
     [0.24, 0.0],
     [0.24, 0.12],
@@ -15,7 +15,7 @@ const POINTS: [[f64; 2]; 8] = [
     [0.16, 0.08],
     [0.08, 0.08],
 ];
-const QUADS: [[usize; 4]; 5] =
+pub(crate) const QUADS: [[usize; 4]; 5] =
     [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 6, 7]];
 
 fn patch(formulation: QuadFormulation, poisson: f64) -> FemModel {

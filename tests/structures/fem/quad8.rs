@@ -1,6 +1,7 @@
 //! Eight-node quadrilaterals: patch, rigid motions, bending, mass.
 
-use super::dense::{dot, form, largest, mass, multiply, solve_held, stiffness};
+use super::patch::{POINTS, QUADS};
+use crate::support::dense::{dot, form, largest, mass, multiply, solve_held, stiffness};
 use basemat::Error;
 use basemat::fem::{Direction, Element, MassKind, Material, Mesh, Quad8, Quad8Integration};
 use basemat::structure::{FemModel, Structure};
@@ -40,19 +41,6 @@ fn refined(
     }
     mesh
 }
-
-const POINTS: [[f64; 2]; 8] = [
-    [0.0, 0.0],
-    [0.24, 0.0],
-    [0.24, 0.12],
-    [0.0, 0.12],
-    [0.04, 0.02],
-    [0.18, 0.03],
-    [0.16, 0.08],
-    [0.08, 0.08],
-];
-const QUADS: [[usize; 4]; 5] =
-    [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 6, 7]];
 
 /// The patch of `MacNeal` & Harder, straight and with curved inner edges.
 #[test]

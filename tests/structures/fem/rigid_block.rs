@@ -1,6 +1,6 @@
 //! Rigid block: mass from its definition, P–Δ from the potential energy.
 
-use super::dense::{mass, row_value, stiffness};
+use crate::support::dense::{mass, row_value, stiffness};
 use basemat::structure::{RigidBlock, Structure};
 
 #[test]

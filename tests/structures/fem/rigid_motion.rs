@@ -1,6 +1,8 @@
 //! Rigid motions: no forces, and the inertia of the whole.
 
-use super::dense::{assert_symmetric, damping, form, largest, mass, multiply, noise, stiffness};
+use crate::support::dense::{
+    assert_symmetric, damping, form, largest, mass, multiply, noise, stiffness,
+};
 use basemat::fem::{
     Beam, Dashpot, Direction, Layer, LumpedMass, MassKind, Material, Mesh, Quad4, QuadFormulation,
     Spring, Truss,

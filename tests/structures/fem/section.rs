@@ -1,6 +1,6 @@
 //! Section forces against free bodies.
 
-use super::dense::{damping, dot, form, mass, multiply, noise, solve_held, stiffness};
+use crate::support::dense::{damping, dot, form, mass, multiply, noise, solve_held, stiffness};
 use basemat::fem::{
     Beam, Dashpot, Direction, Layer, LumpedMass, Material, Mesh, Quad4, QuadFormulation,
 };

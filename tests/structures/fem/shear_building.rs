@@ -1,10 +1,10 @@
 //! Shear building: closed-form frequencies, free bodies, P–Δ.
 
-use super::dense::{
+use crate::support::curvature::curvature;
+use crate::support::dense::{
     assert_symmetric, damping, eigenvalues, form, largest, mass, multiply, noise, part, row_value,
     stiffness,
 };
-use crate::support::curvature::curvature;
 use basemat::Error;
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::structure::{FemModel, Row, ShearBuilding, Storey, Structure};

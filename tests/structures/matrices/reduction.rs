@@ -9,6 +9,7 @@ use basemat::structure::{
 };
 
 use super::model::{on_soil, tower};
+use crate::support::dense::{self, largest};
 
 fn damped() -> FemModel {
     tower(6, 12).with_rayleigh(RayleighDamping::from_ratios([1.0, 8.0], [0.03; 2]).unwrap())
@@ -19,6 +20,7 @@ fn top(model: &FemModel) -> usize {
 }
 
 /// A x for a matrix of the structure.
+/// A structure's matrix times a vector.
 fn product(
     structure: &dyn Structure,
     fill: fn(&dyn Structure, &mut Triplets),
@@ -26,15 +28,7 @@ fn product(
 ) -> Vec<f64> {
     let mut matrix = Triplets::new(structure.unknowns());
     fill(structure, &mut matrix);
-    let mut y = vec![0.0; x.len()];
-    for &(row, column, value) in matrix.entries() {
-        y[row] += value * x[column];
-    }
-    y
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |m, x| m.max(x.abs()))
+    dense::product(&matrix, x)
 }
 
 /// Reduced unknowns of a motion of the full model that static answers alone can make.

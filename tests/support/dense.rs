@@ -2,6 +2,8 @@
 
 use basemat::structure::{Row, Structure, Triplets};
 
+use super::random::Random;
+
 pub(crate) type Matrix = Vec<Vec<f64>>;
 
 pub(crate) fn dense(triplets: &Triplets) -> Matrix {
@@ -10,6 +12,15 @@ pub(crate) fn dense(triplets: &Triplets) -> Matrix {
         matrix[row][column] += value;
     }
     matrix
+}
+
+/// A sparse matrix times a vector.
+pub(crate) fn product(matrix: &Triplets, vector: &[f64]) -> Vec<f64> {
+    let mut sum = vec![0.0; matrix.order()];
+    for &(row, column, value) in matrix.entries() {
+        sum[row] += value * vector[column];
+    }
+    sum
 }
 
 /// What a structure adds to an empty matrix.
@@ -157,12 +168,8 @@ pub(crate) fn eigenvalues(stiffness: &Matrix, mass: &Matrix) -> Vec<f64> {
     values
 }
 
-/// Numbers between −1 and 1 that look random and are always the same.
+/// Numbers between −1 and 1 that are the same in every run.
 pub(crate) fn noise(count: usize, seed: u64) -> Vec<f64> {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-    let next = |_| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
-    (0..count).map(next).collect()
+    let mut random = Random(seed);
+    (0..count).map(|_| random.within(-1.0, 1.0)).collect()
 }
