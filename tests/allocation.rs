@@ -1,4 +1,7 @@
-//! No step allocates once it is warm, whatever the scene.
+//! GOAL: no step allocates after warm-up, whatever the scene, nor does recording once memory is
+//! reserved.
+//! SCENE: bonded, sliding and uplifting blocks and towers, in modes and in unknowns; both grounds.
+//! REFERENCE: a global allocator that counts per thread, which is why this is a binary of its own.
 #![allow(unsafe_code, reason = "an allocator that counts has to be one")]
 
 mod support;

@@ -1,4 +1,6 @@
-//! Orders of accuracy in the time step and in the element size.
+//! GOAL: orders of accuracy in the time step and in the element size.
+//! SCENE: rigid block on the half-plane under a Ricker pulse, bonded, rocking and sliding.
+//! REFERENCE: finer runs, and the frequency-domain table. CI runs this binary in release.
 
 mod support;
 

@@ -1,6 +1,7 @@
-//! Contact does not chatter with the default scheme, and slip converges with the time step.
-//!
-//! The comparison of schemes that led to the default is the example `contact_chatter`.
+//! GOAL: contact does not chatter with the default scheme, and slip converges with the time step.
+//! SCENE: rigid and flexible blocks that rock and slide under El Centro × 2; steps of 4, 2 and 1
+//! ms.
+//! REFERENCE: the finer runs. The schemes are compared in the example `contact_chatter`.
 
 use crate::support::chatter::{Outcome, Scene, Scheme};
 use basemat::interface::Activation;

@@ -1,5 +1,7 @@
-//! Events inside a step: lift-off and landing of the whole base, slip reversal, all elements at
-//! once, impacts that follow each other ever faster. What happens converges as the step shrinks.
+//! GOAL: events inside a step converge as the step shrinks.
+//! SCENE: a block on springs and on the half-plane: the whole base lifts off and lands; slip
+//! reverses in all elements at once; impacts follow each other ever faster.
+//! REFERENCE: the next finer run, and rest at the end.
 
 use crate::support::scenes::{GRAVITY, SI, friction, ground};
 use basemat::Simulation;

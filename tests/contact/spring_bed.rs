@@ -1,4 +1,8 @@
-//! A rocking block on a spring bed without tension, against an independent integration.
+//! GOAL: the whole coupled step on a ground without soil waves.
+//! SCENE: block 4 m × 8 m, P–Δ, no sliding, 20 elements; springs and dashpots that only push: where
+//! the traction of the bed would turn to tension the base lifts off, and the bed creeps back by
+//! itself.
+//! REFERENCE: explicit Runge–Kutta integration of settlement, tilt and every spring.
 
 use basemat::Simulation;
 use basemat::bem::SpringGround;
@@ -21,13 +25,7 @@ const GRAVITY: f64 = 9.81;
 const SPRING: f64 = 2.0e7;
 const DASHPOT: f64 = 4.0e5;
 
-/// GOAL: the whole coupled step on a ground without soil waves.
-/// SCENE: block 4 m × 8 m, P–Δ, no sliding, 20 elements; springs and dashpots that push only: where
-/// the bed's traction would turn to tension the base lifts off, and the bed creeps back by itself.
-/// REFERENCE: explicit Runge–Kutta integration of settlement, tilt and every spring.
-///
-/// (With dashpots that may also pull, the same integration gives `winkler_block_ricker.csv` to
-/// 1.4e-3; a contact law without tension cannot.)
+/// Tilt by explicit Runge–Kutta integration of settlement, tilt and every spring.
 fn independent_tilt(elements: usize, duration: f64) -> Vec<f64> {
     let inertia = MASS * (16.0 + 64.0) / 12.0 + MASS * HALF_HEIGHT * HALF_HEIGHT;
     let (length, step, every) = (4.0 / elements as f64, 5e-5, 200);

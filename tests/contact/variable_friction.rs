@@ -1,4 +1,7 @@
-//! Coulomb friction whose coefficient is a function of the start of the step.
+//! GOAL: Coulomb friction whose coefficient is a function of the start of the step.
+//! SCENE: block on the half-plane that slides and uplifts.
+//! REFERENCE: Coulomb's law itself for a constant coefficient; slips, pressures and shears of the
+//! states.
 
 use crate::support::scenes::{SI, TIME_STEP, block, friction, scene, states};
 use basemat::coupled::State;

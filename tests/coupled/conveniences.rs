@@ -1,4 +1,6 @@
-//! Short ways to what can be had at more length: they must be the same.
+//! GOAL: a short way gives the same as the long one, and refuses the same.
+//! SCENE: soils from wave speeds, grounds under a structure, durations, sweeps, records, recorders.
+//! REFERENCE: the same thing at full length.
 
 use basemat::bem::Strip;
 use basemat::prelude::*;

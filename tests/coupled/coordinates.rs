@@ -1,4 +1,6 @@
-//! Modes and unknowns are two ways to step one structure: results agree to rounding.
+//! GOAL: modal coordinates and unknowns step the same structure.
+//! SCENE: towers, shear buildings and blocks, bonded, sliding, uplifting and pulled; three schemes.
+//! REFERENCE: the run in unknowns, to rounding; a typed error where modes do not decouple.
 
 use crate::support::scenes::{Rider, SI, block, friction, scene, shake, states, tower};
 use crate::support::wrapped::{Pulled, needed_from};

@@ -1,4 +1,7 @@
-//! The energy ledger closes in every kind of run, and only if every term is right.
+//! GOAL: the energy ledger closes in every kind of run, and only if every term is right.
+//! SCENE: thirteen kinds of law, scheme, damping, structure and ground; stiff structures that
+//! travel far.
+//! REFERENCE: the identity of the energies; perturbing any term must open it.
 
 use crate::support::scenes::{Rider, SI, block, friction, scene, shake, soil, tower};
 use basemat::bem::SpringGround;

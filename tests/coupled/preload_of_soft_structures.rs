@@ -1,4 +1,6 @@
-//! The static state of structures up to a hundred million times softer than the soil.
+//! GOAL: the static state of structures up to a hundred million times softer than the soil.
+//! SCENE: block of ten columns on the half-plane under its weight, without lateral contraction.
+//! REFERENCE: the weight, and the pressure ρ g h where the ground is rigid to the structure.
 
 use basemat::bem::HalfPlaneGround;
 use basemat::fem::{Layer, Material, Mesh};

@@ -1,4 +1,6 @@
-//! A sweep gives what its cases give alone, and outlives the ones that fail.
+//! GOAL: a sweep gives what its cases give alone, and outlives the one that fails.
+//! SCENE: five coefficients of friction, one of them negative; kernels shared by cases.
+//! REFERENCE: each case alone, to the last bit.
 
 use std::sync::Mutex;
 

@@ -1,5 +1,7 @@
-//! Bases under waves that run along the surface: the limit of infinite velocity, and averages of
-//! the free field over a rigid base on springs.
+//! GOAL: kinematic interaction under waves that run along the surface.
+//! SCENE: a block that uplifts and slides; a weightless rigid base on springs under a harmonic
+//! wave.
+//! REFERENCE: vertical incidence as the limit of infinite velocity; averages of the free field.
 
 use basemat::bem::{HalfPlaneGround, SpringGround};
 use basemat::interface::{Bonded, Coulomb};

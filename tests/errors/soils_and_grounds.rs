@@ -1,4 +1,6 @@
-//! Soils, strips, grounds and their kernels.
+//! GOAL: soils, strips, grounds and their kernels refuse bad numbers and absurd counts.
+//! SCENE: zero, negative and non-finite parameters; grounds that were not prepared.
+//! REFERENCE: the fields of the error; nothing is allocated for an absurd count.
 
 use basemat::bem::{
     ContactElement, Grading, Ground, HalfPlaneGround, InfluenceKernel, PatchKernel, SpringGround,

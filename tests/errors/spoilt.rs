@@ -1,4 +1,4 @@
-//! A structure to be spoilt in one thing.
+//! A structure with one thing spoilt.
 
 use basemat::Simulation;
 use basemat::coupled::SimulationBuilder;

@@ -1,4 +1,7 @@
-//! Steps that fail, and what is left then.
+//! GOAL: a step that fails leaves the last accepted state.
+//! SCENE: free fields and loads that break in the middle of a run; laws for which no modes are
+//! found.
+//! REFERENCE: the state before the step, and the fields of the error.
 
 use std::fmt::Debug;
 

@@ -1,4 +1,6 @@
-//! Structures whose matrices, base or loads make no sense.
+//! GOAL: structures whose matrices, base or loads make no sense are refused.
+//! SCENE: entries out of range or not finite, endless sizes, bad bases, loads without equilibrium.
+//! REFERENCE: the fields of the error.
 
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::Placement;

@@ -1,4 +1,7 @@
-//! The full-plane ground assesses its march before it is prepared.
+//! GOAL: the full-plane ground assesses its march before it is prepared.
+//! SCENE: four unit elements with three free ones on either side, steps that grow and steps that do
+//! not.
+//! REFERENCE: growth of the march itself; the number of coefficients asked for.
 
 use super::unit_soil;
 use crate::support::close;

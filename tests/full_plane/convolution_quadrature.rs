@@ -1,4 +1,7 @@
-//! Convolution quadrature of the full-plane boundary equation.
+//! GOAL: coefficients by convolution quadrature are those of the transformed equation, at the order
+//! of the method.
+//! SCENE: flat surfaces and a trench of unequal elements, BDF1 and BDF2.
+//! REFERENCE: mpmath, the symbol's power series, and the solution in time.
 
 use super::{flat, unit_soil};
 use crate::support::{close, table};

@@ -1,5 +1,6 @@
-//! What the documentation of the full plane says on stability, figure by figure, and marches that
-//! confirm it.
+//! GOAL: the stability figures in the documentation of the full plane, one by one.
+//! SCENE: flat surfaces and a trench over β = c₁Δt/l, ν and the length of the free surface.
+//! REFERENCE: the tables of the documentation, and marches from a random perturbation.
 
 use super::{flat, soil};
 use crate::support::{close, random};

@@ -1,4 +1,6 @@
-//! The flat boundary against the half-plane.
+//! GOAL: the flat full-plane boundary is the half-plane, but for its truncated surface.
+//! SCENE: rigid strips and blocks with free elements on either side.
+//! REFERENCE: impedances by a spectral method, and runs on the half-plane.
 
 use basemat::bem::full_plane::{Boundary, CqMethod, FullPlaneGround};
 use basemat::bem::{Ground, HalfPlaneGround, Strip};

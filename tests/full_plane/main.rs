@@ -1,4 +1,7 @@
-//! Full-plane boundary elements: coefficients, cavities, and the ground against the half-plane.
+//! GOAL: full-plane boundary elements: coefficients, stability, cavities, incident waves, and the
+//! ground against the half-plane.
+//! SCENE: circles, trenches and flat surfaces in a soil of unit modulus and density.
+//! REFERENCE: quadrature, closed forms and half-plane kernels.
 
 mod assessment;
 mod cavity;

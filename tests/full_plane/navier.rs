@@ -1,4 +1,6 @@
-//! The full-plane fundamental solution obeys Navier's equation.
+//! GOAL: the full-plane fundamental solution obeys Navier's equation.
+//! SCENE: points between and behind the fronts, all loads.
+//! REFERENCE: differences of fourth order.
 
 use basemat::Soil;
 use basemat::fundamental::{FullPlane, FundamentalSolution, LoadHistory};

@@ -1,4 +1,6 @@
-//! Growth and passivity of the full-plane boundary equations, and marches that confirm them.
+//! GOAL: growth and passivity of the full-plane boundary equations are found as they are.
+//! SCENE: twenty unit elements, both kernels, over β = c₁Δt/l; a kernel with known zeros.
+//! REFERENCE: marches, a quadrature in space and time, and exact figures.
 
 use super::{flat, unit_soil};
 use crate::support::inverse::inverse;

@@ -1,4 +1,6 @@
-//! The direct history against a plain double loop over the influence coefficients.
+//! GOAL: the direct history is the convolution sum, however its memory grows.
+//! SCENE: uniform, graded and double strips, random tractions, runs longer than what was reserved.
+//! REFERENCE: a plain double loop over the influence coefficients.
 
 use std::sync::Arc;
 

@@ -1,4 +1,6 @@
-//! The relaxed history against the direct sum.
+//! GOAL: the relaxed FFT history is the direct sum, and its memory is what it says.
+//! SCENE: by pairs and by wavenumbers, leaves of several lengths, any tractions.
+//! REFERENCE: the direct history.
 
 use std::sync::Arc;
 

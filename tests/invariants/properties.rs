@@ -1,4 +1,6 @@
-//! What holds for every run: symmetry, units, superposition, and the contact conditions.
+//! GOAL: symmetry, units, superposition and the contact conditions hold in every run.
+//! SCENE: block and tower on the half-plane that slide, uplift or stay bonded.
+//! REFERENCE: the mirrored, rescaled or superposed run, and statics.
 
 use crate::support::scenes::{
     Frame, GRAVITY, SI, TIME_STEP, block, friction, scene, shake, states, tower,

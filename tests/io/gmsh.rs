@@ -1,4 +1,7 @@
-//! Meshes from Gmsh: the manual's example, a whole block there and back, and bad files.
+//! GOAL: meshes from Gmsh are read as they are, or refused with their line.
+//! SCENE: the example of Gmsh's manual, partitions, second-order elements, damaged files, any
+//! bytes.
+//! REFERENCE: a layered block written and read back; typed errors.
 
 use std::fmt::Write;
 

@@ -1,7 +1,7 @@
-//! Files that Gmsh 4.15 wrote, with elements of the first and of the second order.
-//!
-//! A block 6 m wide of two materials, the lower 2 m and the upper 3 m high, unstructured and recombined
-//! (`tests/data/gmsh/block.py`), on a named line.
+//! GOAL: files that Gmsh 4.15 wrote make the models they describe.
+//! SCENE: a block 6 m wide of two materials, the lower 2 m and the upper 3 m high, unstructured and
+//! recombined (`tests/data/gmsh/block.py`), on a named line; first and second order.
+//! REFERENCE: areas, uniform strain, and the statics of the layered block.
 
 use crate::support::dense::{dot, product};
 use basemat::fem::{Direction, GmshMesh, Layer, Material, Mesh};

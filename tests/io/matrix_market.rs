@@ -1,4 +1,6 @@
-//! Matrix Market files: those of another program, round trips, and bad ones.
+//! GOAL: Matrix Market files keep every bit and are refused with line and reason.
+//! SCENE: files of scipy, spellings in use, round trips, bad files.
+//! REFERENCE: numbers that scipy and numpy give for the same files.
 
 use basemat::structure::Triplets;
 use basemat::{Error, MatrixFileError};

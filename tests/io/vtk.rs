@@ -1,4 +1,6 @@
-//! Files for ParaView: their structure as XML, and the numbers in them.
+//! GOAL: files for ParaView hold the states they were written from.
+//! SCENE: a tower and wireframes that move, written as series.
+//! REFERENCE: the XML, parsed here, and the recorded states.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

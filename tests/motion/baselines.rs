@@ -1,4 +1,6 @@
-//! Baselines.
+//! GOAL: every baseline treatment keeps what it promises.
+//! SCENE: El Centro, polynomial drifts, any record.
+//! REFERENCE: end values, the quantity that is least, the record under the drift.
 
 use basemat::Error;
 use basemat::motion::{Baseline, Record, el_centro_1940};

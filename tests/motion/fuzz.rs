@@ -1,8 +1,10 @@
-//! Everything that reads bytes, given bytes that are wrong: any at all, valid files damaged in every
-//! way, sources that fail midway, and a small corpus of files that are hard to read.
+//! GOAL: everything that reads the bytes of a record takes wrong ones without a panic.
+//! SCENE: any bytes, valid files damaged in every way, sources that fail midway, and a corpus of
+//! files that are hard to read (`tests/data/fuzz`).
+//! REFERENCE: a record that can be asked for anything, or a typed error with its line.
 //!
-//! `PROPTEST_CASES=100000 cargo test --release --test motion fuzz` looks longer. Checkpoints are read by
-//! serde: `tests/coupled/checkpoint/text.rs` damages those.
+//! `PROPTEST_CASES=100000 cargo test --release --test motion fuzz` looks longer. Checkpoints are read
+//! by serde: `tests/coupled/checkpoint/text.rs` damages those.
 
 use std::io::Read;
 

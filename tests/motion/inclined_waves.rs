@@ -1,5 +1,8 @@
-//! Waves at an angle: surface motion against an independent solution, limits, and closed forms of
-//! the component that is a Hilbert transform.
+//! GOAL: inclined and surface waves: amplification, Rayleigh ellipses, and the component that is
+//! late by a quarter of a period.
+//! SCENE: plane SV and P waves over angle and ν, Gaussian and Ricker pulses.
+//! REFERENCE: a solution of 30 digits, Ewing, Jardetzky & Press 1957, closed-form Hilbert
+//! transforms.
 
 use crate::support::table;
 use basemat::motion::{Baseline, FreeField, PlaneWave, Record, TravellingWave, el_centro_1940};

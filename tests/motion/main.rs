@@ -1,4 +1,6 @@
-//! Ground-motion records: integration, peaks, baselines, free fields.
+//! GOAL: ground-motion records, their files, baselines, spectra and free fields.
+//! SCENE: El Centro 1940, pulses, and any samples.
+//! REFERENCE: published values, closed forms, independent integrations.
 
 mod baselines;
 mod filters;

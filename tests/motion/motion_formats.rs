@@ -1,4 +1,7 @@
-//! Files of the strong-motion databases: layouts in use, refusals, any bytes.
+//! GOAL: files of the strong-motion databases are read in every layout in use, or refused with line
+//! and reason.
+//! SCENE: PEER, COSMOS, CSMIP and K-NET files, printed here; any bytes.
+//! REFERENCE: the samples that were printed.
 
 use super::refusal;
 use basemat::motion::{

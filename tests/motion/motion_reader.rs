@@ -1,4 +1,6 @@
-//! Reader of ground-motion records: layouts, units, refusals, any bytes.
+//! GOAL: records in columns are read in every usual layout, or refused with line and reason.
+//! SCENE: layouts, units, printed time steps, bad lines, any bytes.
+//! REFERENCE: the samples that were printed.
 
 use super::refusal;
 use approx::assert_relative_eq;

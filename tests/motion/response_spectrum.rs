@@ -1,4 +1,6 @@
-//! Response spectra against an independent integration, closed forms and limits.
+//! GOAL: elastic response spectra.
+//! SCENE: El Centro; a constant acceleration; very stiff and very soft oscillators.
+//! REFERENCE: matrix exponentials, a published table, closed forms and limits.
 
 use crate::support::table;
 use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};

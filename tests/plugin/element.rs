@@ -1,4 +1,6 @@
-//! A finite element of one's own.
+//! GOAL: a finite element of one's own.
+//! SCENE: a tripod of struts on a block of quadrilaterals.
+//! REFERENCE: a run with a closed ledger.
 
 use basemat::fem::{Direction, Element, Layer, MassKind, Material, Mesh};
 use basemat::interface::Coulomb;

@@ -1,4 +1,6 @@
-//! A free field of one's own.
+//! GOAL: a free field of one's own.
+//! SCENE: a wave that passes under a block.
+//! REFERENCE: the rotation of the base.
 
 use basemat::Simulation;
 use basemat::interface::Coulomb;

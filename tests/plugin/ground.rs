@@ -1,4 +1,6 @@
-//! A ground of one's own.
+//! GOAL: a ground of one's own.
+//! SCENE: independent springs under a block that slides.
+//! REFERENCE: `SpringGround`.
 
 use basemat::Result;
 use basemat::bem::{ContactElement, Ground, SpringGround, Strip};

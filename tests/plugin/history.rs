@@ -1,4 +1,6 @@
-//! A convolution of one's own.
+//! GOAL: a convolution history of one's own.
+//! SCENE: the plain sum in a half-plane ground under a block.
+//! REFERENCE: the histories of the crate.
 
 use std::sync::Arc;
 

@@ -1,4 +1,6 @@
-//! An interface law of one's own.
+//! GOAL: an interface law of one's own.
+//! SCENE: friction that is lost once an element has slid, under a block.
+//! REFERENCE: Coulomb's law, which slides less.
 
 use basemat::interface::{
     Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,

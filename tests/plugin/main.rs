@@ -1,4 +1,6 @@
-//! Implementations of every trait from outside the crate, run in a simulation.
+//! GOAL: every trait can be implemented outside the crate, and all of them together.
+//! SCENE: a block on springs or half-plane under a pulse, one part replaced at a time.
+//! REFERENCE: the part of the crate that is the same or nearly so; a closed ledger.
 
 mod element;
 mod forwarding;

@@ -1,4 +1,6 @@
-//! A time scheme of one's own.
+//! GOAL: a time scheme of one's own.
+//! SCENE: average acceleration, on a bonded structure.
+//! REFERENCE: the midpoint rule and the θ-method.
 
 use std::sync::Arc;
 

@@ -1,4 +1,6 @@
-//! A structure of one's own, and one that is another one.
+//! GOAL: a structure of one's own, linear and nonlinear, and one that wraps another.
+//! SCENE: a mass on a hardening spring on a rigid base; a wrapped block.
+//! REFERENCE: the linear limit; the block itself; one commit per accepted step.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,4 +1,6 @@
-//! All parts can be printed, and a simulation can go to another thread.
+//! GOAL: all parts can be printed, and a simulation can move to another thread.
+//! SCENE: a block on springs, and parts by themselves.
+//! REFERENCE: the words of the texts; a run on the other thread.
 
 use std::sync::Arc;
 

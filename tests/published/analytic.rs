@@ -1,4 +1,6 @@
-//! Contact on the half-plane against closed forms and exact limits.
+//! GOAL: contact on the half-plane: partial uplift, sliding, rocking.
+//! SCENE: tilted strip, sliding and rocking rigid blocks.
+//! REFERENCE: Muskhelishvili 1953, Newmark 1965, Housner 1963.
 
 use crate::support::rocking::quarter_period;
 use crate::support::series::{Error, whole, within};

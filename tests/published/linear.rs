@@ -1,4 +1,7 @@
-//! The linear problem against tables that were computed independently of this crate.
+//! GOAL: the linear problem: impedances, and structures under an SV pulse.
+//! SCENE: rigid strips, rigid blocks, a cantilever and a shear building, bonded or relaxed.
+//! REFERENCE: Luco & Westmann 1972, Karasudhi, Keer & Lee 1968, tables computed independently of
+//! this crate.
 
 use crate::support::cantilever::Cantilever;
 use crate::support::impedance::{impedance_errors, ricker};

@@ -1,4 +1,7 @@
-//! Closed forms: equilibrium, symmetries, limits, and every bad input.
+//! GOAL: closed forms are in equilibrium, symmetric and right in their limits, and refuse bad
+//! input.
+//! SCENE: rocking and sliding blocks, tilted strips, line loads.
+//! REFERENCE: statics, differential equations, integration in small steps.
 
 use crate::support::close;
 use basemat::motion::{Record, el_centro_1940};

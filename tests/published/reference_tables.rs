@@ -1,4 +1,6 @@
-//! Closed forms against tables that were computed independently of this crate.
+//! GOAL: closed forms against tables.
+//! SCENE: Housner's and Newmark's blocks, strips on the half-plane and on springs.
+//! REFERENCE: tables computed independently of this crate.
 
 use crate::support::{close, table};
 use basemat::Soil;

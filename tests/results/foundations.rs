@@ -1,4 +1,6 @@
-//! What a summary says of each foundation: on independent springs, what a run of its own says.
+//! GOAL: a summary tells of each foundation what a run of its own tells.
+//! SCENE: a tower and a block on independent springs.
+//! REFERENCE: each of them alone.
 
 use basemat::coupled::{Extremes, Peak};
 use basemat::prelude::*;

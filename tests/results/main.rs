@@ -1,5 +1,6 @@
-//! Histories, peaks, envelopes and factors of safety, against the states they were made of and
-//! against statics.
+//! GOAL: time series, peaks, envelopes, factors of safety, spectra, pages and pictures of a run.
+//! SCENE: a block on the half-plane that rocks and slides.
+//! REFERENCE: the states they were made of, and statics.
 
 mod foundations;
 mod histories;

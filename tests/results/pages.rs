@@ -1,4 +1,6 @@
-//! What is printed and written: pages, tables, units.
+//! GOAL: pages, tables and units as they are printed and written.
+//! SCENE: probes with and without units; cases that do not compare.
+//! REFERENCE: the values themselves; files stay in SI.
 
 use basemat::Error;
 use basemat::coupled::Probe;

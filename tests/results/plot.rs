@@ -1,4 +1,7 @@
-//! Pictures: well-formed, with what they must show, and typed errors for what cannot be shown.
+//! GOAL: pictures are well-formed and legible, show what they must, and refuse what cannot be
+//! shown.
+//! SCENE: every picture, with odd values, long words and distant foundations.
+//! REFERENCE: the tags and texts of the SVG, laid out here.
 #![cfg(feature = "plot")]
 
 use crate::support::layout::assert_readable;

@@ -1,4 +1,6 @@
-//! Factors of safety against statics.
+//! GOAL: factors of safety against sliding and overturning.
+//! SCENE: pushed blocks, two foundations, elements with and without friction.
+//! REFERENCE: statics, μW/H and Wb/(Hh).
 
 use basemat::bem::{HalfPlaneGround, SpringGround, Strip};
 use basemat::coupled::Placement;

@@ -1,4 +1,6 @@
-//! Several structures on one ground.
+//! GOAL: several structures on one ground.
+//! SCENE: far apart on the half-plane; on springs; twins; nonlinear members.
+//! REFERENCE: each alone, or its mirror image.
 
 use crate::support::wrapped::needed_from;
 use basemat::bem::{HalfPlaneGround, History, SpringGround, Strip};

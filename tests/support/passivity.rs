@@ -1,4 +1,4 @@
-//! What the energy argument promises of the half-plane, tried on random tractions.
+//! Energy that a half-plane gives or takes under random tractions.
 
 use basemat::Soil;
 use basemat::bem::{Ground, HalfPlaneGround, History};

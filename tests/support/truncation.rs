@@ -1,4 +1,4 @@
-//! What the truncated free surface of the full-plane ground leaves.
+//! Errors of the full-plane ground by its truncated free surface.
 
 use basemat::bem::full_plane::{BoundaryKernel, ConvolutionQuadrature, CqMethod, FullPlaneGround};
 use basemat::bem::{Grading, Ground, HalfPlaneGround, Strip};

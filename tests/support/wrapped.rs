@@ -1,4 +1,4 @@
-//! Structures that are another one but for what a test needs.
+//! Wrappers of a structure: one that forwards the least, one that pulls it.
 
 use basemat::structure::{Row, Structure, Triplets};
 

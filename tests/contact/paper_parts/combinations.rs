@@ -1,4 +1,6 @@
-//! Every ground with every law, scheme and search.
+//! GOAL: every ground marches with every law, scheme and search, or is refused with a reason.
+//! SCENE: a tower on springs and on the half-plane; seven laws, five schemes, two searches.
+//! REFERENCE: the energy ledger. Only the flow chart may give up, with an error that says so.
 
 use crate::support::scenes::{GRAVITY, SI, friction, ground, shake, soil, tower};
 use basemat::bem::{ContactElement, Grading, SpringGround};

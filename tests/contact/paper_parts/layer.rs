@@ -1,4 +1,6 @@
-//! The thin-layer law against the finite element it stands for, and against hard contact.
+//! GOAL: the thin-layer law is the element it stands for, and tends to hard contact as it stiffens.
+//! SCENE: any motion of the four nodes of a layer element; blocks on layers of several thicknesses.
+//! REFERENCE: one-point and exactly integrated quadrilaterals; hard contact; the weight carried.
 
 use crate::support::scenes::{GRAVITY, SI, block, friction, ground, scene, soil, tower};
 use basemat::bem::{Grading, Ground};

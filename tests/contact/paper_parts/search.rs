@@ -1,4 +1,6 @@
-//! The paper's flow chart as the only contact search.
+//! GOAL: the paper's flow chart alone finds the modes of the robust search, or ends in an error.
+//! SCENE: sliding blocks of several strengths and coefficients of friction.
+//! REFERENCE: the robust search, step by step; an unchanged state after an error.
 
 use crate::support::scenes::{SI, block, friction, scene};
 use basemat::coupled::{ContactSearch, SearchMethod, SimulationBuilder};

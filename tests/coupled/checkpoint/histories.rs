@@ -1,4 +1,7 @@
-//! The history that was chosen, and what a history says of itself.
+//! GOAL: a checkpoint carries the choice of the convolution history; an approximate history books
+//! its error.
+//! SCENE: grounds that choose, with much memory and little; corrupt counts of steps.
+//! REFERENCE: the saved run to the last bit; typed errors for another choice; the ledger.
 
 use std::sync::Arc;
 

@@ -1,4 +1,6 @@
-//! A run that is saved and resumed is the run that was never interrupted, to the last bit.
+//! GOAL: a run that is saved and resumed is the run that was never interrupted, to the last bit.
+//! SCENE: half-planes with every history, spring beds, structures with internal variables.
+//! REFERENCE: the uninterrupted run.
 
 mod histories;
 mod refused;

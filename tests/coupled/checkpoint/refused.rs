@@ -1,4 +1,6 @@
-//! Checkpoints of other scenes, and parts that cannot be saved.
+//! GOAL: checkpoints of other scenes are refused, and parts that cannot be saved say so.
+//! SCENE: one thing of the scene changed at a time; grounds and structures without `save`.
+//! REFERENCE: typed errors, and a simulation that is unchanged.
 
 use basemat::bem::{ContactElement, Ground, History, SpringGround};
 use basemat::structure::{

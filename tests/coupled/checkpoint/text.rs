@@ -1,4 +1,6 @@
-//! Checkpoints as text, missing parts, damaged, or no checkpoints at all.
+//! GOAL: a checkpoint read from text is resumed or refused, never a panic.
+//! SCENE: texts with numbers missing or not finite, damaged texts, any bytes (feature `serde`).
+//! REFERENCE: typed errors, and a simulation that is unchanged.
 
 use basemat::bem::History;
 use basemat::coupled::Checkpoint;

@@ -1,8 +1,11 @@
-//! What the crate promises of every run, as properties over random scenes: structures, grounds,
-//! interface laws, time schemes, histories, coordinates and ground motions.
+//! GOAL: what the crate promises of every run.
+//! SCENE: random structures, grounds, interface laws, time schemes, histories, coordinates and
+//! ground motions; a failing scene is shrunk to a small one and printed.
+//! REFERENCE: balances and contact conditions in every step; repeated, mirrored, rescaled and
+//! delayed runs.
 //!
-//! A failing scene is shrunk to a small one and printed. `PROPTEST_CASES=2000 cargo test --release
-//! --test invariants random_scenes` asks for more scenes, other ones each time.
+//! `PROPTEST_CASES=2000 cargo test --release --test invariants random_scenes` asks for more scenes,
+//! other ones each time.
 
 mod recipe;
 mod run_checks;

@@ -1,4 +1,4 @@
-//! What must hold at every step of any run.
+//! Checks of every step of any run.
 
 use basemat::coupled::{Ledger, State};
 use basemat::interface::Mode;

@@ -1,8 +1,9 @@
-//! A boxed part is a part, and what is made of another part hands every question on to it.
-//!
-//! Doubles answer every method of their trait with something else than its default and write down
-//! what they were asked; the list of methods is that of the trait's source, so that a method that
-//! is added there and forgotten in a list of forwarded ones is found.
+//! GOAL: a boxed part behaves as the part itself, and a part made of another hands on every
+//! question.
+//! SCENE: doubles that answer every method of their trait with something else than its default and
+//! write down what they were asked.
+//! REFERENCE: the methods listed in the trait's source, so that a new one that nobody forwards is
+//! found.
 #![allow(clippy::needless_pass_by_value, reason = "parts are given away, as to a builder")]
 
 mod doubles;

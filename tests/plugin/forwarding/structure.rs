@@ -1,4 +1,6 @@
-//! Structures in boxes and in what is put around them.
+//! GOAL: structures in boxes, and everything that wraps a structure, hand every question on.
+//! SCENE: a double of the trait `Structure`, boxed, grouped, with springs, damped and reduced.
+//! REFERENCE: the methods of the trait's source.
 
 use std::collections::BTreeSet;
 

@@ -1,4 +1,6 @@
-//! Bending of quadrilaterals: shear locking and its cure.
+//! GOAL: quadrilaterals in bending: shear and volumetric locking, and their cure.
+//! SCENE: cantilevers and single rectangles of any aspect ratio, ν up to nearly ½.
+//! REFERENCE: beam theory and closed-form energies.
 
 use crate::support::dense::{dot, form, solve_held, stiffness};
 use basemat::fem::{Direction, Element, Layer, Material, Mesh, Quad4, QuadFormulation};

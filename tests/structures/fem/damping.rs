@@ -1,4 +1,6 @@
-//! Rayleigh damping and dashpots.
+//! GOAL: Rayleigh damping and dashpots.
+//! SCENE: pairs of frequencies and ratios; a meshed column with a spring and a dashpot.
+//! REFERENCE: the ratios at both frequencies; α M + β K plus the dashpots.
 
 use crate::support::dense::{damping, mass, stiffness};
 use basemat::fem::{Dashpot, Direction, Layer, Material, Mesh, Spring};

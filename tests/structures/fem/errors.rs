@@ -1,4 +1,6 @@
-//! Every bad input gives a typed error that names it.
+//! GOAL: elements, meshes and structures refuse bad input with a typed error that names it.
+//! SCENE: bad numbers, nodes, shapes, grids and contact lines.
+//! REFERENCE: the fields of the error.
 
 use basemat::Error;
 use basemat::fem::{

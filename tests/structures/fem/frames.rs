@@ -1,4 +1,6 @@
-//! Beam–columns, rotary inertia and rigid links against closed forms.
+//! GOAL: beam–columns, rotary inertia and rigid links.
+//! SCENE: compressed and leaning columns, simply supported beams, rigid arms and blocks.
+//! REFERENCE: Euler, Engesser, Timoshenko 1921, and closed-form sway.
 
 use crate::support::dense::{
     dot, eigenvalues, form, largest, mass, multiply, part, solve_held, stiffness,

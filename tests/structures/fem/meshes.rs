@@ -1,4 +1,6 @@
-//! Layered blocks and look-up of nodes.
+//! GOAL: layered blocks, their contact line, and the look-up of nodes.
+//! SCENE: blocks of one to three layers, uniform and graded; bars and masses.
+//! REFERENCE: coordinates and numbers written down here.
 
 use basemat::Error;
 use basemat::fem::{Direction, Layer, LumpedMass, Material, Mesh, Quad4, QuadFormulation, Truss};

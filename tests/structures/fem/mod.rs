@@ -1,4 +1,6 @@
-//! Finite elements and built-in structures against closed forms, statics and outside elements.
+//! GOAL: finite elements and built-in structures.
+//! SCENE: single elements, patches, beams, frames, blocks and shear buildings.
+//! REFERENCE: closed forms, statics, and elements from outside the crate.
 
 mod beams;
 mod bending;

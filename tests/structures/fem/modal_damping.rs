@@ -1,4 +1,6 @@
-//! Modal damping: its eigenvalues, its rigid motions, and the march in modes.
+//! GOAL: modal damping gives each mode its ratio and rigid-body modes none.
+//! SCENE: towers, shear buildings, a free bar of 400 beams, structures with two footings.
+//! REFERENCE: eigenvalues of C, closed-form bending modes, the march in unknowns.
 
 use crate::support::dense::{damping, eigenvalues, form, largest, mass, multiply, stiffness};
 use basemat::bem::SpringGround;

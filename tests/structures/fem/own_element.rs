@@ -1,4 +1,6 @@
-//! An element written outside the crate: the constant-strain triangle.
+//! GOAL: an element written outside the crate: the constant-strain triangle.
+//! SCENE: three triangles beside a quadrilateral.
+//! REFERENCE: one uniform strain, and the mass of the whole.
 
 use crate::support::dense::{form, largest, mass, multiply, solve_held, stiffness};
 use basemat::fem::{Direction, Element, MassKind, Material, Mesh, Quad4, QuadFormulation};

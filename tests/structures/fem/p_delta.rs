@@ -1,4 +1,6 @@
-//! Axial forces from the weight, and what they do: statics, buckling loads and frequencies.
+//! GOAL: axial forces from the weight, and their effect on statics, buckling loads and frequencies.
+//! SCENE: cantilevers, portals and braced columns under their own weight and masses.
+//! REFERENCE: Greenhill 1881, Euler, Kleinlogel, power series of 40 digits.
 
 use crate::support::dense::{damping, eigenvalues, form, largest, mass, multiply, part, stiffness};
 use basemat::Error;

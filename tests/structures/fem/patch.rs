@@ -1,5 +1,7 @@
-//! The patch of distorted quadrilaterals of `MacNeal` & Harder (Finite Elements in Analysis and Design 1,
-//! 1985, fig. 1): boundary displacements of a constant strain must give that strain everywhere.
+//! GOAL: a constant strain on the boundary gives that strain everywhere.
+//! SCENE: the patch of distorted quadrilaterals of `MacNeal` & Harder (Finite Elements in Analysis
+//! and Design 1, 1985, fig. 1).
+//! REFERENCE: the uniform strain, its energy and its edge forces.
 
 use crate::support::dense::{collect, dot, form, largest, multiply, solve_held};
 use basemat::fem::{Direction, Material, Mesh, Quad4, QuadFormulation};

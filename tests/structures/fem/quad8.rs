@@ -1,4 +1,6 @@
-//! Eight-node quadrilaterals: patch, rigid motions, bending, mass.
+//! GOAL: eight-node quadrilaterals.
+//! SCENE: the patch of `MacNeal` & Harder, straight and curved; bent rows; bad shapes.
+//! REFERENCE: uniform strain, rigid motions, pure bending, exact mass.
 
 use super::patch::{POINTS, QUADS};
 use crate::support::dense::{dot, form, largest, mass, multiply, solve_held, stiffness};

@@ -1,4 +1,6 @@
-//! Rigid block: mass from its definition, P–Δ from the potential energy.
+//! GOAL: mass, rows and P–Δ of the rigid block.
+//! SCENE: single blocks, centred and not.
+//! REFERENCE: the integral over the block, a true small rotation, the potential energy.
 
 use crate::support::dense::{mass, row_value, stiffness};
 use basemat::structure::{RigidBlock, Structure};

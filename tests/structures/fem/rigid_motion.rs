@@ -1,4 +1,6 @@
-//! Rigid motions: no forces, and the inertia of the whole.
+//! GOAL: rigid motions meet no force and carry the inertia of the whole.
+//! SCENE: one of every element in a distorted mesh.
+//! REFERENCE: total mass, and closed-form rotary inertia.
 
 use crate::support::dense::{
     assert_symmetric, damping, form, largest, mass, multiply, noise, stiffness,

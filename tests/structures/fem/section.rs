@@ -1,4 +1,6 @@
-//! Section forces against free bodies.
+//! GOAL: section forces.
+//! SCENE: a frame on a block, under a static load and in any motion.
+//! REFERENCE: the free body above the section, which is a model of its own.
 
 use crate::support::dense::{damping, dot, form, mass, multiply, noise, solve_held, stiffness};
 use basemat::fem::{

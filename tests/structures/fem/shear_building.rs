@@ -1,4 +1,6 @@
-//! Shear building: closed-form frequencies, free bodies, P–Δ.
+//! GOAL: the shear building.
+//! SCENE: uniform and uneven buildings.
+//! REFERENCE: closed-form frequencies, Jacobi's method, free bodies, potential energy.
 
 use crate::support::curvature::curvature;
 use crate::support::dense::{

@@ -1,4 +1,6 @@
-//! Yielding and isolated buildings in the coupled integrator.
+//! GOAL: yielding and base-isolated buildings in the coupled integrator.
+//! SCENE: five storeys on the half-plane under El Centro; one storey on rock.
+//! REFERENCE: tangents by differences, the ledger, Runge–Kutta integration.
 
 use basemat::bem::{HalfPlaneGround, SpringGround};
 use basemat::coupled::{Newmark, Probe, Run, SimulationBuilder, Theta};

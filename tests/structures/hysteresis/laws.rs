@@ -1,4 +1,7 @@
-//! The laws by themselves: tangents, energies, paths, and Bouc–Wen against its differential equation.
+//! GOAL: hysteretic laws by themselves.
+//! SCENE: prescribed paths, cut into steps in many ways.
+//! REFERENCE: differences of force and energy, the Bouc–Wen differential equation and its
+//! elementary solutions, areas of loops.
 
 use basemat::structure::{Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber};
 

@@ -1,4 +1,6 @@
-//! Hysteretic springs, yielding storeys and base isolators.
+//! GOAL: hysteretic springs, yielding storeys and base isolators.
+//! SCENE: the laws alone, and buildings in the coupled integrator.
+//! REFERENCE: differential equations, energies, closed-form loops.
 
 mod building;
 mod laws;

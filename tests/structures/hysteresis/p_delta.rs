@@ -1,4 +1,6 @@
-//! P–Δ of isolated and yielding buildings: what the weight does, and what it may not.
+//! GOAL: P–Δ of isolated and yielding buildings.
+//! SCENE: bearings under their weight, a storey at its buckling load, columns that collapse.
+//! REFERENCE: the potential energy of the weight, differentiated twice; typed errors.
 
 use crate::support::curvature::curvature;
 use basemat::bem::{HalfPlaneGround, SpringGround};

@@ -1,4 +1,6 @@
-//! Bad values are typed errors, and bad saved states change nothing.
+//! GOAL: bad parameters and bad saved states are typed errors that change nothing.
+//! SCENE: one number spoilt at a time.
+//! REFERENCE: the error, and the structure as it was.
 
 use basemat::structure::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber,

@@ -1,6 +1,8 @@
-//! Structures given by their matrices: files, checks, and reduction.
+//! GOAL: structures given by their matrices, and their reduction.
+//! SCENE: a meshed tower as matrices.
+//! REFERENCE: the model that the matrices came from.
 
 mod model;
 mod reduction;
-mod ride;
 mod semi_definite;
+mod supports;

@@ -1,4 +1,7 @@
-//! A structure by its matrices is the structure that they came from.
+//! GOAL: a structure by its matrices is the structure that they came from; bad matrices are
+//! refused.
+//! SCENE: a tower on the half-plane that uplifts and slides.
+//! REFERENCE: the finite-element model; typed errors.
 
 use basemat::bem::{HalfPlaneGround, SpringGround};
 use basemat::coupled::SimulationBuilder;

@@ -1,4 +1,6 @@
-//! What counts as negative: masses beyond rounding, and stiffnesses that constraints leave free.
+//! GOAL: negative masses and stiffnesses are told from rounding and from constraints.
+//! SCENE: floors tied by a multiplier, masses of rounding size, unstable columns.
+//! REFERENCE: the same structure without the constraint; typed errors.
 
 use basemat::structure::{ContactNode, MatrixModel, Triplets};
 use basemat::{Error, Result};

@@ -1,4 +1,7 @@
-//! What resists a ride, and what is only rounding.
+//! GOAL: elastic supports are refused and rounding is not: a structure must keep its rigid-body
+//! modes.
+//! SCENE: a slender wall by its matrices, with weak springs and with few digits.
+//! REFERENCE: the force that a rigid translation meets.
 
 use super::model::{on_soil, tower};
 use basemat::Error;
