@@ -9,13 +9,14 @@ mod support;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use crate::support::scenes::{SI, block, friction, scene, soil, tower};
-use crate::support::wrapped::needed_from;
 use basemat::bem::{HalfPlaneGround, History, SpringGround};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, Theta};
 use basemat::interface::Bonded;
 use basemat::results::Recorder;
 use basemat::structure::{RayleighDamping, RigidBlock, Structure, Triplets};
+
+use crate::support::scenes::{SI, block, friction, scene, soil, tower};
+use crate::support::wrapped::needed_from;
 
 /// The system's allocator, with a count for each thread.
 struct Counting;

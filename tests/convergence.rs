@@ -4,14 +4,15 @@
 
 mod support;
 
-use crate::support::sampled_block::{History, distance, sample};
-use crate::support::series::{Series, print_errors, whole};
-use crate::support::table;
 use basemat::bem::{Grading, HalfPlaneGround, Strip};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::RickerDisplacement;
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
+
+use crate::support::sampled_block::{History, distance, sample};
+use crate::support::series::{Series, print_errors, whole};
+use crate::support::table;
 
 /// Sampling of the histories: all time steps are fractions of it.
 const SAMPLE: f64 = 0.2;

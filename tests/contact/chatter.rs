@@ -3,8 +3,9 @@
 //! ms.
 //! REFERENCE: the finer runs. The schemes are compared in the example `contact_chatter`.
 
-use crate::support::chatter::{Outcome, Scene, Scheme};
 use basemat::interface::Activation;
+
+use crate::support::chatter::{Outcome, Scene, Scheme};
 
 /// A block that rocks and slides through the first strong seconds of El Centro × 2.
 fn run(friction: f64, time_step: f64, young: Option<f64>) -> Outcome {

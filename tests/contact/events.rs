@@ -3,13 +3,14 @@
 //! reverses in all elements at once; impacts follow each other ever faster.
 //! REFERENCE: the next finer run, and rest at the end.
 
-use crate::support::scenes::{GRAVITY, SI, friction, ground};
 use basemat::Simulation;
 use basemat::bem::{Grading, SpringGround};
 use basemat::coupled::{Run, SimulationBuilder};
 use basemat::interface::Mode;
 use basemat::motion::FreeFieldFn;
 use basemat::structure::RigidBlock;
+
+use crate::support::scenes::{GRAVITY, SI, friction, ground};
 
 /// Samples are compared at multiples of this, s.
 const SAMPLE: f64 = 4e-3;

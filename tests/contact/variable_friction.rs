@@ -3,10 +3,11 @@
 //! REFERENCE: Coulomb's law itself for a constant coefficient; slips, pressures and shears of the
 //! states.
 
-use crate::support::scenes::{SI, TIME_STEP, block, friction, scene, states};
 use basemat::coupled::State;
 use basemat::interface::{Activation, Coulomb, InterfaceLaw, VariableFriction};
 use basemat::{Error, StepError};
+
+use crate::support::scenes::{SI, TIME_STEP, block, friction, scene, states};
 
 const STEPS: usize = 300;
 

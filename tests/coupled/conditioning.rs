@@ -2,14 +2,15 @@
 //! SCENE: blocks of hand-written mass, towers stiffened over eight decades, ever lighter blocks.
 //! REFERENCE: the inverse, a closed form, and the rigid block.
 
-use crate::support::inverse::condition_by_inverse;
-use crate::support::scenes::{self, SI, TIME_STEP, friction, ground, scene};
 use basemat::bem::{Grading, Ground, HalfPlaneGround};
 use basemat::coupled::{Coordinates, Placement, SimulationBuilder, State};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::structure::{ContactNode, FemModel, RigidBlock, Structure, Triplets};
 use basemat::{Error, Simulation};
+
+use crate::support::inverse::condition_by_inverse;
+use crate::support::scenes::{self, SI, TIME_STEP, friction, ground, scene};
 
 /// A block whose matrices are written down by hand: m, I and h with its base of 4 m.
 fn block(mass: f64, inertia: f64, height: f64) -> RigidBlock {

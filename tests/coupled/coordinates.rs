@@ -2,8 +2,6 @@
 //! SCENE: towers, shear buildings and blocks, bonded, sliding, uplifting and pulled; three schemes.
 //! REFERENCE: the run in unknowns, to rounding; a typed error where modes do not decouple.
 
-use crate::support::scenes::{Rider, SI, block, friction, scene, shake, states, tower};
-use crate::support::wrapped::{Pulled, needed_from};
 use basemat::Error;
 use basemat::coupled::{Coordinates, Midpoint, Newmark, Probe, SimulationBuilder, State, Theta};
 use basemat::fem::{Layer, Material, Mesh};
@@ -11,6 +9,9 @@ use basemat::interface::Bonded;
 use basemat::structure::{
     FemModel, RayleighDamping, Row, ShearBuilding, Storey, Structure, Triplets,
 };
+
+use crate::support::scenes::{Rider, SI, block, friction, scene, shake, states, tower};
+use crate::support::wrapped::{Pulled, needed_from};
 
 /// Makes a scene, as often as it is called.
 type Make<'a> = &'a dyn Fn() -> SimulationBuilder;

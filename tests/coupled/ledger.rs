@@ -3,12 +3,13 @@
 //! travel far.
 //! REFERENCE: the identity of the energies; perturbing any term must open it.
 
-use crate::support::scenes::{Rider, SI, block, friction, scene, shake, soil, tower};
 use basemat::bem::SpringGround;
 use basemat::coupled::{Ledger, Newmark, Run, SimulationBuilder, Theta};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::{Activation, Bonded, ThinLayer};
 use basemat::structure::{Bilinear, FemModel, RayleighDamping, ShearBuilding, Storey, WithSprings};
+
+use crate::support::scenes::{Rider, SI, block, friction, scene, shake, soil, tower};
 
 fn run(builder: SimulationBuilder, steps: usize) -> Run {
     builder.build().unwrap().run(steps, |_| {}).unwrap()

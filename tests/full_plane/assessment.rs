@@ -3,8 +3,6 @@
 //! not.
 //! REFERENCE: growth of the march itself; the number of coefficients asked for.
 
-use super::unit_soil;
-use crate::support::close;
 use basemat::bem::full_plane::{
     BoundaryKernel, ConvolutionQuadrature, CqMethod, FullPlaneGround, Segment, TimeKernel,
 };
@@ -14,6 +12,9 @@ use basemat::structure::RigidBlock;
 use basemat::{Error, Result, Simulation};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+use super::unit_soil;
+use crate::support::close;
 
 /// Four unit elements with three free ones on either side.
 fn ground() -> FullPlaneGround {

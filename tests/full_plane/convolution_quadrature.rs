@@ -3,11 +3,12 @@
 //! SCENE: flat surfaces and a trench of unequal elements, BDF1 and BDF2.
 //! REFERENCE: mpmath, the symbol's power series, and the solution in time.
 
-use super::{flat, unit_soil};
-use crate::support::{close, table};
 use basemat::Error;
 use basemat::bem::full_plane::{BoundaryKernel, ConvolutionQuadrature, CqMethod, Segment};
 use basemat::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
+
+use super::{flat, unit_soil};
+use crate::support::{close, table};
 
 /// A trench: flat, down, flat, up, flat, of unequal elements.
 fn trench() -> Vec<Segment> {

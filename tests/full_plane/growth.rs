@@ -2,14 +2,15 @@
 //! SCENE: flat surfaces and a trench over β = c₁Δt/l, ν and the length of the free surface.
 //! REFERENCE: the tables of the documentation, and marches from a random perturbation.
 
-use super::{flat, soil};
-use crate::support::{close, random};
 use basemat::bem::Ground;
 use basemat::bem::full_plane::{
     Boundary, BoundaryCondition, BoundaryKernel, BoundaryMarch, ConvolutionQuadrature, CqMethod,
     FullPlaneGround, Given, GroundStability, Segment, Stability, TimeKernel,
 };
 use basemat::{Result, Soil};
+
+use super::{flat, soil};
+use crate::support::{close, random};
 
 /// Which coefficients: by convolution quadrature, or else the time kernel.
 type Method = Option<CqMethod>;

@@ -2,15 +2,16 @@
 //! SCENE: twenty unit elements, both kernels, over β = c₁Δt/l; a kernel with known zeros.
 //! REFERENCE: marches, a quadrature in space and time, and exact figures.
 
-use super::{flat, unit_soil};
-use crate::support::inverse::inverse;
-use crate::support::{close, random};
 use basemat::bem::full_plane::{
     BoundaryCondition, BoundaryKernel, ConvolutionQuadrature, CqMethod, Segment, Stability,
     TimeKernel,
 };
 use basemat::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
 use basemat::{Error, Result};
+
+use super::{flat, unit_soil};
+use crate::support::inverse::inverse;
+use crate::support::{close, random};
 
 /// Space–time integrals of the full-plane solution on a flat surface of unit elements, by a Gauss
 /// rule of its own: pieces end at the fronts, where sin² takes the root singularities away, and

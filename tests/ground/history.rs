@@ -4,12 +4,13 @@
 
 use std::sync::Arc;
 
-use crate::support::random::Random;
 use basemat::Soil;
 use basemat::bem::{
     ContactElement, Grading, Ground, HalfPlaneGround, InfluenceKernel, PatchKernel, Strip,
 };
 use basemat::history::{ConvolutionHistory, DirectHistory};
+
+use crate::support::random::Random;
 
 /// h = Σ G^{N−m+1} τ^m, every coefficient asked for by itself.
 fn plain_sum(

@@ -4,13 +4,14 @@
 
 use std::sync::Arc;
 
-use crate::support::passivity::Scene;
-use crate::support::random::Random;
 use basemat::bem::{
     ChoiceReason, ContactElement, Grading, Ground, HalfPlaneGround, History, PatchKernel, Strip,
 };
 use basemat::history::{ConvolutionHistory, DirectHistory, ExponentialHistory};
 use basemat::{Error, Soil};
+
+use crate::support::passivity::Scene;
+use crate::support::random::Random;
 
 /// A strip of length 2 with soil of unit modulus and density, β = c₁Δt over the mean element.
 fn kernel(poisson: f64, beta: f64, elements: Vec<ContactElement>) -> Arc<PatchKernel> {

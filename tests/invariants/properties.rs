@@ -2,14 +2,15 @@
 //! SCENE: block and tower on the half-plane that slide, uplift or stay bonded.
 //! REFERENCE: the mirrored, rescaled or superposed run, and statics.
 
-use crate::support::scenes::{
-    Frame, GRAVITY, SI, TIME_STEP, block, friction, scene, shake, states, tower,
-};
-use crate::support::wrapped::Pulled;
 use basemat::coupled::{Placement, State};
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::{Error, Simulation, StepError};
 use proptest::prelude::*;
+
+use crate::support::scenes::{
+    Frame, GRAVITY, SI, TIME_STEP, block, friction, scene, shake, states, tower,
+};
+use crate::support::wrapped::Pulled;
 
 const STEPS: usize = 400;
 

@@ -5,13 +5,14 @@
 
 use std::fmt::Write;
 
-use crate::support::dense;
 use basemat::bem::{HalfPlaneGround, Strip};
 use basemat::fem::{GmshMesh, Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::structure::{FemModel, Structure};
 use basemat::{Error, MeshFileError, Simulation, Soil};
 use proptest::prelude::*;
+
+use crate::support::dense;
 
 fn concrete() -> Material {
     Material::new(30.0e9, 0.2, 2400.0).unwrap()

@@ -3,9 +3,10 @@
 //! recombined (`tests/data/gmsh/block.py`), on a named line; first and second order.
 //! REFERENCE: areas, uniform strain, and the statics of the layered block.
 
-use crate::support::dense::{dot, product};
 use basemat::fem::{Direction, GmshMesh, Layer, Material, Mesh};
 use basemat::structure::{FemModel, Structure, Triplets};
+
+use crate::support::dense::{dot, product};
 
 const FILES: [(&str, usize); 2] = [("block_linear", 4), ("block_second_order", 8)];
 

@@ -5,13 +5,14 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::support::scenes::{SI, block, friction, scene, tower};
 use basemat::coupled::State;
 use basemat::fem::{Beam, Direction, Mesh};
 use basemat::interface::Mode;
 use basemat::results::{Histories, Recorder, WirePoint, Wireframe};
 use basemat::structure::{FemModel, RigidBlock, Row, ShearBuilding, Storey};
 use basemat::{Error, vtk};
+
+use crate::support::scenes::{SI, block, friction, scene, tower};
 
 /// A folder of its own for each test, emptied before.
 fn folder(name: &str) -> PathBuf {

@@ -4,9 +4,10 @@
 //! REFERENCE: a solution of 30 digits, Ewing, Jardetzky & Press 1957, closed-form Hilbert
 //! transforms.
 
-use crate::support::table;
 use basemat::motion::{Baseline, FreeField, PlaneWave, Record, TravellingWave, el_centro_1940};
 use basemat::{Error, Soil};
+
+use crate::support::table;
 
 fn soil(poisson: f64) -> Soil {
     Soil::new(80e6, poisson, 1900.0).unwrap()

@@ -3,12 +3,13 @@
 //! SCENE: PEER, COSMOS, CSMIP and K-NET files, printed here; any bytes.
 //! REFERENCE: the samples that were printed.
 
-use super::refusal;
 use basemat::motion::{
     AccelerationUnit, CosmosFormat, KNetFormat, PeerFormat, Record, RecordFormat, el_centro_1940,
 };
 use basemat::{Error, RecordError};
 use proptest::prelude::*;
+
+use super::refusal;
 
 const GRAVITY: f64 = 9.80665;
 

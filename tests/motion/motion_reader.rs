@@ -2,11 +2,12 @@
 //! SCENE: layouts, units, printed time steps, bad lines, any bytes.
 //! REFERENCE: the samples that were printed.
 
-use super::refusal;
 use approx::assert_relative_eq;
 use basemat::motion::{AccelerationUnit, ColumnFormat, Record, el_centro_1940};
 use basemat::{Error, RecordError};
 use proptest::prelude::*;
+
+use super::refusal;
 
 const METRIC: AccelerationUnit = AccelerationUnit::MetrePerSecondSquared;
 

@@ -2,8 +2,9 @@
 //! SCENE: El Centro; a constant acceleration; very stiff and very soft oscillators.
 //! REFERENCE: matrix exponentials, a published table, closed forms and limits.
 
-use crate::support::table;
 use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
+
+use crate::support::table;
 
 #[test]
 fn el_centro_agrees_with_matrix_exponentials() {

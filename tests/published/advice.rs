@@ -3,17 +3,18 @@
 //! results had a part in making the advice.
 //! REFERENCE: frequency-domain tables, and much finer runs.
 
-use crate::support::cantilever::Cantilever;
-use crate::support::impedance::impedance_errors;
-use crate::support::sampled_block::under_pulse;
-use crate::support::series::{Error as Difference, Series, whole};
-use crate::support::table;
 use basemat::bem::{Grading, HalfPlaneGround, Strip};
 use basemat::coupled::{Advice, Outline, SimulationBuilder, advise};
 use basemat::interface::Bonded;
 use basemat::motion::{FrequencyContent, Record, el_centro_1940};
 use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
 use basemat::{Error, Simulation, Soil};
+
+use crate::support::cantilever::Cantilever;
+use crate::support::impedance::impedance_errors;
+use crate::support::sampled_block::under_pulse;
+use crate::support::series::{Error as Difference, Series, whole};
+use crate::support::table;
 
 /// Content of the tables' pulse: second derivative of (1 − 2q) e^(−q), q = (t − 5)².
 fn pulse_content() -> FrequencyContent {

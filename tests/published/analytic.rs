@@ -2,10 +2,6 @@
 //! SCENE: tilted strip, sliding and rocking rigid blocks.
 //! REFERENCE: Muskhelishvili 1953, Newmark 1965, Housner 1963.
 
-use crate::support::rocking::quarter_period;
-use crate::support::series::{Error, whole, within};
-use crate::support::table;
-use crate::support::wrapped::Pulled;
 use basemat::bem::{Grading, Ground, HalfPlaneGround, Strip};
 use basemat::interface::Coulomb;
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
@@ -13,6 +9,11 @@ use basemat::reference::{NoTensionStrip, SlidingBlock};
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
 use std::f64::consts::PI;
+
+use crate::support::rocking::quarter_period;
+use crate::support::series::{Error, whole, within};
+use crate::support::table;
+use crate::support::wrapped::Pulled;
 
 /// Rigid block with a moment (counter-clockwise, about the middle of the base) that varies in time.
 fn pushed_block<F>(block: RigidBlock, moment: F) -> Pulled<RigidBlock, F> {

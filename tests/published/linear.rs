@@ -3,16 +3,17 @@
 //! REFERENCE: Luco & Westmann 1972, Karasudhi, Keer & Lee 1968, tables computed independently of
 //! this crate.
 
+use basemat::Soil;
+use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::coupled::State;
+use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
+
 use crate::support::cantilever::Cantilever;
 use crate::support::impedance::{impedance_errors, ricker};
 use crate::support::rigid_strip::{Contact, RigidStrip};
 use crate::support::sampled_block::under_pulse;
 use crate::support::series::{Error, Series, whole, within};
 use crate::support::table;
-use basemat::Soil;
-use basemat::bem::{Grading, HalfPlaneGround, Strip};
-use basemat::coupled::State;
-use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
 
 /// Errors of `[uy_Fy, ux_Fx, th_Fx, ux_M, th_M]`.
 fn transient_errors(

@@ -3,7 +3,6 @@
 //! SCENE: rocking and sliding blocks, tilted strips, line loads.
 //! REFERENCE: statics, differential equations, integration in small steps.
 
-use crate::support::close;
 use basemat::motion::{Record, el_centro_1940};
 use basemat::reference::{
     NoTensionStrip, RigidStrip, RockingBlock, SlidingBlock, WinklerStrip,
@@ -12,6 +11,8 @@ use basemat::reference::{
 };
 use basemat::{Error, Soil};
 use proptest::prelude::*;
+
+use crate::support::close;
 
 const BAD: [f64; 5] = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 

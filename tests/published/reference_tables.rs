@@ -2,12 +2,13 @@
 //! SCENE: Housner's and Newmark's blocks, strips on the half-plane and on springs.
 //! REFERENCE: tables computed independently of this crate.
 
-use crate::support::{close, table};
 use basemat::Soil;
 use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
 use basemat::reference::{
     NoTensionStrip, RigidStrip, RockingBlock, SlidingBlock, SlidingEvent, WinklerStrip,
 };
+
+use crate::support::{close, table};
 
 /// Housner 1963: periods and next amplitudes of the block 1 m × 4 m.
 #[test]

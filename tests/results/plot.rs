@@ -4,8 +4,6 @@
 //! REFERENCE: the tags and texts of the SVG, laid out here.
 #![cfg(feature = "plot")]
 
-use crate::support::layout::assert_readable;
-use crate::support::scenes::{self, SI, block, friction, scene};
 use basemat::bem::{HalfPlaneGround, Strip};
 use basemat::coupled::Probe;
 use basemat::interface::{Bonded, Coulomb, Mode};
@@ -14,6 +12,9 @@ use basemat::plot::{self, Curve, Svg};
 use basemat::results::{Histories, Quantity, Recorder, WirePoint, Wireframe};
 use basemat::structure::{RigidBlock, Row, StructureGroup};
 use basemat::{Error, Simulation};
+
+use crate::support::layout::assert_readable;
+use crate::support::scenes::{self, SI, block, friction, scene};
 
 fn simulation() -> (Simulation, Wireframe) {
     let shape = Wireframe::of_block(&block(SI), 6.0).unwrap();

@@ -2,7 +2,6 @@
 //! SCENE: far apart on the half-plane; on springs; twins; nonlinear members.
 //! REFERENCE: each alone, or its mirror image.
 
-use crate::support::wrapped::needed_from;
 use basemat::bem::{HalfPlaneGround, History, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};
 use basemat::interface::{Bonded, Coulomb};
@@ -12,6 +11,8 @@ use basemat::structure::{
     Triplets, WithSprings,
 };
 use basemat::{CheckpointError, Error, Result, Simulation, Soil};
+
+use crate::support::wrapped::needed_from;
 
 const STEP: f64 = 0.002;
 

@@ -12,12 +12,13 @@ mod run_checks;
 mod shaking;
 mod tally;
 
-use crate::support::scenes::{self, Frame, SI};
 use basemat::coupled::State;
 use proptest::prelude::*;
 use recipe::{Recipe, recipes};
 use run_checks::Scales;
 use tally::{Tally, accepted, for_all};
+
+use crate::support::scenes::{self, Frame, SI};
 
 /// Friction up to which a solution does not depend on where the search begins: see
 /// `docs/stability.md`.
