@@ -25,8 +25,6 @@ mod strip_impedance;
 mod support;
 mod three_storeys;
 mod transient;
-#[path = "../../tests/support/wrapped.rs"]
-mod wrapped;
 mod yim_chopra;
 
 use std::process::ExitCode;
