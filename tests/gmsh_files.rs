@@ -3,7 +3,8 @@
 //! A block 6 m wide of two materials, the lower 2 m and the upper 3 m high, unstructured and recombined
 //! (`tests/data/gmsh/block.py`), on a named line.
 
-use basemat::fem::{Direction, GmshMesh, Layer, Material, Mesh};
+use basemat::fem::{Direction, Layer, Material, Mesh};
+use basemat::io::GmshMesh;
 use basemat::structure::{FemModel, Structure, Triplets};
 
 const FILES: [(&str, usize); 2] = [("block_linear", 4), ("block_second_order", 8)];

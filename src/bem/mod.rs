@@ -8,6 +8,7 @@
 //! means over the elements, from left to right.
 
 mod choice;
+#[cfg(feature = "full-plane")]
 pub mod full_plane;
 mod half_plane;
 mod influence;
