@@ -4,12 +4,14 @@
 //! REFERENCE: growth of the march itself; the number of coefficients asked for.
 
 use basemat::bem::full_plane::{
-    BoundaryKernel, ConvolutionQuadrature, CqMethod, FullPlaneGround, Segment, TimeKernel,
+    BoundaryKernel, ConvolutionQuadrature, CqMethod, FullPlaneGround, GroundStability, Segment,
+    TimeKernel,
 };
 use basemat::bem::{Ground, HalfPlaneGround};
 use basemat::interface::Bonded;
 use basemat::structure::RigidBlock;
 use basemat::{Error, Result, Simulation};
+use std::any::Any;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
@@ -102,28 +104,38 @@ fn bounded_grounds_are_prepared_and_decay() {
     }
 }
 
+/// The report of a simulation's full-plane ground, boxed or not.
+fn stability(mut ground: &dyn Any) -> Option<&GroundStability> {
+    if let Some(boxed) = ground.downcast_ref::<Box<dyn Ground>>() {
+        ground = boxed.as_ref();
+    }
+    ground.downcast_ref::<FullPlaneGround>().expect("the ground that was given").stability()
+}
+
 /// GOAL: building a simulation is where growth is found, and where the report can be had.
 #[test]
 fn a_simulation_is_refused_or_reports() {
-    let build = |ground: FullPlaneGround, step: f64| {
+    fn build(ground: impl Ground, step: f64) -> Result<Simulation> {
         Simulation::builder(step)
             .structure(RigidBlock::new(4.0, 2.0, 1.0).unwrap())
             .ground(ground)
             .interface(Bonded)
             .gravity(0.0)
             .build()
-    };
+    }
     let refused = build(ground(), 0.25).err().unwrap();
     assert!(matches!(refused, Error::Unstable { .. }));
     assert!(refused.to_string().contains("per step"), "{refused}");
     let allowed = build(ground().allow_growth(), 0.25).unwrap();
-    assert!(!allowed.ground_stability().unwrap().is_bounded());
-    let bounded = build(ground(), 1.0).unwrap();
-    assert!(bounded.ground_stability().unwrap().is_bounded());
-    assert!(build(ground().skip_assessment(), 0.25).unwrap().ground_stability().is_none());
-    // A ground that is stable for every step has nothing to report.
-    let half = HalfPlaneGround::strip(unit_soil(), -2.0..2.0, 4).unwrap();
-    assert!(half.stability().is_none());
+    assert!(!stability(allowed.ground()).unwrap().is_bounded());
+    let boxed: Box<dyn Ground> = Box::new(ground());
+    let bounded = build(boxed, 1.0).unwrap();
+    assert!(stability(bounded.ground()).unwrap().is_bounded());
+    let skipped = build(ground().skip_assessment(), 0.25).unwrap();
+    assert!(stability(skipped.ground()).is_none());
+    // A ground that is stable for every step is of another type, and has nothing to report.
+    let half = build(HalfPlaneGround::strip(unit_soil(), -2.0..2.0, 4).unwrap(), 0.25).unwrap();
+    assert!(!(half.ground() as &dyn Any).is::<FullPlaneGround>());
 }
 
 /// GOAL: an assessment is paid for once, and not at all when it is skipped.

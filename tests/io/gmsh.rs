@@ -6,8 +6,9 @@
 use std::fmt::Write;
 
 use basemat::bem::{HalfPlaneGround, Strip};
-use basemat::fem::{GmshMesh, Layer, Material, Mesh};
+use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
+use basemat::io::GmshMesh;
 use basemat::structure::{FemModel, Structure};
 use basemat::{Error, MeshFileError, Simulation, Soil};
 use proptest::prelude::*;

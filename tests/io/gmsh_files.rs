@@ -3,7 +3,8 @@
 //! recombined (`tests/data/gmsh/block.py`), on a named line; first and second order.
 //! REFERENCE: areas, uniform strain, and the statics of the layered block.
 
-use basemat::fem::{Direction, GmshMesh, Layer, Material, Mesh};
+use basemat::fem::{Direction, Layer, Material, Mesh};
+use basemat::io::GmshMesh;
 use basemat::structure::{FemModel, Structure, Triplets};
 
 use crate::support::dense::{dot, product};

@@ -5,12 +5,13 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use basemat::Error;
 use basemat::coupled::State;
 use basemat::fem::{Beam, Direction, Mesh};
 use basemat::interface::Mode;
+use basemat::io::paraview;
 use basemat::results::{Histories, Recorder, WirePoint, Wireframe};
 use basemat::structure::{FemModel, RigidBlock, Row, ShearBuilding, Storey};
-use basemat::{Error, vtk};
 
 use crate::support::scenes::{SI, block, friction, scene, tower};
 
@@ -62,7 +63,7 @@ fn recorded() -> (Vec<State>, Histories, Wireframe) {
 fn a_series_holds_the_states() {
     let (states, histories, shape) = recorded();
     let folder = folder("series");
-    assert_eq!(vtk::write_series(&folder, "tower", &shape, &histories), Ok(12));
+    assert_eq!(paraview::write_series(&folder, "tower", &shape, &histories), Ok(12));
     let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
 
     let collection = read("tower.pvd");
@@ -164,7 +165,7 @@ fn bad_requests_are_errors() {
     let (_, histories, shape) = recorded();
     let folder = folder("errors");
     let series = |name, shape: &Wireframe, histories| {
-        vtk::write_series(&folder, name, shape, histories).unwrap_err()
+        paraview::write_series(&folder, name, shape, histories).unwrap_err()
     };
     for name in ["", "a/b", "..", "a b", "\"x\""] {
         assert!(matches!(series(name, &shape, &histories), Error::Scene { .. }));
@@ -179,7 +180,7 @@ fn bad_requests_are_errors() {
     // A folder that cannot be made.
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("file"), "").unwrap();
-    let fault = vtk::write_series(folder.join("file/deeper"), "a", &shape, &histories);
+    let fault = paraview::write_series(folder.join("file/deeper"), "a", &shape, &histories);
     assert!(matches!(fault, Err(Error::Write { .. })));
 
     assert!(Wireframe::new(vec![], vec![]).is_err());

@@ -1,6 +1,6 @@
 //! One double for all traits but the structure's.
 
-use basemat::bem::full_plane::{BoundaryKernel, GroundStability, IncidentField, Segment};
+use basemat::bem::full_plane::{BoundaryKernel, IncidentField, Segment};
 use basemat::bem::{ContactElement, Ground, HistoryChoice};
 use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
 use basemat::fem::{Direction, Element, MassKind};
@@ -155,11 +155,6 @@ impl Ground for Double {
     /// Only the crate makes one: that it was asked is all there is to see.
     fn history_choice(&self) -> Option<HistoryChoice> {
         self.0.asked("history_choice");
-        None
-    }
-
-    fn stability(&self) -> Option<&GroundStability> {
-        self.0.asked("stability");
         None
     }
 

@@ -114,7 +114,6 @@ fn boxed_grounds() {
         part.static_compliance(&mut matrix).unwrap();
         assert_eq!(matrix, [3.0 * CORRECT; 4]);
         assert_eq!(part.history_choice(), None);
-        assert!(part.stability().is_none());
         assert_eq!(part.increment_error_bound(), CORRECT);
         assert_eq!(part.save(), Ok(vec![CORRECT]));
         assert_eq!(part.restore(1, &[1.0]), Err(doubles::refusal()));

@@ -2,10 +2,10 @@
 
 use std::io::{BufReader, Read};
 
-use super::Triplets;
 use crate::bounded_line::read_line;
 use crate::error::MatrixFileError;
 use crate::matrix::MOST_ROWS;
+use crate::structure::Triplets;
 
 /// Most entries of an array, which has no other bound than what its size line says.
 const MOST_ROWS_OF_ARRAY: usize = 20_000;

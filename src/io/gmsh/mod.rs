@@ -6,8 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
 use std::path::Path;
 
-use super::{Material, Mesh, Quad4, Quad8, QuadFormulation};
 use crate::error::{Error, MeshFileError, Result};
+use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
 
 /// A mesh of quadrilaterals as Gmsh writes it: file format 4.1, ASCII (`gmsh -2 -format msh41`).
 ///
@@ -18,7 +18,8 @@ use crate::error::{Error, MeshFileError, Result};
 /// have eight nodes (`Mesh.SecondOrderIncomplete = 1`) and become [`Quad8`]s.
 ///
 /// ```
-/// use basemat::fem::{GmshMesh, Material};
+/// use basemat::fem::Material;
+/// use basemat::io::GmshMesh;
 /// use basemat::structure::{FemModel, Structure};
 ///
 /// // The example of Gmsh's manual: two squares side by side; here with a named line below.

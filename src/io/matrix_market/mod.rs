@@ -10,9 +10,9 @@ use std::fs::File;
 use std::io::{Read, Write};
 use std::path::Path;
 
-use super::Triplets;
 use crate::error::{Error, MatrixFileError, Result};
 use crate::linalg::SparseMatrix;
+use crate::structure::Triplets;
 
 impl Triplets {
     /// Reads a square matrix from a Matrix Market file (`.mtx`).

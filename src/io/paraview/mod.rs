@@ -15,7 +15,7 @@
 //! let mut histories = Recorder::new().contact(10).motion(10).start(&simulation)?;
 //! histories.run(&mut simulation, 2000)?;
 //! // results/block.pvd, block_0000.vtu, block_base_0000.vtu, …
-//! basemat::vtk::write_series("results", "block", &shape, &histories)?;
+//! basemat::io::paraview::write_series("results", "block", &shape, &histories)?;
 //! # Ok::<(), basemat::Error>(())
 //! ```
 
