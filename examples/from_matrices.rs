@@ -7,7 +7,7 @@
 //! Another program would have written `mass.mtx` and `stiffness.mtx`; here a mesh of quadrilaterals
 //! does, into `target/from_matrices`. The files are read back, contact nodes are named, and a
 //! Craig–Bampton reduction keeps these and the lowest modes of the rest. The full model marches two of
-//! its periods beside the reduced one, to compare (`tests/matrices/reduction.rs` does so for more
+//! its periods beside the reduced one, to compare (`tests/structures/matrices/reduction.rs` does so for more
 //! quantities of smaller models).
 
 #[path = "common/tower.rs"]

@@ -9,11 +9,12 @@
 
 use std::path::PathBuf;
 
+use basemat::Result;
 use basemat::fem::{Direction, Layer, Material, Mesh};
+use basemat::io::paraview;
 use basemat::plot::{self, Svg};
 use basemat::prelude::*;
 use basemat::results::{Wireframe, log_spaced};
-use basemat::{Result, vtk};
 use clap::Parser;
 
 const STEPS: usize = 2400;
@@ -88,7 +89,7 @@ fn main() -> Result<()> {
     save("shapes", plot::deformed_shapes("Largest rotations", &shape, &free, &times, 50.0)?)?;
     // Browsers play it.
     plot::animation("Tower", &shape, &free, 50.0, 2.0)?.save(out.join("tower_moving.svg"))?;
-    let grids = vtk::write_series(out.join("vtk"), "tower", &shape, &free)?;
+    let grids = paraview::write_series(out.join("vtk"), "tower", &shape, &free)?;
 
     println!("{}", free.summary());
     let mut comparison = Comparison::new();

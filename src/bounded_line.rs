@@ -2,7 +2,9 @@
 
 use std::io::{BufRead, ErrorKind, Read};
 
-use crate::error::{MatrixFileError, MeshFileError, RecordError};
+use crate::error::RecordError;
+#[cfg(feature = "io")]
+use crate::error::{MatrixFileError, MeshFileError};
 
 /// Longest line, bytes: a file without line ends must not fill the memory.
 const LONGEST: u64 = 65_536;
@@ -39,6 +41,7 @@ impl From<Unread> for RecordError {
     }
 }
 
+#[cfg(feature = "io")]
 impl From<Unread> for MeshFileError {
     fn from(unread: Unread) -> Self {
         match unread {
@@ -48,6 +51,7 @@ impl From<Unread> for MeshFileError {
     }
 }
 
+#[cfg(feature = "io")]
 impl From<Unread> for MatrixFileError {
     fn from(unread: Unread) -> Self {
         match unread {

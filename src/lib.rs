@@ -110,18 +110,28 @@
 //! | [`prelude`] | what most programs name, in one `use` |
 //! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy ledger |
 //! | [`results`] | histories, peaks, envelopes, factors of safety, tables for reports |
-//! | [`vtk`] | files for ParaView |
-//! | `plot` (feature) | pictures of histories, contact, spectra and shapes |
 //! | [`Sweep`] | many simulations, on all processors with the feature `rayon` |
 //! | [`structure`] | finite-element model, shear building, rigid block, given matrices, reduction, hysteretic springs, and the trait for your own |
 //! | [`fem`] | meshes and elements |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
 //! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], influence coefficients |
-//! | [`bem::full_plane`] | boundaries that are not flat, and the paper's own scheme |
 //! | [`history`] | the convolution with all past tractions |
 //! | [`fundamental`] | elastodynamic fundamental solutions |
 //! | [`motion`] | records and their files, spectra, baselines, free fields, El Centro 1940 |
-//! | [`reference`](mod@reference) | closed forms from the literature, to check against |
+//!
+//! # Features
+//!
+//! None is on unless asked for; all are compatible with each other.
+//!
+//! | feature | what it adds |
+//! |---|---|
+//! | `full-plane` | `bem::full_plane`: boundaries that are not flat, the paper's own scheme and its stability; `fundamental::FullPlane` |
+//! | `io` | `io`: meshes from Gmsh, matrices by Matrix Market, grids for ParaView |
+//! | `reference` | `reference`: closed forms from the literature, to check against |
+//! | `plot` | `plot`: pictures of histories, contact, spectra and shapes, as SVG |
+//! | `png` | `plot`, and the same pictures as PNG |
+//! | `rayon` | [`Sweep`] on all processors |
+//! | `serde` | `Serialize` and `Deserialize` of a [`Checkpoint`](coupled::Checkpoint) |
 //!
 //! # Bring your own
 //!
@@ -136,7 +146,7 @@
 //! | time scheme | [`coupled::TimeScheme`] | 1 |
 //! | convolution algorithm | [`history::ConvolutionHistory`] | 4 |
 //! | file of a record | [`motion::RecordFormat`] | 1 |
-//! | boundary operator | [`bem::full_plane::BoundaryKernel`] | 2 |
+//! | boundary operator (`full-plane`) | `bem::full_plane::BoundaryKernel` | 2 |
 //! | fundamental solution | [`fundamental::FundamentalSolution`] | 3 |
 //!
 //! The examples `your_own_structure`, `your_own_law` and `your_own_ground` do it.
@@ -147,6 +157,7 @@
 //! `rocking_block`, `floor_spectra`, `friction_sweep`, `travelling_wave`, `from_matrices`; `pictures`
 //! draws everything (feature `png`). What each prints is in `docs/examples.md`.
 #![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[macro_use]
 mod forward;
@@ -162,6 +173,8 @@ pub mod fem;
 pub mod fundamental;
 pub mod history;
 pub mod interface;
+#[cfg(feature = "io")]
+pub mod io;
 mod linalg;
 mod matrix;
 pub mod motion;
@@ -171,17 +184,17 @@ pub mod prelude;
 #[cfg(test)]
 #[path = "../tests/support/random.rs"]
 mod random;
+#[cfg(feature = "reference")]
 pub mod reference;
 pub mod results;
 mod soil;
 pub mod structure;
 mod sweep;
-pub mod vtk;
 
 pub use coupled::Simulation;
-pub use error::{
-    CheckpointError, Error, MatrixFileError, MeshFileError, RecordError, Result, StepError,
-};
+pub use error::{CheckpointError, Error, RecordError, Result, StepError};
+#[cfg(feature = "io")]
+pub use error::{MatrixFileError, MeshFileError};
 pub use soil::Soil;
 pub use sweep::{Sweep, SweepCase};
 

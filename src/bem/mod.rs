@@ -8,6 +8,7 @@
 //! means over the elements, from left to right.
 
 mod choice;
+#[cfg(feature = "full-plane")]
 pub mod full_plane;
 mod half_plane;
 mod influence;
@@ -29,9 +30,10 @@ pub use spring::SpringGround;
 pub use static_kernel::StaticKernel;
 pub use strip::{Grading, Strip};
 
+use std::any::Any;
+
 use crate::error::{CheckpointError, Result};
 use crate::motion::FreeField;
-use full_plane::GroundStability;
 
 /// One boundary element of the base: the interval from `left` to `right` of the flat surface, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,7 +62,10 @@ impl ContactElement {
 /// of an instantaneous part (a matrix times the tractions of this step, which are constant over
 /// the step) and a history part (all earlier tractions). Tractions here are **changes** against
 /// the static state, and so are displacements.
-pub trait Ground: Send {
+///
+/// Every ground is [`Any`], so that [`Simulation::ground`](crate::Simulation::ground) leads back to
+/// your own type, and what it has found or kept.
+pub trait Ground: Any + Send {
     /// The elements, from left to right, not overlapping.
     fn elements(&self) -> &[ContactElement];
 
@@ -106,12 +111,6 @@ pub trait Ground: Send {
 
     /// Which history it keeps and why; `None` (the default) if there is nothing to choose.
     fn history_choice(&self) -> Option<HistoryChoice> {
-        None
-    }
-
-    /// What it has found about the growth of its own march, if there is anything to find; `None`
-    /// (the default) for a ground that is stable for every step.
-    fn stability(&self) -> Option<&GroundStability> {
         None
     }
 
@@ -163,7 +162,6 @@ impl<T: Ground + ?Sized> Ground for Box<T> {
         fn commit(&mut self, traction: &[f64]);
         fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
         fn history_choice(&self) -> Option<HistoryChoice>;
-        fn stability(&self) -> Option<&GroundStability>;
         fn increment_error_bound(&self) -> f64;
         fn save(&self) -> Result<Vec<f64>>;
         fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;

@@ -66,7 +66,7 @@ impl Sketch {
         }
     }
 
-    /// k_h and k_r: the limits of [`crate::reference::RigidStrip`], and in between rational
+    /// k_h and k_r: the limits of `reference::RigidStrip`, and in between rational
     /// functions that stay within 19 % of the bonded strip's tables (Luco & Westmann's problem; for
     /// ν ≥ 1/4 within 16 %) for 0.1 ≤ a₀ ≤ 4 and 0 ≤ ν ≤ 1/3.
     fn stiffness(&self, a: f64) -> [C; 2] {

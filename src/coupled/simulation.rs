@@ -11,7 +11,6 @@ use super::state::State;
 use super::step::forcing::Forcing;
 use super::step::increment::Increment;
 use super::step::solver::Solver;
-use crate::bem::full_plane::GroundStability;
 use crate::bem::{ContactElement, Ground, HistoryChoice};
 use crate::error::{Error, Result, StepError};
 use crate::interface::InterfaceLaw;
@@ -143,10 +142,29 @@ impl Simulation {
         self.ground.history_choice()
     }
 
-    /// What the ground has found about the growth of its own march, if it has assessed that: see
-    /// [`FullPlaneGround`](crate::bem::full_plane::FullPlaneGround).
-    pub fn ground_stability(&self) -> Option<&GroundStability> {
-        self.ground.stability()
+    /// The ground as it is now. It is [`Any`](std::any::Any): of its own type it is what was given
+    /// to the builder (the box, if that was a box).
+    ///
+    /// ```
+    /// use std::any::Any;
+    ///
+    /// use basemat::Simulation;
+    /// use basemat::bem::SpringGround;
+    /// use basemat::interface::Bonded;
+    /// use basemat::structure::RigidBlock;
+    ///
+    /// let simulation = Simulation::builder(0.01)
+    ///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+    ///     .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
+    ///     .interface(Bonded)
+    ///     .build()?;
+    /// assert_eq!(simulation.ground().elements().len(), 8);
+    /// let ground: &dyn Any = simulation.ground();
+    /// assert!(ground.is::<SpringGround>());
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn ground(&self) -> &dyn Ground {
+        self.ground.as_ref()
     }
 
     /// The probes, in the order of [`State::probes`].

@@ -2,14 +2,18 @@
 
 mod checkpoint;
 mod checks;
+#[cfg(feature = "io")]
 mod matrix_file;
+#[cfg(feature = "io")]
 mod mesh_file;
 mod record;
 mod step;
 
 pub use checkpoint::CheckpointError;
 pub(crate) use checks::{finite, not_negative, positive, same_length, write_file};
+#[cfg(feature = "io")]
 pub use matrix_file::MatrixFileError;
+#[cfg(feature = "io")]
 pub use mesh_file::MeshFileError;
 pub use record::RecordError;
 pub use step::StepError;
@@ -135,6 +139,7 @@ pub enum Error {
         reason: RecordError,
     },
     /// A file of a mesh that cannot be used.
+    #[cfg(feature = "io")]
     #[error("{file}, line {line}: {reason}")]
     MeshFile {
         /// File or source of the mesh.
@@ -145,6 +150,7 @@ pub enum Error {
         reason: MeshFileError,
     },
     /// A Matrix Market file that cannot be read or written.
+    #[cfg(feature = "io")]
     #[error("{file}, line {line}: {reason}")]
     MatrixFile {
         /// File or source of the matrix.

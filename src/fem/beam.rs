@@ -1,6 +1,7 @@
 //! Straight beam or column.
 
-use super::element::{Direction, Element, FRAME, MassKind};
+use super::direction::{Direction, FRAME};
+use super::element::{Element, MassKind};
 use super::line::Line;
 use crate::error::{Result, finite, not_negative, positive};
 

@@ -1,6 +1,7 @@
 //! Viscous dashpot between two nodes.
 
-use super::element::{Direction, Element, MassKind};
+use super::direction::Direction;
+use super::element::{Element, MassKind};
 use super::line::Line;
 use super::spring::pair;
 use crate::error::{Result, positive};

@@ -1,17 +1,7 @@
 //! What an element is.
 
+use super::direction::Direction;
 use crate::error::Result;
-
-/// Direction of an unknown at a node.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Direction {
-    /// Displacement to the right, m.
-    X,
-    /// Displacement upwards, m.
-    Y,
-    /// Rotation, counter-clockwise, rad.
-    Rotation,
-}
 
 /// How the mass of an element is spread over its unknowns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -128,12 +118,6 @@ impl<T: Element + ?Sized> Element for Box<T> {
         fn order(&self) -> usize;
     }
 }
-
-/// Directions of elements without rotations.
-pub(crate) const TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
-
-/// Directions of beams and of masses with rotary inertia.
-pub(crate) const FRAME: &[Direction] = &[Direction::X, Direction::Y, Direction::Rotation];
 
 /// Adds a square block to a row-major `matrix` of the same order.
 pub(crate) fn add_square<const N: usize>(matrix: &mut [f64], block: &[[f64; N]; N]) {

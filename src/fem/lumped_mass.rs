@@ -1,6 +1,7 @@
 //! Mass at a node.
 
-use super::element::{Direction, Element, FRAME, MassKind, TRANSLATIONS};
+use super::direction::{Direction, FRAME, TRANSLATIONS};
+use super::element::{Element, MassKind};
 use crate::error::{Result, not_negative, positive};
 
 /// Mass at a node, with or without rotary inertia.

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::element::Element;
-use super::numbering::Numbering;
 use crate::error::{Error, Result, finite, not_negative};
 
 /// Farthest that a node may be from where it is looked for, over the size of the mesh: far below
@@ -160,32 +159,24 @@ impl Mesh {
         extent(0).max(extent(1))
     }
 
-    /// Lets every element take the static state; `displacement` in the unknowns of `numbering`.
+    /// Replaces every element for which `other` returns one; its arguments are the element and the
+    /// coordinates of its nodes.
     ///
     /// # Errors
-    /// [`Error::Scene`] for an element that would then have other nodes or directions.
-    pub(crate) fn set_static_state(
+    /// [`Error::Scene`] for a replacement with other nodes or directions.
+    pub(crate) fn replace_elements(
         &mut self,
-        numbering: &Numbering,
-        displacement: &[f64],
-        gravity: f64,
+        mut other: impl FnMut(&dyn Element, &[[f64; 2]]) -> Option<Box<dyn Element>>,
     ) -> Result<()> {
-        let mut indices = Vec::new();
         for element in &mut self.elements {
-            numbering.of_element(element.as_ref(), &mut indices);
-            let value = |&index: &usize| displacement.get(index).copied().unwrap_or(0.0);
-            let own: Vec<f64> = indices.iter().map(value).collect();
             let points: Vec<[f64; 2]> =
                 element.nodes().iter().map(|&index| self.nodes[index]).collect();
-            if let Some(changed) = element.in_static_state(&points, &own, gravity) {
-                if changed.nodes() != element.nodes()
-                    || changed.directions() != element.directions()
-                {
-                    let quantity = "element in the static state";
-                    return Err(Error::Scene { quantity, needed: "its own nodes and directions" });
-                }
-                *element = Arc::from(changed);
+            let Some(changed) = other(element.as_ref(), &points) else { continue };
+            if changed.nodes() != element.nodes() || changed.directions() != element.directions() {
+                let quantity = "element in the static state";
+                return Err(Error::Scene { quantity, needed: "its own nodes and directions" });
             }
+            *element = Arc::from(changed);
         }
         Ok(())
     }

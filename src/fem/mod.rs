@@ -17,8 +17,8 @@
 mod assembly;
 mod beam;
 mod dashpot;
+mod direction;
 mod element;
-mod gmsh;
 mod layered_block;
 mod line;
 mod lumped_mass;
@@ -29,6 +29,7 @@ mod quad4;
 mod quad4_shape;
 mod quad8;
 mod spring;
+mod static_state;
 mod truss;
 
 pub(crate) use assembly::{Quantity, assemble};
@@ -37,8 +38,8 @@ pub use assembly::{
 };
 pub use beam::Beam;
 pub use dashpot::Dashpot;
-pub use element::{Direction, Element, MassKind};
-pub use gmsh::GmshMesh;
+pub use direction::Direction;
+pub use element::{Element, MassKind};
 pub use layered_block::Layer;
 pub use lumped_mass::LumpedMass;
 pub use material::Material;
@@ -47,4 +48,5 @@ pub use numbering::Numbering;
 pub use quad4::{Quad4, QuadFormulation};
 pub use quad8::{Quad8, Quad8Integration};
 pub use spring::Spring;
+pub(crate) use static_state::set_static_state;
 pub use truss::Truss;

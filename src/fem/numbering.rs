@@ -1,6 +1,7 @@
 //! Which unknown belongs to which node and direction.
 
-use super::element::{Direction, Element};
+use super::direction::Direction;
+use super::element::Element;
 use super::mesh::Mesh;
 
 /// Numbers of the unknowns: node by node, only the directions that some element uses.

@@ -1,6 +1,7 @@
 //! Four-node quadrilateral of a solid in plane strain.
 
-use super::element::{Direction, Element, MassKind, TRANSLATIONS, add_square};
+use super::direction::{Direction, TRANSLATIONS};
+use super::element::{Element, MassKind, add_square};
 use super::material::Material;
 use super::quad4_shape::{CORNERS, Jacobian, gauss_points, shape};
 use crate::error::{Error, Result, same_length};

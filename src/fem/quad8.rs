@@ -1,6 +1,7 @@
 //! Eight-node quadrilateral of a solid in plane strain.
 
-use super::element::{Direction, Element, MassKind, TRANSLATIONS, add_square};
+use super::direction::{Direction, TRANSLATIONS};
+use super::element::{Element, MassKind, add_square};
 use super::material::Material;
 use crate::error::{Error, Result, same_length};
 

@@ -1,6 +1,7 @@
 //! Spring between two nodes.
 
-use super::element::{Direction, Element, MassKind, add_square};
+use super::direction::Direction;
+use super::element::{Element, MassKind, add_square};
 use super::line::Line;
 use crate::error::{Result, positive};
 

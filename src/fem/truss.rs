@@ -1,6 +1,7 @@
 //! Bar that carries axial force only.
 
-use super::element::{Direction, Element, MassKind, TRANSLATIONS, add_square};
+use super::direction::{Direction, TRANSLATIONS};
+use super::element::{Element, MassKind, add_square};
 use super::line::Line;
 use crate::error::{Result, not_negative, positive};
 

@@ -6,12 +6,14 @@
 
 pub(crate) mod branch;
 pub(crate) mod complex;
+#[cfg(feature = "full-plane")]
 mod full_plane;
 pub(crate) mod gauss;
 mod half_plane;
 pub(crate) mod laurent;
 pub(crate) mod rayleigh;
 
+#[cfg(feature = "full-plane")]
 pub use full_plane::FullPlane;
 pub use half_plane::{HalfPlane, Surface};
 pub use rayleigh::Rayleigh;

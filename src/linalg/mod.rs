@@ -2,6 +2,7 @@
 //!
 //! Everything runs sequentially, and solves use workspace made when the factor was made.
 
+#[cfg(feature = "full-plane")]
 mod complex;
 mod condition;
 mod dense;
@@ -10,6 +11,7 @@ mod lanczos;
 mod product;
 mod sparse;
 
+#[cfg(feature = "full-plane")]
 pub(crate) use complex::{ComplexFactor, hermitian_range};
 pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;

@@ -1,9 +1,10 @@
-//! What a reader of a file format has to do.
+//! What a reader of a file format has to do, and records by it.
 
 use std::io::Read;
+use std::path::Path;
 
 use super::Record;
-use crate::error::Result;
+use crate::error::{Error, RecordError, Result};
 
 /// A file format that holds a record; implement it for one of your own.
 ///
@@ -23,5 +24,47 @@ impl<T: RecordFormat + ?Sized> RecordFormat for Box<T> {
     forward! {
         (**self);
         fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record>;
+    }
+}
+
+impl Record {
+    /// Reads a file: [`ColumnFormat`](super::ColumnFormat) for columns of time and acceleration,
+    /// [`PeerFormat`](super::PeerFormat) for `.AT2`, or any other [`RecordFormat`].
+    ///
+    /// # Errors
+    /// [`Error::Record`] with the line and the reason.
+    pub fn read(path: impl AsRef<Path>, format: &dyn RecordFormat) -> Result<Self> {
+        let path = path.as_ref();
+        let name = path.display().to_string();
+        match std::fs::File::open(path) {
+            Ok(file) => Self::from_reader(&name, file, format),
+            Err(error) => Err(Error::Record {
+                file: name,
+                line: 0,
+                reason: RecordError::Unreadable(error.kind()),
+            }),
+        }
+    }
+
+    /// Reads the same from any source of bytes; `name` is what errors call it.
+    ///
+    /// ```
+    /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
+    /// let text = "# station 1\nt,a\n0.00, 0\n0.01, 98.1\n0.02, -49.05\n";
+    /// let format = ColumnFormat::new(AccelerationUnit::Gal);
+    /// let record = Record::from_reader("text", text.as_bytes(), &format)?;
+    /// assert_eq!(record.time_step(), 0.01);
+    /// assert!((record.peak_acceleration() - 0.981).abs() < 1e-15);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Record`] with the line and the reason.
+    pub fn from_reader(
+        name: &str,
+        mut source: impl Read,
+        format: &dyn RecordFormat,
+    ) -> Result<Self> {
+        format.parse(name, &mut source)
     }
 }

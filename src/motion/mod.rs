@@ -58,8 +58,8 @@ pub trait FreeField: Send {
     fn displacement(&self, x: f64, time: f64) -> [f64; 2];
 
     /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`. Simulations ask for displacements only;
-    /// [`VerticalWaves`](crate::bem::full_plane::VerticalWaves) make stresses of velocities, and a
-    /// ground of your own may need them.
+    /// `bem::full_plane::VerticalWaves` make stresses of velocities, and a ground of your own may need
+    /// them.
     ///
     /// Default: the central difference of displacements 10 µs before and after. What moves with f
     /// Hz loses (2πf · 10 µs)²/6 of its velocity (7e-8 at 10 Hz, 7e-6 at 100 Hz), and rounding

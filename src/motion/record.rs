@@ -1,9 +1,7 @@
 //! Equally spaced records of ground acceleration.
 
-use std::path::Path;
-
+use super::Baseline;
 use super::integral::{Instant, integrate};
-use super::{Baseline, RecordFormat};
 use crate::error::{Error, RecordError, Result, finite, positive};
 
 /// Most samples that are made at a time.
@@ -94,46 +92,6 @@ impl Record {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let steps = steps as usize;
         Self::new(time_step, (0..=steps).map(|k| acceleration(k as f64 * time_step)).collect())
-    }
-
-    /// Reads a file: [`ColumnFormat`](super::ColumnFormat) for columns of time and acceleration,
-    /// [`PeerFormat`](super::PeerFormat) for `.AT2`, or any other [`RecordFormat`].
-    ///
-    /// # Errors
-    /// [`Error::Record`] with the line and the reason.
-    pub fn read(path: impl AsRef<Path>, format: &dyn RecordFormat) -> Result<Self> {
-        let path = path.as_ref();
-        let name = path.display().to_string();
-        match std::fs::File::open(path) {
-            Ok(file) => Self::from_reader(&name, file, format),
-            Err(error) => Err(Error::Record {
-                file: name,
-                line: 0,
-                reason: RecordError::Unreadable(error.kind()),
-            }),
-        }
-    }
-
-    /// Reads the same from any source of bytes; `name` is what errors call it.
-    ///
-    /// ```
-    /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
-    /// let text = "# station 1\nt,a\n0.00, 0\n0.01, 98.1\n0.02, -49.05\n";
-    /// let format = ColumnFormat::new(AccelerationUnit::Gal);
-    /// let record = Record::from_reader("text", text.as_bytes(), &format)?;
-    /// assert_eq!(record.time_step(), 0.01);
-    /// assert!((record.peak_acceleration() - 0.981).abs() < 1e-15);
-    /// # Ok::<(), basemat::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::Record`] with the line and the reason.
-    pub fn from_reader(
-        name: &str,
-        mut source: impl std::io::Read,
-        format: &dyn RecordFormat,
-    ) -> Result<Self> {
-        format.parse(name, &mut source)
     }
 
     /// Time step, s.

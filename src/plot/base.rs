@@ -3,8 +3,8 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::area::Drawing;
 use super::axes::{Axis, Chart, LABEL};
-use super::svg::Drawing;
 use super::text::{short, width};
 use super::ticks::linear;
 use crate::bem::ContactElement;

@@ -2,8 +2,8 @@
 
 use plotters::prelude::*;
 
+use super::area::{Area, Drawing};
 use super::stroke::Stroke;
-use super::svg::{Area, Drawing};
 use super::text::{lines, width};
 
 const FONT: (&str, u32) = ("sans-serif", 15);

@@ -25,6 +25,7 @@
 //! ```
 
 mod animation;
+mod area;
 mod axes;
 mod base;
 mod energy;

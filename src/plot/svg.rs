@@ -5,6 +5,7 @@ use std::path::Path;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::area::{Area, Drawing};
 use super::axes::{ABOVE, BELOW, LEFT, RIGHT};
 use super::key::Key;
 use super::text::lines;
@@ -41,12 +42,6 @@ impl Svg {
         write_file(path.as_ref(), &self.0)
     }
 }
-
-/// Where charts are drawn.
-pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
-
-/// Whatever goes wrong while drawing into memory.
-pub(super) type Drawing<T> = std::result::Result<T, Box<dyn std::error::Error + Send + Sync>>;
 
 /// Title and key with the room between them.
 pub(super) struct Sheet {

@@ -10,7 +10,7 @@ use super::unit::labelled;
 use super::{Extremes, Quantity, Recorder, Sliding, Uplift};
 use crate::bem::ContactElement;
 use crate::coupled::{Ledger, Peak, Probe, Run, Simulation, State, probe_index};
-use crate::error::{Result, write_file};
+use crate::error::{Error, Result, write_file};
 
 /// Histories of a run, its peaks and envelopes: made by [`Recorder::start`], fed by
 /// [`Histories::record`].
@@ -56,8 +56,50 @@ pub(super) struct Tally {
     pub(super) mode_changes: usize,
 }
 
+impl Recorder {
+    /// Makes up to `steps` steps of `simulation` and returns what was kept of them. To keep what was
+    /// recorded before a step that failed, see [`Recorder::start`] and [`Histories::run`].
+    ///
+    /// # Errors
+    /// As for [`Recorder::start`], and those of [`Simulation::run`].
+    pub fn run(self, simulation: &mut Simulation, steps: usize) -> Result<Histories> {
+        let mut histories = self.start(simulation)?;
+        histories.run(simulation, steps)?;
+        Ok(histories)
+    }
+
+    /// Starts with the simulation as it stands.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a negative friction coefficient (infinity is one), the laws' included,
+    /// or an interval of zero steps; [`Error::Size`] unless there is one friction coefficient for all elements or one each.
+    pub fn start(mut self, simulation: &Simulation) -> Result<Histories> {
+        let count = simulation.elements().len();
+        if self.friction.is_empty() {
+            self.friction = simulation.friction();
+        }
+        if self.friction.len() > 1 && self.friction.len() != count {
+            return Err(Error::Size {
+                quantity: "list of friction coefficients",
+                found: self.friction.len(),
+                needed: count,
+            });
+        }
+        if let Some(&value) = self.friction.iter().find(|value| value.is_nan() || **value < 0.0) {
+            let (quantity, needed) = ("friction coefficient", "zero or more");
+            return Err(Error::Input { quantity, value, needed });
+        }
+        let intervals = [Some(self.every), self.contact, self.motion];
+        if intervals.contains(&Some(0)) {
+            let (quantity, needed) = ("steps between what is kept", "one or more");
+            return Err(Error::Input { quantity, value: 0.0, needed });
+        }
+        Ok(Histories::new(self, simulation))
+    }
+}
+
 impl Histories {
-    pub(super) fn new(recorder: Recorder, simulation: &Simulation) -> Self {
+    fn new(recorder: Recorder, simulation: &Simulation) -> Self {
         let state = simulation.state();
         let elements = simulation.elements().to_vec();
         let foundations = foundation::start(state, &recorder.friction, &elements);

@@ -1,9 +1,5 @@
 //! What to keep of a run.
 
-use super::Histories;
-use crate::coupled::Simulation;
-use crate::error::{Error, Result};
-
 /// What to keep of a run: the scalar histories and the probes at every step, unless told otherwise.
 ///
 /// See the [module](super) for an example.
@@ -60,45 +56,5 @@ impl Recorder {
     #[must_use]
     pub fn motion(self, steps: usize) -> Self {
         Self { motion: Some(steps), ..self }
-    }
-
-    /// Makes up to `steps` steps of `simulation` and returns what was kept of them. To keep what was
-    /// recorded before a step that failed, see [`Recorder::start`] and [`Histories::run`].
-    ///
-    /// # Errors
-    /// As for [`Recorder::start`], and those of [`Simulation::run`].
-    pub fn run(self, simulation: &mut Simulation, steps: usize) -> Result<Histories> {
-        let mut histories = self.start(simulation)?;
-        histories.run(simulation, steps)?;
-        Ok(histories)
-    }
-
-    /// Starts with the simulation as it stands.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a negative friction coefficient (infinity is one), the laws' included,
-    /// or an interval of zero steps; [`Error::Size`] unless there is one friction coefficient for all elements or one each.
-    pub fn start(mut self, simulation: &Simulation) -> Result<Histories> {
-        let count = simulation.elements().len();
-        if self.friction.is_empty() {
-            self.friction = simulation.friction();
-        }
-        if self.friction.len() > 1 && self.friction.len() != count {
-            return Err(Error::Size {
-                quantity: "list of friction coefficients",
-                found: self.friction.len(),
-                needed: count,
-            });
-        }
-        if let Some(&value) = self.friction.iter().find(|value| value.is_nan() || **value < 0.0) {
-            let (quantity, needed) = ("friction coefficient", "zero or more");
-            return Err(Error::Input { quantity, value, needed });
-        }
-        let intervals = [Some(self.every), self.contact, self.motion];
-        if intervals.contains(&Some(0)) {
-            let (quantity, needed) = ("steps between what is kept", "one or more");
-            return Err(Error::Input { quantity, value: 0.0, needed });
-        }
-        Ok(Histories::new(self, simulation))
     }
 }

@@ -19,7 +19,7 @@ const MASSLESS: f64 = 1e-12;
 /// The unknowns are absolute displacements in m and rotations in rad, in any order; the structure
 /// is **free**, without supports: the ground holds it up, so a rigid ride must give no elastic
 /// force beyond rounding (entries of ten digits may leave too much, those of twelve do not). Matrices are per metre of thickness. They may come from Matrix Market files
-/// ([`Triplets::read_matrix_market`]); large models march faster after a
+/// (`Triplets::read_matrix_market`, feature `io`); large models march faster after a
 /// [`CraigBampton`](super::CraigBampton) reduction.
 ///
 /// The mass matrix must be positive semi-definite up to rounding (see [`Structure::mass`]), which is

@@ -5,7 +5,6 @@ mod craig_bampton;
 mod fem_model;
 mod group;
 mod hysteresis;
-mod matrix_market;
 mod matrix_model;
 mod modal_damping;
 mod nonlinear_shear_building;

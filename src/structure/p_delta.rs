@@ -2,7 +2,7 @@
 
 use super::{FemModel, Structure, Triplets};
 use crate::error::{Error, Result, not_negative};
-use crate::fem::{Direction, Quantity, assemble};
+use crate::fem::{Direction, Quantity, assemble, set_static_state};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 
 const HELD: &str = "stiffness matrix with the contact nodes held";
@@ -65,7 +65,7 @@ impl FemModel {
             Some(links) => links.all(&displacement),
             None => displacement,
         };
-        self.mesh.set_static_state(&self.numbering, &displacement, gravity)?;
+        set_static_state(&mut self.mesh, &self.numbering, &displacement, gravity)?;
         self.p_delta = Some(gravity);
         let held = HeldStructure::new(&self)?;
         if held.stands(1.0)? {

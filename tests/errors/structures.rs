@@ -1,4 +1,6 @@
-//! Structures whose matrices, base or loads make no sense.
+//! GOAL: structures whose matrices, base or loads make no sense are refused.
+//! SCENE: entries out of range or not finite, endless sizes, bad bases, loads without equilibrium.
+//! REFERENCE: the fields of the error.
 
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::Placement;
@@ -8,10 +10,10 @@ use basemat::structure::{
 };
 use basemat::{Error, Simulation, Soil};
 
+use super::builder::unbuilt;
+use super::spoilt::Spoilt;
 use super::{NOT_FINITE, refused};
-use crate::builder::unbuilt;
-use crate::scene::bed;
-use crate::spoilt::Spoilt;
+use crate::support::block_on_springs::bed;
 
 #[test]
 fn structures_that_write_out_of_range_or_nan_are_refused() {

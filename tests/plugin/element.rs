@@ -1,11 +1,13 @@
-//! A finite element of one's own.
+//! GOAL: a finite element of one's own.
+//! SCENE: a tripod of struts on a block of quadrilaterals.
+//! REFERENCE: a run with a closed ledger.
 
 use basemat::fem::{Direction, Element, Layer, MassKind, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::structure::FemModel;
 
 use super::{run, shaken};
-use crate::scene::bed;
+use crate::support::block_on_springs::bed;
 
 /// A column that is only a spring between two heights.
 struct Column([usize; 2]);

@@ -1,4 +1,6 @@
-//! A convolution of one's own.
+//! GOAL: a convolution history of one's own.
+//! SCENE: the plain sum in a half-plane ground under a block.
+//! REFERENCE: the histories of the crate.
 
 use std::sync::Arc;
 
@@ -9,7 +11,7 @@ use basemat::interface::Coulomb;
 use basemat::{Result, Simulation};
 
 use super::{assert_same_motion, push, soil};
-use crate::scene::block;
+use crate::support::block_on_springs::block;
 
 /// The convolution as a triple loop over the kernel's classes, with its own store.
 struct Plain {

@@ -1,18 +1,19 @@
-//! Implementations of every trait from outside the crate, run in a simulation.
+//! GOAL: every trait can be implemented outside the crate, and all of them together.
+//! SCENE: a block on springs or half-plane under a pulse, one part replaced at a time.
+//! REFERENCE: the part of the crate that is the same or nearly so; a closed ledger.
 
 mod element;
+mod forwarding;
 mod free_field;
 mod fundamental_solution;
 mod ground;
 mod history;
 mod law;
-#[path = "../support/block_on_springs.rs"]
-mod scene;
 mod scheme;
 mod structure;
+#[path = "../support/mod.rs"]
+mod support;
 mod threads_and_texts;
-#[path = "../support/wrapped.rs"]
-mod wrapped;
 
 use std::sync::Arc;
 

@@ -1,4 +1,6 @@
-//! A structure of one's own, and one that is another one.
+//! GOAL: a structure of one's own, linear and nonlinear, and one that wraps another.
+//! SCENE: a mass on a hardening spring on a rigid base; a wrapped block.
+//! REFERENCE: the linear limit; the block itself; one commit per accepted step.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -8,8 +10,8 @@ use basemat::interface::Coulomb;
 use basemat::structure::{ContactNode, Structure, Triplets};
 
 use super::{assert_same_motion, run, shaken};
-use crate::scene::{bed, block};
-use crate::wrapped::Bare;
+use crate::support::block_on_springs::{bed, block};
+use crate::support::wrapped::Bare;
 
 /// A mass on a hardening spring on a rigid base: force k d + 4 d³ · k per m².
 pub(crate) struct Hardening {

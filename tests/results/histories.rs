@@ -1,4 +1,6 @@
-//! Histories and peaks against the states.
+//! GOAL: recorded series, peaks and envelopes.
+//! SCENE: the block of `main`, recorded in full and thinned.
+//! REFERENCE: the states, by other means.
 
 use basemat::Error;
 use basemat::results::{EnergyShares, Quantity, Recorder};

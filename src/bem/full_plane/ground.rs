@@ -30,7 +30,7 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 /// The scheme is not stable for every step: see [the module](super). [`Ground::prepare`], which the
 /// builder of a simulation calls, assesses the discrete operator for this boundary, step and kernel
 /// with the base uplifted and bonded, and ends with [`Error::Unstable`] if perturbations grow by
-/// more than 1e-4 per step. [`Ground::stability`] has the figures. The assessment takes the time of
+/// more than 1e-4 per step. [`FullPlaneGround::stability`] has the figures. The assessment takes the time of
 /// a thousand factorisations of complex matrices of order 2E, ten times that if modes grow: with
 /// the 20 elements of the paper 0.2 s and up to 2 s (release build). It is paid for once per step
 /// size, and [`FullPlaneGround::skip_assessment`] saves it.
@@ -134,7 +134,7 @@ impl FullPlaneGround {
         self
     }
 
-    /// Marches even if perturbations grow; how fast is in [`Ground::stability`] all the same.
+    /// Marches even if perturbations grow; how fast is in [`FullPlaneGround::stability`] all the same.
     #[must_use]
     pub fn allow_growth(mut self) -> Self {
         self.assessment = Assessment::Reported;
@@ -180,6 +180,13 @@ impl FullPlaneGround {
     pub fn assess(&mut self, time_step: f64) -> Result<&GroundStability> {
         let kernel = (self.make_kernel)(self.boundary.segments(), self.soil, time_step)?;
         self.assess_kernel(kernel.as_ref(), time_step)
+    }
+
+    /// Growth of the march that the last assessment found, see [`Ground::prepare`]; `None` before
+    /// it, and where it was skipped. From a simulation by way of
+    /// [`Simulation::ground`](crate::Simulation::ground).
+    pub fn stability(&self) -> Option<&GroundStability> {
+        self.stability.as_ref().map(|(_, found)| found)
     }
 
     fn assess_kernel(
@@ -248,10 +255,6 @@ impl Ground for FullPlaneGround {
         self.prepared = Some(Prepared::new(&self.boundary, kernel, time_step, incident)?);
         self.conflict.set(false);
         Ok(())
-    }
-
-    fn stability(&self) -> Option<&GroundStability> {
-        self.stability.as_ref().map(|(_, found)| found)
     }
 
     fn reserve(&mut self, steps: usize) -> Result<()> {

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use super::stability::{BoundaryCondition, Stability};
+use super::condition::BoundaryCondition;
+use super::stability::Stability;
 use super::stability_symbol::Symbol;
 use super::{Boundary, BoundaryKernel};
 use crate::error::Result;

@@ -22,7 +22,7 @@
 use crate::fundamental::gauss;
 use crate::soil::Soil;
 
-use super::convolution_quadrature::CqMethod;
+use super::cq_method::CqMethod;
 use super::laplace_element::View;
 
 /// Terms k: A has degree 2k along an element, and the largest Gauss rule is exact to degree 51.

@@ -57,8 +57,10 @@
 
 mod block;
 mod boundary;
+mod condition;
 mod convolution;
 mod convolution_quadrature;
+mod cq_method;
 mod ground;
 mod ground_stability;
 mod incident;
@@ -80,13 +82,15 @@ mod step_integrals;
 mod time_kernel;
 
 pub use boundary::Boundary;
-pub use convolution_quadrature::{ConvolutionQuadrature, CqMethod};
+pub use condition::BoundaryCondition;
+pub use convolution_quadrature::ConvolutionQuadrature;
+pub use cq_method::CqMethod;
 pub use ground::FullPlaneGround;
 pub use ground_stability::GroundStability;
 pub use incident::{IncidentField, VerticalWaves};
 pub use march::{BoundaryMarch, Given};
 pub use segment::Segment;
-pub use stability::{BoundaryCondition, Stability};
+pub use stability::Stability;
 pub use time_kernel::TimeKernel;
 
 use crate::error::Result;

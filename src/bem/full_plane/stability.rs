@@ -11,6 +11,7 @@ use std::fmt;
 use crate::error::{Error, Result, positive};
 
 use super::BoundaryKernel;
+use super::condition::BoundaryCondition;
 use super::stability_passivity::passivity;
 use super::stability_symbol::Symbol;
 use super::stability_zeros::smallest_zero;
@@ -26,15 +27,6 @@ pub(super) fn check_growth(smallest: f64) -> Result<()> {
         value: smallest,
         needed: "between 1e-7 and 0.5 per step",
     })
-}
-
-/// What is known on a boundary element.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BoundaryCondition {
-    /// The traction is known (zero on a free surface), the displacement is sought.
-    TractionFree,
-    /// The displacement is known (contact that sticks), the traction is sought.
-    PrescribedDisplacement,
 }
 
 /// Assessment of a boundary equation that is to be marched.

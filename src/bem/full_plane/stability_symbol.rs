@@ -21,7 +21,7 @@ use crate::error::{Error, Result, same_length};
 use crate::linalg::{DenseFactor, largest};
 
 use super::BoundaryKernel;
-use super::stability::BoundaryCondition;
+use super::condition::BoundaryCondition;
 
 /// Powers p = 1 … POWERS of N/n.
 const POWERS: usize = 10;

@@ -10,7 +10,7 @@ use crate::interface::StepStart;
 use crate::linalg::dense_condition;
 
 /// Conditions up to which the effective stiffness and the Delassus operator are accepted, by the
-/// measurements of `tests/conditioning.rs`. Displacements err by about thirty roundings times the
+/// measurements of `tests/coupled/conditioning.rs`. Displacements err by about thirty roundings times the
 /// condition of the former: a percent is left here. Tractions err where they do not matter (a
 /// light structure feels three of their sums), until nothing is left of the ground in the sum.
 const STIFFNESS_LIMIT: f64 = 1e12;

@@ -72,7 +72,7 @@ impl StaticState {
 const NAME: &str = "static stiffness matrix";
 /// Force out of balance, relative to the load, up to which a state is one of equilibrium.
 const EQUILIBRIUM: f64 = 1e-7;
-/// Condition beyond which rounding of K u is a larger force than that (`tests/conditioning.rs`).
+/// Condition beyond which rounding of K u is a larger force than that (`tests/coupled/conditioning.rs`).
 const STIFFEST_CONDITION: f64 = 1e10;
 /// Nothing has happened yet.
 const AT_REST: StepStart = StepStart {

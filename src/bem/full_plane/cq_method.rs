@@ -1,0 +1,25 @@
+//! The formulas behind convolution quadrature.
+
+use super::laplace_bessel::Complex64;
+
+/// Backward-differentiation formula behind a convolution quadrature.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum CqMethod {
+    /// δ = 1 − ζ: first order, strongly damped.
+    Bdf1,
+    /// δ = (1 − ζ) + (1 − ζ)²/2: second order.
+    #[default]
+    Bdf2,
+}
+
+impl CqMethod {
+    /// δ(ζ).
+    pub(super) fn symbol(self, zeta: Complex64) -> Complex64 {
+        let difference = 1.0 - zeta;
+        match self {
+            Self::Bdf1 => difference,
+            Self::Bdf2 => difference * (1.0 + 0.5 * difference),
+        }
+    }
+}

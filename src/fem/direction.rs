@@ -1,0 +1,18 @@
+//! Directions of unknowns.
+
+/// Direction of an unknown at a node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// Displacement to the right, m.
+    X,
+    /// Displacement upwards, m.
+    Y,
+    /// Rotation, counter-clockwise, rad.
+    Rotation,
+}
+
+/// Directions of elements without rotations.
+pub(crate) const TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
+
+/// Directions of beams and of masses with rotary inertia.
+pub(crate) const FRAME: &[Direction] = &[Direction::X, Direction::Y, Direction::Rotation];

@@ -1,0 +1,267 @@
+//! Meshes from Gmsh.
+
+mod parse;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Read;
+use std::path::Path;
+
+use crate::error::{Error, MeshFileError, Result};
+use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
+
+/// A mesh of quadrilaterals as Gmsh writes it: file format 4.1, ASCII (`gmsh -2 -format msh41`).
+///
+/// Quadrilaterals get their material, and lines their meaning, from the names of physical groups.
+/// An element that belongs to several groups counts with the first of them; one in none has the
+/// name "". Points and lines that nobody asks for are passed over; triangles and nodes outside the
+/// plane z = 0 are refused. Clockwise quadrilaterals are turned round. Elements of the second order
+/// have eight nodes (`Mesh.SecondOrderIncomplete = 1`) and become [`Quad8`]s.
+///
+/// ```
+/// use basemat::fem::Material;
+/// use basemat::io::GmshMesh;
+/// use basemat::structure::{FemModel, Structure};
+///
+/// // The example of Gmsh's manual: two squares side by side; here with a named line below.
+/// let text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n\
+///     $PhysicalNames\n2\n1 7 \"base\"\n2 9 \"wall\"\n$EndPhysicalNames\n\
+///     $Entities\n0 1 1 0\n1 0 0 0 2 0 0 1 7 0\n1 0 0 0 2 1 0 1 9 0\n$EndEntities\n\
+///     $Nodes\n1 6 1 6\n2 1 0 6\n1\n2\n3\n4\n5\n6\n\
+///     0. 0. 0.\n1. 0. 0.\n1. 1. 0.\n0. 1. 0.\n2. 0. 0.\n2. 1. 0.\n$EndNodes\n\
+///     $Elements\n2 4 1 4\n1 1 1 2\n1 1 2\n2 2 5\n2 1 3 2\n3 1 2 3 4\n4 2 5 6 3\n$EndElements\n";
+/// let gmsh = GmshMesh::from_reader("wall.msh", text.as_bytes())?;
+/// assert_eq!(gmsh.surfaces(), ["wall"]);
+/// let concrete = Material::new(30.0e9, 0.2, 2400.0)?;
+/// let mesh = gmsh.mesh(&[("wall", concrete)])?;
+/// let model = FemModel::new(mesh, &gmsh.line("base")?)?;
+/// assert_eq!((model.unknowns(), model.contact_nodes().len()), (12, 3));
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct GmshMesh {
+    file: String,
+    /// Coordinates of the nodes that quadrilaterals use, in the order of the file.
+    nodes: Vec<[f64; 2]>,
+    quads: Vec<Cell>,
+    lines: Vec<Cell>,
+}
+
+/// An element: the name of its group, and its nodes as indices.
+#[derive(Debug, Clone, PartialEq)]
+struct Cell {
+    group: String,
+    nodes: Vec<usize>,
+}
+
+/// Distance from the plane z = 0 that is rounding, relative to the size of the mesh.
+const FLAT: f64 = 1e-9;
+
+impl GmshMesh {
+    /// Reads a `.msh` file.
+    ///
+    /// # Errors
+    /// [`Error::MeshFile`] with the line and the reason.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self> {
+        let path = path.as_ref();
+        let name = path.display().to_string();
+        match std::fs::File::open(path) {
+            Ok(file) => Self::from_reader(&name, file),
+            Err(error) => Err(Error::MeshFile {
+                file: name,
+                line: 0,
+                reason: MeshFileError::Unreadable(error.kind()),
+            }),
+        }
+    }
+
+    /// Reads the same from any source of bytes; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// [`Error::MeshFile`] with the line and the reason.
+    pub fn from_reader(name: &str, source: impl Read) -> Result<Self> {
+        let refuse = |(line, reason)| Error::MeshFile { file: name.to_owned(), line, reason };
+        let raw = parse::read(source).map_err(refuse)?;
+        let mut used = BTreeMap::new();
+        let quads = raw.cells.iter().filter(|cell| cell.is_quadrilateral());
+        for cell in quads {
+            for &tag in &cell.nodes {
+                let place =
+                    raw.places.get(&tag).ok_or_else(|| refuse((cell.line, no_node(tag))))?;
+                used.insert(*place, tag);
+            }
+        }
+        // In the order of the file, whatever the tags.
+        let index: BTreeMap<u64, usize> =
+            used.values().enumerate().map(|(k, &tag)| (tag, k)).collect();
+        let points = || used.keys().map(|&place| &raw.coordinates[place]);
+        let size = points().fold(0.0_f64, |most, point| {
+            let [x, y, _] = point.values;
+            most.max(x.abs()).max(y.abs())
+        });
+        if let Some(point) = points().find(|point| point.values[2].abs() > FLAT * size) {
+            let text = format!("a node at z = {}", point.values[2]);
+            return Err(refuse((point.line, MeshFileError::Unsupported { text })));
+        }
+        let nodes = points().map(|point| [point.values[0], point.values[1]]).collect();
+        let mut mesh = Self { file: name.to_owned(), nodes, quads: Vec::new(), lines: Vec::new() };
+        for cell in &raw.cells {
+            // Lines of the geometry that no quadrilateral touches mean nothing here.
+            let places: Option<Vec<usize>> =
+                cell.nodes.iter().map(|tag| index.get(tag).copied()).collect();
+            let Some(mut nodes) = places else { continue };
+            let group = raw.group(cell);
+            if cell.is_quadrilateral() {
+                mesh.turn_counter_clockwise(&mut nodes);
+                mesh.quads.push(Cell { group, nodes });
+            } else {
+                mesh.lines.push(Cell { group, nodes });
+            }
+        }
+        Ok(mesh)
+    }
+
+    /// Coordinates of the nodes of quadrilaterals, m.
+    pub fn nodes(&self) -> &[[f64; 2]] {
+        &self.nodes
+    }
+
+    /// Names of the groups of quadrilaterals, sorted.
+    pub fn surfaces(&self) -> Vec<&str> {
+        names(&self.quads)
+    }
+
+    /// Names of the groups of lines, sorted.
+    pub fn lines(&self) -> Vec<&str> {
+        names(&self.lines)
+    }
+
+    /// The quadrilaterals, each with the material of its group; more elements can be added. Nodes
+    /// keep their indices.
+    ///
+    /// # Errors
+    /// [`Error::MeshFile`] for a group without a material here or with two of them, or a material
+    /// without a group; errors of [`Mesh::add`] for quadrilaterals without area or with a reflex corner.
+    pub fn mesh(&self, materials: &[(&str, Material)]) -> Result<Mesh> {
+        self.mesh_of(materials, QuadFormulation::default())
+    }
+
+    /// [`GmshMesh::mesh`] with another formulation of the quadrilaterals of four nodes.
+    ///
+    /// # Errors
+    /// As for [`GmshMesh::mesh`].
+    pub fn mesh_of(
+        &self,
+        materials: &[(&str, Material)],
+        formulation: QuadFormulation,
+    ) -> Result<Mesh> {
+        let surfaces = self.surfaces();
+        if let Some((name, _)) = materials.iter().find(|(name, _)| !surfaces.contains(name)) {
+            return Err(self.missing(format!("surface '{name}'")));
+        }
+        for (k, (name, _)) in materials.iter().enumerate() {
+            if materials[..k].iter().any(|(other, _)| other == name) {
+                let what = format!("the material of surface '{name}'");
+                return Err(self.refuse(MeshFileError::Twice { what }));
+            }
+        }
+        let mut mesh = Mesh::new();
+        for &[x, y] in &self.nodes {
+            mesh.add_node(x, y)?;
+        }
+        for quad in &self.quads {
+            let Some((_, material)) = materials.iter().find(|(name, _)| *name == quad.group) else {
+                return Err(self.missing(format!("material for its surface '{}'", quad.group)));
+            };
+            match *quad.nodes {
+                [a, b, c, d] => mesh.add(Quad4::new([a, b, c, d], *material, formulation))?,
+                [a, b, c, d, ab, bc, cd, da] => {
+                    mesh.add(Quad8::new([a, b, c, d, ab, bc, cd, da], *material))?
+                }
+                _ => continue,
+            };
+        }
+        Ok(mesh)
+    }
+
+    /// Nodes of the lines of group `name`, from left to right: the contact nodes of a base.
+    ///
+    /// # Errors
+    /// [`Error::MeshFile`] if there is no such group, or its lines have a gap:
+    /// [`GmshMesh::foundations`] gives what is between gaps.
+    pub fn line(&self, name: &str) -> Result<Vec<usize>> {
+        let mut pieces = self.foundations(name)?;
+        match (pieces.pop(), pieces.len()) {
+            (Some(line), 0) => Ok(line),
+            (_, others) => {
+                let text = format!(
+                    "line '{name}' as one: it is in {} pieces, which `GmshMesh::foundations` gives",
+                    others + 1
+                );
+                Err(self.refuse(MeshFileError::Unsupported { text }))
+            }
+        }
+    }
+
+    /// Nodes of the lines of group `name`, from left to right, for each piece that hangs together,
+    /// from left to right: the contact nodes of separate footings, for [`FemModel::on_foundations`].
+    /// Footings with names of their own are a [`line`](GmshMesh::line) each.
+    ///
+    /// [`FemModel::on_foundations`]: crate::structure::FemModel::on_foundations
+    ///
+    /// # Errors
+    /// [`Error::MeshFile`] if there is no such group.
+    pub fn foundations(&self, name: &str) -> Result<Vec<Vec<usize>>> {
+        let mut pieces: Vec<BTreeSet<usize>> = Vec::new();
+        for line in self.lines.iter().filter(|line| line.group == name) {
+            let mut joined: BTreeSet<usize> = line.nodes.iter().copied().collect();
+            pieces.retain_mut(|piece| {
+                let apart = line.nodes.iter().all(|node| !piece.contains(node));
+                if !apart {
+                    joined.append(piece);
+                }
+                apart
+            });
+            pieces.push(joined);
+        }
+        if pieces.is_empty() {
+            return Err(self.missing(format!("line '{name}'")));
+        }
+        let x = |node: usize| self.nodes[node][0];
+        let from_the_left = |piece: BTreeSet<usize>| {
+            let mut nodes: Vec<usize> = piece.into_iter().collect();
+            nodes.sort_by(|&a, &b| x(a).total_cmp(&x(b)).then(a.cmp(&b)));
+            nodes
+        };
+        let mut pieces: Vec<Vec<usize>> = pieces.into_iter().map(from_the_left).collect();
+        pieces.sort_by(|a, b| x(a[0]).total_cmp(&x(b[0])));
+        Ok(pieces)
+    }
+
+    fn missing(&self, what: String) -> Error {
+        self.refuse(MeshFileError::Missing { what })
+    }
+
+    fn refuse(&self, reason: MeshFileError) -> Error {
+        Error::MeshFile { file: self.file.clone(), line: 0, reason }
+    }
+
+    /// Corners first, then the nodes between them, as Gmsh has them and [`Quad8`].
+    fn turn_counter_clockwise(&self, nodes: &mut [usize]) {
+        let place = |k: usize| self.nodes[nodes[k]];
+        let [a, b, c, d] = [place(0), place(1), place(2), place(3)];
+        let area = (c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]);
+        if area < 0.0 {
+            nodes[1..4].reverse();
+            nodes[4..].reverse();
+        }
+    }
+}
+
+fn no_node(tag: u64) -> MeshFileError {
+    MeshFileError::Missing { what: format!("node {tag}") }
+}
+
+fn names(cells: &[Cell]) -> Vec<&str> {
+    let all: BTreeSet<&str> = cells.iter().map(|cell| cell.group.as_str()).collect();
+    all.into_iter().collect()
+}

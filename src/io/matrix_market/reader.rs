@@ -1,0 +1,219 @@
+//! Reader of Matrix Market files.
+
+use std::io::{BufReader, Read};
+
+use crate::bounded_line::read_line;
+use crate::error::MatrixFileError;
+use crate::matrix::MOST_ROWS;
+use crate::structure::Triplets;
+
+/// Most entries of an array, which has no other bound than what its size line says.
+const MOST_ROWS_OF_ARRAY: usize = 20_000;
+
+/// Why a line is refused, and which.
+type Reason<T> = Result<T, (usize, MatrixFileError)>;
+
+/// What the first line says.
+struct Header {
+    coordinate: bool,
+    symmetric: bool,
+}
+
+/// The lines of the file.
+struct Lines<'a> {
+    source: BufReader<&'a mut dyn Read>,
+    bytes: Vec<u8>,
+    number: usize,
+}
+
+impl Lines<'_> {
+    /// Reads the next line, without white space at its ends; false at the end of the file.
+    fn advance(&mut self) -> Reason<bool> {
+        let line = self.number + 1;
+        let read = read_line(&mut self.source, &mut self.bytes);
+        let there = read.map_err(|unread| (line, unread.into()))?;
+        if there {
+            self.number = line;
+        }
+        Ok(there)
+    }
+
+    /// The next line that is neither empty nor a comment; false at the end of the file.
+    fn advance_to_data(&mut self) -> Reason<bool> {
+        while self.advance()? {
+            let text = self.bytes.trim_ascii();
+            if !text.is_empty() && text[0] != b'%' {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    fn text(&self) -> std::borrow::Cow<'_, str> {
+        String::from_utf8_lossy(self.bytes.trim_ascii())
+    }
+
+    fn refuse(&self, reason: MatrixFileError) -> (usize, MatrixFileError) {
+        (self.number, reason)
+    }
+}
+
+pub(super) fn read(source: &mut dyn Read) -> Reason<Triplets> {
+    let mut lines = Lines { source: BufReader::new(source), bytes: Vec::new(), number: 0 };
+    if !lines.advance()? {
+        return Err((0, MatrixFileError::Empty));
+    }
+    let header = header(&lines.text()).map_err(|reason| lines.refuse(reason))?;
+    if !lines.advance_to_data()? {
+        return Err(lines.refuse(MatrixFileError::Fields { found: 0, needed: sizes(&header) }));
+    }
+    let size = fields(&lines.text(), sizes(&header))
+        .and_then(|fields| fields.into_iter().map(whole_number).collect::<Result<Vec<_>, _>>())
+        .map_err(|reason| lines.refuse(reason))?;
+    let (rows, columns) = (size[0], size[1]);
+    if rows != columns {
+        return Err(lines.refuse(MatrixFileError::NotSquare { rows, columns }));
+    }
+    let most = if header.coordinate { MOST_ROWS } else { MOST_ROWS_OF_ARRAY };
+    if rows > most {
+        return Err(lines.refuse(MatrixFileError::TooLarge { rows, most }));
+    }
+    let mut matrix = Triplets::new(rows);
+    if header.coordinate {
+        coordinates(&mut lines, &header, size[2], &mut matrix)?;
+    } else {
+        array(&mut lines, &header, &mut matrix)?;
+    }
+    Ok(matrix)
+}
+
+/// Numbers in the size line.
+fn sizes(header: &Header) -> usize {
+    if header.coordinate { 3 } else { 2 }
+}
+
+fn header(line: &str) -> Result<Header, MatrixFileError> {
+    let cut = || line.chars().take(80).collect::<String>();
+    let words: Vec<String> = line.split_whitespace().map(str::to_ascii_lowercase).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let &["%%matrixmarket", object, format, field, symmetry] = words.as_slice() else {
+        return Err(MatrixFileError::Header { text: cut() });
+    };
+    let unsupported = |word: &str| MatrixFileError::Unsupported { text: word.to_owned() };
+    if object != "matrix" {
+        return Err(unsupported(object));
+    }
+    if !["real", "double", "integer"].contains(&field) {
+        return Err(unsupported(field));
+    }
+    let coordinate = match format {
+        "coordinate" => true,
+        "array" => false,
+        _ => return Err(unsupported(format)),
+    };
+    let symmetric = match symmetry {
+        "general" => false,
+        "symmetric" => true,
+        _ => return Err(unsupported(symmetry)),
+    };
+    Ok(Header { coordinate, symmetric })
+}
+
+/// Exactly `needed` fields.
+fn fields(line: &str, needed: usize) -> Result<Vec<&str>, MatrixFileError> {
+    let fields: Vec<&str> = line.split_ascii_whitespace().collect();
+    let found = fields.len();
+    if found == needed { Ok(fields) } else { Err(MatrixFileError::Fields { found, needed }) }
+}
+
+fn not_a_number(field: &str) -> MatrixFileError {
+    MatrixFileError::NotANumber { text: field.chars().take(40).collect() }
+}
+
+fn whole_number(field: &str) -> Result<usize, MatrixFileError> {
+    field.parse().map_err(|_| not_a_number(field))
+}
+
+/// A finite number; Fortran's `1.0D+3` counts as one.
+fn number(field: &str) -> Result<f64, MatrixFileError> {
+    let value = field.parse::<f64>().or_else(|_| field.replace(['D', 'd'], "e").parse());
+    match value {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err(not_a_number(field)),
+    }
+}
+
+/// An index from 1, as one from 0.
+fn index(field: &str, order: usize) -> Result<usize, MatrixFileError> {
+    let index = whole_number(field)?;
+    if (1..=order).contains(&index) {
+        Ok(index - 1)
+    } else {
+        Err(MatrixFileError::Index { index, order })
+    }
+}
+
+/// Lines of row, column and value.
+fn coordinates(
+    lines: &mut Lines,
+    header: &Header,
+    needed: usize,
+    matrix: &mut Triplets,
+) -> Reason<()> {
+    let order = matrix.order();
+    let entry = |line: &str| -> Result<(usize, usize, f64), MatrixFileError> {
+        let fields = fields(line, 3)?;
+        Ok((index(fields[0], order)?, index(fields[1], order)?, number(fields[2])?))
+    };
+    for found in 0..needed {
+        if !lines.advance_to_data()? {
+            return Err(lines.refuse(MatrixFileError::Entries { found, needed }));
+        }
+        let (row, column, value) = entry(&lines.text()).map_err(|reason| lines.refuse(reason))?;
+        if header.symmetric && row < column {
+            return Err(
+                lines.refuse(MatrixFileError::AboveDiagonal { row: row + 1, column: column + 1 })
+            );
+        }
+        matrix.add(row, column, value);
+        if header.symmetric && row != column {
+            matrix.add(column, row, value);
+        }
+    }
+    end(lines, needed)
+}
+
+/// Values column by column, from the diagonal down if symmetric; zeros are left out.
+fn array(lines: &mut Lines, header: &Header, matrix: &mut Triplets) -> Reason<()> {
+    let order = matrix.order();
+    let needed = if header.symmetric { order * (order + 1) / 2 } else { order * order };
+    let mut found = 0;
+    for column in 0..order {
+        for row in if header.symmetric { column } else { 0 }..order {
+            if !lines.advance_to_data()? {
+                return Err(lines.refuse(MatrixFileError::Entries { found, needed }));
+            }
+            let text = lines.text();
+            let value = fields(&text, 1)
+                .and_then(|fields| number(fields[0]))
+                .map_err(|reason| lines.refuse(reason))?;
+            found += 1;
+            if value == 0.0 {
+                continue;
+            }
+            matrix.add(row, column, value);
+            if header.symmetric && row != column {
+                matrix.add(column, row, value);
+            }
+        }
+    }
+    end(lines, needed)
+}
+
+/// Refuses more entries than the size line announced.
+fn end(lines: &mut Lines, needed: usize) -> Reason<()> {
+    if lines.advance_to_data()? {
+        return Err(lines.refuse(MatrixFileError::Entries { found: needed + 1, needed }));
+    }
+    Ok(())
+}

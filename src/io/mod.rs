@@ -1,0 +1,15 @@
+//! Files of other programs: meshes from Gmsh, matrices by Matrix Market, grids for ParaView.
+//!
+//! Records of ground motion are read by [`motion`](crate::motion), without this feature.
+//!
+//! | program or format | here |
+//! |---|---|
+//! | Gmsh, `.msh` 4.1 ASCII | [`GmshMesh`] |
+//! | Matrix Market, `.mtx` | [`Triplets::read_matrix_market`](crate::structure::Triplets::read_matrix_market), `from_matrix_market`, `write_matrix_market`, `to_matrix_market` |
+//! | ParaView, `.pvd` and `.vtu` | [`paraview`] |
+
+mod gmsh;
+mod matrix_market;
+pub mod paraview;
+
+pub use gmsh::GmshMesh;
