@@ -7,8 +7,8 @@
 //! 3. If that does not settle: follow the solution from a load under which every element is open,
 //!    one change of mode at a time (see [`super::path`]).
 
-use super::problem::{ContactInput, ContactSolver};
 use super::path::Path;
+use super::problem::{ContactInput, ContactSolver};
 use crate::error::StepError;
 use crate::interface::{Condition, ContactState, Mode, Tolerance};
 

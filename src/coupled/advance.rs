@@ -141,7 +141,8 @@ impl State {
         for (value, probe) in state.probes.iter_mut().zip(&scene.probe_rows) {
             let [u, v, a] = &probe.rows;
             let carried = probe.carried.iter().zip(translations);
-            let carried: f64 = carried.map(|(r, y)| r[0] * y.displacement[0] + r[1] * y.displacement[1]).sum();
+            let carried: f64 =
+                carried.map(|(r, y)| r[0] * y.displacement[0] + r[1] * y.displacement[1]).sum();
             *value = u.of(displacement) + v.of(velocity) + a.of(acceleration) + carried;
         }
     }

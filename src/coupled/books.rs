@@ -150,7 +150,8 @@ impl Books {
         let stored = energy.stored - start.stored - against;
         let dissipated = energy.dissipated - start.dissipated;
         let ledger = &mut self.ledger;
-        ledger.numerical += done - (stored - self.nonlinear_work) - (dissipated - ledger.hysteresis);
+        ledger.numerical +=
+            done - (stored - self.nonlinear_work) - (dissipated - ledger.hysteresis);
         (self.nonlinear_work, ledger.hysteresis) = (stored, dissipated);
     }
 
@@ -261,8 +262,7 @@ impl Books {
             if scene.compliant {
                 let (e, k) = (i % count, i / count);
                 let (law, start) = (scene.law(e), &state.start[e]);
-                let [c0, c1] =
-                    [start.mode, increment.modes[e]].map(|mode| law.compliance(mode)[k]);
+                let [c0, c1] = [start.mode, increment.modes[e]].map(|mode| law.compliance(mode)[k]);
                 let t0 = [start.state.pressure, start.state.shear][k];
                 let t1 = at_rest + change;
                 elastic = c0 * t0 - c1 * t1;

@@ -209,7 +209,8 @@ impl SimulationBuilder {
         let structure =
             structure.ok_or(missing("structure", "give one to the builder with `structure`"))?;
         let ground = self.ground.take();
-        let mut ground = ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
+        let mut ground =
+            ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
         let elements = ground.elements().to_vec();
         crate::bem::check_order(&elements)?;
         let count = elements.len();

@@ -4,11 +4,11 @@ use std::fmt;
 use std::time::Duration;
 
 use super::ledger::Ledger;
-use crate::contact::SearchMethod;
 use super::peak::{Extremes, Peak, ProbePeak, probe_index};
 use super::probe::Probe;
 use super::state::{State, Transition};
 use crate::bem::ContactElement;
+use crate::contact::SearchMethod;
 use crate::error::Result;
 use crate::results::unit::{number, printed};
 

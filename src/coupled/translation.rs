@@ -20,8 +20,7 @@ pub(crate) struct Translation {
 impl Translation {
     /// The next one, which ends at `displacement`.
     pub(crate) fn next(&self, displacement: [f64; 2], c: &SchemeCoefficients) -> Self {
-        let increment: [f64; 2] =
-            std::array::from_fn(|k| displacement[k] - self.displacement[k]);
+        let increment: [f64; 2] = std::array::from_fn(|k| displacement[k] - self.displacement[k]);
         let stepped = |coefficients| -> [f64; 2] {
             std::array::from_fn(|k| {
                 let (v, a) = (self.new_velocity[k], self.new_acceleration[k]);

@@ -9,4 +9,5 @@ mod preload_of_soft_structures;
 #[path = "../support/mod.rs"]
 mod support;
 mod sweep;
+mod travel;
 mod wave_passage;

@@ -81,7 +81,8 @@ fn own_structure_linear_and_nonlinear() {
     assert_eq!(commits.load(Ordering::Relaxed), 600, "once per accepted step");
     assert_same_motion(&linear, &soft, 1e-7);
     let (run, hard) = run(scene().structure(structure(1.0e4 * SPRING)));
-    let drift = |simulation: &Simulation| Hardening::drift(simulation.state().absolute_displacement());
+    let drift =
+        |simulation: &Simulation| Hardening::drift(simulation.state().absolute_displacement());
     assert!((drift(&hard) - drift(&soft)).abs() > 1e-5, "the cubic term acts: {run}");
 }
 

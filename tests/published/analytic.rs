@@ -182,7 +182,9 @@ fn rocking(shear_wave_speed: f64, elements: usize) -> [f64; 3] {
     let at_rest = simulation.state().normal_force;
     assert!((at_rest / weight - 1.0).abs() < 1e-9, "normal force {at_rest}, weight {weight}");
     let mut tilts = vec![0.0];
-    let run = simulation.run(whole(1.5 / time_step), |s| tilts.push(s.absolute_displacement()[2])).unwrap();
+    let run = simulation
+        .run(whole(1.5 / time_step), |s| tilts.push(s.absolute_displacement()[2]))
+        .unwrap();
     assert!(run.ledger_residual < 1e-9, "ledger open by {:.1e}", run.ledger_residual);
     assert!(run.ledger.soil > 0.0, "energy radiated: {:e}", run.ledger.soil);
     let peak =

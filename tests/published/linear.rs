@@ -116,7 +116,9 @@ fn block_errors(
     density: f64,
     mesh: (Grading, usize, f64),
 ) -> [f64; 5] {
-    let roof = |state: &State| state.absolute_displacement()[0] - height * state.absolute_displacement()[2];
+    let roof = |state: &State| {
+        state.absolute_displacement()[0] - height * state.absolute_displacement()[2]
+    };
     structure_errors(
         &format!("td_block_SV_{name}.csv"),
         RigidBlock::new(2.0, height, density).unwrap(),
@@ -170,8 +172,9 @@ fn building_errors(mesh: (Grading, usize, f64)) -> [f64; 7] {
             u[2 + j] - u[0] + j as f64 * u[2]
         }
     };
-    let storey_shear =
-        move |s: &State| first_shear.value(s.absolute_displacement(), s.velocity(), s.acceleration());
+    let storey_shear = move |s: &State| {
+        first_shear.value(s.absolute_displacement(), s.velocity(), s.acceleration())
+    };
     structure_errors(
         "td_shearbuilding3_SV_nu0333_sig1.csv",
         building,

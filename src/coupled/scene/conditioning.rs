@@ -101,11 +101,7 @@ pub(crate) fn assess(
 
 /// Stiffness against inertia where a translation of the structure has little of the latter, or else
 /// stiffness against stiffness.
-fn cause_of_stiffness(
-    scene: &Scene,
-    operators: &Operators,
-    condition: f64,
-) -> (&'static str, f64) {
+fn cause_of_stiffness(scene: &Scene, operators: &Operators, condition: f64) -> (&'static str, f64) {
     let (c, model) = (&scene.coefficients, &scene.model);
     let inertia = |vector: &[f64]| c.acceleration[0] * model.mass.form(vector, vector);
     let stiffness = operators.stiffness_diagonal(model, c);

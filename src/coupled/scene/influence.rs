@@ -99,7 +99,9 @@ impl Influence {
     fn split(base: &Base, translations: &[Vec<f64>; 2], leaders: &[usize]) -> Self {
         let mut parts: Vec<(usize, Part)> = Vec::new();
         for (nodes, elements) in base.foundations() {
-            let Some(leader) = nodes.iter().find_map(|node| node.unknowns().next()) else { continue };
+            let Some(leader) = nodes.iter().find_map(|node| node.unknowns().next()) else {
+                continue;
+            };
             let leader = leaders[leader];
             match parts.iter_mut().find(|(own, _)| *own == leader) {
                 Some((_, part)) => part.elements.extend(elements),

@@ -204,7 +204,10 @@ impl ModalBasis {
         self.project(&momentum, &mut shares);
         let noise = 1e-12 * largest(&shares);
         let rigid = shares.into_iter().zip(&self.stiffness).enumerate();
-        rigid.filter(|(_, (q, k))| **k == 0.0 && q.abs() > noise).map(|(j, (q, _))| (j, q)).collect()
+        rigid
+            .filter(|(_, (q, k))| **k == 0.0 && q.abs() > noise)
+            .map(|(j, (q, _))| (j, q))
+            .collect()
     }
 
     /// Φ q.

@@ -70,8 +70,7 @@ impl Model {
         tangent.matrix.add_to(1.0, &mut at_rest);
         let at_rest = SparseMatrix::new("stiffness matrix", &at_rest)?;
         if let Some([mass, damping, _]) = model.sparse() {
-            let check_sign =
-                |tie| if linear { model.check_stiffness(base, tie) } else { Ok(()) };
+            let check_sign = |tie| if linear { model.check_stiffness(base, tie) } else { Ok(()) };
             let influence = Influence::new(base, &at_rest, [mass, damping], &check_sign)?;
             model.influence = Arc::new(influence);
         }

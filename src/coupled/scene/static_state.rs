@@ -129,8 +129,8 @@ pub(crate) fn solve(
     };
     let mut soil = vec![0.0; size * size];
     ground.static_compliance(&mut soil)?;
-    let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(&soil, base)
-        / total_mass(model).max(f64::MIN_POSITIVE);
+    let mut epsilon =
+        PROXIMAL_SHARE * vertical_stiffness(&soil, base) / total_mass(model).max(f64::MIN_POSITIVE);
 
     let stiffest = epsilon;
 
@@ -223,7 +223,8 @@ pub(crate) fn solve(
     tangent.refill(model, structure, &vec![0.0; n])?;
     // Of the structure against springs as stiff as the first ones.
     let share = epsilon / stiffest;
-    let condition = compliance.map_or(1.0, |mut c| share * c.condition(model, &tangent.matrix, epsilon));
+    let condition =
+        compliance.map_or(1.0, |mut c| share * c.condition(model, &tangent.matrix, epsilon));
     Err(failure(condition, iterations, change))
 }
 

@@ -93,8 +93,12 @@ pub(crate) fn check_force(
     for (translation, direction) in translations.iter().zip(DIRECTIONS) {
         let [_, around] = products(&tangent.matrix, translation);
         for distance in TRANSLATIONS {
-            let moved: Vec<f64> =
-                at_rest.displacement.iter().zip(translation).map(|(u, r)| u + distance * r).collect();
+            let moved: Vec<f64> = at_rest
+                .displacement
+                .iter()
+                .zip(translation)
+                .map(|(u, r)| u + distance * r)
+                .collect();
             let mut force = vec![0.0; n];
             structure.nonlinear_force(&moved, &mut force);
             for (unknown, (force, before)) in force.iter().zip(&at_rest.force).enumerate() {
@@ -141,7 +145,8 @@ impl Resistance {
         let is_free = (0..translation.len())
             .all(|i| force[i].abs() <= ROW * around[i] + DIAGONAL * diagonal[i].abs());
         let share = |i: usize| if around[i] > 0.0 { force[i].abs() / around[i] } else { 0.0 };
-        let unknown = (0..translation.len()).fold(0, |a, b| if share(b) > share(a) { b } else { a });
+        let unknown =
+            (0..translation.len()).fold(0, |a, b| if share(b) > share(a) { b } else { a });
         Self {
             work: over(scale),
             reaction: over(stiffest(stiffness, &diagonal)),

@@ -62,9 +62,7 @@ impl Forcing {
             *value -= start;
         }
         // A ground that cannot go with the motion says why.
-        ground
-            .history(&mut self.history)
-            .map_err(|error| StepError::Ground(Box::new(error)))?;
+        ground.history(&mut self.history).map_err(|error| StepError::Ground(Box::new(error)))?;
         for (values, quantity) in
             [(&self.free_field, "free field"), (&self.history, "history of the ground")]
         {

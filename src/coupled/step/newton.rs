@@ -32,12 +32,7 @@ pub(super) struct Newton {
 impl Newton {
     pub(super) fn new(unknowns: usize) -> Self {
         let zero = || vec![0.0; unknowns];
-        Self {
-            tangent: Tangent::new(unknowns),
-            guess: zero(),
-            linearised: zero(),
-            seen: zero(),
-        }
+        Self { tangent: Tangent::new(unknowns), guess: zero(), linearised: zero(), seen: zero() }
     }
 
     /// Finds the increment from the right-hand side that `solver` knows.
@@ -133,9 +128,10 @@ impl Newton {
         for (i, seen) in self.seen.iter_mut().enumerate() {
             *seen = u[i] + SchemeCoefficients::apply(c, self.guess[i], v[i], a[i]);
         }
-        let translations = forcing.translations.iter().map(|y| {
-            [0, 1].map(|k| y.displacement[k] - (1.0 - c[0]) * y.increment[k])
-        });
+        let translations = forcing
+            .translations
+            .iter()
+            .map(|y| [0, 1].map(|k| y.displacement[k] - (1.0 - c[0]) * y.increment[k]));
         scene.seen_by_force(&mut self.seen, &mut solver.means, translations);
         for (seen, at_rest) in self.seen.iter_mut().zip(&scene.static_state.displacement) {
             *seen += at_rest;
