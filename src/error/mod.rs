@@ -179,6 +179,14 @@ pub enum Error {
         /// How large it is beside that.
         share: f64,
     },
+    /// An element that fills the place of another one, or is the same again.
+    #[error("the element on nodes {nodes:?} lies where element {first} is, and would count twice")]
+    DuplicateElement {
+        /// Index of the element that is there.
+        first: usize,
+        /// Nodes of the one that was to be added.
+        nodes: Vec<usize>,
+    },
     /// A structure that buckles, held at its contact nodes, under the axial forces of its static
     /// state.
     #[error(
