@@ -103,6 +103,12 @@ impl Base {
         }
     }
 
+    /// The unknowns that move a contact node, some more than once.
+    pub(crate) fn unknowns(&self) -> Vec<usize> {
+        let rows = self.nodes.iter().flat_map(|node| node.horizontal.iter().chain(&node.vertical));
+        rows.filter(|(_, weight)| *weight != 0.0).map(|&(unknown, _)| unknown).collect()
+    }
+
     /// The elements of each foundation.
     pub(crate) fn foundations(&self) -> impl Iterator<Item = Range<usize>> + '_ {
         self.foundations.iter().map(|footing| footing.elements.clone())

@@ -8,7 +8,9 @@ use super::ride;
 use crate::error::{Error, Result, same_length};
 use crate::linalg::{SparseFactor, SparseMatrix, indefinite_row, largest};
 use crate::matrix::Matrix;
-use crate::structure::{InternalEnergy, Structure, Triplets, check_mass};
+use crate::structure::{
+    InternalEnergy, Structure, Triplets, check_attached, check_damping, check_mass,
+};
 
 /// Times in nanoseconds that choose the coordinates, as measured by `benches/step.rs`.
 mod cost {
@@ -56,6 +58,9 @@ impl Model {
         let mass = assemble("mass matrix", &|m| structure.mass(m))?;
         check_mass(&mass)?;
         let damping = assemble("damping matrix", &|m| structure.damping(m))?;
+        if !structure.has_active_damping() {
+            check_damping(&damping)?;
+        }
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
         let linear = structure.is_linear();
         let mut model = Self {
@@ -195,6 +200,9 @@ impl Model {
         self.stiffness.add_to(1.0, &mut matrix);
         tangent.add_to(1.0, &mut matrix);
         let untied = SparseMatrix::new("stiffness matrix", &matrix)?;
+        if let Matrix::Sparse(mass) = &self.mass {
+            check_attached(self.structure.as_ref(), &untied, mass, &base.unknowns())?;
+        }
         let stiffest = largest(&untied.diagonal());
         let tie = if stiffest > 0.0 { stiffest } else { 1.0 };
         let [mut horizontal, mut vertical] = [vec![0.0; n], vec![0.0; n]];

@@ -7,6 +7,7 @@ mod by_hand;
 mod curvature;
 mod damping;
 mod dense;
+mod detached;
 mod errors;
 mod frames;
 mod meshes;

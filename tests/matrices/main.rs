@@ -1,5 +1,6 @@
 //! Structures given by their matrices: files, checks, and reduction.
 
+mod damping;
 mod market;
 mod model;
 mod reduction;
