@@ -197,7 +197,9 @@ impl SimulationBuilder {
     /// # Errors
     /// [`Error::Scene`] for a missing part, the typed error of whatever is wrong with a given one.
     /// [`Error::Supported`] for a structure that is held by more than the ground,
-    /// [`Error::Indefinite`] for a negative mass, or a stiffness that is negative with the base held.
+    /// [`Error::Detached`] for one with a part that is not joined to its base,
+    /// [`Error::Indefinite`] for a negative mass or damping, or a stiffness that is negative with the
+    /// base held.
     /// [`Error::Probe`] and [`Error::DuplicateName`] for a probe of an unknown that is not there or a
     /// name that comes twice. [`Error::Preload`] if the structure cannot stand,
     /// [`Error::IllConditioned`] if double precision cannot carry the scene.

@@ -34,7 +34,8 @@ impl ContactNode {
 
     /// The unknowns that move it.
     pub(crate) fn unknowns(&self) -> impl Iterator<Item = usize> {
-        self.horizontal.iter().chain(self.vertical.iter()).map(|(unknown, _)| *unknown)
+        let terms = self.horizontal.iter().chain(self.vertical.iter());
+        terms.filter(|(_, weight)| *weight != 0.0).map(|(unknown, _)| *unknown)
     }
 
     /// The two ends of a rigid flat base from `left` to `right`, unknowns at its middle.

@@ -51,6 +51,15 @@ fn structures_that_write_out_of_range_or_nan_are_refused() {
 }
 
 #[test]
+fn damping_that_feeds_energy_in_is_refused() {
+    let with = |damping| Spoilt { damping, ..Spoilt::sound() }.scene();
+    let error = unbuilt("positive semi-definite", with((1, 1, -1.0)));
+    assert_eq!(error, Error::Indefinite { matrix: "damping matrix", row: 1, diagonal: -1.0 });
+    let error = unbuilt("must be symmetric", with((0, 1, 1.0)));
+    assert!(matches!(error, Error::Scene { quantity: "damping matrix", .. }));
+}
+
+#[test]
 fn structures_with_a_bad_base_are_refused() {
     let with = |nodes: Vec<ContactNode>| Spoilt { nodes, ..Spoilt::sound() }.scene();
     let error = unbuilt("contact nodes", with(vec![ContactNode::free(0.0, 0, 1)]));

@@ -227,6 +227,46 @@ fn a_group_has_one_material() {
     assert!(matches!(error, Error::MeshFile { reason: MeshFileError::Twice { .. }, .. }));
 }
 
+/// GOAL: what a file gives twice is refused, whole sections and single elements.
+#[test]
+fn nothing_counts_twice() {
+    let twice = |text: &str, part: &str| {
+        let (line, reason) = refusal(text);
+        let MeshFileError::Twice { what } = &reason else { panic!("{reason}") };
+        assert!(line > 0 && what.contains(part), "{line}: {what}, not {part}");
+        line
+    };
+    let section = |name: &str, text: &str| {
+        let begin = text.find(&format!("${name}")).unwrap();
+        let end = text.find(&format!("$End{name}")).unwrap() + name.len() + 5;
+        text[begin..end].to_owned()
+    };
+    assert_eq!(twice(&format!("{MANUAL}{}", section("Elements", MANUAL)), "$Elements"), 42);
+    for name in ["MeshFormat", "Nodes", "PhysicalNames", "Entities", "Elements"] {
+        twice(&format!("{STRIPS}{}", section(name, STRIPS)), &format!("section ${name}"));
+    }
+    // The other sections may come more than once, as results do.
+    assert!(read(&format!("{MANUAL}{}", section("NodeData", MANUAL))).is_ok());
+    // Once more as it is, from another corner, clockwise, under another tag and entity.
+    for again in ["1 1 2 3 4", "9 3 4 1 2", "9 4 3 2 1"] {
+        let text = MANUAL.replacen("1 2 1 2\n2 1 3 2\n", "1 3 1 9\n2 1 3 3\n", 1);
+        let line =
+            twice(&text.replacen("$EndElements", &format!("{again}\n$EndElements"), 1), "quad");
+        assert_eq!(line, 25, "{again}");
+    }
+    let other = MANUAL.replacen("\n1 2 1 2\n", "\n2 3 1 3\n", 1);
+    twice(&other.replacen("$EndElements", "2 8 3 1\n3 1 2 3 4\n$EndElements", 1), "nodes 1 2 3 4");
+    let named = STRIPS.replacen("1\n1 7 \"base\"", "2\n1 7 \"base\"\n1 7 \"roof\"", 1);
+    twice(&named, "group 7");
+    let entity = "1 0 0 0 3 0 0 1 7 0\n";
+    let apart = STRIPS.replacen("0 1 1 0\n", "0 2 1 0\n", 1);
+    let with = |second: &str| apart.replacen(entity, &format!("{entity}{second}"), 1);
+    twice(&with(&entity.replace("1 7 0", "1 8 0")), "entity 1");
+    // A line that two curves share is a line.
+    let lines = STRIPS.replacen("2 5 1 5\n1 1 1 2", "2 6 1 6\n1 1 1 3\n8 1 2", 1);
+    assert_eq!(read(&lines).unwrap().foundations("base").unwrap().len(), 2);
+}
+
 /// A square of the second order, clockwise: corners and the nodes between them are turned round.
 #[test]
 fn clockwise_elements_of_the_second_order_are_turned() {

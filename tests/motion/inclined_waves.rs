@@ -78,6 +78,69 @@ fn vertical_incidence_doubles_one_component() {
     }
 }
 
+/// GOAL: no component is prescribed where the other one would be a hundred times as large or more:
+/// SV at 45° and at the critical angle, P near grazing for ν = 0, either near the vertical.
+#[test]
+fn components_that_vanish_are_not_prescribed() {
+    let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 }).unwrap();
+    let refused = |outcome: basemat::Result<TravellingWave>, what: &str| {
+        let Err(error @ Error::Input { value, .. }) = outcome else { panic!("{what}: accepted") };
+        assert!(error.to_string().contains("of the wave") && value <= 0.01, "{what}: {error}");
+    };
+    let near = [0.0_f64, 1e-12, -1e-9, 1e-6, -1e-4, 1e-3];
+    for poisson in [-0.5, -0.1, 0.0, 0.01, 0.25, 0.3, 0.45] {
+        let critical = soil(poisson).speed_ratio_squared().sqrt().asin();
+        let right_angle = std::f64::consts::FRAC_PI_4;
+        for off in near {
+            let sv = |angle: f64| PlaneWave::sv(soil(poisson), angle).unwrap();
+            let what = format!("nu {poisson}, {off:e} rad off");
+            if poisson == 0.0 {
+                // 45 degrees is the critical angle, too, and the vertical component is the larger.
+                let few = off.abs() < 5e-5;
+                let field = sv(right_angle + off).field_from_horizontal(&record, 0.0);
+                if few {
+                    refused(field, &what);
+                } else if let Ok(field) = field {
+                    assert!(field.displacement(0.0, 20.0)[1].abs() < 100.0);
+                }
+            } else {
+                let off = if off.abs() > 1e-4 { 1e-4 } else { off };
+                refused(sv(right_angle + off).field_from_horizontal(&record, 0.0), &what);
+                if off.abs() < 1e-9 {
+                    refused(sv(critical + off).field_from_vertical(&record, 0.0), &what);
+                }
+            }
+            let off = off.abs();
+            refused(sv(off).field_from_vertical(&record, 0.0), &what);
+            let p = PlaneWave::p(soil(poisson), off).unwrap();
+            refused(p.field_from_horizontal(&record, 0.0), &what);
+        }
+    }
+    for off in [1e-3, 1e-6, 1e-12] {
+        let grazing = PlaneWave::p(soil(0.0), std::f64::consts::FRAC_PI_2 - off).unwrap();
+        refused(grazing.field_from_vertical(&record, 0.0), "P, nu 0, grazing");
+        assert!(grazing.field_from_horizontal(&record, 0.0).is_ok());
+    }
+    // Two degrees away it can be done.
+    for (angle, poisson) in [(43.0, 0.0), (43.0, 0.3), (47.0, 0.3), (2.0, 0.3)] {
+        let wave = PlaneWave::sv(soil(poisson), f64::to_radians(angle)).unwrap();
+        assert!(wave.field_from_horizontal(&record, 0.0).is_ok(), "{angle}");
+    }
+}
+
+/// GOAL: amplitudes are numbers, or the angle is refused, for any modulus at the angle at which
+/// Rayleigh's function vanishes.
+#[test]
+fn amplitudes_at_the_double_critical_angle_are_finite_or_refused() {
+    for k in 0..2000 {
+        let soil = Soil::new(1e6 * 1.01_f64.powi(k % 1000), 0.0, 1000.0 + f64::from(k)).unwrap();
+        match PlaneWave::sv(soil, std::f64::consts::FRAC_PI_4) {
+            Ok(wave) => assert!(wave.amplification().iter().flatten().all(|a| a.abs() < 3.0)),
+            Err(error) => assert!(matches!(error, Error::Input { .. })),
+        }
+    }
+}
+
 /// The ratio of the axes for ν = 1/4, 0.8475 to 0.5773 (Ewing, Jardetzky & Press 1957, § 2-2), and
 /// the sense of the ellipse: backwards at the top.
 #[test]

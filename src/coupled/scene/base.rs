@@ -103,6 +103,11 @@ impl Base {
         }
     }
 
+    /// The unknowns that move a contact node, some more than once.
+    pub(crate) fn unknowns(&self) -> Vec<usize> {
+        self.nodes.iter().flat_map(ContactNode::unknowns).collect()
+    }
+
     /// The contact nodes and the elements of each foundation.
     pub(crate) fn foundations(&self) -> impl Iterator<Item = (&[ContactNode], Range<usize>)> + '_ {
         let nodes = |footing: &Outline| &self.nodes[footing.nodes.clone()];

@@ -11,10 +11,9 @@
 //! 1 or 0 to rounding, and then so is B R.
 
 use super::base::{Base, Terms};
-use super::parts::Parts;
 use super::supports;
 use crate::error::{Error, Result};
-use crate::linalg::{SparseFactor, largest};
+use crate::linalg::{Partition, SparseFactor, largest};
 use crate::matrix::SparseMatrix;
 use crate::structure::{ContactNode, Triplets};
 
@@ -88,30 +87,37 @@ impl Influence {
                 needed: "1e-14 or less: contact nodes must be able to translate together",
             });
         }
-        let mut parts = Parts::coupled([stiffness, others[0], others[1]]);
-        for (nodes, _) in base.foundations() {
-            parts.join_all(nodes.iter().flat_map(ContactNode::unknowns));
+        let mut parts = Partition::new(n);
+        for matrix in [stiffness, others[0], others[1]] {
+            parts.couple(matrix);
         }
-        Ok(Self::split(base, &translations, &parts.leaders()))
+        for (nodes, _) in base.foundations() {
+            let mut unknowns = nodes.iter().flat_map(ContactNode::unknowns);
+            if let Some(first) = unknowns.next() {
+                unknowns.for_each(|unknown| parts.join(first, unknown));
+            }
+        }
+        let roots: Vec<usize> = (0..n).map(|unknown| parts.root(unknown)).collect();
+        Ok(Self::split(base, &translations, &roots))
     }
 
     /// Splits the vectors of the whole structure into those of its parts.
-    fn split(base: &Base, translations: &[Vec<f64>; 2], leaders: &[usize]) -> Self {
+    fn split(base: &Base, translations: &[Vec<f64>; 2], roots: &[usize]) -> Self {
         let mut parts: Vec<(usize, Part)> = Vec::new();
         for (nodes, elements) in base.foundations() {
             let Some(leader) = nodes.iter().find_map(|node| node.unknowns().next()) else {
                 continue;
             };
-            let leader = leaders[leader];
-            match parts.iter_mut().find(|(own, _)| *own == leader) {
+            let root = roots[unknown];
+            match parts.iter_mut().find(|(own, _)| *own == root) {
                 Some((_, part)) => part.elements.extend(elements),
                 None => {
                     let vectors = [0, 1].map(|direction| {
                         let vector = translations[direction].iter().enumerate();
-                        let own = vector.filter(|&(i, r)| leaders[i] == leader && *r != 0.0);
+                        let own = vector.filter(|&(i, r)| roots[i] == root && *r != 0.0);
                         own.map(|(i, r)| (i, *r)).collect()
                     });
-                    parts.push((leader, Part { vectors, elements: elements.collect() }));
+                    parts.push((root, Part { vectors, elements: elements.collect() }));
                 }
             }
         }

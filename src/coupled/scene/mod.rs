@@ -6,7 +6,6 @@ pub(crate) mod influence;
 pub(crate) mod modal_basis;
 pub(crate) mod model;
 pub(crate) mod operators;
-mod parts;
 pub(crate) mod static_state;
 pub(crate) mod supports;
 

@@ -16,8 +16,7 @@
 
 use super::base::Terms;
 use super::influence::Influence;
-use super::parts::Parts;
-use crate::linalg::{dot, generalised_modes, largest};
+use crate::linalg::{Partition, dot, generalised_modes, largest};
 use crate::matrix::SparseMatrix;
 
 /// In which coordinates a linear structure is stepped. Results are the same to rounding.
@@ -71,7 +70,9 @@ impl ModalBasis {
         let rigid = values.iter().filter(|value| value.abs() <= noise).count();
         // Below its noise an eigenvalue is a rigid motion's, unless there are too many of them.
         let smallest = values.iter().map(|v| v.abs()).filter(|v| *v > noise);
-        let most = RIGID_MOTIONS * Parts::coupled(matrices).count();
+        let mut parts = Partition::new(n);
+        matrices.iter().for_each(|matrix| parts.couple(matrix));
+        let most = RIGID_MOTIONS * parts.sets().len();
         let uncertain = smallest.fold(top, f64::min) < SMALLEST * top;
         if rigid > most || uncertain || values.first().is_some_and(|least| *least < -noise) {
             return None;

@@ -8,7 +8,9 @@ use super::modal_basis::ModalBasis;
 use crate::error::{Error, Result, same_length};
 use crate::linalg::{SparseMatrix, indefinite_row};
 use crate::matrix::Matrix;
-use crate::structure::{InternalEnergy, Structure, Triplets, check_mass};
+use crate::structure::{
+    InternalEnergy, Structure, Triplets, check_attached, check_damping, check_mass,
+};
 
 /// Times in nanoseconds that choose the coordinates, as measured by `benches/step.rs`.
 mod cost {
@@ -52,6 +54,9 @@ impl Model {
         let mass = assemble("mass matrix", &|m| structure.mass(m))?;
         check_mass(&mass)?;
         let damping = assemble("damping matrix", &|m| structure.damping(m))?;
+        if !structure.has_active_damping() {
+            check_damping(&damping)?;
+        }
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
         let linear = structure.is_linear();
         let mut model = Self {
@@ -70,6 +75,7 @@ impl Model {
         tangent.matrix.add_to(1.0, &mut at_rest);
         let at_rest = SparseMatrix::new("stiffness matrix", &at_rest)?;
         if let Some([mass, damping, _]) = model.sparse() {
+            check_attached(structure, &at_rest, mass, &base.unknowns())?;
             let check_sign = |tie| if linear { model.check_stiffness(base, tie) } else { Ok(()) };
             let influence = Influence::new(base, &at_rest, [mass, damping], &check_sign)?;
             model.influence = Arc::new(influence);

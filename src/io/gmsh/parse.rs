@@ -60,6 +60,9 @@ pub(super) fn read(source: impl Read) -> Reason<Raw> {
     let mut raw = Raw::default();
     let mut seen = Vec::new();
     while let Some(section) = fields.section()? {
+        if seen.contains(&section) {
+            return Err(fields.refuse(MeshFileError::Twice { what: format!("section ${section}") }));
+        }
         match section.as_str() {
             "MeshFormat" => format(&mut fields)?,
             "PhysicalNames" => physical_names(&mut fields, &mut raw)?,
@@ -100,7 +103,11 @@ fn physical_names(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
     let count: usize = fields.next("number of names")?;
     for _ in 0..count {
         let key = (fields.next("dimension")?, fields.next("tag of a group")?);
-        raw.names.insert(key, fields.quoted()?);
+        let name = fields.quoted()?;
+        if raw.names.insert(key, name).is_some() {
+            let what = format!("the name of group {} of dimension {}", key.1, key.0);
+            return Err(fields.refuse(MeshFileError::Twice { what }));
+        }
     }
     Ok(())
 }
@@ -139,8 +146,13 @@ fn entities(fields: &mut Fields<impl Read>, raw: &mut Raw, partitioned: bool) ->
             let groups: usize = fields.next("number of groups")?;
             for k in 0..groups {
                 let group = fields.next("tag of a group")?;
-                if k == 0 {
-                    raw.groups.insert((dimension, tag), group);
+                if k > 0 {
+                    continue;
+                }
+                let before = raw.groups.insert((dimension, tag), group);
+                if before.is_some_and(|before| before != group && !partitioned) {
+                    let what = format!("the group of entity {tag} of dimension {dimension}");
+                    return Err(fields.refuse(MeshFileError::Twice { what }));
                 }
             }
             if dimension > 0 {

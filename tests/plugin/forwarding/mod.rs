@@ -193,6 +193,7 @@ fn boxed_elements() {
         assert_eq!(matrix, [10.0 * CORRECT]);
         assert!(part.in_static_state(&[], &[], 9.0).is_some());
         assert_eq!(part.compression(), Some(CORRECT));
+        assert_eq!(part.corners(), [7]);
         assert_eq!(part.check(&[]), Err(doubles::refusal()));
         assert_eq!(part.order(), 11);
     }

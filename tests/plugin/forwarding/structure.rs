@@ -46,6 +46,10 @@ impl Structure for Double {
     fn mass(&self, matrix: &mut Triplets) {
         self.log.asked("mass");
         add_diagonal(matrix, CORRECT);
+        // What is to be reduced must have something to do with the base.
+        for (i, j) in [(0, 2), (2, 0), (0, 3), (3, 0)].into_iter().filter(|_| self.linear) {
+            matrix.add(i, j, 1e-20);
+        }
     }
 
     fn stiffness(&self, matrix: &mut Triplets) {
@@ -56,6 +60,16 @@ impl Structure for Double {
     fn damping(&self, matrix: &mut Triplets) {
         self.log.asked("damping");
         add_diagonal(matrix, 3.0 * CORRECT);
+    }
+
+    fn has_active_damping(&self) -> bool {
+        self.log.asked("has_active_damping");
+        true
+    }
+
+    fn describe(&self, unknowns: &[usize]) -> Option<String> {
+        self.log.asked("describe");
+        Some(format!("places {unknowns:?}"))
     }
 
     fn load(&self, time: f64, load: &mut [f64]) {
@@ -114,6 +128,8 @@ fn ask(mut part: impl Structure, place: usize, damping: f64) {
     assert_eq!(diagonal(&|m| part.mass(m)), CORRECT);
     assert_eq!(diagonal(&|m| part.stiffness(m)), 2.0 * CORRECT);
     assert!((diagonal(&|m| part.damping(m)) - damping).abs() < 1e-12);
+    assert!(part.has_active_damping());
+    assert!(part.describe(&[1]).is_some_and(|text| text.ends_with("places [1]")));
     let mut load = [0.0; 4];
     part.load(0.25, &mut load);
     assert_eq!(load, [0.25, 0.0, 0.0, 0.0]);

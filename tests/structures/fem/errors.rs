@@ -4,7 +4,7 @@
 
 use basemat::Error;
 use basemat::fem::{
-    Beam, Dashpot, Direction, Element, Layer, LumpedMass, MassKind, Material, Mesh, Quad4,
+    Beam, Dashpot, Direction, Element, Layer, LumpedMass, MassKind, Material, Mesh, Quad4, Quad8,
     QuadFormulation, Spring, Truss,
 };
 use basemat::structure::{FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey};
@@ -89,6 +89,53 @@ fn meshes_refuse_bad_nodes_and_shapes() {
     assert!(quad([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]).is_err(), "clockwise");
     assert!(quad([[0.0, 0.0], [1.0, 0.0], [0.2, 0.2], [0.0, 1.0]]).is_err(), "not convex");
     assert!(quad([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [0.0, 1.0]]).is_err(), "flat corner");
+}
+
+/// GOAL: an element that counts twice is refused; what acts in parallel is not.
+#[test]
+fn elements_count_once() {
+    let mut mesh = Mesh::new();
+    for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.0]] {
+        mesh.add_node(x, y).unwrap();
+    }
+    for [x, y] in [[1.0, 0.5], [0.5, 1.0], [0.0, 0.5]] {
+        mesh.add_node(x, y).unwrap();
+    }
+    let (full, quad) = (QuadFormulation::Full, Quad4::new);
+    let refused = |outcome: basemat::Result<usize>, first: usize, nodes: &[usize]| {
+        assert_eq!(outcome, Err(Error::DuplicateElement { first, nodes: nodes.to_vec() }));
+    };
+    mesh.add(quad([0, 1, 2, 3], material(), full)).unwrap();
+    let other = Material::new(2.0e7, 0.3, 0.0).unwrap();
+    refused(mesh.add(quad([0, 1, 2, 3], material(), full)), 0, &[0, 1, 2, 3]);
+    refused(mesh.add(quad([2, 3, 0, 1], other, QuadFormulation::OnePoint)), 0, &[2, 3, 0, 1]);
+    let boxed: Box<dyn Element> = Box::new(quad([1, 2, 3, 0], material(), full));
+    refused(mesh.add(boxed), 0, &[1, 2, 3, 0]);
+    let eight = [0, 1, 2, 3, 4, 5, 6, 7];
+    refused(mesh.add(Quad8::new(eight, other)), 0, &eight);
+    assert_eq!(mesh.elements().len(), 1);
+
+    let beam = |ends, area| Beam::new(ends, 1e9, area, 1e-2, 2400.0).unwrap();
+    let bar = |ends, density| Truss::new(ends, 1e9, 0.3, density).unwrap();
+    // A beam on an edge, one of another section beside it, and the bar of a tie.
+    assert_eq!(mesh.add(beam([0, 1], 0.1)), Ok(1));
+    assert_eq!(mesh.add(beam([0, 1], 0.2)), Ok(2));
+    assert_eq!(mesh.add(bar([0, 1], 2400.0)), Ok(3));
+    refused(mesh.add(beam([0, 1], 0.2)), 2, &[0, 1]);
+    refused(mesh.add(beam([1, 0], 0.1)), 1, &[1, 0]);
+    refused(mesh.add(bar([1, 0], 2400.0)), 3, &[1, 0]);
+    assert_eq!(mesh.add(beam([0, 2], 0.1)), Ok(4));
+    refused(mesh.add(beam([2, 0], 0.1)), 4, &[2, 0]);
+    // Springs, dashpots, weightless bars and masses add up.
+    for _ in 0..2 {
+        mesh.add(Spring::axial([0, 1], 1e6).unwrap()).unwrap();
+        mesh.add(Dashpot::new([0, 1], Direction::X, 1e6).unwrap()).unwrap();
+        mesh.add(bar([0, 1], 0.0)).unwrap();
+        mesh.add(LumpedMass::new(2, 10.0).unwrap()).unwrap();
+    }
+    assert_eq!(mesh.elements().len(), 13);
+    // A clone knows what is there.
+    refused(mesh.clone().add(beam([0, 1], 0.1)), 1, &[0, 1]);
 }
 
 struct Nothing;

@@ -31,10 +31,12 @@ fn layered_block_runs_from_the_base_upwards() {
     assert!(mesh.element(12).is_none());
     // A clone grows by itself.
     let mut larger = mesh.clone();
-    larger.add(Quad4::new([0, 1, 5, 4], stiff, QuadFormulation::OnePoint)).unwrap();
+    let [low, high] = [0.0, 1.0].map(|y| larger.add_node(5.0, y).unwrap());
+    larger.add(Quad4::new([3, low, high, 7], stiff, QuadFormulation::OnePoint)).unwrap();
     assert_eq!((mesh.elements().len(), larger.elements().len()), (12, 13));
     let last = larger.elements().last().unwrap();
-    assert_eq!(last.nodes(), [0, 1, 5, 4]);
+    assert_eq!(last.nodes(), [3, 20, 21, 7]);
+    assert_eq!((mesh.nodes().len(), larger.nodes().len()), (20, 22));
     let model = FemModel::on_base(mesh).unwrap();
     assert_eq!(model.clone().unknowns(), model.unknowns());
 }

@@ -6,6 +6,7 @@ mod beams;
 mod bending;
 mod by_hand;
 mod damping;
+mod detached;
 mod errors;
 mod frames;
 mod meshes;

@@ -2,6 +2,7 @@
 //! SCENE: a meshed tower as matrices.
 //! REFERENCE: the model that the matrices came from.
 
+mod damping;
 mod model;
 mod reduction;
 mod semi_definite;
