@@ -105,7 +105,7 @@ impl Influence {
     fn split(base: &Base, translations: &[Vec<f64>; 2], roots: &[usize]) -> Self {
         let mut parts: Vec<(usize, Part)> = Vec::new();
         for (nodes, elements) in base.foundations() {
-            let Some(leader) = nodes.iter().find_map(|node| node.unknowns().next()) else {
+            let Some(unknown) = nodes.iter().find_map(|node| node.unknowns().next()) else {
                 continue;
             };
             let root = roots[unknown];
