@@ -10,7 +10,7 @@ mod passivity;
 #[path = "../tests/support/random.rs"]
 mod random;
 
-use basemat::bem::History;
+use basemat::history::History;
 use clap::Parser;
 use passivity::Scene;
 

@@ -155,6 +155,7 @@ mod short_debug;
 
 pub mod bem;
 mod bounded_line;
+mod contact_element;
 pub mod coupled;
 mod error;
 pub mod fem;

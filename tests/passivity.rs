@@ -5,7 +5,7 @@ mod passivity;
 #[path = "support/random.rs"]
 mod random;
 
-use basemat::bem::History;
+use basemat::history::History;
 use passivity::Scene;
 
 const BETAS: [f64; 8] = [0.02, 0.1, 0.25, 0.5, 1.0, 2.0, 10.0, 50.0];

@@ -3,8 +3,9 @@
 #[path = "support/wrapped.rs"]
 mod wrapped;
 
-use basemat::bem::{HalfPlaneGround, History, SpringGround, Strip};
+use basemat::bem::{HalfPlaneGround, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};
+use basemat::history::History;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{RickerDisplacement, STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{

@@ -193,7 +193,7 @@ impl SimulationBuilder {
         let mut ground =
             self.ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
         let elements = ground.elements().to_vec();
-        crate::bem::check_order(&elements)?;
+        crate::contact_element::check_order(&elements)?;
         let count = elements.len();
         let scene = ContactScene { gravity: self.gravity, time_step };
         check_contact(&self.laws, self.search, &scene, count)?;

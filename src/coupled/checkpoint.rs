@@ -3,12 +3,11 @@
 use super::ledger::Ledger;
 use super::simulation::{Memory, Simulation};
 use super::state::State;
-use crate::bem::History;
 use crate::error::{CheckpointError, Result};
 use crate::interface::{ContactState, Mode, StepStart, law_of};
 
 /// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 /// Most steps that a checkpoint may stand for: more would not fit into any run.
 const MOST_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,
@@ -43,8 +42,6 @@ pub struct Checkpoint {
 struct Scene {
     unknowns: usize,
     probes: Vec<String>,
-    /// Kind of the history, if the ground has chosen one.
-    history: Option<String>,
     /// Time step and coefficients of the scheme.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     steps: Vec<f64>,
@@ -77,10 +74,6 @@ impl Scene {
             a.len() == b.len() && a.iter().zip(b).all(near)
         };
         let span = crate::linalg::largest(&own.elements);
-        let history = match (&self.history, &own.history) {
-            (Some(a), Some(b)) => a == b,
-            _ => true,
-        };
         for (same, quantity) in [
             (self.unknowns == own.unknowns, "number of unknowns"),
             (close(&self.steps, &own.steps, 0.0), "time step or scheme"),
@@ -89,7 +82,6 @@ impl Scene {
             (close(&self.structure, &own.structure, 0.0), "structure"),
             (close(&self.ground, &own.ground, 0.0), "ground"),
             (close(&self.preload, &own.preload, 0.0), "static state"),
-            (history, "kind of history"),
         ] {
             if !same {
                 return Err(CheckpointError::OtherScene { quantity });
@@ -249,12 +241,9 @@ impl Simulation {
         for row in [c.acceleration, c.velocity, c.displacement] {
             steps.extend(row);
         }
-        let choice = self.ground.history_choice();
-        let name = |kind: History| format!("{kind:?}");
         Scene {
             unknowns: self.model.unknowns,
             probes: self.probes.iter().map(|probe| probe.name.clone()).collect(),
-            history: choice.map(|choice| name(choice.kind)),
             steps,
             elements: self.elements().iter().flat_map(|e| [e.left, e.right]).collect(),
             structure: vec![

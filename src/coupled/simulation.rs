@@ -15,8 +15,9 @@ use super::run::{Flow, Run};
 use super::scheme::SchemeCoefficients;
 use super::state::{Foundation, State};
 use crate::bem::full_plane::GroundStability;
-use crate::bem::{ContactElement, Ground, HistoryChoice};
+use crate::bem::{ContactElement, Ground};
 use crate::error::Result;
+use crate::history::HistoryChoice;
 use crate::interface::{ContactState, InterfaceLaw, StepStart, law_of};
 use crate::linalg::SparseMatrix;
 use crate::motion::FreeField;
@@ -331,10 +332,11 @@ impl Simulation {
     ) -> Result<Run> {
         // There is no clock in bare WebAssembly.
         let begin = (!cfg!(target_family = "wasm")).then(std::time::Instant::now);
-        // More steps than any record asks for: an observer is meant to stop the run, and what it
-        // will need is not known. Histories grow by doubling then.
+        // Of so many steps an observer may well stop the run: histories grow by doubling then.
+        let announced = self.state.step.saturating_add(steps);
+        self.ground.announce(announced)?;
         if steps <= RESERVED_STEPS {
-            self.ground.reserve(self.state.step.saturating_add(steps))?;
+            self.ground.reserve(announced)?;
         }
         let mut run = Run::new(&self.probes, &self.elements, &self.state);
         for _ in 0..steps {

@@ -10,8 +10,9 @@ mod text;
 #[path = "../support/wrapped.rs"]
 mod wrapped;
 
-use basemat::bem::{HalfPlaneGround, History, SpringGround};
+use basemat::bem::{HalfPlaneGround, SpringGround};
 use basemat::coupled::Checkpoint;
+use basemat::history::History;
 use basemat::{CheckpointError, Error, Simulation};
 
 use scenes::{SI, soil};

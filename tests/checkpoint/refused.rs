@@ -1,6 +1,7 @@
 //! Checkpoints of other scenes, and parts that cannot be saved.
 
-use basemat::bem::{ContactElement, Ground, History, SpringGround};
+use basemat::bem::{ContactElement, Ground, SpringGround};
+use basemat::history::History;
 use basemat::structure::{
     ModalDamping, RigidBlock, Structure, StructureGroup, Triplets, WithSprings,
 };

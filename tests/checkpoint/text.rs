@@ -1,7 +1,7 @@
 //! Checkpoints as text, missing parts, damaged, or no checkpoints at all.
 
-use basemat::bem::History;
 use basemat::coupled::Checkpoint;
+use basemat::history::History;
 use basemat::{CheckpointError, Simulation};
 use proptest::prelude::*;
 use serde_json::Value;

@@ -5,6 +5,7 @@ mod free_field;
 mod fundamental_solution;
 mod ground;
 mod history;
+mod kernel;
 mod law;
 #[path = "../support/block_on_springs.rs"]
 mod scene;

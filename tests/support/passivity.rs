@@ -1,7 +1,8 @@
 //! What the energy argument promises of the half-plane, tried on random tractions.
 
 use basemat::Soil;
-use basemat::bem::{Ground, HalfPlaneGround, History};
+use basemat::bem::{Ground, HalfPlaneGround};
+use basemat::history::History;
 
 use crate::random::Random;
 
