@@ -116,9 +116,9 @@
 //! | [`structure`] | finite-element model, shear building, rigid block, given matrices, reduction, hysteretic springs, and the trait for your own |
 //! | [`fem`] | meshes and elements |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
-//! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], influence coefficients |
+//! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], grounds of any step coefficients |
 //! | [`bem::full_plane`] | boundaries that are not flat, and the paper's own scheme |
-//! | [`history`] | the convolution with all past tractions |
+//! | [`history`] | the convolution with all past tractions, its kinds and their choice |
 //! | [`fundamental`] | elastodynamic fundamental solutions |
 //! | [`motion`] | records and their files, spectra, baselines, free fields, El Centro 1940 |
 //! | [`reference`](mod@reference) | closed forms from the literature, to check against |
@@ -133,6 +133,7 @@
 //! | law between base and soil | [`interface::InterfaceLaw`] | 3 |
 //! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |
 //! | soil | [`bem::Ground`] | 6 |
+//! | soil that knows its step coefficients | [`bem::KernelSource`] and [`history::LagKernel`] | 2 each |
 //! | time scheme | [`coupled::TimeScheme`] | 1 |
 //! | convolution algorithm | [`history::ConvolutionHistory`] | 4 |
 //! | file of a record | [`motion::RecordFormat`] | 1 |

@@ -55,8 +55,9 @@ pub trait Ground: Send {
     /// error of a ground of your own.
     fn prepare(&mut self, time_step: f64) -> Result<()>;
 
-    /// Tells that `steps` steps will have been made in all, those so far included, unless an
-    /// observer stops earlier: what depends on their number may be chosen, memory is not reserved.
+    /// Announces that up to `steps` steps will have been made in all, those so far included: what
+    /// depends on their number may be chosen, but no memory is reserved, as an observer may stop
+    /// the run long before.
     ///
     /// # Errors
     /// As for [`Ground::history`].
@@ -64,8 +65,7 @@ pub trait Ground: Send {
         Ok(())
     }
 
-    /// The same for steps that will come with certainty: kernels may be evaluated and memory
-    /// reserved.
+    /// The same, with kernels evaluated and memory reserved.
     ///
     /// # Errors
     /// As for [`Ground::history`].

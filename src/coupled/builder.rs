@@ -160,7 +160,8 @@ impl SimulationBuilder {
     }
 
     /// About how many steps will be made: kernels and memory are then ready before the first, and
-    /// the structure's coordinates are chosen for this number (10 000 if not given).
+    /// the ground's history and the structure's coordinates are chosen for this number (if not given,
+    /// for that of the first run and for 10 000).
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
         self.steps = steps;
