@@ -8,7 +8,7 @@
 #[path = "../tests/support/mod.rs"]
 mod support;
 
-use basemat::bem::History;
+use basemat::history::History;
 use clap::Parser;
 use support::passivity::Scene;
 

@@ -9,8 +9,9 @@ mod support;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use basemat::bem::{HalfPlaneGround, History, SpringGround};
+use basemat::bem::{HalfPlaneGround, SpringGround};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, Theta};
+use basemat::history::History;
 use basemat::interface::Bonded;
 use basemat::results::Recorder;
 use basemat::structure::{RayleighDamping, RigidBlock, Structure, Triplets};

@@ -171,7 +171,8 @@ impl SimulationBuilder {
     }
 
     /// About how many steps will be made: kernels and memory are then ready before the first, and
-    /// the structure's coordinates are chosen for this number (10 000 if not given).
+    /// the ground's history and the structure's coordinates are chosen for this number (if not given,
+    /// for that of the first run and for 10 000).
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
         self.steps = steps;
@@ -214,7 +215,7 @@ impl SimulationBuilder {
         let mut ground =
             ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
         let elements = ground.elements().to_vec();
-        crate::bem::check_order(&elements)?;
+        crate::contact_element::check_order(&elements)?;
         let count = elements.len();
         let contact_scene = ContactScene { gravity: self.gravity, time_step };
         check_contact(&self.laws, self.search, &contact_scene, count)?;

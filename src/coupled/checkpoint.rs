@@ -6,7 +6,7 @@ use super::scene::Scene;
 use super::scene::operators::Operators;
 use super::state::State;
 use super::translation::Translation;
-use crate::bem::{Ground, History};
+use crate::bem::Ground;
 use crate::error::{CheckpointError, Result};
 use crate::interface::ContactState;
 use crate::structure::Structure;
@@ -49,8 +49,6 @@ struct Identity {
     /// Whether a ledger is kept.
     ledger: bool,
     probes: Vec<String>,
-    /// Kind of the history, if the ground has chosen one.
-    history: Option<String>,
     /// Time step and coefficients of the scheme.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     steps: Vec<f64>,
@@ -83,10 +81,6 @@ impl Identity {
             a.len() == b.len() && a.iter().zip(b).all(near)
         };
         let span = crate::linalg::largest(&own.elements);
-        let history = match (&self.history, &own.history) {
-            (Some(a), Some(b)) => a == b,
-            _ => true,
-        };
         for (same, quantity) in [
             (self.unknowns == own.unknowns, "number of unknowns"),
             (close(&self.steps, &own.steps, 0.0), "time step or scheme"),
@@ -96,7 +90,6 @@ impl Identity {
             (close(&self.structure, &own.structure, 0.0), "structure"),
             (close(&self.ground, &own.ground, 0.0), "ground"),
             (close(&self.preload, &own.preload, 0.0), "static state"),
-            (history, "kind of history"),
         ] {
             if !same {
                 return Err(CheckpointError::OtherScene { quantity });
@@ -130,7 +123,7 @@ pub(super) fn save(
     let numbers = numbers(&mut own, own_books.as_mut());
     Ok(Checkpoint {
         format: FORMAT,
-        identity: identity(scene, ground, operators, books.is_some()),
+        identity: identity(scene, operators, books.is_some()),
         steps: state.step,
         modes,
         state: numbers.into_iter().map(|value| *value).collect(),
@@ -153,7 +146,7 @@ pub(super) fn restore(
         let found = checkpoint.format;
         return Err(CheckpointError::Format { found, needed: FORMAT }.into());
     }
-    checkpoint.identity.check(&identity(scene, ground, operators, books.is_some()))?;
+    checkpoint.identity.check(&identity(scene, operators, books.is_some()))?;
     let corrupt = |quantity| CheckpointError::Corrupt { quantity };
     if checkpoint.steps > MOST_STEPS {
         return Err(corrupt("number of steps").into());
@@ -204,7 +197,7 @@ fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> R
     Ok(())
 }
 
-fn identity(scene: &Scene, ground: &dyn Ground, operators: &Operators, ledger: bool) -> Identity {
+fn identity(scene: &Scene, operators: &Operators, ledger: bool) -> Identity {
     let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
     let model = &scene.model;
     // Modes may come with either sign. A nonlinear structure has none, and columns that change.
@@ -215,12 +208,10 @@ fn identity(scene: &Scene, ground: &dyn Ground, operators: &Operators, ledger: b
     for row in [c.acceleration, c.velocity, c.displacement] {
         steps.extend(row);
     }
-    let name = |kind: History| format!("{kind:?}");
     Identity {
         unknowns: model.unknowns,
         ledger,
         probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
-        history: ground.history_choice().map(|choice| name(choice.kind)),
         steps,
         elements: scene.elements.iter().flat_map(|e| [e.left, e.right]).collect(),
         structure: vec![

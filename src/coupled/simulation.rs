@@ -11,8 +11,9 @@ use super::state::State;
 use super::step::forcing::Forcing;
 use super::step::increment::Increment;
 use super::step::solver::Solver;
-use crate::bem::{ContactElement, Ground, HistoryChoice};
+use crate::bem::{ContactElement, Ground};
 use crate::error::{Error, Result, StepError};
+use crate::history::HistoryChoice;
 use crate::interface::InterfaceLaw;
 use crate::motion::FreeField;
 use crate::structure::Structure;
@@ -201,10 +202,11 @@ impl Simulation {
     ) -> Result<Run> {
         // There is no clock in bare WebAssembly.
         let begin = (!cfg!(target_family = "wasm")).then(std::time::Instant::now);
-        // More steps than any record asks for: an observer is meant to stop the run, and what it
-        // will need is not known. Histories grow by doubling then.
+        // Of so many steps an observer may well stop the run: histories grow by doubling then.
+        let announced = self.state.step.saturating_add(steps);
+        self.ground.announce(announced)?;
         if steps <= RESERVED_STEPS {
-            self.ground.reserve(self.state.step.saturating_add(steps))?;
+            self.ground.reserve(announced)?;
         }
         let mut run = Run::new(&self.scene.probes, &self.scene.elements, &self.state);
         for _ in 0..steps {

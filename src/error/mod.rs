@@ -267,6 +267,12 @@ pub enum Error {
         /// Relative error with as many poles as were tried.
         reached: f64,
     },
+    /// A history by exponentials of a kernel that does not allow it.
+    #[error("history by exponentials needs {needed}")]
+    NoExponentials {
+        /// What the kernel lacks.
+        needed: &'static str,
+    },
     /// A history by exponentials could give energy away, and runs with it could grow.
     #[error(
         "history by exponentials is not passive: least eigenvalue {margin:e} of its instantaneous \

@@ -3,7 +3,7 @@
 //! can.
 //! REFERENCE: zero work. The example `passivity` runs longer.
 
-use basemat::bem::History;
+use basemat::history::History;
 
 use crate::support::passivity::Scene;
 

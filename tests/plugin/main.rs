@@ -8,6 +8,7 @@ mod free_field;
 mod fundamental_solution;
 mod ground;
 mod history;
+mod kernel;
 mod law;
 mod scheme;
 mod structure;

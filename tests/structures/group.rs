@@ -2,8 +2,9 @@
 //! SCENE: far apart on the half-plane; on springs; twins; nonlinear members.
 //! REFERENCE: each alone, or its mirror image.
 
-use basemat::bem::{HalfPlaneGround, History, SpringGround, Strip};
+use basemat::bem::{HalfPlaneGround, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};
+use basemat::history::History;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{RickerDisplacement, STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{

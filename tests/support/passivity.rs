@@ -1,7 +1,8 @@
 //! Energy that a half-plane gives or takes under random tractions.
 
 use basemat::Soil;
-use basemat::bem::{Ground, HalfPlaneGround, History};
+use basemat::bem::{Ground, HalfPlaneGround};
+use basemat::history::History;
 
 use super::inverse::inverse;
 use super::random::Random;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use realfft::RealFftPlanner;
 
+use super::blocks::{Blocks, LEAF};
 use super::coefficients::{Class, Coefficients};
 use super::level::{Block, Level, Part, Work};
-use super::{Blocks, LEAF};
 use crate::error::Result;
-use crate::history::source::CoefficientSource;
+use crate::history::lag_kernel::LagKernel;
 
 /// A coupling that reaches no further ahead than this is summed directly. Times hardly depend on
 /// it up to here; further on blocks are faster.
@@ -34,10 +34,10 @@ pub(super) struct Pairs {
 }
 
 impl Pairs {
-    /// Blocks of `source`, empty.
-    pub(super) fn new(source: &dyn CoefficientSource, leaf: usize) -> Result<Self> {
+    /// Blocks of `kernel`, empty.
+    pub(super) fn new(kernel: &dyn LagKernel, leaf: usize) -> Result<Self> {
         Ok(Self {
-            coefficients: Coefficients::new(source, leaf, DIRECT_COUPLING)?,
+            coefficients: Coefficients::new(kernel, leaf, DIRECT_COUPLING)?,
             leaf,
             levels: Vec::new(),
             planner: RealFftPlanner::new(),
@@ -46,6 +46,11 @@ impl Pairs {
             stride: 0,
             capacity: 0,
         })
+    }
+
+    /// Q.
+    fn elements(&self) -> usize {
+        self.coefficients.classes.elements().len()
     }
 
     /// Whether blocks of `size` have spectra of the coupling: up to the first that covers its reach.
@@ -57,11 +62,11 @@ impl Pairs {
     /// The levels from the `first`-th to the one before `end`.
     fn make(
         &mut self,
-        source: &dyn CoefficientSource,
+        kernel: &dyn LagKernel,
         first: usize,
         end: usize,
     ) -> Result<Vec<Arc<Level>>> {
-        let (count, classes) = (self.coefficients.scales.len(), self.coefficients.classes);
+        let (count, classes) = (self.elements(), self.coefficients.classes.count());
         let mut levels = Vec::new();
         for number in first..end {
             let mut level = Level::new(self.leaf << number, &mut self.planner);
@@ -73,7 +78,7 @@ impl Pairs {
         if !levels.is_empty() {
             let mut values = Class::new(self.leaf << end);
             for class in 0..classes {
-                values.fill(source, class)?;
+                values.fill(kernel, class)?;
                 let values = [&values.normal[..], &values.tangential, &values.coupling];
                 for (level, couples) in &mut levels {
                     level.add_class(values, *couples, &mut self.work);
@@ -96,21 +101,25 @@ impl Blocks for Pairs {
             + self.work.numbers()
     }
 
-    fn grow(&mut self, source: &dyn CoefficientSource, steps: usize) -> Result<()> {
+    fn grow(&mut self, kernel: &dyn LagKernel, steps: usize) -> Result<()> {
         let capacity = steps.div_ceil(self.leaf).next_power_of_two() * self.leaf;
         if capacity <= self.capacity {
             return Ok(());
         }
-        let count = self.coefficients.scales.len();
+        let count = self.elements();
         let wanted = (capacity / self.leaf).ilog2() as usize;
-        let levels = if let Some(shelf) = source.shelf().filter(|_| self.leaf == LEAF) {
-            let mut shared = shelf.pairs();
-            let more = self.make(source, shared.levels.len(), wanted)?;
+        // Before the spectra are locked: a kernel may work on several threads, which must not wait.
+        kernel.prepare(capacity)?;
+        let spectra = kernel.spectra().filter(|_| self.leaf == LEAF);
+        let classes = &self.coefficients.classes;
+        let levels = if let Some(spectra) = spectra.filter(|s| s.are_of(classes.elements())) {
+            let mut shared = spectra.pairs();
+            let more = self.make(kernel, shared.levels.len(), wanted)?;
             shared.levels.extend(more);
             shared.levels[..wanted].to_vec()
         } else {
             let mut levels = self.levels.clone();
-            levels.extend(self.make(source, levels.len(), wanted)?);
+            levels.extend(self.make(kernel, levels.len(), wanted)?);
             levels
         };
         for level in &levels {
@@ -146,7 +155,7 @@ impl Blocks for Pairs {
         let couples = self.couples(level.size);
         let far = self.levels.iter().rfind(|level| self.couples(level.size));
         let (rows, stride) = (&mut self.rows[..], self.stride);
-        let mut block = Block { rows, stride, now, coefficients };
+        let mut block = Block { rows, stride, now, classes: &coefficients.classes };
         if couples {
             level.apply(&mut block, Part::All, &mut self.work);
         } else {
@@ -165,7 +174,7 @@ impl Blocks for Pairs {
     }
 
     fn width(&self) -> usize {
-        2 * self.coefficients.scales.len()
+        2 * self.elements()
     }
 
     fn input(&self, step: usize, _worked_in: usize, values: &mut Vec<f64>) {

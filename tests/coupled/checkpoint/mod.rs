@@ -8,8 +8,9 @@ mod resumed;
 #[cfg(feature = "serde")]
 mod text;
 
-use basemat::bem::{HalfPlaneGround, History, SpringGround};
+use basemat::bem::{HalfPlaneGround, SpringGround};
 use basemat::coupled::Checkpoint;
+use basemat::history::History;
 use basemat::{CheckpointError, Error, Simulation};
 
 use crate::support::scenes::{SI, soil};

@@ -2,7 +2,8 @@
 //! SCENE: one thing of the scene changed at a time; grounds and structures without `save`.
 //! REFERENCE: typed errors, and a simulation that is unchanged.
 
-use basemat::bem::{ContactElement, Ground, History, SpringGround};
+use basemat::bem::{ContactElement, Ground, SpringGround};
+use basemat::history::History;
 use basemat::structure::{
     ModalDamping, RigidBlock, Structure, StructureGroup, Triplets, WithSprings,
 };

@@ -5,8 +5,9 @@
 
 use std::any::Any;
 
-use basemat::bem::{HalfPlaneGround, History};
+use basemat::bem::HalfPlaneGround;
 use basemat::coupled::{SimulationBuilder, State};
+use basemat::history::History;
 use basemat::interface::Bonded;
 use basemat::structure::{RigidBlock, Structure, Triplets};
 use basemat::{CheckpointError, Result, Simulation};

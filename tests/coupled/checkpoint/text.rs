@@ -2,8 +2,8 @@
 //! SCENE: texts with numbers missing or not finite, damaged texts, any bytes (feature `serde`).
 //! REFERENCE: typed errors, and a simulation that is unchanged.
 
-use basemat::bem::History;
 use basemat::coupled::Checkpoint;
+use basemat::history::History;
 use basemat::{CheckpointError, Simulation};
 use proptest::prelude::*;
 use serde_json::Value;

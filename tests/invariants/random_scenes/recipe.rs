@@ -1,10 +1,11 @@
 //! Random scenes: plain data that proptest can shrink, and how a simulation is built from it.
 
-use basemat::bem::{Grading, HalfPlaneGround, History, SpringGround, Strip};
+use basemat::bem::{Grading, HalfPlaneGround, SpringGround, Strip};
 use basemat::coupled::{
     Coordinates, HhtAlpha, Midpoint, Newmark, Placement, SimulationBuilder, State, Theta,
 };
 use basemat::fem::{Layer, Material, Mesh};
+use basemat::history::History;
 use basemat::interface::{Bonded, Coulomb, ThinLayer};
 use basemat::structure::{FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey};
 use basemat::{Error, Simulation, Soil};

@@ -86,8 +86,10 @@ pub(crate) fn energy_is_kept(
     tally: &mut Tally,
 ) -> Result<(), TestCaseError> {
     let scale = Scales::of(states).energy;
-    let exact =
-        !matches!(recipe.bed, Bed::HalfPlane { history: basemat::bem::History::Exponentials, .. });
+    let exact = !matches!(
+        recipe.bed,
+        Bed::HalfPlane { history: basemat::history::History::Exponentials, .. }
+    );
     // Where du = Δt v*, the dashpots' work of a step is a square.
     let one_point = matches!(recipe.scheme, Scheme::Midpoint | Scheme::Theta(_));
     for pair in states.windows(2) {

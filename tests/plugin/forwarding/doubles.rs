@@ -1,10 +1,10 @@
 //! One double for all traits but the structure's.
 
 use basemat::bem::full_plane::{BoundaryKernel, IncidentField, Segment};
-use basemat::bem::{ContactElement, Ground, HistoryChoice};
+use basemat::bem::{ContactElement, Ground};
 use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
 use basemat::fem::{Direction, Element, MassKind};
-use basemat::history::ConvolutionHistory;
+use basemat::history::{ConvolutionHistory, HistoryChoice};
 use basemat::interface::{
     Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
 };
@@ -122,6 +122,11 @@ impl Ground for Double {
 
     fn prepare(&mut self, _: f64) -> Result<()> {
         self.0.asked("prepare");
+        Err(refusal())
+    }
+
+    fn announce(&mut self, _: usize) -> Result<()> {
+        self.0.asked("announce");
         Err(refusal())
     }
 

@@ -106,6 +106,7 @@ fn boxed_grounds() {
         let mut matrix = [0.0; 4];
         assert_eq!(part.elements().len(), 1);
         assert_eq!(part.prepare(CORRECT), Err(doubles::refusal()));
+        assert_eq!(part.announce(3), Err(doubles::refusal()));
         assert_eq!(part.reserve(3), Err(doubles::refusal()));
         part.instantaneous(&mut matrix).unwrap();
         assert_eq!(matrix, [CORRECT; 4]);
@@ -166,7 +167,7 @@ fn boxed_histories() {
     let log = Log::default();
     let part: Box<dyn ConvolutionHistory> = Box::new(Double::new(&log));
     ask(part);
-    assert_eq!(log.take(), methods(source!("history/mod.rs"), "ConvolutionHistory"));
+    assert_eq!(log.take(), methods(source!("history/convolution.rs"), "ConvolutionHistory"));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Means of Legendre polynomials over the elements of a patch.
 
-use crate::bem::ContactElement;
+use crate::contact_element::ContactElement;
 use crate::fundamental::gauss;
 
 /// Legendre polynomials of degree 0, 1, … on [−1, 1] stretched over a patch.
@@ -8,8 +8,6 @@ use crate::fundamental::gauss;
 pub(super) struct Basis {
     /// Half of the patch's length, m.
     pub(super) half: f64,
-    /// Lengths of the elements, m.
-    pub(super) lengths: Vec<f64>,
     /// Per degree: its means over the elements.
     means: Vec<Vec<f64>>,
 }
@@ -43,8 +41,7 @@ impl Basis {
                 }
             }
         }
-        let lengths = elements.iter().map(ContactElement::length).collect();
-        Self { half, lengths, means }
+        Self { half, means }
     }
 
     /// Forgets the polynomials from `degrees` on.
@@ -52,32 +49,8 @@ impl Basis {
         self.means.truncate(degrees);
     }
 
-    /// Number of polynomials.
-    pub(super) fn degrees(&self) -> usize {
-        self.means.len()
-    }
-
-    /// Means of all polynomials over one element.
-    pub(super) fn over(&self, element: usize) -> impl Iterator<Item = f64> {
-        self.means.iter().map(move |mean| mean[element])
-    }
-
-    /// Overwrites `moments` with ∫ P τ dx, one for each degree, m·Pa.
-    pub(super) fn moments(&self, traction: &[f64], moments: &mut [f64]) {
-        for (moment, mean) in moments.iter_mut().zip(&self.means) {
-            *moment = 0.0;
-            for ((traction, length), mean) in traction.iter().zip(&self.lengths).zip(mean) {
-                *moment += traction * length * mean;
-            }
-        }
-    }
-
-    /// Adds Σ amplitude · P to element means.
-    pub(super) fn add(&self, amplitudes: &[f64], displacement: &mut [f64]) {
-        for (amplitude, mean) in amplitudes.iter().zip(&self.means) {
-            for (displacement, mean) in displacement.iter_mut().zip(mean) {
-                *displacement += amplitude * mean;
-            }
-        }
+    /// Per polynomial: its means over the elements.
+    pub(super) fn into_means(self) -> Vec<Vec<f64>> {
+        self.means
     }
 }
