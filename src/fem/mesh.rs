@@ -38,7 +38,7 @@ impl std::fmt::Debug for Mesh {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let connectivity: Vec<&[usize]> = self.elements.iter().map(|e| e.nodes()).collect();
         let mut fields = formatter.debug_struct("Mesh");
-        fields.field("nodes", &self.nodes).field("elements", &connectivity).finish()
+        fields.field("nodes", &self.nodes).field("elements", &connectivity).finish_non_exhaustive()
     }
 }
 

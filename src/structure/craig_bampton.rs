@@ -324,16 +324,13 @@ impl Structure for ReducedModel {
         let (own, modes): (Vec<usize>, Vec<usize>) =
             unknowns.iter().partition(|&&unknown| unknown < kept.len());
         let own: Vec<usize> = own.into_iter().map(|unknown| kept[unknown]).collect();
-        let mut text = full.structure.describe(&own).unwrap_or_else(|| numbers(&own));
-        if let Some(first) = modes.first() {
-            if own.is_empty() {
-                text.clear();
-            } else {
-                text += " and ";
-            }
-            text += &format!("mode {} of the reduction", first - kept.len());
+        let mut texts = Vec::new();
+        if !own.is_empty() {
+            texts.push(full.structure.describe(&own).unwrap_or_else(|| numbers(&own)));
         }
-        Some(text)
+        let mode = |unknown: &usize| format!("mode {} of the reduction", unknown - kept.len());
+        texts.extend(modes.first().map(mode));
+        (!texts.is_empty()).then(|| texts.join("; "))
     }
 
     /// The load of the full model, as it works on the reduced unknowns.

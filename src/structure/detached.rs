@@ -53,7 +53,9 @@ fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Re
     let n = stiffness.order();
     let Some(&first) = base.first() else { return Ok(Vec::new()) };
     let mut by_stiffness = Partition::new(n);
-    base.iter().for_each(|&unknown| by_stiffness.join(first, unknown));
+    for &unknown in base {
+        by_stiffness.join(first, unknown);
+    }
     by_stiffness.couple(stiffness);
     let ground = by_stiffness.root(first);
     if (0..n).all(|unknown| by_stiffness.root(unknown) == ground) {
@@ -84,7 +86,8 @@ fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Re
         let is_mode = unknowns.len() == 1 && (masses[unknowns[0]] - 1.0).abs() <= NORMALISED;
         let takes_part = !has_mass || is_mode || by_any.root(unknowns[0]) == ground;
         let is_empty = !has_mass && own[part].entries().is_empty();
-        if !is_empty && !(takes_part && holds_itself(&own[part])?) {
+        let is_attached = is_empty || takes_part && holds_itself(&own[part])?;
+        if !is_attached {
             found.extend_from_slice(unknowns);
         }
     }

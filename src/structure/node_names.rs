@@ -1,5 +1,7 @@
 //! What errors call the unknowns of a finite-element model: its nodes.
 
+use std::fmt::Write;
+
 use super::FemModel;
 use super::detached::{NAMED, listed};
 use super::fem_model::ALL_DIRECTIONS;
@@ -26,7 +28,9 @@ pub(super) fn describe(model: &FemModel, unknowns: &[usize]) -> Option<String> {
         if texts.len() < NAMED {
             let mut text = format!("node {node} at ({x}, {y})");
             if these.len() < own().count() {
-                these.iter().for_each(|direction| text += &format!(" in {direction:?}"));
+                for direction in these {
+                    let _ = write!(text, " in {direction:?}");
+                }
             }
             texts.push(text);
         }
@@ -40,7 +44,7 @@ pub(super) fn describe(model: &FemModel, unknowns: &[usize]) -> Option<String> {
         Some((node, other))
     });
     if let Some((node, other)) = twin {
-        text += &format!("; node {node} lies where node {other} is, but is not merged with it");
+        let _ = write!(text, "; node {node} lies where node {other} is, but is not merged with it");
     }
     Some(text)
 }
