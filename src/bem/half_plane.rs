@@ -234,6 +234,10 @@ impl Ground for HalfPlaneGround {
         }
     }
 
+    fn shear_wave_speed(&self) -> Option<f64> {
+        Some(self.soil.shear_wave_speed())
+    }
+
     fn history_choice(&self) -> Option<HistoryChoice> {
         self.prepared.as_ref()?.choice
     }

@@ -250,6 +250,10 @@ impl Ground for FullPlaneGround {
         Ok(())
     }
 
+    fn shear_wave_speed(&self) -> Option<f64> {
+        Some(self.soil.shear_wave_speed())
+    }
+
     fn stability(&self) -> Option<&GroundStability> {
         self.stability.as_ref().map(|(_, found)| found)
     }
