@@ -6,7 +6,8 @@ use std::time::Duration;
 use super::ledger::Ledger;
 use super::modes::SearchMethod;
 use super::peak::{Extremes, Peak, ProbePeak, probe_index};
-use super::probe::Probe;
+use super::resolution::Resolution;
+use super::simulation::Simulation;
 use super::state::{State, Transition};
 use crate::bem::ContactElement;
 use crate::error::Result;
@@ -27,7 +28,7 @@ impl From<()> for Flow {
     }
 }
 
-/// Where small-displacement contact is strained.
+/// Where the assumptions of a run are strained, or its time step or elements too coarse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
@@ -47,6 +48,42 @@ pub enum Warning {
     Ledger {
         /// Its residual, relative to the largest term.
         residual: f64,
+    },
+    /// The base shear vibrates with a period that the time step does not resolve.
+    UnresolvedPeriod {
+        /// Root-mean-square period of the base shear, s.
+        period: f64,
+        /// The time step, s.
+        time_step: f64,
+        /// One that resolves it, s.
+        needed: f64,
+    },
+    /// The ground moves faster than the time step resolves, and the base shear with it.
+    UnresolvedMotion {
+        /// Root-mean-square frequency of the ground acceleration, Hz.
+        frequency: f64,
+        /// The time step, s.
+        time_step: f64,
+        /// One that resolves it, s.
+        needed: f64,
+    },
+    /// Fewer elements under a foundation than its rocking stiffness takes.
+    FewElements {
+        /// The foundation, from the left, from 0.
+        foundation: usize,
+        /// Its elements.
+        elements: usize,
+        /// Fewest that it needs.
+        needed: usize,
+    },
+    /// Elements longer than a quarter of the soil's shear waves at the frequency of the base shear.
+    LongElements {
+        /// Longest element, m.
+        element_length: f64,
+        /// Wavelength at the root-mean-square frequency of the base shear, m.
+        wavelength: f64,
+        /// Length that resolves it, m.
+        needed: f64,
     },
 }
 
@@ -90,6 +127,25 @@ impl fmt::Display for Warning {
                 )
             }
             Self::Ledger { residual } => write!(f, "energy ledger open by {residual:.1e}"),
+            Self::UnresolvedPeriod { period, time_step, needed } => write!(
+                f,
+                "time step of {time_step:.2e} s for a base shear with a period of {period:.2e} s: \
+                 take {needed:.1e} s"
+            ),
+            Self::UnresolvedMotion { frequency, time_step, needed } => write!(
+                f,
+                "time step of {time_step:.2e} s for a ground acceleration of {frequency:.3} Hz: \
+                 take {needed:.1e} s"
+            ),
+            Self::FewElements { foundation, elements, needed } => write!(
+                f,
+                "elements under foundation {foundation}: {elements}, its rocking needs {needed}"
+            ),
+            Self::LongElements { element_length, wavelength, needed } => write!(
+                f,
+                "elements of {element_length:.2e} m for shear waves of {wavelength:.2e} m: \
+                 take {needed:.1e} m"
+            ),
         }
     }
 }
@@ -151,10 +207,13 @@ pub struct Run {
     pub wall: Duration,
     shortest: f64,
     static_moment: f64,
+    pub(super) resolution: Resolution,
 }
 
 impl Run {
-    pub(super) fn new(probes: &[Probe], elements: &[ContactElement], start: &State) -> Self {
+    pub(super) fn new(simulation: &Simulation) -> Self {
+        let (probes, elements, start) =
+            (simulation.probes(), simulation.elements(), simulation.state());
         Self {
             steps: 0,
             time: start.time,
@@ -182,12 +241,14 @@ impl Run {
             wall: Duration::ZERO,
             shortest: elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min),
             static_moment: start.base_moment,
+            resolution: Resolution::new(simulation),
         }
     }
 
     pub(super) fn record(&mut self, state: &State) {
         let time = state.time;
         self.steps += 1;
+        self.resolution.see(state);
         self.base_shear.see(state.base_shear, time);
         self.base_moment_change.see(state.base_moment - self.static_moment, time);
         self.normal_force.see(state.normal_force, time);
@@ -220,6 +281,12 @@ impl Run {
             self.base_rotation.value,
             state.ledger.residual(),
         );
+        self.resolution.warn(&mut self.warnings);
+    }
+
+    /// What it asked of time step and elements.
+    pub(crate) fn resolution(&self) -> &Resolution {
+        &self.resolution
     }
 
     /// Bound on what the ledger's `soil` owes to an approximate history, J/m since the start; zero

@@ -336,7 +336,8 @@ impl Simulation {
         if steps <= RESERVED_STEPS {
             self.ground.reserve(self.state.step.saturating_add(steps))?;
         }
-        let mut run = Run::new(&self.probes, &self.elements, &self.state);
+        let mut run = Run::new(self);
+        let start = self.state.time;
         for _ in 0..steps {
             self.step()?;
             run.record(&self.state);
@@ -345,6 +346,7 @@ impl Simulation {
             }
         }
         let wall = begin.map_or(std::time::Duration::ZERO, |begin| begin.elapsed());
+        self.resolve_ground(&mut run, start);
         run.finish(&self.state, wall);
         Ok(run)
     }

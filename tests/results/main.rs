@@ -4,6 +4,7 @@
 mod histories;
 mod pages;
 mod refused;
+mod resolution;
 mod safety;
 #[path = "../support/scenes.rs"]
 mod scenes;
