@@ -55,6 +55,10 @@ impl KernelSource for HalfPlane {
         self.statics.compliance(elements, matrix)
     }
 
+    fn shear_wave_speed(&self) -> Option<f64> {
+        Some(self.soil.shear_wave_speed())
+    }
+
     fn identity(&self) -> Option<Vec<f64>> {
         Some(vec![self.soil.shear_modulus(), self.soil.poisson(), self.soil.density()])
     }
@@ -163,6 +167,7 @@ impl Ground for HalfPlaneGround {
         fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
         fn commit(&mut self, traction: &[f64]);
         fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
+        fn shear_wave_speed(&self) -> Option<f64>;
         fn history_choice(&self) -> Option<HistoryChoice>;
         fn increment_error_bound(&self) -> f64;
         fn save(&self) -> Result<Vec<f64>>;

@@ -268,6 +268,10 @@ impl Ground for KernelGround {
         }
     }
 
+    fn shear_wave_speed(&self) -> Option<f64> {
+        self.source.shear_wave_speed()
+    }
+
     fn history_choice(&self) -> Option<HistoryChoice> {
         self.prepared.as_ref()?.choice
     }

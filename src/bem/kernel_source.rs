@@ -25,6 +25,11 @@ pub trait KernelSource: Any + Send {
     /// If the slice has the wrong length.
     fn static_compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()>;
 
+    /// Speed of shear waves near the surface, m/s, as [`Ground::shear_wave_speed`](super::Ground::shear_wave_speed).
+    fn shear_wave_speed(&self) -> Option<f64> {
+        None
+    }
+
     /// Numbers that say which soil of its type it is, so that equal ones can share kernels
     /// ([`SharedKernels`](super::SharedKernels)): equal numbers must mean equal bits of all
     /// coefficients. `None` (the default) if kernels are not to be shared.

@@ -103,6 +103,12 @@ pub trait Ground: Any + Send {
     /// If the slice has the wrong length.
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
 
+    /// Speed of shear waves in it, m/s, which tells what elements resolve; `None` (the default) for
+    /// a ground without waves.
+    fn shear_wave_speed(&self) -> Option<f64> {
+        None
+    }
+
     /// Which history it keeps and why; `None` (the default) if there is nothing to choose.
     fn history_choice(&self) -> Option<HistoryChoice> {
         None
@@ -156,6 +162,7 @@ impl<T: Ground + ?Sized> Ground for Box<T> {
         fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
         fn commit(&mut self, traction: &[f64]);
         fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
+        fn shear_wave_speed(&self) -> Option<f64>;
         fn history_choice(&self) -> Option<HistoryChoice>;
         fn increment_error_bound(&self) -> f64;
         fn save(&self) -> Result<Vec<f64>>;

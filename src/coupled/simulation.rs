@@ -4,6 +4,7 @@ use super::books::Books;
 use super::builder::SimulationBuilder;
 use super::checkpoint::{self, Checkpoint};
 use super::probe::Probe;
+use super::resolution::Resolution;
 use super::run::{Flow, Run};
 use super::scene::Scene;
 use super::scene::conditioning::Conditioning;
@@ -107,6 +108,12 @@ impl Simulation {
         each.unwrap_or_default()
     }
 
+    /// What a run asks of time step and elements, nothing seen yet.
+    pub(crate) fn resolution(&self) -> Resolution {
+        let Scene { time_step, elements, .. } = &self.scene;
+        Resolution::new(*time_step, elements, self.ground.shear_wave_speed(), &self.state)
+    }
+
     /// The structure as it is now, internal variables included. It is [`Any`](std::any::Any): of
     /// its own type it is what was given to the builder (the box, if that was a box).
     ///
@@ -208,7 +215,9 @@ impl Simulation {
         if steps <= RESERVED_STEPS {
             self.ground.reserve(announced)?;
         }
-        let mut run = Run::new(&self.scene.probes, &self.scene.elements, &self.state);
+        let (probes, elements) = (&self.scene.probes, &self.scene.elements);
+        let mut run = Run::new(probes, elements, &self.state, self.resolution());
+        let start = self.state.time;
         for _ in 0..steps {
             self.step()?;
             run.record(&self.state);
@@ -217,6 +226,7 @@ impl Simulation {
             }
         }
         let wall = begin.map_or(std::time::Duration::ZERO, |begin| begin.elapsed());
+        run.resolve_ground(self.ground.as_ref(), self.motion.as_ref(), start);
         run.finish(&self.state, wall);
         Ok(run)
     }

@@ -7,6 +7,7 @@ mod histories;
 mod pages;
 mod plot;
 mod refused;
+mod resolution;
 mod safety;
 mod spectra;
 #[path = "../support/mod.rs"]

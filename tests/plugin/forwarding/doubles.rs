@@ -158,6 +158,11 @@ impl Ground for Double {
     }
 
     /// Only the crate makes one: that it was asked is all there is to see.
+    fn shear_wave_speed(&self) -> Option<f64> {
+        self.0.asked("shear_wave_speed");
+        Some(CORRECT)
+    }
+
     fn history_choice(&self) -> Option<HistoryChoice> {
         self.0.asked("history_choice");
         None
