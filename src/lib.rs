@@ -164,6 +164,7 @@ pub mod interface;
 mod linalg;
 mod matrix;
 pub mod motion;
+mod number;
 #[cfg(feature = "plot")]
 pub mod plot;
 pub mod prelude;

@@ -3,6 +3,8 @@
 mod baselines;
 mod filters;
 mod free_fields;
+mod odd_columns;
+mod odd_headers;
 mod records;
 #[path = "../support/mod.rs"]
 mod support;
