@@ -180,6 +180,7 @@ pub mod io;
 mod linalg;
 mod matrix;
 pub mod motion;
+mod number;
 #[cfg(feature = "plot")]
 pub mod plot;
 pub mod prelude;

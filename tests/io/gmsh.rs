@@ -177,6 +177,31 @@ fn bad_files_are_refused_with_their_line() {
     assert!(matches!(GmshMesh::read("no such file"), Err(Error::MeshFile { line: 0, .. })));
 }
 
+/// Editors may write a byte-order mark before the first line; anywhere else it is no number.
+#[test]
+fn a_byte_order_mark_is_passed_over() {
+    let marked = format!("\u{feff}{MANUAL}");
+    assert_eq!(read(&marked).unwrap(), read(MANUAL).unwrap());
+    // Lines are counted as without it.
+    let (line, reason) = refusal(&marked.replacen("1. 1. 0.", "1. x 0.", 1));
+    assert!(line == 15 && matches!(reason, MeshFileError::NotA { .. }), "{reason}");
+    let (line, _) = refusal(&MANUAL.replacen("1. 1. 0.", "\u{feff}1. 1. 0.", 1));
+    assert_eq!(line, 15);
+}
+
+#[test]
+fn numbers_are_read_wholly_or_refused() {
+    let with = |x: &str| MANUAL.replacen("2. 0. 0.", &format!("{x} 0. 0."), 1);
+    for two in ["2", "2.", "+2.0", "0.2e1", "2D0", "2.0d+00", ".2E+1"] {
+        assert_eq!(read(&with(two)).unwrap(), read(MANUAL).unwrap(), "{two}");
+    }
+    for bad in ["2,0", "2.0m", "2D", "0x2", "2_0", "1e999", "inf", "\u{2212}2", "2;", "**", "2/1"] {
+        let (line, reason) = refusal(&with(bad));
+        let MeshFileError::NotA { text, .. } = &reason else { panic!("{bad}: {reason}") };
+        assert_eq!((line, text.as_str()), (17, bad), "{reason}");
+    }
+}
+
 /// A group of any number that fits into the file's integers has a name.
 #[test]
 fn groups_of_any_number_are_read() {

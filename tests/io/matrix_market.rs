@@ -87,6 +87,39 @@ fn spellings_that_occur_are_read() {
     assert_eq!(parse("%%MatrixMarket matrix array real general\n0 0").unwrap().order(), 0);
 }
 
+/// Editors may write a byte-order mark before the first line.
+#[test]
+fn a_byte_order_mark_is_passed_over() {
+    let text = "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 2.0\n";
+    let marked = format!("\u{feff}{text}");
+    assert_eq!(parse(&marked).unwrap(), parse(text).unwrap());
+    let Error::MatrixFile { line, .. } = parse(&marked.replace("2.0", "x")).unwrap_err() else {
+        panic!("a matrix's file")
+    };
+    assert_eq!(line, 3);
+    assert!(parse(&text.replace("2.0", "\u{feff}2.0")).is_err());
+}
+
+#[test]
+fn numbers_are_read_wholly_or_refused() {
+    let with = |value: &str| {
+        format!("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 {value}\n")
+    };
+    for two in ["2", "2.", "+2.0", "0.2e1", "2D0", "2.0d+00", ".2E+1"] {
+        assert_eq!(dense(&parse(&with(two)).unwrap()), [2.0], "{two}");
+    }
+    for bad in ["2,0", "2.0m", "2D", "0x2", "2_0", "1D999", "inf", "\u{2212}2", "2;", "**", "Dinf"]
+    {
+        let error = parse(&with(bad)).unwrap_err();
+        let reason = MatrixFileError::NotANumber { text: bad.into() };
+        assert_eq!(error, Error::MatrixFile { file: "text".into(), line: 3, reason }, "{bad}");
+    }
+    for bad in ["1,0", "1.0", "1D0", "-1", "1e0"] {
+        let text = with("2").replace("1 1 2", &format!("{bad} 1 2"));
+        assert!(matches!(parse(&text), Err(Error::MatrixFile { line: 3, .. })), "{bad}");
+    }
+}
+
 #[test]
 fn bad_files_are_refused_with_line_and_reason() {
     use MatrixFileError as E;

@@ -9,6 +9,8 @@ mod fuzz;
 mod inclined_waves;
 mod motion_formats;
 mod motion_reader;
+mod odd_columns;
+mod odd_headers;
 mod records;
 mod response_spectrum;
 #[path = "../support/mod.rs"]

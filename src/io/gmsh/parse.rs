@@ -1,11 +1,12 @@
 //! The sections of a `.msh` file, version 4.1 (Gmsh reference manual, "MSH file format").
 
 use std::collections::BTreeMap;
-use std::io::{BufReader, Read};
+use std::io::Read;
 use std::str::FromStr;
 
-use crate::bounded_line::read_line;
+use crate::bounded_line::Lines;
 use crate::error::MeshFileError;
+use crate::number::{excerpt, finite};
 
 /// Why a line is refused, and which.
 type Reason<T> = Result<T, (usize, MeshFileError)>;
@@ -139,7 +140,7 @@ fn entities(fields: &mut Fields<impl Read>, raw: &mut Raw, partitioned: bool) ->
                     let _: i64 = fields.next("partition")?;
                 }
             }
-            // A point has its coordinates, the others the corners of a box.
+            // A point has its coordinates, the others the corners of a box, which may be infinite.
             for _ in 0..if dimension == 0 { 3 } else { 6 } {
                 let _: f64 = fields.next("coordinate of an entity")?;
             }
@@ -243,8 +244,7 @@ fn elements(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
 
 /// The fields of a text, one after the other, with the line that they stand in.
 struct Fields<R: Read> {
-    source: BufReader<R>,
-    bytes: Vec<u8>,
+    source: Lines<R>,
     text: String,
     /// Where the next field begins in `text`.
     at: usize,
@@ -254,8 +254,7 @@ struct Fields<R: Read> {
 
 impl<R: Read> Fields<R> {
     fn new(source: R) -> Self {
-        let source = BufReader::new(source);
-        Self { source, bytes: Vec::new(), text: String::new(), at: 0, line: 0 }
+        Self { source: Lines::new(source), text: String::new(), at: 0, line: 0 }
     }
 
     fn refuse(&self, reason: MeshFileError) -> (usize, MeshFileError) {
@@ -265,12 +264,11 @@ impl<R: Read> Fields<R> {
     /// Goes to the next line; `false` at the end.
     fn advance(&mut self) -> Reason<bool> {
         self.line += 1;
-        let read = read_line(&mut self.source, &mut self.bytes);
-        if !read.map_err(|unread| (self.line, unread.into()))? {
+        if !self.source.advance()? {
             return Ok(false);
         }
         self.text.clear();
-        self.text.push_str(&String::from_utf8_lossy(&self.bytes));
+        self.text.push_str(&self.source.text());
         self.at = 0;
         Ok(true)
     }
@@ -292,22 +290,21 @@ impl<R: Read> Fields<R> {
         }
     }
 
-    fn next<T: FromStr>(&mut self, what: &'static str) -> Reason<T> {
+    /// The next field, understood by `parse`.
+    fn field_as<T>(&mut self, what: &'static str, parse: impl Fn(&str) -> Option<T>) -> Reason<T> {
         let Some(field) = self.field()? else {
             return Err((self.line, MeshFileError::Missing { what: what.to_owned() }));
         };
-        let parsed = field.parse();
-        let text = field.chars().take(40).collect();
-        parsed.map_err(|_| self.refuse(MeshFileError::NotA { what, text }))
+        let (parsed, text) = (parse(field), excerpt(field));
+        parsed.ok_or_else(|| self.refuse(MeshFileError::NotA { what, text }))
+    }
+
+    fn next<T: FromStr>(&mut self, what: &'static str) -> Reason<T> {
+        self.field_as(what, |field| field.parse().ok())
     }
 
     fn number(&mut self) -> Reason<f64> {
-        let value: f64 = self.next("number")?;
-        if value.is_finite() {
-            return Ok(value);
-        }
-        let text = value.to_string();
-        Err(self.refuse(MeshFileError::NotA { what: "finite number", text }))
+        self.field_as("finite number", finite)
     }
 
     /// Refuses another number of things than was announced.
@@ -340,7 +337,7 @@ impl<R: Read> Fields<R> {
         if let Some(name) = field.strip_prefix('$') {
             return Ok(Some(name.to_owned()));
         }
-        let text = field.chars().take(40).collect();
+        let text = excerpt(field);
         Err(self.refuse(MeshFileError::NotA { what: "beginning of a section", text }))
     }
 
