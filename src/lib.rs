@@ -126,9 +126,9 @@
 //! | feature | what it adds |
 //! |---|---|
 //! | `full-plane` | `bem::full_plane`: boundaries that are not flat, the paper's own scheme and its stability; `fundamental::FullPlane` |
-//! | `io` | `io`: meshes from Gmsh, matrices by Matrix Market, grids for ParaView |
+//! | `io` | `io`: meshes from Gmsh, matrices by Matrix Market, grids for ParaView; `results::Wireframe` |
 //! | `reference` | `reference`: closed forms from the literature, to check against |
-//! | `plot` | `plot`: pictures of histories, contact, spectra and shapes, as SVG |
+//! | `plot` | `plot`: pictures of histories, contact, spectra and shapes, as SVG; `results::Wireframe` |
 //! | `png` | `plot`, and the same pictures as PNG |
 //! | `rayon` | [`Sweep`] on all processors |
 //! | `serde` | `Serialize` and `Deserialize` of a [`Checkpoint`](coupled::Checkpoint) |

@@ -68,6 +68,7 @@ mod summary;
 mod table;
 pub(crate) mod unit;
 mod uplift;
+#[cfg(any(feature = "io", feature = "plot"))]
 mod wireframe;
 
 pub use crate::coupled::{Extremes, ProbeExtremes};
@@ -83,4 +84,5 @@ pub use recorder::Recorder;
 pub use sliding::{Sliding, SlipEvent};
 pub use summary::Summary;
 pub use uplift::Uplift;
+#[cfg(any(feature = "io", feature = "plot"))]
 pub use wireframe::{WirePoint, Wireframe};
