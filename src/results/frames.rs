@@ -21,9 +21,10 @@ pub struct ContactFrame<'a> {
 pub struct MotionFrame<'a> {
     /// Time, s.
     pub time: f64,
-    /// Unknowns, as changes against the static state, m and rad.
+    /// Unknowns as changes against the static state, relative to the free field's translation, m
+    /// and rad.
     pub displacement: &'a [f64],
-    /// Their rates.
+    /// Their total rates.
     pub velocity: &'a [f64],
     /// Mean displacement [horizontal, up] of the free field under the base, m.
     pub free_field: [f64; 2],
@@ -87,7 +88,7 @@ impl MotionFrames {
 
     pub(super) fn keep(&mut self, state: &State) {
         self.times.push(state.time);
-        self.displacement.extend_from_slice(state.absolute_displacement());
+        self.displacement.extend_from_slice(state.displacement());
         self.velocity.extend_from_slice(state.velocity());
         self.free_field.push(state.free_field);
     }

@@ -108,7 +108,7 @@ impl Histories {
         let mut histories = Self {
             probes: simulation.probes().to_vec(),
             time_step: simulation.time_step(),
-            unknowns: recorder.motion.map_or(0, |_| state.absolute_displacement().len()),
+            unknowns: recorder.motion.map_or(0, |_| state.displacement().len()),
             times: Vec::new(),
             scalars: vec![Vec::new(); Quantity::ALL.len()],
             probe_values: vec![Vec::new(); state.probes.len()],

@@ -134,7 +134,7 @@ fn thinned_histories_keep_the_peaks_of_all_steps() {
     let frames: Vec<_> = histories.motion_frames().collect();
     assert_eq!(frames.len(), 9);
     for (k, frame) in frames.iter().enumerate() {
-        assert_eq!(frame.displacement, states[50 * k].absolute_displacement());
+        assert_eq!(frame.displacement, states[50 * k].displacement());
         assert_eq!(frame.velocity, states[50 * k].velocity());
     }
     assert!(matches!(histories.acceleration_record("top acceleration"), Err(Error::Scene { .. })));

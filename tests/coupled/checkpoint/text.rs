@@ -77,13 +77,23 @@ fn a_damaged_choice_of_the_history_is_refused() {
         }
     }
     // Numbers that mean something, but something else.
-    for (place, other) in [(0, 0.0_f64), (0, 1.0), (0, 3.0), (1, 0.0), (1, 50.0), (1, 1e15)] {
+    let changed = |place: usize, other: f64| -> Checkpoint {
         let mut value = good.clone();
         value["ground"][place] = Value::from(other.to_bits());
-        let bad: Checkpoint = serde_json::from_value(value).unwrap();
+        serde_json::from_value(value).unwrap()
+    };
+    for (place, other) in [(0, 0.0_f64), (0, 1.0), (0, 3.0), (1, 1e15)] {
         let mut fresh = auto(10, 1 << 30).build().unwrap();
-        refusal(&mut fresh, &bad);
+        refusal(&mut fresh, &changed(place, other));
         assert_eq!(fresh.history_choice(), None);
+    }
+    // Other numbers of steps for which the same history is chosen: it goes on to the same bits.
+    whole.run(50, |_| {}).unwrap();
+    for other in [0.0, 50.0] {
+        let mut fresh = auto(10, 1 << 30).build().unwrap();
+        fresh.resume(&changed(1, other)).unwrap();
+        fresh.run(50, |_| {}).unwrap();
+        assert_eq!(fresh.state(), whole.state(), "{other} steps");
     }
 }
 
