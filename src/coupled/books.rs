@@ -10,7 +10,7 @@
 use super::ledger::Ledger;
 use super::motion::Motion;
 use super::scene::Scene;
-use super::scene::base::Terms;
+use super::scene::stepped_row::Terms;
 use super::scheme::SchemeCoefficients;
 use super::state::State;
 use super::step::forcing::Forcing;

@@ -6,11 +6,12 @@ use super::books::Books;
 use super::probe::Probe;
 use super::scene::base::Base;
 use super::scene::conditioning;
-use super::scene::modal_basis::{Coordinates, ModalBasis, SteppedRow};
+use super::scene::modal_basis::{Coordinates, ModalBasis};
 use super::scene::model::{Model, Tangent};
 use super::scene::operators::{Factor, Operators};
 use super::scene::static_state::{self, Placement, StaticState};
-use super::scene::{ProbeRows, Scene, supports};
+use super::scene::translation_check::check_force;
+use super::scene::{ProbeRows, Scene};
 use super::scheme::{Midpoint, TimeScheme};
 use super::simulation::Simulation;
 use super::state::State;
@@ -62,8 +63,15 @@ short_debug! {
     coordinates: self.coordinates,
 }
 
+impl Simulation {
+    /// Begins a simulation with steps of `time_step` seconds.
+    pub fn builder(time_step: f64) -> SimulationBuilder {
+        SimulationBuilder::new(time_step)
+    }
+}
+
 impl SimulationBuilder {
-    pub(super) fn new(time_step: f64) -> Self {
+    fn new(time_step: f64) -> Self {
         Self {
             time_step,
             structure: None,
@@ -235,7 +243,7 @@ impl SimulationBuilder {
             ground.reserve(self.steps)?;
         }
         let static_state = self.static_state(structure.as_ref(), ground.as_ref(), &base, &model)?;
-        supports::check_force(&model, structure.as_ref(), &static_state)?;
+        check_force(&model, structure.as_ref(), &static_state)?;
 
         let coefficients = self.scheme.coefficients(time_step);
         let mut soil = vec![0.0; 4 * count * count];
@@ -266,7 +274,7 @@ impl SimulationBuilder {
             static_state,
             soil,
             start_motion: motion_at_start(ground.as_ref(), self.motion.as_ref(), count)?,
-            probe_rows: self.probes.iter().map(|probe| probe_rows(probe, &model)).collect(),
+            probe_rows: self.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect(),
             probes: self.probes,
             arms: elements.iter().map(|e| ContactElement::center(e) - moment_center).collect(),
             elements,
@@ -329,7 +337,10 @@ impl SimulationBuilder {
         let steps = if self.steps > 0 { self.steps } else { STEPS };
         let modes = || {
             let matrices = model.sparse().filter(|_| model.linear)?;
-            ModalBasis::new(matrices, &model.influence)
+            let parts = model.influence.parts().iter();
+            let translations: Vec<_> =
+                parts.flat_map(|part| &part.vectors).map(Vec::as_slice).collect();
+            ModalBasis::new(matrices, &translations)
         };
         match self.coordinates {
             Coordinates::Auto if model.modes_save_time(factor, contact, steps) => Ok(modes()),
@@ -341,20 +352,6 @@ impl SimulationBuilder {
             }),
         }
     }
-}
-
-/// A probe in the coordinates of `model`.
-fn probe_rows(probe: &Probe, model: &Model) -> ProbeRows {
-    let rows = probe.rows().map(|row| SteppedRow::new(row.terms(), model.modes.as_deref()));
-    let parts = model.influence.parts().iter().filter(|_| probe.absolute);
-    let carried = parts.map(|part| {
-        [0, 1].map(|k| {
-            let mut vector = vec![0.0; model.unknowns];
-            part.vectors[k].iter().for_each(|&(i, r)| vector[i] = r);
-            rows[0].of(&vector)
-        })
-    });
-    ProbeRows { carried: carried.collect(), rows }
 }
 
 /// Whether the laws fit the ground's `count` elements, and laws and contact search the scene.

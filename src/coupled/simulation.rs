@@ -1,7 +1,6 @@
 //! The simulation: the loop over steps.
 
 use super::books::Books;
-use super::builder::SimulationBuilder;
 use super::checkpoint::{self, Checkpoint};
 use super::probe::Probe;
 use super::resolution::Resolution;
@@ -51,11 +50,6 @@ short_debug! {
 const RESERVED_STEPS: usize = 100_000;
 
 impl Simulation {
-    /// Begins a simulation with steps of `time_step` seconds.
-    pub fn builder(time_step: f64) -> SimulationBuilder {
-        SimulationBuilder::new(time_step)
-    }
-
     /// Makes one step and returns the new state.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use super::late_lags::LateLags;
 use super::pair_classes::PairClasses;
-use super::relaxed_fft::SharedSpectra;
+use super::relaxed_fft::spectra::SharedSpectra;
 use crate::error::{Result, same_length};
 
 /// Step coefficients Gⁿ of a laterally homogeneous ground under a patch of elements, for steps of

@@ -9,8 +9,6 @@ use crate::fem::{
     assemble_mass, assemble_stiffness,
 };
 
-pub(super) const ALL_DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Rotation];
-
 /// Finite-element structure on a flat base.
 ///
 /// Unknowns: those of [`Numbering`], node by node. Mass consistent, no Rayleigh damping, unless
@@ -291,7 +289,7 @@ impl FemModel {
                 Direction::Y => [0.0, 1.0, 0.0],
                 Direction::Rotation => [point[1] - y, x - point[0], 1.0],
             };
-            for (own, value) in ALL_DIRECTIONS.into_iter().zip(values) {
+            for (own, value) in Direction::ALL.into_iter().zip(values) {
                 if let Some(unknown) = number(node, own) {
                     motion[unknown] = value;
                 }
@@ -340,7 +338,11 @@ impl Structure for FemModel {
 
     /// Nodes with their places, and whether one of the rest lies where one of them does.
     fn describe(&self, unknowns: &[usize]) -> Option<String> {
-        node_names::describe(self, unknowns)
+        node_names::describe(
+            self.mesh(),
+            &|node, direction| self.unknown(node, direction),
+            unknowns,
+        )
     }
 
     fn has_active_damping(&self) -> bool {

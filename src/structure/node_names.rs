@@ -2,14 +2,16 @@
 
 use std::fmt::Write;
 
-use super::FemModel;
 use super::detached::{NAMED, listed};
-use super::fem_model::ALL_DIRECTIONS;
+use crate::fem::{Direction, Mesh};
 
 /// Nodes of these unknowns with their places, and whether one of the rest lies where one of them
-/// does. `None` without unknowns of nodes.
-pub(super) fn describe(model: &FemModel, unknowns: &[usize]) -> Option<String> {
-    let mesh = model.mesh();
+/// does; `number` numbers the unknowns. `None` without unknowns of nodes.
+pub(super) fn describe(
+    mesh: &Mesh,
+    number: &dyn Fn(usize, Direction) -> Option<usize>,
+    unknowns: &[usize],
+) -> Option<String> {
     let limit = unknowns.iter().copied().max()?;
     let mut is_meant = vec![false; limit.saturating_add(1).min(3 * mesh.nodes().len())];
     for &unknown in unknowns {
@@ -19,8 +21,8 @@ pub(super) fn describe(model: &FemModel, unknowns: &[usize]) -> Option<String> {
     let mut nodes = Vec::new();
     let mut texts = Vec::new();
     for (node, [x, y]) in mesh.nodes().iter().enumerate() {
-        let own = || ALL_DIRECTIONS.into_iter().filter(|d| model.unknown(node, *d).is_some());
-        let these: Vec<_> = own().filter(|d| model.unknown(node, *d).is_some_and(meant)).collect();
+        let own = || Direction::ALL.into_iter().filter(|d| number(node, *d).is_some());
+        let these: Vec<_> = own().filter(|d| number(node, *d).is_some_and(meant)).collect();
         if these.is_empty() {
             continue;
         }

@@ -2,16 +2,14 @@
 
 use std::ops::Range;
 
-use super::modal_basis::{ModalBasis, SteppedRow};
+use super::modal_basis::ModalBasis;
+use super::stepped_row::{SteppedRow, Terms};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result};
 use crate::linalg::{dot, wide_multiply_add};
 use crate::structure::{
     ContactNode, Row, Structure, Triplets, check_contact_nodes, foundation_nodes,
 };
-
-/// (unknown, weight) pairs.
-pub(crate) type Terms = Vec<(usize, f64)>;
 
 /// B, which takes unknowns to element means of the base displacement (normal components down),
 /// and BᵀA, which takes tractions to forces on the structure's unknowns.

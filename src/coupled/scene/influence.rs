@@ -10,7 +10,8 @@
 //! Displacements are stepped relative to R y, so R has to be exact where the ground sees it: N R is
 //! 1 or 0 to rounding, and then so is B R.
 
-use super::base::{Base, Terms};
+use super::base::Base;
+use super::stepped_row::Terms;
 use super::supports;
 use crate::error::{Error, Result};
 use crate::linalg::{Partition, SparseFactor, largest};

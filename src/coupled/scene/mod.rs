@@ -7,14 +7,16 @@ pub(crate) mod modal_basis;
 pub(crate) mod model;
 pub(crate) mod operators;
 pub(crate) mod static_state;
-pub(crate) mod supports;
+pub(crate) mod stepped_row;
+mod supports;
+pub(crate) mod translation_check;
 
 use crate::bem::ContactElement;
 use crate::interface::{InterfaceLaw, law_of};
 use base::Base;
-use modal_basis::SteppedRow;
 use model::Model;
 use static_state::StaticState;
+use stepped_row::SteppedRow;
 
 use super::probe::Probe;
 use super::scheme::SchemeCoefficients;
@@ -50,6 +52,21 @@ pub(crate) struct ProbeRows {
     pub(crate) rows: [SteppedRow; 3],
     /// Displacement by a translation of 1 m of each part `[right, up]`, where it is absolute.
     pub(crate) carried: Vec<[f64; 2]>,
+}
+
+impl ProbeRows {
+    pub(crate) fn new(probe: &Probe, model: &Model) -> Self {
+        let rows = probe.rows().map(|row| SteppedRow::new(row.terms(), model.modes.as_deref()));
+        let parts = model.influence.parts().iter().filter(|_| probe.absolute);
+        let carried = parts.map(|part| {
+            [0, 1].map(|k| {
+                let mut vector = vec![0.0; model.unknowns];
+                part.vectors[k].iter().for_each(|&(i, r)| vector[i] = r);
+                rows[0].of(&vector)
+            })
+        });
+        Self { carried: carried.collect(), rows }
+    }
 }
 
 impl Scene {

@@ -14,8 +14,6 @@
 //! The rigid translations are modes of their own, exactly: R spans the first ones, and no deforming
 //! mode has a share of it.
 
-use super::base::Terms;
-use super::influence::Influence;
 use crate::linalg::{Partition, dot, generalised_modes, largest};
 use crate::matrix::SparseMatrix;
 
@@ -56,9 +54,13 @@ const SMALLEST: f64 = 1e-8;
 const RIGID_MOTIONS: usize = 3;
 
 impl ModalBasis {
-    /// Modes that diagonalise mass, damping and stiffness; `None` if there are none, or not well
+    /// Modes that diagonalise mass, damping and stiffness, the rigid `translations` among them, as
+    /// (unknown, displacement) terms; `None` if there are none, or not well
     /// enough.
-    pub(crate) fn new(matrices: [&SparseMatrix; 3], influence: &Influence) -> Option<Self> {
+    pub(crate) fn new(
+        matrices: [&SparseMatrix; 3],
+        translations: &[&[(usize, f64)]],
+    ) -> Option<Self> {
         let [mass, damping, stiffness] = matrices;
         let n = mass.order();
         if matrices.iter().any(|matrix| matrix.asymmetry() > 1e-13) {
@@ -79,7 +81,7 @@ impl ModalBasis {
         }
         values[..rigid].fill(0.0);
         let mut modes = Self { stiffness: values, damping: vec![0.0; n], vectors };
-        modes.separate_translations(rigid, mass, influence)?;
+        modes.separate_translations(rigid, mass, translations)?;
         modes.decouple(mass, damping, stiffness).then_some(modes)
     }
 
@@ -88,7 +90,7 @@ impl ModalBasis {
         &mut self,
         rigid: usize,
         mass: &SparseMatrix,
-        influence: &Influence,
+        translations: &[&[(usize, f64)]],
     ) -> Option<()> {
         let n = self.count();
         let mut column: Vec<Vec<f64>> =
@@ -112,7 +114,7 @@ impl ModalBasis {
             let image = product(&vector);
             scale.is_finite().then_some([vector, image])
         };
-        for vector in influence.parts().iter().flat_map(|part| &part.vectors) {
+        for vector in translations {
             if !vector.is_empty() {
                 let mut own = vec![0.0; n];
                 vector.iter().for_each(|&(i, r)| own[i] = r);
@@ -123,7 +125,7 @@ impl ModalBasis {
         if basis.len() > rigid {
             return None;
         }
-        let translations = basis.len();
+        let separated = basis.len();
         while basis.len() < rigid {
             // The rigid mode with most left over.
             let norm = |vector: &Vec<f64>| dot(vector, &product(vector));
@@ -137,7 +139,7 @@ impl ModalBasis {
             basis.push(normalise(chosen)?);
         }
         for vector in &mut column[rigid..] {
-            project(vector, &basis[..translations]);
+            project(vector, &basis[..separated]);
         }
         for (own, [vector, _]) in column.iter_mut().zip(basis) {
             *own = vector;
@@ -181,6 +183,12 @@ impl ModalBasis {
         (0..2).all(|k| residuals[k] <= DECOUPLED * sizes[k])
     }
 
+    /// Displacements of an unknown in all modes.
+    pub(crate) fn row(&self, unknown: usize) -> &[f64] {
+        let n = self.count();
+        &self.vectors[unknown * n..(unknown + 1) * n]
+    }
+
     /// Number of modes.
     pub(crate) fn count(&self) -> usize {
         self.stiffness.len()
@@ -196,7 +204,11 @@ impl ModalBasis {
     }
 
     /// Modal coordinates of a rigid translation, M its mass matrix: only rigid modes have a share.
-    pub(crate) fn coordinates(&self, vector: &Terms, mass: &SparseMatrix) -> Terms {
+    pub(crate) fn coordinates(
+        &self,
+        vector: &[(usize, f64)],
+        mass: &SparseMatrix,
+    ) -> Vec<(usize, f64)> {
         // u = Φ q and Φᵀ M Φ = 1: q = Φᵀ M u.
         let n = self.count();
         let [mut full, mut momentum, mut shares] = [(); 3].map(|()| vec![0.0; n]);
@@ -214,39 +226,5 @@ impl ModalBasis {
     /// Φ q.
     pub(crate) fn unknowns(&self, modal: &[f64]) -> Vec<f64> {
         self.vectors.chunks_exact(self.count()).map(|row| dot(row, modal)).collect()
-    }
-}
-
-/// A weighted sum of unknowns, in the coordinates that are stepped.
-#[derive(Debug, Clone)]
-pub(crate) enum SteppedRow {
-    /// (unknown, weight) pairs.
-    Unknowns(Vec<(usize, f64)>),
-    /// A weight for every mode; none for a sum of nothing.
-    Modes(Vec<f64>),
-}
-
-impl SteppedRow {
-    pub(crate) fn new(terms: &[(usize, f64)], modes: Option<&ModalBasis>) -> Self {
-        let Some(modes) = modes else { return Self::Unknowns(terms.to_vec()) };
-        if terms.is_empty() {
-            return Self::Modes(Vec::new());
-        }
-        let n = modes.count();
-        let mut weights = vec![0.0; n];
-        for &(i, weight) in terms {
-            let row = &modes.vectors[i * n..(i + 1) * n];
-            weights.iter_mut().zip(row).for_each(|(w, phi)| *w += weight * phi);
-        }
-        Self::Modes(weights)
-    }
-
-    /// The sum at coordinates `x`.
-    pub(crate) fn of(&self, x: &[f64]) -> f64 {
-        match self {
-            Self::Unknowns(terms) => terms.iter().map(|&(i, weight)| weight * x[i]).sum(),
-            Self::Modes(weights) if weights.is_empty() => 0.0,
-            Self::Modes(weights) => dot(weights, x),
-        }
     }
 }

@@ -23,18 +23,15 @@
 //! The reduced walls meet a force of 2e-10 of the largest stiffness in all, the springs one of 1e-9.
 //! A support is what is above all of the limits below.
 
-use super::model::{Model, Tangent};
-use super::static_state::StaticState;
 use crate::error::{Error, Result};
 use crate::linalg::{SparseMatrix, largest};
-use crate::structure::Structure;
 
 /// Largest lag: far above rounding, and what a weight may be off.
 const LAG: f64 = 1e-6;
 /// Force r·K r of no account, relative to the largest stiffness.
 const FORCE: f64 = 3e-10;
 /// Largest force of a row of K s, relative to |K| |s|.
-const ROW: f64 = 3e-10;
+pub(super) const ROW: f64 = 3e-10;
 /// The same relative to the diagonal, for rows in which all entries are rounding.
 const DIAGONAL: f64 = 1e-13;
 /// Work r·K r that is rounding, relative to |r|·|K| |r|; elements added up leave 3e-17.
@@ -44,11 +41,8 @@ const BENT: f64 = 1e-9;
 /// Largest |r − s| with which s is what r is meant to be.
 const WHOLE: f64 = 0.25;
 
-/// Translations (m) that no nonlinear force may resist.
-const TRANSLATIONS: [f64; 3] = [1e-3, 1.0, 1e3];
-
 /// Names of the two translations.
-const DIRECTIONS: [&str; 2] = ["to the right", "upwards"];
+pub(super) const DIRECTIONS: [&str; 2] = ["to the right", "upwards"];
 
 /// Refuses a structure that does not translate freely, and rounds its translations (to the right
 /// and upwards) to whole numbers where these are what they are meant to be. `stiffness` without
@@ -72,45 +66,6 @@ pub(super) fn check(
     if lag > LAG {
         let needed = "its contact nodes must be able to translate together";
         return Err(Error::Scene { quantity: "structure", needed });
-    }
-    Ok(())
-}
-
-/// Refuses a nonlinear force that resists a translation from the static state by a millimetre, a
-/// metre or a kilometre: its structure is tied to a fixed point.
-pub(crate) fn check_force(
-    model: &Model,
-    structure: &dyn Structure,
-    at_rest: &StaticState,
-) -> Result<()> {
-    if model.linear {
-        return Ok(());
-    }
-    let n = model.unknowns;
-    let mut tangent = Tangent::new(n);
-    tangent.refill(model, structure, &at_rest.displacement)?;
-    let translations = model.influence.of_all(n);
-    for (translation, direction) in translations.iter().zip(DIRECTIONS) {
-        let [_, around] = products(&tangent.matrix, translation);
-        for distance in TRANSLATIONS {
-            let moved: Vec<f64> = at_rest
-                .displacement
-                .iter()
-                .zip(translation)
-                .map(|(u, r)| u + distance * r)
-                .collect();
-            let mut force = vec![0.0; n];
-            structure.nonlinear_force(&moved, &mut force);
-            for (unknown, (force, before)) in force.iter().zip(&at_rest.force).enumerate() {
-                let force = force - before;
-                let scale = distance * around[unknown] + before.abs();
-                // Written so that NaN is refused.
-                if !(force.abs() <= ROW * scale) {
-                    let share = if scale > 0.0 { force.abs() / scale } else { f64::INFINITY };
-                    return Err(Error::Supported { direction, force, unknown, share });
-                }
-            }
-        }
     }
     Ok(())
 }
@@ -173,7 +128,7 @@ fn stiffest(stiffness: &SparseMatrix, diagonal: &[f64]) -> f64 {
 }
 
 /// A x and |A| |x|.
-fn products(matrix: &SparseMatrix, x: &[f64]) -> [Vec<f64>; 2] {
+pub(super) fn products(matrix: &SparseMatrix, x: &[f64]) -> [Vec<f64>; 2] {
     let [mut sums, mut sizes] = [vec![0.0; x.len()], vec![0.0; x.len()]];
     for (row, column, value) in matrix.entries() {
         let term = value * x[column];

@@ -2,5 +2,6 @@
 
 pub(super) mod forcing;
 pub(super) mod increment;
-pub(super) mod newton;
+mod linear;
+mod newton;
 pub(super) mod solver;

@@ -2,7 +2,7 @@
 
 use super::forcing::Forcing;
 use super::increment::Increment;
-use super::solver::Solver;
+use super::linear::LinearStep;
 use crate::contact::SearchMethod;
 use crate::coupled::motion::Motion;
 use crate::coupled::scene::Scene;
@@ -35,10 +35,10 @@ impl Newton {
         Self { tangent: Tangent::new(unknowns), guess: zero(), linearised: zero(), seen: zero() }
     }
 
-    /// Finds the increment from the right-hand side that `solver` knows.
+    /// Finds the increment from the right-hand side that `linear` knows.
     pub(super) fn solve(
         &mut self,
-        solver: &mut Solver,
+        linear: &mut LinearStep,
         scene: &Scene,
         structure: &dyn Structure,
         state: &State,
@@ -54,37 +54,37 @@ impl Newton {
         let mut residual = f64::INFINITY;
         let (mut trials, mut method) = (0, SearchMethod::ActiveSet);
         for iteration in 0..ITERATIONS {
-            self.evaluate(solver, scene, structure, state, forcing, increment);
+            self.evaluate(linear, scene, structure, state, forcing, increment);
             self.tangent
                 .refill(&scene.model, structure, &self.seen)
                 .map_err(|_| StepError::NotFinite { quantity: "tangent of the structure" })?;
             let tangent = &self.tangent.matrix;
-            if !tangent.entries().eq(solver.operators.tangent.entries()) {
+            if !tangent.entries().eq(linear.operators.tangent.entries()) {
                 let (model, base) = (&scene.model, &scene.base);
                 let factor = Factor::new(model, &scene.coefficients, tangent)
                     .map_err(|_| StepError::Singular { matrix: "effective stiffness matrix" })?;
                 let tangent = tangent.clone();
-                solver.operators = Operators::new(model, base, &scene.soil, factor, tangent);
-                solver.contact.invalidate();
+                linear.operators = Operators::new(model, base, &scene.soil, factor, tangent);
+                linear.contact.invalidate();
             }
             // K_eff Δu + f(u*) linearised at the guess: f + D weight (Δu − guess).
             self.linearised.copy_from_slice(&increment.force);
-            let tangent = &solver.operators.tangent;
+            let tangent = &linear.operators.tangent;
             tangent.multiply_add(-weight, &self.guess, &mut self.linearised);
             for (i, du) in increment.displacement.iter_mut().enumerate() {
-                *du = solver.known[i] - self.linearised[i];
+                *du = linear.known[i] - self.linearised[i];
             }
-            solver.solve_contact(scene, state, forcing, increment)?;
+            linear.solve_contact(scene, state, forcing, increment)?;
             trials += increment.trials;
             method = method.max(increment.method);
-            let tangent = &solver.operators.tangent;
+            let tangent = &linear.operators.tangent;
             tangent.multiply_add(weight, &increment.displacement, &mut self.linearised);
             self.guess.copy_from_slice(&increment.displacement);
-            self.evaluate(solver, scene, structure, state, forcing, increment);
+            self.evaluate(linear, scene, structure, state, forcing, increment);
             if increment.force.iter().any(|f| !f.is_finite()) {
                 return Err(StepError::NotFinite { quantity: "nonlinear force of the structure" });
             }
-            let scale = largest(&solver.known).max(largest(&increment.force));
+            let scale = largest(&linear.known).max(largest(&increment.force));
             let open = self
                 .linearised
                 .iter()
@@ -106,7 +106,7 @@ impl Newton {
             *seen = u[i] + increment.displacement[i];
         }
         let translations = forcing.translations.iter().map(|translation| translation.displacement);
-        scene.seen_by_force(&mut increment.seen, &mut solver.means, translations);
+        scene.seen_by_force(&mut increment.seen, &mut linear.means, translations);
         for (seen, at_rest) in increment.seen.iter_mut().zip(&scene.static_state.displacement) {
             *seen += at_rest;
         }
@@ -116,7 +116,7 @@ impl Newton {
     /// f at u* for the guess, less f at the static state.
     fn evaluate(
         &mut self,
-        solver: &mut Solver,
+        linear: &mut LinearStep,
         scene: &Scene,
         structure: &dyn Structure,
         state: &State,
@@ -132,7 +132,7 @@ impl Newton {
             .translations
             .iter()
             .map(|y| [0, 1].map(|k| y.displacement[k] - (1.0 - c[0]) * y.increment[k]));
-        scene.seen_by_force(&mut self.seen, &mut solver.means, translations);
+        scene.seen_by_force(&mut self.seen, &mut linear.means, translations);
         for (seen, at_rest) in self.seen.iter_mut().zip(&scene.static_state.displacement) {
             *seen += at_rest;
         }

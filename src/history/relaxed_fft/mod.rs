@@ -5,7 +5,7 @@ mod coefficients;
 mod lattice;
 mod level;
 mod pairs;
-mod spectra;
+pub(super) mod spectra;
 mod wave_level;
 mod waves;
 

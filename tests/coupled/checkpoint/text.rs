@@ -82,14 +82,14 @@ fn a_damaged_choice_of_the_history_is_refused() {
         value["ground"][place] = Value::from(other.to_bits());
         serde_json::from_value(value).unwrap()
     };
-    for (place, other) in [(0, 0.0_f64), (0, 1.0), (0, 3.0), (1, 1e15)] {
+    for kind in [0.0, 1.0, 3.0] {
         let mut fresh = auto(10, 1 << 30).build().unwrap();
-        refusal(&mut fresh, &changed(place, other));
+        refusal(&mut fresh, &changed(0, kind));
         assert_eq!(fresh.history_choice(), None);
     }
     // Other numbers of steps for which the same history is chosen: it goes on to the same bits.
     whole.run(50, |_| {}).unwrap();
-    for other in [0.0, 50.0] {
+    for other in [0.0, 50.0, 1e15] {
         let mut fresh = auto(10, 1 << 30).build().unwrap();
         fresh.resume(&changed(1, other)).unwrap();
         fresh.run(50, |_| {}).unwrap();
