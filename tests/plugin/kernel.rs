@@ -420,6 +420,27 @@ fn kernels_are_shared_by_type_and_identity() {
     assert_eq!(prepare(Voigt { identity: false, ..VOIGT }, 5e-3), 3);
 }
 
+/// Says nothing of where its coupling ends.
+struct Coupled(VoigtKernel);
+impl LagKernel for Coupled {
+    fn classes(&self) -> &PairClasses {
+        self.0.classes()
+    }
+    fn coefficients(
+        &self,
+        class: usize,
+        first: usize,
+        zz: &mut [f64],
+        xx: &mut [f64],
+        zx: &mut [f64],
+    ) -> Result<()> {
+        self.0.coefficients(class, first, zz, xx, zx)
+    }
+    fn late_lags(&self) -> Option<&dyn LateLags> {
+        Some(&self.0)
+    }
+}
+
 #[test]
 fn without_late_lags_exponentials_are_refused() {
     let none = Voigt { late: false, ..VOIGT };
@@ -434,25 +455,6 @@ fn without_late_lags_exponentials_are_refused() {
     let wanted = (History::RelaxedFft, ChoiceReason::NoExponentials);
     assert_eq!((choice.kind, choice.reason), wanted);
 
-    struct Coupled(VoigtKernel);
-    impl LagKernel for Coupled {
-        fn classes(&self) -> &PairClasses {
-            self.0.classes()
-        }
-        fn coefficients(
-            &self,
-            class: usize,
-            first: usize,
-            zz: &mut [f64],
-            xx: &mut [f64],
-            zx: &mut [f64],
-        ) -> Result<()> {
-            self.0.coefficients(class, first, zz, xx, zx)
-        }
-        fn late_lags(&self) -> Option<&dyn LateLags> {
-            Some(&self.0)
-        }
-    }
     let kernel = Coupled(VoigtKernel::new(VOIGT, &strips(Grading::Uniform), 1e-4));
     let refused = ExponentialHistory::with_horizon(Arc::new(kernel), 1e-6, 3000).err();
     assert!(matches!(refused, Some(Error::NoExponentials { .. })), "{refused:?}");

@@ -10,7 +10,7 @@ use crate::linalg::dot;
 pub(super) struct Tail {
     /// Lengths of the elements, m.
     lengths: Vec<f64>,
-    tail: ExponentialTail,
+    data: ExponentialTail,
     /// e^(−rate), pole by pole.
     decay: Vec<f64>,
     /// Of normal and tangential components, per function: Σ decay^age · moment, for the poles that
@@ -22,24 +22,24 @@ pub(super) struct Tail {
 
 impl Tail {
     /// Empty.
-    pub(super) fn new(tail: ExponentialTail, elements: &[ContactElement]) -> Result<Self> {
-        for means in tail.functions() {
+    pub(super) fn new(data: ExponentialTail, elements: &[ContactElement]) -> Result<Self> {
+        for means in data.functions() {
             same_length("means of a function", means.len(), elements.len())?;
         }
-        let functions = tail.functions().len();
+        let functions = data.functions().len();
         let mut poles = vec![0; functions];
-        for product in tail.products() {
+        for product in data.products() {
             for function in product.functions {
                 poles[function] = poles[function].max(product.normal.len());
             }
         }
         Ok(Self {
             lengths: elements.iter().map(ContactElement::length).collect(),
-            decay: tail.rates().iter().map(|rate| (-rate).exp()).collect(),
+            decay: data.rates().iter().map(|rate| (-rate).exp()).collect(),
             states: [(); 2].map(|()| poles.iter().map(|&poles| vec![0.0; poles]).collect()),
             moments: vec![0.0; functions],
             amplitudes: vec![0.0; functions],
-            tail,
+            data,
         })
     }
 
@@ -60,7 +60,7 @@ impl Tail {
 
     /// Bytes held.
     pub(super) fn memory(&self) -> usize {
-        let products: usize = self.tail.products().iter().map(|p| 2 * p.normal.len()).sum();
+        let products: usize = self.data.products().iter().map(|p| 2 * p.normal.len()).sum();
         let functions = self.functions() * self.lengths.len();
         (products + self.state_length() + functions + 2 * self.poles()) * size_of::<f64>()
     }
@@ -84,7 +84,7 @@ impl Tail {
             self.moments.fill(0.0);
             if let Some(traction) = leaving {
                 let traction = &traction[part * count..(part + 1) * count];
-                for (moment, means) in self.moments.iter_mut().zip(self.tail.functions()) {
+                for (moment, means) in self.moments.iter_mut().zip(self.data.functions()) {
                     for ((traction, length), mean) in traction.iter().zip(&self.lengths).zip(means)
                     {
                         *moment += traction * length * mean;
@@ -104,7 +104,7 @@ impl Tail {
         let count = self.lengths.len();
         for (part, states) in self.states.iter().enumerate() {
             self.amplitudes.fill(0.0);
-            for product in self.tail.products() {
+            for product in self.data.products() {
                 let (weights, [i, j]) = (weights(product, part), product.functions);
                 self.amplitudes[i] += dot(weights, &states[j][..weights.len()]);
                 if i != j {
@@ -112,7 +112,7 @@ impl Tail {
                 }
             }
             let displacement = &mut displacement[part * count..(part + 1) * count];
-            for (amplitude, means) in self.amplitudes.iter().zip(self.tail.functions()) {
+            for (amplitude, means) in self.amplitudes.iter().zip(self.data.functions()) {
                 for (displacement, mean) in displacement.iter_mut().zip(means) {
                     *displacement += amplitude * mean;
                 }
@@ -126,7 +126,7 @@ impl Tail {
         let functions = self.functions();
         let factors: Vec<f64> = (0..self.poles()).map(factor).collect();
         let mut sums = [(); 2].map(|()| vec![0.0; functions * functions]);
-        for product in self.tail.products() {
+        for product in self.data.products() {
             let [i, j] = product.functions;
             for (part, sum) in sums.iter_mut().enumerate() {
                 let weights = weights(product, part);
@@ -142,7 +142,7 @@ impl Tail {
 
     /// The sums at the `age`-th lag of the tail, from 0.
     pub(super) fn at_age(&self, age: f64) -> [Vec<f64>; 2] {
-        self.sum(|pole| (-self.tail.rates()[pole] * age).exp())
+        self.sum(|pole| (-self.data.rates()[pole] * age).exp())
     }
 
     /// The sums of Re Σ (1−ζ) ζ^W z^n ζ^n, ζ = e^(iω) and z the decay, over all ages n.
@@ -152,7 +152,7 @@ impl Tail {
         let (turn_re, turn_im) = ((window * omega).cos(), (window * omega).sin());
         self.sum(|pole| {
             // (1−ζ)/(1−zζ), 1−ζ = square − i sine, 1−zζ = (1−z) + z(1−ζ).
-            let (lost, z) = (-(-self.tail.rates()[pole]).exp_m1(), self.decay[pole]);
+            let (lost, z) = (-(-self.data.rates()[pole]).exp_m1(), self.decay[pole]);
             let (re, im) = (lost + z * square, -z * sine);
             let size = re * re + im * im;
             let (real, imaginary) =
@@ -164,7 +164,7 @@ impl Tail {
     /// Integral over the receiver of the coefficient of a pair, from such sums.
     pub(super) fn of_pair(&self, sum: &[f64], receiver: usize, source: usize) -> f64 {
         let area = self.lengths[receiver] * self.lengths[source];
-        let functions = self.tail.functions();
+        let functions = self.data.functions();
         let mean: f64 = functions
             .iter()
             .zip(sum.chunks_exact(functions.len().max(1)))

@@ -6,6 +6,7 @@ mod lattice;
 mod level;
 mod pairs;
 pub(super) mod spectra;
+mod tables;
 mod wave_level;
 mod waves;
 

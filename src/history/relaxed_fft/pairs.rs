@@ -7,6 +7,7 @@ use realfft::RealFftPlanner;
 use super::blocks::{Blocks, LEAF};
 use super::coefficients::{Class, Coefficients};
 use super::level::{Block, Level, Part, Work};
+use super::tables::Tables;
 use crate::error::Result;
 use crate::history::lag_kernel::LagKernel;
 
@@ -59,12 +60,13 @@ impl Pairs {
         coefficients.couples_far() && (size == self.leaf || size / 2 < coefficients.coupling_reach)
     }
 
-    /// The levels from the `first`-th to the one before `end`.
+    /// The levels from the `first`-th to the one before `end`, and the coefficients of a leaf unless
+    /// they are there: all of one evaluation of the kernel.
     fn make(
         &mut self,
         kernel: &dyn LagKernel,
-        first: usize,
-        end: usize,
+        [first, end]: [usize; 2],
+        near: &mut Option<Arc<Tables>>,
     ) -> Result<Vec<Arc<Level>>> {
         let (count, classes) = (self.elements(), self.coefficients.classes.count());
         let mut levels = Vec::new();
@@ -75,15 +77,24 @@ impl Pairs {
             self.work.grow(&level, if couples { 2 * count } else { count });
             levels.push((level, couples));
         }
-        if !levels.is_empty() {
-            let mut values = Class::new(self.leaf << end);
+        let mut tables = near.is_none().then(Tables::default);
+        let far = if levels.is_empty() { 0 } else { self.leaf << end };
+        let length = if tables.is_some() { far.max(self.coefficients.length()) } else { far };
+        if length > 0 {
+            let mut values = Class::new(length);
             for class in 0..classes {
                 values.fill(kernel, class)?;
+                if let Some(tables) = &mut tables {
+                    self.coefficients.add_class(&values, tables);
+                }
                 let values = [&values.normal[..], &values.tangential, &values.coupling];
                 for (level, couples) in &mut levels {
                     level.add_class(values, *couples, &mut self.work);
                 }
             }
+        }
+        if let Some(tables) = tables {
+            *near = Some(Arc::new(tables));
         }
         Ok(levels.into_iter().map(|(level, _)| Arc::new(level)).collect())
     }
@@ -96,7 +107,7 @@ impl Blocks for Pairs {
 
     fn numbers(&self) -> usize {
         self.rows.capacity()
-            + self.coefficients.numbers()
+            + self.coefficients.near.numbers()
             + self.levels.iter().map(|level| level.numbers()).sum::<usize>()
             + self.work.numbers()
     }
@@ -109,18 +120,22 @@ impl Blocks for Pairs {
         let count = self.elements();
         let wanted = (capacity / self.leaf).ilog2() as usize;
         // Before the spectra are locked: a kernel may work on several threads, which must not wait.
-        kernel.prepare(capacity)?;
+        kernel.prepare(capacity.max(self.coefficients.length()))?;
         let spectra = kernel.spectra().filter(|_| self.leaf == LEAF);
         let classes = &self.coefficients.classes;
-        let levels = if let Some(spectra) = spectra.filter(|s| s.are_of(classes.elements())) {
+        let (levels, near) = if let Some(spectra) = spectra.filter(|s| s.are_of(classes.elements()))
+        {
             let mut shared = spectra.pairs();
-            let more = self.make(kernel, shared.levels.len(), wanted)?;
-            shared.levels.extend(more);
-            shared.levels[..wanted].to_vec()
+            let mut near = shared.near.take();
+            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near);
+            shared.near.clone_from(&near);
+            shared.levels.extend(more?);
+            (shared.levels[..wanted].to_vec(), near)
         } else {
+            let mut near = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.near));
             let mut levels = self.levels.clone();
-            levels.extend(self.make(kernel, levels.len(), wanted)?);
-            levels
+            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near)?);
+            (levels, near)
         };
         for level in &levels {
             let components = if self.couples(level.size) { 2 * count } else { count };
@@ -137,6 +152,7 @@ impl Blocks for Pairs {
             }
         }
         self.levels = levels;
+        self.coefficients.near = near.unwrap_or_default();
         (self.rows, self.stride, self.capacity) = (rows, stride, capacity);
         Ok(())
     }

@@ -5,16 +5,18 @@ use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::level::Level;
+use super::tables::Tables;
 use super::wave_level::{Near, WaveLevel};
 use crate::contact_element::ContactElement;
 
 /// Levels of blocks, from the smallest on, for leaves of one length.
-pub(crate) struct Levels<L> {
+pub(crate) struct Levels<L, N> {
     pub(super) levels: Vec<Arc<L>>,
-    pub(super) near: Option<Arc<Near>>,
+    /// Coefficients of a leaf.
+    pub(super) near: Option<Arc<N>>,
 }
 
-impl<L> Default for Levels<L> {
+impl<L, N> Default for Levels<L, N> {
     fn default() -> Self {
         Self { levels: Vec::new(), near: None }
     }
@@ -34,12 +36,12 @@ pub struct SharedSpectra {
 struct Stores {
     /// Whose they are: set by the first history.
     elements: OnceLock<Vec<ContactElement>>,
-    pairs: Mutex<Levels<Level>>,
-    waves: Mutex<Levels<WaveLevel>>,
+    pairs: Mutex<Levels<Level, Tables>>,
+    waves: Mutex<Levels<WaveLevel, Near>>,
 }
 
 /// Others wait while one makes what it lacks. A panic leaves levels complete or not there at all.
-fn lock<L>(levels: &Mutex<Levels<L>>) -> MutexGuard<'_, Levels<L>> {
+fn lock<L, N>(levels: &Mutex<Levels<L, N>>) -> MutexGuard<'_, Levels<L, N>> {
     levels.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -49,11 +51,11 @@ impl SharedSpectra {
         self.stores.elements.get_or_init(|| elements.to_vec()) == elements
     }
 
-    pub(super) fn pairs(&self) -> MutexGuard<'_, Levels<Level>> {
+    pub(super) fn pairs(&self) -> MutexGuard<'_, Levels<Level, Tables>> {
         lock(&self.stores.pairs)
     }
 
-    pub(super) fn waves(&self) -> MutexGuard<'_, Levels<WaveLevel>> {
+    pub(super) fn waves(&self) -> MutexGuard<'_, Levels<WaveLevel, Near>> {
         lock(&self.stores.waves)
     }
 }
