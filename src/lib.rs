@@ -100,7 +100,8 @@
 //! | shear, base shear | what the structure exerts on the soil, positive to the right |
 //! | gap, slip | positive when open; positive when the structure moved to the right over the soil |
 //! | contact vectors | 2Q numbers for Q elements: Q normal components (pressure; displacement **down**), then Q tangential ones (to the right) |
-//! | unknowns | absolute displacements; in [`coupled::State`] changes against the static state |
+//! | unknowns | matrices are written for absolute displacements; [`coupled::State`] and probes give changes against the static state, relative to the free field's translation unless they say absolute |
+//! | velocities, accelerations | total |
 //! | time | step n ends at t = nΔt; tractions belong to the whole step |
 //!
 //! # Map

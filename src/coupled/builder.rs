@@ -262,14 +262,11 @@ impl SimulationBuilder {
         let operators = Operators::new(&model, &base, &soil, factor, tangent.matrix);
         let middle = 0.5 * (elements[0].left + elements[count - 1].right);
         let moment_center = finite("moment center", self.moment_center.unwrap_or(middle))?;
-        let compliant = |law: &Box<dyn InterfaceLaw>| {
-            law.modes().iter().any(|&mode| law.compliance(mode) != [0.0; 2])
-        };
         let scene = Scene {
             time_step,
             coefficients,
             conserves_energy: coefficients.conserves_energy(time_step),
-            compliant: self.laws.iter().any(compliant),
+            compliant: self.laws.iter().any(|law| is_compliant(law.as_ref())),
             laws: self.laws,
             static_state,
             soil,
@@ -352,6 +349,11 @@ impl SimulationBuilder {
             }),
         }
     }
+}
+
+/// Whether a law stores energy in any of its modes.
+fn is_compliant(law: &dyn InterfaceLaw) -> bool {
+    law.modes().iter().any(|&mode| law.compliance(mode) != [0.0; 2])
 }
 
 /// Whether the laws fit the ground's `count` elements, and laws and contact search the scene.

@@ -5,17 +5,21 @@
 //!
 //! # A step
 //!
-//! Let u be the structure's unknowns, τ the contact tractions of the step as **changes** against the
-//! static state, and s the soil's displacement by them. With the coefficients that a [`TimeScheme`]
-//! gives for a*, v* and u* as functions of the increment Δu,
+//! Let y be the mean translation of the free field under a connected part of the structure, R its
+//! influence vectors, and R y + u the displacement: only u, relative to the ground, is stored, so
+//! that a ground that travels far costs no digits. Let τ be the contact tractions of the step as
+//! **changes** against the static state, and s the soil's displacement by them. With the
+//! coefficients that a [`TimeScheme`] gives for a* and v* (total) and u* as functions of the
+//! increment R Δy + Δu,
 //!
 //! ```text
-//! M a* + C (v* − v_ff) + K u* + f(u*) = p(t*) − Bᵀ A τ
-//! jump = gap₀ + s_ff + h + G¹ τ − B (u₀ + Δu)
+//! M a* + C (v* − R v_y) + K u* + f(u*) = p(t*) − Bᵀ A τ
+//! jump = gap₀ + (s_ff − y) + h + G¹ τ − B (u₀ + Δu)
 //! ```
 //!
 //! where B takes unknowns to element means of the base displacement (normal components down), A
-//! holds the element lengths, h is the history of all earlier tractions and `s_ff` the free field.
+//! holds the element lengths, h is the convolution history of all earlier tractions and `s_ff` the
+//! free field; K R = 0 and B R is a unit translation.
 //! The normal components of the jump are gaps; slip is minus the tangential ones. Eliminating Δu
 //! leaves one linear relation between jumps and tractions,
 //!
@@ -24,10 +28,13 @@
 //! K_eff = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u),             θ = ½ for the midpoint rule
 //! ```
 //!
-//! 1. free field and history at the end of the step;
-//! 2. response without changes of traction: one solve with the factors of K_eff;
-//! 3. contact: the mode of each element and τ, from `j_free` and W alone;
-//! 4. commit: unknowns, history, ledger.
+//! [`Simulation::step`] reads in this order:
+//!
+//! 1. forcing: free field, its translation y, convolution history, load (`step/forcing.rs`);
+//! 2. predicted increment: one solve with the factors of K_eff (`step/linear.rs`);
+//! 3. contact: the mode of each element and τ, from `j_free` and W alone (`crate::contact`);
+//! 4. increment: the answer of Δu to τ; nothing is committed so far;
+//! 5. ledger (`books.rs`), state (`advance.rs`), ground and structure take over the increment.
 //!
 //! For a linear structure W is computed once. For a nonlinear one Newton's method goes around
 //! steps 2 and 3, with a new W whenever the tangent changes.

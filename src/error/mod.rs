@@ -170,15 +170,15 @@ pub enum Error {
     },
     /// A structure with stiffness to a fixed point: the ground alone must hold it up.
     #[error(
-        "the structure must ride freely, without supports: moved {direction} by 1 m it meets \
+        "the structure must translate freely, without supports: moved {direction} by 1 m it meets \
          {force:.2e} N at unknown {unknown}, {share:.1e} of the stiffness around (entries of a \
          stiffness matrix in a file need eleven digits or more)"
     )]
     Supported {
-        /// The ride that is resisted.
+        /// Direction of the translation that is resisted.
         direction: &'static str,
         /// Force per metre of it at the unknown, N/m; where the structure is held so that it can
-        /// hardly ride, that at the contact nodes.
+        /// hardly translate, that at the contact nodes.
         force: f64,
         /// The unknown where the force is largest beside the stiffness around.
         unknown: usize,

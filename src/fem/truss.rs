@@ -87,7 +87,7 @@ impl Element for Truss {
     fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {
         let Some(line) = Line::between(coordinates) else { return };
         let mass = self.density * self.area * line.length;
-        // The bar's points ride linearly between the ends in both directions.
+        // The bar's points move linearly between the ends in both directions.
         let (own, other) = match kind {
             MassKind::Consistent => (mass / 3.0, mass / 6.0),
             MassKind::Lumped => (mass / 2.0, 0.0),

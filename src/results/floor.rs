@@ -32,7 +32,7 @@ impl Histories {
         Record::new(self.time_step, self.probe_values[index].clone())
     }
 
-    /// Floor (in-structure) response spectrum: the largest response of oscillators that ride on the
+    /// Floor (in-structure) response spectrum: the largest response of oscillators that stand on the
     /// point of an acceleration probe, at `periods` (s) with the damping ratio `damping`.
     ///
     /// # Errors

@@ -18,7 +18,7 @@ pub(super) const MASSLESS: f64 = 1e-12;
 /// A structure given by mass, damping and stiffness matrices, from another program for example.
 ///
 /// The unknowns are absolute displacements in m and rotations in rad, in any order; the structure
-/// is **free**, without supports: the ground holds it up, so a rigid ride must give no elastic
+/// is **free**, without supports: the ground holds it up, so a rigid translation must give no elastic
 /// force beyond rounding (entries of ten digits may leave too much, those of twelve do not). Matrices are per metre of thickness. They may come from Matrix Market files
 /// (`Triplets::read_matrix_market`, feature `io`); large models march faster after a
 /// [`CraigBampton`](super::CraigBampton) reduction.

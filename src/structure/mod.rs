@@ -13,9 +13,9 @@ mod nonlinear_shear_building;
 mod p_delta;
 mod rayleigh;
 mod recovery;
-mod rides;
 mod rigid_block;
 mod rigid_links;
+mod rigid_motions;
 mod row;
 mod section;
 mod shear_building;
@@ -50,20 +50,21 @@ use crate::error::{CheckpointError, Result};
 
 /// What the integrator needs of a structure: implement this for your own model.
 ///
-/// A structure has `n` unknowns, which are **absolute** displacements and rotations (m, rad;
-/// x to the right, y up, rotations counter-clockwise), measured from the unloaded state. It obeys
+/// A structure has `n` unknowns, displacements and rotations (m, rad; x to the right, y up, rotations
+/// counter-clockwise), measured from the unloaded state. Its matrices are written for **absolute**
+/// ones; since no translation strains it, it is stepped, and f is evaluated, relative to the ground's. It obeys
 ///
 /// ```text
 /// M a + C v_rel + K u + f(u) = p(t) + weight + contact forces
 /// ```
 ///
 /// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping
-/// does not act on the ride with the ground) and f the optional nonlinear force. Four methods are
+/// does not act on the translation with the ground) and f the optional nonlinear force. Four methods are
 /// needed: [`unknowns`](Structure::unknowns), [`contact_nodes`](Structure::contact_nodes),
 /// [`mass`](Structure::mass) and [`stiffness`](Structure::stiffness).
 ///
 /// No support is fixed, the ground holds the structure up: neither K nor the tangent of f at rest
-/// may resist a rigid ride to the right or upwards. Structures with stiffness to a fixed point are
+/// may resist a rigid translation to the right or upwards. Structures with stiffness to a fixed point are
 /// refused when a simulation is built ([`Error::Supported`](crate::Error::Supported)), and so are
 /// those with a part that has mass or stiffness, but no way by stiffness to the unknowns of a contact
 /// node ([`Error::Detached`](crate::Error::Detached)). Coordinates of modes and others relative to

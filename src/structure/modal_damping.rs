@@ -1,6 +1,6 @@
 //! Damping given mode by mode.
 
-use super::rides::rigid_momenta;
+use super::rigid_motions::rigid_momenta;
 use super::{ContactNode, InternalEnergy, Structure, Triplets};
 use crate::error::{Error, Result, not_negative};
 use crate::linalg::{SparseMatrix, dot, generalised_modes};
@@ -91,7 +91,7 @@ impl ModalDamping {
             return Err(scene);
         }
         let (values, vectors) = generalised_modes(&stiffness, &mass).ok_or(scene)?;
-        let rides = rigid_momenta(&structure.contact_nodes(), &stiffness, &mass)?;
+        let momenta = rigid_momenta(&structure.contact_nodes(), &stiffness, &mass)?;
         let mut damping = vec![0.0; n * n];
         let mut frequencies = Vec::new();
         let (mut mode, mut momentum) = (vec![0.0; n], vec![0.0; n]);
@@ -99,7 +99,7 @@ impl ModalDamping {
             for (i, entry) in mode.iter_mut().enumerate() {
                 *entry = vectors[i * n + j];
             }
-            if rides.iter().map(|ride| dot(ride, &mode).powi(2)).sum::<f64>() > RIGID {
+            if momenta.iter().map(|momentum| dot(momentum, &mode).powi(2)).sum::<f64>() > RIGID {
                 continue;
             }
             if *value <= 0.0 {

@@ -28,7 +28,7 @@ impl FemModel {
     /// [`with_mass`](FemModel::with_mass) before. Rigid links may come later, and the forces are then
     /// found anew.
     ///
-    /// A translation still meets no force, so the structure rides freely; a rigid rotation meets the
+    /// A translation still meets no force, so the structure translates freely; a rigid rotation meets the
     /// overturning moment of the weight on bars above the base.
     ///
     /// ```

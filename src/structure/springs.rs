@@ -112,8 +112,8 @@ impl Springs {
 /// [`NonlinearShearBuilding`](super::NonlinearShearBuilding).
 ///
 /// Unknowns are absolute: a spring on one alone would hold the structure to a point in space, not
-/// to the ground that moves, and no simulation takes it. A deformation must be zero when all rides
-/// together.
+/// to the ground that moves, and no simulation takes it. A deformation must be zero when all
+/// unknowns translate together.
 ///
 /// ```
 /// use basemat::structure::{Bilinear, ShearBuilding, Storey, Structure, WithSprings};

@@ -110,17 +110,16 @@ impl Influence {
                 continue;
             };
             let root = roots[unknown];
-            match parts.iter_mut().find(|(own, _)| *own == root) {
-                Some((_, part)) => part.elements.extend(elements),
-                None => {
-                    let vectors = [0, 1].map(|direction| {
-                        let vector = translations[direction].iter().enumerate();
-                        let own = vector.filter(|&(i, r)| roots[i] == root && *r != 0.0);
-                        own.map(|(i, r)| (i, *r)).collect()
-                    });
-                    parts.push((root, Part { vectors, elements: elements.collect() }));
-                }
+            if let Some((_, part)) = parts.iter_mut().find(|(own, _)| *own == root) {
+                part.elements.extend(elements);
+                continue;
             }
+            let vectors = [0, 1].map(|direction| {
+                let vector = translations[direction].iter().enumerate();
+                let own = vector.filter(|&(i, r)| roots[i] == root && *r != 0.0);
+                own.map(|(i, r)| (i, *r)).collect()
+            });
+            parts.push((root, Part { vectors, elements: elements.collect() }));
         }
         Self { parts: parts.into_iter().map(|(_, part)| part).collect() }
     }

@@ -73,7 +73,9 @@ impl ModalBasis {
         // Below its noise an eigenvalue is a rigid motion's, unless there are too many of them.
         let smallest = values.iter().map(|v| v.abs()).filter(|v| *v > noise);
         let mut parts = Partition::new(n);
-        matrices.iter().for_each(|matrix| parts.couple(matrix));
+        for matrix in matrices {
+            parts.couple(matrix);
+        }
         let most = RIGID_MOTIONS * parts.sets().len();
         let uncertain = smallest.fold(top, f64::min) < SMALLEST * top;
         if rigid > most || uncertain || values.first().is_some_and(|least| *least < -noise) {
@@ -110,7 +112,9 @@ impl ModalBasis {
         };
         let normalise = |mut vector: Vec<f64>| {
             let scale = dot(&vector, &product(&vector)).sqrt().recip();
-            vector.iter_mut().for_each(|v| *v *= scale);
+            for v in &mut vector {
+                *v *= scale;
+            }
             let image = product(&vector);
             scale.is_finite().then_some([vector, image])
         };
@@ -212,7 +216,9 @@ impl ModalBasis {
         // u = Φ q and Φᵀ M Φ = 1: q = Φᵀ M u.
         let n = self.count();
         let [mut full, mut momentum, mut shares] = [(); 3].map(|()| vec![0.0; n]);
-        vector.iter().for_each(|&(i, r)| full[i] = r);
+        for &(i, r) in vector {
+            full[i] = r;
+        }
         mass.multiply_add(1.0, &full, &mut momentum);
         self.project(&momentum, &mut shares);
         let noise = 1e-12 * largest(&shares);

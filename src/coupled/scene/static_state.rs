@@ -105,7 +105,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// Finds u and τ with K u + f(u) + BᵀA τ = `load` and the contact conditions of a soil at rest.
 ///
-/// K alone is singular (the structure can ride), and the settlement of a half-plane has no datum.
+/// K alone is singular (rigid-body modes), and the settlement of a half-plane has no datum.
 /// Springs ε M to the last iterate make each iteration regular, and pull at nothing once it
 /// converges (proximal point method); Newton's linearisation of f goes along.
 pub(crate) fn solve(

@@ -60,7 +60,9 @@ pub(super) fn check(
             return Err(Error::Supported { direction, force, unknown, share });
         }
         if resistance.is_free {
-            translation.iter_mut().for_each(|r| *r = r.round());
+            for r in translation.iter_mut() {
+                *r = r.round();
+            }
         }
     }
     if lag > LAG {

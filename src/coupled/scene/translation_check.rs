@@ -37,8 +37,7 @@ pub(crate) fn check_force(
             for (unknown, (force, before)) in force.iter().zip(&at_rest.force).enumerate() {
                 let force = force - before;
                 let scale = distance * around[unknown] + before.abs();
-                // Written so that NaN is refused.
-                if !(force.abs() <= ROW * scale) {
+                if force.is_nan() || force.abs() > ROW * scale {
                     let share = if scale > 0.0 { force.abs() / scale } else { f64::INFINITY };
                     return Err(Error::Supported { direction, force, unknown, share });
                 }

@@ -4,16 +4,16 @@ use super::{ContactNode, Triplets};
 use crate::error::Result;
 use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot};
 
-/// A part of a ride with less of its momentum than this is rounding.
+/// A part of a rigid motion with less of its momentum than this is rounding.
 const NOTHING: f64 = 1e-8;
-/// What is left of a ride beside the others, if it is none of its own.
+/// Remainder of a rigid motion beside the others, if it depends on them.
 const DEPENDENT: f64 = 1e-6;
 
 /// Momenta M r of the rigid motions r, with r·M r = 1 and all others zero: to the right, upwards and
-/// turning, of every part of the structure that hangs together by its stiffness.
+/// turning, of every part of the structure that its stiffness connects.
 ///
 /// A motion that strains nothing follows from that of the contact nodes, whatever the unknowns
-/// mean: K r + γ Nᵀ(N r − t) = 0, where N gives the nodes' displacements and t what they shall be.
+/// mean: K r + γ Nᵀ(N r − t) = 0, where N gives the nodes' displacements and t their prescribed values.
 pub(super) fn rigid_momenta(
     contact: &[ContactNode],
     stiffness: &SparseMatrix,
@@ -25,13 +25,13 @@ pub(super) fn rigid_momenta(
     let center = contact.iter().map(|node| node.x).sum::<f64>() / contact.len().max(1) as f64;
     let mut matrix = Triplets::new(n);
     stiffness.add_to(1.0, &mut matrix);
-    let mut rides = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+    let mut pulled = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
     for node in contact {
         node.horizontal.check("unknown of a contact node", n)?;
         node.vertical.check("unknown of a contact node", n)?;
         matrix.add_outer(&node.horizontal, tie);
         matrix.add_outer(&node.vertical, tie);
-        let [right, up, turn] = &mut rides;
+        let [right, up, turn] = &mut pulled;
         node.horizontal.iter().for_each(|&(j, weight)| right[j] += tie * weight);
         for &(j, weight) in &node.vertical {
             up[j] += tie * weight;
@@ -43,13 +43,13 @@ pub(super) fn rigid_momenta(
     coupled.couple(stiffness);
     let parts = coupled.sets();
     let (mut motions, mut momenta): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
-    for ride in &mut rides {
-        factor.solve(ride);
-        let whole = mass.form(ride, ride).sqrt();
+    for all in &mut pulled {
+        factor.solve(all);
+        let whole = mass.form(all, all).sqrt();
         for part in &parts {
             let mut motion = vec![0.0; n];
             for &i in part {
-                motion[i] = ride[i];
+                motion[i] = all[i];
             }
             let norm = mass.form(&motion, &motion).sqrt();
             if norm.is_nan() || norm <= NOTHING * whole {
