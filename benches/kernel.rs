@@ -3,7 +3,7 @@
 use basemat::Soil;
 use basemat::bem::{ContactElement, InfluenceKernel, PatchKernel, Strip};
 use basemat::fundamental::{FullPlane, FundamentalSolution, HalfPlane, LoadHistory};
-use basemat::history::{ConvolutionHistory, RelaxedFftHistory};
+use basemat::history::{ConvolutionHistory, LagKernel, RelaxedFftHistory};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::sync::Arc;
@@ -61,7 +61,7 @@ fn patches(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(u64::from(count) * LAGS as u64));
         group.bench_function(format!("{count} elements"), |b| {
             b.iter(|| {
-                (0..kernel.classes())
+                (0..kernel.classes().count())
                     .try_for_each(|class| kernel.coefficients(class, black_box(1), zz, xx, zx))
             });
         });
@@ -79,7 +79,8 @@ fn relaxed_history(criterion: &mut Criterion) {
         let elements = Strip::uniform(0.0..f64::from(count), count as usize)
             .expect("a valid strip")
             .elements();
-        let kernel = Arc::new(PatchKernel::new(soil, elements, 0.25).expect("a valid patch"));
+        let kernel: Arc<dyn LagKernel> =
+            Arc::new(PatchKernel::new(soil, elements, 0.25).expect("a valid patch"));
         let mut displacement = vec![0.0; 2 * count as usize];
         let traction: Vec<f64> = (0..2 * count).map(|i| f64::from(i).sin()).collect();
         let kind = if waves { "wavenumbers" } else { "pairs" };

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use basemat::Soil;
 use basemat::bem::{ContactElement, PatchKernel, Strip};
-use basemat::history::{ConvolutionHistory, DirectHistory, RelaxedFftHistory};
+use basemat::history::{ConvolutionHistory, DirectHistory, LagKernel, RelaxedFftHistory};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 fn soil() -> Soil {
@@ -62,7 +62,8 @@ fn direct_history(criterion: &mut Criterion) {
 fn whole_march(criterion: &mut Criterion) {
     const STEPS: usize = 10_000;
     let elements = Strip::uniform(-5.0..5.0, 10).expect("a valid strip").elements();
-    let kernel = Arc::new(PatchKernel::new(soil(), elements, 2.0e-3).expect("a valid patch"));
+    let kernel: Arc<dyn LagKernel> =
+        Arc::new(PatchKernel::new(soil(), elements, 2.0e-3).expect("a valid patch"));
     let make = |relaxed: bool| -> Box<dyn ConvolutionHistory> {
         let kernel = Arc::clone(&kernel);
         if relaxed {

@@ -8,12 +8,12 @@
 //! cargo run --release --example contact_chatter
 //! ```
 
-#[path = "../tests/support/chatter.rs"]
-mod chatter;
+#[path = "../tests/support/mod.rs"]
+mod support;
 
 use basemat::interface::Activation;
-use chatter::{Scene, Scheme};
 use clap::Parser;
+use support::chatter::{Scene, Scheme};
 
 /// Contact chatter of a rocking and sliding block on soil.
 #[derive(Debug, Parser)]

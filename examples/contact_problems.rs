@@ -5,14 +5,12 @@
 //! cargo run --release --example contact_problems
 //! ```
 
-#[path = "../tests/support/contact_problems.rs"]
-mod contact_problems;
-#[path = "../tests/support/random.rs"]
-mod random;
+#[path = "../tests/support/mod.rs"]
+mod support;
 
 use clap::Parser;
-use contact_problems::{STEPS, Tally, sequence};
-use random::Random;
+use support::contact_problems::{STEPS, Tally, sequence};
+use support::random::Random;
 
 /// Random contact problems against brute force.
 #[derive(Debug, Parser)]

@@ -7,7 +7,7 @@
 //! Another program would have written `mass.mtx` and `stiffness.mtx`; here a mesh of quadrilaterals
 //! does, into `target/from_matrices`. The files are read back, contact nodes are named, and a
 //! Craig–Bampton reduction keeps these and the lowest modes of the rest. The full model marches two of
-//! its periods beside the reduced one, to compare (`tests/matrices/reduction.rs` does so for more
+//! its periods beside the reduced one, to compare (`tests/structures/matrices/reduction.rs` does so for more
 //! quantities of smaller models).
 
 #[path = "common/tower.rs"]
@@ -79,7 +79,7 @@ fn main() -> Result<()> {
     println!("\n          unknowns   ms per step   times real time");
     for (name, simulation, time) in [("full", &large, time_full), ("reduced", &small, time_reduced)]
     {
-        let unknowns = simulation.state().displacement().len();
+        let unknowns = simulation.state().absolute_displacement().len();
         println!("{name:<8} {unknowns:9} {:13.3} {:17.1}", 1e3 * time, TIME_STEP / time);
     }
 
@@ -98,7 +98,7 @@ fn main() -> Result<()> {
     );
 
     // Any unknown of the full model, whenever it is wanted.
-    let everything = recovery.full(small.state().displacement())?;
+    let everything = recovery.full(small.state().absolute_displacement())?;
     println!(
         "all {} unknowns at the end: the top at {:.3} mm",
         everything.len(),

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use basemat::Soil;
 use basemat::bem::{PatchKernel, Strip};
-use basemat::history::{ConvolutionHistory, DirectHistory, RelaxedFftHistory};
+use basemat::history::{ConvolutionHistory, DirectHistory, LagKernel, RelaxedFftHistory};
 
 /// The direct sum is not marched further than this.
 const LONGEST_DIRECT: usize = 10_000;
@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let soil = Soil::new(70.8e6, 1.0 / 3.0, 1804.0)?;
     let half = 0.2286 * count as f64;
     let elements = Strip::uniform(-half..half, count)?.elements();
-    let kernel = Arc::new(PatchKernel::new(soil, elements, 0.577e-3)?);
+    let kernel: Arc<dyn LagKernel> = Arc::new(PatchKernel::new(soil, elements, 0.577e-3)?);
     println!("{count} elements");
     println!("    steps   setup s   march s  µs/step  slowest ms      MB  direct s   ratio  error");
     for steps in [100, 300, 1_000, 3_000, 10_000, 30_000, 54_000, 100_000, 300_000, 1_000_000] {

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use basemat::Soil;
 use basemat::bem::{PatchKernel, Strip};
-use basemat::history::{ConvolutionHistory, DirectHistory, ExponentialHistory};
+use basemat::history::{ConvolutionHistory, DirectHistory, ExponentialHistory, LagKernel};
 
 fn traction(step: usize, traction: &mut [f64]) {
     for (i, value) in traction.iter_mut().enumerate() {
@@ -24,15 +24,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let soil = Soil::new(1803.8 * 198.12_f64.powi(2), 1.0 / 3.0, 1803.8)?;
     let half = 0.2286 * count as f64;
     let elements = Strip::uniform(-half..half, count)?.elements();
-    let kernel = Arc::new(PatchKernel::new(soil, elements, 0.2286 / 396.24)?);
+    let kernel: Arc<dyn LagKernel> = Arc::new(PatchKernel::new(soil, elements, 0.2286 / 396.24)?);
     println!("{count} elements, {steps} steps");
     println!(
-        "{:>9} {:>10} {:>7} {:>6} {:>8} {:>10} {:>8} {:>9} {:>8} {:>12}",
+        "{:>9} {:>10} {:>7} {:>6} {:>9} {:>10} {:>8} {:>9} {:>8} {:>12}",
         "tolerance",
         "error",
         "window",
         "poles",
-        "degrees",
+        "functions",
         "passivity",
         "setup s",
         "µs/step",
@@ -72,12 +72,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             history.push(&input);
         }
         println!(
-            "{tolerance:>9.0e} {:>10.1e} {:>7} {:>6} {:>8} {:>10.4} {setup:>8.3} {:>9.2} {:>8.0} \
+            "{tolerance:>9.0e} {:>10.1e} {:>7} {:>6} {:>9} {:>10.4} {setup:>8.3} {:>9.2} {:>8.0} \
              {:>12.1e}",
             history.error_bound(),
             history.window(),
             history.poles(),
-            history.degrees(),
+            history.functions(),
             history.passivity_margin(),
             1e6 * begin.elapsed().as_secs_f64() / steps as f64,
             history.memory() as f64 / 1e3,

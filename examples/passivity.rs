@@ -5,14 +5,12 @@
 //! cargo run --release --example passivity -- --elements 60 --steps 10000
 //! ```
 
-#[path = "../tests/support/passivity.rs"]
-mod passivity;
-#[path = "../tests/support/random.rs"]
-mod random;
+#[path = "../tests/support/mod.rs"]
+mod support;
 
-use basemat::bem::History;
+use basemat::history::History;
 use clap::Parser;
-use passivity::Scene;
+use support::passivity::Scene;
 
 /// Passivity of the half-plane under random tractions and displacements.
 #[derive(Debug, Parser)]

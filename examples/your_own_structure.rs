@@ -100,7 +100,7 @@ fn main() -> basemat::Result<()> {
             println!(
                 "t = {:5.2} s: roof {:8.2} mm from the ground, {:3.0} % of the base open",
                 state.time,
-                1e3 * (state.displacement()[roof] - ground),
+                1e3 * (state.absolute_displacement()[roof] - ground),
                 100.0 * state.uplifted_fraction
             );
         }

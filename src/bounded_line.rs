@@ -1,6 +1,7 @@
 //! Lines of text files of bounded length, for all readers.
 
-use std::io::{BufRead, ErrorKind, Read};
+use std::borrow::Cow;
+use std::io::{BufRead, BufReader, ErrorKind, Read};
 
 use crate::error::RecordError;
 #[cfg(feature = "io")]
@@ -8,6 +9,8 @@ use crate::error::{MatrixFileError, MeshFileError};
 
 /// Longest line, bytes: a file without line ends must not fill the memory.
 const LONGEST: u64 = 65_536;
+/// UTF-8's byte-order mark.
+const MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// Why a line could not be read.
 pub(crate) enum Unread {
@@ -17,18 +20,44 @@ pub(crate) enum Unread {
     TooLong(usize),
 }
 
-/// Overwrites `bytes` with the next line, its end included; `false` at the end of the source.
-pub(crate) fn read_line(
-    source: &mut impl BufRead,
-    bytes: &mut Vec<u8>,
-) -> std::result::Result<bool, Unread> {
-    bytes.clear();
-    match source.by_ref().take(LONGEST).read_until(b'\n', bytes) {
-        Err(error) => Err(Unread::Failed(error.kind())),
-        Ok(count) if count as u64 == LONGEST && bytes.last() != Some(&b'\n') => {
-            Err(Unread::TooLong(count))
+/// The lines of a text, one at a time; a byte-order mark before the first is passed over.
+pub(crate) struct Lines<R> {
+    source: BufReader<R>,
+    bytes: Vec<u8>,
+    /// Number of the present line, from 1.
+    pub(crate) number: usize,
+}
+
+impl<R: Read> Lines<R> {
+    pub(crate) fn new(source: R) -> Self {
+        Self { source: BufReader::new(source), bytes: Vec::new(), number: 0 }
+    }
+
+    /// Goes to the next line; `false` at the end of the source. A failure comes with the line's number.
+    pub(crate) fn advance<E: From<Unread>>(&mut self) -> Result<bool, (usize, E)> {
+        let there = self.read().map_err(|unread| (self.number + 1, unread.into()))?;
+        self.number += usize::from(there);
+        if self.number == 1 && self.bytes.starts_with(MARK) {
+            self.bytes.drain(..MARK.len());
         }
-        Ok(count) => Ok(count > 0),
+        Ok(there)
+    }
+
+    fn read(&mut self) -> Result<bool, Unread> {
+        self.bytes.clear();
+        match self.source.by_ref().take(LONGEST).read_until(b'\n', &mut self.bytes) {
+            Err(error) => Err(Unread::Failed(error.kind())),
+            Ok(count) if count as u64 == LONGEST && self.bytes.last() != Some(&b'\n') => {
+                Err(Unread::TooLong(count))
+            }
+            Ok(count) => Ok(count > 0),
+        }
+    }
+
+    /// The present line with its end. Bytes that are not UTF-8 become signs that are no number; in
+    /// comments they do not matter.
+    pub(crate) fn text(&self) -> Cow<'_, str> {
+        String::from_utf8_lossy(&self.bytes)
     }
 }
 

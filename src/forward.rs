@@ -3,7 +3,7 @@
 /// Methods that a part answers by asking another one: `forward! { place; signatures }`, the place
 /// and the signatures as they would stand in the `impl` block.
 ///
-/// `tests/forwarding` finds any method that a list of signatures has forgotten.
+/// `tests/plugin/forwarding` finds any method that a list of signatures has forgotten.
 macro_rules! forward {
     ($to:expr;) => {};
     (

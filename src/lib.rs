@@ -114,8 +114,8 @@
 //! | [`structure`] | finite-element model, shear building, rigid block, given matrices, reduction, hysteretic springs, and the trait for your own |
 //! | [`fem`] | meshes and elements |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
-//! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], influence coefficients |
-//! | [`history`] | the convolution with all past tractions |
+//! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], grounds of any step coefficients |
+//! | [`history`] | the convolution with all past tractions, its kinds and their choice |
 //! | [`fundamental`] | elastodynamic fundamental solutions |
 //! | [`motion`] | records and their files, spectra, baselines, free fields, El Centro 1940 |
 //!
@@ -143,6 +143,7 @@
 //! | law between base and soil | [`interface::InterfaceLaw`] | 3 |
 //! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |
 //! | soil | [`bem::Ground`] | 6 |
+//! | soil that knows its step coefficients | [`bem::KernelSource`] and [`history::LagKernel`] | 2 each |
 //! | time scheme | [`coupled::TimeScheme`] | 1 |
 //! | convolution algorithm | [`history::ConvolutionHistory`] | 4 |
 //! | file of a record | [`motion::RecordFormat`] | 1 |
@@ -166,6 +167,8 @@ mod short_debug;
 
 pub mod bem;
 mod bounded_line;
+pub mod contact;
+mod contact_element;
 pub mod coupled;
 mod error;
 pub mod fem;
@@ -177,6 +180,7 @@ pub mod io;
 mod linalg;
 mod matrix;
 pub mod motion;
+mod number;
 #[cfg(feature = "plot")]
 pub mod plot;
 pub mod prelude;

@@ -1,7 +1,6 @@
 //! Matrices of a structure: sparse in its unknowns, diagonal in its modes.
 
 use crate::error::{Error, Result, same_length};
-use crate::linalg::largest;
 use crate::structure::Triplets;
 
 /// Most rows and columns: more are a mistake.
@@ -219,11 +218,6 @@ impl Matrix {
             Self::Sparse(matrix) => &matrix.value,
             Self::Diagonal(values) => values,
         }
-    }
-
-    /// Largest entry's magnitude.
-    pub(crate) fn largest(&self) -> f64 {
-        largest(self.values())
     }
 
     /// x·A y.

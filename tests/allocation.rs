@@ -1,21 +1,23 @@
-//! No step allocates once it is warm, whatever the scene.
+//! GOAL: no step allocates after warm-up, whatever the scene, nor does recording once memory is
+//! reserved.
+//! SCENE: bonded, sliding and uplifting blocks and towers, in modes and in unknowns; both grounds.
+//! REFERENCE: a global allocator that counts per thread, which is why this is a binary of its own.
 #![allow(unsafe_code, reason = "an allocator that counts has to be one")]
 
-#[path = "support/scenes.rs"]
-mod scenes;
-#[path = "support/wrapped.rs"]
-mod wrapped;
+mod support;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use basemat::bem::{HalfPlaneGround, History, SpringGround};
+use basemat::bem::{HalfPlaneGround, SpringGround};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, Theta};
+use basemat::history::History;
 use basemat::interface::Bonded;
 use basemat::results::Recorder;
 use basemat::structure::{RayleighDamping, RigidBlock, Structure, Triplets};
-use scenes::{SI, block, friction, scene, soil, tower};
-use wrapped::needed_from;
+
+use crate::support::scenes::{SI, block, friction, scene, soil, tower};
+use crate::support::wrapped::needed_from;
 
 /// The system's allocator, with a count for each thread.
 struct Counting;

@@ -1,4 +1,6 @@
-//! Orders of accuracy in the time step and in the element size.
+//! GOAL: orders of accuracy in the time step and in the element size.
+//! SCENE: rigid block on the half-plane under a Ricker pulse, bonded, rocking and sliding.
+//! REFERENCE: finer runs, and the frequency-domain table. CI runs this binary in release.
 
 mod support;
 
@@ -7,8 +9,10 @@ use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::RickerDisplacement;
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
-use support::series::{Error, Series, print_errors, whole};
-use support::table;
+
+use crate::support::sampled_block::{History, distance, sample};
+use crate::support::series::{Series, print_errors, whole};
+use crate::support::table;
 
 /// Sampling of the histories: all time steps are fractions of it.
 const SAMPLE: f64 = 0.2;
@@ -22,9 +26,6 @@ struct Scene {
     friction: Option<f64>,
     duration: f64,
 }
-
-/// Base displacement, rotation, and base shear (its mean over a sample), every `SAMPLE`.
-type History = [Vec<f64>; 3];
 
 const NAMES: [&str; 3] = ["u_base", "theta", "V"];
 
@@ -46,34 +47,13 @@ fn history(scene: Scene, (grading, elements): (Grading, usize), time_step: f64) 
     };
     let mut simulation = builder.build().unwrap();
     let every = whole(SAMPLE / time_step);
-    let mut history = [const { Vec::new() }; 3];
-    let mut shear = 0.0;
-    let run = simulation
-        .run(whole(scene.duration / time_step), |state| {
-            shear += state.base_shear / every as f64;
-            if state.step % every == 0 {
-                history[0].push(state.displacement()[0]);
-                history[1].push(state.displacement()[2]);
-                history[2].push(shear);
-                shear = 0.0;
-            }
-        })
-        .unwrap();
+    let (history, run) = sample(&mut simulation, whole(scene.duration / time_step), every).unwrap();
     assert!(run.ledger_residual < 1e-9, "ledger open by {:.1e}", run.ledger_residual);
     println!(
         "{scene:?} {grading:?} {elements}, step {time_step}: uplift {:.2}, slip {:.2}",
         run.uplifted_fraction.value, run.largest_slip.value
     );
     history
-}
-
-/// Relative distance of `found` from `reference`, component by component.
-fn distance(found: &History, reference: &History) -> [f64; 3] {
-    std::array::from_fn(|k| {
-        let mut error = Error::default();
-        found[k].iter().zip(&reference[k]).for_each(|(a, b)| error.add(*a, *b));
-        error.relative()
-    })
 }
 
 /// Distances of each run from the next.

@@ -13,8 +13,6 @@
 mod plot;
 #[path = "../../tests/support/mod.rs"]
 mod support;
-#[path = "../../tests/support/truncation.rs"]
-mod truncation;
 
 use std::path::PathBuf;
 
@@ -22,7 +20,7 @@ use basemat::Soil;
 use basemat::bem::full_plane::CqMethod;
 use clap::Parser;
 use support::series::print_errors;
-use truncation::{Mesh, block_errors, bonded_impedances, distances, tabled};
+use support::truncation::{Mesh, block_errors, bonded_impedances, distances, tabled};
 
 type AnyError = Box<dyn std::error::Error>;
 

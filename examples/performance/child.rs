@@ -3,7 +3,8 @@
 use std::process::Command;
 use std::time::Instant;
 
-use basemat::bem::{History, SharedKernels};
+use basemat::bem::SharedKernels;
+use basemat::history::History;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::RigidBlock;
 use basemat::{Result, Sweep};

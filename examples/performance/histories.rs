@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use basemat::Result;
 use basemat::bem::PatchKernel;
-use basemat::history::{ConvolutionHistory, DirectHistory, RelaxedFftHistory};
+use basemat::history::{ConvolutionHistory, DirectHistory, LagKernel, RelaxedFftHistory};
 
 use super::scenes::{soil, strip, time_step};
 use super::timed;
 
-fn patch(count: usize) -> Result<Arc<PatchKernel>> {
+fn patch(count: usize) -> Result<Arc<dyn LagKernel>> {
     Ok(Arc::new(PatchKernel::new(soil()?, strip(count)?.elements(), time_step())?))
 }
 
@@ -63,7 +63,7 @@ pub(crate) fn coefficients(count: usize, lags: usize) -> Result<f64> {
     let mut values = [(); 3].map(|()| vec![0.0; lags]);
     let [normal, tangential, coupling] = &mut values;
     let (done, seconds) = timed(|| {
-        (0..kernel.classes())
+        (0..kernel.classes().count())
             .try_for_each(|class| kernel.coefficients(class, 1, normal, tangential, coupling))
     });
     done.map(|()| seconds)

@@ -125,7 +125,7 @@ pub(crate) const ROWS: [Row; 9] = [
         name: "the same, all displacements read at every step",
         left_out: "nothing",
         make: |builder| friction(builder, 0.4),
-        observe: |state| state.displacement().iter().sum(),
+        observe: |state| state.absolute_displacement().iter().sum(),
     },
     Row {
         name: "the same, in unknowns instead of modes",

@@ -1,6 +1,6 @@
 //! The sweeps: pairs of parameters, the rest as in [`Scene::default`].
 
-use basemat::bem::History;
+use basemat::history::History;
 
 use super::motions::{MOTIONS, Motion};
 use super::run::Verdict;

@@ -62,7 +62,7 @@ fn main() -> Result<(), AnyError> {
     std::fs::write(options.out.join("tables.md"), &tables)?;
     let mut folders = vec![options.out.clone()];
     if let Some(docs) = &options.docs {
-        report::splice(&docs.join("stability.md"), &tables)?;
+        report::splice(&docs.join("stability.md"), &report::document(&maps, &cells))?;
         folders.push(docs.join("images"));
     }
     for folder in folders {

@@ -152,6 +152,75 @@ fn summary(text: &mut String, name: &str, scheme: Scheme, cells: &[&Cell]) {
     );
 }
 
+/// The share of [`tables`] that the document shows: verdicts of each scheme, figures of the
+/// crate's own, and the long runs.
+pub(crate) fn document(maps: &[Map], cells: &[Cell]) -> String {
+    let mut text = String::from(
+        "| sweep | basemat | ledger residual: end | on the way | rise of energy | most solves in a \
+         step | paper | quadrature |\n|---|---|---|---|---|---|---|---|\n",
+    );
+    let of = |scheme: Scheme, map: Option<usize>| -> Vec<&Cell> {
+        let all = cells.iter().filter(|cell| cell.scheme == scheme);
+        all.filter(|cell| map.is_none_or(|map| cell.map == map)).collect()
+    };
+    let names = maps.iter().enumerate().map(|(index, map)| (map.name, Some(index)));
+    for (name, map) in names.chain([("**all**", None)]) {
+        let own = of(Scheme::Own, map);
+        let most = |pick: &dyn Fn(&Cell) -> f64| own.iter().map(|c| pick(c)).fold(0.0, f64::max);
+        let _ = write!(
+            text,
+            "| {name} | {} | {:.1e} | {:.1e} | {:.1e} | {:.0} ",
+            verdicts(&own),
+            most(&|c| c.outcome.ledger[0]),
+            most(&|c| c.outcome.ledger[1]),
+            most(&|c| c.outcome.rise),
+            most(&|c| c.outcome.trials[1]),
+        );
+        for scheme in [Scheme::Paper, Scheme::Quadrature] {
+            let of_map = if map.is_some() { of(scheme, map) } else { Vec::new() };
+            let _ = write!(text, "| {} ", verdicts(&of_map));
+        }
+        text.push_str("|\n");
+    }
+    for (index, map) in maps.iter().enumerate().filter(|(_, map)| !map.drawn) {
+        let _ = write!(
+            text,
+            "\n{}, and then as many of rest (at most 100 000):\n\n\
+             | case | steps | verdict | ledger residual | rise of energy | solves per step: mean | \
+             most | mode changes |\n|---|---|---|---|---|---|---|---|\n",
+            map.title
+        );
+        for cell in cells.iter().filter(|cell| cell.map == index) {
+            let out = &cell.outcome;
+            let _ = writeln!(
+                text,
+                "| {} | {} | {} | {:.1e} | {:.1e} | {:.2} | {:.0} | {} |",
+                map.y.labels[cell.place[1]],
+                out.steps,
+                out.verdict.name(),
+                out.ledger[0],
+                out.rise,
+                out.trials[0],
+                out.trials[1],
+                out.mode_changes
+            );
+        }
+    }
+    text
+}
+
+/// How many cells have which verdict, in words.
+fn verdicts(cells: &[&Cell]) -> String {
+    let all =
+        [Verdict::Bounded, Verdict::Active, Verdict::Grows, Verdict::Refused, Verdict::Failed];
+    let counts = all.into_iter().filter_map(|verdict| {
+        let count = cells.iter().filter(|cell| cell.outcome.verdict == verdict).count();
+        (count > 0).then(|| format!("{count} {}", verdict.name()))
+    });
+    let text = counts.collect::<Vec<_>>().join(", ");
+    if text.is_empty() { "–".into() } else { text }
+}
+
 /// The cells of the crate's own scheme that are not as they must be, one a line.
 pub(crate) fn broken(maps: &[Map], cells: &[Cell]) -> String {
     let mut text = String::new();

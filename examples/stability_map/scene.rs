@@ -4,9 +4,10 @@ use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
 use basemat::bem::full_plane::{ConvolutionQuadrature, CqMethod, FullPlaneGround};
-use basemat::bem::{HalfPlaneGround, History, Strip};
+use basemat::bem::{HalfPlaneGround, Strip};
 use basemat::coupled::{ContactSearch, Newmark, SimulationBuilder};
 use basemat::fem::{Layer, Material, Mesh};
+use basemat::history::History;
 use basemat::interface::{Bonded, Coulomb, ThinLayer};
 use basemat::structure::{FemModel, RigidBlock};
 use basemat::{Result, Simulation, Soil};

@@ -22,7 +22,9 @@ fn block(
     height: f64,
     density: f64,
 ) -> Result<(Vec<History>, f64), AnyError> {
-    let roof = |state: &State| state.displacement()[0] - height * state.displacement()[2];
+    let roof = |state: &State| {
+        state.absolute_displacement()[0] - height * state.absolute_displacement()[2]
+    };
     histories(
         &format!("td_block_SV_{name}.csv"),
         RigidBlock::new(2.0, height, density)?,

@@ -10,7 +10,8 @@ use plotters::prelude::SeriesLabelPosition;
 use super::AnyError;
 use super::chart::{BLUE, Figure, GRAY, GREEN, ORANGE, Panel, RED};
 use super::outcome::{Case, Check, Outcome};
-use super::support::series::{Error, Series, whole};
+use super::support::sampled_block::{History, distance, sample};
+use super::support::series::{Series, whole};
 use super::support::table;
 
 pub(crate) const CASE: Case = Case {
@@ -39,9 +40,6 @@ const BONDED: Scene =
 const CONTACT: Scene =
     Scene { height: 6.0, gravity: 0.15, sigma: 2.0, friction: None, duration: 25.0 };
 
-/// Base displacement, rotation and base shear (its mean over a sample), every `SAMPLE`.
-type History = [Vec<f64>; 3];
-
 fn history(
     scene: Scene,
     (grading, elements): (Grading, usize),
@@ -60,29 +58,12 @@ fn history(
     };
     let mut simulation = builder.build()?;
     let every = whole(SAMPLE / time_step);
-    let mut history = [const { Vec::new() }; 3];
-    let mut shear = 0.0;
-    let run = simulation.run(whole(scene.duration / time_step), |state| {
-        shear += state.base_shear / every as f64;
-        if state.step % every == 0 {
-            history[0].push(state.displacement()[0]);
-            history[1].push(state.displacement()[2]);
-            history[2].push(shear);
-            shear = 0.0;
-        }
-    })?;
+    let steps = whole(scene.duration / time_step);
+    let (history, run) = sample(&mut simulation, steps, every)?;
     if run.ledger_residual > 1e-9 {
         return Err(format!("ledger open by {:.1e}", run.ledger_residual).into());
     }
     Ok(history)
-}
-
-fn distance(found: &History, wanted: &History) -> [f64; 3] {
-    std::array::from_fn(|k| {
-        let mut error = Error::default();
-        found[k].iter().zip(&wanted[k]).for_each(|(a, b)| error.add(*a, *b));
-        error.relative()
-    })
 }
 
 /// The bonded block of the table, sampled.

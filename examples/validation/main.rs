@@ -1,7 +1,7 @@
 //! Physics that must come out: eleven problems with a reference that shares no code with the crate.
 //!
 //! Each case states its errors and a limit for each; the process fails if one is exceeded. What is
-//! in `docs/validation.md` comes from
+//! in `docs/accuracy.md` comes from
 //!
 //! ```text
 //! cargo run --release --example validation -- --docs docs
@@ -25,8 +25,6 @@ mod strip_impedance;
 mod support;
 mod three_storeys;
 mod transient;
-#[path = "../../tests/support/wrapped.rs"]
-mod wrapped;
 mod yim_chopra;
 
 use std::process::ExitCode;

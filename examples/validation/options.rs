@@ -15,7 +15,7 @@ pub(crate) struct Options {
     /// Folder for the files.
     #[arg(long, default_value = "target/validation")]
     pub(crate) out: PathBuf,
-    /// Folder of the documentation: its validation.md gets the numbers between its markers, its
+    /// Folder of the documentation: its accuracy.md gets the numbers between its markers, its
     /// images/ the plots.
     #[arg(long, conflicts_with_all = ["case", "short"])]
     pub(crate) docs: Option<PathBuf>,

@@ -53,11 +53,6 @@ impl Check {
     pub(crate) fn holds(&self) -> bool {
         self.limits.contains(&self.value)
     }
-
-    /// How much of its limit an error takes up; none for a number with a range.
-    pub(crate) fn share(&self) -> Option<f64> {
-        (*self.limits.start() == 0.0).then(|| self.value / self.limits.end())
-    }
 }
 
 /// The larger of two errors; NaN, which is the worst, if either is (`f64::max` would drop it).

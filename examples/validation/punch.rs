@@ -12,7 +12,7 @@ use super::AnyError;
 use super::chart::{BLUE, Figure, GREEN, Panel, RED};
 use super::outcome::{Case, Check, Outcome, worse};
 use super::support::table;
-use super::wrapped::Pulled;
+use super::support::wrapped::Pulled;
 
 pub(crate) const CASE: Case = Case {
     name: "punch",

@@ -34,11 +34,10 @@ pub(crate) fn write_csv(path: &Path, list: &[Finished]) -> Result<(), AnyError> 
     Ok(writer.flush()?)
 }
 
-/// Puts numbers into `validation.md` and pictures into `images`.
+/// Puts numbers into `accuracy.md` and pictures into `images`.
 pub(crate) fn write_docs(docs: &Path, list: &[Finished]) -> Result<(), AnyError> {
-    let path = docs.join("validation.md");
+    let path = docs.join("accuracy.md");
     let mut text = std::fs::read_to_string(&path)?;
-    text = splice(&text, "summary", &summary(list)?)?;
     for finished in list {
         text = splice(&text, finished.case.name, &section(finished)?)?;
         finished.outcome.figure.draw(&docs.join("images").join(finished.image()))?;
@@ -46,54 +45,18 @@ pub(crate) fn write_docs(docs: &Path, list: &[Finished]) -> Result<(), AnyError>
     Ok(std::fs::write(path, text)?)
 }
 
-/// A row a case.
-fn summary(list: &[Finished]) -> Result<String, AnyError> {
-    let mut text = format!(
-        "Processor time, reference included, on {}.\n\n\
-         | case | reference | error nearest its limit | limit | checks | settings | time |\n\
-         |---|---|---|---|---|---|---|\n",
-        processor()
-    );
-    for Finished { case, outcome, seconds } in list {
-        let shares = outcome.checks.iter().filter_map(|check| Some((check, check.share()?)));
-        let worst = shares.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(check, _)| check);
-        // A case of ranges only, as orders are, shows its first.
-        let (error, limit) =
-            worst.or(outcome.checks.first()).map_or_else(Default::default, |check| {
-                (format!("{} ({})", number(check.value), check.name), limits(check))
-            });
-        let held = outcome.checks.iter().filter(|check| check.holds()).count();
-        writeln!(
-            text,
-            "| [{}](#{}) | {} | {error} | {limit} | {held} of {} | {} | {seconds:.2} s |",
-            case.title,
-            anchor(case.title),
-            case.reference,
-            outcome.checks.len(),
-            case.settings,
-        )?;
-    }
-    Ok(text)
-}
-
-/// Settings, errors and time of a case.
+/// Reference, settings and errors of a case.
 fn section(finished: &Finished) -> Result<String, AnyError> {
-    let Finished { case, outcome, seconds } = finished;
+    let Finished { case, outcome, .. } = finished;
     let mut text = format!(
-        "Settings: {}. Time: {seconds:.2} s.\n\n| check | found | limit |\n|---|---|---|\n",
-        case.settings
+        "Reference: {}. Settings: {}.\n\n| check | found |\n|---|---|\n",
+        case.reference, case.settings
     );
     for check in &outcome.checks {
-        let mark = if check.holds() { "" } else { " **exceeded**" };
-        writeln!(text, "| {} | {} | {}{mark} |", check.name, number(check.value), limits(check))?;
+        let mark = if check.holds() { "" } else { " **exceeds its limit**" };
+        writeln!(text, "| {} | {}{mark} |", check.name, number(check.value))?;
     }
     Ok(text)
-}
-
-/// How GitHub names the anchor of a heading.
-fn anchor(title: &str) -> String {
-    let kept = title.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-'));
-    kept.collect::<String>().to_lowercase().replace(' ', "-")
 }
 
 fn limits(check: &Check) -> String {
@@ -113,17 +76,10 @@ fn number(value: f64) -> String {
     }
 }
 
-/// The processor's name.
-fn processor() -> String {
-    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let line = text.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
-    line.map_or(std::env::consts::ARCH, |(_, name)| name.trim()).to_owned()
-}
-
 /// `text` with `new` between the markers called `name`.
 fn splice(text: &str, name: &str, new: &str) -> Result<String, AnyError> {
     let [begin, end] = ["begin", "end"].map(|which| format!("<!-- validation {name}: {which} -->"));
-    let missing = || format!("validation.md: no markers '{begin}', '{end}'");
+    let missing = || format!("accuracy.md: no markers '{begin}', '{end}'");
     let (before, rest) = text.split_once(&begin).ok_or_else(missing)?;
     let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
     Ok(format!("{before}{begin}\n\n{}\n\n{end}{after}", new.trim()))

@@ -99,7 +99,7 @@ fn tilts(
         .build()?;
     let mut tilts = vec![0.0];
     let steps = whole(duration / time_step);
-    let run = simulation.run(steps, |state| tilts.push(state.displacement()[2]))?;
+    let run = simulation.run(steps, |state| tilts.push(state.absolute_displacement()[2]))?;
     if run.ledger_residual > 1e-9 {
         return Err(format!("ledger open by {:.1e}", run.ledger_residual).into());
     }

@@ -27,11 +27,11 @@ fn run(_short: bool) -> Result<Outcome, AnyError> {
     let building = ShearBuilding::new(2.0, 1.0, 1.0 / 3.0, &[storey; 3])?;
     let rows = building.shear(0)?;
     let storey_shear =
-        move |s: &State| rows.value(s.displacement(), s.velocity(), s.acceleration());
+        move |s: &State| rows.value(s.absolute_displacement(), s.velocity(), s.acceleration());
     // Storey displacements relative to the frame of the base.
     let relative = |j: u8| {
         move |state: &State| {
-            let u = state.displacement();
+            let u = state.absolute_displacement();
             u[2 + usize::from(j)] - u[0] + f64::from(j) * u[2]
         }
     };

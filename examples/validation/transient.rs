@@ -133,12 +133,12 @@ pub(crate) fn panel(history: &History, unit: &str) -> Panel {
 
 /// The base's horizontal displacement.
 pub(crate) fn base_motion(state: &State) -> f64 {
-    state.displacement()[0]
+    state.absolute_displacement()[0]
 }
 
 /// The tables count rotations and moments clockwise.
 pub(crate) fn rotation(state: &State) -> f64 {
-    -state.displacement()[2]
+    -state.absolute_displacement()[2]
 }
 
 /// Horizontal force on the soil.

@@ -198,7 +198,7 @@ fn computed(
     let mut history: History = [vec![0.0], vec![settled], vec![0.0], vec![0.0]];
     let run = simulation.run(whole(duration / time_step), |state| {
         if state.step % every == 0 {
-            let u = state.displacement();
+            let u = state.absolute_displacement();
             let values =
                 [u[3] - u[0] + model.height * u[2], settled - u[1], u[2], state.uplifted_fraction];
             history.iter_mut().zip(values).for_each(|(list, value)| list.push(value));

@@ -53,7 +53,7 @@ fn main() -> Result<(), AnyError> {
     std::fs::write(options.out.join("tables.md"), &tables)?;
     let mut folders = vec![options.out.clone()];
     if let Some(docs) = &options.docs {
-        report::splice(&docs.join("accuracy.md"), &tables)?;
+        report::splice(&docs.join("accuracy.md"), &report::summary(&outcomes, &advice)?)?;
         folders.push(docs.join("images"));
     }
     for folder in folders {

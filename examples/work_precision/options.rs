@@ -12,7 +12,7 @@ pub(crate) struct Options {
     /// Folder for the files.
     #[arg(long, default_value = "target/work_precision")]
     pub(crate) out: PathBuf,
-    /// Folder of the documentation: its accuracy.md gets the tables between its markers, its
+    /// Folder of the documentation: its accuracy.md gets the main tables between its markers, its
     /// images/ the plots.
     #[arg(long)]
     pub(crate) docs: Option<PathBuf>,

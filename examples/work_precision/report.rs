@@ -85,37 +85,11 @@ pub(crate) fn write_advice(path: &Path, list: &[Checked]) -> Result<(), AnyError
     Ok(writer.flush()?)
 }
 
-/// All tables.
+/// Everything: fastest settings, fronts, every proposal.
 pub(crate) fn tables(sweeps: &[Outcome], advice: &[Checked]) -> Result<String, AnyError> {
-    let mut text = format!("Machine: {}; {}.\n\n", processor(), compiler());
-    text.push_str("### The fastest settings for a tolerance\n\n");
-    text.push_str(
-        "Of all that were tried, the fastest with both errors within the tolerance:\n\n\
-         | scene | tolerance | elements | Δt/crossing | history, scheme | error: history | peak | \
-         time |\n|---|---|---|---|---|---|---|---|\n",
-    );
+    let mut text = fastest(sweeps)?;
     for sweep in sweeps {
-        for tolerance in TOLERANCES {
-            let good = |errors: &Errors| errors.history.max(errors.peak) <= tolerance;
-            let points = sweep.points.iter().filter(|point| good(&point.errors));
-            let best = points.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
-            write!(text, "| {} | {} % ", sweep.scene, 100.0 * tolerance)?;
-            match best {
-                Some(point) => writeln!(text, "{}", row(point, sweep.crossing))?,
-                None => writeln!(text, "| none that was tried | | | | | |")?,
-            }
-        }
-    }
-    for sweep in sweeps {
-        writeln!(text, "\n### {}: the front\n", capitalised(sweep.scene))?;
-        if let Some(doubt) = sweep.doubt {
-            writeln!(
-                text,
-                "Half the elements and twice the step of the reference differ from it by {:.1e} \
-                 (history) and {:.1e} (peak).\n",
-                doubt.history, doubt.peak
-            )?;
-        }
+        writeln!(text, "\n{}: the front\n", capitalised(sweep.scene))?;
         text.push_str(
             "| elements | Δt/crossing | history, scheme | error: history | peak | time |\n\
              |---|---|---|---|---|---|\n",
@@ -127,7 +101,7 @@ pub(crate) fn tables(sweeps: &[Outcome], advice: &[Checked]) -> Result<String, A
         }
     }
     text.push_str(
-        "\n### Advice put to the test\n\n\
+        "\nAdvice put to the test\n\n\
          | scene | tolerance | elements | Δt, s | expected: mesh | step | peak | met: history | \
          peak | larger/tolerance | time |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
@@ -145,11 +119,82 @@ pub(crate) fn tables(sweeps: &[Outcome], advice: &[Checked]) -> Result<String, A
             a.peak_error,
             e.history,
             e.peak,
-            e.history.max(e.peak) / a.tolerance,
+            larger_over_tolerance(checked),
             time(checked.seconds),
         )?;
     }
     Ok(text)
+}
+
+/// The share of [`tables`] that the document shows: fastest settings, and advice scene by scene.
+pub(crate) fn summary(sweeps: &[Outcome], advice: &[Checked]) -> Result<String, AnyError> {
+    let mut tolerances: Vec<f64> = advice.iter().map(|checked| checked.advice.tolerance).collect();
+    tolerances.sort_by(|a, b| b.total_cmp(a));
+    tolerances.dedup();
+    let mut scenes: Vec<&str> = advice.iter().map(|checked| checked.scene).collect();
+    scenes.dedup();
+
+    let mut text = fastest(sweeps)?;
+    text.push_str(
+        "\nAdvice put to the test, larger of both errors over the tolerance:\n\n| scene |",
+    );
+    for tolerance in &tolerances {
+        write!(text, " {} % |", 100.0 * tolerance)?;
+    }
+    writeln!(text, "\n|---|{}", "---|".repeat(tolerances.len()))?;
+    for scene in scenes {
+        write!(text, "| {scene} |")?;
+        for tolerance in &tolerances {
+            let of_both = |c: &&Checked| c.scene == scene && c.advice.tolerance == *tolerance;
+            match advice.iter().find(of_both) {
+                Some(checked) => write!(text, " {:.2} |", larger_over_tolerance(checked))?,
+                None => text.push_str(" – |"),
+            }
+        }
+        text.push('\n');
+    }
+    Ok(text)
+}
+
+/// Machine, the fastest settings for each tolerance, and how good the references are.
+fn fastest(sweeps: &[Outcome]) -> Result<String, AnyError> {
+    let mut text = format!(
+        "Machine: {}; {}.\n\nThe fastest settings with both errors within the tolerance:\n\n\
+         | scene | tolerance | elements | Δt/crossing | history, scheme | error: history | peak | \
+         time |\n|---|---|---|---|---|---|---|---|\n",
+        processor(),
+        compiler()
+    );
+    for sweep in sweeps {
+        for tolerance in TOLERANCES {
+            let good = |errors: &Errors| errors.history.max(errors.peak) <= tolerance;
+            let points = sweep.points.iter().filter(|point| good(&point.errors));
+            let best = points.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+            write!(text, "| {} | {} % ", sweep.scene, 100.0 * tolerance)?;
+            match best {
+                Some(point) => writeln!(text, "{}", row(point, sweep.crossing))?,
+                None => writeln!(text, "| none that was tried | | | | | |")?,
+            }
+        }
+    }
+    for sweep in sweeps {
+        if let Some(doubt) = sweep.doubt {
+            writeln!(
+                text,
+                "\n{}: half the elements and twice the step of the reference differ from it by \
+                 {:.1e} (history) and {:.1e} (peak).",
+                capitalised(sweep.scene),
+                doubt.history,
+                doubt.peak
+            )?;
+        }
+    }
+    Ok(text)
+}
+
+/// The larger error that a proposal met, over its tolerance.
+fn larger_over_tolerance(checked: &Checked) -> f64 {
+    checked.errors.history.max(checked.errors.peak) / checked.advice.tolerance
 }
 
 /// A point as cells of a table.

@@ -1,7 +1,8 @@
 //! How a scene is computed: mesh, time step, history, time scheme.
 
-use basemat::bem::{Grading, HalfPlaneGround, History, Strip};
+use basemat::bem::{Grading, HalfPlaneGround, Strip};
 use basemat::coupled::{Midpoint, Newmark, SimulationBuilder, Theta};
+use basemat::history::History;
 use basemat::{Result, Soil};
 
 /// How the past is summed.

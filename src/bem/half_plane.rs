@@ -3,14 +3,14 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::choice::{HistoryChoice, HistoryOptions, SavedChoice};
-use super::patch::check_order;
 use super::strip::strips_under;
 use super::{
-    ContactElement, Grading, Ground, History, PatchKernel, SharedKernels, StaticKernel, Strip,
+    Grading, Ground, KernelGround, KernelSource, PatchKernel, SharedKernels, StaticKernel, Strip,
 };
-use crate::error::{CheckpointError, Error, Result};
-use crate::history::{ConvolutionHistory, ExponentialHistory};
+use crate::contact_element::{ContactElement, check_order};
+use crate::error::Result;
+use crate::history::{ConvolutionHistory, History, HistoryChoice, LagKernel};
+use crate::motion::FreeField;
 use crate::soil::Soil;
 use crate::structure::Structure;
 
@@ -35,49 +35,32 @@ use crate::structure::Structure;
 /// ```
 pub struct HalfPlaneGround {
     soil: Soil,
-    elements: Vec<ContactElement>,
+    ground: KernelGround,
+}
+
+short_debug! { HalfPlaneGround; self; soil: self.soil, ground: self.ground }
+
+/// The closed forms of a soil.
+struct HalfPlane {
+    soil: Soil,
     statics: StaticKernel,
-    options: HistoryOptions,
-    own_history: Option<Box<MakeHistory>>,
-    shared: SharedKernels,
-    prepared: Option<Prepared>,
 }
 
-short_debug! {
-    HalfPlaneGround;
-    self;
-    soil: self.soil,
-    elements: self.elements.len(),
-    history: self.options,
-    prepared: self.prepared.is_some(),
-}
+impl KernelSource for HalfPlane {
+    fn kernel(&self, elements: &[ContactElement], time_step: f64) -> Result<Arc<dyn LagKernel>> {
+        Ok(Arc::new(PatchKernel::new(self.soil, elements.to_vec(), time_step)?))
+    }
 
-/// Makes the history of a patch.
-type MakeHistory = dyn Fn(Arc<PatchKernel>) -> Box<dyn ConvolutionHistory> + Send;
+    fn static_compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
+        self.statics.compliance(elements, matrix)
+    }
 
-/// What a time step brings with it.
-struct Prepared {
-    kernel: Arc<PatchKernel>,
-    /// Left open until the number of steps is known or the first step is made.
-    history: Option<Box<dyn ConvolutionHistory>>,
-    choice: Option<HistoryChoice>,
-}
+    fn shear_wave_speed(&self) -> Option<f64> {
+        Some(self.soil.shear_wave_speed())
+    }
 
-impl Prepared {
-    /// The history, made now if it has not been.
-    fn history(
-        &mut self,
-        options: HistoryOptions,
-        steps: Option<usize>,
-    ) -> Result<&mut dyn ConvolutionHistory> {
-        let history = if let Some(history) = self.history.take() {
-            history
-        } else {
-            let (history, choice) = options.make(&self.kernel, steps)?;
-            self.choice = Some(choice);
-            history
-        };
-        Ok(self.history.insert(history).as_mut())
+    fn identity(&self) -> Option<Vec<f64>> {
+        Some(vec![self.soil.shear_modulus(), self.soil.poisson(), self.soil.density()])
     }
 }
 
@@ -109,7 +92,8 @@ impl HalfPlaneGround {
     /// ```
     ///
     /// # Errors
-    /// As for [`HalfPlaneGround::new`] and [`Strip::new`]; [`Error::Size`] or [`Error::Index`] for a
+    /// As for [`HalfPlaneGround::new`] and [`Strip::new`]; [`Error::Size`](crate::Error::Size) or
+    /// [`Error::Index`](crate::Error::Index) for a
     /// structure without foundations.
     pub fn under(soil: Soil, structure: &dyn Structure, count: usize) -> Result<Self> {
         Self::new(soil, &strips_under(structure, count)?)
@@ -118,7 +102,8 @@ impl HalfPlaneGround {
     /// Several strips from left to right, which talk through the soil.
     ///
     /// # Errors
-    /// [`Error::Size`] for no strips, [`Error::Input`] for strips that overlap or are out of order.
+    /// [`Error::Size`](crate::Error::Size) for no strips, [`Error::Input`](crate::Error::Input) for
+    /// strips that overlap or are out of order.
     pub fn new(soil: Soil, strips: &[Strip]) -> Result<Self> {
         let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
         check_order(&elements)?;
@@ -126,169 +111,67 @@ impl HalfPlaneGround {
         // static matrix positive definite, and the settlement it stands for cancels in all results.
         let span = elements[elements.len() - 1].right - elements[0].left;
         let statics = StaticKernel::new(soil, 10.0 * span)?;
-        let options = HistoryOptions::default();
-        let shared = SharedKernels::default();
-        Ok(Self { soil, elements, statics, options, own_history: None, shared, prepared: None })
+        let ground = KernelGround::new(HalfPlane { soil, statics }, elements)?;
+        Ok(Self { soil, ground })
     }
 
-    /// With a history of this kind; [`History::Auto`] unless called.
+    /// As [`KernelGround::with_history_kind`].
     #[must_use]
-    pub fn with_history_kind(mut self, history: History) -> Self {
-        (self.options.kind, self.own_history) = (history, None);
-        self
+    pub fn with_history_kind(self, history: History) -> Self {
+        Self { ground: self.ground.with_history_kind(history), ..self }
     }
 
-    /// Allows a history whose coefficients are within `tolerance` (relative, 1e-12 to 1e-2) of the
-    /// exact ones: [`History::Auto`] may then take the exponentials, and [`History::Exponentials`]
-    /// takes this tolerance instead of its own.
+    /// As [`KernelGround::with_history_tolerance`].
     ///
     /// # Errors
-    /// [`Error::Input`] for a tolerance outside this range.
-    pub fn with_history_tolerance(mut self, tolerance: f64) -> Result<Self> {
-        self.options.tolerance = Some(ExponentialHistory::check_tolerance(tolerance)?);
-        Ok(self)
+    /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
+    pub fn with_history_tolerance(self, tolerance: f64) -> Result<Self> {
+        Ok(Self { ground: self.ground.with_history_tolerance(tolerance)?, ..self })
     }
 
-    /// With a limit (bytes) on the memory of the history that [`History::Auto`] chooses; 1 GiB
-    /// unless called. It goes by [`Ground::reserve`] (of a simulation,
-    /// [`expected_steps`](crate::coupled::SimulationBuilder::expected_steps) or the steps of the
-    /// first run), and is no limit where the number of steps is not known.
+    /// As [`KernelGround::with_history_memory`].
     #[must_use]
-    pub fn with_history_memory(mut self, bytes: usize) -> Self {
-        self.options.memory = bytes;
-        self
+    pub fn with_history_memory(self, bytes: usize) -> Self {
+        Self { ground: self.ground.with_history_memory(bytes), ..self }
     }
 
-    /// With a history of one's own: `make` is called with the patch's coefficients once the time
-    /// step is known.
+    /// As [`KernelGround::with_history`].
     #[must_use]
     pub fn with_history(
-        mut self,
-        make: impl Fn(Arc<PatchKernel>) -> Box<dyn ConvolutionHistory> + Send + 'static,
+        self,
+        make: impl Fn(Arc<dyn LagKernel>) -> Box<dyn ConvolutionHistory> + Send + 'static,
     ) -> Self {
-        self.own_history = Some(Box::new(make));
-        self
+        Self { ground: self.ground.with_history(make), ..self }
     }
 
-    /// With coefficients from a store that other grounds take them from as well: what is equal in
-    /// the cases of a sweep is then computed once.
+    /// As [`KernelGround::with_shared_kernels`].
     #[must_use]
-    pub fn with_shared_kernels(mut self, kernels: &SharedKernels) -> Self {
-        self.shared = kernels.clone();
-        self
+    pub fn with_shared_kernels(self, kernels: &SharedKernels) -> Self {
+        Self { ground: self.ground.with_shared_kernels(kernels), ..self }
     }
 
     /// The soil.
     pub fn soil(&self) -> Soil {
         self.soil
     }
-
-    /// Before the first step, with a history where none is to be chosen.
-    fn begin(&self, kernel: Arc<PatchKernel>) -> Result<Prepared> {
-        let history = self.own_history.as_ref().map(|make| make(Arc::clone(&kernel)));
-        let mut prepared = Prepared { kernel, history, choice: None };
-        if self.options.kind != History::Auto {
-            prepared.history(self.options, None)?;
-        }
-        Ok(prepared)
-    }
 }
 
 impl Ground for HalfPlaneGround {
-    fn elements(&self) -> &[ContactElement] {
-        &self.elements
-    }
-
-    fn prepare(&mut self, time_step: f64) -> Result<()> {
-        let kernel = self.shared.kernel(self.soil, &self.elements, time_step)?;
-        self.prepared = Some(self.begin(kernel)?);
-        Ok(())
-    }
-
-    fn reserve(&mut self, steps: usize) -> Result<()> {
-        match &mut self.prepared {
-            Some(prepared) => prepared.history(self.options, Some(steps))?.reserve(steps),
-            None => Err(NOT_PREPARED),
-        }
-    }
-
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
-        match &self.prepared {
-            Some(prepared) => prepared.kernel.instantaneous(matrix),
-            None => Err(NOT_PREPARED),
-        }
-    }
-
-    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        match &mut self.prepared {
-            Some(prepared) => prepared.history(self.options, None)?.evaluate(displacement),
-            None => Err(NOT_PREPARED),
-        }
-    }
-
-    fn commit(&mut self, traction: &[f64]) {
-        let Some(prepared) = &mut self.prepared else { return };
-        // Where Auto has nothing to go by, it takes a history that can always be made.
-        if let Ok(history) = prepared.history(self.options, None) {
-            history.push(traction);
-        }
-    }
-
-    fn history_choice(&self) -> Option<HistoryChoice> {
-        self.prepared.as_ref()?.choice
-    }
-
-    fn increment_error_bound(&self) -> f64 {
-        let history = self.prepared.as_ref().and_then(|prepared| prepared.history.as_ref());
-        history.map_or(0.0, ConvolutionHistory::increment_error_bound)
-    }
-
-    /// Which history was chosen for how many steps, and what it says.
-    fn save(&self) -> Result<Vec<f64>> {
-        let prepared = self.prepared.as_ref().ok_or(NOT_PREPARED)?;
-        let mut values = SavedChoice::new(prepared.choice).numbers().to_vec();
-        if let Some(history) = &prepared.history {
-            values.extend(history.save()?);
-        }
-        Ok(values)
-    }
-
-    fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
-        let prepared = self.prepared.as_mut().ok_or(NOT_PREPARED)?;
-        let (saved, values) = SavedChoice::read(values)?;
-        let own = SavedChoice::new(prepared.choice);
-        let other = CheckpointError::OtherScene { quantity: "kind of history" };
-        if let Some(history) = prepared.history.as_mut().filter(|_| own == saved) {
-            return history.restore(steps, values);
-        }
-        if saved.kind == History::Auto {
-            // Nothing had been chosen yet, so that it is still to be.
-            if self.own_history.is_some() || steps > 0 || !values.is_empty() {
-                return Err(other.into());
-            }
-            let kernel = Arc::clone(&prepared.kernel);
-            self.prepared = Some(self.begin(kernel)?);
-            return Ok(());
-        }
-        if prepared.history.is_some() && own.kind != saved.kind {
-            return Err(other.into());
-        }
-        // What was chosen then is chosen again, and taken once it has the values.
-        let (mut history, choice) = self.options.make(&prepared.kernel, saved.steps)?;
-        if choice.kind != saved.kind {
-            return Err(other.into());
-        }
-        history.restore(steps, values)?;
-        (prepared.history, prepared.choice) = (Some(history), Some(choice));
-        Ok(())
-    }
-
-    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.statics.compliance(&self.elements, matrix)
+    forward! {
+        self.ground;
+        fn elements(&self) -> &[ContactElement];
+        fn prepare(&mut self, time_step: f64) -> Result<()>;
+        fn announce(&mut self, steps: usize) -> Result<()>;
+        fn reserve(&mut self, steps: usize) -> Result<()>;
+        fn instantaneous(&self, matrix: &mut [f64]) -> Result<()>;
+        fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
+        fn commit(&mut self, traction: &[f64]);
+        fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
+        fn shear_wave_speed(&self) -> Option<f64>;
+        fn history_choice(&self) -> Option<HistoryChoice>;
+        fn increment_error_bound(&self) -> f64;
+        fn save(&self) -> Result<Vec<f64>>;
+        fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
+        fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]);
     }
 }
-
-const NOT_PREPARED: Error = Error::Scene {
-    quantity: "half-plane ground",
-    needed: "`prepare` must be called with the time step first",
-};

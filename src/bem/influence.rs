@@ -18,8 +18,8 @@
 //! | `c_k` | f = Σ `c_k` τ^(−2k−1) for τ > `τ_R` |
 //! | `M_k` | (1/l) ∫ w x^(2k) dx |
 
-use crate::bem::ContactElement;
-use crate::bem::overlap::Overlap;
+use super::overlap::Overlap;
+use crate::contact_element::ContactElement;
 use crate::error::{Error, Result, positive};
 use crate::fundamental::branch::{Branches, Part, Weight};
 use crate::fundamental::laurent::{TERMS, late_coefficients};
@@ -126,20 +126,20 @@ impl InfluenceKernel {
 
 /// How the kernel falls behind the Rayleigh wave: 1/(πμ) ∫ Σ `c_k` x^(2k) t^(−2k−1) dt.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct LateSeries<'a> {
+pub(super) struct LateSeries<'a> {
     /// `c_k` of zz and xx.
-    pub(crate) terms: &'a [[f64; TERMS]; 2],
+    pub(super) terms: &'a [[f64; TERMS]; 2],
     /// `c_S` Δt, m.
-    pub(crate) step: f64,
+    pub(super) step: f64,
     /// 1/(πμ), 1/Pa.
-    pub(crate) unit: f64,
+    pub(super) unit: f64,
     /// `τ_R`, below which nothing of this holds.
-    pub(crate) arrival: f64,
+    pub(super) arrival: f64,
 }
 
 impl InfluenceKernel {
     /// The series that [`PairInfluence::at`] sums at late lags.
-    pub(crate) fn late_series(&self) -> LateSeries<'_> {
+    pub(super) fn late_series(&self) -> LateSeries<'_> {
         LateSeries {
             terms: &self.late,
             step: self.step,

@@ -7,11 +7,14 @@
 //! tangential ones (traction τ on the soil and displacement, positive to the right). They are
 //! means over the elements, from left to right.
 
-mod choice;
 #[cfg(feature = "full-plane")]
 pub mod full_plane;
 mod half_plane;
 mod influence;
+mod kernel_ground;
+mod kernel_source;
+mod late_exponentials;
+mod legendre;
 mod overlap;
 mod patch;
 mod shared;
@@ -19,12 +22,11 @@ mod spring;
 mod static_kernel;
 mod strip;
 
-pub use choice::{ChoiceReason, History, HistoryChoice};
 pub use half_plane::HalfPlaneGround;
-pub(crate) use influence::LateSeries;
 pub use influence::{Influence, InfluenceKernel, PairInfluence};
-pub(crate) use patch::check_order;
-pub use patch::{Pair, PatchKernel};
+pub use kernel_ground::KernelGround;
+pub use kernel_source::KernelSource;
+pub use patch::PatchKernel;
 pub use shared::SharedKernels;
 pub use spring::SpringGround;
 pub use static_kernel::StaticKernel;
@@ -32,29 +34,11 @@ pub use strip::{Grading, Strip};
 
 use std::any::Any;
 
+pub use crate::contact_element::ContactElement;
+
 use crate::error::{CheckpointError, Result};
+use crate::history::HistoryChoice;
 use crate::motion::FreeField;
-
-/// One boundary element of the base: the interval from `left` to `right` of the flat surface, m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactElement {
-    /// Left end, m.
-    pub left: f64,
-    /// Right end, m.
-    pub right: f64,
-}
-
-impl ContactElement {
-    /// Length, m.
-    pub fn length(&self) -> f64 {
-        self.right - self.left
-    }
-
-    /// Midpoint, m.
-    pub fn center(&self) -> f64 {
-        0.5 * (self.left + self.right)
-    }
-}
 
 /// What the time integrator needs of any soil.
 ///
@@ -76,7 +60,17 @@ pub trait Ground: Any + Send {
     /// error of a ground of your own.
     fn prepare(&mut self, time_step: f64) -> Result<()>;
 
-    /// Hints that about `steps` steps will follow: kernels may be evaluated and memory reserved.
+    /// Announces that up to `steps` steps will have been made in all, those so far included: what
+    /// depends on their number may be chosen, but no memory is reserved, as an observer may stop
+    /// the run long before.
+    ///
+    /// # Errors
+    /// As for [`Ground::history`].
+    fn announce(&mut self, _steps: usize) -> Result<()> {
+        Ok(())
+    }
+
+    /// The same, with kernels evaluated and memory reserved.
     ///
     /// # Errors
     /// As for [`Ground::history`].
@@ -108,6 +102,12 @@ pub trait Ground: Any + Send {
     /// # Errors
     /// If the slice has the wrong length.
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
+
+    /// Speed of shear waves in it, m/s, which tells what elements resolve; `None` (the default) for
+    /// a ground without waves.
+    fn shear_wave_speed(&self) -> Option<f64> {
+        None
+    }
 
     /// Which history it keeps and why; `None` (the default) if there is nothing to choose.
     fn history_choice(&self) -> Option<HistoryChoice> {
@@ -156,11 +156,13 @@ impl<T: Ground + ?Sized> Ground for Box<T> {
         (**self);
         fn elements(&self) -> &[ContactElement];
         fn prepare(&mut self, time_step: f64) -> Result<()>;
+        fn announce(&mut self, steps: usize) -> Result<()>;
         fn reserve(&mut self, steps: usize) -> Result<()>;
         fn instantaneous(&self, matrix: &mut [f64]) -> Result<()>;
         fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
         fn commit(&mut self, traction: &[f64]);
         fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
+        fn shear_wave_speed(&self) -> Option<f64>;
         fn history_choice(&self) -> Option<HistoryChoice>;
         fn increment_error_bound(&self) -> f64;
         fn save(&self) -> Result<Vec<f64>>;

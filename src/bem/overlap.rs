@@ -1,7 +1,7 @@
 //! How two elements see each other: the length of overlap at every offset, and its integrals over
 //! the offsets that a wave of given slowness covers during a step.
 
-use crate::bem::ContactElement;
+use crate::contact_element::ContactElement;
 use crate::error::{Error, Result, finite};
 use crate::fundamental::branch::Weight;
 

@@ -1,19 +1,23 @@
 //! Coefficients that the grounds of many simulations share.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::any::{Any, TypeId};
+use std::fmt;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::{ContactElement, PatchKernel};
+use super::kernel_source::KernelSource;
+use crate::contact_element::ContactElement;
 use crate::error::Result;
-use crate::soil::Soil;
+use crate::history::LagKernel;
 
 /// Kernels kept, at most: the latest.
 const KEPT: usize = 8;
 
-/// Coefficients, and spectra made of them, that half-planes of one soil, mesh and time step share.
+/// Coefficients, and spectra made of them, that grounds of one soil, mesh and time step share.
 ///
-/// Grounds with clones of one and the same store ([`HalfPlaneGround::with_shared_kernels`]) compute
-/// and hold them once. The store keeps those of the last eight different soils, meshes and steps. Results are the
-/// same to the last bit.
+/// Grounds with clones of one and the same store ([`HalfPlaneGround::with_shared_kernels`],
+/// [`KernelGround::with_shared_kernels`](super::KernelGround::with_shared_kernels)) compute and hold
+/// them once. The store keeps those of the last eight different soils, meshes and steps. Results are the
+/// same to the last bit. What one soil is says [`KernelSource::identity`].
 ///
 /// ```
 /// use basemat::bem::{Ground, HalfPlaneGround, SharedKernels};
@@ -39,17 +43,27 @@ pub struct SharedKernels {
     kernels: Arc<Mutex<Vec<Entry>>>,
 }
 
-#[derive(Debug)]
+/// A kernel and all that determines it.
 struct Entry {
-    soil: Soil,
+    source: TypeId,
+    identity: Vec<f64>,
     time_step: f64,
-    kernel: Arc<PatchKernel>,
+    kernel: Arc<dyn LagKernel>,
+}
+
+impl fmt::Debug for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Entry")
+            .field("identity", &self.identity)
+            .field("time_step", &self.time_step)
+            .finish_non_exhaustive()
+    }
 }
 
 impl SharedKernels {
     /// Number of kernels held.
     pub fn len(&self) -> usize {
-        self.kernels.lock().unwrap_or_else(PoisonError::into_inner).len()
+        self.entries().len()
     }
 
     /// Whether none is held.
@@ -57,18 +71,24 @@ impl SharedKernels {
         self.len() == 0
     }
 
-    /// The kernel of these elements, made now if it is not there.
+    fn entries(&self) -> MutexGuard<'_, Vec<Entry>> {
+        self.kernels.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The kernel of these elements, made now if it is not there or `source` has no identity.
     pub(super) fn kernel(
         &self,
-        soil: Soil,
+        source: &dyn KernelSource,
         elements: &[ContactElement],
         time_step: f64,
-    ) -> Result<Arc<PatchKernel>> {
-        let mut kernels = self.kernels.lock().unwrap_or_else(PoisonError::into_inner);
+    ) -> Result<Arc<dyn LagKernel>> {
+        let Some(identity) = source.identity() else { return source.kernel(elements, time_step) };
+        let (any, mut kernels): (&dyn Any, _) = (source, self.entries());
         let same = |entry: &Entry| {
-            entry.soil == soil
+            entry.source == any.type_id()
+                && entry.identity == identity
                 && entry.time_step == time_step
-                && entry.kernel.elements() == elements
+                && entry.kernel.classes().elements() == elements
         };
         if let Some(place) = kernels.iter().position(same) {
             // The latest used is the last to go.
@@ -77,11 +97,12 @@ impl SharedKernels {
             kernels.push(entry);
             return Ok(kernel);
         }
-        let kernel = Arc::new(PatchKernel::new(soil, elements.to_vec(), time_step)?);
+        let kernel = source.kernel(elements, time_step)?;
         if kernels.len() == KEPT {
             kernels.remove(0);
         }
-        kernels.push(Entry { soil, time_step, kernel: Arc::clone(&kernel) });
+        let (source, kept) = (any.type_id(), Arc::clone(&kernel));
+        kernels.push(Entry { source, identity, time_step, kernel: kept });
         Ok(kernel)
     }
 }

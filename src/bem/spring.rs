@@ -1,8 +1,8 @@
 //! Winkler's spring bed: a ground without memory.
 
-use super::patch::check_order;
 use super::strip::strips_under;
-use super::{ContactElement, Ground, Strip};
+use super::{Ground, Strip};
+use crate::contact_element::{ContactElement, check_order};
 use crate::error::{CheckpointError, Error, Result, not_negative, positive, same_length};
 use crate::structure::Structure;
 

@@ -1,7 +1,8 @@
 //! Static influence coefficients of boundary elements on an elastic half-plane.
 
-use crate::bem::overlap::Overlap;
-use crate::bem::{ContactElement, Influence};
+use super::Influence;
+use super::overlap::Overlap;
+use crate::contact_element::ContactElement;
 use crate::error::{Result, positive, same_length};
 use crate::fundamental::gauss;
 use crate::soil::Soil;

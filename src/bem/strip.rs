@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::ContactElement;
+use crate::contact_element::ContactElement;
 use crate::error::{Error, Result, finite, positive};
 use crate::structure::{Structure, foundation_nodes};
 

@@ -5,8 +5,9 @@ use std::fmt;
 
 use super::response_estimate::{Sketch, StiffnessError};
 use crate::Soil;
-use crate::bem::{Grading, HalfPlaneGround, History, Strip};
+use crate::bem::{Grading, HalfPlaneGround, Strip};
 use crate::error::{Error, Result, not_negative, positive};
+use crate::history::History;
 use crate::motion::FrequencyContent;
 
 /// Error of the strip's stiffnesses on Q cosine-graded elements is this over Q²: root mean square

@@ -1,15 +1,25 @@
 //! Putting a simulation together.
 
-use super::base::Base;
-use super::coordinates::{Coordinates, Modes};
-use super::model::Model;
-use super::modes::ContactSearch;
-use super::operators::Operators;
-use super::preload::{Placement, StaticState};
+use std::sync::Arc;
+
+use super::books::Books;
 use super::probe::Probe;
+use super::scene::base::Base;
+use super::scene::conditioning;
+use super::scene::modal_basis::{Coordinates, ModalBasis};
+use super::scene::model::{Model, Tangent};
+use super::scene::operators::{Factor, Operators};
+use super::scene::static_state::{self, Placement, StaticState};
+use super::scene::translation_check::check_force;
+use super::scene::{ProbeRows, Scene};
 use super::scheme::{Midpoint, TimeScheme};
 use super::simulation::Simulation;
-use crate::bem::Ground;
+use super::state::State;
+use super::step::forcing::Forcing;
+use super::step::increment::Increment;
+use super::step::solver::Solver;
+use crate::bem::{ContactElement, Ground};
+use crate::contact::{ContactSearch, ModeSearch};
 use crate::error::{Error, Result, finite, not_negative, positive};
 use crate::interface::{ContactScene, InterfaceLaw};
 use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
@@ -37,6 +47,7 @@ pub struct SimulationBuilder {
     moment_center: Option<f64>,
     steps: usize,
     coordinates: Coordinates,
+    ledger: bool,
 }
 
 short_debug! {
@@ -52,8 +63,15 @@ short_debug! {
     coordinates: self.coordinates,
 }
 
+impl Simulation {
+    /// Begins a simulation with steps of `time_step` seconds.
+    pub fn builder(time_step: f64) -> SimulationBuilder {
+        SimulationBuilder::new(time_step)
+    }
+}
+
 impl SimulationBuilder {
-    pub(super) fn new(time_step: f64) -> Self {
+    fn new(time_step: f64) -> Self {
         Self {
             time_step,
             structure: None,
@@ -68,6 +86,7 @@ impl SimulationBuilder {
             moment_center: None,
             steps: 0,
             coordinates: Coordinates::default(),
+            ledger: true,
         }
     }
 
@@ -160,7 +179,8 @@ impl SimulationBuilder {
     }
 
     /// About how many steps will be made: kernels and memory are then ready before the first, and
-    /// the structure's coordinates are chosen for this number (10 000 if not given).
+    /// the ground's history and the structure's coordinates are chosen for this number (if not given,
+    /// for that of the first run and for 10 000).
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
         self.steps = steps;
@@ -174,29 +194,39 @@ impl SimulationBuilder {
         self
     }
 
+    /// Keeps no energy ledger: its terms and its residual are then NaN, and a step takes less time.
+    #[must_use]
+    pub fn without_ledger(mut self) -> Self {
+        self.ledger = false;
+        self
+    }
+
     /// Checks the parts against each other, finds the static state and factors what stays constant.
     ///
     /// # Errors
     /// [`Error::Scene`] for a missing part, the typed error of whatever is wrong with a given one.
     /// [`Error::Supported`] for a structure that is held by more than the ground,
-    /// [`Error::Indefinite`] for a negative mass, or a stiffness that is negative with the base held.
+    /// [`Error::Detached`] for one with a part that is not joined to its base,
+    /// [`Error::Indefinite`] for a negative mass or damping, or a stiffness that is negative with the
+    /// base held.
     /// [`Error::Probe`] and [`Error::DuplicateName`] for a probe of an unknown that is not there or a
     /// name that comes twice. [`Error::Preload`] if the structure cannot stand,
     /// [`Error::IllConditioned`] if double precision cannot carry the scene.
-    pub fn build(self) -> Result<Simulation> {
+    pub fn build(mut self) -> Result<Simulation> {
         let time_step = positive("time step", self.time_step)?;
         not_negative("gravity", self.gravity)?;
         let missing = |quantity, needed| Error::Scene { quantity, needed };
-        let structure = self
-            .structure
-            .ok_or(missing("structure", "give one to the builder with `structure`"))?;
+        let structure = self.structure.take();
+        let structure =
+            structure.ok_or(missing("structure", "give one to the builder with `structure`"))?;
+        let ground = self.ground.take();
         let mut ground =
-            self.ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
+            ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
         let elements = ground.elements().to_vec();
-        crate::bem::check_order(&elements)?;
+        crate::contact_element::check_order(&elements)?;
         let count = elements.len();
-        let scene = ContactScene { gravity: self.gravity, time_step };
-        check_contact(&self.laws, self.search, &scene, count)?;
+        let contact_scene = ContactScene { gravity: self.gravity, time_step };
+        check_contact(&self.laws, self.search, &contact_scene, count)?;
         let unknowns = structure.unknowns();
         if unknowns > MOST_UNKNOWNS {
             return Err(Error::Input {
@@ -206,26 +236,14 @@ impl SimulationBuilder {
             });
         }
         let mut base = Base::of(structure.as_ref(), &elements)?;
-        let mut model = Model::new(structure, &base)?;
+        let mut model = Model::new(structure.as_ref(), &base)?;
         super::probe::check(&self.probes, unknowns)?;
         ground.prepare(time_step)?;
         if self.steps > 0 {
             ground.reserve(self.steps)?;
         }
-
-        let mut static_load = vec![0.0; unknowns];
-        let static_state = if self.gravity > 0.0 {
-            model.structure.load(0.0, &mut static_load);
-            let mut load = static_load.clone();
-            model.mass.multiply_add(-self.gravity, &model.ride[1], &mut load);
-            if let Some(bad) = load.iter().find(|f| !f.is_finite()) {
-                finite("load at t = 0", *bad)?;
-            }
-            let (ground, laws) = (ground.as_ref(), &self.laws);
-            super::preload::solve(&mut model, ground, &base, laws, self.placement, &load)?
-        } else {
-            StaticState::weightless(count, unknowns)
-        };
+        let static_state = self.static_state(structure.as_ref(), ground.as_ref(), &base, &model)?;
+        check_force(&model, structure.as_ref(), &static_state)?;
 
         let coefficients = self.scheme.coefficients(time_step);
         let mut soil = vec![0.0; 4 * count * count];
@@ -233,38 +251,106 @@ impl SimulationBuilder {
         if let Some(bad) = soil.iter().find(|g| !g.is_finite()) {
             finite("instantaneous operator of the ground", *bad)?;
         }
-        let tangent = model.tangent(&static_state.displacement)?;
-        let mut operators = Operators::new(&model, &base, &soil, &coefficients, tangent)?;
-        let modes = choose_modes(self.coordinates, self.steps, &model, &operators, 2 * count)?;
-        if let Some(modes) = modes {
+        let mut tangent = Tangent::new(unknowns);
+        tangent.refill(&model, structure.as_ref(), &static_state.displacement)?;
+        let mut factor = Factor::new(&model, &coefficients, &tangent.matrix)?;
+        if let Some(modes) = self.choose_modes(&model, factor.stored(), 2 * count)? {
             base.decouple(&modes);
-            model.decouple(std::sync::Arc::new(modes));
-            let tangent = std::mem::take(&mut operators.tangent);
-            operators = Operators::new(&model, &base, &soil, &coefficients, tangent)?;
+            model.decouple(Arc::new(modes));
+            factor = Factor::new(&model, &coefficients, &tangent.matrix)?;
         }
+        let operators = Operators::new(&model, &base, &soil, factor, tangent.matrix);
         let middle = 0.5 * (elements[0].left + elements[count - 1].right);
         let moment_center = finite("moment center", self.moment_center.unwrap_or(middle))?;
-        let arms = elements.iter().map(|e| e.center() - moment_center).collect();
-        let start_motion = motion_at_start(ground.as_ref(), self.motion.as_ref(), count)?;
-        let mut simulation = Simulation::assemble(super::simulation::Parts {
+        let compliant = |law: &Box<dyn InterfaceLaw>| {
+            law.modes().iter().any(|&mode| law.compliance(mode) != [0.0; 2])
+        };
+        let scene = Scene {
             time_step,
-            model,
-            ground,
-            base,
-            laws: self.laws,
-            search: self.search,
-            motion: self.motion,
             coefficients,
+            conserves_energy: coefficients.conserves_energy(time_step),
+            compliant: self.laws.iter().any(compliant),
+            laws: self.laws,
             static_state,
-            static_load,
             soil,
-            operators,
+            start_motion: motion_at_start(ground.as_ref(), self.motion.as_ref(), count)?,
+            probe_rows: self.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect(),
             probes: self.probes,
-            arms,
-            start_motion,
-        });
-        simulation.assess()?;
-        Ok(simulation)
+            arms: elements.iter().map(|e| ContactElement::center(e) - moment_center).collect(),
+            elements,
+            model,
+            base,
+        };
+        let mut solver = Solver::new(&scene, operators, ModeSearch::new(count, self.search));
+        let (operators, contact) = solver.parts_mut();
+        let state = State::at_rest(&scene);
+        let conditioning = conditioning::assess(&scene, operators, contact, &state.start)?;
+        Ok(Simulation {
+            forcing: Forcing::new(&scene),
+            increment: Increment::new(&scene),
+            books: self.ledger.then(|| Books::new(&scene)),
+            motion: self.motion,
+            structure,
+            ground,
+            scene,
+            solver,
+            state,
+            conditioning,
+        })
+    }
+
+    /// The state under weight and the load at t = 0; trivial without gravity.
+    fn static_state(
+        &self,
+        structure: &dyn Structure,
+        ground: &dyn Ground,
+        base: &Base,
+        model: &Model,
+    ) -> Result<StaticState> {
+        let unknowns = model.unknowns;
+        let mut state = StaticState::weightless(base.lengths().len(), unknowns);
+        if self.gravity > 0.0 {
+            let mut static_load = vec![0.0; unknowns];
+            structure.load(0.0, &mut static_load);
+            let mut load = static_load.clone();
+            let [_, up] = model.influence.of_all(unknowns);
+            model.mass.multiply_add(-self.gravity, &up, &mut load);
+            if let Some(bad) = load.iter().find(|f| !f.is_finite()) {
+                finite("load at t = 0", *bad)?;
+            }
+            let (laws, placement) = (&self.laws, self.placement);
+            state = static_state::solve(model, structure, ground, base, laws, placement, &load)?;
+            state.load = static_load;
+        }
+        (state.force, state.energy) = model.nonlinear_state(structure, &state.displacement);
+        Ok(state)
+    }
+
+    /// The modes, if the structure is to be stepped in them; `factor` is the number of entries of
+    /// the sparse factor, `contact` that of contact components.
+    fn choose_modes(
+        &self,
+        model: &Model,
+        factor: usize,
+        contact: usize,
+    ) -> Result<Option<ModalBasis>> {
+        let steps = if self.steps > 0 { self.steps } else { STEPS };
+        let modes = || {
+            let matrices = model.sparse().filter(|_| model.linear)?;
+            let parts = model.influence.parts().iter();
+            let translations: Vec<_> =
+                parts.flat_map(|part| &part.vectors).map(Vec::as_slice).collect();
+            ModalBasis::new(matrices, &translations)
+        };
+        match self.coordinates {
+            Coordinates::Auto if model.modes_save_time(factor, contact, steps) => Ok(modes()),
+            Coordinates::Auto | Coordinates::Unknowns => Ok(None),
+            Coordinates::Modes => modes().map(Some).ok_or(Error::Scene {
+                quantity: "modal coordinates",
+                needed: "a linear structure with symmetric matrices, a positive definite mass \
+                         and a damping that the modes decouple",
+            }),
+        }
     }
 }
 
@@ -290,28 +376,6 @@ fn check_contact(
         return refuse("contact search", "the flow chart needs one iteration or more");
     }
     laws.iter().try_for_each(|law| law.check(scene))
-}
-
-/// The modes, if the structure is to be stepped in them.
-fn choose_modes(
-    coordinates: Coordinates,
-    steps: usize,
-    model: &Model,
-    operators: &Operators,
-    contact: usize,
-) -> Result<Option<Modes>> {
-    let steps = if steps > 0 { steps } else { STEPS };
-    match coordinates {
-        Coordinates::Auto if model.modes_save_time(operators.stored(), contact, steps) => {
-            Ok(Modes::of(model))
-        }
-        Coordinates::Auto | Coordinates::Unknowns => Ok(None),
-        Coordinates::Modes => Modes::of(model).map(Some).ok_or(Error::Scene {
-            quantity: "modal coordinates",
-            needed: "a linear structure with symmetric matrices, a positive definite mass \
-                     and a damping that the modes decouple",
-        }),
-    }
 }
 
 /// The free field at t = 0, from which it is measured.

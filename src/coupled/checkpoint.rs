@@ -1,14 +1,18 @@
 //! Saving a run and going on with it later, to the last bit.
 
+use super::books::Books;
 use super::ledger::Ledger;
-use super::simulation::{Memory, Simulation};
+use super::scene::Scene;
+use super::scene::operators::Operators;
 use super::state::State;
-use crate::bem::History;
+use super::translation::Translation;
+use crate::bem::Ground;
 use crate::error::{CheckpointError, Result};
-use crate::interface::{ContactState, Mode, StepStart, law_of};
+use crate::interface::ContactState;
+use crate::structure::Structure;
 
 /// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 /// Most steps that a checkpoint may stand for: more would not fit into any run.
 const MOST_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,
@@ -17,7 +21,7 @@ const MOST_STEPS: usize = match 1_usize.checked_shl(47) {
 /// How far numbers of the same scene may be apart (other processors round differently).
 const SAME: f64 = 1e-9;
 
-/// A run between two steps: see [`Simulation::checkpoint`].
+/// A run between two steps: see [`Simulation::checkpoint`](crate::Simulation::checkpoint).
 ///
 /// With the feature `serde` it can be written in any of serde's formats. Floating-point numbers
 /// are written as their bits (integers of 64 bits), so that none is rounded on the way.
@@ -25,7 +29,7 @@ const SAME: f64 = 1e-9;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Checkpoint {
     format: u32,
-    scene: Scene,
+    identity: Identity,
     steps: usize,
     /// Per element: which of its law's modes, and whether it has been open.
     modes: Vec<(usize, bool)>,
@@ -37,14 +41,14 @@ pub struct Checkpoint {
     structure: Vec<f64>,
 }
 
-/// What tells one scene from another.
+/// Numbers that differ between scenes.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-struct Scene {
+struct Identity {
     unknowns: usize,
+    /// Whether a ledger is kept.
+    ledger: bool,
     probes: Vec<String>,
-    /// Kind of the history, if the ground has chosen one.
-    history: Option<String>,
     /// Time step and coefficients of the scheme.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     steps: Vec<f64>,
@@ -69,7 +73,7 @@ impl Checkpoint {
     }
 }
 
-impl Scene {
+impl Identity {
     /// Error that names the first thing that differs.
     fn check(&self, own: &Self) -> std::result::Result<(), CheckpointError> {
         let close = |a: &[f64], b: &[f64], scale: f64| {
@@ -77,19 +81,15 @@ impl Scene {
             a.len() == b.len() && a.iter().zip(b).all(near)
         };
         let span = crate::linalg::largest(&own.elements);
-        let history = match (&self.history, &own.history) {
-            (Some(a), Some(b)) => a == b,
-            _ => true,
-        };
         for (same, quantity) in [
             (self.unknowns == own.unknowns, "number of unknowns"),
             (close(&self.steps, &own.steps, 0.0), "time step or scheme"),
             (close(&self.elements, &own.elements, span), "list of contact elements"),
+            (self.ledger == own.ledger, "energy ledger"),
             (self.probes == own.probes, "list of probes"),
             (close(&self.structure, &own.structure, 0.0), "structure"),
             (close(&self.ground, &own.ground, 0.0), "ground"),
             (close(&self.preload, &own.preload, 0.0), "static state"),
-            (history, "kind of history"),
         ] {
             if !same {
                 return Err(CheckpointError::OtherScene { quantity });
@@ -99,213 +99,152 @@ impl Scene {
     }
 }
 
-impl Simulation {
-    /// All that the steps so far have left behind, to be taken up by [`Simulation::resume`].
-    ///
-    /// Its size is that of the history: all tractions for exact histories, a few ten kilobytes for
-    /// the exponentials.
-    ///
-    /// # Errors
-    /// [`CheckpointError::Unsupported`] if the ground, its history or the structure cannot save its
-    /// state.
-    ///
-    /// ```
-    /// use basemat::bem::SpringGround;
-    /// use basemat::coupled::Checkpoint;
-    /// use basemat::interface::Coulomb;
-    /// use basemat::motion::el_centro_1940;
-    /// use basemat::structure::RigidBlock;
-    /// use basemat::Simulation;
-    ///
-    /// let scene = || {
-    ///     Simulation::builder(0.01)
-    ///         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
-    ///         .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
-    ///         .interface(Coulomb::new(0.4)?)
-    ///         .motion(el_centro_1940())
-    ///         .gravity(9.81)
-    ///         .build()
-    /// };
-    /// let mut simulation = scene()?;
-    /// simulation.run(200, |_| {})?;
-    /// let saved: Checkpoint = simulation.checkpoint()?;
-    /// simulation.run(100, |_| {})?;
-    ///
-    /// let mut other = scene()?;
-    /// other.resume(&saved)?;
-    /// assert_eq!(other.state().step, 200);
-    /// other.run(100, |_| {})?;
-    /// assert_eq!(other.state(), simulation.state());
-    /// # Ok::<(), basemat::Error>(())
-    /// ```
-    pub fn checkpoint(&self) -> Result<Checkpoint> {
-        let (mut state, mut memory) = (self.state.clone(), self.memory.clone());
-        let modes = self
-            .start
-            .iter()
-            .enumerate()
-            .map(|(e, start)| {
-                let known = law_of(&self.laws, e).modes();
-                let number = known.iter().position(|mode| *mode == start.mode);
-                let unknown = CheckpointError::Unsupported { part: "interface law" };
-                Ok((number.ok_or(unknown)?, start.has_opened))
-            })
-            .collect::<Result<Vec<_>>>()?;
-        Ok(Checkpoint {
-            format: FORMAT,
-            scene: self.scene(),
-            steps: state.step,
-            modes,
-            state: numbers(&mut state, &mut memory)
-                .into_iter()
-                .map(|value| *value)
-                .chain(self.start.iter().map(|start| start.slip_rate))
-                .collect(),
-            ground: self.ground.save()?,
-            structure: self.model.structure.save()?,
+/// All that the steps so far have left behind.
+pub(super) fn save(
+    scene: &Scene,
+    structure: &dyn Structure,
+    ground: &dyn Ground,
+    operators: &Operators,
+    state: &State,
+    books: Option<&Books>,
+) -> Result<Checkpoint> {
+    let modes = state
+        .start
+        .iter()
+        .enumerate()
+        .map(|(e, start)| {
+            let known = scene.law(e).modes();
+            let number = known.iter().position(|mode| *mode == start.mode);
+            let unknown = CheckpointError::Unsupported { part: "interface law" };
+            Ok((number.ok_or(unknown)?, start.has_opened))
         })
-    }
+        .collect::<Result<Vec<_>>>()?;
+    let (mut own, mut own_books) = (state.clone(), books.cloned());
+    let numbers = numbers(&mut own, own_books.as_mut());
+    Ok(Checkpoint {
+        format: FORMAT,
+        identity: identity(scene, operators, books.is_some()),
+        steps: state.step,
+        modes,
+        state: numbers.into_iter().map(|value| *value).collect(),
+        ground: ground.save()?,
+        structure: structure.save()?,
+    })
+}
 
-    /// Goes to where `checkpoint` was made, in a simulation that was built in the same way, and
-    /// wherever this one is; what follows is the same to the last bit on the same processor.
-    ///
-    /// Sizes, time step, elements, probes, matrices and static state are compared. Loads, motion and laws
-    /// are not, nor what a user's structure leaves out of what it [saves][`save`]. The
-    /// transitions, trials and method of the step before the checkpoint are not kept.
-    ///
-    /// # Errors
-    /// [`crate::Error::Checkpoint`] for a checkpoint of another scene, another format, or with
-    /// numbers missing or not finite. The simulation is then as it was.
-    ///
-    /// [`save`]: crate::structure::Structure::save
-    pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<()> {
-        if checkpoint.format != FORMAT {
-            let found = checkpoint.format;
-            return Err(CheckpointError::Format { found, needed: FORMAT }.into());
-        }
-        checkpoint.scene.check(&self.scene())?;
-        let corrupt = |quantity| CheckpointError::Corrupt { quantity };
-        if checkpoint.steps > MOST_STEPS {
-            return Err(corrupt("number of steps").into());
-        }
-        for (values, quantity) in [
-            (&checkpoint.state, "state"),
-            (&checkpoint.ground, "state of the ground"),
-            (&checkpoint.structure, "state of the structure"),
-        ] {
-            if values.iter().any(|value| !value.is_finite()) {
-                return Err(corrupt(quantity).into());
-            }
-        }
-        let (mut state, mut memory) = (self.state.clone(), self.memory.clone());
-        let mut rates = vec![0.0; self.start.len()];
-        let mut own = numbers(&mut state, &mut memory);
-        own.extend(&mut rates);
-        if own.len() != checkpoint.state.len() {
-            return Err(corrupt("state").into());
-        }
-        own.into_iter().zip(&checkpoint.state).for_each(|(own, saved)| *own = *saved);
-        let modes = self.modes_of(&checkpoint.modes)?;
-        let before = self.model.structure.save()?;
-        self.model.structure.restore(&checkpoint.structure)?;
-        if let Err(error) = self.ground.restore(checkpoint.steps, &checkpoint.ground) {
-            self.model.structure.restore(&before)?;
-            return Err(error);
-        }
-        for (e, (start, (mode, has_opened))) in self.start.iter_mut().zip(modes).enumerate() {
-            state.modes[e] = mode;
-            let (state, slip_rate) = (state.contact[e], rates[e]);
-            *start = StepStart { state, mode, has_opened, slip_rate, ..*start };
-        }
-        state.step = checkpoint.steps;
-        state.time = state.step as f64 * self.time_step;
-        state.transitions.clear();
-        state.motion.changed();
-        (self.state, self.memory) = (state, memory);
-        self.update_resultants();
-        Ok(())
+/// The state and books of `checkpoint`, with structure and ground restored to it; these are
+/// unchanged on an error.
+pub(super) fn restore(
+    checkpoint: &Checkpoint,
+    scene: &Scene,
+    structure: &mut dyn Structure,
+    ground: &mut dyn Ground,
+    operators: &Operators,
+    (state, books): (&State, Option<&Books>),
+) -> Result<(State, Option<Books>)> {
+    if checkpoint.format != FORMAT {
+        let found = checkpoint.format;
+        return Err(CheckpointError::Format { found, needed: FORMAT }.into());
     }
-
-    /// Modes and whether elements have been open, from their numbers.
-    fn modes_of(&self, saved: &[(usize, bool)]) -> Result<Vec<(Mode, bool)>> {
-        let corrupt = CheckpointError::Corrupt { quantity: "contact modes" };
-        if saved.len() != self.start.len() {
-            return Err(corrupt.into());
-        }
-        let mode = |(e, &(number, has_opened)): (usize, &(usize, bool))| {
-            let mode = law_of(&self.laws, e).modes().get(number).copied();
-            Ok((mode.ok_or_else(|| corrupt.clone())?, has_opened))
-        };
-        saved.iter().enumerate().map(mode).collect()
+    checkpoint.identity.check(&identity(scene, operators, books.is_some()))?;
+    let corrupt = |quantity| CheckpointError::Corrupt { quantity };
+    if checkpoint.steps > MOST_STEPS {
+        return Err(corrupt("number of steps").into());
     }
+    for (values, quantity) in [
+        (&checkpoint.state, "state"),
+        (&checkpoint.ground, "state of the ground"),
+        (&checkpoint.structure, "state of the structure"),
+    ] {
+        if values.iter().any(|value| !value.is_finite()) {
+            return Err(corrupt(quantity).into());
+        }
+    }
+    let (mut state, mut books) = (state.clone(), books.cloned());
+    let own = numbers(&mut state, books.as_mut());
+    if own.len() != checkpoint.state.len() {
+        return Err(corrupt("state").into());
+    }
+    own.into_iter().zip(&checkpoint.state).for_each(|(own, saved)| *own = *saved);
+    restore_modes(scene, &checkpoint.modes, &mut state)?;
+    let before = structure.save()?;
+    structure.restore(&checkpoint.structure)?;
+    if let Err(error) = ground.restore(checkpoint.steps, &checkpoint.ground) {
+        structure.restore(&before)?;
+        return Err(error);
+    }
+    state.step = checkpoint.steps;
+    state.time = state.step as f64 * scene.time_step;
+    state.transitions.clear();
+    state.motion.changed();
+    state.ledger = books.as_ref().map_or(Ledger::LEFT_OUT, |books| books.ledger);
+    state.update_resultants(scene);
+    Ok((state, books))
+}
 
-    fn scene(&self) -> Scene {
-        let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
-        // Modes may come with either sign. A nonlinear structure has none, and columns that change.
-        let columns = self.operators.columns.iter().enumerate().filter(|_| self.model.linear);
-        let signed = columns.map(|(k, value)| (k as f64).cos() * value).sum();
-        let c = self.coefficients;
-        let mut steps = vec![self.time_step];
-        for row in [c.acceleration, c.velocity, c.displacement] {
-            steps.extend(row);
-        }
-        let choice = self.ground.history_choice();
-        let name = |kind: History| format!("{kind:?}");
-        Scene {
-            unknowns: self.model.unknowns,
-            probes: self.probes.iter().map(|probe| probe.name.clone()).collect(),
-            history: choice.map(|choice| name(choice.kind)),
-            steps,
-            elements: self.elements().iter().flat_map(|e| [e.left, e.right]).collect(),
-            structure: vec![
-                sum(self.model.mass.values()),
-                sum(self.model.damping.values()),
-                sum(self.model.stiffness.values()),
-                signed,
-            ],
-            ground: vec![sum(&self.soil)],
-            preload: vec![sum(&self.static_state.traction)],
-        }
+/// Takes over modes and whether elements have been open, from their numbers.
+fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> Result<()> {
+    let corrupt = CheckpointError::Corrupt { quantity: "contact modes" };
+    if saved.len() != scene.count() {
+        return Err(corrupt.into());
+    }
+    for (e, &(number, has_opened)) in saved.iter().enumerate() {
+        let mode = scene.law(e).modes().get(number).copied().ok_or_else(|| corrupt.clone())?;
+        state.modes[e] = mode;
+        let start = &mut state.start[e];
+        (start.state, start.mode, start.has_opened) = (state.contact[e], mode, has_opened);
+    }
+    Ok(())
+}
+
+fn identity(scene: &Scene, operators: &Operators, ledger: bool) -> Identity {
+    let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
+    let model = &scene.model;
+    // Modes may come with either sign. A nonlinear structure has none, and columns that change.
+    let columns = operators.columns.iter().enumerate().filter(|_| model.linear);
+    let signed = columns.map(|(k, value)| (k as f64).cos() * value).sum();
+    let c = scene.coefficients;
+    let mut steps = vec![scene.time_step];
+    for row in [c.acceleration, c.velocity, c.displacement] {
+        steps.extend(row);
+    }
+    Identity {
+        unknowns: model.unknowns,
+        ledger,
+        probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
+        steps,
+        elements: scene.elements.iter().flat_map(|e| [e.left, e.right]).collect(),
+        structure: vec![
+            sum(model.mass.values()),
+            sum(model.damping.values()),
+            sum(model.stiffness.values()),
+            signed,
+        ],
+        ground: vec![sum(&scene.soil)],
+        preload: vec![sum(&scene.static_state.traction)],
     }
 }
 
 /// Every number that a step leaves to the next, always in this order.
-fn numbers<'a>(state: &'a mut State, memory: &'a mut Memory) -> Vec<&'a mut f64> {
-    let Memory {
-        ride_velocity,
-        ride_acceleration,
-        start_motion: _,
-        free_field,
-        soil_displacement,
-        jump,
-        nonlinear_work,
-    } = memory;
-    let Ledger {
-        kinetic,
-        strain,
-        hysteresis,
-        damping,
-        numerical,
-        soil,
-        contact,
-        layer,
-        preload,
-        input,
-        soil_error_bound,
-    } = &mut state.ledger;
-    let mut all = vec![nonlinear_work, kinetic, strain, damping, numerical, soil, contact];
-    all.extend([layer, preload, input, soil_error_bound, hysteresis]);
-    all.extend(ride_velocity.iter_mut().chain(ride_acceleration).chain(&mut state.free_field));
-    let motion = &mut state.motion;
+fn numbers<'a>(state: &'a mut State, books: Option<&'a mut Books>) -> Vec<&'a mut f64> {
+    let mut all = Vec::new();
+    let State { motion, contact, start, free_field, .. } = state;
     for values in [&mut motion.displacement, &mut motion.velocity, &mut motion.acceleration] {
         all.extend(values.iter_mut());
     }
-    for values in [free_field, soil_displacement, jump] {
-        all.extend(values.iter_mut());
+    all.extend(free_field);
+    for translation in &mut motion.translations {
+        let Translation { displacement, increment, velocity, new_velocity, new_acceleration } =
+            translation;
+        for values in [displacement, increment, velocity, new_velocity, new_acceleration] {
+            all.extend(values);
+        }
     }
-    for ContactState { gap, slip, pressure, shear } in &mut state.contact {
+    for ContactState { gap, slip, pressure, shear } in contact {
         all.extend([gap, slip, pressure, shear]);
     }
+    all.extend(start.iter_mut().map(|start| &mut start.slip_rate));
+    all.extend(books.into_iter().flat_map(Books::numbers));
     all
 }
 

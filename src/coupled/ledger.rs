@@ -4,13 +4,6 @@ use std::fmt;
 
 use crate::results::unit::number;
 
-use super::coordinates::Motion;
-use super::scheme::SchemeCoefficients;
-use super::simulation::Simulation;
-use super::step::Ride;
-use crate::interface::law_of;
-use crate::linalg::{dense_multiply_add, dot};
-
 /// Energies since the start, J per metre of thickness.
 ///
 /// ```text
@@ -33,7 +26,7 @@ pub struct Ledger {
     /// ([`Structure::nonlinear_energy`](crate::structure::Structure::nonlinear_energy)); never less
     /// than before.
     pub hysteresis: f64,
-    /// Work of the dashpots, on displacements relative to the free field.
+    /// Work of the dashpots, on displacements relative to the free field's translation.
     pub damping: f64,
     /// What the time scheme takes: of the structure (zero for the midpoint rule), and of compliant
     /// interfaces, whose traction is that of the end of the step all through it. With a nonlinear
@@ -53,6 +46,10 @@ pub struct Ledger {
     pub preload: f64,
     /// Work of external loads and of the free field.
     pub input: f64,
+    /// Relative input energy (Uang & Bertero 1990): work of the loads, and of the inertia forces
+    /// −M R ÿ of the free field's translation y, on displacements relative to it. It stands beside
+    /// the balance, to be compared with that of a structure on a fixed base.
+    pub relative_input: f64,
     /// Bound on what is wrong with `soil`, Σ A |τ| |error of Δs|: zero unless the ground's history is
     /// approximate. The terms above balance with the history as it is, so nothing of the residual
     /// is due to it; but the soil of the equations may have taken this much more or less than it did here.
@@ -60,8 +57,27 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// Left-hand side minus input, relative to the largest term.
+    /// The ledger of a simulation that keeps none: every term is NaN.
+    pub(crate) const LEFT_OUT: Self = Self {
+        kinetic: f64::NAN,
+        strain: f64::NAN,
+        hysteresis: f64::NAN,
+        damping: f64::NAN,
+        numerical: f64::NAN,
+        soil: f64::NAN,
+        contact: f64::NAN,
+        layer: f64::NAN,
+        preload: f64::NAN,
+        input: f64::NAN,
+        relative_input: f64::NAN,
+        soil_error_bound: f64::NAN,
+    };
+
+    /// Left-hand side minus input, relative to the largest term; NaN if no ledger is kept.
     pub fn residual(&self) -> f64 {
+        if self.input.is_nan() {
+            return f64::NAN;
+        }
         let left = [
             self.kinetic,
             self.strain,
@@ -75,129 +91,6 @@ impl Ledger {
         ];
         let scale = left.iter().fold(self.input.abs(), |m, x| m.max(x.abs()));
         if scale > 0.0 { (left.iter().sum::<f64>() - self.input).abs() / scale } else { 0.0 }
-    }
-}
-
-impl Simulation {
-    /// Adds what the nonlinear force did: stored, dissipated, or just done.
-    fn book_nonlinear_force(&mut self) {
-        let Self { model, work, memory, state, .. } = self;
-        let ledger = &mut state.ledger;
-        let (u0, du) = (&state.motion.displacement, &work.increment);
-        let done = dot(&work.force, du);
-        for (i, x) in work.total.iter_mut().enumerate() {
-            *x = self.static_state.displacement[i] + u0[i] + du[i];
-        }
-        let rest = self.static_energy.zip(model.structure.nonlinear_energy(&work.total));
-        if let Some((start, energy)) = rest {
-            // Forces count from the static ones, and so does the energy that they store.
-            let against: f64 =
-                self.static_force.iter().zip(u0).zip(du).map(|((f, u), du)| f * (u + du)).sum();
-            let stored = energy.stored - start.stored - against;
-            let dissipated = energy.dissipated - start.dissipated;
-            ledger.numerical +=
-                done - (stored - memory.nonlinear_work) - (dissipated - ledger.hysteresis);
-            (memory.nonlinear_work, ledger.hysteresis) = (stored, dissipated);
-        } else {
-            memory.nonlinear_work += done;
-        }
-    }
-
-    /// Adds the step to the energy ledger, each term from its own definition.
-    pub(super) fn book(&mut self, ride: &Ride) {
-        if !self.model.linear {
-            self.book_nonlinear_force();
-        }
-        let c = self.coefficients;
-        let dt = self.time_step;
-        let Self { model, work, memory, state, base, solver, start, laws, .. } = self;
-        let ledger = &mut state.ledger;
-        let Motion { displacement: u0, velocity: v0, acceleration: a0, .. } = &state.motion;
-        let (v1, du) = (&work.new_velocity, &work.increment);
-
-        ledger.kinetic = 0.5 * model.mass.form(v1, v1);
-        let work_of_load: f64 = dot(&work.load, du);
-        ledger.input += work_of_load;
-
-        if !model.damping.is_empty() {
-            let [horizontal, vertical] = &model.ride;
-            for (i, x) in work.vector.iter_mut().enumerate() {
-                *x = SchemeCoefficients::apply(c.velocity, du[i], v0[i], a0[i])
-                    - horizontal[i] * ride.velocity[0]
-                    - vertical[i] * ride.velocity[1];
-            }
-            work.total.fill(0.0);
-            model.damping.multiply_add(1.0, &work.vector, &mut work.total);
-            let dragged = ride.increment[0] * dot(&work.total, horizontal)
-                + ride.increment[1] * dot(&work.total, vertical);
-            ledger.damping += dot(&work.total, du) - dragged;
-            ledger.input -= dragged;
-        }
-
-        if !self.conserves_energy {
-            // Δu = Δt (v₀+v₁)/2 + r_d, a* = (v₁−v₀)/Δt + r_a, u* = (u₀+u₁)/2 + r_u
-            let (change, rest) = (&mut work.vector, &mut work.total);
-            for i in 0..du.len() {
-                change[i] = (v1[i] - v0[i]) / dt;
-                rest[i] = du[i] - 0.5 * dt * (v0[i] + v1[i]);
-            }
-            ledger.numerical += model.mass.form(rest, change);
-            for i in 0..du.len() {
-                rest[i] =
-                    SchemeCoefficients::apply(c.acceleration, du[i], v0[i], a0[i]) - change[i];
-            }
-            ledger.numerical += model.mass.form(du, rest);
-            for i in 0..du.len() {
-                let there = SchemeCoefficients::apply(c.displacement, du[i], v0[i], a0[i]);
-                rest[i] = there - 0.5 * du[i];
-            }
-            ledger.numerical += model.stiffness.form(du, rest);
-        }
-        for ((x, u), du) in work.vector.iter_mut().zip(u0).zip(du) {
-            *x = u + du;
-        }
-        base.means(&work.vector, &mut work.means);
-        model.spare(&mut work.vector, base.ride(&work.means));
-        ledger.strain =
-            0.5 * model.stiffness.form(&work.vector, &work.vector) + memory.nonlinear_work;
-
-        work.soil_displacement.copy_from_slice(&work.history);
-        dense_multiply_add(&self.soil, 1.0, &solver.traction, &mut work.soil_displacement);
-        let count = base.lengths().len();
-        let doubt = self.ground.increment_error_bound();
-        for i in 0..2 * count {
-            let area = base.length(i);
-            let change = solver.traction[i];
-            let at_rest = self.static_state.traction[i];
-            let gap = if i < count { self.static_state.gap[i] } else { 0.0 };
-            let jump = gap + work.free_field[i] + work.soil_displacement[i] - work.means[i];
-            let opening = jump - memory.jump[i];
-            memory.jump[i] = jump;
-            ledger.soil +=
-                area * change * (work.soil_displacement[i] - memory.soil_displacement[i]);
-            ledger.soil_error_bound += area * change.abs() * doubt;
-            let mut elastic = 0.0;
-            if self.compliant {
-                let (e, k) = (i % count, i / count);
-                let law = law_of(laws, e);
-                let [c0, c1] = [start[e].mode, work.modes[e]].map(|mode| law.compliance(mode)[k]);
-                let t0 = [start[e].state.pressure, start[e].state.shear][k];
-                let t1 = at_rest + change;
-                elastic = c0 * t0 - c1 * t1;
-                ledger.layer += 0.5 * area * (c1 * t1 * t1 - c0 * t0 * t0);
-                // The work −t₁ Δ(elastic jump) is Δ(½ c t²) and this much more: what the step takes of
-                // a spring that stays, what is lost with one that goes.
-                let lag = 0.5 * area * (c0 * (t1 - t0).powi(2) + (c1 - c0) * t1 * t1);
-                if c0 == c1 {
-                    ledger.numerical += lag;
-                } else {
-                    ledger.contact += lag;
-                }
-            }
-            ledger.contact -= area * (at_rest + change) * (opening - elastic);
-            ledger.preload += area * at_rest * opening;
-            ledger.input -= area * change * (work.free_field[i] - memory.free_field[i]);
-        }
     }
 }
 

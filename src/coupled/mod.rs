@@ -59,42 +59,41 @@
 //! holds exactly for the discrete equations; see [`Ledger`] for the terms. [`Run::ledger_residual`]
 //! is the largest violation of a run, relative to the largest term.
 
+mod advance;
 mod advice;
-mod base;
+mod books;
 mod builder;
 mod checkpoint;
-mod conditioning;
-mod contact;
-mod coordinates;
 mod ledger;
-mod model;
-mod modes;
-mod operators;
-mod path;
+mod motion;
 mod peak;
-mod preload;
 mod probe;
+mod resolution;
 mod response_estimate;
-mod ride;
 mod run;
+pub(crate) mod scene;
 mod scheme;
 mod simulation;
 mod state;
 mod step;
+mod translation;
+mod warning;
 
+pub use crate::contact::{ContactSearch, SearchMethod};
 pub use advice::{Advice, Outline, advise};
 pub use builder::SimulationBuilder;
 pub use checkpoint::Checkpoint;
-pub use conditioning::Conditioning;
-pub use coordinates::Coordinates;
 pub use ledger::Ledger;
-pub use modes::{ContactSearch, SearchMethod};
 pub(crate) use peak::probe_index;
 pub use peak::{Extremes, Peak, ProbeExtremes, ProbePeak};
-pub use preload::Placement;
 pub use probe::Probe;
+pub(crate) use resolution::Resolution;
 pub use response_estimate::StiffnessError;
-pub use run::{Fallbacks, Flow, Run, Warning};
+pub use run::{Fallbacks, Flow, Run};
+pub use scene::conditioning::Conditioning;
+pub use scene::modal_basis::Coordinates;
+pub use scene::static_state::Placement;
 pub use scheme::{HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme};
 pub use simulation::Simulation;
 pub use state::{Foundation, State, Transition};
+pub use warning::Warning;

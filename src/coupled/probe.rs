@@ -5,8 +5,10 @@ use crate::structure::{Row, SectionRows};
 
 /// A quantity read off at every step: a weighted sum of displacements, velocities, accelerations.
 ///
-/// Displacements are absolute (their changes against the static state), and ride with the ground;
-/// [`Row::relative_to_base`] and [`Row::sway`] take the motion of the base out of them.
+/// Displacements are changes against the static state, relative to the translation of the free
+/// field (under the connected part they belong to); [`Probe::absolute_displacement`] includes it,
+/// [`Row::relative_to_base`] and [`Row::sway`] take the motion of the base out as well. Velocities
+/// and accelerations are total.
 ///
 /// ```
 /// use basemat::coupled::Probe;
@@ -34,6 +36,8 @@ pub struct Probe {
     pub unit: String,
     /// Sum of displacements (changes against the static state).
     pub displacement: Row,
+    /// Whether these include the translation of the free field.
+    pub absolute: bool,
     /// Sum of velocities.
     pub velocity: Row,
     /// Sum of accelerations.
@@ -41,9 +45,14 @@ pub struct Probe {
 }
 
 impl Probe {
-    /// Displacement (m): an unknown, or a weighted sum of some.
+    /// Displacement (m) relative to the free field: an unknown, or a weighted sum of some.
     pub fn displacement(name: impl Into<String>, row: impl Into<Row>) -> Self {
         Self { displacement: row.into(), ..Self::new(name, "m") }
+    }
+
+    /// The same with the translation of the free field.
+    pub fn absolute_displacement(name: impl Into<String>, row: impl Into<Row>) -> Self {
+        Self { absolute: true, ..Self::displacement(name, row) }
     }
 
     /// Velocity (m/s): an unknown's, or a weighted sum of some.
@@ -85,14 +94,14 @@ impl Probe {
 
     /// The same probe with its rows in other unknowns; an error names the probe.
     pub(crate) fn try_map_rows(self, map: impl Fn(Row) -> Result<Row>) -> Result<Self> {
-        let [displacement, velocity, acceleration] =
-            [self.displacement, self.velocity, self.acceleration].map(map);
-        let named = |row: Result<Row>| {
-            row.map_err(|source| Error::Probe { name: self.name.clone(), source: source.into() })
+        let Self { name, displacement, velocity, acceleration, .. } = self.clone();
+        let mapped = |row: Row| {
+            let named = |source: Error| Error::Probe { name: name.clone(), source: source.into() };
+            map(row).map_err(named)
         };
-        let (displacement, velocity) = (named(displacement)?, named(velocity)?);
-        let acceleration = named(acceleration)?;
-        Ok(Self { name: self.name, unit: self.unit, displacement, velocity, acceleration })
+        let (displacement, velocity) = (mapped(displacement)?, mapped(velocity)?);
+        let acceleration = mapped(acceleration)?;
+        Ok(Self { displacement, velocity, acceleration, ..self })
     }
 }
 

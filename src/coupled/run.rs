@@ -4,12 +4,15 @@ use std::fmt;
 use std::time::Duration;
 
 use super::ledger::Ledger;
-use super::modes::SearchMethod;
 use super::peak::{Extremes, Peak, ProbePeak, probe_index};
 use super::probe::Probe;
+use super::resolution::Resolution;
 use super::state::{State, Transition};
-use crate::bem::ContactElement;
+use super::warning::Warning;
+use crate::bem::{ContactElement, Ground};
+use crate::contact::SearchMethod;
 use crate::error::Result;
+use crate::motion::FreeField;
 use crate::results::unit::{number, printed};
 
 /// Whether a run goes on after an observer has seen a step.
@@ -24,73 +27,6 @@ pub enum Flow {
 impl From<()> for Flow {
     fn from((): ()) -> Self {
         Flow::Continue
-    }
-}
-
-/// Where small-displacement contact is strained.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub enum Warning {
-    /// Slip beyond the length of the shortest element: elements no longer face each other.
-    LargeSlip {
-        /// Largest slip, m.
-        slip: f64,
-        /// Shortest element, m.
-        element_length: f64,
-    },
-    /// Rotation of the base beyond [`Warning::ROTATION_LIMIT`]: cosines are no longer one.
-    LargeRotation {
-        /// Largest rotation, rad.
-        rotation: f64,
-    },
-    /// The energy ledger does not close to 1e-9 at the end.
-    Ledger {
-        /// Its residual, relative to the largest term.
-        residual: f64,
-    },
-}
-
-impl Warning {
-    /// Rotation above which a run warns, rad: the cosine is off by half a percent.
-    pub const ROTATION_LIMIT: f64 = 0.1;
-    /// Ledger residual at the end of a run above which it warns. Earlier, while energies are still
-    /// small, the relative residual may be larger: see [`Run::ledger_residual`].
-    pub const LEDGER_LIMIT: f64 = 1e-9;
-
-    /// Those that largest slip, shortest element, largest rotation and the last ledger residual
-    /// call for.
-    pub(crate) fn all(slip: f64, element_length: f64, rotation: f64, residual: f64) -> Vec<Self> {
-        let (slip, rotation) = (slip.abs(), rotation.abs());
-        let mut warnings = Vec::new();
-        if slip > element_length {
-            warnings.push(Self::LargeSlip { slip, element_length });
-        }
-        if rotation > Self::ROTATION_LIMIT {
-            warnings.push(Self::LargeRotation { rotation });
-        }
-        if residual > Self::LEDGER_LIMIT {
-            warnings.push(Self::Ledger { residual });
-        }
-        warnings
-    }
-}
-
-impl fmt::Display for Warning {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::LargeSlip { slip, element_length } => write!(
-                f,
-                "slip of {slip:.3e} m is beyond the shortest element, {element_length:.3e} m: \
-                 contact is paired for small displacements"
-            ),
-            Self::LargeRotation { rotation } => {
-                write!(
-                    f,
-                    "base rotation of {rotation:.3e} rad: geometry is that of small rotations"
-                )
-            }
-            Self::Ledger { residual } => write!(f, "energy ledger open by {residual:.1e}"),
-        }
     }
 }
 
@@ -151,10 +87,16 @@ pub struct Run {
     pub wall: Duration,
     shortest: f64,
     static_moment: f64,
+    resolution: Resolution,
 }
 
 impl Run {
-    pub(super) fn new(probes: &[Probe], elements: &[ContactElement], start: &State) -> Self {
+    pub(super) fn new(
+        probes: &[Probe],
+        elements: &[ContactElement],
+        start: &State,
+        resolution: Resolution,
+    ) -> Self {
         Self {
             steps: 0,
             time: start.time,
@@ -182,12 +124,15 @@ impl Run {
             wall: Duration::ZERO,
             shortest: elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min),
             static_moment: start.base_moment,
+            resolution,
         }
     }
 
     pub(super) fn record(&mut self, state: &State) {
         let time = state.time;
+        self.time = time;
         self.steps += 1;
+        self.resolution.see(state);
         self.base_shear.see(state.base_shear, time);
         self.base_moment_change.see(state.base_moment - self.static_moment, time);
         self.normal_force.see(state.normal_force, time);
@@ -220,6 +165,22 @@ impl Run {
             self.base_rotation.value,
             state.ledger.residual(),
         );
+        self.resolution.warn(&mut self.warnings);
+    }
+
+    /// Samples the ground since `start` (s) where steps may have missed something.
+    pub(super) fn resolve_ground(
+        &mut self,
+        ground: &dyn Ground,
+        motion: &dyn FreeField,
+        start: f64,
+    ) {
+        self.resolution.resolve_ground(ground, motion, start..self.time);
+    }
+
+    /// What it asked of time step and elements.
+    pub(crate) fn resolution(&self) -> &Resolution {
+        &self.resolution
     }
 
     /// Bound on what the ledger's `soil` owes to an approximate history, J/m since the start; zero

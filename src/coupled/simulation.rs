@@ -1,73 +1,47 @@
-//! The simulation: its parts, its state, and the loop over steps.
+//! The simulation: the loop over steps.
 
-use super::base::Base;
-use super::builder::SimulationBuilder;
-use super::conditioning::Conditioning;
-use super::contact::ContactSolver;
-use super::coordinates::{Motion, SteppedRow};
-use super::ledger::Ledger;
-use super::model::Model;
-use super::modes::{ContactSearch, ModeSearch, SearchMethod};
-use super::operators::Operators;
-use super::preload::StaticState;
+use super::books::Books;
+use super::checkpoint::{self, Checkpoint};
 use super::probe::Probe;
+use super::resolution::Resolution;
 use super::run::{Flow, Run};
-use super::scheme::SchemeCoefficients;
-use super::state::{Foundation, State};
-use crate::bem::{ContactElement, Ground, HistoryChoice};
-use crate::error::Result;
-use crate::interface::{ContactState, InterfaceLaw, StepStart, law_of};
-use crate::linalg::SparseMatrix;
+use super::scene::Scene;
+use super::scene::conditioning::Conditioning;
+use super::state::State;
+use super::step::forcing::Forcing;
+use super::step::increment::Increment;
+use super::step::solver::Solver;
+use crate::bem::{ContactElement, Ground};
+use crate::error::{Error, Result, StepError};
+use crate::history::HistoryChoice;
+use crate::interface::InterfaceLaw;
 use crate::motion::FreeField;
-use crate::structure::{InternalEnergy, Structure};
+use crate::structure::Structure;
 
 /// A structure on a ground, ready to march.
 ///
 /// Made by [`Simulation::builder`]. The caller may own the loop ([`step`](Simulation::step)) or hand
 /// it over ([`run`](Simulation::run)).
 pub struct Simulation {
-    pub(super) time_step: f64,
-    pub(super) model: Model,
+    pub(super) scene: Scene,
+    pub(super) structure: Box<dyn Structure>,
     pub(super) ground: Box<dyn Ground>,
-    pub(super) base: Base,
-    pub(super) laws: Vec<Box<dyn InterfaceLaw>>,
     pub(super) motion: Box<dyn FreeField>,
-    pub(super) coefficients: SchemeCoefficients,
-    /// Whether any law stores energy in its elements.
-    pub(super) compliant: bool,
-    /// Whether the scheme takes no energy of its own.
-    pub(super) conserves_energy: bool,
-    pub(super) static_state: StaticState,
-    pub(super) static_load: Vec<f64>,
-    /// f(u) at the static state, nonlinear structures only.
-    pub(super) static_force: Vec<f64>,
-    /// Its energies there, where the structure knows them.
-    pub(super) static_energy: Option<InternalEnergy>,
-    /// Instantaneous operator of the ground, 2Q × 2Q.
-    pub(super) soil: Vec<f64>,
-    pub(super) operators: Operators,
-    pub(super) probes: Vec<Probe>,
-    /// Displacement, velocity and acceleration of each probe.
-    pub(super) probe_rows: Vec<[SteppedRow; 3]>,
-    /// Element midpoints relative to the point of the base moment.
-    pub(super) arms: Vec<f64>,
-    pub(super) solver: ContactSolver,
-    pub(super) search: ModeSearch,
-    pub(super) start: Vec<StepStart>,
-    pub(super) memory: Memory,
-    pub(super) work: Workspace,
+    pub(super) forcing: Forcing,
+    pub(super) solver: Solver,
+    pub(super) increment: Increment,
+    /// The energy ledger, unless it is left out.
+    pub(super) books: Option<Books>,
     pub(super) state: State,
     pub(super) conditioning: Conditioning,
-    /// Lengths of the elements, for [`Run`]'s warnings.
-    elements: Vec<ContactElement>,
 }
 
 short_debug! {
     Simulation;
     self;
-    unknowns: self.model.unknowns,
-    elements: self.elements.len(),
-    time_step: self.time_step,
+    unknowns: self.scene.model.unknowns,
+    elements: self.scene.count(),
+    time_step: self.scene.time_step,
     step: self.state.step,
     time: self.state.time,
 }
@@ -75,161 +49,35 @@ short_debug! {
 /// Longest run that is prepared for at once; in longer ones, memory grows as they go.
 const RESERVED_STEPS: usize = 100_000;
 
-/// What one step needs of the one before, besides the public state.
-#[derive(Clone)]
-pub(super) struct Memory {
-    /// Mean velocity and acceleration of the free field, as the time scheme sees them.
-    pub(super) ride_velocity: [f64; 2],
-    pub(super) ride_acceleration: [f64; 2],
-    /// Free field at t = 0, from which it is measured.
-    pub(super) start_motion: Vec<f64>,
-    /// Free field, soil displacement by tractions, and jump at the end of the last step, 2Q each.
-    pub(super) free_field: Vec<f64>,
-    pub(super) soil_displacement: Vec<f64>,
-    pub(super) jump: Vec<f64>,
-    /// Work of the nonlinear internal force so far; what it stores, where that is known.
-    pub(super) nonlinear_work: f64,
-}
-
-/// Scratch of a step: nothing in it outlives the step.
-pub(super) struct Workspace {
-    pub(super) free_field: Vec<f64>,
-    pub(super) history: Vec<f64>,
-    pub(super) free_jump: Vec<f64>,
-    pub(super) means: Vec<f64>,
-    pub(super) soil_displacement: Vec<f64>,
-    pub(super) modes: Vec<crate::interface::Mode>,
-    pub(super) load: Vec<f64>,
-    pub(super) known: Vec<f64>,
-    pub(super) increment: Vec<f64>,
-    pub(super) new_velocity: Vec<f64>,
-    pub(super) new_acceleration: Vec<f64>,
-    pub(super) vector: Vec<f64>,
-    pub(super) force: Vec<f64>,
-    pub(super) total: Vec<f64>,
-    /// Newton's iterate and its linearised force.
-    pub(super) guess: Vec<f64>,
-    pub(super) linearised: Vec<f64>,
-    pub(super) tangent: SparseMatrix,
-}
-
-pub(super) struct Parts {
-    pub(super) time_step: f64,
-    pub(super) model: Model,
-    pub(super) ground: Box<dyn Ground>,
-    pub(super) base: Base,
-    pub(super) laws: Vec<Box<dyn InterfaceLaw>>,
-    pub(super) search: ContactSearch,
-    pub(super) motion: Box<dyn FreeField>,
-    pub(super) coefficients: SchemeCoefficients,
-    pub(super) static_state: StaticState,
-    pub(super) static_load: Vec<f64>,
-    pub(super) soil: Vec<f64>,
-    pub(super) operators: Operators,
-    pub(super) probes: Vec<Probe>,
-    pub(super) arms: Vec<f64>,
-    pub(super) start_motion: Vec<f64>,
-}
-
 impl Simulation {
-    /// Begins a simulation with steps of `time_step` seconds.
-    pub fn builder(time_step: f64) -> SimulationBuilder {
-        SimulationBuilder::new(time_step)
+    /// Makes one step and returns the new state.
+    ///
+    /// # Errors
+    /// [`Error::Step`] if the step could not be solved; the simulation is then as it was before.
+    pub fn step(&mut self) -> Result<&State> {
+        let step = self.state.step + 1;
+        let time = step as f64 * self.scene.time_step;
+        self.solve(time).map_err(|source| Error::Step { step, time, source })?;
+        // From here on nothing fails.
+        let Self { scene, structure, ground, forcing, increment, state, .. } = self;
+        if let Some(books) = &mut self.books {
+            books.book(scene, structure.as_ref(), ground.as_ref(), state, forcing, increment);
+            state.ledger = books.ledger;
+        }
+        state.advance(scene, forcing, increment);
+        ground.commit(&increment.traction);
+        if !scene.model.linear {
+            structure.commit(&increment.seen);
+        }
+        Ok(&self.state)
     }
 
-    pub(super) fn assemble(parts: Parts) -> Self {
-        let (n, count) = (parts.model.unknowns, parts.base.lengths().len());
-        let size = 2 * count;
-        let at = &parts.static_state;
-        let contact: Vec<_> = (0..count)
-            .map(|e| ContactState {
-                gap: at.gap[e],
-                slip: 0.0,
-                pressure: at.traction[e],
-                shear: at.traction[count + e],
-            })
-            .collect();
-        let law = |e: usize| law_of(&parts.laws, e);
-        // Whatever the placement did, what touches sticks from now on.
-        let modes: Vec<_> = (0..count)
-            .map(|e| {
-                let known = law(e).modes();
-                if known.contains(&at.modes[e]) && !at.modes[e].is_closed() {
-                    at.modes[e]
-                } else {
-                    known[0]
-                }
-            })
-            .collect();
-        let start =
-            (0..count).map(|e| StepStart::new(contact[e], modes[e], parts.time_step)).collect();
-        let mut jump = at.gap.clone();
-        jump.resize(size, 0.0);
-        let (static_force, static_energy) = parts.model.nonlinear_state(&at.displacement);
-        let elements = parts.ground.elements().to_vec();
-        let modes_of = parts.model.modes.as_deref();
-        let rows = |p: &Probe| p.rows().map(|row| SteppedRow::new(row.terms(), modes_of));
-        let probe_rows = parts.probes.iter().map(rows).collect();
-        let mut simulation = Self {
-            time_step: parts.time_step,
-            coefficients: parts.coefficients,
-            compliant: parts
-                .laws
-                .iter()
-                .any(|law| law.modes().iter().any(|&mode| law.compliance(mode) != [0.0; 2])),
-            conserves_energy: parts.coefficients.conserves_energy(parts.time_step),
-            static_load: parts.static_load,
-            static_force,
-            static_energy,
-            soil: parts.soil,
-            operators: parts.operators,
-            arms: parts.arms,
-            solver: ContactSolver::new(count),
-            search: ModeSearch::new(count, parts.search),
-            start,
-            memory: Memory {
-                ride_velocity: [0.0; 2],
-                ride_acceleration: [0.0; 2],
-                start_motion: parts.start_motion,
-                free_field: vec![0.0; size],
-                soil_displacement: vec![0.0; size],
-                jump,
-                nonlinear_work: 0.0,
-            },
-            work: Workspace::new(n, count),
-            state: State {
-                step: 0,
-                time: 0.0,
-                motion: Motion::new(n, parts.model.modes.clone()),
-                contact,
-                modes,
-                transitions: Vec::with_capacity(count),
-                probes: vec![0.0; parts.probes.len()],
-                base_shear: 0.0,
-                base_moment: 0.0,
-                normal_force: 0.0,
-                uplifted_fraction: 0.0,
-                mean_slip: 0.0,
-                base_rotation: 0.0,
-                foundations: parts.base.foundations().map(Foundation::new).collect(),
-                free_field: [0.0; 2],
-                ledger: Ledger::default(),
-                trials: 0,
-                method: SearchMethod::ActiveSet,
-            },
-            probe_rows,
-            conditioning: Conditioning::UNKNOWN,
-            model: parts.model,
-            ground: parts.ground,
-            base: parts.base,
-            laws: parts.laws,
-            motion: parts.motion,
-            static_state: parts.static_state,
-            probes: parts.probes,
-            elements,
-        };
-        simulation.update_resultants();
-        simulation
+    /// Free field, convolution history and the increment that answers; nothing is committed.
+    fn solve(&mut self, time: f64) -> std::result::Result<(), StepError> {
+        let Self { scene, structure, ground, motion, forcing, solver, increment, state, .. } = self;
+        let structure = structure.as_ref();
+        forcing.observe(scene, state, structure, ground.as_mut(), motion.as_ref(), time)?;
+        solver.solve(scene, structure, state, forcing, increment)
     }
 
     /// The state at the end of the last accepted step (at first: the static state).
@@ -239,19 +87,25 @@ impl Simulation {
 
     /// The time step, s.
     pub fn time_step(&self) -> f64 {
-        self.time_step
+        self.scene.time_step
     }
 
     /// The contact elements, from left to right.
     pub fn elements(&self) -> &[ContactElement] {
-        &self.elements
+        &self.scene.elements
     }
 
     /// Friction coefficient of the laws: one for all elements, one each, or none unless all have one.
     pub(crate) fn friction(&self) -> Vec<f64> {
         let each: Option<Vec<f64>> =
-            self.laws.iter().map(InterfaceLaw::friction_coefficient).collect();
+            self.scene.laws.iter().map(InterfaceLaw::friction_coefficient).collect();
         each.unwrap_or_default()
+    }
+
+    /// What a run asks of time step and elements, nothing seen yet.
+    pub(crate) fn resolution(&self) -> Resolution {
+        let Scene { time_step, elements, .. } = &self.scene;
+        Resolution::new(*time_step, elements, self.ground.shear_wave_speed(), &self.state)
     }
 
     /// The structure as it is now, internal variables included. It is [`Any`](std::any::Any): of
@@ -277,12 +131,12 @@ impl Simulation {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn structure(&self) -> &dyn Structure {
-        self.model.structure.as_ref()
+        self.structure.as_ref()
     }
 
     /// The structure alone, after a run: as [`Simulation::structure`], by value.
     pub fn into_structure(self) -> Box<dyn Structure> {
-        self.model.structure
+        self.structure
     }
 
     /// Which history the ground keeps and why, if it has chosen one yet.
@@ -317,19 +171,19 @@ impl Simulation {
 
     /// The probes, in the order of [`State::probes`].
     pub fn probes(&self) -> &[Probe] {
-        &self.probes
+        &self.scene.probes
     }
 
     /// Static displacement of the structure's unknowns under weight, m and rad. Its rigid
     /// settlement has no meaning on a half-plane, which has no datum in two dimensions.
     pub fn static_displacement(&self) -> &[f64] {
-        &self.static_state.displacement
+        &self.scene.static_state.displacement
     }
 
     /// Number of steps that last `duration` (s), rounded up; none for a negative one or NaN.
     pub fn steps_for(&self, duration: f64) -> usize {
         // A duration that is a whole number of steps but for rounding is that number.
-        let steps = (duration / self.time_step * (1.0 - 1e-12)).ceil();
+        let steps = (duration / self.scene.time_step * (1.0 - 1e-12)).ceil();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let steps = steps as usize;
         steps
@@ -349,12 +203,15 @@ impl Simulation {
     ) -> Result<Run> {
         // There is no clock in bare WebAssembly.
         let begin = (!cfg!(target_family = "wasm")).then(std::time::Instant::now);
-        // More steps than any record asks for: an observer is meant to stop the run, and what it
-        // will need is not known. Histories grow by doubling then.
+        // Of so many steps an observer may well stop the run: histories grow by doubling then.
+        let announced = self.state.step.saturating_add(steps);
+        self.ground.announce(announced)?;
         if steps <= RESERVED_STEPS {
-            self.ground.reserve(self.state.step.saturating_add(steps))?;
+            self.ground.reserve(announced)?;
         }
-        let mut run = Run::new(&self.probes, &self.elements, &self.state);
+        let (probes, elements) = (&self.scene.probes, &self.scene.elements);
+        let mut run = Run::new(probes, elements, &self.state, self.resolution());
+        let start = self.state.time;
         for _ in 0..steps {
             self.step()?;
             run.record(&self.state);
@@ -363,33 +220,79 @@ impl Simulation {
             }
         }
         let wall = begin.map_or(std::time::Duration::ZERO, |begin| begin.elapsed());
+        run.resolve_ground(self.ground.as_ref(), self.motion.as_ref(), start);
         run.finish(&self.state, wall);
         Ok(run)
     }
-}
 
-impl Workspace {
-    fn new(unknowns: usize, count: usize) -> Self {
-        let contact = || vec![0.0; 2 * count];
-        let structure = || vec![0.0; unknowns];
-        Self {
-            free_field: contact(),
-            history: contact(),
-            free_jump: contact(),
-            means: contact(),
-            soil_displacement: contact(),
-            modes: vec![crate::interface::Mode::Stick; count],
-            load: structure(),
-            known: structure(),
-            increment: structure(),
-            new_velocity: structure(),
-            new_acceleration: structure(),
-            vector: structure(),
-            force: structure(),
-            total: structure(),
-            guess: structure(),
-            linearised: structure(),
-            tangent: SparseMatrix::default(),
-        }
+    /// Condition numbers of the matrices of a step, estimated when the simulation was built.
+    pub fn conditioning(&self) -> Conditioning {
+        self.conditioning
+    }
+
+    /// All that the steps so far have left behind, to be taken up by [`Simulation::resume`].
+    ///
+    /// Its size is that of the history: all tractions for exact histories, a few ten kilobytes for
+    /// the exponentials.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Unsupported`] if the ground, its history or the structure cannot save its
+    /// state.
+    ///
+    /// ```
+    /// use basemat::bem::SpringGround;
+    /// use basemat::coupled::Checkpoint;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::motion::el_centro_1940;
+    /// use basemat::structure::RigidBlock;
+    /// use basemat::Simulation;
+    ///
+    /// let scene = || {
+    ///     Simulation::builder(0.01)
+    ///         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+    ///         .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
+    ///         .interface(Coulomb::new(0.4)?)
+    ///         .motion(el_centro_1940())
+    ///         .gravity(9.81)
+    ///         .build()
+    /// };
+    /// let mut simulation = scene()?;
+    /// simulation.run(200, |_| {})?;
+    /// let saved: Checkpoint = simulation.checkpoint()?;
+    /// simulation.run(100, |_| {})?;
+    ///
+    /// let mut other = scene()?;
+    /// other.resume(&saved)?;
+    /// assert_eq!(other.state().step, 200);
+    /// other.run(100, |_| {})?;
+    /// assert_eq!(other.state(), simulation.state());
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn checkpoint(&self) -> Result<Checkpoint> {
+        let (structure, ground) = (self.structure.as_ref(), self.ground.as_ref());
+        let (operators, books) = (self.solver.operators(), self.books.as_ref());
+        checkpoint::save(&self.scene, structure, ground, operators, &self.state, books)
+    }
+
+    /// Goes to where `checkpoint` was made, in a simulation that was built in the same way, and
+    /// wherever this one is; what follows is the same to the last bit on the same processor.
+    ///
+    /// Sizes, time step, elements, probes, matrices and static state are compared. Loads, motion and laws
+    /// are not, nor what a user's structure leaves out of what it [saves][`save`]. The
+    /// transitions, trials and method of the step before the checkpoint are not kept.
+    ///
+    /// # Errors
+    /// [`crate::Error::Checkpoint`] for a checkpoint of another scene, another format, or with
+    /// numbers missing or not finite. The simulation is then as it was.
+    ///
+    /// [`save`]: crate::structure::Structure::save
+    pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<()> {
+        let Self { scene, structure, ground, solver, .. } = self;
+        let (structure, ground) = (structure.as_mut(), ground.as_mut());
+        let own = (&self.state, self.books.as_ref());
+        let restored =
+            checkpoint::restore(checkpoint, scene, structure, ground, solver.operators(), own)?;
+        (self.state, self.books) = restored;
+        Ok(())
     }
 }

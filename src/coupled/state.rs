@@ -1,9 +1,9 @@
 //! What a step leaves behind.
 
-use super::coordinates::Motion;
 use super::ledger::Ledger;
-use super::modes::SearchMethod;
-use crate::interface::{ContactState, Mode};
+use super::motion::{Motion, Quantity};
+use crate::contact::SearchMethod;
+use crate::interface::{ContactState, Mode, StepStart};
 
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,7 +56,7 @@ pub struct Foundation {
 }
 
 impl Foundation {
-    pub(super) fn new(elements: std::ops::Range<usize>) -> Self {
+    pub(crate) fn new(elements: std::ops::Range<usize>) -> Self {
         Self {
             elements,
             shear: 0.0,
@@ -71,7 +71,8 @@ impl Foundation {
 
 /// The simulation at the end of an accepted step.
 ///
-/// Displacements are changes against the static state under weight. Forces are those of the
+/// Displacements are changes against the static state under weight, relative to the free field's
+/// translation unless they say otherwise. Forces are those of the
 /// structure **on the soil**, per metre of thickness; tractions of the step act at its middle.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -112,26 +113,34 @@ pub struct State {
     /// How the modes were found; in a nonlinear step, the farthest that any iteration had to go.
     pub method: SearchMethod,
     pub(crate) motion: Motion,
+    /// What the laws see of it in the next step, per element.
+    pub(crate) start: Vec<StepStart>,
 }
 
 impl State {
-    /// Unknowns of the structure, m and rad (absolute, not relative to the ground).
+    /// Displacements of the structure's unknowns (m, rad) relative to the free field: what each
+    /// connected part has moved since t = 0 beyond the mean translation of the ground under it.
     ///
-    /// These three are worked out when they are first asked for in a step: a structure that is
+    /// These four are worked out when they are first asked for in a step: a structure that is
     /// stepped in its modes pays for all n² of them then, and nothing otherwise. A few quantities
     /// at every step are cheaper as a [`Probe`](super::Probe).
     pub fn displacement(&self) -> &[f64] {
-        self.motion.unknowns(0)
+        self.motion.unknowns(Quantity::Displacement)
     }
 
-    /// Rates of the unknowns at the end of the step.
+    /// The same with the translation of the free field: where the structure has got to.
+    pub fn absolute_displacement(&self) -> &[f64] {
+        self.motion.unknowns(Quantity::AbsoluteDisplacement)
+    }
+
+    /// Total (not relative) rates of the unknowns at the end of the step.
     pub fn velocity(&self) -> &[f64] {
-        self.motion.unknowns(1)
+        self.motion.unknowns(Quantity::Velocity)
     }
 
-    /// Accelerations of the unknowns; for the midpoint and θ rules the mean over the step.
+    /// Total accelerations of the unknowns; for the midpoint and θ rules the mean over the step.
     pub fn acceleration(&self) -> &[f64] {
-        self.motion.unknowns(2)
+        self.motion.unknowns(Quantity::Acceleration)
     }
 
     /// Largest |slip| of any element, m.

@@ -185,6 +185,27 @@ pub enum Error {
         /// How large it is beside that.
         share: f64,
     },
+    /// A part of a structure that no stiffness joins to its contact nodes: it would neither weigh on
+    /// the ground nor move.
+    #[error(
+        "part of the structure is not joined to its base by any stiffness: {place} (dashpots alone \
+         hold nothing up)"
+    )]
+    Detached {
+        /// The unknowns of all such parts, ascending.
+        unknowns: Vec<usize>,
+        /// What the structure calls them: see
+        /// [`Structure::describe`](crate::structure::Structure::describe).
+        place: String,
+    },
+    /// An element that fills the place of another one, or is the same again.
+    #[error("the element on nodes {nodes:?} lies where element {first} is, and would count twice")]
+    DuplicateElement {
+        /// Index of the element that is there.
+        first: usize,
+        /// Nodes of the one that was to be added.
+        nodes: Vec<usize>,
+    },
     /// A structure that buckles, held at its contact nodes, under the axial forces of its static
     /// state.
     #[error(
@@ -195,8 +216,8 @@ pub enum Error {
         /// Share of the axial forces at which it buckles.
         factor: f64,
     },
-    /// A matrix with which a motion would give energy away without end: a negative mass, or columns
-    /// under more than their buckling load.
+    /// A matrix with which a motion would give energy away without end: a negative mass or damping,
+    /// or columns under more than their buckling load.
     #[error(
         "{matrix} is not positive semi-definite: it shows at row {row}, which has {diagonal:e} on the \
          diagonal"
@@ -245,6 +266,12 @@ pub enum Error {
         tolerance: f64,
         /// Relative error with as many poles as were tried.
         reached: f64,
+    },
+    /// A history by exponentials of a kernel that does not allow it.
+    #[error("history by exponentials needs {needed}")]
+    NoExponentials {
+        /// What the kernel lacks.
+        needed: &'static str,
     },
     /// A history by exponentials could give energy away, and runs with it could grow.
     #[error(

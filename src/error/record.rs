@@ -67,6 +67,30 @@ pub enum RecordError {
         /// What is missing.
         quantity: &'static str,
     },
+    /// A quantity of the header is given, but not as a number and a unit that are known.
+    #[error("the {quantity} '{text}' is not understood")]
+    Unclear {
+        /// Which quantity.
+        quantity: &'static str,
+        /// What the file says, cut to 40 characters.
+        text: String,
+    },
+    /// A line does not keep to the columns of the file's Fortran format, which place the decimal
+    /// points or scale the numbers; or it does, and those before did not.
+    #[error("'{text}': not all lines keep to the file's format, which places the decimal points")]
+    OffColumns {
+        /// The line, cut to 40 characters.
+        text: String,
+    },
+    /// A line with commas, or with two tabs together, has another number of fields than those before:
+    /// its columns may be others.
+    #[error("{found} columns, but {expected} before")]
+    UnequalColumns {
+        /// Columns found.
+        found: usize,
+        /// Columns of the lines before.
+        expected: usize,
+    },
     /// The file holds something else than an acceleration, or in a unit that is not known.
     #[error("'{text}' is no acceleration in a known unit")]
     NotAcceleration {

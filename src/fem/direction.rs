@@ -11,6 +11,11 @@ pub enum Direction {
     Rotation,
 }
 
+impl Direction {
+    /// All three.
+    pub(crate) const ALL: [Self; 3] = [Self::X, Self::Y, Self::Rotation];
+}
+
 /// Directions of elements without rotations.
 pub(crate) const TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
 

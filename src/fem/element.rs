@@ -87,6 +87,14 @@ pub trait Element: Send + Sync {
     /// Adds the viscous damping matrix to `matrix`, Rayleigh damping excepted. Default: none.
     fn damping(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
 
+    /// Corner nodes of the area that the element fills with material, in any order. Default: none,
+    /// for bars, springs and masses, which act in parallel where they lie on the same nodes.
+    ///
+    /// [`Mesh::add`](super::Mesh::add) refuses a second element over the same corners.
+    fn corners(&self) -> &[usize] {
+        &[]
+    }
+
     /// Checks the shape when the element enters a mesh. Default: any shape will do.
     ///
     /// # Errors
@@ -114,6 +122,7 @@ impl<T: Element + ?Sized> Element for Box<T> {
         fn compression(&self) -> Option<f64>;
         fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]);
         fn damping(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
+        fn corners(&self) -> &[usize];
         fn check(&self, coordinates: &[[f64; 2]]) -> Result<()>;
         fn order(&self) -> usize;
     }

@@ -1,13 +1,17 @@
 //! Nodes and the elements between them.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::element::Element;
+use super::element::{Element, MassKind};
 use crate::error::{Error, Result, finite, not_negative};
 
 /// Farthest that a node may be from where it is looked for, over the size of the mesh: far below
 /// any element, far above the rounding of a coordinate.
 const SAME_POINT: f64 = 1e-6;
+
+/// Relative difference of matrices up to which they are the same: rounding.
+const ALIKE: f64 = 1e-12;
 
 /// Nodes and elements. Clones share their elements, which never change.
 ///
@@ -26,13 +30,15 @@ const SAME_POINT: f64 = 1e-6;
 pub struct Mesh {
     nodes: Vec<[f64; 2]>,
     elements: Vec<Arc<dyn Element>>,
+    /// The elements over the same corners or, without any, on the same nodes, both ascending.
+    places: HashMap<Vec<usize>, Vec<usize>>,
 }
 
 impl std::fmt::Debug for Mesh {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let connectivity: Vec<&[usize]> = self.elements.iter().map(|e| e.nodes()).collect();
         let mut fields = formatter.debug_struct("Mesh");
-        fields.field("nodes", &self.nodes).field("elements", &connectivity).finish()
+        fields.field("nodes", &self.nodes).field("elements", &connectivity).finish_non_exhaustive()
     }
 }
 
@@ -55,9 +61,15 @@ impl Mesh {
 
     /// Adds an element and returns its index.
     ///
+    /// Elements may share all their nodes: springs, dashpots, masses and beams of different sections
+    /// act in parallel, and a beam may stiffen the edge of a quadrilateral.
+    ///
     /// # Errors
     /// [`Error::Index`] when one of its nodes does not exist; [`Error::Size`] when it has no nodes
-    /// or no directions; [`Error::Scene`] when a node or direction comes twice; and what
+    /// or no directions; [`Error::Scene`] when a node or direction comes twice;
+    /// [`Error::DuplicateElement`] when its [`corners`](Element::corners) are those of another
+    /// element, or when it has mass and two or more nodes and has stiffness, mass
+    /// and damping of another one on them (two equal bars are one of twice the section); and what
     /// [`Element::check`] finds.
     pub fn add(&mut self, element: impl Element + 'static) -> Result<usize> {
         let nodes = element.nodes();
@@ -77,8 +89,58 @@ impl Mesh {
             }
         }
         element.check(&self.coordinates(nodes))?;
+        let key = place(&element);
+        let others = self.places.get(&key).map_or(&[][..], Vec::as_slice);
+        if let Some(&first) = others.iter().find(|&&other| self.counts_twice(other, &element)) {
+            return Err(Error::DuplicateElement { first, nodes: nodes.to_vec() });
+        }
+        self.places.entry(key).or_default().push(self.elements.len());
         self.elements.push(Arc::new(element));
         Ok(self.elements.len() - 1)
+    }
+
+    /// Whether `element` would count twice beside the element `other` at the same place.
+    fn counts_twice(&self, other: usize, element: &dyn Element) -> bool {
+        let other = self.elements[other].as_ref();
+        if !element.corners().is_empty() {
+            return !other.corners().is_empty();
+        }
+        let (nodes, directions) = (element.nodes(), element.directions());
+        let order = nodes.len() * directions.len();
+        let alike = other.directions() == directions && other.corners().is_empty();
+        if nodes.len() < 2 || !alike || [element.order(), other.order()] != [order; 2] {
+            return false;
+        }
+        let (own, mass) = self.matrices_by_node(element);
+        let (others, _) = self.matrices_by_node(other);
+        let near = |a: &f64, b: &f64| (a - b).abs() <= ALIKE * a.abs().max(b.abs());
+        mass && own.iter().zip(&others).all(|(a, b)| near(a, b))
+    }
+
+    /// Stiffness, mass and damping of an element, its nodes ascending, and whether it has mass.
+    fn matrices_by_node(&self, element: &dyn Element) -> (Vec<f64>, bool) {
+        let (nodes, points) = (element.nodes(), self.coordinates(element.nodes()));
+        let (order, directions) = (element.order(), element.directions().len());
+        let mut ascending: Vec<usize> = (0..nodes.len()).collect();
+        ascending.sort_by_key(|&k| nodes[k]);
+        let places: Vec<usize> =
+            ascending.into_iter().flat_map(|k| k * directions..(k + 1) * directions).collect();
+        let [mut stiffness, mut mass, mut damping] = [(); 3].map(|()| vec![0.0; order * order]);
+        element.stiffness(&points, &mut stiffness);
+        element.mass(&points, MassKind::default(), &mut mass);
+        element.damping(&points, &mut damping);
+        let has_mass = mass.iter().any(|mass| *mass != 0.0);
+        let mut all = Vec::with_capacity(3 * order * order);
+        for matrix in [stiffness, mass, damping] {
+            let largest = matrix.iter().fold(0.0_f64, |most, entry| most.max(entry.abs()));
+            for &row in &places {
+                // What rounding leaves of a zero depends on the order of the nodes.
+                let entry = |&column: &usize| matrix[row * order + column];
+                let clean = |entry: f64| if entry.abs() > ALIKE * largest { entry } else { 0.0 };
+                all.extend(places.iter().map(entry).map(clean));
+            }
+        }
+        (all, has_mass)
     }
 
     /// Coordinates [x, y] of all nodes, m.
@@ -122,6 +184,17 @@ impl Mesh {
         let distance = |node: &[f64; 2]| (node[0] - x).hypot(node[1] - y);
         let pairs = self.nodes.iter().map(distance).enumerate();
         pairs.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
+    }
+
+    /// Other nodes at the place of `node`, which must exist.
+    pub(crate) fn nodes_beside(&self, node: usize) -> impl Iterator<Item = usize> + '_ {
+        let [x, y] = self.nodes[node];
+        let near = SAME_POINT * self.extent();
+        let beside = move |&other: &usize| {
+            let [a, b] = self.nodes[other];
+            other != node && (a - x).hypot(b - y) <= near
+        };
+        (0..self.nodes.len()).filter(beside)
     }
 
     /// Nodes whose height differs from `y` by no more than `tolerance` (m), from left to right.
@@ -185,6 +258,14 @@ impl Mesh {
     pub(crate) fn coordinates(&self, nodes: &[usize]) -> Vec<[f64; 2]> {
         nodes.iter().map(|&index| self.nodes[index]).collect()
     }
+}
+
+/// Corners of what fills an area, all nodes of other elements.
+fn place(element: &dyn Element) -> Vec<usize> {
+    let corners = element.corners();
+    let mut key = if corners.is_empty() { element.nodes() } else { corners }.to_vec();
+    key.sort_unstable();
+    key
 }
 
 fn repeats<T: PartialEq>(items: &[T]) -> bool {

@@ -127,6 +127,10 @@ impl Element for Quad4 {
         TRANSLATIONS
     }
 
+    fn corners(&self) -> &[usize] {
+        &self.nodes
+    }
+
     fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
         let block = match self.formulation {
             QuadFormulation::Full => {

@@ -138,6 +138,10 @@ impl Element for Quad8 {
         TRANSLATIONS
     }
 
+    fn corners(&self) -> &[usize] {
+        &self.nodes[..4]
+    }
+
     fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
         let elasticity = self.material.elasticity();
         let mut block = [[0.0; 16]; 16];

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::ConvolutionHistory;
-use crate::bem::PatchKernel;
+use super::convolution::{ConvolutionHistory, check_inputs};
+use super::lag_kernel::LagKernel;
 use crate::error::{Result, same_length};
 use crate::linalg::dot;
 
@@ -13,12 +13,12 @@ const CHUNK: usize = 512;
 /// Steps ahead that a hint prepares for, at most; beyond, memory grows as it goes.
 const RESERVED_STEPS: usize = 100_000;
 
-/// Direct summation of the history: the oracle for all others, and the best for short runs.
+/// Direct summation of the history: the oracle for all others.
 ///
 /// Kernels are kept per pair *class* (on a uniform patch, per offset), reversed in time, so that
 /// each contribution is one contiguous dot product.
 pub struct DirectHistory {
-    kernel: Arc<PatchKernel>,
+    kernel: Arc<dyn LagKernel>,
     /// Lags for which coefficients are stored; grows by doubling.
     capacity: usize,
     /// Per class: the coefficient of lag n at `capacity − n`.
@@ -31,13 +31,14 @@ pub struct DirectHistory {
 }
 
 short_debug! {
-    DirectHistory; self; elements: self.kernel.elements().len(), steps: self.steps
+    DirectHistory; self; elements: self.kernel.classes().elements().len(), steps: self.steps
 }
 
 impl DirectHistory {
     /// History of `kernel`, empty.
-    pub fn new(kernel: Arc<PatchKernel>) -> Self {
-        let (classes, components) = (kernel.classes(), 2 * kernel.elements().len());
+    pub fn new(kernel: Arc<dyn LagKernel>) -> Self {
+        let classes = kernel.classes();
+        let (classes, components) = (classes.count(), 2 * classes.elements().len());
         Self {
             kernel,
             capacity: 0,
@@ -53,14 +54,15 @@ impl DirectHistory {
     fn grow(&mut self, lags: usize) -> Result<()> {
         let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
         let (mut zz, mut xx, mut zx) = (vec![0.0; new - old], vec![0.0; new - old], vec![]);
-        for class in 0..self.kernel.classes() {
-            let last = self.kernel.last_coupling_lag(class)?.min(new);
+        self.kernel.prepare(new)?;
+        for class in 0..self.kernel.classes().count() {
+            let last = self.kernel.last_coupling_lag(class)?.unwrap_or(new).min(new);
             zx.clear();
             zx.resize(new - old, 0.0);
             self.kernel.coefficients(class, old + 1, &mut zz, &mut xx, &mut zx)?;
             prepend_reversed(&mut self.normal[class], &zz);
             prepend_reversed(&mut self.tangential[class], &xx);
-            // The coupling vanishes behind the Rayleigh wave: only its beginning is kept.
+            // Only as long as it is not zero.
             if last > self.coupling[class].len() {
                 let kept = last - old.min(last);
                 prepend_reversed(&mut self.coupling[class], &zx[..kept]);
@@ -97,7 +99,7 @@ impl ConvolutionHistory for DirectHistory {
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let count = self.kernel.elements().len();
+        let count = self.kernel.classes().elements().len();
         same_length("displacement of the history", displacement.len(), 2 * count)?;
         displacement.fill(0.0);
         let past = self.steps;
@@ -114,7 +116,7 @@ impl ConvolutionHistory for DirectHistory {
             let range = |stored: usize, begin: usize| {
                 stored - (past + 1 - begin)..stored - (past + 1 - end)
             };
-            for (p, pairs) in self.kernel.pairs().chunks_exact(count).enumerate() {
+            for (p, pairs) in self.kernel.classes().pairs().chunks_exact(count).enumerate() {
                 for (q, pair) in pairs.iter().enumerate() {
                     let pressure = &self.traction[q];
                     let shear = &self.traction[count + q];
@@ -152,7 +154,7 @@ impl ConvolutionHistory for DirectHistory {
 
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         let size = self.traction.len();
-        super::check_inputs(steps, size, values)?;
+        check_inputs(steps, size, values)?;
         for row in &mut self.traction {
             row.clear();
         }

@@ -4,8 +4,8 @@ use super::*;
 use crate::random::Random;
 use crate::structure::Triplets;
 
-#[path = "../../tests/support/condition.rs"]
-mod condition;
+#[path = "../../tests/support/inverse.rs"]
+mod inverse;
 
 #[test]
 fn estimates_are_within_a_factor_of_three_of_the_inverse() {
@@ -29,7 +29,7 @@ fn estimates_are_within_a_factor_of_three_of_the_inverse() {
                 matrix[i * n + j] = matrix[i * n + j].abs();
             }
         }
-        let exact = condition::condition_by_inverse(&matrix, n);
+        let exact = inverse::condition_by_inverse(&matrix, n);
         let mut triplets = Triplets::new(n);
         for (k, value) in matrix.iter().enumerate() {
             triplets.add(k / n, k % n, *value);

@@ -8,6 +8,7 @@ mod condition;
 mod dense;
 mod eigen;
 mod lanczos;
+mod partition;
 mod product;
 mod sparse;
 
@@ -17,6 +18,7 @@ pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
 pub(crate) use eigen::{generalised_modes, least_eigenvalue};
 pub(crate) use lanczos::lowest_modes;
+pub(crate) use partition::Partition;
 pub(crate) use product::{
     dense_multiply_add, dot, largest, row_products, wide_multiply_add, wide_transposed_multiply_add,
 };

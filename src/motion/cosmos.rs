@@ -3,9 +3,11 @@
 use std::io::Read;
 
 use super::fixed_columns::FixedColumns;
-use super::lines::{Lines, Reason, count, number_after, read_numbers, record, scaled};
+use super::lines::{Lines, Reason, count, read_numbers, record, scaled};
+use super::quantity::{Quantity, clause_end, unclear};
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
+use crate::number::finite;
 
 /// The `.V2` and `.V2c` files of the Center for Engineering Strong Motion Data.
 ///
@@ -17,7 +19,9 @@ use crate::error::{RecordError, Result};
 ///   `15200 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)`.
 ///
 /// Numbers are read in the columns of the format that the line names, in which they may touch, and
-/// free where a line does not keep to it or none is named. The unit is a whole word, such as
+/// free where a line does not keep to it or none is named. In its column, a number without a
+/// decimal point has the decimals of the format, as in Fortran: `12345` under `8F10.3` is 12.345. A
+/// format that is not one repeated item is refused. The unit is a whole word, such as
 /// `cm/s^2`, `cm/sec/sec`, `gal` or `g`; anything else (counts, `mgal`) is refused, and so is a file
 /// that does not name its unit, unless [`with_unit`](Self::with_unit) does.
 ///
@@ -94,55 +98,134 @@ fn read(lines: &mut Lines, format: &CosmosFormat) -> Reason<(f64, Vec<f64>)> {
             interval = real_header(lines, &lower)?;
             continue;
         }
-        let csmip = lower.contains("points of accel data equally spaced at");
-        let cosmos = lower.contains("acceleration pts");
-        if !(csmip || cosmos) {
+        let titles = ["points of accel data equally spaced at", "acceleration pts"];
+        if !titles.iter().any(|title| lower.contains(title)) {
             continue;
         }
         found += 1;
         if found < channel || channel == 0 {
             continue;
         }
-        let missing = |quantity| RecordError::Missing { quantity };
-        let points = lower
-            .split_whitespace()
-            .next()
-            .and_then(|field| count(field.parse().ok()?))
-            .ok_or_else(|| lines.refuse(missing("number of points")))?;
-        let step = if csmip { number_after(&lower, "equally spaced at") } else { interval };
-        let step = step
-            .filter(|&step| step > 0.0)
-            .ok_or_else(|| lines.refuse(missing("sampling interval")))?;
-        let Some(unit) = unit(&lower, format.unit) else {
-            let text = line.chars().take(60).collect();
-            return Err(lines.refuse(RecordError::NotAcceleration { text }));
-        };
-        let factor = unit.in_metres_per_second_squared();
-        let values = read_numbers(lines, points, FixedColumns::find(&lower))?;
-        return Ok((step, scaled(values, factor)));
+        let block = Block::read(&line, interval, format.unit);
+        let block = block.map_err(|reason| lines.refuse(reason))?;
+        let values = read_numbers(lines, block.points, block.columns)?;
+        return Ok((block.step, scaled(values, block.unit.in_metres_per_second_squared())));
     }
     Err(lines.refuse(RecordError::Channel { found, needed: channel }))
 }
 
+/// What the title of a block says of its numbers.
+struct Block {
+    points: usize,
+    /// s.
+    step: f64,
+    unit: AccelerationUnit,
+    columns: Option<FixedColumns>,
+}
+
+impl Block {
+    /// COSMOS has the sampling interval (s) somewhere else than in the title; `unnamed` is the unit
+    /// if the title names none.
+    fn read(
+        line: &str,
+        interval: Option<f64>,
+        unnamed: Option<AccelerationUnit>,
+    ) -> std::result::Result<Self, RecordError> {
+        let title = line.to_ascii_lowercase();
+        let title = title.as_str();
+        let points = points(title, "number of points")?;
+        let step = match csmip(title) {
+            Some(text) => Quantity::TimeStep.read(&text[..time_end(text)])?,
+            None => interval,
+        };
+        let missing = RecordError::Missing { quantity: "sampling interval" };
+        let step = step.filter(|&step| step > 0.0).ok_or(missing)?;
+        let not_acceleration =
+            || RecordError::NotAcceleration { text: line.chars().take(60).collect() };
+        let unit = unit(title, unnamed).ok_or_else(not_acceleration)?;
+        let rest = after_unit(title);
+        if !FixedColumns::is_all_of(rest) {
+            return Err(unclear("unit or format", rest.trim()));
+        }
+        Ok(Self { points, step, unit, columns: FixedColumns::find(title) })
+    }
+}
+
 /// Sampling interval (s) of a block of real header values, if it has one.
 fn real_header(lines: &mut Lines, title: &str) -> Reason<Option<f64>> {
-    let points =
-        title.split_whitespace().next().and_then(|field| count(field.parse().ok()?)).ok_or_else(
-            || lines.refuse(RecordError::Missing { quantity: "number of header values" }),
-        )?;
-    let values = read_numbers(lines, points, FixedColumns::find(title))?;
+    let points = points(title, "number of header values").map_err(|reason| lines.refuse(reason))?;
+    let columns = FixedColumns::find(title);
+    if let Some((_, format)) = title.split_once("format=")
+        && !FixedColumns::is_all_of(format)
+    {
+        return Err(lines.refuse(unclear("format", format.trim())));
+    }
+    let values = read_numbers(lines, points, columns)?;
     // Unknown values are −999.
-    Ok(values.get(SAMPLING_INTERVAL).filter(|&&ms| ms > 0.0).map(|ms| ms * 1e-3))
+    Ok(values.get(SAMPLING_INTERVAL).filter(|&&ms| ms > 0.0).map(|ms| ms / 1e3))
+}
+
+/// The number that a title begins with.
+fn points(title: &str, quantity: &'static str) -> std::result::Result<usize, RecordError> {
+    let first = title.split_whitespace().next();
+    first.and_then(|field| count(finite(field)?)).ok_or(RecordError::Missing { quantity })
+}
+
+/// What a title of CSMIP says after its key: time step, unit and format.
+fn csmip(title: &str) -> Option<&str> {
+    Some(title.split_once("equally spaced at")?.1)
+}
+
+/// Where the time step of a title of CSMIP ends.
+fn time_end(text: &str) -> usize {
+    let keys = [" in ", "units=", "format="].map(|key| text.find(key));
+    // A bracket may hold the unit of time.
+    let bracket = text
+        .match_indices('(')
+        .map(|(at, _)| at)
+        .find(|&at| text[at + 1..].starts_with(|sign: char| sign.is_ascii_digit() || sign == '*'));
+    let first = keys.into_iter().chain([bracket]).flatten().min().unwrap_or(text.len());
+    first.min(clause_end(text))
+}
+
+/// What a title says of the unit, from its first letter on.
+fn unit_text(title: &str) -> Option<&str> {
+    let csmip = || csmip(title)?.split_once(" in ");
+    Some(title.split_once("units=").or_else(csmip)?.1)
+}
+
+/// Where the name of a unit ends: `cm/s^2 (4),Format=(8F10.5)`, `cm/sec2. (8f10.3)`.
+fn name_end(text: &str) -> usize {
+    text.find([',', '(']).unwrap_or(text.len())
+}
+
+/// What follows unit or, without one, time step.
+fn after_unit(title: &str) -> &str {
+    if let Some(text) = unit_text(title) {
+        return &text[name_end(text)..];
+    }
+    match csmip(title) {
+        Some(text) => &text[time_end(text)..],
+        None => title.find("format=").map_or("", |at| &title[at..]),
+    }
 }
 
 /// Unit of the numbers under a title in lower case; `unnamed` if it names none.
 fn unit(title: &str, unnamed: Option<AccelerationUnit>) -> Option<AccelerationUnit> {
-    let csmip = || title.split_once("equally spaced at")?.1.split_once(" in ");
-    let Some((_, after)) = title.split_once("units=").or_else(csmip) else {
-        return unnamed;
+    let Some(text) = unit_text(title) else {
+        // A unit among other words contradicts another one.
+        let mut words = title.split([' ', '\t', ',', '(', ')']).filter_map(AccelerationUnit::named);
+        return unnamed.filter(|&unit| words.all(|word| word == unit));
     };
-    // `cm/s^2 (4),Format=(8F10.5)`, `cm/sec2. (8f10.3)`
-    AccelerationUnit::named(after.split([',', '(']).next()?)
+    let (name, rest) = text.split_at(name_end(text));
+    let unit = AccelerationUnit::named(name)?;
+    // The code of cm/s² is 4.
+    let code = rest
+        .trim_start_matches([' ', ','])
+        .strip_prefix('(')
+        .and_then(|rest| rest.split_once(')')?.0.parse::<u8>().ok());
+    let agrees = code.is_none_or(|code| (code == 4) == (unit == AccelerationUnit::Gal));
+    agrees.then_some(unit)
 }
 
 #[cfg(test)]

@@ -2,9 +2,11 @@
 
 use std::io::Read;
 
-use super::lines::{Lines, Reason, number, number_after, push_numbers, record, scaled};
+use super::lines::{Lines, Reason, push_numbers, record, scaled};
+use super::quantity::{Quantity, unclear};
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
+use crate::number::finite;
 
 /// The ASCII files of the Japanese networks K-NET and KiK-net.
 ///
@@ -50,13 +52,9 @@ fn read(lines: &mut Lines) -> Reason<(f64, Vec<f64>)> {
         };
         if line.starts_with("Memo") {
             break;
-        } else if line.starts_with("Sampling Freq") {
-            header.frequency = number_after(&line, "(Hz)").filter(|&f| f > 0.0);
-        } else if line.starts_with("Duration Time") {
-            header.duration = number_after(&line, "(s)").filter(|&t| t > 0.0);
-        } else if let Some(factor) = line.strip_prefix("Scale Factor") {
-            header.scale = scale(factor);
         }
+        let understood = header.read(&line);
+        understood.map_err(|reason| lines.refuse(reason))?;
     }
     let need = |value: Option<f64>, quantity| {
         value.ok_or_else(|| lines.refuse(RecordError::Missing { quantity }))
@@ -83,9 +81,34 @@ fn read(lines: &mut Lines) -> Reason<(f64, Vec<f64>)> {
     Ok((1.0 / frequency, scaled(values, factor)))
 }
 
-/// `3920(gal)/6182761`.
-fn scale(text: &str) -> Option<f64> {
-    let (range, counts) = text.split_once("(gal)/")?;
-    let scale = number(range.trim()).ok()? / number(counts.trim()).ok()?;
-    (scale.is_finite() && scale != 0.0).then_some(scale)
+impl Header {
+    /// Notes what a line of the header says, if it is one of those that are needed.
+    fn read(&mut self, line: &str) -> std::result::Result<(), RecordError> {
+        let positive = |quantity: Quantity, unit| match line.split_once(unit) {
+            Some((_, text)) => Ok(quantity.read(text)?.filter(|&value| value > 0.0)),
+            None => Ok::<_, RecordError>(None),
+        };
+        let (known, value) = if line.starts_with("Sampling Freq") {
+            (&mut self.frequency, positive(Quantity::Frequency, "(Hz)")?)
+        } else if line.starts_with("Duration Time") {
+            (&mut self.duration, positive(Quantity::Duration, "(s)")?)
+        } else if let Some(factor) = line.strip_prefix("Scale Factor") {
+            (&mut self.scale, scale(factor.trim())?)
+        } else {
+            return Ok(());
+        };
+        if known.is_some() && *known != value {
+            return Err(unclear("repeated line", line));
+        }
+        *known = value;
+        Ok(())
+    }
+}
+
+/// Gal in a count: `3920(gal)/6182761`. None if the text is not of that kind, or no scale.
+fn scale(text: &str) -> std::result::Result<Option<f64>, RecordError> {
+    let Some((range, counts)) = text.split_once("(gal)/") else { return Ok(None) };
+    let value = |side: &str| finite(side.trim()).ok_or_else(|| unclear("scale factor", text));
+    let scale = value(range)? / value(counts)?;
+    Ok((scale.is_finite() && scale != 0.0).then_some(scale))
 }

@@ -1,25 +1,25 @@
 //! Lines and numbers of text files, however bad.
 
-use std::io::{BufReader, Read};
+use std::io::Read;
 
 use super::fixed_columns::FixedColumns;
-use crate::bounded_line::read_line;
+use crate::bounded_line;
 use crate::error::{Error, RecordError, Result};
+use crate::number::{excerpt, finite, has_implied_point, in_field};
 
 /// Why a line is refused, and which.
 pub(super) type Reason<T> = std::result::Result<T, (usize, RecordError)>;
 
 /// The lines of a text, without white space at their ends.
 pub(super) struct Lines<'a> {
-    source: BufReader<&'a mut dyn Read>,
-    bytes: Vec<u8>,
+    source: bounded_line::Lines<&'a mut dyn Read>,
     /// Number of the last line given, from 1.
     pub(super) number: usize,
 }
 
 impl<'a> Lines<'a> {
     pub(super) fn new(source: &'a mut dyn Read) -> Self {
-        Self { source: BufReader::new(source), bytes: Vec::new(), number: 0 }
+        Self { source: bounded_line::Lines::new(source), number: 0 }
     }
 
     /// The next line, or none at the end.
@@ -29,15 +29,9 @@ impl<'a> Lines<'a> {
 
     /// The next line with the white space at its beginning.
     fn next_columns(&mut self) -> Reason<Option<String>> {
-        let line = self.number + 1;
-        if !read_line(&mut self.source, &mut self.bytes).map_err(|unread| (line, unread.into()))? {
-            return Ok(None);
-        }
-        self.number = line;
-        // Bytes that are not UTF-8 become signs that are no number; in comments they do not matter.
-        let lossy = String::from_utf8_lossy(&self.bytes);
-        let text = if line == 1 { lossy.trim_start_matches('\u{feff}') } else { &lossy };
-        Ok(Some(text.trim_end().to_owned()))
+        let there = self.source.advance()?;
+        self.number = self.source.number;
+        Ok(there.then(|| self.source.text().trim_end().to_owned()))
     }
 
     /// The error for the last line given.
@@ -53,47 +47,79 @@ pub(super) fn refused(file: &str) -> impl Fn((usize, RecordError)) -> Error {
 
 /// A finite number.
 pub(super) fn number(field: &str) -> std::result::Result<f64, RecordError> {
-    match field.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => Err(RecordError::NotANumber { text: field.chars().take(40).collect() }),
-    }
+    finite(field).ok_or_else(|| RecordError::NotANumber { text: excerpt(field) })
 }
 
-/// Appends the numbers of a line of fixed columns, where a sign may begin a number right after
-/// another: `-0.12E-03-0.34E-03`.
-pub(super) fn push_numbers(
-    line: &str,
-    values: &mut Vec<f64>,
-) -> std::result::Result<(), RecordError> {
+/// The numbers of a line, where a sign may begin a number right after another:
+/// `-0.12E-03-0.34E-03`.
+fn free_fields(line: &str) -> Vec<&str> {
+    let mut fields = Vec::new();
     for field in line.split_whitespace() {
         let mut begin = 0;
         let mut before = 'E';
         for (at, sign) in field.char_indices() {
-            if matches!(sign, '-' | '+') && !matches!(before, 'E' | 'e' | '-' | '+') {
-                values.push(number(&field[begin..at])?);
+            let part_of_number = matches!(before, 'E' | 'e' | 'D' | 'd' | '-' | '+');
+            if matches!(sign, '-' | '+') && !part_of_number {
+                fields.push(&field[begin..at]);
                 begin = at;
             }
             before = sign;
         }
-        values.push(number(&field[begin..])?);
+        fields.push(&field[begin..]);
+    }
+    fields
+}
+
+/// Appends the numbers of a line.
+pub(super) fn push_numbers(
+    line: &str,
+    values: &mut Vec<f64>,
+) -> std::result::Result<(), RecordError> {
+    for field in free_fields(line) {
+        values.push(number(field)?);
     }
     Ok(())
+}
+
+/// How the numbers without a decimal point were read so far.
+#[derive(Default)]
+struct Points {
+    /// Some with the point that the format implies.
+    implied: bool,
+    /// Some as whole numbers, in lines that do not keep to the format.
+    whole: bool,
 }
 
 /// Appends the numbers of a line of these columns; free ones if it does not keep to them.
 fn push_columns(
     line: &str,
-    columns: Option<FixedColumns>,
+    columns: FixedColumns,
+    points: &mut Points,
     values: &mut Vec<f64>,
 ) -> std::result::Result<(), RecordError> {
-    // Double precision prints 1.5D+02.
-    let value = |field: &str| number(&field.replace(['D', 'd'], "E")).ok();
-    let fields = columns.and_then(|columns| columns.fields(line));
-    let numbers =
-        fields.and_then(|fields| fields.into_iter().map(value).collect::<Option<Vec<_>>>());
-    match numbers {
-        Some(numbers) => values.extend(numbers),
-        None => push_numbers(line, values)?,
+    let value = |field: &&str| in_field(field, columns.decimals, columns.scale);
+    let in_columns = columns.fields(line).and_then(|fields| {
+        let numbers: Option<Vec<f64>> = fields.iter().map(value).collect();
+        Some((fields, numbers?))
+    });
+    let kept = in_columns.is_some();
+    let (fields, numbers) = if let Some(found) = in_columns {
+        found
+    } else {
+        let mut numbers = Vec::new();
+        push_numbers(line, &mut numbers)?;
+        (free_fields(line), numbers)
+    };
+    // A zero is one with and without a point.
+    let pointless = |(field, value): (&&str, &f64)| has_implied_point(field) && *value != 0.0;
+    if columns.decimals > 0 && fields.iter().zip(&numbers).any(pointless) {
+        let seen = if kept { &mut points.implied } else { &mut points.whole };
+        *seen = true;
+    }
+    values.extend(numbers);
+    // A scale factor holds for what keeps to the format.
+    if points.implied && points.whole || columns.scale > 0 && !kept {
+        return Err(RecordError::OffColumns { text: excerpt(line) });
     }
     Ok(())
 }
@@ -105,12 +131,17 @@ pub(super) fn read_numbers(
     columns: Option<FixedColumns>,
 ) -> Reason<Vec<f64>> {
     let mut values = Vec::new();
+    let mut points = Points::default();
     while values.len() < needed {
         let Some(line) = lines.next_columns()? else {
             let found = values.len();
             return Err(lines.refuse(RecordError::SampleCount { found, needed }));
         };
-        push_columns(&line, columns, &mut values).map_err(|reason| lines.refuse(reason))?;
+        let pushed = match columns {
+            Some(columns) => push_columns(&line, columns, &mut points, &mut values),
+            None => push_numbers(&line, &mut values),
+        };
+        pushed.map_err(|reason| lines.refuse(reason))?;
     }
     if values.len() > needed {
         let found = values.len();
@@ -127,18 +158,6 @@ pub(super) fn end_of_numbers(lines: &mut Lines, needed: usize) -> Reason<()> {
         }
     }
     Ok(())
-}
-
-/// The number that follows `key` in `text`, after spaces and equality signs.
-pub(super) fn number_after(text: &str, key: &str) -> Option<f64> {
-    let rest = text[text.find(key)? + key.len()..].trim_start_matches([' ', '\t', '=', ':']);
-    let end = rest
-        .find(|sign: char| !matches!(sign, '0'..='9' | '.' | '-' | '+' | 'E' | 'e'))
-        .unwrap_or(rest.len());
-    // An `E` may be the beginning of a word.
-    let digits = rest[..end].trim_end_matches(['E', 'e', '-', '+', '.']);
-    let value = rest[..end].parse().or_else(|_| digits.parse()).ok()?;
-    f64::is_finite(value).then_some(value)
 }
 
 /// A number of samples: a whole number, at least two, or none.
@@ -172,15 +191,5 @@ mod tests {
         for bad in ["1--2", "1.2.3", "x", "-", "1E", "1-", "nan", "1e400"] {
             assert!(push_numbers(bad, &mut values).is_err(), "{bad}");
         }
-    }
-
-    #[test]
-    fn numbers_are_found_after_keys() {
-        assert_eq!(number_after("NPTS=  12, DT= .0100 SEC", "DT"), Some(0.01));
-        assert_eq!(number_after("NPTS=  12, DT= .0100SEC", "NPTS"), Some(12.0));
-        assert_eq!(number_after("DT=1.0E-02SEC", "DT"), Some(0.01));
-        assert_eq!(number_after("DT=.01E", "DT"), Some(0.01));
-        assert_eq!(number_after("DT= x", "DT"), None);
-        assert_eq!(number_after("", "DT"), None);
     }
 }

@@ -2,11 +2,11 @@
 
 use std::io::Read;
 
-use super::lines::{
-    Lines, Reason, count, end_of_numbers, number_after, read_numbers, record, scaled,
-};
-use super::{AccelerationUnit, Record, RecordFormat};
+use super::lines::{Lines, Reason, count, end_of_numbers, read_numbers, record, scaled};
+use super::quantity::{Quantity, clause_end, unclear};
+use super::{AccelerationUnit, Record, RecordFormat, STANDARD_GRAVITY};
 use crate::error::{RecordError, Result};
+use crate::number::finite;
 
 const G: AccelerationUnit = AccelerationUnit::StandardGravity;
 /// Lines among which the number of points and the time step must stand.
@@ -17,6 +17,7 @@ const HEADER_LINES: usize = 12;
 /// A header of text, of which the last line gives the number of points and the time step, as
 /// `NPTS=  5372, DT=   .0100 SEC` or, in older files, `5372  .0100  NPTS, DT`; then the
 /// acceleration in units of g, several to a line. Numbers may touch where the second is negative.
+/// The time step is in seconds unless `MSEC` follows, and may be a fraction (`1/100 SEC`).
 /// A line of the header must say that the unit is g: `ACCELERATION TIME SERIES IN UNITS OF G`, with
 /// or without text behind it (`. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz`), or
 /// `ACCELERATION TIME HISTORY (G)`. Files that do not, files of velocity or displacement, other
@@ -58,8 +59,9 @@ fn read(lines: &mut Lines) -> Reason<(f64, Vec<f64>)> {
             }
             said => in_g |= said.is_some(),
         }
-        if line.contains("NPTS") && line.contains("DT") {
-            break header(&line).ok_or_else(|| lines.refuse(missing))?;
+        if has_word(&line, "NPTS") && has_word(&line, "DT") {
+            let header = header(&line).map_err(|reason| lines.refuse(reason))?;
+            break header.ok_or_else(|| lines.refuse(missing))?;
         }
     };
     if !in_g {
@@ -75,21 +77,47 @@ fn read(lines: &mut Lines) -> Reason<(f64, Vec<f64>)> {
 /// something else; none if it says neither.
 fn acceleration_in_g(line: &str) -> Option<bool> {
     let kind = ["ACCELERATION", "VELOCITY", "DISPLACEMENT"].map(|kind| line.contains(kind));
-    // The word after `key`, whatever follows it.
+    // The text before `key`, the word after it, and what follows that.
     let word = |key| {
-        let after = line.split_once(key)?.1.trim_start();
-        after.split([' ', '\t', '.', ',', ';', '(', ')']).next()
+        let (before, after) = line.split_once(key)?;
+        let after = after.trim_start();
+        let end = after.find([' ', '\t', '.', ',', ';', '(', ')']).unwrap_or(after.len());
+        Some((before, &after[..end], &after[end..]))
     };
-    let unit = match word("UNITS OF") {
-        None if kind[0] => word(" IN ").or_else(|| word("(")).filter(|&unit| is_unit(unit)),
+    let stated = ["UNITS OF", "UNITS=", "UNITS =", "UNITS:"].into_iter().find_map(word);
+    let unit = match stated {
+        None if kind[0] => word(" IN ").or_else(|| word("(")).filter(|(_, unit, _)| is_unit(unit)),
         stated => stated,
     };
     match (kind, unit) {
-        ([_, false, false], Some(unit)) => Some(AccelerationUnit::named(unit) == Some(G)),
+        ([_, false, false], Some((before, unit, rest))) => {
+            let times = multiplies(before) || has_factor(rest);
+            Some(AccelerationUnit::named(unit) == Some(G) && !times)
+        }
         ([_, false, false], None) => None,
         // A title may well speak of velocity.
         (_, unit) => (unit.is_some() || line.contains("TIME")).then_some(false),
     }
+}
+
+/// Whether the text behind a unit may say that numbers are a multiple of it: by a number, other than
+/// that of a filter or gravity itself in brackets, by a word, or without a separator.
+fn has_factor(rest: &str) -> bool {
+    let rest = rest.split_once("FILTER").map_or(rest, |(before, _)| before).trim();
+    let gravity = rest.strip_prefix('(').and_then(|rest| rest.split_once(')'));
+    if let Some((gravity, rest)) = gravity {
+        let value = gravity.split_whitespace().next().and_then(finite);
+        let known = value.is_some_and(|value| {
+            let near = |unit: f64| (value * unit / STANDARD_GRAVITY - 1.0).abs() < 1e-2;
+            near(1.0) || near(1e-2)
+        });
+        return !known || has_factor(rest);
+    }
+    let apart = rest.is_empty() || rest.starts_with(['.', ',', ';', ')']);
+    // The number of points is read elsewhere.
+    let rest = rest.split_once("NPTS").map_or(rest, |(before, _)| before);
+    let other = |sign: char| sign.is_ascii_digit() || matches!(sign, '%' | '*');
+    !apart || rest.contains(other) || multiplies(rest) || has_word(rest, "SCALE")
 }
 
 /// Whether a word after ACCELERATION may be meant as its unit.
@@ -97,15 +125,84 @@ fn is_unit(word: &str) -> bool {
     AccelerationUnit::named(word).is_some() || word.contains("/S")
 }
 
-/// Number of points and time step.
-fn header(line: &str) -> Option<(usize, f64)> {
-    let (points, step) = if line.contains("NPTS=") || line.contains("NPTS =") {
-        (number_after(line, "NPTS")?, number_after(line, "DT")?)
+/// Whether a text speaks of multiplication: `TIMES`, `1000 X`.
+fn multiplies(text: &str) -> bool {
+    let words = ["TIMES", "SCALED", "FACTOR", "MULTIPLIED", "DIVIDED"];
+    let number = |word: &str| finite(word).is_some();
+    let mut pairs = text.split_whitespace().zip(text.split_whitespace().skip(1));
+    let digit = |sign: char| sign.is_ascii_digit();
+    let starred = text.match_indices('*').any(|(at, _)| {
+        text[..at].trim_end().ends_with(digit) || text[at + 1..].trim_start().starts_with(digit)
+    });
+    starred
+        || words.iter().any(|word| has_word(text, word))
+        || pairs.any(|(a, b)| (number(a) && b == "X") || (a == "X" && number(b)))
+}
+
+/// Whether `word` stands in `line` by itself.
+fn has_word(line: &str, word: &str) -> bool {
+    line.split(|sign: char| !sign.is_alphanumeric()).any(|found| found == word)
+}
+
+/// Number of points and time step, s.
+fn header(line: &str) -> std::result::Result<Option<(usize, f64)>, RecordError> {
+    let (points, step) = if line.contains(['=', ':']) {
+        (assigned(line, "NPTS", Quantity::Points)?, assigned(line, "DT", Quantity::TimeStep)?)
     } else {
-        let mut fields = line.split([' ', '\t', ',']).filter(|field| !field.is_empty());
-        (fields.next()?.parse().ok()?, fields.next()?.parse().ok()?)
+        listed(line)?
     };
-    Some((count(points)?, Some(step).filter(|&step| step > 0.0 && step.is_finite())?))
+    if multiplies(line) || has_word(line, "SCALE") {
+        return Err(unclear("scale of the numbers", line));
+    }
+    let step = step.filter(|&step| step > 0.0);
+    Ok(points.and_then(count).zip(step))
+}
+
+/// The value of `NPTS= 4, DT= .01 SEC` for a key; `ORIGINAL DT` is another key than `DT`.
+fn assigned(
+    line: &str,
+    key: &str,
+    quantity: Quantity,
+) -> std::result::Result<Option<f64>, RecordError> {
+    let mut pieces = line.split(['=', ':']).peekable();
+    let mut found = None;
+    // The key that the last piece ended with.
+    let mut name = pieces.next().map_or("", last_clause);
+    while let Some(piece) = pieces.next() {
+        // The last piece is a value alone.
+        let clause = clause_end(piece);
+        let (value, next) = match (pieces.peek(), clause < piece.len()) {
+            (None, _) => (&piece[..clause], ""),
+            (Some(_), true) => (&piece[..clause], last_clause(piece)),
+            // Without a separator the last word is the next key.
+            (Some(_), false) => piece.trim_end().rsplit_once([' ', '\t']).unwrap_or((piece, "")),
+        };
+        if name == key
+            && let Some(value) = quantity.read(value)?
+            && let Some(before) = found.replace(value).filter(|&before| before != value)
+        {
+            return Err(unclear(quantity.name(), &format!("{before} and {value}")));
+        }
+        name = next;
+    }
+    Ok(found)
+}
+
+/// The last of several clauses.
+fn last_clause(text: &str) -> &str {
+    text.rsplit([',', ';']).next().unwrap_or(text).trim()
+}
+
+/// Points and step of `4  .01  NPTS, DT`, perhaps with the unit of time at the end.
+fn listed(line: &str) -> std::result::Result<(Option<f64>, Option<f64>), RecordError> {
+    const GAPS: [char; 3] = [' ', '\t', ','];
+    let (values, keys) = line.split_once("NPTS").unwrap_or((line, ""));
+    let values = values.trim_matches(GAPS);
+    let (points, step) = values.split_once(GAPS).unwrap_or((values, ""));
+    let not_understood = || unclear("order of number of points and time step", line);
+    let unit = keys.trim_matches(GAPS).strip_prefix("DT").ok_or_else(not_understood)?;
+    let step = format!("{} {}", step.trim_start_matches(GAPS), unit.trim_matches(GAPS));
+    Ok((Quantity::Points.read(points)?, Quantity::TimeStep.read(&step)?))
 }
 
 #[cfg(test)]
@@ -126,6 +223,9 @@ mod tests {
             ("ACCELERATION TIME SERIES IN G", Some(true)),
             ("ACCELERATION IN UNITS OF G'S", Some(true)),
             ("UNITS OF G", Some(true)),
+            ("UNITS OF G X 1000", Some(false)),
+            ("UNITS OF G (1000)", Some(false)),
+            ("ACCELERATION (G)", Some(true)),
             ("UNITS OF GAL", Some(false)),
             ("ACCELERATION TIME SERIES IN UNITS OF CM/S/S", Some(false)),
             ("ACCELERATION TIME SERIES (CM/S/S)", Some(false)),

@@ -26,8 +26,12 @@ use crate::fundamental::Rayleigh;
 use crate::fundamental::complex::Complex;
 use crate::soil::Soil;
 
-/// Component below this share of the other cannot be prescribed.
-const SMALLEST: f64 = 1e-9;
+/// Component below this share of the other cannot be prescribed: near the angles at which it
+/// vanishes, the other grows without bound.
+const SMALLEST: f64 = 0.01;
+
+/// Rayleigh's function below this, in units of 1/c₂⁴, is what rounding leaves of zero.
+const VANISHING: f64 = 1e-14;
 
 /// A plane harmonic wave, and how the free surface of the half-plane moves under it.
 ///
@@ -54,7 +58,8 @@ impl PlaneWave {
     /// positive. Beyond the critical angle, sin θ = c₂/c₁, the two components are out of phase.
     ///
     /// # Errors
-    /// [`Error::Input`] unless |`angle`| < π/2.
+    /// [`Error::Input`] unless |`angle`| < π/2, and at the critical angle of 45° for a soil with a
+    /// Poisson's ratio of zero, where all amplitudes are 0/0.
     pub fn sv(soil: Soil, angle: f64) -> Result<Self> {
         let speed = soil.shear_wave_speed();
         let (p, a, b, g, rayleigh) = slownesses(soil, angle, speed)?;
@@ -131,10 +136,15 @@ impl PlaneWave {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] if the wave has no horizontal component, or if it is out of phase and the
-    /// record's last velocity above 1 % of its peak.
+    /// [`Error::Input`] if the horizontal component is less than a hundredth of the vertical one (SV
+    /// near 45°, P near the vertical), or if it is out of phase and the record's last velocity above
+    /// 1 % of its peak.
     pub fn field_from_horizontal(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
-        let ratio = ratio("horizontal component of the wave", self.vertical, self.horizontal)?;
+        let ratio = ratio(
+            "horizontal component of the wave over the other one",
+            self.vertical,
+            self.horizontal,
+        )?;
         if ratio.im != 0.0 {
             let field = OutOfPhase::new(record, false, ratio)?;
             return TravellingWave::new(field, self.apparent_velocity(), origin);
@@ -148,10 +158,15 @@ impl PlaneWave {
     /// [`PlaneWave::field_from_horizontal`].
     ///
     /// # Errors
-    /// [`Error::Input`] if the wave has no vertical component, and as for
+    /// [`Error::Input`] if the vertical component is less than a hundredth of the horizontal one (SV
+    /// near the vertical and the critical angle, P near grazing for ν = 0), and as for
     /// [`PlaneWave::field_from_horizontal`].
     pub fn field_from_vertical(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
-        let ratio = ratio("vertical component of the wave", self.horizontal, self.vertical)?;
+        let ratio = ratio(
+            "vertical component of the wave over the other one",
+            self.horizontal,
+            self.vertical,
+        )?;
         if ratio.im != 0.0 {
             let field = OutOfPhase::new(record, true, ratio)?;
             return TravellingWave::new(field, self.apparent_velocity(), origin);
@@ -176,15 +191,19 @@ fn slownesses(soil: Soil, angle: f64, speed: f64) -> Result<(f64, Complex, Compl
     let (a, b) = (vertical(soil.pressure_wave_speed()), vertical(soil.shear_wave_speed()));
     let g = soil.shear_wave_speed().powi(-2) - 2.0 * p * p;
     let rayleigh = Complex::real(g * g) + (a * b).scale(4.0 * p * p);
+    if rayleigh.abs() <= VANISHING * soil.shear_wave_speed().powi(-4) {
+        let (quantity, needed) = ("angle of incidence", "not the critical angle");
+        return Err(Error::Input { quantity, value: angle, needed });
+    }
     Ok((p, a, b, g, rayleigh))
 }
 
-/// `other` over `given`, if that is not too small.
+/// `other` over `given`, unless `given` is too small a share of it.
 fn ratio(quantity: &'static str, other: Complex, given: Complex) -> Result<Complex> {
     let share = given.abs() / other.abs().max(given.abs());
     if share > SMALLEST {
         Ok(other / given)
     } else {
-        Err(Error::Input { quantity, value: given.abs(), needed: "not zero at this angle" })
+        Err(Error::Input { quantity, value: share, needed: "above 0.01 to be prescribed" })
     }
 }

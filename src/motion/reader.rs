@@ -2,7 +2,8 @@
 
 use std::io::Read;
 
-use super::lines::{Lines, Reason, number, record};
+use super::fields::{Fields, is_failure, is_header};
+use super::lines::{Lines, Reason, record};
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
 
@@ -15,10 +16,12 @@ const STEP_TOLERANCE: f64 = 0.01;
 ///
 /// What is understood:
 /// * lines of numbers separated by commas, semicolons, spaces or tabs (a comma with spaces around it
-///   is one separator; two commas enclose an empty field), the decimal point a `.` (a comma beside
-///   semicolons is refused);
-/// * empty lines and comment lines that start with `#`, anywhere;
-/// * one header line, before all numbers, in which no field is a number;
+///   is one separator; two commas enclose an empty field), the decimal point a `.`, the exponent
+///   after an `E` or a `D`. A decimal comma is refused where it shows: beside semicolons or spaces
+///   that separate, or before a zero, as in `0,05`;
+/// * empty lines and comment lines that start with `#`, anywhere (`#N/A` and the like, which
+///   spreadsheets write for a value, are refused);
+/// * one header line, before all numbers, made of words: no field is a number, or begins like one;
 /// * line ends `\n` or `\r\n`, and a byte-order mark.
 ///
 /// The time column must advance by equal steps, to 1 % of a step (for rounded print); the time
@@ -129,49 +132,35 @@ fn read(lines: &mut Lines, format: &ColumnFormat) -> Reason<(f64, Vec<f64>)> {
 fn read_samples(lines: &mut Lines, format: &ColumnFormat) -> Reason<Vec<Sample>> {
     let mut samples = Vec::new();
     let mut header_may_come = true;
+    let mut columns = None;
     while let Some(text) = lines.next()? {
-        if text.is_empty() || text.starts_with('#') {
+        if text.is_empty() || text.starts_with('#') && !is_failure(&text) {
             continue;
         }
-        let fields = fields(&text);
-        let is_header = header_may_come && fields.iter().all(|field| field.parse::<f64>().is_err());
+        let fields = Fields::of(&text);
+        let is_header = header_may_come && is_header(&fields);
         header_may_come = false;
-        if !is_header {
-            let value = |column| column_value(&fields, column).map_err(|why| lines.refuse(why));
-            let time = match format.time {
-                Time::Column(column) => value(column)?,
-                Time::Step(_) => 0.0,
-            };
-            if format.acceleration.is_none() && fields.len() > 1 {
-                return Err(lines.refuse(RecordError::SeveralColumns { found: fields.len() }));
-            }
-            let acceleration = value(format.acceleration.unwrap_or(1))?;
-            samples.push(Sample { line: lines.number, time, acceleration });
+        if is_header {
+            continue;
         }
+        let value = |column| fields.number(column).map_err(|why| lines.refuse(why));
+        let time = match format.time {
+            Time::Column(column) => value(column)?,
+            Time::Step(_) => 0.0,
+        };
+        let found = fields.texts.len();
+        if format.acceleration.is_none() && found > 1 {
+            return Err(lines.refuse(RecordError::SeveralColumns { found }));
+        }
+        let acceleration = value(format.acceleration.unwrap_or(1))?;
+        let expected = *columns.get_or_insert(found);
+        // A comma of thousands, or an empty field between tabs, has moved the columns behind it.
+        if found != expected && (fields.separator == Some(',') || text.contains("\t\t")) {
+            return Err(lines.refuse(RecordError::UnequalColumns { found, expected }));
+        }
+        samples.push(Sample { line: lines.number, time, acceleration });
     }
     Ok(samples)
-}
-
-/// Fields of a line: commas or else semicolons separate, and so does white space between two
-/// fields.
-fn fields(text: &str) -> Vec<&str> {
-    let mut fields = Vec::new();
-    // Beside semicolons a comma would be one of decimals: left in its field, which is no number.
-    let separator = if text.contains(';') { ';' } else { ',' };
-    for piece in text.split(separator) {
-        if piece.trim().is_empty() {
-            fields.push("");
-        } else {
-            fields.extend(piece.split_whitespace());
-        }
-    }
-    fields
-}
-
-/// Finite number in a column, counted from 1.
-fn column_value(fields: &[&str], column: usize) -> std::result::Result<f64, RecordError> {
-    let missing = RecordError::Column { found: fields.len(), needed: column };
-    number(column.checked_sub(1).and_then(|index| fields.get(index)).ok_or(missing)?)
 }
 
 /// The common time step.

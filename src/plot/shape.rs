@@ -10,7 +10,7 @@ use super::text::short;
 use crate::error::{Error, Result, finite, positive};
 use crate::results::{Histories, MotionFrame, Wireframe};
 
-/// Places of the points, m: displacements relative to the mean free field, magnified.
+/// Places of the points, m: displacements relative to the free field, magnified.
 pub(super) fn places(
     shape: &Wireframe,
     frame: &MotionFrame<'_>,
@@ -18,7 +18,7 @@ pub(super) fn places(
 ) -> Result<Vec<[f64; 2]>> {
     let moved = shape.displacements(frame.displacement)?;
     let place = |(point, u): (&crate::results::WirePoint, [f64; 2])| {
-        [0, 1].map(|k| point.position[k] + magnification * (u[k] - frame.free_field[k]))
+        [0, 1].map(|k| point.position[k] + magnification * u[k])
     };
     let places: Vec<[f64; 2]> = shape.points().iter().zip(moved).map(place).collect();
     match places.iter().flatten().find(|value| !drawable(**value)) {

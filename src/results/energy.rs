@@ -80,6 +80,7 @@ mod tests {
             layer: 64.0,
             preload: -7.0,
             input: 376.0,
+            relative_input: 300.0,
             soil_error_bound: 0.0,
         };
         assert_eq!(ledger.residual(), 0.0);

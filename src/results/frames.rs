@@ -21,9 +21,10 @@ pub struct ContactFrame<'a> {
 pub struct MotionFrame<'a> {
     /// Time, s.
     pub time: f64,
-    /// Unknowns, as changes against the static state, m and rad.
+    /// Unknowns as changes against the static state, relative to the free field's translation, m
+    /// and rad.
     pub displacement: &'a [f64],
-    /// Their rates.
+    /// Their total rates.
     pub velocity: &'a [f64],
     /// Mean displacement [horizontal, up] of the free field under the base, m.
     pub free_field: [f64; 2],

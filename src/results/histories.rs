@@ -9,7 +9,7 @@ use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
 use super::unit::labelled;
 use super::{Extremes, Quantity, Recorder, Sliding, Uplift};
 use crate::bem::ContactElement;
-use crate::coupled::{Ledger, Peak, Probe, Run, Simulation, State, probe_index};
+use crate::coupled::{Ledger, Peak, Probe, Resolution, Run, Simulation, State, probe_index};
 use crate::error::{Error, Result, write_file};
 
 /// Histories of a run, its peaks and envelopes: made by [`Recorder::start`], fed by
@@ -54,6 +54,7 @@ pub(super) struct Tally {
     pub(super) ledger: Ledger,
     pub(super) ledger_residual: f64,
     pub(super) mode_changes: usize,
+    pub(super) resolution: Resolution,
 }
 
 impl Recorder {
@@ -129,6 +130,7 @@ impl Histories {
                 ledger: state.ledger,
                 ledger_residual: 0.0,
                 mode_changes: 0,
+                resolution: simulation.resolution(),
             },
             elements,
             recorder,
@@ -147,7 +149,9 @@ impl Histories {
         if steps <= MOST_RESERVED {
             self.reserve(steps);
         }
-        simulation.run(steps, |state| self.record(state))
+        let run = simulation.run(steps, |state| self.record(state))?;
+        self.tally.resolution.learn(run.resolution());
+        Ok(run)
     }
 
     /// Reserves memory for so many more steps, at most a million: recording them allocates nothing then (unless there
@@ -327,6 +331,7 @@ impl Tally {
         self.ledger = state.ledger;
         self.ledger_residual = self.ledger_residual.max(state.ledger.residual());
         self.mode_changes += state.transitions.len();
+        self.resolution.see(state);
     }
 }
 

@@ -60,6 +60,13 @@ impl Histories {
         let tally = &self.tally;
         let shortest =
             self.elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min);
+        let mut warnings = Warning::all(
+            tally.sliding.element_peak.value,
+            shortest,
+            self.extremes(Quantity::BaseRotation).largest().value,
+            tally.ledger.residual(),
+        );
+        tally.resolution.warn(&mut warnings);
         let sliding_safety = self.extremes(Quantity::SlidingSafety).lowest;
         Summary {
             steps: tally.steps,
@@ -90,12 +97,7 @@ impl Histories {
             ledger: tally.ledger,
             ledger_residual: tally.ledger_residual,
             mode_changes: tally.mode_changes,
-            warnings: Warning::all(
-                tally.sliding.element_peak.value,
-                shortest,
-                self.extremes(Quantity::BaseRotation).largest().value,
-                tally.ledger.residual(),
-            ),
+            warnings,
         }
     }
 }

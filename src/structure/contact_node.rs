@@ -32,6 +32,12 @@ impl ContactNode {
         }
     }
 
+    /// The unknowns that move it.
+    pub(crate) fn unknowns(&self) -> impl Iterator<Item = usize> {
+        let terms = self.horizontal.iter().chain(self.vertical.iter());
+        terms.filter(|(_, weight)| *weight != 0.0).map(|(unknown, _)| *unknown)
+    }
+
     /// The two ends of a rigid flat base from `left` to `right`, unknowns at its middle.
     pub fn rigid_base(left: f64, right: f64, unknowns: [usize; 3]) -> Vec<Self> {
         let center = 0.5 * (left + right);

@@ -9,6 +9,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::detached::{check_attached, numbers};
 use super::matrix_model::SYMMETRIC;
 use super::recovery::{Basis, Recovery};
 use super::{ContactNode, Row, Structure, Triplets};
@@ -57,6 +58,8 @@ pub struct ReducedModel {
     mass: Vec<f64>,
     damping: Vec<f64>,
     stiffness: Vec<f64>,
+    /// Whether `damping` is that of a structure that may feed energy in.
+    active: bool,
     /// Circular frequencies of the modes, rad/s.
     frequencies: Vec<f64>,
     load: Mutex<FullLoad>,
@@ -94,7 +97,8 @@ impl CraigBampton {
     ///
     /// # Errors
     /// [`Error::Scene`] for a nonlinear structure or matrices that are not symmetric,
-    /// [`Error::Index`] for a kept unknown that does not exist, [`Error::Size`] for more modes than
+    /// [`Error::Detached`] for a part that no stiffness joins to a kept unknown, [`Error::Index`] for a
+    /// kept unknown that does not exist, [`Error::Size`] for more modes than
     /// unknowns are left, [`Error::Singular`] when the kept unknowns do not hold the rest or its
     /// stiffness is not positive.
     pub fn reduce(&self, structure: impl Structure + 'static) -> Result<ReducedModel> {
@@ -116,6 +120,7 @@ impl CraigBampton {
 
         let contact = structure.contact_nodes();
         let parts = Parts::new(n, &contact, &self.kept)?;
+        check_attached(&structure, &stiffness, &mass, &parts.kept)?;
         let interior = parts.interior.len();
         if self.modes > interior {
             let quantity = "list of fixed-interface modes";
@@ -125,13 +130,15 @@ impl CraigBampton {
         let basis = Basis::new(parts.kept.clone(), rows, n);
         let order = basis.order();
         let kept = parts.kept.len();
+        let contact = contact.iter().map(|node| parts.renumbered(node)).collect();
         let mut model = ReducedModel {
             mass: basis.congruence(&mass),
             damping: basis.congruence(&damping),
             stiffness: basis.congruence(&stiffness),
-            contact: contact.iter().map(|node| parts.renumbered(node)).collect(),
+            contact,
             frequencies: squares.iter().map(|square| square.sqrt()).collect(),
             foundation_ends: structure.foundation_ends(),
+            active: structure.has_active_damping(),
             load: Mutex::new(FullLoad { values: vec![0.0; n], structure: Box::new(structure) }),
             basis: Arc::new(basis),
         };
@@ -262,6 +269,7 @@ impl ReducedModel {
     pub fn with_damping_ratio(mut self, ratio: f64) -> Result<Self> {
         not_negative("damping ratio", ratio)?;
         self.damping.fill(0.0);
+        self.active = false;
         let order = self.basis.order();
         let kept = order - self.frequencies.len();
         for (k, frequency) in self.frequencies.iter().enumerate() {
@@ -303,6 +311,26 @@ impl Structure for ReducedModel {
 
     fn damping(&self, matrix: &mut Triplets) {
         add(&self.damping, self.unknowns(), matrix);
+    }
+
+    fn has_active_damping(&self) -> bool {
+        self.active
+    }
+
+    /// Kept unknowns as the full model describes them, and modes.
+    fn describe(&self, unknowns: &[usize]) -> Option<String> {
+        let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = self.basis.kept();
+        let (own, modes): (Vec<usize>, Vec<usize>) =
+            unknowns.iter().partition(|&&unknown| unknown < kept.len());
+        let own: Vec<usize> = own.into_iter().map(|unknown| kept[unknown]).collect();
+        let mut texts = Vec::new();
+        if !own.is_empty() {
+            texts.push(full.structure.describe(&own).unwrap_or_else(|| numbers(&own)));
+        }
+        let mode = |unknown: &usize| format!("mode {} of the reduction", unknown - kept.len());
+        texts.extend(modes.first().map(mode));
+        (!texts.is_empty()).then(|| texts.join("; "))
     }
 
     /// The load of the full model, as it works on the reduced unknowns.

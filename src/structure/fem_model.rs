@@ -2,19 +2,21 @@
 
 use super::rayleigh::RayleighDamping;
 use super::rigid_links::RigidLinks;
-use super::{ContactNode, Row, Structure, Triplets};
+use super::{ContactNode, Row, Structure, Triplets, node_names};
 use crate::error::{Error, Result, positive};
 use crate::fem::{
     Direction, MassKind, Mesh, Numbering, assemble_damping, assemble_geometric_stiffness,
     assemble_mass, assemble_stiffness,
 };
 
-pub(super) const ALL_DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Rotation];
-
 /// Finite-element structure on a flat base.
 ///
 /// Unknowns: those of [`Numbering`], node by node. Mass consistent, no Rayleigh damping, unless
 /// set otherwise.
+///
+/// Elements act on each other through common nodes. A part that has none in common with what stands
+/// on the ground must be tied to it by rigid links or [springs](super::WithSprings), or no simulation
+/// is built: [`Error::Detached`] names the nodes, and those at the same place that were not merged.
 ///
 /// ```
 /// use basemat::fem::{Direction, Layer, Material, Mesh};
@@ -43,6 +45,7 @@ pub struct FemModel {
     ends: Vec<usize>,
     pub(super) mass_kind: MassKind,
     pub(super) damping: RayleighDamping,
+    active_damping: bool,
     /// Acceleration of gravity of the weight whose axial forces make P–Δ.
     pub(super) p_delta: Option<f64>,
 }
@@ -93,6 +96,7 @@ impl FemModel {
             ends: Vec::new(),
             mass_kind: MassKind::default(),
             damping: RayleighDamping::default(),
+            active_damping: false,
             p_delta: None,
         })
     }
@@ -163,6 +167,13 @@ impl FemModel {
     #[must_use]
     pub fn with_rayleigh(self, damping: RayleighDamping) -> Self {
         Self { damping, ..self }
+    }
+
+    /// The same structure with elements whose damping matrices may be unsymmetric or feed energy in
+    /// ([`Structure::has_active_damping`]); no simulation takes such a one otherwise.
+    #[must_use]
+    pub fn with_active_damping(self) -> Self {
+        Self { active_damping: true, ..self }
     }
 
     /// The same structure in which the nodes `followers` move with `leader` as one rigid body: stiff
@@ -278,7 +289,7 @@ impl FemModel {
                 Direction::Y => [0.0, 1.0, 0.0],
                 Direction::Rotation => [point[1] - y, x - point[0], 1.0],
             };
-            for (own, value) in ALL_DIRECTIONS.into_iter().zip(values) {
+            for (own, value) in Direction::ALL.into_iter().zip(values) {
                 if let Some(unknown) = number(node, own) {
                     motion[unknown] = value;
                 }
@@ -323,6 +334,19 @@ impl Structure for FemModel {
             assemble_stiffness(&self.mesh, &self.numbering, 1.0, matrix);
             assemble_geometric_stiffness(&self.mesh, &self.numbering, 1.0, matrix);
         });
+    }
+
+    /// Nodes with their places, and whether one of the rest lies where one of them does.
+    fn describe(&self, unknowns: &[usize]) -> Option<String> {
+        node_names::describe(
+            self.mesh(),
+            &|node, direction| self.unknown(node, direction),
+            unknowns,
+        )
+    }
+
+    fn has_active_damping(&self) -> bool {
+        self.active_damping
     }
 
     fn damping(&self, matrix: &mut Triplets) {

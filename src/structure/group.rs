@@ -1,5 +1,6 @@
 //! Several structures on one ground.
 
+use super::detached::numbers;
 use super::{ContactNode, InternalEnergy, Row, Structure, Triplets};
 use crate::coupled::Probe;
 use crate::error::{CheckpointError, Error, Result, finite};
@@ -186,6 +187,26 @@ impl Structure for StructureGroup {
 
     fn damping(&self, matrix: &mut Triplets) {
         self.write(matrix, Structure::damping);
+    }
+
+    /// Those that none of the members describes by numbers of the group.
+    fn describe(&self, unknowns: &[usize]) -> Option<String> {
+        let mut texts = Vec::new();
+        for (k, member) in self.members.iter().enumerate() {
+            let range = member.range();
+            let all: Vec<usize> = unknowns.iter().copied().filter(|u| range.contains(u)).collect();
+            if !all.is_empty() {
+                let own: Vec<usize> = all.iter().map(|u| u - range.start).collect();
+                let text = member.structure.describe(&own).unwrap_or_else(|| numbers(&all));
+                texts.push(format!("structure {k}: {text}"));
+            }
+        }
+        (!texts.is_empty()).then(|| texts.join("; "))
+    }
+
+    /// If that of a member is.
+    fn has_active_damping(&self) -> bool {
+        self.members.iter().any(|member| member.structure.has_active_damping())
     }
 
     fn load(&self, time: f64, load: &mut [f64]) {

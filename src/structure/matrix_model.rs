@@ -5,14 +5,15 @@ use super::{ContactNode, Structure, Triplets, check_contact_nodes};
 use crate::error::{Error, Result, same_length};
 use crate::linalg::{SparseMatrix, indefinite_row};
 
+const DAMPING: &str = "damping matrix";
 /// Relative difference of mirrored entries up to which a matrix counts as symmetric.
 pub(super) const SYMMETRIC: f64 = 1e-9;
-/// Negative masses up to this, relative to those on the diagonal, are rounding: what a file with
+/// Negative masses and dampings up to this, relative to those on the diagonal, are rounding: what a file with
 /// seven digits leaves of a singular matrix.
 const SEMI_DEFINITE: f64 = 1e-6;
-/// Masses up to this, relative to the largest entry, are rounding: what reductions and sums leave
+/// Masses and dampings up to this, relative to the largest entry, are rounding: what reductions and sums leave
 /// of none. One bound for kg and kg m², which differ by far less.
-const MASSLESS: f64 = 1e-12;
+pub(super) const MASSLESS: f64 = 1e-12;
 
 /// A structure given by mass, damping and stiffness matrices, from another program for example.
 ///
@@ -47,6 +48,8 @@ pub struct MatrixModel {
     damping: Triplets,
     stiffness: Triplets,
     contact: Vec<ContactNode>,
+    /// Whether the damping is taken as it is.
+    active: bool,
 }
 
 impl MatrixModel {
@@ -67,23 +70,37 @@ impl MatrixModel {
         check_mass(&inertia)?;
         check("stiffness matrix", &stiffness, order)?;
         check_contact_nodes(&contact, order)?;
-        Ok(Self { mass, damping: Triplets::new(order), stiffness, contact })
+        Ok(Self { mass, damping: Triplets::new(order), stiffness, contact, active: false })
     }
 
     /// The same structure with a damping matrix (N s/m per metre), in place of what it had.
     ///
     /// # Errors
     /// [`Error::Size`] for another order, [`Error::Index`] and [`Error::Input`] for entries out of
-    /// range or not finite.
+    /// range or not finite, [`Error::Scene`] for a matrix that is not symmetric,
+    /// [`Error::Indefinite`] for one with negative damping, more than rounding.
     pub fn with_damping(self, damping: Triplets) -> Result<Self> {
-        check("damping matrix", &damping, self.mass.order())?;
-        Ok(Self { damping, ..self })
+        check_damping(&check(DAMPING, &damping, self.mass.order())?)?;
+        Ok(Self { damping, active: false, ..self })
+    }
+
+    /// The same with a matrix that need be neither symmetric nor positive semi-definite: that of
+    /// gyroscopes, or of dampers that feed energy in. What it feeds in shows as negative
+    /// [`damping`](crate::coupled::Ledger::damping) in the ledger.
+    ///
+    /// # Errors
+    /// [`Error::Size`], [`Error::Index`] and [`Error::Input`] as for
+    /// [`with_damping`](MatrixModel::with_damping).
+    pub fn with_active_damping(self, damping: Triplets) -> Result<Self> {
+        check(DAMPING, &damping, self.mass.order())?;
+        Ok(Self { damping, active: true, ..self })
     }
 
     /// The same structure with Rayleigh damping, in place of what it had.
     #[must_use]
     pub fn with_rayleigh(mut self, damping: RayleighDamping) -> Self {
         self.damping.clear();
+        self.active = false;
         for (matrix, factor) in
             [(&self.mass, damping.mass()), (&self.stiffness, damping.stiffness())]
         {
@@ -97,20 +114,28 @@ impl MatrixModel {
 
 /// Refuses a mass matrix that is not symmetric or not positive semi-definite.
 pub(crate) fn check_mass(mass: &SparseMatrix) -> Result<()> {
-    const NAME: &str = "mass matrix";
-    if mass.asymmetry() > SYMMETRIC {
-        return Err(Error::Scene { quantity: NAME, needed: "must be symmetric" });
+    check_semi_definite("mass matrix", mass)
+}
+
+/// Refuses a damping matrix that is not symmetric or not positive semi-definite.
+pub(crate) fn check_damping(damping: &SparseMatrix) -> Result<()> {
+    check_semi_definite(DAMPING, damping)
+}
+
+fn check_semi_definite(name: &'static str, matrix: &SparseMatrix) -> Result<()> {
+    if matrix.asymmetry() > SYMMETRIC {
+        return Err(Error::Scene { quantity: name, needed: "must be symmetric" });
     }
-    let largest = mass.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
-    match indefinite_row(mass, SEMI_DEFINITE, MASSLESS * largest) {
-        Some(row) => Err(Error::Indefinite { matrix: NAME, row, diagonal: mass.diagonal()[row] }),
+    let largest = matrix.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
+    match indefinite_row(matrix, SEMI_DEFINITE, MASSLESS * largest) {
+        Some(row) => Err(Error::Indefinite { matrix: name, row, diagonal: matrix.diagonal()[row] }),
         None => Ok(()),
     }
 }
 
-fn check(name: &'static str, matrix: &Triplets, order: usize) -> Result<()> {
+fn check(name: &'static str, matrix: &Triplets, order: usize) -> Result<SparseMatrix> {
     same_length(name, matrix.order(), order)?;
-    SparseMatrix::new(name, matrix).map(drop)
+    SparseMatrix::new(name, matrix)
 }
 
 /// Adds `factor` times one matrix to another.
@@ -139,5 +164,9 @@ impl Structure for MatrixModel {
 
     fn damping(&self, matrix: &mut Triplets) {
         add(&self.damping, 1.0, matrix);
+    }
+
+    fn has_active_damping(&self) -> bool {
+        self.active
     }
 }

@@ -2,11 +2,13 @@
 
 mod contact_node;
 mod craig_bampton;
+mod detached;
 mod fem_model;
 mod group;
 mod hysteresis;
 mod matrix_model;
 mod modal_damping;
+mod node_names;
 mod nonlinear_shear_building;
 mod p_delta;
 mod rayleigh;
@@ -23,13 +25,14 @@ mod triplets;
 pub use contact_node::ContactNode;
 pub(crate) use contact_node::{check_contact_nodes, foundation_nodes};
 pub use craig_bampton::{CraigBampton, ReducedModel};
+pub(crate) use detached::check_attached;
 pub use fem_model::FemModel;
 pub use group::StructureGroup;
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
 };
 pub use matrix_model::MatrixModel;
-pub(crate) use matrix_model::check_mass;
+pub(crate) use matrix_model::{check_damping, check_mass};
 pub use modal_damping::{ModalDamping, WithModalDamping};
 pub use nonlinear_shear_building::{IsolationLevel, NonlinearShearBuilding};
 pub use rayleigh::RayleighDamping;
@@ -61,7 +64,10 @@ use crate::error::{CheckpointError, Result};
 ///
 /// No support is fixed, the ground holds the structure up: neither K nor the tangent of f at rest
 /// may resist a rigid ride to the right or upwards. Structures with stiffness to a fixed point are
-/// refused when a simulation is built ([`Error::Supported`](crate::Error::Supported)).
+/// refused when a simulation is built ([`Error::Supported`](crate::Error::Supported)), and so are
+/// those with a part that has mass or stiffness, but no way by stiffness to the unknowns of a contact
+/// node ([`Error::Detached`](crate::Error::Detached)). Coordinates of modes and others relative to
+/// the base, which a stiffness of their own holds and the mass couples with the rest, are no such part.
 ///
 /// All forces are per metre of thickness.
 ///
@@ -100,7 +106,23 @@ pub trait Structure: Any + Send {
     fn stiffness(&self, matrix: &mut Triplets);
 
     /// Adds the viscous damping matrix (n × n) to `matrix`. Default: none.
+    ///
+    /// Symmetric and positive semi-definite, up to rounding as for the mass, or no simulation is
+    /// built ([`Error::Scene`](crate::Error::Scene), [`Error::Indefinite`](crate::Error::Indefinite));
+    /// [`has_active_damping`](Structure::has_active_damping) lifts that.
     fn damping(&self, _matrix: &mut Triplets) {}
+
+    /// Whether the damping matrix is meant to be unsymmetric or to feed energy in, as gyroscopes and
+    /// active dampers do: then it is taken as it is. Default: no.
+    fn has_active_damping(&self) -> bool {
+        false
+    }
+
+    /// What errors call these unknowns, for a person who knows the structure by its nodes or storeys.
+    /// Default: `None`, and errors give their numbers.
+    fn describe(&self, _unknowns: &[usize]) -> Option<String> {
+        None
+    }
 
     /// Adds the external load at `time` (n, N/m), weight excepted, to `load`. Default: none.
     fn load(&self, _time: f64, _load: &mut [f64]) {}
@@ -168,6 +190,8 @@ impl<T: Structure + ?Sized> Structure for Box<T> {
         fn mass(&self, matrix: &mut Triplets);
         fn stiffness(&self, matrix: &mut Triplets);
         fn damping(&self, matrix: &mut Triplets);
+        fn has_active_damping(&self) -> bool;
+        fn describe(&self, unknowns: &[usize]) -> Option<String>;
         fn load(&self, time: f64, load: &mut [f64]);
         fn is_linear(&self) -> bool;
         fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]);

@@ -136,6 +136,8 @@ impl Structure for WithModalDamping {
         fn foundation_ends(&self) -> Vec<usize>;
         fn mass(&self, matrix: &mut Triplets);
         fn stiffness(&self, matrix: &mut Triplets);
+        fn has_active_damping(&self) -> bool;
+        fn describe(&self, unknowns: &[usize]) -> Option<String>;
         fn load(&self, time: f64, load: &mut [f64]);
         fn is_linear(&self) -> bool;
         fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]);

@@ -25,6 +25,11 @@ impl Basis {
         Self { kept, transposed, full }
     }
 
+    /// Unknowns of the full model that are among those of the reduced one.
+    pub(super) fn kept(&self) -> &[usize] {
+        &self.kept
+    }
+
     /// Number of reduced unknowns.
     pub(super) fn order(&self) -> usize {
         self.transposed.len() / self.full.max(1)

@@ -2,7 +2,7 @@
 
 use super::{ContactNode, Triplets};
 use crate::error::Result;
-use crate::linalg::{SparseFactor, SparseMatrix, dot};
+use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot};
 
 /// A part of a ride with less of its momentum than this is rounding.
 const NOTHING: f64 = 1e-8;
@@ -39,7 +39,9 @@ pub(super) fn rigid_momenta(
         }
     }
     let mut factor = SparseFactor::new("stiffness matrix with its base held", &matrix)?;
-    let parts = parts(stiffness);
+    let mut coupled = Partition::new(n);
+    coupled.couple(stiffness);
+    let parts = coupled.sets();
     let (mut motions, mut momenta): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
     for ride in &mut rides {
         factor.solve(ride);
@@ -73,29 +75,4 @@ pub(super) fn rigid_momenta(
         }
     }
     Ok(momenta)
-}
-
-/// Sets of unknowns that no stiffness couples to those of another set.
-fn parts(stiffness: &SparseMatrix) -> Vec<Vec<usize>> {
-    let n = stiffness.order();
-    let mut parent: Vec<usize> = (0..n).collect();
-    let root = |parent: &mut [usize], mut i: usize| {
-        while parent[i] != i {
-            parent[i] = parent[parent[i]];
-            i = parent[i];
-        }
-        i
-    };
-    for (row, column, value) in stiffness.entries() {
-        if value != 0.0 {
-            let (a, b) = (root(&mut parent, row), root(&mut parent, column));
-            parent[a.max(b)] = a.min(b);
-        }
-    }
-    let mut sets = vec![Vec::new(); n];
-    for i in 0..n {
-        sets[root(&mut parent, i)].push(i);
-    }
-    sets.retain(|set| !set.is_empty());
-    sets
 }

@@ -1,6 +1,5 @@
 //! Forces that pass through a horizontal cut, and those of a finite-element model.
 
-use super::fem_model::ALL_DIRECTIONS;
 use super::{FemModel, Row, Triplets};
 use crate::error::{Error, Result, finite};
 use crate::fem::{Direction, Quantity, assemble};
@@ -105,7 +104,7 @@ impl FemModel {
             self.fill_rigid_motion(direction, [reference, height], &mut motion, number);
             let mut weights = vec![0.0; motion.len()];
             for &node in &cut {
-                for unknown in ALL_DIRECTIONS.iter().filter_map(|&d| number(node, d)) {
+                for unknown in Direction::ALL.iter().filter_map(|&d| number(node, d)) {
                     weights[unknown] = sign * motion[unknown];
                 }
             }

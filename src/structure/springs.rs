@@ -164,6 +164,8 @@ impl Structure for WithSprings {
         fn mass(&self, matrix: &mut Triplets);
         fn stiffness(&self, matrix: &mut Triplets);
         fn damping(&self, matrix: &mut Triplets);
+        fn has_active_damping(&self) -> bool;
+        fn describe(&self, unknowns: &[usize]) -> Option<String>;
         fn load(&self, time: f64, load: &mut [f64]);
     }
 

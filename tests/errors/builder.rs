@@ -1,4 +1,6 @@
-//! Scenes with parts that are missing, do not fit, or break.
+//! GOAL: a builder names the part that is missing, does not fit, or breaks.
+//! SCENE: a complete scene with one part left out, given a bad number, or replaced.
+//! REFERENCE: the fields of the error.
 
 use basemat::bem::SpringGround;
 use basemat::coupled::{Probe, SchemeCoefficients, SimulationBuilder, Theta, TimeScheme};
@@ -9,7 +11,7 @@ use basemat::motion::FreeField;
 use basemat::{Error, Simulation};
 
 use super::{BAD, NEGATIVE, NOT_FINITE, error_with, refused};
-use crate::scene::{bed, block};
+use crate::support::block_on_springs::{bed, block};
 
 /// A scene that is complete, for one thing to be spoilt.
 pub(crate) fn good() -> SimulationBuilder {

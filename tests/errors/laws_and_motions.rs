@@ -1,4 +1,6 @@
-//! Interface laws, time schemes and ground motions.
+//! GOAL: interface laws, time schemes and ground motions refuse bad numbers.
+//! SCENE: zero, negative and non-finite parameters.
+//! REFERENCE: the fields of the error.
 
 use basemat::Error;
 use basemat::coupled::Theta;

@@ -1,15 +1,17 @@
-//! Bad input: the soil, the ground, the interface, the motion and the builder refuse it with a
-//! typed error that names quantity, value and need. Elements, structures, record files and closed
-//! forms have the like in their own test files.
+//! GOAL: soil, ground, interface, motion, builder and step refuse bad input with a typed error that
+//! names quantity, value and need.
+//! SCENE: one quantity spoilt at a time.
+//! REFERENCE: the fields of the error. Elements, record files and closed forms are tested in their
+//! own files.
 
 mod builder;
 mod laws_and_motions;
-#[path = "../support/block_on_springs.rs"]
-mod scene;
 mod soils_and_grounds;
 mod spoilt;
 mod steps;
 mod structures;
+#[path = "../support/mod.rs"]
+mod support;
 
 use basemat::{Error, Soil};
 

@@ -1,4 +1,6 @@
-//! Soils, strips, grounds and their kernels.
+//! GOAL: soils, strips, grounds and their kernels refuse bad numbers and absurd counts.
+//! SCENE: zero, negative and non-finite parameters; grounds that were not prepared.
+//! REFERENCE: the fields of the error; nothing is allocated for an absurd count.
 
 use basemat::bem::{
     ContactElement, Grading, Ground, HalfPlaneGround, InfluenceKernel, PatchKernel, SpringGround,
@@ -7,7 +9,7 @@ use basemat::bem::{
 use basemat::{Error, Soil};
 
 use super::{BAD, NEGATIVE, NOT_FINITE, error_with, refused, soil};
-use crate::scene::bed;
+use crate::support::block_on_springs::bed;
 
 #[test]
 fn soils() {

@@ -1,11 +1,11 @@
-//! A structure to be spoilt in one thing.
+//! A structure with one thing spoilt.
 
 use basemat::Simulation;
 use basemat::coupled::SimulationBuilder;
 use basemat::interface::Bonded;
 use basemat::structure::{ContactNode, Structure, Triplets};
 
-use crate::scene::bed;
+use crate::support::block_on_springs::bed;
 
 /// A structure of which one part is spoilt.
 #[derive(Clone)]

@@ -1,4 +1,6 @@
-//! Structures whose matrices, base or loads make no sense.
+//! GOAL: structures whose matrices, base or loads make no sense are refused.
+//! SCENE: entries out of range or not finite, endless sizes, bad bases, loads without equilibrium.
+//! REFERENCE: the fields of the error.
 
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::Placement;
@@ -8,10 +10,10 @@ use basemat::structure::{
 };
 use basemat::{Error, Simulation, Soil};
 
+use super::builder::unbuilt;
+use super::spoilt::Spoilt;
 use super::{NOT_FINITE, refused};
-use crate::builder::unbuilt;
-use crate::scene::bed;
-use crate::spoilt::Spoilt;
+use crate::support::block_on_springs::bed;
 
 #[test]
 fn structures_that_write_out_of_range_or_nan_are_refused() {
@@ -46,6 +48,15 @@ fn structures_that_write_out_of_range_or_nan_are_refused() {
     refused("load at t = 0", &[f64::NAN], |_| {
         Spoilt { load_from: 0.0, ..sound() }.scene().build().map(drop)
     });
+}
+
+#[test]
+fn damping_that_feeds_energy_in_is_refused() {
+    let with = |damping| Spoilt { damping, ..Spoilt::sound() }.scene();
+    let error = unbuilt("positive semi-definite", with((1, 1, -1.0)));
+    assert_eq!(error, Error::Indefinite { matrix: "damping matrix", row: 1, diagonal: -1.0 });
+    let error = unbuilt("must be symmetric", with((0, 1, 1.0)));
+    assert!(matches!(error, Error::Scene { quantity: "damping matrix", .. }));
 }
 
 #[test]

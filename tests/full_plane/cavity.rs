@@ -1,4 +1,6 @@
-//! A cavity against its closed form.
+//! GOAL: curved boundaries converge.
+//! SCENE: circular cavity under a pressure switched on at once.
+//! REFERENCE: closed form in the Laplace domain.
 
 use basemat::bem::full_plane::{BoundaryMarch, Given, TimeKernel};
 

@@ -1,4 +1,6 @@
-//! The flat boundary against the half-plane.
+//! GOAL: the flat full-plane boundary is the half-plane, but for its truncated surface.
+//! SCENE: rigid strips and blocks with free elements on either side.
+//! REFERENCE: impedances by a spectral method, and runs on the half-plane.
 
 use basemat::bem::full_plane::{Boundary, CqMethod, FullPlaneGround};
 use basemat::bem::{Ground, HalfPlaneGround, Strip};
@@ -6,7 +8,7 @@ use basemat::bem::{Ground, HalfPlaneGround, Strip};
 use super::soil;
 use crate::support::close;
 use crate::support::series::{Error as SeriesError, within};
-use crate::truncation::{Mesh, block_errors, impedance_errors, rocking};
+use crate::support::truncation::{Mesh, block_errors, impedance_errors, rocking};
 
 fn time_mesh(elements: usize, free: usize, beta: f64) -> Mesh {
     Mesh { elements, free, beta, quadrature: None }

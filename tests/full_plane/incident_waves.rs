@@ -1,4 +1,7 @@
-//! Waves from below: the boundary equation, canyons, and excavations.
+//! GOAL: incident waves satisfy the boundary equation and scatter only where the surface is not
+//! flat.
+//! SCENE: a box of soil, a canyon beside a strip, an excavation.
+//! REFERENCE: both sides of the boundary equation; the motion of the new surface in closed form.
 
 use basemat::bem::full_plane::{
     Boundary, FullPlaneGround, IncidentField, Segment, TimeKernel, VerticalWaves,

@@ -1,14 +1,20 @@
-//! Full-plane boundary elements: coefficients, cavities, and the ground against the half-plane.
+//! GOAL: full-plane boundary elements: coefficients, stability, cavities, incident waves, and the
+//! ground against the half-plane.
+//! SCENE: circles, trenches and flat surfaces in a soil of unit modulus and density.
+//! REFERENCE: quadrature, closed forms and half-plane kernels.
 
+mod assessment;
 mod cavity;
 mod coefficients;
+mod convolution_quadrature;
+mod growth;
 mod half_plane;
 mod incident_waves;
+mod navier;
 mod refused;
+mod stability;
 #[path = "../support/mod.rs"]
 mod support;
-#[path = "../support/truncation.rs"]
-mod truncation;
 
 use std::f64::consts::PI;
 
@@ -17,6 +23,16 @@ use basemat::bem::full_plane::{BoundaryKernel, Segment, TimeKernel};
 
 fn soil(poisson: f64) -> Soil {
     Soil::new(1.0, poisson, 1.0).unwrap()
+}
+
+/// μ = ρ = c₂ = 1, ν = 1/3: c₁ = 2.
+fn unit_soil() -> Soil {
+    soil(1.0 / 3.0)
+}
+
+/// `count` unit elements of a flat surface.
+fn flat(count: usize) -> Vec<Segment> {
+    (0..count).map(|k| Segment { from: [k as f64, 0.0], to: [k as f64 + 1.0, 0.0] }).collect()
 }
 
 /// G and H of a lag.

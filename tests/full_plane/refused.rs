@@ -1,4 +1,7 @@
-//! Input that makes no sense, and two motions at once.
+//! GOAL: input that makes no sense, and two motions at once, are refused.
+//! SCENE: empty, degenerate and non-finite boundaries; an incident field beside a motion of the
+//! scene.
+//! REFERENCE: the typed error.
 
 use basemat::bem::Ground;
 use basemat::bem::full_plane::{

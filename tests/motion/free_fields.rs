@@ -1,4 +1,6 @@
-//! Free fields, their velocities and stresses.
+//! GOAL: free fields, their velocities and stresses agree with their source.
+//! SCENE: El Centro in one and two components, functions, Ricker pulses.
+//! REFERENCE: the source itself, and closed-form derivatives.
 
 use basemat::Soil;
 use basemat::bem::full_plane::{IncidentField, VerticalWaves};

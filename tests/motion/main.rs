@@ -1,8 +1,32 @@
-//! Ground-motion records: integration, peaks, baselines, free fields.
+//! GOAL: ground-motion records, their files, baselines, spectra and free fields.
+//! SCENE: El Centro 1940, pulses, and any samples.
+//! REFERENCE: published values, closed forms, independent integrations.
 
 mod baselines;
 mod filters;
 mod free_fields;
+mod fuzz;
+mod inclined_waves;
+mod motion_formats;
+mod motion_reader;
+mod odd_columns;
+mod odd_headers;
 mod records;
+mod response_spectrum;
 #[path = "../support/mod.rs"]
 mod support;
+
+use basemat::motion::{Record, RecordFormat};
+use basemat::{Error, RecordError};
+
+/// Line and reason of a text's refusal.
+#[track_caller]
+fn refusal(text: &(impl AsRef<[u8]> + ?Sized), format: &dyn RecordFormat) -> (usize, RecordError) {
+    match Record::from_reader("text", text.as_ref(), format) {
+        Err(Error::Record { file, line, reason }) => {
+            assert_eq!(file, "text");
+            (line, reason)
+        }
+        other => panic!("{other:?}"),
+    }
+}

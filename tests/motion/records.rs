@@ -1,4 +1,6 @@
-//! Records: integration, peaks, and what is between and outside the samples.
+//! GOAL: integrals, peaks and intensities of a record, between and outside its samples.
+//! SCENE: El Centro, ramps, any samples.
+//! REFERENCE: values tabulated with the record, and exact integrals.
 
 use approx::assert_relative_eq;
 use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};

@@ -1,11 +1,13 @@
-//! A free field of one's own.
+//! GOAL: a free field of one's own.
+//! SCENE: a wave that passes under a block.
+//! REFERENCE: the rotation of the base.
 
 use basemat::Simulation;
 use basemat::interface::Coulomb;
 use basemat::motion::FreeField;
 
 use super::{STEP, run};
-use crate::scene::{bed, block};
+use crate::support::block_on_springs::{bed, block};
 
 /// A wave that runs along the surface, so that the elements do not move alike.
 pub(crate) struct Passing {

@@ -1,4 +1,6 @@
-//! A fundamental solution of one's own.
+//! GOAL: a fundamental solution of one's own.
+//! SCENE: a toy with a front, behind the trait.
+//! REFERENCE: causality and typed errors.
 
 use basemat::fundamental::{FundamentalSolution, LoadHistory};
 use basemat::{Error, Result, Soil};

@@ -1,11 +1,13 @@
-//! A ground of one's own.
+//! GOAL: a ground of one's own.
+//! SCENE: independent springs under a block that slides.
+//! REFERENCE: `SpringGround`.
 
 use basemat::Result;
 use basemat::bem::{ContactElement, Ground, SpringGround, Strip};
 use basemat::interface::Coulomb;
 
 use super::{assert_same_motion, run, shaken};
-use crate::scene::block;
+use crate::support::block_on_springs::block;
 
 /// Springs that know nothing of the crate's own bed.
 pub(crate) struct Bed {

@@ -1,19 +1,21 @@
-//! A convolution of one's own.
+//! GOAL: a convolution history of one's own.
+//! SCENE: the plain sum in a half-plane ground under a block.
+//! REFERENCE: the histories of the crate.
 
 use std::sync::Arc;
 
 use basemat::bem::{HalfPlaneGround, PatchKernel, Strip};
 use basemat::coupled::SimulationBuilder;
-use basemat::history::{ConvolutionHistory, DirectHistory};
+use basemat::history::{ConvolutionHistory, DirectHistory, LagKernel};
 use basemat::interface::Coulomb;
 use basemat::{Result, Simulation};
 
 use super::{assert_same_motion, push, soil};
-use crate::scene::block;
+use crate::support::block_on_springs::block;
 
 /// The convolution as a triple loop over the kernel's classes, with its own store.
 struct Plain {
-    kernel: Arc<PatchKernel>,
+    kernel: Arc<dyn LagKernel>,
     past: Vec<Vec<f64>>,
 }
 
@@ -29,9 +31,9 @@ impl ConvolutionHistory for Plain {
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
         displacement.fill(0.0);
-        let (count, past) = (self.kernel.elements().len(), self.past.len());
+        let (count, past) = (self.kernel.classes().elements().len(), self.past.len());
         let mut lags = Vec::new();
-        for class in 0..self.kernel.classes() {
+        for class in 0..self.kernel.classes().count() {
             let [mut zz, mut xx, mut zx] = [(); 3].map(|()| vec![0.0; past]);
             if past > 0 {
                 self.kernel.coefficients(class, 2, &mut zz, &mut xx, &mut zx)?;
@@ -40,7 +42,7 @@ impl ConvolutionHistory for Plain {
         }
         for (m, traction) in self.past.iter().enumerate() {
             let lag = past - 1 - m;
-            for (p, pairs) in self.kernel.pairs().chunks(count).enumerate() {
+            for (p, pairs) in self.kernel.classes().pairs().chunks(count).enumerate() {
                 for (q, pair) in pairs.iter().enumerate() {
                     let [zz, xx, zx] = [0, 1, 2].map(|k| pair.scale * lags[pair.class][k][lag]);
                     displacement[p] += zz * traction[q] + pair.sign * zx * traction[count + q];
@@ -53,7 +55,7 @@ impl ConvolutionHistory for Plain {
     }
 
     fn push(&mut self, traction: &[f64]) {
-        assert_eq!(traction.len(), 2 * self.kernel.elements().len());
+        assert_eq!(traction.len(), 2 * self.kernel.classes().elements().len());
         self.past.push(traction.to_vec());
     }
 }
@@ -78,7 +80,7 @@ fn own_history() {
 #[test]
 fn histories_agree_with_the_direct_sum() {
     let elements = Strip::uniform(0.0..3.0, 3).unwrap().elements();
-    let kernel = Arc::new(PatchKernel::new(soil(), elements, 2e-3).unwrap());
+    let kernel: Arc<dyn LagKernel> = Arc::new(PatchKernel::new(soil(), elements, 2e-3).unwrap());
     let mut plain = Plain { kernel: Arc::clone(&kernel), past: Vec::new() };
     let mut direct = DirectHistory::new(kernel);
     let (mut a, mut b) = ([f64::NAN; 6], [f64::NAN; 6]);

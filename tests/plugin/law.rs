@@ -1,11 +1,13 @@
-//! An interface law of one's own.
+//! GOAL: an interface law of one's own.
+//! SCENE: friction that is lost once an element has slid, under a block.
+//! REFERENCE: Coulomb's law, which slides less.
 
 use basemat::interface::{
     Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
 };
 
 use super::{run, shaken};
-use crate::scene::{bed, block};
+use crate::support::block_on_springs::{bed, block};
 
 /// Sticks until it once slid; from then on there is no friction at all.
 pub(crate) struct Glaze(pub(crate) f64);

@@ -1,4 +1,6 @@
-//! A time scheme of one's own.
+//! GOAL: a time scheme of one's own.
+//! SCENE: average acceleration, on a bonded structure.
+//! REFERENCE: the midpoint rule and the θ-method.
 
 use std::sync::Arc;
 
@@ -6,9 +8,9 @@ use basemat::coupled::{Midpoint, SchemeCoefficients, Theta, TimeScheme};
 use basemat::interface::Bonded;
 
 use super::{assert_same_motion, run, shaken};
-use crate::scene::bed;
 use crate::structure::Hardening;
-use crate::wrapped::Bare;
+use crate::support::block_on_springs::bed;
+use crate::support::wrapped::Bare;
 
 /// Newmark's average acceleration, not one of the crate's.
 pub(crate) struct AverageAcceleration;

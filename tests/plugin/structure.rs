@@ -1,4 +1,6 @@
-//! A structure of one's own, and one that is another one.
+//! GOAL: a structure of one's own, linear and nonlinear, and one that wraps another.
+//! SCENE: a mass on a hardening spring on a rigid base; a wrapped block.
+//! REFERENCE: the linear limit; the block itself; one commit per accepted step.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -8,8 +10,8 @@ use basemat::interface::Coulomb;
 use basemat::structure::{ContactNode, Structure, Triplets};
 
 use super::{assert_same_motion, run, shaken};
-use crate::scene::{bed, block};
-use crate::wrapped::Bare;
+use crate::support::block_on_springs::{bed, block};
+use crate::support::wrapped::Bare;
 
 /// A mass on a hardening spring on a rigid base: force k d + 4 d³ · k per m².
 pub(crate) struct Hardening {
@@ -79,7 +81,8 @@ fn own_structure_linear_and_nonlinear() {
     assert_eq!(commits.load(Ordering::Relaxed), 600, "once per accepted step");
     assert_same_motion(&linear, &soft, 1e-7);
     let (run, hard) = run(scene().structure(structure(1.0e4 * SPRING)));
-    let drift = |simulation: &Simulation| Hardening::drift(simulation.state().displacement());
+    let drift =
+        |simulation: &Simulation| Hardening::drift(simulation.state().absolute_displacement());
     assert!((drift(&hard) - drift(&soft)).abs() > 1e-5, "the cubic term acts: {run}");
 }
 

@@ -1,4 +1,6 @@
-//! All parts can be printed, and a simulation can go to another thread.
+//! GOAL: all parts can be printed, and a simulation can move to another thread.
+//! SCENE: a block on springs, and parts by themselves.
+//! REFERENCE: the words of the texts; a run on the other thread.
 
 use std::sync::Arc;
 
@@ -11,7 +13,7 @@ use basemat::structure::{StructureGroup, WithSprings};
 use basemat::{Error, Simulation};
 
 use super::{STEP, push, shaken, soil};
-use crate::scene::{bed, block};
+use crate::support::block_on_springs::{bed, block};
 
 #[test]
 fn all_parts_can_be_shown() {

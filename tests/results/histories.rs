@@ -1,4 +1,6 @@
-//! Histories and peaks against the states.
+//! GOAL: recorded series, peaks and envelopes.
+//! SCENE: the block of `main`, recorded in full and thinned.
+//! REFERENCE: the states, by other means.
 
 use basemat::Error;
 use basemat::results::{EnergyShares, Quantity, Recorder};
@@ -125,8 +127,8 @@ fn thinned_histories_keep_the_peaks_of_all_steps() {
     }
     assert_eq!(histories.envelope(), all.envelope());
     assert_eq!(histories.summary().sliding, all.summary().sliding);
-    // Time, 11 scalars, 2 probes, 11 terms of the ledger.
-    assert_eq!(all.bytes(), 8 * (1 + 11 + 2 + 11) * (STEPS + 1));
+    // Time, 11 scalars, 2 probes, 12 terms of the ledger.
+    assert_eq!(all.bytes(), 8 * (1 + 11 + 2 + 12) * (STEPS + 1));
     assert!(histories.bytes() < all.bytes());
     assert_eq!(histories.contact_frames().count(), 21);
     let frames: Vec<_> = histories.motion_frames().collect();

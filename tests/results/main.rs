@@ -1,21 +1,23 @@
-//! Histories, peaks, envelopes and factors of safety, against the states they were made of and
-//! against statics.
+//! GOAL: time series, peaks, envelopes, factors of safety, spectra, pages and pictures of a run.
+//! SCENE: a block on the half-plane that rocks and slides.
+//! REFERENCE: the states they were made of, and statics.
 
+mod foundations;
 mod histories;
 mod pages;
+mod plot;
 mod refused;
+mod resolution;
 mod safety;
-#[path = "../support/scenes.rs"]
-mod scenes;
 mod spectra;
-#[path = "../support/wrapped.rs"]
-mod wrapped;
+#[path = "../support/mod.rs"]
+mod support;
 
 use basemat::Simulation;
 use basemat::coupled::{Probe, State};
 use basemat::results::{Histories, Recorder};
 
-use scenes::{SI, block, friction, scene};
+use crate::support::scenes::{SI, block, friction, scene};
 
 const FRICTION: f64 = 0.35;
 const STEPS: usize = 400;

@@ -1,4 +1,6 @@
-//! What is printed and written: pages, tables, units.
+//! GOAL: pages, tables and units as they are printed and written.
+//! SCENE: probes with and without units; cases that do not compare.
+//! REFERENCE: the values themselves; files stay in SI.
 
 use basemat::Error;
 use basemat::coupled::Probe;
@@ -6,7 +8,7 @@ use basemat::results::{Comparison, Quantity, Recorder};
 use basemat::structure::RigidBlock;
 
 use super::{FRICTION, STEPS, recorded};
-use crate::scenes::{SI, block, friction, scene};
+use crate::support::scenes::{SI, block, friction, scene};
 
 /// Values stay SI in files and turn into what engineers read where they are printed, a label that
 /// nobody knows stays.

@@ -1,4 +1,6 @@
-//! Requests that cannot be met.
+//! GOAL: requests that cannot be met are typed errors, and states that do not fit are not recorded.
+//! SCENE: a recorder that misses steps, bad numbers, states of another scene.
+//! REFERENCE: the error; the series as they were.
 
 use basemat::Error;
 use basemat::coupled::State;

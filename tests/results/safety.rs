@@ -1,4 +1,6 @@
-//! Factors of safety against statics.
+//! GOAL: factors of safety against sliding and overturning.
+//! SCENE: pushed blocks, two foundations, elements with and without friction.
+//! REFERENCE: statics, μW/H and Wb/(Hh).
 
 use basemat::bem::{HalfPlaneGround, SpringGround, Strip};
 use basemat::coupled::Placement;
@@ -11,8 +13,8 @@ use basemat::structure::{RigidBlock, StructureGroup};
 use basemat::{Error, Simulation, Soil};
 
 use super::simulation;
-use crate::scenes::{SI, block, scene, soil};
-use crate::wrapped::Pulled;
+use crate::support::scenes::{SI, block, scene, soil};
+use crate::support::wrapped::Pulled;
 
 /// Pushed with H at height h, a block of weight W and width 2b stands with μW/H and Wb/(Hh).
 #[test]

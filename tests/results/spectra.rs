@@ -1,4 +1,6 @@
-//! Floor spectra, and broadened ones.
+//! GOAL: in-structure (floor) response spectra, and broadened ones.
+//! SCENE: a light block on stiff ground; a triangular peak.
+//! REFERENCE: the spectrum of the ground; the wording of the guide.
 
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::Probe;

@@ -1,5 +1,4 @@
 //! A rocking and sliding block on soil, and how smooth its normal force is.
-#![allow(dead_code, reason = "each binary uses its own part")]
 
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::{Midpoint, Theta};

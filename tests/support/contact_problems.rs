@@ -1,5 +1,5 @@
-//! Contact problems of single steps, made at will: a ground that answers with any matrix, under a
-//! body too heavy to move. What the simulation finds is compared with all that brute force finds.
+//! Contact problems of single steps: a ground with any compliance matrix under a body too heavy to
+//! move. The solution of the simulation is compared with all that brute force finds.
 
 use std::sync::{Arc, Mutex};
 
@@ -9,7 +9,7 @@ use basemat::interface::Coulomb;
 use basemat::structure::RigidBlock;
 use basemat::{Result, Simulation, Soil};
 
-use crate::random::Random;
+use super::random::Random;
 
 /// Steps of a sequence: problems with the same matrix, each from where the last one ended.
 pub(crate) const STEPS: usize = 20;

@@ -1,11 +1,24 @@
 //! Helpers shared by the test binaries.
-#![allow(dead_code, reason = "each test binary uses its own part")]
+#![allow(dead_code, unused_imports, reason = "each test binary uses its own part")]
 
+pub(crate) mod block_on_springs;
 pub(crate) mod cantilever;
+pub(crate) mod chatter;
+pub(crate) mod contact_problems;
+pub(crate) mod curvature;
+pub(crate) mod dense;
 pub(crate) mod impedance;
+pub(crate) mod inverse;
+pub(crate) mod layout;
+pub(crate) mod passivity;
+pub(crate) mod random;
 pub(crate) mod rigid_strip;
 pub(crate) mod rocking;
+pub(crate) mod sampled_block;
+pub(crate) mod scenes;
 pub(crate) mod series;
+pub(crate) mod truncation;
+pub(crate) mod wrapped;
 
 use std::path::PathBuf;
 

@@ -1,9 +1,11 @@
-//! What the energy argument promises of the half-plane, tried on random tractions.
+//! Energy that a half-plane gives or takes under random tractions.
 
 use basemat::Soil;
-use basemat::bem::{Ground, HalfPlaneGround, History};
+use basemat::bem::{Ground, HalfPlaneGround};
+use basemat::history::History;
 
-use crate::random::Random;
+use super::inverse::inverse;
+use super::random::Random;
 
 /// A strip, its step and what drives it.
 #[derive(Debug, Clone, Copy)]
@@ -120,33 +122,4 @@ impl Scene {
 fn multiply(matrix: &[f64], x: &[f64]) -> Vec<f64> {
     let row = |row: &[f64]| row.iter().zip(x).map(|(a, b)| a * b).sum();
     matrix.chunks_exact(x.len()).map(row).collect()
-}
-
-/// Inverse by Gauss–Jordan elimination with column pivots.
-fn inverse(matrix: &[f64], size: usize) -> Vec<f64> {
-    let mut left = matrix.to_vec();
-    let mut right: Vec<f64> =
-        (0..size * size).map(|k| f64::from(u8::from(k / size == k % size))).collect();
-    for k in 0..size {
-        let pivot = (k..size)
-            .max_by(|&a, &b| left[a * size + k].abs().total_cmp(&left[b * size + k].abs()))
-            .unwrap_or(k);
-        for j in 0..size {
-            left.swap(k * size + j, pivot * size + j);
-            right.swap(k * size + j, pivot * size + j);
-        }
-        let scale = 1.0 / left[k * size + k];
-        for j in 0..size {
-            left[k * size + j] *= scale;
-            right[k * size + j] *= scale;
-        }
-        for i in (0..size).filter(|i| *i != k) {
-            let factor = left[i * size + k];
-            for j in 0..size {
-                left[i * size + j] -= factor * left[k * size + j];
-                right[i * size + j] -= factor * right[k * size + j];
-            }
-        }
-    }
-    right
 }

@@ -1,5 +1,4 @@
 //! Random numbers that are the same in every run.
-#![allow(dead_code, reason = "each binary uses its own part")]
 
 /// Generator SplitMix64 (Steele, Lea & Flood 2014).
 #[derive(Debug, Clone)]

@@ -3,6 +3,8 @@
 use basemat::Soil;
 use basemat::bem::{ContactElement, Grading, Ground, HalfPlaneGround, Strip};
 
+use super::inverse::inverse;
+
 /// How the strip and the soil touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Contact {
@@ -77,10 +79,10 @@ impl RigidStrip {
         let forces = std::array::from_fn(|k: usize| {
             motions[k].iter().enumerate().map(|(i, m)| m * lengths[i % elements]).collect()
         });
-        let inverse = invert(&matrix);
+
         let mut strip = Self {
             ground,
-            inverse,
+            inverse: inverse(&matrix, size),
             motions,
             forces,
             compliance: Vec::new(),
@@ -99,7 +101,7 @@ impl RigidStrip {
                 stiffness[k * 4] = 1.0;
             }
         }
-        strip.compliance = invert(&stiffness);
+        strip.compliance = inverse(&stiffness, 3);
         strip
     }
 
@@ -150,34 +152,4 @@ impl RigidStrip {
     fn resultant(&self, traction: &[f64]) -> [f64; 3] {
         std::array::from_fn(|k| self.forces[k].iter().zip(traction).map(|(a, b)| a * b).sum())
     }
-}
-
-/// Inverse of a square row-major matrix, by Gauss and Jordan with row pivoting.
-fn invert(matrix: &[f64]) -> Vec<f64> {
-    let n = matrix.len().isqrt();
-    let mut a = matrix.to_vec();
-    let mut inverse: Vec<f64> = (0..n * n).map(|i| f64::from(u8::from(i / n == i % n))).collect();
-    for k in 0..n {
-        let larger = |i: &usize, j: &usize| a[i * n + k].abs().total_cmp(&a[j * n + k].abs());
-        let pivot = (k..n).max_by(larger).unwrap();
-        for j in 0..n {
-            a.swap(k * n + j, pivot * n + j);
-            inverse.swap(k * n + j, pivot * n + j);
-        }
-        let scale = 1.0 / a[k * n + k];
-        for j in 0..n {
-            a[k * n + j] *= scale;
-            inverse[k * n + j] *= scale;
-        }
-        for i in (0..n).filter(|i| *i != k) {
-            let factor = a[i * n + k];
-            if factor != 0.0 {
-                for j in 0..n {
-                    a[i * n + j] -= factor * a[k * n + j];
-                    inverse[i * n + j] -= factor * inverse[k * n + j];
-                }
-            }
-        }
-    }
-    inverse
 }

@@ -1,5 +1,4 @@
 //! Scenes in which a base slides, uplifts or stays bonded.
-#![allow(dead_code, reason = "each binary uses its own part")]
 
 use basemat::bem::{Grading, HalfPlaneGround, Strip};
 use basemat::coupled::{SimulationBuilder, State};

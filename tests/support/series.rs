@@ -1,4 +1,4 @@
-//! Comparing histories.
+//! Comparison of time series.
 
 use super::Table;
 

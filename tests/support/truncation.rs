@@ -1,5 +1,4 @@
-//! What the truncated free surface of the full-plane ground leaves.
-#![allow(dead_code, reason = "each binary uses its own part")]
+//! Errors of the full-plane ground by its truncated free surface.
 
 use basemat::bem::full_plane::{BoundaryKernel, ConvolutionQuadrature, CqMethod, FullPlaneGround};
 use basemat::bem::{Grading, Ground, HalfPlaneGround, Strip};
@@ -11,6 +10,7 @@ use basemat::{Simulation, Soil};
 
 use crate::support::impedance::{Force, impedances};
 use crate::support::rigid_strip::RigidStrip;
+use crate::support::sampled_block::{History, distance, sample, under_pulse};
 use crate::support::series::{Error, whole};
 use crate::support::table;
 
@@ -87,29 +87,10 @@ pub(crate) fn impedance_errors(name: &str, poisson: f64, mesh: Mesh) -> [f64; 4]
 
 /// Base displacement, rotation and base shear (means over `every` steps) of a bonded rigid block
 /// of width and height 2 and density 1 under a Ricker pulse, every `every` steps.
-fn block(ground: impl Ground + 'static, time_step: f64, every: usize) -> [Vec<f64>; 3] {
-    let mut simulation = Simulation::builder(time_step)
-        .structure(RigidBlock::new(2.0, 2.0, 1.0).unwrap())
-        .ground(ground)
-        .interface(Bonded)
-        .motion(RickerDisplacement::new(1.0, 1.0, 5.0).unwrap())
-        .gravity(0.0)
-        .build()
-        .unwrap();
-    let mut history = [const { Vec::new() }; 3];
-    let mut shear = 0.0;
-    simulation
-        .run(whole(20.0 / time_step), |state| {
-            shear += state.base_shear / every as f64;
-            if state.step % every == 0 {
-                history[0].push(state.displacement()[0]);
-                history[1].push(state.displacement()[2]);
-                history[2].push(shear);
-                shear = 0.0;
-            }
-        })
-        .unwrap();
-    history
+fn block(ground: impl Ground + 'static, time_step: f64, every: usize) -> History {
+    let block = RigidBlock::new(2.0, 2.0, 1.0).unwrap();
+    let mut simulation = under_pulse(block, ground, time_step);
+    sample(&mut simulation, whole(20.0 / time_step), every).unwrap().0
 }
 
 /// Relative distance of the block's `[u_base, theta, V]` on the full plane from that on a fine
@@ -119,12 +100,7 @@ pub(crate) fn block_errors(mesh: Mesh) -> [f64; 3] {
     let (time_step, full) = (mesh.time_step(soil), mesh.ground(soil));
     let strip = Strip::new(-1.0..1.0, 32, Grading::Cosine).unwrap();
     let half = HalfPlaneGround::new(soil, &[strip]).unwrap();
-    let (found, wanted) = (block(full, time_step, 1), block(half, time_step / 8.0, 8));
-    std::array::from_fn(|k| {
-        let mut error = Error::default();
-        found[k].iter().zip(&wanted[k]).for_each(|(a, b)| error.add(*a, *b));
-        error.relative()
-    })
+    distance(&block(full, time_step, 1), &block(half, time_step / 8.0, 8))
 }
 
 /// Mean slip and largest uplifted fraction of a block of height 4 under its weight that rocks and

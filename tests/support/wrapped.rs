@@ -1,5 +1,4 @@
-//! Structures that are another one but for what a test needs.
-#![allow(dead_code, unused_imports, reason = "each binary uses its own part")]
+//! Wrappers of a structure: one that forwards the least, one that pulls it.
 
 use basemat::structure::{Row, Structure, Triplets};
 

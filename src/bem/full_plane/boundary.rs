@@ -2,7 +2,8 @@
 
 use super::Segment;
 use super::segment::{check_count, check_segments};
-use crate::bem::{ContactElement, Strip, check_order};
+use crate::bem::{ContactElement, Strip};
+use crate::contact_element::check_order;
 use crate::error::{Error, Result};
 
 /// A polygonal boundary of the soil, with the elements on which the structure stands.

@@ -257,6 +257,10 @@ impl Ground for FullPlaneGround {
         Ok(())
     }
 
+    fn shear_wave_speed(&self) -> Option<f64> {
+        Some(self.soil.shear_wave_speed())
+    }
+
     fn reserve(&mut self, steps: usize) -> Result<()> {
         match &mut self.prepared {
             Some(prepared) => prepared.history.reserve(steps),

@@ -1,8 +1,8 @@
 //! How far the exponentials are from the coefficients that they stand for, over the whole horizon.
 
 use super::tail::Tail;
-use crate::bem::PatchKernel;
 use crate::error::Result;
+use crate::history::lag_kernel::LagKernel;
 
 /// Lags looked at per octave: about two per period of the trapezoidal rule's error, which goes up
 /// and down with ln t, at places that do not repeat.
@@ -32,17 +32,17 @@ struct Sample {
 impl Accuracy {
     /// Lags from `window` + 1 to `horizon`.
     pub(super) fn measure(
-        kernel: &PatchKernel,
+        kernel: &dyn LagKernel,
         tail: &Tail,
         window: usize,
         horizon: usize,
     ) -> Result<Self> {
-        let count = kernel.elements().len();
-        let mut first_pair = vec![None; kernel.classes()];
-        for (place, pair) in kernel.pairs().iter().enumerate() {
+        let count = kernel.classes().elements().len();
+        let mut first_pair = vec![None; kernel.classes().count()];
+        for (place, pair) in kernel.classes().pairs().iter().enumerate() {
             first_pair[pair.class].get_or_insert(place);
         }
-        let stride = kernel.classes().div_ceil(CLASSES);
+        let stride = kernel.classes().count().div_ceil(CLASSES);
         let places: Vec<usize> = first_pair
             .iter()
             .flatten()
@@ -57,7 +57,7 @@ impl Accuracy {
             let mut sample = Sample { error: 0.0, change: 0.0, relative: 0.0, largest: 0.0 };
             let mut worst = [[0.0_f64; 2]; 2];
             for &place in &places {
-                let pair = kernel.pairs()[place];
+                let pair = kernel.classes().pairs()[place];
                 let (p, q) = (place / count, place % count);
                 let [mut zz, mut xx, mut zx] = [[0.0; 2]; 3];
                 kernel.coefficients(pair.class, lag, &mut zz, &mut xx, &mut zx)?;

@@ -1,7 +1,6 @@
 //! The history as a window of exact lags and a sum of exponentials: memory that does not grow.
 
 mod accuracy;
-mod basis;
 mod passivity;
 mod tail;
 mod window;
@@ -9,27 +8,24 @@ mod window;
 use std::sync::Arc;
 
 use self::accuracy::Accuracy;
-use self::basis::Basis;
 use self::passivity::Margin;
 use self::tail::Tail;
 use self::window::{Lags, Window};
-use super::ConvolutionHistory;
-use crate::bem::PatchKernel;
+use super::convolution::ConvolutionHistory;
+use super::lag_kernel::LagKernel;
+use super::late_lags::LateLags;
 use crate::error::{CheckpointError, Error, Result, same_length};
 
-/// Times that the Rayleigh wave has crossed the patch when exponentials take over. Behind three,
-/// the coefficients themselves are summed from the same series.
-const CROSSINGS: f64 = 3.0;
 /// Tolerances that can be reached.
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
 /// Longest window: the step is so short that all of a run may lie in it.
-const LONGEST_WINDOW: f64 = 1e6;
+const LONGEST_WINDOW: usize = 1_000_000;
 /// Largest block of the window, and smallest.
 const BLOCKS: [usize; 2] = [16, 512];
 /// Error aimed at in the next attempt over that of the one before.
 const CLOSER: f64 = 0.2;
 /// Longest horizon, steps: what 64 bits allow with ease, or all that fits where a word is shorter.
-const LONGEST: usize = match 1_usize.checked_shl(40) {
+pub(super) const LONGEST: usize = match 1_usize.checked_shl(40) {
     Some(steps) => steps,
     None => usize::MAX >> 4,
 };
@@ -38,11 +34,14 @@ const ATTEMPTS: usize = 10;
 
 /// Window of exact lags and a sum of exponentials behind it: O(1) memory and time per step.
 ///
-/// The step coefficients of the lags 2 to W are used as they are. After W steps the Rayleigh wave
-/// has crossed the patch three times, only zz and xx are left, and these are integrals of
-/// decaying exponentials: the trapezoidal rule in the logarithm of the rate turns them into
-/// sums with a common set of poles. In space a few Legendre polynomials over the patch carry them. So
-/// what is kept of all earlier tractions are a few hundred numbers, however many steps there were.
+/// The step coefficients of the lags 2 to W are used as they are; later ones are sums of decaying
+/// exponentials with a common set of poles, carried by a few functions over the patch. So what is
+/// kept of all earlier tractions are a few hundred numbers, however many steps there were.
+///
+/// The kernel has to know its [late lags](LagKernel::late_lags). On the half-plane they begin when
+/// the Rayleigh wave has crossed the patch three times: only normal and tangential components are
+/// left, and these are integrals of decaying exponentials, which the trapezoidal rule in the
+/// logarithm of the rate turns into sums. In space Legendre polynomials over the patch carry them.
 ///
 /// # Accuracy
 ///
@@ -64,7 +63,7 @@ const ATTEMPTS: usize = 10;
 /// so of what comes at once. Only coarse tolerances with windows of thousands of steps (nearly
 /// incompressible soil, very short steps) need the additional poles.
 pub struct ExponentialHistory {
-    kernel: Arc<PatchKernel>,
+    kernel: Arc<dyn LagKernel>,
     window: Window,
     tail: Tail,
     /// W, and steps of a block.
@@ -84,7 +83,7 @@ pub struct ExponentialHistory {
 short_debug! {
     ExponentialHistory;
     self;
-    elements: self.kernel.elements().len(),
+    elements: self.kernel.classes().elements().len(),
     steps: self.steps,
     lags: self.lags,
     horizon: self.horizon,
@@ -101,10 +100,11 @@ impl ExponentialHistory {
     /// one of its lag.
     ///
     /// # Errors
-    /// [`Error::Input`] for a tolerance not between 1e-12 and 1e-2, or a time step so short that the
-    /// window would have more than a million steps; [`Error::Accuracy`] if the tolerance was not reached;
-    /// [`Error::NotPassive`] if the fit gives energy away.
-    pub fn new(kernel: Arc<PatchKernel>, tolerance: f64) -> Result<Self> {
+    /// [`Error::NoExponentials`] for a kernel without late lags, or whose coupling has not ended
+    /// before them; [`Error::Input`] for a tolerance not between 1e-12 and 1e-2, or a time step so
+    /// short that the window would have more than a million steps; [`Error::Accuracy`] if the tolerance was
+    /// not reached; [`Error::NotPassive`] if the fit gives energy away.
+    pub fn new(kernel: Arc<dyn LagKernel>, tolerance: f64) -> Result<Self> {
         Self::with_horizon(kernel, tolerance, Self::HORIZON)
     }
 
@@ -112,23 +112,22 @@ impl ExponentialHistory {
     ///
     /// # Errors
     /// As for [`ExponentialHistory::new`].
-    pub fn with_horizon(kernel: Arc<PatchKernel>, tolerance: f64, horizon: usize) -> Result<Self> {
+    pub fn with_horizon(
+        kernel: Arc<dyn LagKernel>,
+        tolerance: f64,
+        horizon: usize,
+    ) -> Result<Self> {
         Self::check_tolerance(tolerance)?;
-        let elements = kernel.elements();
-        let series = kernel.late_series();
-        let basis = Basis::new(elements, tail::DEGREES);
-        let [block, parts] = blocks(&kernel)?;
+        let Some(late) = kernel.late_lags() else { return Err(NO_LATE_LAGS) };
+        let elements = kernel.classes().elements();
+        let [block, parts] = blocks(late)?;
         let lags = block * parts;
         let horizon = horizon.clamp(2 * lags, LONGEST);
-        let exact = Lags::new(&kernel, lags)?;
-        let range = [lags as f64, horizon as f64];
+        let exact = Lags::new(&*kernel, lags)?;
         let (mut aim, mut refusal) = (tolerance, None);
         for _ in 0..ATTEMPTS {
-            // The error of the trapezoidal rule is about e^(3−π²/h), the strip narrowed by the
-            // Rayleigh wave included.
-            let h = std::f64::consts::PI.powi(2) / (3.0 - aim.ln());
-            let tail = Tail::new(&series, basis.clone(), range, h, aim);
-            let accuracy = Accuracy::measure(&kernel, &tail, lags, horizon)?;
+            let tail = Tail::new(late.exponentials(lags, horizon, aim)?, elements)?;
+            let accuracy = Accuracy::measure(&*kernel, &tail, lags, horizon)?;
             aim *= CLOSER;
             if accuracy.relative > tolerance {
                 let reached = accuracy.relative;
@@ -136,15 +135,16 @@ impl ExponentialHistory {
                 continue;
             }
             let Margin { least, frequency } =
-                passivity::margin(&kernel, &exact, &tail, horizon as f64);
+                passivity::margin(&*kernel, &exact, &tail, horizon as f64);
             // A NaN is refused as well.
             if least.is_nan() || least < 0.0 {
                 refusal = Some(Error::NotPassive { margin: least, frequency });
                 continue;
             }
+            let recent = vec![0.0; (lags + block) * 2 * elements.len()];
             return Ok(Self {
-                window: Window::new(&kernel, &exact, block, parts),
-                recent: vec![0.0; (lags + block) * 2 * elements.len()],
+                window: Window::new(&*kernel, &exact, block, parts),
+                recent,
                 tail,
                 lags,
                 block,
@@ -187,9 +187,9 @@ impl ExponentialHistory {
         self.tail.poles()
     }
 
-    /// Polynomials over the patch that carry it in space.
-    pub fn degrees(&self) -> usize {
-        self.tail.degrees()
+    /// Functions over the patch that carry it in space.
+    pub fn functions(&self) -> usize {
+        self.tail.functions()
     }
 
     /// Bytes held in coefficients, state and scratch.
@@ -209,16 +209,8 @@ impl ExponentialHistory {
         })
     }
 
-    /// Steps in which the Rayleigh wave crosses the patch three times.
-    pub(crate) fn window_of(kernel: &PatchKernel) -> f64 {
-        let elements = kernel.elements();
-        let series = kernel.late_series();
-        let span = elements[elements.len() - 1].right - elements[0].left;
-        (CROSSINGS * series.arrival * span / series.step).ceil()
-    }
-
     fn size(&self) -> usize {
-        2 * self.kernel.elements().len()
+        2 * self.kernel.classes().elements().len()
     }
 
     /// Where input `m` is kept.
@@ -236,21 +228,22 @@ impl ExponentialHistory {
 }
 
 /// Steps of a block and blocks of the window.
-fn blocks(kernel: &PatchKernel) -> Result<[usize; 2]> {
-    let lags = ExponentialHistory::window_of(kernel);
-    if lags.is_nan() || lags > LONGEST_WINDOW {
+fn blocks(late: &dyn LateLags) -> Result<[usize; 2]> {
+    let lags = late.window();
+    if lags > LONGEST_WINDOW {
         return Err(Error::Input {
-            quantity: "steps that the Rayleigh wave needs for three times the patch",
-            value: lags,
+            quantity: "lags before the exponentials",
+            value: lags as f64,
             needed: "a million or fewer for a history by exponentials",
         });
     }
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a million at most")]
-    let lags = lags as usize;
     // Direct sums of b lags on average, and 16 W/b for the products of spectra.
     let block = (16 * lags).isqrt().next_power_of_two().clamp(BLOCKS[0], BLOCKS[1]);
     Ok([block, lags.div_ceil(block).max(1)])
 }
+
+const NO_LATE_LAGS: Error =
+    Error::NoExponentials { needed: "a kernel that knows its late lags as exponentials" };
 
 impl ConvolutionHistory for ExponentialHistory {
     fn steps(&self) -> usize {

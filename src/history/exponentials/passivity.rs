@@ -9,7 +9,7 @@
 
 use super::tail::Tail;
 use super::window::Lags;
-use crate::bem::PatchKernel;
+use crate::history::lag_kernel::LagKernel;
 use crate::linalg::least_eigenvalue;
 
 /// Frequencies per decade below one radian per step.
@@ -29,8 +29,8 @@ pub(super) struct Margin {
 }
 
 /// Least eigenvalue of H/(1−cos ω), scaled by the diagonal of L G¹, over all frequencies tried.
-pub(super) fn margin(kernel: &PatchKernel, lags: &Lags, tail: &Tail, horizon: f64) -> Margin {
-    let order = 2 * kernel.elements().len();
+pub(super) fn margin(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, horizon: f64) -> Margin {
+    let order = 2 * kernel.classes().elements().len();
     let thin = if order > LARGE { 3.0 } else { 1.0 };
     let mut frequencies = Vec::new();
     let mut omega = LOWEST / horizon;
@@ -58,8 +58,8 @@ pub(super) fn margin(kernel: &PatchKernel, lags: &Lags, tail: &Tail, horizon: f6
 }
 
 /// The same at one frequency.
-fn least_at(kernel: &PatchKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
-    let count = kernel.elements().len();
+fn least_at(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
+    let count = kernel.classes().elements().len();
     let order = 2 * count;
     let window = lags.normal.first().map_or(0, Vec::len);
     // Re (1−ζ) ζ^d = cos dω − cos (d+1)ω over 1 − cos ω = 2 sin² ω/2.
@@ -69,10 +69,10 @@ fn least_at(kernel: &PatchKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
     let sum = |lags: &[f64]| lags.iter().zip(&steps).map(|(g, c)| g * c).sum::<f64>();
     let square = 2.0 * half.sin() * half.sin();
     let tails = tail.at_frequency(window as f64, omega);
-    let classes: Vec<[f64; 3]> = (0..kernel.classes())
+    let classes: Vec<[f64; 3]> = (0..kernel.classes().count())
         .map(|k| [sum(&lags.normal[k]), sum(&lags.tangential[k]), sum(&lags.coupling[k])])
         .collect();
-    let pairs = kernel.pairs();
+    let pairs = kernel.classes().pairs();
     let scales: Vec<f64> = (0..order)
         .map(|i| {
             let own = pairs[i % count * (count + 1)].class;
@@ -100,10 +100,10 @@ fn least_at(kernel: &PatchKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::basis::Basis;
-    use super::super::tail::{DEGREES, Tail};
+    use super::super::tail::Tail;
     use super::*;
-    use crate::bem::Strip;
+    use crate::bem::{PatchKernel, Strip};
+    use crate::history::late_lags::{ExponentialTail, LateLags};
     use crate::soil::Soil;
 
     fn patch() -> PatchKernel {
@@ -113,10 +113,15 @@ mod tests {
 
     /// With a tail that is `factor` times what it should be.
     fn tail(kernel: &PatchKernel, window: usize, factor: f64) -> Tail {
-        let mut series = kernel.late_series();
-        series.unit *= factor;
-        let basis = Basis::new(kernel.elements(), DEGREES);
-        Tail::new(&series, basis, [window as f64, 1e6], 0.4, 1e-9)
+        let tail = kernel.exponentials(window, 1_000_000, 1e-9).unwrap();
+        let mut products = tail.products().to_vec();
+        for weight in products.iter_mut().flat_map(|p| p.normal.iter_mut().chain(&mut p.tangential))
+        {
+            *weight *= factor;
+        }
+        let (rates, functions) = (tail.rates().to_vec(), tail.functions().to_vec());
+        let tail = ExponentialTail::new(rates, functions, products).unwrap();
+        Tail::new(tail, kernel.classes().elements()).unwrap()
     }
 
     #[test]

@@ -10,9 +10,13 @@ use std::sync::Arc;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-use crate::bem::{Pair, PatchKernel};
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::history::lag_kernel::LagKernel;
+use crate::history::pair_classes::Pair;
 use crate::linalg::dot;
+
+const COUPLING_LASTS: Error =
+    Error::NoExponentials { needed: "a coupling that ends before the exponentials begin" };
 
 /// Coefficients of lags 1 to W per class (those of lag 1 are no part of the history, but of the
 /// check for passivity).
@@ -26,8 +30,9 @@ pub(super) struct Lags {
 
 impl Lags {
     /// Lags 1 to `window`.
-    pub(super) fn new(kernel: &PatchKernel, window: usize) -> Result<Self> {
-        let classes = kernel.classes();
+    pub(super) fn new(kernel: &dyn LagKernel, window: usize) -> Result<Self> {
+        kernel.prepare(window)?;
+        let classes = kernel.classes().count();
         let mut lags = Self {
             normal: Vec::with_capacity(classes),
             tangential: Vec::with_capacity(classes),
@@ -36,7 +41,8 @@ impl Lags {
         for class in 0..classes {
             let [mut zz, mut xx, mut zx] = [(); 3].map(|()| vec![0.0; window]);
             kernel.coefficients(class, 1, &mut zz, &mut xx, &mut zx)?;
-            zx.truncate(kernel.last_coupling_lag(class)?.min(window));
+            let last = kernel.last_coupling_lag(class)?.filter(|last| *last <= window);
+            zx.truncate(last.ok_or(COUPLING_LASTS)?);
             zx.shrink_to_fit();
             lags.normal.push(zz);
             lags.tangential.push(xx);
@@ -84,8 +90,8 @@ pub(super) struct Window {
 
 impl Window {
     /// Window of `parts` blocks of `block` steps: lags 2 to `parts` · `block`.
-    pub(super) fn new(kernel: &PatchKernel, lags: &Lags, block: usize, parts: usize) -> Self {
-        let count = kernel.elements().len();
+    pub(super) fn new(kernel: &dyn LagKernel, lags: &Lags, block: usize, parts: usize) -> Self {
+        let count = kernel.classes().elements().len();
         let mut planner = RealFftPlanner::new();
         let (forward, inverse) =
             (planner.plan_fft_forward(2 * block), planner.plan_fft_inverse(2 * block));
@@ -108,7 +114,7 @@ impl Window {
         let bins = block + 1;
         let mut window = Self {
             block,
-            pairs: kernel.pairs().to_vec(),
+            pairs: kernel.classes().pairs().to_vec(),
             count,
             normal: near(&lags.normal),
             tangential: near(&lags.tangential),

@@ -1,27 +1,25 @@
 //! How elements talk to each other, and over short lags.
 
+use std::sync::Arc;
+
+use super::tables::Tables;
 use crate::error::Result;
-use crate::history::source::CoefficientSource;
+use crate::history::lag_kernel::LagKernel;
+use crate::history::pair_classes::{Pair, PairClasses};
 
 /// Pairs of a patch and its coefficients over short delays.
-///
-/// Index d of a coefficient is the number of steps from the traction to the first step that sees
-/// it as history: lag d + 1 of the kernel.
 pub(super) struct Coefficients {
-    /// Receiver by receiver, Q sources each: class, and sign of the coupling.
-    pub(super) pairs: Vec<(usize, f64)>,
-    /// 1/length of each receiver.
-    pub(super) scales: Vec<f64>,
-    pub(super) classes: usize,
-    /// Last d at which any coupling is not zero.
+    pub(super) classes: PairClasses,
+    /// Per class: last d at which the coupling is not zero; the largest number if it never ends.
+    reaches: Vec<usize>,
+    /// The largest of them.
     pub(super) coupling_reach: usize,
     /// How far ahead the coupling is summed directly.
     pub(super) coupling_direct: usize,
-    /// Per class: d = 0 … leaf − 1; the first is zero.
-    normal: Vec<Vec<f64>>,
-    tangential: Vec<Vec<f64>>,
-    /// Per class: d = 0 … as long as it is not zero and summed directly.
-    coupling: Vec<Vec<f64>>,
+    /// Steps of a leaf.
+    leaf: usize,
+    /// Empty until they are needed.
+    pub(super) near: Arc<Tables>,
 }
 
 /// Coefficients d = 0 … of one class.
@@ -39,45 +37,38 @@ impl Class {
     }
 
     /// Coefficients of `class`.
-    pub(super) fn fill(&mut self, source: &dyn CoefficientSource, class: usize) -> Result<()> {
+    pub(super) fn fill(&mut self, kernel: &dyn LagKernel, class: usize) -> Result<()> {
         let Self { normal, tangential, coupling } = self;
         // The first is the instantaneous coefficient, no part of the history.
-        source.coefficients(class, 2, [normal, tangential, coupling].map(|values| &mut values[1..]))
+        kernel.coefficients(class, 2, &mut normal[1..], &mut tangential[1..], &mut coupling[1..])
     }
 }
 
 impl Coefficients {
     /// For leaves of `leaf` steps; a coupling that reaches no further than `direct` is summed.
-    pub(super) fn new(source: &dyn CoefficientSource, leaf: usize, direct: usize) -> Result<Self> {
-        let classes = source.classes();
-        let reaches = (0..classes)
-            .map(|class| Ok(source.last_coupling_lag(class)?.saturating_sub(1)))
+    pub(super) fn new(kernel: &dyn LagKernel, leaf: usize, direct: usize) -> Result<Self> {
+        let classes = kernel.classes().clone();
+        let reach = |last: Option<usize>| last.map_or(usize::MAX, |lag| lag.saturating_sub(1));
+        let reaches = (0..classes.count())
+            .map(|class| Ok(reach(kernel.last_coupling_lag(class)?)))
             .collect::<Result<Vec<_>>>()?;
         let coupling_reach = reaches.iter().copied().max().unwrap_or(0);
         let coupling_direct = if coupling_reach <= direct { coupling_reach } else { leaf - 1 };
-        let mut values = Class::new(leaf.max(coupling_direct + 1));
-        let mut near = Self {
-            pairs: source.pairs().iter().map(|pair| (pair.class, pair.sign)).collect(),
-            scales: source.elements().iter().map(|e| 1.0 / e.length()).collect(),
-            classes,
-            coupling_reach,
-            coupling_direct,
-            normal: Vec::with_capacity(classes),
-            tangential: Vec::with_capacity(classes),
-            coupling: Vec::with_capacity(classes),
-        };
-        for (class, reach) in reaches.into_iter().enumerate() {
-            values.fill(source, class)?;
-            near.normal.push(values.normal[..leaf].to_vec());
-            near.tangential.push(values.tangential[..leaf].to_vec());
-            near.coupling.push(values.coupling[..=reach.min(coupling_direct)].to_vec());
-        }
-        Ok(near)
+        let near = Arc::default();
+        Ok(Self { classes, reaches, coupling_reach, coupling_direct, leaf, near })
     }
 
-    /// Numbers held.
-    pub(super) fn numbers(&self) -> usize {
-        [&self.normal, &self.tangential, &self.coupling].into_iter().flatten().map(Vec::len).sum()
+    /// Values of d that the tables are made of.
+    pub(super) fn length(&self) -> usize {
+        self.leaf.max(self.coupling_direct + 1)
+    }
+
+    /// Adds the next class to `tables`; `values` may go on beyond [`Coefficients::length`].
+    pub(super) fn add_class(&self, values: &Class, tables: &mut Tables) {
+        let reach = self.reaches[tables.normal.len()].min(self.coupling_direct);
+        tables.normal.push(values.normal[..self.leaf].to_vec());
+        tables.tangential.push(values.tangential[..self.leaf].to_vec());
+        tables.coupling.push(values.coupling[..=reach].to_vec());
     }
 
     /// Whether blocks have to look after the coupling.
@@ -95,29 +86,31 @@ impl Coefficients {
         ahead: usize,
         coupled: usize,
     ) {
-        let count = self.scales.len();
-        for (p, pairs) in self.pairs.chunks_exact(count).enumerate() {
-            let scale = self.scales[p];
-            for (row, table, other) in [(p, &self.normal, 0), (count + p, &self.tangential, count)]
+        let count = self.classes.elements().len();
+        for (p, pairs) in self.classes.pairs().chunks_exact(count).enumerate() {
+            let scale = pairs[p].scale;
+            for (row, table, other) in
+                [(p, &self.near.normal, 0), (count + p, &self.near.tangential, count)]
             {
                 let (mut q, mut four) = (0, pairs.chunks_exact(4));
                 for pairs in four.by_ref() {
                     let values: [f64; 4] =
                         std::array::from_fn(|k| scale * rows[(other + q + k) * stride + now]);
-                    let from: [&[f64]; 4] = std::array::from_fn(|k| &table[pairs[k].0][1..=ahead]);
+                    let from: [&[f64]; 4] =
+                        std::array::from_fn(|k| &table[pairs[k].class][1..=ahead]);
                     let output = &mut rows[row * stride + now + 1..][..ahead];
                     add_four(output, from, values);
                     q += 4;
                 }
-                for (class, _) in four.remainder() {
+                for pair in four.remainder() {
                     let value = scale * rows[(other + q) * stride + now];
                     let output = &mut rows[row * stride + now + 1..][..ahead];
-                    add(output, &table[*class][1..=ahead], value);
+                    add(output, &table[pair.class][1..=ahead], value);
                     q += 1;
                 }
             }
-            for (q, &(class, sign)) in pairs.iter().enumerate() {
-                let coupling = &self.coupling[class];
+            for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
+                let coupling = &self.near.coupling[class];
                 let reach = coupled.min(coupling.len() - 1);
                 if sign == 0.0 || reach == 0 {
                     continue;

@@ -13,7 +13,8 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use crate::error::Result;
-use crate::history::source::CoefficientSource;
+use crate::history::lag_kernel::LagKernel;
+use crate::history::pair_classes::PairClasses;
 
 /// Lags that are evaluated together.
 const CHUNK: usize = 512;
@@ -40,8 +41,8 @@ pub(super) struct Lattice {
 
 impl Lattice {
     /// The lattice of the elements; `None` if they are not on one, or one mostly empty.
-    pub(super) fn of(source: &dyn CoefficientSource) -> Option<Self> {
-        let elements = source.elements();
+    pub(super) fn of(pairs: &PairClasses) -> Option<Self> {
+        let elements = pairs.elements();
         let (first, last) = (elements.first()?, elements.last()?);
         let pitch = first.length();
         let most = EMPTY * elements.len();
@@ -57,13 +58,13 @@ impl Lattice {
         let cells: Vec<_> = elements.iter().map(|element| cell(element.left)).collect();
         let mut classes = vec![None; cells.last()? + 1];
         // Pairs are in one class if they are equal but for rounding: offsets have to agree with it.
-        let mut scales = source.pairs().iter().map(|pair| pair.scale);
+        let mut scales = pairs.pairs().iter().map(|pair| pair.scale);
         let scale = scales.next()?;
         if scales.any(|other| (other - scale).abs() > 1e-9 * scale) {
             return None;
         }
-        for (p, pairs) in source.pairs().chunks_exact(cells.len()).enumerate() {
-            for (q, pair) in pairs.iter().enumerate() {
+        for (p, sources) in pairs.pairs().chunks_exact(cells.len()).enumerate() {
+            for (q, pair) in sources.iter().enumerate() {
                 let class = classes[cells[p].abs_diff(cells[q])].get_or_insert(pair.class);
                 if *class != pair.class {
                     return None;
@@ -98,11 +99,11 @@ impl Lattice {
         self.real.len() + 2 * (self.spectrum.len() + self.scratch.len())
     }
 
-    /// Last lag at which any coupling is not zero.
-    pub(super) fn last_coupling_lag(&self, source: &dyn CoefficientSource) -> Result<usize> {
+    /// Last lag at which any coupling is not zero; the largest number if it never ends.
+    pub(super) fn last_coupling_lag(&self, kernel: &dyn LagKernel) -> Result<usize> {
         let mut last = 0;
         for class in self.classes.iter().flatten() {
-            last = last.max(source.last_coupling_lag(*class)?);
+            last = last.max(kernel.last_coupling_lag(*class)?.unwrap_or(usize::MAX));
         }
         Ok(last)
     }
@@ -150,7 +151,7 @@ impl Lattice {
     /// `coupled` on.
     pub(super) fn coefficients(
         &mut self,
-        source: &dyn CoefficientSource,
+        kernel: &dyn LagKernel,
         count: usize,
         coupled: usize,
         mut accept: impl FnMut(usize, usize, &[f64]),
@@ -165,8 +166,9 @@ impl Lattice {
             for (offset, class) in self.classes.iter().enumerate() {
                 let Some(class) = class else { continue };
                 let of = offset * width + skip..(offset + 1) * width;
-                let rows = table.each_mut().map(|values| &mut values[of.clone()]);
-                source.coefficients(*class, begin + skip + 1, rows)?;
+                let [normal, tangential, coupling] =
+                    table.each_mut().map(|values| &mut values[of.clone()]);
+                kernel.coefficients(*class, begin + skip + 1, normal, tangential, coupling)?;
             }
             for d in begin + skip..begin + width {
                 for (kind, table) in table.iter().enumerate() {

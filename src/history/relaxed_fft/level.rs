@@ -5,7 +5,7 @@ use std::sync::Arc;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-use super::coefficients::Coefficients;
+use crate::history::pair_classes::{Pair, PairClasses};
 
 /// Frequencies that are multiplied together, so that all inputs and outputs stay in cache.
 const TILE: usize = 64;
@@ -76,7 +76,7 @@ pub(super) struct Block<'a> {
     pub(super) stride: usize,
     /// Inputs so far.
     pub(super) now: usize,
-    pub(super) coefficients: &'a Coefficients,
+    pub(super) classes: &'a PairClasses,
 }
 
 impl Level {
@@ -123,7 +123,7 @@ impl Level {
 
     /// Adds what the last b inputs give to the next b outputs.
     pub(super) fn apply(&self, block: &mut Block<'_>, part: Part, work: &mut Work) {
-        let count = block.coefficients.scales.len();
+        let count = block.classes.elements().len();
         let (first, components) = match part {
             Part::Normal => (0, count),
             Part::Tangential => (count, count),
@@ -138,9 +138,10 @@ impl Level {
             let spectrum = &mut work.spectra[component * bins..][..bins];
             transform(&*self.forward, real, spectrum, &mut work.scratch);
         }
-        self.multiply(block.coefficients, part, components, work);
+        self.multiply(block.classes, part, components, work);
         for component in 0..components {
-            let scale = block.coefficients.scales[component % count] / (2 * size) as f64;
+            let receiver = block.classes.pairs()[component % count * count];
+            let scale = receiver.scale / (2 * size) as f64;
             let real = &mut work.real[..2 * size];
             let spectrum = &mut work.spectra[component * bins..][..bins];
             // Real up to rounding, and the inverse transform insists on it.
@@ -156,8 +157,8 @@ impl Level {
     }
 
     /// Replaces the spectra of inputs by those of outputs, tile by tile.
-    fn multiply(&self, table: &Coefficients, part: Part, components: usize, work: &mut Work) {
-        let (bins, count) = (self.size + 1, table.scales.len());
+    fn multiply(&self, classes: &PairClasses, part: Part, components: usize, work: &mut Work) {
+        let (bins, count) = (self.size + 1, classes.elements().len());
         let tiles = bins.div_ceil(TILE);
         let width = bins.div_ceil(tiles);
         let Work { spectra, inputs, outputs, .. } = work;
@@ -182,8 +183,8 @@ impl Level {
                     multiply_add::<false>(output, [re, im], input);
                 }
             };
-            for (p, pairs) in table.pairs.chunks_exact(count).enumerate() {
-                for (q, &(class, sign)) in pairs.iter().enumerate() {
+            for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
+                for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
                     match part {
                         Part::Normal => add(1.0, &self.normal, class, q, p),
                         Part::Tangential => add(1.0, &self.tangential, class, q, p),

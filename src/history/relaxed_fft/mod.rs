@@ -1,27 +1,25 @@
 //! The history by transforms of blocks: exact to rounding, O(log² N) per step.
 
+mod blocks;
 mod coefficients;
 mod lattice;
 mod level;
 mod pairs;
-mod shelf;
+pub(super) mod spectra;
+mod tables;
 mod wave_level;
 mod waves;
 
 use std::sync::Arc;
 
+use self::blocks::{Blocks, LEAF};
 use self::lattice::Lattice;
 use self::pairs::Pairs;
-pub(crate) use self::shelf::Shelf;
+pub use self::spectra::SharedSpectra;
 use self::waves::Waves;
-use super::ConvolutionHistory;
-use super::source::CoefficientSource;
-use crate::bem::PatchKernel;
+use super::convolution::{ConvolutionHistory, check_inputs};
+use super::lag_kernel::LagKernel;
 use crate::error::{Error, Result, same_length};
-
-/// Steps that are summed directly before the smallest block is transformed. Measured with 10 and
-/// 14 elements: 16 takes as long, 64 a fifth longer by pairs; by wavenumbers it hardly matters.
-const LEAF: usize = 32;
 
 /// Elements from which on the transform along the surface is taken. Measured, µs per step by pairs
 /// and by wavenumbers: 6 elements 1.9 and 1.7, 10 elements 4.4 and 2.5, 14 elements 8.0 and 3.9.
@@ -66,14 +64,14 @@ const LONGEST_HINT: usize = 1 << 22;
 /// Steps are of unequal cost: the one that completes a block of b pays for all of it, 4Q
 /// transforms of length 2b.
 ///
-/// Histories of one [`PatchKernel`] (clones included) share its spectra: the first that needs them
-/// makes them, on whatever thread.
+/// Histories of one kernel share its [spectra](LagKernel::spectra), where it keeps them: the first
+/// that needs them makes them, on whatever thread.
 ///
 /// Memory grows by doubling when steps go on past [`reserve`](ConvolutionHistory::reserve); within
 /// it nothing is allocated. Results may differ in the last digits between processors, as the
 /// transforms use the widest instructions found at run time.
 pub struct RelaxedFftHistory {
-    source: Arc<dyn CoefficientSource>,
+    kernel: Arc<dyn LagKernel>,
     /// Made when it is first needed.
     blocks: Option<Box<dyn Blocks>>,
     /// Whether to transform along the surface: `None` where it pays.
@@ -89,59 +87,21 @@ pub struct RelaxedFftHistory {
 }
 
 short_debug! {
-    RelaxedFftHistory; self; elements: self.source.elements().len(), steps: self.steps
-}
-
-/// Inputs and outputs so far, and how blocks of one give blocks of the other.
-trait Blocks: Send {
-    /// Steps for which there is room and for which all levels are ready. Where it is no power of
-    /// two, the outputs of the last blocks end with it, and are missing when it grows.
-    fn capacity(&self) -> usize;
-
-    /// Real numbers held.
-    fn numbers(&self) -> usize;
-
-    /// Makes ready for at least `steps` steps. Inputs and outputs stay as they are on an error.
-    fn grow(&mut self, source: &dyn CoefficientSource, steps: usize) -> Result<()>;
-
-    /// Works the input of step `now` − 1 in, so that the output of `now` is complete.
-    fn work_in(&mut self, now: usize);
-
-    /// Accepts the input of step `now`.
-    fn write(&mut self, now: usize, traction: &[f64]);
-
-    /// Numbers in which the input of a step is kept.
-    fn width(&self) -> usize;
-
-    /// Appends what is kept of the input of `step`; inputs before `worked_in` were worked in.
-    fn input(&self, step: usize, worked_in: usize, values: &mut Vec<f64>);
-
-    /// Accepts for step `now` what [`Blocks::input`] gave.
-    fn write_input(&mut self, now: usize, input: &[f64]);
-
-    /// Forgets all inputs and outputs.
-    fn clear(&mut self);
-
-    /// Overwrites `displacement` with the output of step `now`.
-    fn read(&mut self, now: usize, displacement: &mut [f64]);
+    RelaxedFftHistory; self; elements: self.kernel.classes().elements().len(), steps: self.steps
 }
 
 impl RelaxedFftHistory {
-    /// History of `kernel`, empty.
-    pub fn new(kernel: Arc<PatchKernel>) -> Self {
-        Self::of(kernel)
-    }
-
     /// Whether it transforms along the surface, unless told otherwise.
-    pub(crate) fn takes_wavenumbers(source: &dyn CoefficientSource) -> bool {
-        source.elements().len() >= WAVES_FROM && Lattice::of(source).is_some()
+    pub(super) fn takes_wavenumbers(kernel: &dyn LagKernel) -> bool {
+        let classes = kernel.classes();
+        classes.elements().len() >= WAVES_FROM && Lattice::of(classes).is_some()
     }
 
-    /// History of any coefficients, empty.
-    pub(crate) fn of(source: Arc<dyn CoefficientSource>) -> Self {
-        let padded = vec![0.0; 2 * source.elements().len()];
+    /// History of `kernel`, empty.
+    pub fn new(kernel: Arc<dyn LagKernel>) -> Self {
+        let padded = vec![0.0; 2 * kernel.classes().elements().len()];
         Self {
-            source,
+            kernel,
             blocks: None,
             along_surface: None,
             leaf: None,
@@ -175,15 +135,15 @@ impl RelaxedFftHistory {
 
     /// Makes ready for at least `steps` steps.
     fn grow(&mut self, steps: usize) -> Result<&mut dyn Blocks> {
-        let source = &*self.source;
+        let kernel = &*self.kernel;
         let blocks: Box<dyn Blocks> = if let Some(blocks) = self.blocks.take() {
             blocks
         } else {
-            let leaf = self.leaf.unwrap_or(LEAF);
-            let wanted = self.along_surface.unwrap_or(source.elements().len() >= WAVES_FROM);
-            match Lattice::of(source).filter(|_| wanted) {
-                Some(lattice) => Box::new(Waves::new(lattice, source, leaf)?),
-                None => Box::new(Pairs::new(source, leaf)?),
+            let (leaf, classes) = (self.leaf.unwrap_or(LEAF), kernel.classes());
+            let wanted = self.along_surface.unwrap_or(classes.elements().len() >= WAVES_FROM);
+            match Lattice::of(classes).filter(|_| wanted) {
+                Some(lattice) => Box::new(Waves::new(lattice, kernel, leaf)?),
+                None => Box::new(Pairs::new(kernel, leaf)?),
             }
         };
         let blocks = self.blocks.insert(blocks);
@@ -194,7 +154,7 @@ impl RelaxedFftHistory {
             if !capacity.is_power_of_two() {
                 (0..self.steps).for_each(|step| blocks.input(step, worked_in, &mut inputs));
             }
-            blocks.grow(source, steps)?;
+            blocks.grow(kernel, steps)?;
             if !inputs.is_empty() {
                 blocks.clear();
                 march(&mut **blocks, &inputs);
@@ -229,7 +189,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let count = self.source.elements().len();
+        let count = self.kernel.classes().elements().len();
         same_length("displacement of the history", displacement.len(), 2 * count)?;
         if let Some(error) = &self.failed {
             return Err(error.clone());
@@ -274,7 +234,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         // Before there is room for them: a damaged number of steps may ask for any amount.
         let width = self.grow(1)?.width();
-        super::check_inputs(steps, width, values)?;
+        check_inputs(steps, width, values)?;
         let blocks = self.grow(steps)?;
         blocks.clear();
         march(blocks, values);

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use realfft::RealFftPlanner;
 
+use super::blocks::{Blocks, LEAF};
 use super::coefficients::{Class, Coefficients};
 use super::level::{Block, Level, Part, Work};
-use super::{Blocks, LEAF};
+use super::tables::Tables;
 use crate::error::Result;
-use crate::history::source::CoefficientSource;
+use crate::history::lag_kernel::LagKernel;
 
 /// A coupling that reaches no further ahead than this is summed directly. Times hardly depend on
 /// it up to here; further on blocks are faster.
@@ -34,10 +35,10 @@ pub(super) struct Pairs {
 }
 
 impl Pairs {
-    /// Blocks of `source`, empty.
-    pub(super) fn new(source: &dyn CoefficientSource, leaf: usize) -> Result<Self> {
+    /// Blocks of `kernel`, empty.
+    pub(super) fn new(kernel: &dyn LagKernel, leaf: usize) -> Result<Self> {
         Ok(Self {
-            coefficients: Coefficients::new(source, leaf, DIRECT_COUPLING)?,
+            coefficients: Coefficients::new(kernel, leaf, DIRECT_COUPLING)?,
             leaf,
             levels: Vec::new(),
             planner: RealFftPlanner::new(),
@@ -48,20 +49,26 @@ impl Pairs {
         })
     }
 
+    /// Q.
+    fn elements(&self) -> usize {
+        self.coefficients.classes.elements().len()
+    }
+
     /// Whether blocks of `size` have spectra of the coupling: up to the first that covers its reach.
     fn couples(&self, size: usize) -> bool {
         let coefficients = &self.coefficients;
         coefficients.couples_far() && (size == self.leaf || size / 2 < coefficients.coupling_reach)
     }
 
-    /// The levels from the `first`-th to the one before `end`.
+    /// The levels from the `first`-th to the one before `end`, and the coefficients of a leaf unless
+    /// they are there: all of one evaluation of the kernel.
     fn make(
         &mut self,
-        source: &dyn CoefficientSource,
-        first: usize,
-        end: usize,
+        kernel: &dyn LagKernel,
+        [first, end]: [usize; 2],
+        near: &mut Option<Arc<Tables>>,
     ) -> Result<Vec<Arc<Level>>> {
-        let (count, classes) = (self.coefficients.scales.len(), self.coefficients.classes);
+        let (count, classes) = (self.elements(), self.coefficients.classes.count());
         let mut levels = Vec::new();
         for number in first..end {
             let mut level = Level::new(self.leaf << number, &mut self.planner);
@@ -70,15 +77,24 @@ impl Pairs {
             self.work.grow(&level, if couples { 2 * count } else { count });
             levels.push((level, couples));
         }
-        if !levels.is_empty() {
-            let mut values = Class::new(self.leaf << end);
+        let mut tables = near.is_none().then(Tables::default);
+        let far = if levels.is_empty() { 0 } else { self.leaf << end };
+        let length = if tables.is_some() { far.max(self.coefficients.length()) } else { far };
+        if length > 0 {
+            let mut values = Class::new(length);
             for class in 0..classes {
-                values.fill(source, class)?;
+                values.fill(kernel, class)?;
+                if let Some(tables) = &mut tables {
+                    self.coefficients.add_class(&values, tables);
+                }
                 let values = [&values.normal[..], &values.tangential, &values.coupling];
                 for (level, couples) in &mut levels {
                     level.add_class(values, *couples, &mut self.work);
                 }
             }
+        }
+        if let Some(tables) = tables {
+            *near = Some(Arc::new(tables));
         }
         Ok(levels.into_iter().map(|(level, _)| Arc::new(level)).collect())
     }
@@ -91,27 +107,35 @@ impl Blocks for Pairs {
 
     fn numbers(&self) -> usize {
         self.rows.capacity()
-            + self.coefficients.numbers()
+            + self.coefficients.near.numbers()
             + self.levels.iter().map(|level| level.numbers()).sum::<usize>()
             + self.work.numbers()
     }
 
-    fn grow(&mut self, source: &dyn CoefficientSource, steps: usize) -> Result<()> {
+    fn grow(&mut self, kernel: &dyn LagKernel, steps: usize) -> Result<()> {
         let capacity = steps.div_ceil(self.leaf).next_power_of_two() * self.leaf;
         if capacity <= self.capacity {
             return Ok(());
         }
-        let count = self.coefficients.scales.len();
+        let count = self.elements();
         let wanted = (capacity / self.leaf).ilog2() as usize;
-        let levels = if let Some(shelf) = source.shelf().filter(|_| self.leaf == LEAF) {
-            let mut shared = shelf.pairs();
-            let more = self.make(source, shared.levels.len(), wanted)?;
-            shared.levels.extend(more);
-            shared.levels[..wanted].to_vec()
+        // Before the spectra are locked: a kernel may work on several threads, which must not wait.
+        kernel.prepare(capacity.max(self.coefficients.length()))?;
+        let spectra = kernel.spectra().filter(|_| self.leaf == LEAF);
+        let classes = &self.coefficients.classes;
+        let (levels, near) = if let Some(spectra) = spectra.filter(|s| s.are_of(classes.elements()))
+        {
+            let mut shared = spectra.pairs();
+            let mut near = shared.near.take();
+            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near);
+            shared.near.clone_from(&near);
+            shared.levels.extend(more?);
+            (shared.levels[..wanted].to_vec(), near)
         } else {
+            let mut near = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.near));
             let mut levels = self.levels.clone();
-            levels.extend(self.make(source, levels.len(), wanted)?);
-            levels
+            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near)?);
+            (levels, near)
         };
         for level in &levels {
             let components = if self.couples(level.size) { 2 * count } else { count };
@@ -128,6 +152,7 @@ impl Blocks for Pairs {
             }
         }
         self.levels = levels;
+        self.coefficients.near = near.unwrap_or_default();
         (self.rows, self.stride, self.capacity) = (rows, stride, capacity);
         Ok(())
     }
@@ -146,7 +171,7 @@ impl Blocks for Pairs {
         let couples = self.couples(level.size);
         let far = self.levels.iter().rfind(|level| self.couples(level.size));
         let (rows, stride) = (&mut self.rows[..], self.stride);
-        let mut block = Block { rows, stride, now, coefficients };
+        let mut block = Block { rows, stride, now, classes: &coefficients.classes };
         if couples {
             level.apply(&mut block, Part::All, &mut self.work);
         } else {
@@ -165,7 +190,7 @@ impl Blocks for Pairs {
     }
 
     fn width(&self) -> usize {
-        2 * self.coefficients.scales.len()
+        2 * self.elements()
     }
 
     fn input(&self, step: usize, _worked_in: usize, values: &mut Vec<f64>) {

@@ -6,6 +6,12 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
+/// Normal, tangential, coupling.
+pub(super) const KINDS: usize = 3;
+
+/// Per kind, d = 0 … leaf − 1 times the number of wavenumbers.
+pub(super) type Near = [Vec<f64>; KINDS];
+
 /// What b inputs give at the next b outputs, for each wavenumber by itself: one wavenumber's blocks
 /// and spectra fit into cache.
 pub(super) struct WaveLevel {
@@ -17,7 +23,7 @@ pub(super) struct WaveLevel {
     /// coefficients are real numbers in time, so that the others are conjugates; the coupling's
     /// stand for i times them. The last is empty where the coupling has died out within smaller
     /// blocks.
-    spectra: [Vec<Complex<f64>>; 3],
+    spectra: [Vec<Complex<f64>>; KINDS],
 }
 
 /// Which components of the tractions move which.

@@ -7,20 +7,14 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
+use super::blocks::{Blocks, LEAF};
 use super::lattice::Lattice;
-use super::wave_level::{Part, WaveLevel};
-use super::{Blocks, LEAF};
+use super::wave_level::{KINDS, Near, Part, WaveLevel};
 use crate::error::Result;
-use crate::history::source::CoefficientSource;
-
-/// Normal, tangential, coupling.
-const KINDS: usize = 3;
+use crate::history::lag_kernel::LagKernel;
 
 /// Between the ends of rows, so that equal places of all rows do not fall into one cache set.
 const PADDING: usize = 4;
-
-/// Per kind, d = 0 … leaf − 1 times B.
-pub(super) type Near = [Vec<f64>; KINDS];
 
 /// Steps of a leaf over wavenumbers, all levels of blocks, and what has come in so far.
 ///
@@ -30,7 +24,7 @@ pub(super) struct Waves {
     lattice: Lattice,
     /// Steps that are summed directly.
     leaf: usize,
-    /// Last d at which any coupling is not zero.
+    /// Last d at which any coupling is not zero; the largest number if it never ends.
     reach: usize,
     near: Arc<Near>,
     levels: Vec<Arc<WaveLevel>>,
@@ -50,14 +44,10 @@ pub(super) struct Waves {
 
 impl Waves {
     /// Blocks of elements on `lattice`, empty.
-    pub(super) fn new(
-        lattice: Lattice,
-        source: &dyn CoefficientSource,
-        leaf: usize,
-    ) -> Result<Self> {
+    pub(super) fn new(lattice: Lattice, kernel: &dyn LagKernel, leaf: usize) -> Result<Self> {
         let size = 4 * lattice.waves();
         Ok(Self {
-            reach: lattice.last_coupling_lag(source)?.saturating_sub(1),
+            reach: lattice.last_coupling_lag(kernel)?.saturating_sub(1),
             lattice,
             leaf,
             near: Arc::default(),
@@ -83,7 +73,7 @@ impl Waves {
     /// unless they are there.
     fn make(
         &mut self,
-        source: &dyn CoefficientSource,
+        kernel: &dyn LagKernel,
         [first, end]: [usize; 2],
         near: &mut Option<Arc<Near>>,
     ) -> Result<Vec<Arc<WaveLevel>>> {
@@ -94,7 +84,7 @@ impl Waves {
                 WaveLevel::new(size, waves, self.couples(size), &mut self.planner)
             })
             .collect();
-        let own = self.fill(source, &mut levels, near.is_none())?;
+        let own = self.fill(kernel, &mut levels, near.is_none())?;
         near.get_or_insert(Arc::new(own));
         Ok(levels.into_iter().map(Arc::new).collect())
     }
@@ -102,7 +92,7 @@ impl Waves {
     /// Fills the spectra of `levels`, and returns the coefficients of a leaf if they are `wanted`.
     fn fill(
         &mut self,
-        source: &dyn CoefficientSource,
+        kernel: &dyn LagKernel,
         levels: &mut [WaveLevel],
         wanted: bool,
     ) -> Result<Near> {
@@ -119,7 +109,7 @@ impl Waves {
         let largest: [_; KINDS] =
             std::array::from_fn(|kind| levels.iter().rposition(|level| level.has(kind)));
         let coupled = lags[2].min(self.reach + 1);
-        self.lattice.coefficients(source, lags[0], coupled, |kind, d, values| {
+        self.lattice.coefficients(kernel, lags[0], coupled, |kind, d, values| {
             if near.is_some_and(|leaf| d < leaf) {
                 table[kind][d * waves..(d + 1) * waves].copy_from_slice(values);
             }
@@ -154,8 +144,7 @@ impl Waves {
             }
         }
         let number = (now / self.leaf).trailing_zeros() as usize;
-        let size = self.levels[number].size;
-        let part = if self.couples(size) { Part::All } else { Part::Even };
+        let part = if self.levels[number].has(2) { Part::All } else { Part::Even };
         let Self { levels, rows, blocks, scratch, stride, .. } = self;
         levels[number].apply(rows, *stride, now, part, blocks, scratch);
         if part == Part::Even
@@ -188,7 +177,7 @@ impl Blocks for Waves {
             + self.lattice.numbers()
     }
 
-    fn grow(&mut self, source: &dyn CoefficientSource, steps: usize) -> Result<()> {
+    fn grow(&mut self, kernel: &dyn LagKernel, steps: usize) -> Result<()> {
         if steps <= self.capacity && self.capacity > 0 {
             return Ok(());
         }
@@ -198,17 +187,21 @@ impl Blocks for Waves {
         let capacity = self.leaf * if self.capacity == 0 { leaves } else { largest };
         let waves = self.lattice.waves();
         let wanted = largest.ilog2() as usize;
-        let (levels, near) = if let Some(shelf) = source.shelf().filter(|_| self.leaf == LEAF) {
-            let mut shared = shelf.waves();
+        // Before the spectra are locked: a kernel may work on several threads, which must not wait.
+        kernel.prepare(largest * self.leaf)?;
+        let spectra = kernel.spectra().filter(|_| self.leaf == LEAF);
+        let elements = kernel.classes().elements();
+        let (levels, near) = if let Some(spectra) = spectra.filter(|s| s.are_of(elements)) {
+            let mut shared = spectra.waves();
             let mut near = shared.near.take();
-            let more = self.make(source, [shared.levels.len(), wanted], &mut near);
+            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near);
             shared.near.clone_from(&near);
             shared.levels.extend(more?);
             (shared.levels[..wanted].to_vec(), near)
         } else {
             let mut near = (self.capacity > 0).then(|| Arc::clone(&self.near));
             let mut levels = self.levels.clone();
-            levels.extend(self.make(source, [levels.len(), wanted], &mut near)?);
+            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near)?);
             (levels, near)
         };
         let zero = Complex::default();

@@ -104,6 +104,7 @@ impl GmshMesh {
         }
         let nodes = points().map(|point| [point.values[0], point.values[1]]).collect();
         let mut mesh = Self { file: name.to_owned(), nodes, quads: Vec::new(), lines: Vec::new() };
+        let mut corners = BTreeSet::new();
         for cell in &raw.cells {
             // Lines of the geometry that no quadrilateral touches mean nothing here.
             let places: Option<Vec<usize>> =
@@ -111,6 +112,13 @@ impl GmshMesh {
             let Some(mut nodes) = places else { continue };
             let group = raw.group(cell);
             if cell.is_quadrilateral() {
+                let mut own = nodes[..4].to_vec();
+                own.sort_unstable();
+                if !corners.insert(own) {
+                    let tags: Vec<String> = cell.nodes.iter().map(u64::to_string).collect();
+                    let what = format!("the quadrilateral of nodes {}", tags.join(" "));
+                    return Err(refuse((cell.line, MeshFileError::Twice { what })));
+                }
                 mesh.turn_counter_clockwise(&mut nodes);
                 mesh.quads.push(Cell { group, nodes });
             } else {

@@ -1,11 +1,12 @@
 //! The sections of a `.msh` file, version 4.1 (Gmsh reference manual, "MSH file format").
 
 use std::collections::BTreeMap;
-use std::io::{BufReader, Read};
+use std::io::Read;
 use std::str::FromStr;
 
-use crate::bounded_line::read_line;
+use crate::bounded_line::Lines;
 use crate::error::MeshFileError;
+use crate::number::{excerpt, finite};
 
 /// Why a line is refused, and which.
 type Reason<T> = Result<T, (usize, MeshFileError)>;
@@ -60,6 +61,9 @@ pub(super) fn read(source: impl Read) -> Reason<Raw> {
     let mut raw = Raw::default();
     let mut seen = Vec::new();
     while let Some(section) = fields.section()? {
+        if seen.contains(&section) {
+            return Err(fields.refuse(MeshFileError::Twice { what: format!("section ${section}") }));
+        }
         match section.as_str() {
             "MeshFormat" => format(&mut fields)?,
             "PhysicalNames" => physical_names(&mut fields, &mut raw)?,
@@ -100,7 +104,11 @@ fn physical_names(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
     let count: usize = fields.next("number of names")?;
     for _ in 0..count {
         let key = (fields.next("dimension")?, fields.next("tag of a group")?);
-        raw.names.insert(key, fields.quoted()?);
+        let name = fields.quoted()?;
+        if raw.names.insert(key, name).is_some() {
+            let what = format!("the name of group {} of dimension {}", key.1, key.0);
+            return Err(fields.refuse(MeshFileError::Twice { what }));
+        }
     }
     Ok(())
 }
@@ -132,15 +140,20 @@ fn entities(fields: &mut Fields<impl Read>, raw: &mut Raw, partitioned: bool) ->
                     let _: i64 = fields.next("partition")?;
                 }
             }
-            // A point has its coordinates, the others the corners of a box.
+            // A point has its coordinates, the others the corners of a box, which may be infinite.
             for _ in 0..if dimension == 0 { 3 } else { 6 } {
                 let _: f64 = fields.next("coordinate of an entity")?;
             }
             let groups: usize = fields.next("number of groups")?;
             for k in 0..groups {
                 let group = fields.next("tag of a group")?;
-                if k == 0 {
-                    raw.groups.insert((dimension, tag), group);
+                if k > 0 {
+                    continue;
+                }
+                let before = raw.groups.insert((dimension, tag), group);
+                if before.is_some_and(|before| before != group && !partitioned) {
+                    let what = format!("the group of entity {tag} of dimension {dimension}");
+                    return Err(fields.refuse(MeshFileError::Twice { what }));
                 }
             }
             if dimension > 0 {
@@ -231,8 +244,7 @@ fn elements(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
 
 /// The fields of a text, one after the other, with the line that they stand in.
 struct Fields<R: Read> {
-    source: BufReader<R>,
-    bytes: Vec<u8>,
+    source: Lines<R>,
     text: String,
     /// Where the next field begins in `text`.
     at: usize,
@@ -242,8 +254,7 @@ struct Fields<R: Read> {
 
 impl<R: Read> Fields<R> {
     fn new(source: R) -> Self {
-        let source = BufReader::new(source);
-        Self { source, bytes: Vec::new(), text: String::new(), at: 0, line: 0 }
+        Self { source: Lines::new(source), text: String::new(), at: 0, line: 0 }
     }
 
     fn refuse(&self, reason: MeshFileError) -> (usize, MeshFileError) {
@@ -253,12 +264,11 @@ impl<R: Read> Fields<R> {
     /// Goes to the next line; `false` at the end.
     fn advance(&mut self) -> Reason<bool> {
         self.line += 1;
-        let read = read_line(&mut self.source, &mut self.bytes);
-        if !read.map_err(|unread| (self.line, unread.into()))? {
+        if !self.source.advance()? {
             return Ok(false);
         }
         self.text.clear();
-        self.text.push_str(&String::from_utf8_lossy(&self.bytes));
+        self.text.push_str(&self.source.text());
         self.at = 0;
         Ok(true)
     }
@@ -280,22 +290,21 @@ impl<R: Read> Fields<R> {
         }
     }
 
-    fn next<T: FromStr>(&mut self, what: &'static str) -> Reason<T> {
+    /// The next field, understood by `parse`.
+    fn field_as<T>(&mut self, what: &'static str, parse: impl Fn(&str) -> Option<T>) -> Reason<T> {
         let Some(field) = self.field()? else {
             return Err((self.line, MeshFileError::Missing { what: what.to_owned() }));
         };
-        let parsed = field.parse();
-        let text = field.chars().take(40).collect();
-        parsed.map_err(|_| self.refuse(MeshFileError::NotA { what, text }))
+        let (parsed, text) = (parse(field), excerpt(field));
+        parsed.ok_or_else(|| self.refuse(MeshFileError::NotA { what, text }))
+    }
+
+    fn next<T: FromStr>(&mut self, what: &'static str) -> Reason<T> {
+        self.field_as(what, |field| field.parse().ok())
     }
 
     fn number(&mut self) -> Reason<f64> {
-        let value: f64 = self.next("number")?;
-        if value.is_finite() {
-            return Ok(value);
-        }
-        let text = value.to_string();
-        Err(self.refuse(MeshFileError::NotA { what: "finite number", text }))
+        self.field_as("finite number", finite)
     }
 
     /// Refuses another number of things than was announced.
@@ -328,7 +337,7 @@ impl<R: Read> Fields<R> {
         if let Some(name) = field.strip_prefix('$') {
             return Ok(Some(name.to_owned()));
         }
-        let text = field.chars().take(40).collect();
+        let text = excerpt(field);
         Err(self.refuse(MeshFileError::NotA { what: "beginning of a section", text }))
     }
 

@@ -1,10 +1,11 @@
 //! Reader of Matrix Market files.
 
-use std::io::{BufReader, Read};
+use std::io::Read;
 
-use crate::bounded_line::read_line;
+use crate::bounded_line;
 use crate::error::MatrixFileError;
 use crate::matrix::MOST_ROWS;
+use crate::number::{excerpt, finite};
 use crate::structure::Triplets;
 
 /// Most entries of an array, which has no other bound than what its size line says.
@@ -21,53 +22,45 @@ struct Header {
 
 /// The lines of the file.
 struct Lines<'a> {
-    source: BufReader<&'a mut dyn Read>,
-    bytes: Vec<u8>,
-    number: usize,
+    source: bounded_line::Lines<&'a mut dyn Read>,
+    /// The present line, without white space at its ends.
+    text: String,
 }
 
 impl Lines<'_> {
-    /// Reads the next line, without white space at its ends; false at the end of the file.
+    /// Reads the next line; false at the end of the file.
     fn advance(&mut self) -> Reason<bool> {
-        let line = self.number + 1;
-        let read = read_line(&mut self.source, &mut self.bytes);
-        let there = read.map_err(|unread| (line, unread.into()))?;
-        if there {
-            self.number = line;
-        }
+        let there = self.source.advance()?;
+        self.text.clear();
+        self.text.push_str(self.source.text().trim_ascii());
         Ok(there)
     }
 
     /// The next line that is neither empty nor a comment; false at the end of the file.
     fn advance_to_data(&mut self) -> Reason<bool> {
         while self.advance()? {
-            let text = self.bytes.trim_ascii();
-            if !text.is_empty() && text[0] != b'%' {
+            if !self.text.is_empty() && !self.text.starts_with('%') {
                 return Ok(true);
             }
         }
         Ok(false)
     }
 
-    fn text(&self) -> std::borrow::Cow<'_, str> {
-        String::from_utf8_lossy(self.bytes.trim_ascii())
-    }
-
     fn refuse(&self, reason: MatrixFileError) -> (usize, MatrixFileError) {
-        (self.number, reason)
+        (self.source.number, reason)
     }
 }
 
 pub(super) fn read(source: &mut dyn Read) -> Reason<Triplets> {
-    let mut lines = Lines { source: BufReader::new(source), bytes: Vec::new(), number: 0 };
+    let mut lines = Lines { source: bounded_line::Lines::new(source), text: String::new() };
     if !lines.advance()? {
         return Err((0, MatrixFileError::Empty));
     }
-    let header = header(&lines.text()).map_err(|reason| lines.refuse(reason))?;
+    let header = header(&lines.text).map_err(|reason| lines.refuse(reason))?;
     if !lines.advance_to_data()? {
         return Err(lines.refuse(MatrixFileError::Fields { found: 0, needed: sizes(&header) }));
     }
-    let size = fields(&lines.text(), sizes(&header))
+    let size = fields(&lines.text, sizes(&header))
         .and_then(|fields| fields.into_iter().map(whole_number).collect::<Result<Vec<_>, _>>())
         .map_err(|reason| lines.refuse(reason))?;
     let (rows, columns) = (size[0], size[1]);
@@ -127,20 +120,15 @@ fn fields(line: &str, needed: usize) -> Result<Vec<&str>, MatrixFileError> {
 }
 
 fn not_a_number(field: &str) -> MatrixFileError {
-    MatrixFileError::NotANumber { text: field.chars().take(40).collect() }
+    MatrixFileError::NotANumber { text: excerpt(field) }
 }
 
 fn whole_number(field: &str) -> Result<usize, MatrixFileError> {
     field.parse().map_err(|_| not_a_number(field))
 }
 
-/// A finite number; Fortran's `1.0D+3` counts as one.
 fn number(field: &str) -> Result<f64, MatrixFileError> {
-    let value = field.parse::<f64>().or_else(|_| field.replace(['D', 'd'], "e").parse());
-    match value {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => Err(not_a_number(field)),
-    }
+    finite(field).ok_or_else(|| not_a_number(field))
 }
 
 /// An index from 1, as one from 0.
@@ -169,7 +157,7 @@ fn coordinates(
         if !lines.advance_to_data()? {
             return Err(lines.refuse(MatrixFileError::Entries { found, needed }));
         }
-        let (row, column, value) = entry(&lines.text()).map_err(|reason| lines.refuse(reason))?;
+        let (row, column, value) = entry(&lines.text).map_err(|reason| lines.refuse(reason))?;
         if header.symmetric && row < column {
             return Err(
                 lines.refuse(MatrixFileError::AboveDiagonal { row: row + 1, column: column + 1 })
@@ -193,8 +181,7 @@ fn array(lines: &mut Lines, header: &Header, matrix: &mut Triplets) -> Reason<()
             if !lines.advance_to_data()? {
                 return Err(lines.refuse(MatrixFileError::Entries { found, needed }));
             }
-            let text = lines.text();
-            let value = fields(&text, 1)
+            let value = fields(&lines.text, 1)
                 .and_then(|fields| number(fields[0]))
                 .map_err(|reason| lines.refuse(reason))?;
             found += 1;

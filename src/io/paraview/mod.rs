@@ -1,7 +1,8 @@
 //! Files for ParaView: a `.pvd` collection of `.vtu` grids, one pair for every frame.
 //!
 //! The first grid of a frame is the structure, with the vectors `displacement` (m, change against
-//! the static state) and `velocity` (m/s) at its points: apply *Warp By Vector* to see it move. The
+//! the static state, relative to the free field) and `velocity` (m/s, total) at its points: apply
+//! *Warp By Vector* to see it move. The
 //! second is the base, a line for every contact element, with `pressure` and `shear` (Pa), `gap` and
 //! `slip` (m) and `mode` (0 stick, 1 slip to the left, 2 slip to the right, 3 open).
 //!

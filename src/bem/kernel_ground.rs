@@ -1,0 +1,329 @@
+//! A ground made of coefficients.
+
+use std::sync::Arc;
+
+use super::{Ground, KernelSource, SharedKernels};
+use crate::contact_element::{ContactElement, check_order};
+use crate::error::{CheckpointError, Error, Result};
+use crate::history::{
+    ConvolutionHistory, ExponentialHistory, History, HistoryChoice, HistoryOptions, LagKernel,
+    SavedChoice,
+};
+
+/// Any soil that knows its step coefficients and its static compliance, as a ground.
+///
+/// [`HalfPlaneGround`](super::HalfPlaneGround) is made of it, and so can be a soil of your own: a
+/// [`KernelSource`] and its [`LagKernel`]. All kinds of histories, their choice, shared kernels
+/// and checkpoints come with it.
+///
+/// A bed of independent Kelvin–Voigt springs, exactly integrated: under a pressure held for one step
+/// an element goes down by (1 − z)/k, and comes back by a factor z = exp(−k Δt/c) in each that
+/// follows.
+///
+/// ```
+/// use std::sync::Arc;
+///
+/// use basemat::bem::{ContactElement, KernelGround, KernelSource, Strip};
+/// use basemat::history::{LagKernel, PairClasses};
+/// use basemat::interface::Coulomb;
+/// use basemat::motion::el_centro_1940;
+/// use basemat::structure::RigidBlock;
+/// use basemat::{Result, Simulation};
+///
+/// /// Stiffness and dashpots per area, Pa/m and Pa s/m.
+/// #[derive(Clone, Copy)]
+/// struct Bed {
+///     stiffness: f64,
+///     dashpots: f64,
+/// }
+///
+/// struct BedKernel {
+///     bed: Bed,
+///     time_step: f64,
+///     classes: PairClasses,
+/// }
+///
+/// impl LagKernel for BedKernel {
+///     fn classes(&self) -> &PairClasses {
+///         &self.classes
+///     }
+///
+///     fn coefficients(
+///         &self,
+///         class: usize,
+///         first_lag: usize,
+///         normal: &mut [f64],
+///         tangential: &mut [f64],
+///         coupling: &mut [f64],
+///     ) -> Result<()> {
+///         let Bed { stiffness, dashpots } = self.bed;
+///         let rate = stiffness * self.time_step / dashpots;
+///         let [source, receiver] = self.classes.representative(class)?;
+///         // Integrals over the receiver; nothing moves but the loaded element.
+///         let at_once = if source == receiver {
+///             receiver.length() * -(-rate).exp_m1() / stiffness
+///         } else {
+///             0.0
+///         };
+///         for (i, value) in normal.iter_mut().enumerate() {
+///             *value = at_once * (-rate * (first_lag - 1 + i) as f64).exp();
+///         }
+///         tangential.copy_from_slice(normal);
+///         coupling.fill(0.0);
+///         Ok(())
+///     }
+///
+///     fn last_coupling_lag(&self, _class: usize) -> Result<Option<usize>> {
+///         Ok(Some(0))
+///     }
+/// }
+///
+/// impl KernelSource for Bed {
+///     fn kernel(&self, elements: &[ContactElement], time_step: f64) -> Result<Arc<dyn LagKernel>> {
+///         let classes = PairClasses::new(elements.to_vec())?;
+///         Ok(Arc::new(BedKernel { bed: *self, time_step, classes }))
+///     }
+///
+///     fn static_compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
+///         matrix.fill(0.0);
+///         for component in 0..2 * elements.len() {
+///             matrix[component * (2 * elements.len() + 1)] = 1.0 / self.stiffness;
+///         }
+///         Ok(())
+///     }
+/// }
+///
+/// let bed = Bed { stiffness: 40.0e6, dashpots: 4.0e5 };
+/// let run = Simulation::builder(0.005)
+///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+///     .ground(KernelGround::new(bed, Strip::uniform(-2.0..2.0, 8)?.elements())?)
+///     .interface(Coulomb::new(0.4)?)
+///     .motion(el_centro_1940())
+///     .build()?
+///     .run(400, |_| {})?;
+/// assert!(run.ledger_residual < 1e-9);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub struct KernelGround {
+    source: Box<dyn KernelSource>,
+    elements: Vec<ContactElement>,
+    options: HistoryOptions,
+    own_history: Option<Box<MakeHistory>>,
+    shared: SharedKernels,
+    prepared: Option<Prepared>,
+}
+
+short_debug! {
+    KernelGround;
+    self;
+    elements: self.elements.len(),
+    history: self.options,
+    prepared: self.prepared.is_some(),
+}
+
+/// Makes the history of a kernel.
+type MakeHistory = dyn Fn(Arc<dyn LagKernel>) -> Box<dyn ConvolutionHistory> + Send;
+
+/// What a time step brings with it.
+struct Prepared {
+    kernel: Arc<dyn LagKernel>,
+    /// Left open until the number of steps is known or the first step is made.
+    history: Option<Box<dyn ConvolutionHistory>>,
+    choice: Option<HistoryChoice>,
+}
+
+impl Prepared {
+    /// The history, made now if it has not been.
+    fn history(
+        &mut self,
+        options: HistoryOptions,
+        steps: Option<usize>,
+    ) -> Result<&mut dyn ConvolutionHistory> {
+        let history = if let Some(history) = self.history.take() {
+            history
+        } else {
+            let (history, choice) = options.make(&self.kernel, steps)?;
+            self.choice = Some(choice);
+            history
+        };
+        Ok(self.history.insert(history).as_mut())
+    }
+}
+
+impl KernelGround {
+    /// The ground of `source` under `elements`, from left to right.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for no elements, [`Error::Input`] for elements that overlap, are out of order
+    /// or have no length.
+    pub fn new(source: impl KernelSource, elements: Vec<ContactElement>) -> Result<Self> {
+        check_order(&elements)?;
+        let (options, shared) = (HistoryOptions::default(), SharedKernels::default());
+        let source = Box::new(source);
+        Ok(Self { source, elements, options, own_history: None, shared, prepared: None })
+    }
+
+    /// With a history of this kind; [`History::Auto`] unless called.
+    #[must_use]
+    pub fn with_history_kind(mut self, history: History) -> Self {
+        (self.options.kind, self.own_history) = (history, None);
+        self
+    }
+
+    /// Allows a history whose coefficients are within `tolerance` (relative, 1e-12 to 1e-2) of the
+    /// exact ones: [`History::Auto`] may then take the exponentials, and [`History::Exponentials`]
+    /// takes this tolerance instead of its own.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a tolerance outside this range.
+    pub fn with_history_tolerance(mut self, tolerance: f64) -> Result<Self> {
+        self.options.tolerance = Some(ExponentialHistory::check_tolerance(tolerance)?);
+        Ok(self)
+    }
+
+    /// With a limit (bytes) on the memory of the history that [`History::Auto`] chooses; 1 GiB
+    /// unless called. It goes by [`Ground::announce`] and [`Ground::reserve`] (of a simulation,
+    /// [`expected_steps`](crate::coupled::SimulationBuilder::expected_steps) or the steps of the
+    /// first run), and is no limit where the number of steps is not known.
+    #[must_use]
+    pub fn with_history_memory(mut self, bytes: usize) -> Self {
+        self.options.memory = bytes;
+        self
+    }
+
+    /// With a history of one's own: `make` is called with the coefficients once the time step is
+    /// known.
+    #[must_use]
+    pub fn with_history(
+        mut self,
+        make: impl Fn(Arc<dyn LagKernel>) -> Box<dyn ConvolutionHistory> + Send + 'static,
+    ) -> Self {
+        self.own_history = Some(Box::new(make));
+        self
+    }
+
+    /// With coefficients from a store that other grounds take them from as well: what is equal in
+    /// the cases of a sweep is then computed once.
+    #[must_use]
+    pub fn with_shared_kernels(mut self, kernels: &SharedKernels) -> Self {
+        self.shared = kernels.clone();
+        self
+    }
+
+    /// Before the first step, with a history where none is to be chosen.
+    fn begin(&self, kernel: Arc<dyn LagKernel>) -> Result<Prepared> {
+        let history = self.own_history.as_ref().map(|make| make(Arc::clone(&kernel)));
+        let mut prepared = Prepared { kernel, history, choice: None };
+        if self.options.kind != History::Auto {
+            prepared.history(self.options, None)?;
+        }
+        Ok(prepared)
+    }
+}
+
+impl Ground for KernelGround {
+    fn elements(&self) -> &[ContactElement] {
+        &self.elements
+    }
+
+    fn prepare(&mut self, time_step: f64) -> Result<()> {
+        let kernel = self.shared.kernel(&*self.source, &self.elements, time_step)?;
+        self.prepared = Some(self.begin(kernel)?);
+        Ok(())
+    }
+
+    fn announce(&mut self, steps: usize) -> Result<()> {
+        match &mut self.prepared {
+            Some(prepared) => prepared.history(self.options, Some(steps)).map(|_| ()),
+            None => Err(NOT_PREPARED),
+        }
+    }
+
+    fn reserve(&mut self, steps: usize) -> Result<()> {
+        match &mut self.prepared {
+            Some(prepared) => prepared.history(self.options, Some(steps))?.reserve(steps),
+            None => Err(NOT_PREPARED),
+        }
+    }
+
+    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+        match &self.prepared {
+            Some(prepared) => prepared.kernel.instantaneous(matrix),
+            None => Err(NOT_PREPARED),
+        }
+    }
+
+    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
+        match &mut self.prepared {
+            Some(prepared) => prepared.history(self.options, None)?.evaluate(displacement),
+            None => Err(NOT_PREPARED),
+        }
+    }
+
+    fn commit(&mut self, traction: &[f64]) {
+        let Some(prepared) = &mut self.prepared else { return };
+        // Where Auto has nothing to go by, it takes a history that can always be made.
+        if let Ok(history) = prepared.history(self.options, None) {
+            history.push(traction);
+        }
+    }
+
+    fn shear_wave_speed(&self) -> Option<f64> {
+        self.source.shear_wave_speed()
+    }
+
+    fn history_choice(&self) -> Option<HistoryChoice> {
+        self.prepared.as_ref()?.choice
+    }
+
+    fn increment_error_bound(&self) -> f64 {
+        let history = self.prepared.as_ref().and_then(|prepared| prepared.history.as_ref());
+        history.map_or(0.0, ConvolutionHistory::increment_error_bound)
+    }
+
+    /// Which history was chosen for how many steps, and what it says.
+    fn save(&self) -> Result<Vec<f64>> {
+        let prepared = self.prepared.as_ref().ok_or(NOT_PREPARED)?;
+        let mut values = SavedChoice::new(prepared.choice).numbers().to_vec();
+        if let Some(history) = &prepared.history {
+            values.extend(history.save()?);
+        }
+        Ok(values)
+    }
+
+    fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
+        let prepared = self.prepared.as_mut().ok_or(NOT_PREPARED)?;
+        let (saved, values) = SavedChoice::read(values)?;
+        let own = SavedChoice::new(prepared.choice);
+        let other = CheckpointError::OtherScene { quantity: "kind of history" };
+        if let Some(history) = prepared.history.as_mut().filter(|_| own == saved) {
+            return history.restore(steps, values);
+        }
+        if saved.kind == History::Auto {
+            // Nothing had been chosen yet, so that it is still to be.
+            if self.own_history.is_some() || steps > 0 || !values.is_empty() {
+                return Err(other.into());
+            }
+            let kernel = Arc::clone(&prepared.kernel);
+            self.prepared = Some(self.begin(kernel)?);
+            return Ok(());
+        }
+        // What was chosen then is chosen again, and taken once it has the values.
+        let (mut history, choice) = self.options.make(&prepared.kernel, saved.steps)?;
+        if choice.kind != saved.kind {
+            return Err(other.into());
+        }
+        history.restore(steps, values)?;
+        (prepared.history, prepared.choice) = (Some(history), Some(choice));
+        Ok(())
+    }
+
+    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        self.source.static_compliance(&self.elements, matrix)
+    }
+}
+
+const NOT_PREPARED: Error = Error::Scene {
+    quantity: "ground",
+    needed: "`prepare` must be called with the time step first",
+};

@@ -1,0 +1,274 @@
+//! The last resort of the mode search: parametric pivoting.
+//!
+//! The contact problem is embedded in a family j(λ) = j₀ + (1−λ) d. At λ = 0 the solution is
+//! known; at λ = 1 it is the problem to solve. For fixed modes the solution is linear in λ, so it is
+//! followed to the first λ at which a law objects, that element's mode is changed to the one that
+//! continues the solution there, and so on. λ may turn back in between. For the complementarity
+//! problem of Coulomb friction this is Lemke's method (Lemke 1965) with d its covering vector; here
+//! it needs of a law no more than its conditions and its next mode.
+//!
+//! Begun with all elements open and a d that widens gaps only, the path cannot run off to λ = −∞:
+//! there j = d + W r with p·g = 0 and τ·Δjₜ ≤ 0 would give r·A W r + p·A dₙ ≤ 0, hence r = 0, which
+//! is the beginning. This holds for any friction coefficient if r·A W r > 0 for r ≠ 0; A W need
+//! not be symmetric.
+//! With tensile strength the law is not monotone and the path may break; then it is begun
+//! elsewhere, also with all elements pressed shut.
+
+use super::problem::{ContactInput, ContactSolver};
+use crate::interface::{ContactState, Mode, Tolerance};
+use crate::linalg::dot;
+
+/// Changes of mode per element, at most.
+const CHANGES: usize = 60;
+/// λ below which the path counts as lost.
+const LOST: f64 = -1e4;
+/// Shortest advances of λ that count: a change of mode is found within the laws' tolerances only,
+/// so that the next mode may become admissible a little later.
+const STEPS: [f64; 4] = [1e-13, 1e-11, 1e-9, 1e-7];
+
+/// Memory of the path.
+pub(crate) struct Path {
+    offset: Vec<f64>,
+    jump: Vec<f64>,
+    /// States at the point reached, and their rates of change with λ.
+    states: Vec<ContactState>,
+    rates: Vec<ContactState>,
+}
+
+impl Path {
+    pub(crate) fn new(count: usize) -> Self {
+        Self {
+            offset: vec![0.0; 2 * count],
+            jump: vec![0.0; 2 * count],
+            states: vec![ContactState::default(); count],
+            rates: vec![ContactState::default(); count],
+        }
+    }
+
+    /// Follows the path and leaves in `modes` those at its end, which the caller must check. Each
+    /// `attempt` begins elsewhere, since a path may be lost.
+    pub(crate) fn follow(
+        &mut self,
+        solver: &mut ContactSolver,
+        input: &ContactInput<'_>,
+        attempt: usize,
+        modes: &mut [Mode],
+        trials: &mut usize,
+    ) {
+        self.begin(input, attempt, modes);
+        let (mut lambda, mut direction) = (0.0, 1.0);
+        for _ in 0..CHANGES * modes.len() {
+            *trials += 2;
+            if !self.line(solver, input, modes, lambda) {
+                return;
+            }
+            let tolerance = solver.tolerance(input);
+            let (reach, first) = self.reach(input, modes, direction, tolerance);
+            let limit = if direction > 0.0 { 1.0 - lambda } else { lambda - LOST };
+            if reach >= limit {
+                return;
+            }
+            lambda += direction * reach;
+            let leaving = modes[first];
+            let here = self.states[first].along(&self.rates[first], direction * reach);
+            // Several modes may be admissible here: the path goes on in the one that continues it.
+            let compliance = input.delassus[first * (2 * modes.len() + 1)];
+            let mut best = (f64::INFINITY, leaving, direction);
+            for &mode in input.law(first).modes() {
+                modes[first] = mode;
+                if mode == leaving || !self.line(solver, input, modes, lambda) {
+                    continue;
+                }
+                *trials += 2;
+                let break_off = here.distance(&self.states[first], compliance);
+                // Only one sense of λ is admissible; rounding leaves the other one next to nothing.
+                let [ahead, back] = [direction, -direction]
+                    .map(|sense| (self.reach(input, modes, sense, tolerance).0, sense));
+                let (reach, sense) = if ahead.0 >= back.0 { ahead } else { back };
+                if break_off < best.0 && reach > STEPS[0] {
+                    best = (break_off, mode, sense);
+                }
+            }
+            (_, modes[first], direction) = best;
+            if modes[first] == leaving {
+                return;
+            }
+        }
+    }
+
+    /// Sets the modes and d of the beginning, different for each attempt: all elements far open, or
+    /// pressed shut, by unequal amounts so that no two change at once.
+    fn begin(&mut self, input: &ContactInput<'_>, attempt: usize, modes: &mut [Mode]) {
+        let count = modes.len();
+        // Multiples of the golden ratio, modulo one, never meet.
+        let spread = |e: usize| (0.618_033_988_749_895 * (attempt * count + e + 1) as f64).fract();
+        if attempt.is_multiple_of(2) {
+            self.begin_open(input, spread, modes);
+        } else {
+            self.begin_shut(input, spread, modes);
+        }
+    }
+
+    /// All elements open without tractions; d widens the gaps only.
+    fn begin_open(
+        &mut self,
+        input: &ContactInput<'_>,
+        spread: impl Fn(usize) -> f64,
+        modes: &mut [Mode],
+    ) {
+        let count = modes.len();
+        let mut largest = 0.0_f64;
+        for (e, mode) in modes.iter_mut().enumerate() {
+            let known = input.law(e).modes();
+            *mode = if known.contains(&Mode::Open) { Mode::Open } else { known[0] };
+            let row = &input.delassus[e * 2 * count..(e + 1) * 2 * count];
+            let gap = input.free_jump[e] - dot(row, input.static_traction);
+            largest = largest.max(gap.abs()).max(input.start[e].state.gap.abs());
+        }
+        self.offset.fill(0.0);
+        for (e, offset) in self.offset[..count].iter_mut().enumerate() {
+            *offset = (3.0 + spread(e)) * if largest > 0.0 { largest } else { 1.0 };
+        }
+    }
+
+    /// All elements in the mode of rest, with pressures well above all that the step knows.
+    fn begin_shut(
+        &mut self,
+        input: &ContactInput<'_>,
+        spread: impl Fn(usize) -> f64,
+        modes: &mut [Mode],
+    ) {
+        let count = modes.len();
+        let size = 2 * count;
+        let mut pressure = 0.0_f64;
+        for e in 0..count {
+            for i in [e, count + e] {
+                pressure = pressure.max(input.free_jump[i].abs() / input.delassus[i * (size + 1)]);
+            }
+            pressure = pressure.max(input.start[e].state.pressure.abs());
+        }
+        if pressure == 0.0 {
+            pressure = 1.0;
+        }
+        let mut change: Vec<f64> = input.static_traction.iter().map(|fixed| -fixed).collect();
+        for (e, mode) in modes.iter_mut().enumerate() {
+            let (law, start) = (input.law(e), &input.start[e]);
+            *mode = law.modes()[0];
+            let pressed = (10.0 + 5.0 * spread(e)) * pressure;
+            let mut wanted =
+                ContactState { gap: 0.0, slip: start.state.slip, pressure: pressed, shear: 0.0 };
+            for condition in law.conditions(*mode, start) {
+                if let Some(gap) = condition.gap_at(pressed) {
+                    wanted.gap = gap;
+                }
+                if condition.gap == 0.0 && condition.slip != 0.0 && condition.shear != 0.0 {
+                    let known = condition.slip * wanted.slip + condition.pressure * pressed;
+                    wanted.shear = (condition.value - known) / condition.shear;
+                }
+            }
+            // A law may not let an element close in this step, however hard it is pressed.
+            let exact = Tolerance { length: 0.0, traction: 0.0 };
+            let next = law.next_mode(*mode, start, &wanted, exact);
+            if next != *mode {
+                *mode = next;
+                wanted = ContactState { gap: start.state.gap, pressure: 0.0, shear: 0.0, ..wanted };
+            }
+            change[e] += wanted.pressure;
+            change[count + e] += wanted.shear;
+            self.offset[e] = wanted.gap;
+            self.offset[count + e] = -wanted.slip;
+        }
+        for (i, offset) in self.offset.iter_mut().enumerate() {
+            let row = &input.delassus[i * size..(i + 1) * size];
+            *offset -= dot(row, &change) + input.free_jump[i];
+        }
+    }
+
+    /// States at `lambda` and their rates, for fixed modes; false if the modes are singular.
+    fn line(
+        &mut self,
+        solver: &mut ContactSolver,
+        input: &ContactInput<'_>,
+        modes: &[Mode],
+        lambda: f64,
+    ) -> bool {
+        for at in [lambda + 1.0, lambda] {
+            for (i, jump) in self.jump.iter_mut().enumerate() {
+                *jump = input.free_jump[i] + (1.0 - at) * self.offset[i];
+            }
+            let there = ContactInput { free_jump: &self.jump, ..*input };
+            if !solver.trial(&there, modes) {
+                return false;
+            }
+            if at == lambda {
+                self.states.copy_from_slice(&solver.states);
+            } else {
+                self.rates.copy_from_slice(&solver.states);
+            }
+        }
+        for (rate, state) in self.rates.iter_mut().zip(&self.states) {
+            rate.gap -= state.gap;
+            rate.slip -= state.slip;
+            rate.pressure -= state.pressure;
+            rate.shear -= state.shear;
+        }
+        true
+    }
+
+    /// How far λ can go in `direction` until a law objects, and whose.
+    ///
+    /// What a law admits in one mode is convex (an intersection of half-spaces), so that bisection
+    /// finds the end.
+    fn reach(
+        &self,
+        input: &ContactInput<'_>,
+        modes: &[Mode],
+        direction: f64,
+        tolerance: Tolerance,
+    ) -> (f64, usize) {
+        let far = 1.0 - LOST;
+        let mut nearest = (far, 0);
+        for (e, &mode) in modes.iter().enumerate() {
+            let admits = |distance: f64| {
+                let there = self.states[e].along(&self.rates[e], direction * distance);
+                input.law(e).next_mode(mode, &input.start[e], &there, tolerance) == mode
+            };
+            let Some(begin) = STEPS.into_iter().find(|&step| admits(step)) else {
+                return (0.0, e);
+            };
+            if admits(nearest.0) {
+                continue;
+            }
+            let (mut low, mut high) = (begin, nearest.0);
+            for _ in 0..120 {
+                let middle = 0.5 * (low + high);
+                if admits(middle) {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+            }
+            nearest = (low, e);
+        }
+        nearest
+    }
+}
+
+impl ContactState {
+    /// This state after `distance` at `rate`.
+    fn along(&self, rate: &Self, distance: f64) -> Self {
+        Self {
+            gap: self.gap + distance * rate.gap,
+            slip: self.slip + distance * rate.slip,
+            pressure: self.pressure + distance * rate.pressure,
+            shear: self.shear + distance * rate.shear,
+        }
+    }
+
+    /// How far two states are apart, as a traction.
+    fn distance(&self, other: &Self, compliance: f64) -> f64 {
+        (self.pressure - other.pressure).abs()
+            + (self.shear - other.shear).abs()
+            + ((self.gap - other.gap).abs() + (self.slip - other.slip).abs()) / compliance
+    }
+}

@@ -1,0 +1,149 @@
+//! Moving the state to the end of an accepted step.
+
+use super::ledger::Ledger;
+use super::motion::Motion;
+use super::scene::Scene;
+use super::state::{Foundation, State, Transition};
+use super::step::forcing::Forcing;
+use super::step::increment::Increment;
+use crate::contact::SearchMethod;
+use crate::interface::{ContactState, StepStart};
+
+impl State {
+    /// The static state.
+    pub(super) fn at_rest(scene: &Scene) -> Self {
+        let (model, count) = (&scene.model, scene.count());
+        let at = &scene.static_state;
+        let contact: Vec<_> = (0..count)
+            .map(|e| ContactState {
+                gap: at.gap[e],
+                slip: 0.0,
+                pressure: at.traction[e],
+                shear: at.traction[count + e],
+            })
+            .collect();
+        // Whatever the placement did, what touches sticks from now on.
+        let modes: Vec<_> = (0..count)
+            .map(|e| {
+                let known = scene.law(e).modes();
+                let stays_open = known.contains(&at.modes[e]) && !at.modes[e].is_closed();
+                if stays_open { at.modes[e] } else { known[0] }
+            })
+            .collect();
+        let start =
+            (0..count).map(|e| StepStart::new(contact[e], modes[e], scene.time_step)).collect();
+        let foundations = scene.base.foundations().map(|(_, elements)| Foundation::new(elements));
+        let mut state = Self {
+            step: 0,
+            time: 0.0,
+            motion: Motion::new(model.unknowns, model.influence.clone(), model.modes.clone()),
+            contact,
+            modes,
+            transitions: Vec::with_capacity(count),
+            probes: vec![0.0; scene.probes.len()],
+            base_shear: 0.0,
+            base_moment: 0.0,
+            normal_force: 0.0,
+            uplifted_fraction: 0.0,
+            mean_slip: 0.0,
+            base_rotation: 0.0,
+            foundations: foundations.collect(),
+            free_field: [0.0; 2],
+            ledger: Ledger::default(),
+            trials: 0,
+            method: SearchMethod::ActiveSet,
+            start,
+        };
+        state.update_resultants(scene);
+        state
+    }
+
+    /// Goes to the end of the step that `increment` solved; the buffers of its velocities are
+    /// swapped.
+    pub(super) fn advance(&mut self, scene: &Scene, forcing: &Forcing, increment: &mut Increment) {
+        self.step += 1;
+        self.time = self.step as f64 * scene.time_step;
+        let motion = &mut self.motion;
+        for (u, du) in motion.displacement.iter_mut().zip(&increment.displacement) {
+            *u += du;
+        }
+        std::mem::swap(&mut motion.velocity, &mut increment.velocity);
+        std::mem::swap(&mut motion.acceleration, &mut increment.acceleration);
+        motion.translations.copy_from_slice(&forcing.translations);
+        motion.changed();
+        self.free_field = scene.base.mean(&forcing.free_field);
+        self.contact.copy_from_slice(&increment.contact);
+        self.transitions.clear();
+        let (step, time) = (self.step, self.time);
+        for (element, (from, &to)) in self.modes.iter_mut().zip(&increment.modes).enumerate() {
+            if *from != to {
+                self.transitions.push(Transition { step, time, element, from: *from, to });
+                *from = to;
+            }
+        }
+        for (e, start) in self.start.iter_mut().enumerate() {
+            let slip_rate = (self.contact[e].slip - start.state.slip) / scene.time_step;
+            *start = StepStart {
+                state: self.contact[e],
+                mode: self.modes[e],
+                has_opened: start.has_opened || !self.modes[e].is_closed(),
+                slip_rate,
+                ..*start
+            };
+        }
+        (self.trials, self.method) = (increment.trials, increment.method);
+        self.update_resultants(scene);
+    }
+
+    /// Resultants and probes from the present state.
+    pub(super) fn update_resultants(&mut self, scene: &Scene) {
+        let state = self;
+        let Motion { displacement, velocity, acceleration, .. } = &state.motion;
+        let (mut total, mut open, mut slip, mut width) = ([0.0; 3], 0.0, 0.0, 0.0);
+        state.base_rotation = 0.0;
+        for (k, foundation) in state.foundations.iter_mut().enumerate() {
+            let (first, last) = (foundation.elements.start, foundation.elements.end - 1);
+            let [mut shear, mut normal, mut moment] = [0.0; 3];
+            let [mut own_open, mut own_slip, mut own_width] = [0.0; 3];
+            for e in first..=last {
+                let (contact, length) = (&state.contact[e], scene.base.length(e));
+                own_width += length;
+                shear += length * contact.shear;
+                normal += length * contact.pressure;
+                own_slip += length * contact.slip;
+                moment -= length * contact.pressure * scene.arms[e];
+                if !state.modes[e].is_closed() {
+                    own_open += length;
+                }
+            }
+            for (sum, own) in total.iter_mut().zip([shear, normal, moment]) {
+                *sum += own;
+            }
+            open += own_open;
+            slip += own_slip;
+            width += own_width;
+            let left = scene.arms[first] - 0.5 * scene.base.length(first);
+            let right = scene.arms[last] + 0.5 * scene.base.length(last);
+            foundation.shear = shear;
+            foundation.normal_force = normal;
+            foundation.moment = moment + normal * 0.5 * (left + right);
+            foundation.uplifted_fraction = own_open / own_width;
+            foundation.mean_slip = own_slip / own_width;
+            foundation.rotation = scene.base.rotation(k, displacement);
+            if foundation.rotation.abs() > state.base_rotation.abs() {
+                state.base_rotation = foundation.rotation;
+            }
+        }
+        [state.base_shear, state.normal_force, state.base_moment] = total;
+        state.uplifted_fraction = open / width;
+        state.mean_slip = slip / width;
+        let translations = &state.motion.translations;
+        for (value, probe) in state.probes.iter_mut().zip(&scene.probe_rows) {
+            let [u, v, a] = &probe.rows;
+            let carried = probe.carried.iter().zip(translations);
+            let carried: f64 =
+                carried.map(|(r, y)| r[0] * y.displacement[0] + r[1] * y.displacement[1]).sum();
+            *value = u.of(displacement) + v.of(velocity) + a.of(acceleration) + carried;
+        }
+    }
+}

@@ -1,0 +1,286 @@
+//! Booking an accepted step in the energy ledger, each term from its own definition.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | Δu, v, a | increment, velocity and acceleration of the structure, all total |
+//! | τ | change of contact traction against the static state |
+//! | s, `s_ff` | soil displacement by tractions; free field |
+//! | y, R | translation of the free field under a part; influence vectors |
+
+use super::ledger::Ledger;
+use super::motion::Motion;
+use super::scene::Scene;
+use super::scene::stepped_row::Terms;
+use super::scheme::SchemeCoefficients;
+use super::state::State;
+use super::step::forcing::Forcing;
+use super::step::increment::Increment;
+use crate::bem::Ground;
+use crate::linalg::{dense_multiply_add, dot};
+use crate::structure::Structure;
+
+/// The ledger so far, and what booking a step needs of the one before.
+#[derive(Clone)]
+pub(crate) struct Books {
+    pub(crate) ledger: Ledger,
+    /// Free field, soil displacement by tractions, and jump at the end of the last step, 2Q each.
+    pub(crate) free_field: Vec<f64>,
+    pub(crate) soil_displacement: Vec<f64>,
+    pub(crate) jump: Vec<f64>,
+    /// Work of the nonlinear internal force so far; what it stores, where that is known.
+    pub(crate) nonlinear_work: f64,
+    /// Per part: Rᵀ M Δu of the last step, and its Δy.
+    pub(crate) momentum: Vec<[f64; 2]>,
+    pub(crate) translation: Vec<[f64; 2]>,
+    /// Per part: M R.
+    inertia: Vec<[Terms; 2]>,
+    scratch: Scratch,
+}
+
+/// Nothing in it outlives a step.
+#[derive(Clone)]
+struct Scratch {
+    total: Vec<f64>,
+    vector: Vec<f64>,
+    product: Vec<f64>,
+    means: Vec<f64>,
+    soil: Vec<f64>,
+}
+
+impl Books {
+    /// At the static state.
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let (n, size) = (scene.model.unknowns, 2 * scene.count());
+        let mut jump = scene.static_state.gap.clone();
+        jump.resize(size, 0.0);
+        let parts = scene.model.influence.parts();
+        let inertia = parts.iter().map(|part| {
+            [0, 1].map(|k| {
+                let [mut vector, mut product] = [(); 2].map(|()| vec![0.0; n]);
+                part.vectors[k].iter().for_each(|&(i, r)| vector[i] = r);
+                scene.model.mass.multiply_add(1.0, &vector, &mut product);
+                product.into_iter().enumerate().filter(|(_, m)| *m != 0.0).collect()
+            })
+        });
+        Self {
+            ledger: Ledger::default(),
+            free_field: vec![0.0; size],
+            soil_displacement: vec![0.0; size],
+            jump,
+            nonlinear_work: 0.0,
+            momentum: vec![[0.0; 2]; parts.len()],
+            translation: vec![[0.0; 2]; parts.len()],
+            inertia: inertia.collect(),
+            scratch: Scratch {
+                total: vec![0.0; n],
+                vector: vec![0.0; n],
+                product: vec![0.0; n],
+                means: vec![0.0; size],
+                soil: vec![0.0; size],
+            },
+        }
+    }
+
+    /// Every number that a step leaves to the next, always in this order.
+    pub(crate) fn numbers(&mut self) -> Vec<&mut f64> {
+        let Ledger {
+            kinetic,
+            strain,
+            hysteresis,
+            damping,
+            numerical,
+            soil,
+            contact,
+            layer,
+            preload,
+            input,
+            relative_input,
+            soil_error_bound,
+        } = &mut self.ledger;
+        let mut all = vec![&mut self.nonlinear_work, kinetic, strain, damping, numerical, soil];
+        all.extend([contact, layer, preload, input, relative_input, soil_error_bound, hysteresis]);
+        let contact = [&mut self.free_field, &mut self.soil_displacement, &mut self.jump];
+        all.extend(contact.into_iter().flatten());
+        all.extend([&mut self.momentum, &mut self.translation].into_iter().flatten().flatten());
+        all
+    }
+
+    /// Books the step that leads from `state` to its end.
+    pub(crate) fn book(
+        &mut self,
+        scene: &Scene,
+        structure: &dyn Structure,
+        ground: &dyn Ground,
+        state: &State,
+        forcing: &Forcing,
+        increment: &Increment,
+    ) {
+        let total = &mut self.scratch.total;
+        for ((total, du), carried) in
+            total.iter_mut().zip(&increment.displacement).zip(&forcing.carried)
+        {
+            *total = du + carried;
+        }
+        self.ledger.input += dot(&forcing.load, total);
+        if !scene.model.linear {
+            self.book_nonlinear_force(scene, structure, increment);
+        }
+        self.book_structure(scene, state, forcing, increment);
+        self.book_relative_input(scene, forcing, increment);
+        self.book_contact(scene, ground, state, forcing, increment);
+    }
+
+    /// The nonlinear force: stored, dissipated, or just done.
+    fn book_nonlinear_force(
+        &mut self,
+        scene: &Scene,
+        structure: &dyn Structure,
+        increment: &Increment,
+    ) {
+        let at_rest = &scene.static_state;
+        let done = dot(&increment.force, &self.scratch.total);
+        let energies = at_rest.energy.zip(structure.nonlinear_energy(&increment.seen));
+        let Some((start, energy)) = energies else {
+            self.nonlinear_work += done;
+            return;
+        };
+        // Forces count from the static ones, and so does the energy that they store.
+        let moved = increment.seen.iter().zip(&at_rest.displacement).map(|(u, start)| u - start);
+        let against: f64 = at_rest.force.iter().zip(moved).map(|(f, moved)| f * moved).sum();
+        let stored = energy.stored - start.stored - against;
+        let dissipated = energy.dissipated - start.dissipated;
+        let ledger = &mut self.ledger;
+        ledger.numerical +=
+            done - (stored - self.nonlinear_work) - (dissipated - ledger.hysteresis);
+        (self.nonlinear_work, ledger.hysteresis) = (stored, dissipated);
+    }
+
+    /// Kinetic and strain energy, damping, and what the time scheme takes.
+    fn book_structure(
+        &mut self,
+        scene: &Scene,
+        state: &State,
+        forcing: &Forcing,
+        increment: &Increment,
+    ) {
+        let (c, model, dt) = (&scene.coefficients, &scene.model, scene.time_step);
+        let Motion { displacement: u0, velocity: v0, acceleration: a0, .. } = &state.motion;
+        let (v1, ledger) = (&increment.velocity, &mut self.ledger);
+        let Scratch { total: du, vector, product, means, soil } = &mut self.scratch;
+        ledger.kinetic = 0.5 * model.mass.form(v1, v1);
+        if !model.damping.is_empty() {
+            for (i, x) in vector.iter_mut().enumerate() {
+                *x = SchemeCoefficients::apply(c.velocity, du[i], v0[i], a0[i]);
+            }
+            let velocities = forcing.translations.iter().map(|translation| translation.velocity);
+            model.influence.translate(-1.0, velocities, vector);
+            product.fill(0.0);
+            model.damping.multiply_add(1.0, vector, product);
+            let parts = model.influence.parts().iter().zip(&forcing.translations);
+            let dragged: f64 = parts
+                .map(|(part, y)| {
+                    let [right, up] = part.resultants(product);
+                    y.increment[0] * right + y.increment[1] * up
+                })
+                .sum();
+            ledger.damping += dot(product, du) - dragged;
+            ledger.input -= dragged;
+        }
+        if !scene.conserves_energy {
+            // Δu = Δt (v₀+v₁)/2 + r_d, a* = (v₁−v₀)/Δt + r_a, u* = (u₀+u₁)/2 + r_u
+            let (change, rest) = (&mut *vector, product);
+            for i in 0..du.len() {
+                change[i] = (v1[i] - v0[i]) / dt;
+                rest[i] = du[i] - 0.5 * dt * (v0[i] + v1[i]);
+            }
+            ledger.numerical += model.mass.form(rest, change);
+            for i in 0..du.len() {
+                rest[i] =
+                    SchemeCoefficients::apply(c.acceleration, du[i], v0[i], a0[i]) - change[i];
+            }
+            ledger.numerical += model.mass.form(du, rest);
+            let du = &increment.displacement;
+            for i in 0..du.len() {
+                let there = SchemeCoefficients::apply(c.displacement, du[i], v0[i], a0[i]);
+                rest[i] = there - 0.5 * du[i];
+            }
+            ledger.numerical += model.stiffness.form(du, rest);
+        }
+        for ((x, u), du) in vector.iter_mut().zip(u0).zip(&increment.displacement) {
+            *x = u + du;
+        }
+        scene.base.means(vector, means);
+        scene.subtract_base(vector, soil);
+        ledger.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_work;
+    }
+
+    /// Work of −M R ÿ between the middles of the last two steps, with ÿ = (Δy₁ − Δy₀)/Δt² at the
+    /// time between them, and of the loads.
+    fn book_relative_input(&mut self, scene: &Scene, forcing: &Forcing, increment: &Increment) {
+        self.ledger.relative_input += dot(&forcing.load, &increment.displacement);
+        let square = scene.time_step * scene.time_step;
+        for (k, inertia) in self.inertia.iter().enumerate() {
+            let next = forcing.translations[k].increment;
+            for direction in 0..2 {
+                let terms = inertia[direction].iter();
+                let momentum: f64 = terms.map(|&(i, m)| m * increment.displacement[i]).sum();
+                let acceleration = (next[direction] - self.translation[k][direction]) / square;
+                let mean = 0.5 * (momentum + self.momentum[k][direction]);
+                self.ledger.relative_input -= acceleration * mean;
+                self.momentum[k][direction] = momentum;
+            }
+            self.translation[k] = next;
+        }
+    }
+
+    /// Soil, contact, compliant interfaces and preload; `scratch.means` holds B u at the end.
+    fn book_contact(
+        &mut self,
+        scene: &Scene,
+        ground: &dyn Ground,
+        state: &State,
+        forcing: &Forcing,
+        increment: &Increment,
+    ) {
+        let Scratch { means, soil, .. } = &mut self.scratch;
+        let ledger = &mut self.ledger;
+        soil.copy_from_slice(&forcing.history);
+        dense_multiply_add(&scene.soil, 1.0, &increment.traction, soil);
+        let count = scene.count();
+        let doubt = ground.increment_error_bound();
+        for i in 0..2 * count {
+            let area = scene.base.length(i);
+            let change = increment.traction[i];
+            let at_rest = scene.static_state.traction[i];
+            let gap = if i < count { scene.static_state.gap[i] } else { 0.0 };
+            let jump = gap + forcing.distortion[i] + soil[i] - means[i];
+            let opening = jump - self.jump[i];
+            self.jump[i] = jump;
+            ledger.soil += area * change * (soil[i] - self.soil_displacement[i]);
+            ledger.soil_error_bound += area * change.abs() * doubt;
+            let mut elastic = 0.0;
+            if scene.compliant {
+                let (e, k) = (i % count, i / count);
+                let (law, start) = (scene.law(e), &state.start[e]);
+                let [c0, c1] = [start.mode, increment.modes[e]].map(|mode| law.compliance(mode)[k]);
+                let t0 = [start.state.pressure, start.state.shear][k];
+                let t1 = at_rest + change;
+                elastic = c0 * t0 - c1 * t1;
+                ledger.layer += 0.5 * area * (c1 * t1 * t1 - c0 * t0 * t0);
+                // The work −t₁ Δ(elastic jump) is Δ(½ c t²) and this much more: what the step takes
+                // of a spring that stays, what is lost with one that goes.
+                let lag = 0.5 * area * (c0 * (t1 - t0).powi(2) + (c1 - c0) * t1 * t1);
+                if c0 == c1 {
+                    ledger.numerical += lag;
+                } else {
+                    ledger.contact += lag;
+                }
+            }
+            ledger.contact -= area * (at_rest + change) * (opening - elastic);
+            ledger.preload += area * at_rest * opening;
+            ledger.input -= area * change * (forcing.free_field[i] - self.free_field[i]);
+        }
+        self.free_field.copy_from_slice(&forcing.free_field);
+        std::mem::swap(&mut self.soil_displacement, soil);
+    }
+}

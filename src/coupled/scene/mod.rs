@@ -1,0 +1,115 @@
+//! A scene: all that does not change while a simulation runs.
+
+pub(crate) mod base;
+pub(crate) mod conditioning;
+pub(crate) mod influence;
+pub(crate) mod modal_basis;
+pub(crate) mod model;
+pub(crate) mod operators;
+pub(crate) mod static_state;
+pub(crate) mod stepped_row;
+mod supports;
+pub(crate) mod translation_check;
+
+use crate::bem::ContactElement;
+use crate::interface::{InterfaceLaw, law_of};
+use base::Base;
+use model::Model;
+use static_state::StaticState;
+use stepped_row::SteppedRow;
+
+use super::probe::Probe;
+use super::scheme::SchemeCoefficients;
+
+/// Structure, base, laws and static state as a step sees them, read-only once built.
+///
+/// The parts that have a state of their own stand beside it: structure, ground and motion.
+pub(crate) struct Scene {
+    pub(crate) time_step: f64,
+    pub(crate) coefficients: SchemeCoefficients,
+    /// Whether the scheme takes no energy of its own.
+    pub(crate) conserves_energy: bool,
+    pub(crate) model: Model,
+    pub(crate) base: Base,
+    pub(crate) elements: Vec<ContactElement>,
+    pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
+    /// Whether any law stores energy in its elements.
+    pub(crate) compliant: bool,
+    pub(crate) static_state: StaticState,
+    /// Instantaneous operator of the ground, 2Q × 2Q.
+    pub(crate) soil: Vec<f64>,
+    /// Free field at t = 0, from which it is measured, 2Q.
+    pub(crate) start_motion: Vec<f64>,
+    pub(crate) probes: Vec<Probe>,
+    /// Displacement, velocity and acceleration of each probe.
+    pub(crate) probe_rows: Vec<ProbeRows>,
+    /// Element midpoints relative to the point of the base moment.
+    pub(crate) arms: Vec<f64>,
+}
+
+/// A probe in the coordinates that are stepped.
+pub(crate) struct ProbeRows {
+    pub(crate) rows: [SteppedRow; 3],
+    /// Displacement by a translation of 1 m of each part `[right, up]`, where it is absolute.
+    pub(crate) carried: Vec<[f64; 2]>,
+}
+
+impl ProbeRows {
+    pub(crate) fn new(probe: &Probe, model: &Model) -> Self {
+        let rows = probe.rows().map(|row| SteppedRow::new(row.terms(), model.modes.as_deref()));
+        let parts = model.influence.parts().iter().filter(|_| probe.absolute);
+        let carried = parts.map(|part| {
+            [0, 1].map(|k| {
+                let mut vector = vec![0.0; model.unknowns];
+                part.vectors[k].iter().for_each(|&(i, r)| vector[i] = r);
+                rows[0].of(&vector)
+            })
+        });
+        Self { carried: carried.collect(), rows }
+    }
+}
+
+impl Scene {
+    /// Number of contact elements Q.
+    pub(crate) fn count(&self) -> usize {
+        self.elements.len()
+    }
+
+    /// The law of an element.
+    pub(crate) fn law(&self, element: usize) -> &dyn InterfaceLaw {
+        law_of(&self.laws, element)
+    }
+
+    /// Subtracts the mean translation of each part's base from a displacement, before K acts on it.
+    ///
+    /// A translation strains nothing, but in unknowns K would only find that out by cancellation,
+    /// with an error that grows with the stiffness times the displacement. In modes it has no
+    /// stiffness to begin with.
+    pub(crate) fn subtract_base(&self, displacement: &mut [f64], means: &mut [f64]) {
+        if self.model.modes.is_some() {
+            return;
+        }
+        self.base.means(displacement, means);
+        let influence = &self.model.influence;
+        let parts = influence.parts().iter().map(|part| part.mean(&self.base, means));
+        influence.translate(-1.0, parts, displacement);
+    }
+
+    /// Makes of a relative displacement the one that a nonlinear force sees: measured from the mean
+    /// translation of the first part's base, so that it stays small, with the distances between
+    /// parts as they are. `translations` are those of the parts' free fields.
+    pub(crate) fn seen_by_force(
+        &self,
+        displacement: &mut [f64],
+        means: &mut [f64],
+        translations: impl Iterator<Item = [f64; 2]> + Clone,
+    ) {
+        self.base.means(displacement, means);
+        let influence = &self.model.influence;
+        let Some(part) = influence.parts().first() else { return };
+        let own = part.mean(&self.base, means);
+        let first = translations.clone().next().unwrap_or_default();
+        let shifts = translations.map(|y| [0, 1].map(|k| (y[k] - first[k]) - own[k]));
+        influence.translate(1.0, shifts, displacement);
+    }
+}

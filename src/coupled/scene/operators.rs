@@ -1,0 +1,159 @@
+//! Precomputed operators of a step, valid while the structure's tangent is unchanged.
+
+use super::base::Base;
+use super::model::Model;
+use crate::coupled::scheme::SchemeCoefficients;
+use crate::error::{Error, Result};
+use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
+use crate::matrix::Matrix;
+use crate::structure::Triplets;
+
+/// The effective stiffness K_eff, factored, and the Delassus operator.
+pub(crate) struct Operators {
+    /// ∂f/∂u.
+    pub(crate) tangent: SparseMatrix,
+    factor: Factor,
+    /// Columns of K_eff⁻¹BᵀA, one after the other.
+    pub(crate) columns: Vec<f64>,
+    /// W = G¹ + B K_eff⁻¹ BᵀA, row-major.
+    pub(crate) delassus: Vec<f64>,
+}
+
+/// K_eff⁻¹.
+pub(crate) enum Factor {
+    Sparse(Box<SparseFactor>),
+    /// In modes: the reciprocals.
+    Diagonal(Vec<f64>),
+}
+
+pub(crate) const NAME: &str = "effective stiffness matrix";
+
+impl Operators {
+    /// Condenses the factored K_eff of this tangent.
+    pub(crate) fn new(
+        model: &Model,
+        base: &Base,
+        soil: &[f64],
+        mut factor: Factor,
+        tangent: SparseMatrix,
+    ) -> Self {
+        let solve = |rhs: &mut [f64]| factor.solve(rhs);
+        let (columns, delassus) = condense(solve, base, soil, model.unknowns);
+        Self { tangent, factor, columns, delassus }
+    }
+
+    /// Overwrites `rhs` with K_eff⁻¹ rhs.
+    pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
+        self.factor.solve(rhs);
+    }
+
+    /// Condition of K_eff, scaled by its diagonal.
+    pub(crate) fn condition(
+        &mut self,
+        model: &Model,
+        coefficients: &SchemeCoefficients,
+    ) -> Result<f64> {
+        match &mut self.factor {
+            Factor::Diagonal(_) => Ok(1.0),
+            Factor::Sparse(factor) => {
+                let matrix = effective_stiffness(model, coefficients, &self.tangent);
+                Ok(sparse_condition(&SparseMatrix::new(NAME, &matrix)?, factor))
+            }
+        }
+    }
+
+    /// Diagonal of K_eff without its inertia.
+    pub(crate) fn stiffness_diagonal(
+        &self,
+        model: &Model,
+        coefficients: &SchemeCoefficients,
+    ) -> Vec<f64> {
+        let [c, k] = [coefficients.velocity[0], coefficients.displacement[0]];
+        let (damping, stiffness) = (model.damping.diagonal(), model.stiffness.diagonal());
+        let tangent = self.tangent.diagonal();
+        (0..model.unknowns)
+            .map(|i| c * damping[i] + k * (stiffness[i] + tangent.get(i).copied().unwrap_or(0.0)))
+            .collect()
+    }
+}
+
+/// K_eff, in the structure's unknowns.
+fn effective_stiffness(
+    model: &Model,
+    coefficients: &SchemeCoefficients,
+    tangent: &SparseMatrix,
+) -> Triplets {
+    let [a, c, k] =
+        [coefficients.acceleration[0], coefficients.velocity[0], coefficients.displacement[0]];
+    let mut matrix = Triplets::new(model.unknowns);
+    model.mass.add_to(a, &mut matrix);
+    model.damping.add_to(c, &mut matrix);
+    model.stiffness.add_to(k, &mut matrix);
+    tangent.add_to(k, &mut matrix);
+    matrix
+}
+
+impl Factor {
+    /// Factors K_eff: M, C, K + ∂f/∂u, each with the scheme's coefficient of Δu.
+    pub(crate) fn new(
+        model: &Model,
+        coefficients: &SchemeCoefficients,
+        tangent: &SparseMatrix,
+    ) -> Result<Self> {
+        let n = model.unknowns;
+        let [a, c, k] =
+            [coefficients.acceleration[0], coefficients.velocity[0], coefficients.displacement[0]];
+        if let (Matrix::Diagonal(m), Matrix::Diagonal(d), Matrix::Diagonal(s)) =
+            (&model.mass, &model.damping, &model.stiffness)
+        {
+            let inverse: Vec<f64> =
+                (0..n).map(|j| 1.0 / (a * m[j] + c * d[j] + k * s[j])).collect();
+            if inverse.iter().all(|x| x.is_finite()) {
+                return Ok(Self::Diagonal(inverse));
+            }
+            return Err(Error::Singular { matrix: NAME, order: n });
+        }
+        let matrix = effective_stiffness(model, coefficients, tangent);
+        Ok(Self::Sparse(Box::new(SparseFactor::new(NAME, &matrix)?)))
+    }
+
+    /// Numbers that one solve reads.
+    pub(crate) fn stored(&self) -> usize {
+        match self {
+            Self::Sparse(factor) => factor.stored(),
+            Self::Diagonal(values) => values.len(),
+        }
+    }
+
+    fn solve(&mut self, rhs: &mut [f64]) {
+        match self {
+            Self::Sparse(factor) => factor.solve(rhs),
+            Self::Diagonal(inverse) => rhs.iter_mut().zip(inverse).for_each(|(x, d)| *x *= *d),
+        }
+    }
+}
+
+/// Columns of K⁻¹BᵀA and the Delassus operator `soil` + B K⁻¹BᵀA.
+pub(crate) fn condense(
+    mut solve: impl FnMut(&mut [f64]),
+    base: &Base,
+    soil: &[f64],
+    unknowns: usize,
+) -> (Vec<f64>, Vec<f64>) {
+    let size = 2 * base.lengths().len();
+    let mut columns = vec![0.0; size * unknowns];
+    let mut delassus = soil.to_vec();
+    let mut unit = vec![0.0; size];
+    let mut means = vec![0.0; size];
+    for (i, column) in columns.chunks_exact_mut(unknowns.max(1)).enumerate() {
+        unit[i] = 1.0;
+        base.add_forces(1.0, &unit, column);
+        unit[i] = 0.0;
+        solve(column);
+        base.means(column, &mut means);
+        for (row, mean) in means.iter().enumerate() {
+            delassus[row * size + i] += mean;
+        }
+    }
+    (columns, delassus)
+}

@@ -1,0 +1,90 @@
+//! What acts on structure and base during a step, known before it is solved.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | `s_ff` | free field: motion of the soil without structure |
+//! | y | its mean translation under each connected part of the structure |
+//! | h | soil displacement by all earlier tractions |
+//! | R | influence vectors |
+
+use crate::bem::Ground;
+use crate::coupled::scene::Scene;
+use crate::coupled::state::State;
+use crate::coupled::translation::Translation;
+use crate::error::StepError;
+use crate::motion::FreeField;
+use crate::structure::Structure;
+
+/// External load, free field and convolution history of one step.
+pub(crate) struct Forcing {
+    /// External load at t*, less that of the static state, in stepped coordinates.
+    pub(crate) load: Vec<f64>,
+    /// Free field at the end of the step, less that at t = 0, 2Q.
+    pub(crate) free_field: Vec<f64>,
+    /// The same less the translation y of the part above, 2Q.
+    pub(crate) distortion: Vec<f64>,
+    /// Convolution history of the soil at the end of the step, 2Q.
+    pub(crate) history: Vec<f64>,
+    /// Translation of the free field under each part.
+    pub(crate) translations: Vec<Translation>,
+    /// R Δy, in stepped coordinates.
+    pub(crate) carried: Vec<f64>,
+    unknowns: Vec<f64>,
+}
+
+impl Forcing {
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let contact = || vec![0.0; 2 * scene.count()];
+        let structure = || vec![0.0; scene.model.unknowns];
+        Self {
+            load: structure(),
+            free_field: contact(),
+            distortion: contact(),
+            history: contact(),
+            translations: vec![Translation::default(); scene.model.influence.parts().len()],
+            carried: structure(),
+            unknowns: structure(),
+        }
+    }
+
+    /// Free field and history at `time`, the end of the step after `state`, and the load within it.
+    pub(crate) fn observe(
+        &mut self,
+        scene: &Scene,
+        state: &State,
+        structure: &dyn Structure,
+        ground: &mut dyn Ground,
+        motion: &dyn FreeField,
+        time: f64,
+    ) -> Result<(), StepError> {
+        ground.free_field(motion, time, &mut self.free_field);
+        for (value, start) in self.free_field.iter_mut().zip(&scene.start_motion) {
+            *value -= start;
+        }
+        // A ground that cannot go with the motion says why.
+        ground.history(&mut self.history).map_err(|error| StepError::Ground(Box::new(error)))?;
+        for (values, quantity) in
+            [(&self.free_field, "free field"), (&self.history, "history of the ground")]
+        {
+            if values.iter().any(|value| !value.is_finite()) {
+                return Err(StepError::NotFinite { quantity });
+            }
+        }
+        self.distortion.copy_from_slice(&self.free_field);
+        let influence = &scene.model.influence;
+        let last = &state.motion.translations;
+        for ((part, now), last) in influence.parts().iter().zip(&mut self.translations).zip(last) {
+            let displacement = part.mean(&scene.base, &self.free_field);
+            *now = last.next(displacement, &scene.coefficients);
+            part.subtract(displacement, &mut self.distortion);
+        }
+        self.carried.fill(0.0);
+        let increments = self.translations.iter().map(|translation| translation.increment);
+        influence.translate(1.0, increments, &mut self.carried);
+        self.load.fill(0.0);
+        let within = state.time + scene.coefficients.load_fraction * scene.time_step;
+        let at_start = &scene.static_state.load;
+        scene.model.load(structure, within, at_start, &mut self.unknowns, &mut self.load);
+        Ok(())
+    }
+}

@@ -1,0 +1,122 @@
+//! The linear part of a step: one solve with the factored operators, the contact problem, and what
+//! the tractions answer.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | Δu | increment of displacement relative to the free field's translation y |
+//! | u*, v*, a* | where the time scheme writes the equation of motion |
+//! | τ | change of contact traction against the static state |
+//! | B | element means of the base displacement |
+//! | R | influence vectors |
+
+use super::forcing::Forcing;
+use super::increment::Increment;
+use crate::contact::{ContactInput, ContactSolver, ModeSearch};
+use crate::coupled::motion::Motion;
+use crate::coupled::scene::Scene;
+use crate::coupled::scene::operators::Operators;
+use crate::coupled::scheme::SchemeCoefficients;
+use crate::coupled::state::State;
+use crate::error::StepError;
+use crate::linalg::wide_transposed_multiply_add;
+
+/// Factored operators, the contact problem and the scratch of a step.
+pub(super) struct LinearStep {
+    /// Valid while the tangent is unchanged.
+    pub(super) operators: Operators,
+    pub(super) contact: ContactSolver,
+    search: ModeSearch,
+    /// Right-hand side of K_eff Δu = …, without contact and nonlinear force.
+    pub(super) known: Vec<f64>,
+    free_jump: Vec<f64>,
+    pub(super) means: Vec<f64>,
+    vector: Vec<f64>,
+}
+
+impl LinearStep {
+    pub(super) fn new(scene: &Scene, operators: Operators, search: ModeSearch) -> Self {
+        let (n, count) = (scene.model.unknowns, scene.count());
+        Self {
+            operators,
+            contact: ContactSolver::new(count),
+            search,
+            known: vec![0.0; n],
+            free_jump: vec![0.0; 2 * count],
+            means: vec![0.0; 2 * count],
+            vector: vec![0.0; n],
+        }
+    }
+
+    /// Right-hand side of the equation of motion: loads, inertia and damping of a structure that is
+    /// carried along by y, and its stiffness forces so far.
+    pub(super) fn predict(&mut self, scene: &Scene, state: &State, forcing: &Forcing) {
+        let (c, model) = (&scene.coefficients, &scene.model);
+        let Motion { displacement: u, velocity: v, acceleration: a, .. } = &state.motion;
+        let carried = &forcing.carried;
+        let Self { known, vector, means, .. } = self;
+        known.copy_from_slice(&forcing.load);
+        for (i, x) in vector.iter_mut().enumerate() {
+            *x = SchemeCoefficients::apply(c.acceleration, carried[i], v[i], a[i]);
+        }
+        model.mass.multiply_add(-1.0, vector, known);
+        if !model.damping.is_empty() {
+            for (i, x) in vector.iter_mut().enumerate() {
+                *x = SchemeCoefficients::apply(c.velocity, carried[i], v[i], a[i]);
+            }
+            let velocities = forcing.translations.iter().map(|translation| translation.velocity);
+            model.influence.translate(-1.0, velocities, vector);
+            model.damping.multiply_add(-1.0, vector, known);
+        }
+        for (i, x) in vector.iter_mut().enumerate() {
+            *x = u[i] + SchemeCoefficients::apply(c.displacement, 0.0, v[i], a[i]);
+        }
+        scene.subtract_base(vector, means);
+        model.stiffness.multiply_add(-1.0, vector, known);
+    }
+
+    /// Takes the right-hand side in the increment's displacement and leaves the increment there.
+    pub(super) fn solve_contact(
+        &mut self,
+        scene: &Scene,
+        state: &State,
+        forcing: &Forcing,
+        increment: &mut Increment,
+    ) -> Result<(), StepError> {
+        let Self { operators, contact, search, free_jump, means, vector, .. } = self;
+        operators.solve(&mut increment.displacement);
+        let displacement = &state.motion.displacement;
+        for ((x, u), du) in vector.iter_mut().zip(displacement).zip(&increment.displacement) {
+            *x = u + du;
+        }
+        scene.base.means(vector, means);
+        let mut length_scale = 0.0_f64;
+        for (i, jump) in free_jump.iter_mut().enumerate() {
+            let (ground, base) = (forcing.distortion[i] + forcing.history[i], means[i]);
+            *jump = ground - base;
+            length_scale = length_scale.max(ground.abs()).max(base.abs());
+        }
+        for (jump, gap) in free_jump.iter_mut().zip(&scene.static_state.gap) {
+            *jump += gap;
+        }
+        // `max` ignores NaN, so the jumps themselves are looked at.
+        if !(length_scale.is_finite() && free_jump.iter().all(|jump| jump.is_finite())) {
+            return Err(StepError::NotFinite { quantity: "displacement of the structure" });
+        }
+        let input = ContactInput {
+            delassus: &operators.delassus,
+            free_jump,
+            static_traction: &scene.static_state.traction,
+            start: &state.start,
+            laws: &scene.laws,
+            length_scale,
+        };
+        increment.modes.copy_from_slice(&state.modes);
+        let (trials, method) = search.solve(contact, &input, &mut increment.modes)?;
+        (increment.trials, increment.method) = (trials, method);
+        increment.traction.copy_from_slice(&contact.traction);
+        increment.contact.copy_from_slice(&contact.states);
+        let answer = &mut increment.displacement;
+        wide_transposed_multiply_add(&operators.columns, -1.0, &contact.traction, answer);
+        Ok(())
+    }
+}

@@ -1,0 +1,7 @@
+//! One step: what acts in it, and the increment that answers.
+
+pub(super) mod forcing;
+pub(super) mod increment;
+mod linear;
+mod newton;
+pub(super) mod solver;

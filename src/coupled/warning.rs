@@ -1,0 +1,125 @@
+//! Warnings of a run.
+
+use std::fmt;
+
+/// Where the assumptions of a run are strained, or its time step or elements too coarse.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// Slip beyond the length of the shortest element: elements no longer face each other.
+    LargeSlip {
+        /// Largest slip, m.
+        slip: f64,
+        /// Shortest element, m.
+        element_length: f64,
+    },
+    /// Rotation of the base beyond [`Warning::ROTATION_LIMIT`]: cosines are no longer one.
+    LargeRotation {
+        /// Largest rotation, rad.
+        rotation: f64,
+    },
+    /// The energy ledger does not close to 1e-9 at the end.
+    Ledger {
+        /// Its residual, relative to the largest term.
+        residual: f64,
+    },
+    /// The base shear vibrates with a period that the time step does not resolve.
+    UnresolvedPeriod {
+        /// Root-mean-square period of the base shear, s.
+        period: f64,
+        /// The time step, s.
+        time_step: f64,
+        /// One that resolves it, s.
+        needed: f64,
+    },
+    /// The ground moves faster than the time step resolves, and the base shear with it.
+    UnresolvedMotion {
+        /// Root-mean-square frequency of the ground acceleration, Hz.
+        frequency: f64,
+        /// The time step, s.
+        time_step: f64,
+        /// One that resolves it, s.
+        needed: f64,
+    },
+    /// Fewer elements under a foundation than its rocking stiffness takes.
+    FewElements {
+        /// The foundation, from the left, from 0.
+        foundation: usize,
+        /// Its elements.
+        elements: usize,
+        /// Fewest that it needs.
+        needed: usize,
+    },
+    /// Elements longer than a quarter of the soil's shear waves at the frequency of the base shear.
+    LongElements {
+        /// Longest element, m.
+        element_length: f64,
+        /// Wavelength at the root-mean-square frequency of the base shear, m.
+        wavelength: f64,
+        /// Length that resolves it, m.
+        needed: f64,
+    },
+}
+
+impl Warning {
+    /// Rotation above which a run warns, rad: the cosine is off by half a percent.
+    pub const ROTATION_LIMIT: f64 = 0.1;
+    /// Ledger residual at the end of a run above which it warns. Earlier, while energies are still
+    /// small, the relative residual may be larger: see [`Run::ledger_residual`].
+    pub const LEDGER_LIMIT: f64 = 1e-9;
+
+    /// Those that largest slip, shortest element, largest rotation and the last ledger residual
+    /// call for.
+    pub(crate) fn all(slip: f64, element_length: f64, rotation: f64, residual: f64) -> Vec<Self> {
+        let (slip, rotation) = (slip.abs(), rotation.abs());
+        let mut warnings = Vec::new();
+        if slip > element_length {
+            warnings.push(Self::LargeSlip { slip, element_length });
+        }
+        if rotation > Self::ROTATION_LIMIT {
+            warnings.push(Self::LargeRotation { rotation });
+        }
+        if residual > Self::LEDGER_LIMIT {
+            warnings.push(Self::Ledger { residual });
+        }
+        warnings
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LargeSlip { slip, element_length } => write!(
+                f,
+                "slip of {slip:.3e} m is beyond the shortest element, {element_length:.3e} m: \
+                 contact is paired for small displacements"
+            ),
+            Self::LargeRotation { rotation } => {
+                write!(
+                    f,
+                    "base rotation of {rotation:.3e} rad: geometry is that of small rotations"
+                )
+            }
+            Self::Ledger { residual } => write!(f, "energy ledger open by {residual:.1e}"),
+            Self::UnresolvedPeriod { period, time_step, needed } => write!(
+                f,
+                "time step of {time_step:.2e} s for a base shear with a period of {period:.2e} s: \
+                 take {needed:.1e} s"
+            ),
+            Self::UnresolvedMotion { frequency, time_step, needed } => write!(
+                f,
+                "time step of {time_step:.2e} s for a ground acceleration of {frequency:.3} Hz: \
+                 take {needed:.1e} s"
+            ),
+            Self::FewElements { foundation, elements, needed } => write!(
+                f,
+                "elements under foundation {foundation}: {elements}, its rocking needs {needed}"
+            ),
+            Self::LongElements { element_length, wavelength, needed } => write!(
+                f,
+                "elements of {element_length:.2e} m for shear waves of {wavelength:.2e} m: \
+                 take {needed:.1e} m"
+            ),
+        }
+    }
+}

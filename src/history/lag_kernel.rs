@@ -1,0 +1,119 @@
+//! What a ground must know of itself to keep a convolution history: its coefficients, lag by lag.
+
+use super::late_lags::LateLags;
+use super::pair_classes::PairClasses;
+use super::relaxed_fft::spectra::SharedSpectra;
+use crate::error::{Result, same_length};
+
+/// Step coefficients Gⁿ of a laterally homogeneous ground under a patch of elements, for steps of
+/// one length.
+///
+/// A traction of 1 Pa on element q during one step moves element p by a mean Gⁿ at the end of the
+/// n-th step from there: n = 1 is the end of the step itself. What is under the patch may vary with depth,
+/// but not along the surface, and must be reciprocal: then only one pair of each of the
+/// [classes](PairClasses) has to be computed, and a pair's coefficients are those of its class times
+/// [`Pair::scale`](super::Pair::scale), the coupling also times [`Pair::sign`](super::Pair::sign):
+///
+/// | displacement | due to | coefficient |
+/// |---|---|---|
+/// | down | pressure | scale · normal |
+/// | to the right | shear | scale · tangential |
+/// | down | shear | sign · scale · coupling |
+/// | to the right | pressure | −sign · scale · coupling |
+///
+/// All histories keep tables of their own, made of what [`LagKernel::coefficients`] gives, so that
+/// nothing here is called in a step unless memory has to grow. The same lag must always have the same bits,
+/// whatever else was asked for, in whatever order and on whatever thread: how a run is cut then
+/// changes nothing.
+///
+/// The example of [`KernelGround`](crate::bem::KernelGround) is a kernel in twenty lines.
+pub trait LagKernel: Send + Sync {
+    /// The elements, and the classes of their pairs.
+    fn classes(&self) -> &PairClasses;
+
+    /// Announces that lags up to `lags` will be asked for, of all classes: for kernels that compute
+    /// many at once, and on several threads. A closed form has nothing to prepare (the default).
+    ///
+    /// Called often, so it must be cheap where all is ready. The bits of a lag must not depend on
+    /// `lags`: a kernel that computes blocks of lags takes blocks that do not, such as
+    /// N + 1 … 2N for powers of two. Histories ask for powers of two where the number of steps leaves
+    /// it open.
+    ///
+    /// # Errors
+    /// If coefficients cannot be computed.
+    fn prepare(&self, _lags: usize) -> Result<()> {
+        Ok(())
+    }
+
+    /// Overwrites the slices (of one length) with the coefficients of `class` for the lags from
+    /// `first_lag` (≥ 1) on, integrals over the receiver in m²/Pa: down due to pressure, to the right
+    /// due to shear, and down due to shear with the receiver to the right of the source. Lags that
+    /// were not [prepared](LagKernel::prepare) are computed now.
+    ///
+    /// # Errors
+    /// [`Error::Index`](crate::Error::Index) for a class that does not exist,
+    /// [`Error::Size`](crate::Error::Size) for slices of different lengths,
+    /// [`Error::Input`](crate::Error::Input) for lag 0.
+    fn coefficients(
+        &self,
+        class: usize,
+        first_lag: usize,
+        normal: &mut [f64],
+        tangential: &mut [f64],
+        coupling: &mut [f64],
+    ) -> Result<()>;
+
+    /// Last lag at which the coupling of `class` is not zero (0 if it always is); `None` (the
+    /// default) if it never ends. An end saves time and memory.
+    ///
+    /// # Errors
+    /// [`Error::Index`](crate::Error::Index) for a class that does not exist.
+    fn last_coupling_lag(&self, _class: usize) -> Result<Option<usize>> {
+        Ok(None)
+    }
+
+    /// Late lags as sums of exponentials, which [`ExponentialHistory`](super::ExponentialHistory)
+    /// needs; `None` (the default) if there are none.
+    fn late_lags(&self) -> Option<&dyn LateLags> {
+        None
+    }
+
+    /// Where histories of this kernel leave the spectra of its coefficients for each other; `None`
+    /// (the default) if each makes its own. To be kept beside the coefficients, shared by clones,
+    /// and by nothing else.
+    fn spectra(&self) -> Option<&SharedSpectra> {
+        None
+    }
+
+    /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the means of lag 1.
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size) for a slice of the wrong length; as for
+    /// [`LagKernel::coefficients`].
+    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+        let classes = self.classes();
+        let count = classes.elements().len();
+        same_length("instantaneous operator", matrix.len(), 4 * count * count)?;
+        self.prepare(1)?;
+        let first = (0..classes.count())
+            .map(|class| {
+                let [mut zz, mut xx, mut zx] = [[0.0]; 3];
+                self.coefficients(class, 1, &mut zz, &mut xx, &mut zx)?;
+                Ok([zz[0], xx[0], zx[0]])
+            })
+            .collect::<Result<Vec<_>>>()?;
+        for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
+            for (q, pair) in pairs.iter().enumerate() {
+                let [zz, xx, zx] = first[pair.class].map(|value| value * pair.scale);
+                let mut set = |row: usize, column: usize, value: f64| {
+                    matrix[row * 2 * count + column] = value;
+                };
+                set(p, q, zz);
+                set(count + p, count + q, xx);
+                set(p, count + q, pair.sign * zx);
+                set(count + p, q, -pair.sign * zx);
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,67 @@
+//! What histories of one kernel share: spectra of its coefficients, made by the first that needs
+//! them.
+
+use std::fmt;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+
+use super::level::Level;
+use super::tables::Tables;
+use super::wave_level::{Near, WaveLevel};
+use crate::contact_element::ContactElement;
+
+/// Levels of blocks, from the smallest on, for leaves of one length.
+pub(crate) struct Levels<L, N> {
+    pub(super) levels: Vec<Arc<L>>,
+    /// Coefficients of a leaf.
+    pub(super) near: Option<Arc<N>>,
+}
+
+impl<L, N> Default for Levels<L, N> {
+    fn default() -> Self {
+        Self { levels: Vec::new(), near: None }
+    }
+}
+
+/// Spectra of a kernel's coefficients, for all histories of this kernel and of its clones.
+///
+/// Clones are one and the same store. A [`LagKernel`](crate::history::LagKernel) keeps one beside
+/// its coefficients and shows it in [`spectra`](crate::history::LagKernel::spectra).
+#[derive(Clone, Default)]
+pub struct SharedSpectra {
+    stores: Arc<Stores>,
+}
+
+/// Levels of the usual leaves, by pairs and by wavenumbers.
+#[derive(Default)]
+struct Stores {
+    /// Whose they are: set by the first history.
+    elements: OnceLock<Vec<ContactElement>>,
+    pairs: Mutex<Levels<Level, Tables>>,
+    waves: Mutex<Levels<WaveLevel, Near>>,
+}
+
+/// Others wait while one makes what it lacks. A panic leaves levels complete or not there at all.
+fn lock<L, N>(levels: &Mutex<Levels<L, N>>) -> MutexGuard<'_, Levels<L, N>> {
+    levels.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl SharedSpectra {
+    /// Whether these are spectra of this patch, or can become so.
+    pub(super) fn are_of(&self, elements: &[ContactElement]) -> bool {
+        self.stores.elements.get_or_init(|| elements.to_vec()) == elements
+    }
+
+    pub(super) fn pairs(&self) -> MutexGuard<'_, Levels<Level, Tables>> {
+        lock(&self.stores.pairs)
+    }
+
+    pub(super) fn waves(&self) -> MutexGuard<'_, Levels<WaveLevel, Near>> {
+        lock(&self.stores.waves)
+    }
+}
+
+impl fmt::Debug for SharedSpectra {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SharedSpectra").finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,67 @@
+//! Which unknowns hang together.
+
+use crate::matrix::SparseMatrix;
+
+/// Disjoint sets of the numbers below an order (union–find).
+pub(crate) struct Partition(Vec<usize>);
+
+impl Partition {
+    /// Every number by itself.
+    pub(crate) fn new(order: usize) -> Self {
+        Self((0..order).collect())
+    }
+
+    /// The least number of the set that `index` is in.
+    pub(crate) fn root(&mut self, mut index: usize) -> usize {
+        while self.0[index] != index {
+            self.0[index] = self.0[self.0[index]];
+            index = self.0[index];
+        }
+        index
+    }
+
+    /// Makes one set of two.
+    pub(crate) fn join(&mut self, first: usize, second: usize) {
+        let (a, b) = (self.root(first), self.root(second));
+        self.0[a.max(b)] = a.min(b);
+    }
+
+    /// Joins what an entry of `matrix` other than zero couples.
+    pub(crate) fn couple(&mut self, matrix: &SparseMatrix) {
+        for (row, column, value) in matrix.entries() {
+            if value != 0.0 {
+                self.join(row, column);
+            }
+        }
+    }
+
+    /// The sets, by their least numbers, each ascending.
+    pub(crate) fn sets(&mut self) -> Vec<Vec<usize>> {
+        let mut sets = vec![Vec::new(); self.0.len()];
+        for index in 0..self.0.len() {
+            sets[self.root(index)].push(index);
+        }
+        sets.retain(|set| !set.is_empty());
+        sets
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structure::Triplets;
+
+    #[test]
+    fn coupled_numbers_are_one_set() {
+        let mut matrix = Triplets::new(6);
+        matrix.add_spring(5, 1, 2.0);
+        matrix.add(1, 3, 1e-300);
+        // An entry that cancels couples nothing.
+        matrix.add(0, 4, 1.0);
+        matrix.add(0, 4, -1.0);
+        let mut partition = Partition::new(6);
+        partition.couple(&SparseMatrix::new("test", &matrix).unwrap());
+        assert_eq!(partition.sets(), [vec![0], vec![1, 3, 5], vec![2], vec![4]]);
+        assert_eq!(partition.root(5), 1);
+    }
+}

@@ -1,0 +1,107 @@
+//! Parts of a structure that nothing holds on its base.
+
+use super::matrix_model::MASSLESS;
+use super::{Structure, Triplets};
+use crate::error::{Error, Result};
+use crate::linalg::{Partition, SparseFactor, SparseMatrix, largest, sparse_condition};
+
+/// Condition of a part's stiffness from which on the part is taken to float: that of one that does is
+/// 10¹⁶ up to rounding, that of a tower 800 times as high as wide 10¹².
+const FLOATS: f64 = 1e14;
+/// Distance of a mass from one up to which it is that of a mode, normalised.
+const NORMALISED: f64 = 1e-6;
+
+/// Most unknowns or nodes that a text names one by one.
+pub(super) const NAMED: usize = 8;
+
+/// Refuses a structure with a part that no stiffness joins to one of the unknowns `base`; without
+/// any there is nothing to ask for.
+pub(crate) fn check_attached(
+    structure: &dyn Structure,
+    stiffness: &SparseMatrix,
+    mass: &SparseMatrix,
+    base: &[usize],
+) -> Result<()> {
+    let unknowns = detached(stiffness, mass, base)?;
+    if unknowns.is_empty() {
+        return Ok(());
+    }
+    let place = structure.describe(&unknowns).unwrap_or_else(|| numbers(&unknowns));
+    Err(Error::Detached { unknowns, place })
+}
+
+/// Unknowns by their numbers.
+pub(super) fn numbers(unknowns: &[usize]) -> String {
+    let texts: Vec<String> = unknowns.iter().take(NAMED).map(ToString::to_string).collect();
+    let noun = if unknowns.len() == 1 { "unknown" } else { "unknowns" };
+    format!("{noun} {}", listed(&texts, unknowns.len()))
+}
+
+/// The first few of `count` things.
+pub(super) fn listed(texts: &[String], count: usize) -> String {
+    let list = texts.join(", ");
+    if count > texts.len() { format!("{list} and {} more", count - texts.len()) } else { list }
+}
+
+/// Unknowns of all parts that have mass or stiffness, and no way by stiffness to one of the
+/// unknowns `base`; ascending. Symmetric or not, entries that are exactly zero couple nothing.
+///
+/// A part whose own stiffness holds it is none if the mass couples it with the rest: its unknowns
+/// are coordinates relative to the base, those of modes for example. A mode that the base does not
+/// excite is told by its unit mass.
+fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Result<Vec<usize>> {
+    let n = stiffness.order();
+    let Some(&first) = base.first() else { return Ok(Vec::new()) };
+    let mut by_stiffness = Partition::new(n);
+    for &unknown in base {
+        by_stiffness.join(first, unknown);
+    }
+    by_stiffness.couple(stiffness);
+    let ground = by_stiffness.root(first);
+    if (0..n).all(|unknown| by_stiffness.root(unknown) == ground) {
+        return Ok(Vec::new());
+    }
+    let parts = by_stiffness.sets();
+    let mut by_any = by_stiffness;
+    by_any.couple(mass);
+    let ground = by_any.root(first);
+
+    let mut place = vec![(0, 0); n];
+    for (part, unknowns) in parts.iter().enumerate() {
+        unknowns.iter().enumerate().for_each(|(k, &unknown)| place[unknown] = (part, k));
+    }
+    let base_part = place[first].0;
+    let mut own: Vec<_> = parts.iter().map(|part| Triplets::new(part.len())).collect();
+    for (row, column, value) in stiffness.entries() {
+        let (part, k) = place[row];
+        if part != base_part && value != 0.0 {
+            own[part].add(k, place[column].1, value);
+        }
+    }
+    let masses = mass.diagonal();
+    let massless = MASSLESS * largest(&masses);
+    let mut found = Vec::new();
+    for (part, unknowns) in parts.iter().enumerate().filter(|(part, _)| *part != base_part) {
+        let has_mass = unknowns.iter().any(|&unknown| masses[unknown].abs() > massless);
+        let is_mode = unknowns.len() == 1 && (masses[unknowns[0]] - 1.0).abs() <= NORMALISED;
+        let takes_part = !has_mass || is_mode || by_any.root(unknowns[0]) == ground;
+        let is_empty = !has_mass && own[part].entries().is_empty();
+        let is_attached = is_empty || takes_part && holds_itself(&own[part])?;
+        if !is_attached {
+            found.extend_from_slice(unknowns);
+        }
+    }
+    found.sort_unstable();
+    Ok(found)
+}
+
+/// Whether a stiffness lets nothing move freely.
+fn holds_itself(stiffness: &Triplets) -> Result<bool> {
+    const NAME: &str = "stiffness matrix of a part";
+    let matrix = SparseMatrix::new(NAME, stiffness)?;
+    if matrix.is_empty() {
+        return Ok(false);
+    }
+    Ok(SparseFactor::new(NAME, stiffness)
+        .is_ok_and(|mut factor| sparse_condition(&matrix, &mut factor) < FLOATS))
+}

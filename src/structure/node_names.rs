@@ -1,0 +1,52 @@
+//! What errors call the unknowns of a finite-element model: its nodes.
+
+use std::fmt::Write;
+
+use super::detached::{NAMED, listed};
+use crate::fem::{Direction, Mesh};
+
+/// Nodes of these unknowns with their places, and whether one of the rest lies where one of them
+/// does; `number` numbers the unknowns. `None` without unknowns of nodes.
+pub(super) fn describe(
+    mesh: &Mesh,
+    number: &dyn Fn(usize, Direction) -> Option<usize>,
+    unknowns: &[usize],
+) -> Option<String> {
+    let limit = unknowns.iter().copied().max()?;
+    let mut is_meant = vec![false; limit.saturating_add(1).min(3 * mesh.nodes().len())];
+    for &unknown in unknowns {
+        *is_meant.get_mut(unknown)? = true;
+    }
+    let meant = |unknown: usize| is_meant.get(unknown).copied().unwrap_or(false);
+    let mut nodes = Vec::new();
+    let mut texts = Vec::new();
+    for (node, [x, y]) in mesh.nodes().iter().enumerate() {
+        let own = || Direction::ALL.into_iter().filter(|d| number(node, *d).is_some());
+        let these: Vec<_> = own().filter(|d| number(node, *d).is_some_and(meant)).collect();
+        if these.is_empty() {
+            continue;
+        }
+        nodes.push(node);
+        if texts.len() < NAMED {
+            let mut text = format!("node {node} at ({x}, {y})");
+            if these.len() < own().count() {
+                for direction in these {
+                    let _ = write!(text, " in {direction:?}");
+                }
+            }
+            texts.push(text);
+        }
+    }
+    if nodes.is_empty() {
+        return None;
+    }
+    let mut text = listed(&texts, nodes.len());
+    let twin = nodes.iter().find_map(|&node| {
+        let other = mesh.nodes_beside(node).find(|other| nodes.binary_search(other).is_err())?;
+        Some((node, other))
+    });
+    if let Some((node, other)) = twin {
+        let _ = write!(text, "; node {node} lies where node {other} is, but is not merged with it");
+    }
+    Some(text)
+}

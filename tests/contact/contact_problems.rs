@@ -1,0 +1,24 @@
+//! GOAL: a step finds a solution of its contact problem wherever brute force finds one.
+//! SCENE: random problems of one to four elements, friction from 0 to 3, in sequences.
+//! REFERENCE: all modes tried. The example `contact_problems` runs many more.
+
+use crate::support::contact_problems::{Tally, sequence};
+use crate::support::random::Random;
+
+#[test]
+fn steps_find_a_solution_of_brute_force() {
+    let mut random = Random(11);
+    for [low, high] in [[0.0, 0.0], [0.05, 0.6], [0.6, 1.5], [1.5, 3.0]] {
+        let mut tally = Tally::default();
+        for k in 0..60 {
+            let friction = if high > 0.0 { random.within(low, high) } else { 0.0 };
+            tally.add(&sequence(1 + k % 4, friction, k % 2 == 0, &mut random));
+        }
+        println!("friction {low} to {high}: {tally:?}");
+        assert_eq!((tally.failed, tally.none), (0, 0), "{tally:?}");
+        assert!(tally.violation < 1e-10 && tally.distance < 1e-9, "{tally:?}");
+        assert!(tally.several == 0 || high > 0.6, "{tally:?}");
+        // Problems in which every start is the solution would say nothing.
+        assert!(tally.trials > 3 * tally.problems / 2, "{tally:?}");
+    }
+}

@@ -1,0 +1,10 @@
+//! Contact: the problem of a step, its laws, and events inside a step.
+
+mod chatter;
+mod contact_problems;
+mod events;
+mod paper_parts;
+mod spring_bed;
+#[path = "../support/mod.rs"]
+mod support;
+mod variable_friction;

@@ -1,0 +1,201 @@
+//! GOAL: a checkpoint carries the choice of the convolution history; an approximate history books
+//! its error.
+//! SCENE: grounds that choose, with much memory and little; corrupt counts of steps.
+//! REFERENCE: the saved run to the last bit; typed errors for another choice; the ledger.
+
+use std::sync::Arc;
+
+use basemat::bem::{HalfPlaneGround, PatchKernel, Strip};
+use basemat::coupled::SimulationBuilder;
+use basemat::history::{
+    ConvolutionHistory, DirectHistory, ExponentialHistory, History, LagKernel, RelaxedFftHistory,
+};
+use basemat::{CheckpointError, Error};
+
+use super::{STEPS, carried, half_plane, refusal};
+use crate::support::scenes::{SI, block, friction, scene, soil, states};
+
+/// A block on equal elements whose ground chooses its history, in at most these bytes.
+pub(crate) fn auto(elements: usize, memory: usize) -> SimulationBuilder {
+    let ground = HalfPlaneGround::strip(soil(SI), -2.0..2.0, elements).unwrap();
+    let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+    base.ground(ground.with_history_memory(memory))
+}
+
+#[test]
+fn what_auto_has_chosen_is_chosen_again() {
+    const GIB: usize = 1 << 30;
+    for (elements, memory, expected, steps, kind) in [
+        // By wavenumbers and by pairs.
+        (10, GIB, 0, 50, History::RelaxedFft),
+        (4, GIB, 0, 50, History::RelaxedFft),
+        (10, GIB, 0, 100, History::RelaxedFft),
+        (10, 10_000, 0, 100, History::Exponentials),
+        // Their poles depend on the steps that were expected, which are no part of the scene.
+        (10, 10_000, 1 << 30, 100, History::Exponentials),
+    ] {
+        let case = format!("{elements} elements, {memory} bytes, {expected} steps expected");
+        let mut whole = auto(elements, memory).expected_steps(expected).build().unwrap();
+        whole.run(steps, |_| {}).unwrap();
+        let choice = whole.history_choice().unwrap();
+        assert_eq!(choice.kind, kind, "{case}");
+        let saved = carried(&whole.checkpoint().unwrap());
+        let wanted = states(&mut whole, 40);
+        let mut used = auto(elements, memory).build().unwrap();
+        used.run(steps + 10, |_| {}).unwrap();
+        for mut other in [auto(elements, memory).build().unwrap(), used] {
+            other.resume(&saved).unwrap_or_else(|e| panic!("{case}: {e}"));
+            assert_eq!(other.history_choice(), Some(choice), "{case}");
+            assert_eq!(other.checkpoint().unwrap(), saved, "{case}");
+            assert_eq!(states(&mut other, 40)[1..], wanted[1..], "{case}");
+        }
+    }
+}
+
+#[test]
+fn where_nothing_was_chosen_the_choice_is_open_again() {
+    // Enough for 50 steps, too little for 100.
+    let fresh = auto(10, 60_000).build().unwrap().checkpoint().unwrap();
+    let mut used = auto(10, 60_000).build().unwrap();
+    used.run(100, |_| {}).unwrap();
+    assert_eq!(used.history_choice().unwrap().kind, History::Exponentials);
+    used.resume(&fresh).unwrap();
+    assert_eq!((used.history_choice(), used.state().step), (None, 0));
+    used.run(50, |_| {}).unwrap();
+    assert_eq!(used.history_choice().unwrap().kind, History::RelaxedFft);
+}
+
+/// GOAL: how a run is cut into pieces, and what was announced of it, changes no bit.
+/// SCENE: transforms by wavenumbers and by pairs; pieces shorter and longer than their blocks.
+#[test]
+fn a_run_may_be_cut_anywhere() {
+    for elements in [4, 10] {
+        let run = |cuts: &[usize], expected: usize| {
+            let mut simulation = auto(elements, 1 << 30).expected_steps(expected).build().unwrap();
+            for steps in cuts {
+                simulation.run(*steps, |_| {}).unwrap();
+            }
+            simulation
+        };
+        let whole = run(&[300], 0);
+        let (state, saved) = (whole.state(), whole.checkpoint().unwrap());
+        let cuts: [&[usize]; 6] =
+            [&[50, 250], &[64, 236], &[65, 235], &[1, 299], &[299, 1], &[30; 10]];
+        for cuts in cuts {
+            for expected in [0, 40, 300, 5000] {
+                let cut = run(cuts, expected);
+                assert_eq!(cut.state(), state, "{elements} elements, {cuts:?}, {expected}");
+                assert_eq!(cut.history_choice().unwrap().kind, History::RelaxedFft);
+            }
+            // Only the first announcement is noted.
+            assert_eq!(
+                run(cuts, 300).checkpoint().unwrap(),
+                run(&[300], 300).checkpoint().unwrap()
+            );
+        }
+        // Steps of one's own loop, of which nothing is announced.
+        let mut own = run(&[], 0);
+        for _ in 0..300 {
+            own.step().unwrap();
+        }
+        assert_eq!(own.state(), state, "{elements} elements");
+        let mut resumed = run(&[20], 0);
+        resumed.resume(&saved).unwrap();
+        assert_eq!(resumed.state().probes, state.probes);
+    }
+}
+
+/// Whatever the first run announced, a checkpoint of the same scene fits.
+#[test]
+fn a_used_simulation_resumes_the_same_scene() {
+    for memory in [1 << 30, 60_000] {
+        let run = |steps: usize| {
+            let mut simulation = auto(10, memory).build().unwrap();
+            simulation.run(steps, |_| {}).unwrap();
+            simulation
+        };
+        for (first, second) in [(50, 300), (300, 50)] {
+            let (mut one, mut other) = (run(first), run(second));
+            other.resume(&one.checkpoint().unwrap()).unwrap();
+            assert_eq!(other.history_choice(), one.history_choice());
+            assert_eq!(states(&mut other, 40)[1..], states(&mut one, 40)[1..]);
+        }
+    }
+}
+
+/// Where memory decides, the first announcement does: once it is given to the builder, cuts are the
+/// same again.
+#[test]
+fn a_choice_by_memory_is_that_of_the_first_announcement() {
+    let run = |cuts: &[usize], expected: usize| {
+        let mut simulation = auto(10, 60_000).expected_steps(expected).build().unwrap();
+        for steps in cuts {
+            simulation.run(*steps, |_| {}).unwrap();
+        }
+        (simulation.history_choice().unwrap().kind, simulation.state().clone())
+    };
+    assert_eq!(run(&[300], 0).0, History::Exponentials);
+    assert_eq!(run(&[50, 250], 0).0, History::RelaxedFft);
+    assert_eq!(run(&[50, 250], 300), run(&[300], 0));
+}
+
+#[test]
+fn another_choice_is_refused_and_changes_nothing() {
+    let run = |memory| {
+        let mut simulation = auto(10, memory).build().unwrap();
+        simulation.run(100, |_| {}).unwrap();
+        simulation.checkpoint().unwrap()
+    };
+    let [transforms, exponentials] = [run(1 << 30), run(10_000)];
+    let quantity = "kind of history";
+    for (memory, checkpoint) in [(10_000, &transforms), (1 << 30, &exponentials)] {
+        // It would choose another one.
+        let mut fresh = auto(10, memory).build().unwrap();
+        assert_eq!(refusal(&mut fresh, checkpoint), CheckpointError::OtherScene { quantity });
+        assert_eq!(fresh.history_choice(), None);
+        // It has chosen another one.
+        fresh.run(50, |_| {}).unwrap();
+        assert_eq!(refusal(&mut fresh, checkpoint), CheckpointError::OtherScene { quantity });
+    }
+}
+
+#[test]
+fn a_step_count_without_tractions_takes_no_memory() {
+    // By pairs, and by wavenumbers.
+    for count in [4, 10] {
+        let elements = Strip::uniform(-2.0..2.0, count).unwrap().elements();
+        let kernel: Arc<dyn LagKernel> =
+            Arc::new(PatchKernel::new(soil(SI), elements, 0.01).unwrap());
+        let corrupt = |history: &mut dyn ConvolutionHistory| {
+            for steps in [1 << 40, 1 << 47, usize::MAX] {
+                let error = history.restore(steps, &[0.0; 16]).unwrap_err();
+                assert!(matches!(error, Error::Checkpoint(CheckpointError::Corrupt { .. })));
+            }
+        };
+        corrupt(&mut DirectHistory::new(Arc::clone(&kernel)));
+        corrupt(&mut RelaxedFftHistory::new(Arc::clone(&kernel)));
+        corrupt(&mut ExponentialHistory::new(kernel, 1e-6).unwrap());
+    }
+}
+
+#[test]
+fn an_approximate_history_is_in_the_ledger() {
+    let run = |history, tolerance| {
+        let ground = half_plane(history).with_history_tolerance(tolerance).unwrap();
+        let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+        base.ground(ground).build().unwrap().run(STEPS, |_| {}).unwrap()
+    };
+    let exact = run(History::Direct, 1e-3);
+    assert_eq!(exact.history_error_bound(), 0.0);
+    let mut last = f64::INFINITY;
+    for tolerance in [1e-3, 1e-6, 1e-9] {
+        let run = run(History::Exponentials, tolerance);
+        let bound = run.history_error_bound();
+        println!("{tolerance:e}: soil {:e} within {bound:e}", run.ledger.soil);
+        assert!(bound > 0.0 && bound < 100.0 * tolerance * run.ledger.soil);
+        assert!(bound < 0.1 * last);
+        assert!(run.ledger_residual < 1e-10, "{:e}", run.ledger_residual);
+        assert!(run.to_string().contains("soil within"));
+        last = bound;
+    }
+}

@@ -1,0 +1,49 @@
+//! GOAL: a run that is saved and resumed is the run that was never interrupted, to the last bit.
+//! SCENE: half-planes with every history, spring beds, structures with internal variables.
+//! REFERENCE: the uninterrupted run.
+
+mod histories;
+mod refused;
+mod resumed;
+#[cfg(feature = "serde")]
+mod text;
+
+use basemat::bem::{HalfPlaneGround, SpringGround};
+use basemat::coupled::Checkpoint;
+use basemat::history::History;
+use basemat::{CheckpointError, Error, Simulation};
+
+use crate::support::scenes::{SI, soil};
+
+/// Longer than the window of the exponentials and several leaves of the transforms.
+const STEPS: usize = 260;
+
+fn half_plane(history: History) -> HalfPlaneGround {
+    HalfPlaneGround::graded_strip(soil(SI), -2.0..2.0, 6).unwrap().with_history_kind(history)
+}
+
+fn spring_bed() -> SpringGround {
+    SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap().with_dashpots(4e5, 3e5).unwrap()
+}
+
+/// Through a text format where the crate is built to do so.
+#[cfg(feature = "serde")]
+fn carried(checkpoint: &Checkpoint) -> Checkpoint {
+    let text = serde_json::to_string(checkpoint).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+#[cfg(not(feature = "serde"))]
+fn carried(checkpoint: &Checkpoint) -> Checkpoint {
+    checkpoint.clone()
+}
+
+fn refusal(simulation: &mut Simulation, checkpoint: &Checkpoint) -> CheckpointError {
+    let before = simulation.checkpoint().unwrap();
+    let error = simulation.resume(checkpoint).unwrap_err();
+    assert_eq!(simulation.checkpoint().unwrap(), before, "a refusal must change nothing");
+    match error {
+        Error::Checkpoint(error) => error,
+        other => panic!("{other}"),
+    }
+}

@@ -1,0 +1,163 @@
+//! GOAL: a checkpoint read from text is resumed or refused, never a panic.
+//! SCENE: texts with numbers missing or not finite, damaged texts, any bytes (feature `serde`).
+//! REFERENCE: typed errors, and a simulation that is unchanged.
+
+use basemat::coupled::Checkpoint;
+use basemat::history::History;
+use basemat::{CheckpointError, Simulation};
+use proptest::prelude::*;
+use serde_json::Value;
+
+use super::histories::auto;
+use super::{half_plane, refusal};
+use crate::support::scenes::{SI, block, friction, scene};
+
+fn simulation(history: History) -> Simulation {
+    let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+    base.ground(half_plane(history)).build().unwrap()
+}
+
+/// Places of all leaves of a value.
+fn leaves(value: &mut Value) -> Vec<&mut Value> {
+    match value {
+        Value::Array(list) => list.iter_mut().flat_map(leaves).collect(),
+        Value::Object(map) => map.values_mut().flat_map(leaves).collect(),
+        leaf => vec![leaf],
+    }
+}
+
+#[test]
+fn numbers_missing_or_not_finite_are_refused() {
+    for history in [History::Direct, History::RelaxedFft, History::Exponentials] {
+        let mut simulation = simulation(history);
+        simulation.run(70, |_| {}).unwrap();
+        let good = serde_json::to_value(simulation.checkpoint().unwrap()).unwrap();
+        for name in ["state", "ground"] {
+            for damage in 0..3 {
+                let mut value = good.clone();
+                let list = value[name].as_array_mut().unwrap();
+                match damage {
+                    0 => list.truncate(list.len() - 1),
+                    1 => list.push(Value::from(0_u64)),
+                    _ => list[1] = Value::from(f64::NAN.to_bits()),
+                }
+                let bad: Checkpoint = serde_json::from_value(value).unwrap();
+                let found = refusal(&mut simulation, &bad);
+                assert!(matches!(found, CheckpointError::Corrupt { .. }), "{found}");
+            }
+        }
+        for (name, wrong) in
+            [("format", 99_u64), ("steps", 71), ("steps", 1 << 40), ("steps", u64::MAX / 2)]
+        {
+            let mut value = good.clone();
+            value[name] = Value::from(wrong);
+            let bad: Checkpoint = serde_json::from_value(value).unwrap();
+            refusal(&mut simulation, &bad);
+        }
+    }
+}
+
+#[test]
+fn a_damaged_choice_of_the_history_is_refused() {
+    let mut whole = auto(10, 1 << 30).build().unwrap();
+    whole.run(100, |_| {}).unwrap();
+    let good = serde_json::to_value(whole.checkpoint().unwrap()).unwrap();
+    let wrong = [1e300, -1e300, -2.0, 0.5, 2.5, 1e20, f64::INFINITY, f64::NAN];
+    let kinds = [-1.0, 4.0].map(|kind| (0, kind));
+    for (place, wrong) in wrong.iter().flat_map(|w| [(0, *w), (1, *w)]).chain(kinds) {
+        let mut value = good.clone();
+        value["ground"][place] = Value::from(wrong.to_bits());
+        let bad: Checkpoint = serde_json::from_value(value).unwrap();
+        let mut fresh = auto(10, 1 << 30).build().unwrap();
+        for simulation in [&mut fresh, &mut whole] {
+            let before = simulation.history_choice();
+            let found = refusal(simulation, &bad);
+            assert!(matches!(found, CheckpointError::Corrupt { .. }), "{place}, {wrong}");
+            assert_eq!(simulation.history_choice(), before);
+        }
+    }
+    // Numbers that mean something, but something else.
+    let changed = |place: usize, other: f64| -> Checkpoint {
+        let mut value = good.clone();
+        value["ground"][place] = Value::from(other.to_bits());
+        serde_json::from_value(value).unwrap()
+    };
+    for kind in [0.0, 1.0, 3.0] {
+        let mut fresh = auto(10, 1 << 30).build().unwrap();
+        refusal(&mut fresh, &changed(0, kind));
+        assert_eq!(fresh.history_choice(), None);
+    }
+    // Other numbers of steps for which the same history is chosen: it goes on to the same bits.
+    whole.run(50, |_| {}).unwrap();
+    for other in [0.0, 50.0, 1e15] {
+        let mut fresh = auto(10, 1 << 30).build().unwrap();
+        fresh.resume(&changed(1, other)).unwrap();
+        fresh.run(50, |_| {}).unwrap();
+        assert_eq!(fresh.state(), whole.state(), "{other} steps");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    /// Whatever a file says, it is read, refused, or marched from, without a panic.
+    #[test]
+    fn damaged_checkpoints_do_not_panic(
+        which in 0_usize..3,
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u64>()), 1..6),
+    ) {
+        let history = [History::Direct, History::RelaxedFft, History::Exponentials][which];
+        let mut simulation = simulation(history);
+        simulation.run(40, |_| {}).unwrap();
+        let mut value = serde_json::to_value(simulation.checkpoint().unwrap()).unwrap();
+        let mut leaves = leaves(&mut value);
+        for (place, bits) in changes {
+            let place = place.index(leaves.len());
+            *leaves[place] = Value::from(bits);
+        }
+        if let Ok(checkpoint) = serde_json::from_value::<Checkpoint>(value)
+            && simulation.resume(&checkpoint).is_ok()
+        {
+            let _ = simulation.step();
+        }
+    }
+
+    /// The text itself: cut, with characters exchanged, put in or taken out.
+    #[test]
+    fn damaged_texts_do_not_panic(
+        which in 0_usize..3,
+        cut in prop::option::weighted(0.2, any::<prop::sample::Index>()),
+        changes in prop::collection::vec(
+            (any::<prop::sample::Index>(), 0_usize..3, prop::sample::select(b"0123456789,[]{}:-.e\"n ".to_vec())),
+            1..6,
+        ),
+    ) {
+        let history = [History::Direct, History::RelaxedFft, History::Exponentials][which];
+        let mut simulation = simulation(history);
+        simulation.run(20, |_| {}).unwrap();
+        let mut text = serde_json::to_vec(&simulation.checkpoint().unwrap()).unwrap();
+        for (place, kind, sign) in changes {
+            let at = place.index(text.len());
+            match kind {
+                0 => text[at] = sign,
+                1 => text.insert(at, sign),
+                _ => drop(text.remove(at)),
+            }
+        }
+        if let Some(cut) = cut {
+            text.truncate(cut.index(text.len()));
+        }
+        if let Ok(checkpoint) = serde_json::from_slice::<Checkpoint>(&text)
+            && simulation.resume(&checkpoint).is_ok()
+        {
+            let _ = simulation.step();
+        }
+    }
+
+    #[test]
+    fn any_bytes_do_not_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        if let Ok(checkpoint) = serde_json::from_slice::<Checkpoint>(&bytes) {
+            let _ = simulation(History::Direct).resume(&checkpoint);
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! GOAL: a short way gives the same as the long one, and refuses the same.
+//! SCENE: soils from wave speeds, grounds under a structure, durations, sweeps, records, recorders.
+//! REFERENCE: the same thing at full length.
+
+use basemat::bem::Strip;
+use basemat::prelude::*;
+use basemat::{Error, Result};
+
+const BAD: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
+
+fn soil() -> Soil {
+    Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap()
+}
+
+fn block() -> RigidBlock {
+    RigidBlock::new(6.0, 9.0, 1000.0).unwrap()
+}
+
+fn simulation() -> Simulation {
+    let block = block();
+    Simulation::builder(0.01)
+        .ground(HalfPlaneGround::under(soil(), &block, 8).unwrap())
+        .structure(block)
+        .interface(Coulomb::new(0.5).unwrap())
+        .motion(el_centro_1940())
+        .build()
+        .unwrap()
+}
+
+/// A base with foundations that end where they are told to.
+struct Ends(Vec<f64>, Vec<usize>);
+
+impl Structure for Ends {
+    fn unknowns(&self) -> usize {
+        2
+    }
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.0.iter().map(|&x| ContactNode::free(x, 0, 1)).collect()
+    }
+    fn foundation_ends(&self) -> Vec<usize> {
+        self.1.clone()
+    }
+    fn mass(&self, _: &mut Triplets) {}
+    fn stiffness(&self, _: &mut Triplets) {}
+}
+
+#[test]
+fn soil_from_its_shear_wave_speed() {
+    assert_eq!(soil(), Soil::new(1900.0 * 200.0 * 200.0, 0.3, 1900.0).unwrap());
+    for bad in BAD {
+        let fault = Soil::from_shear_wave_speed(bad, 0.3, 1900.0).unwrap_err();
+        let Error::Input { quantity, .. } = fault else { panic!("{fault}") };
+        assert_eq!(quantity, "shear wave speed of the soil");
+    }
+    assert!(Soil::from_shear_wave_speed(1e200, 0.3, 1900.0).is_err());
+}
+
+#[test]
+fn strips_lie_under_foundations() {
+    let ends = |ground: &HalfPlaneGround| {
+        ground.elements().iter().map(|e| [e.left, e.right]).collect::<Vec<_>>()
+    };
+    let ground = HalfPlaneGround::under(soil(), &block(), 8).unwrap();
+    assert_eq!(ends(&ground), ends(&HalfPlaneGround::strip(soil(), -3.0..3.0, 8).unwrap()));
+
+    let nodes = vec![0.0, 1.0, 2.0, 5.0, 7.0, 10.0, 11.0];
+    let several = Ends(nodes.clone(), vec![2, 4]);
+    let ground = HalfPlaneGround::under(soil(), &several, 3).unwrap();
+    let strips = [0.0..2.0, 5.0..7.0, 10.0..11.0].map(|range| Strip::uniform(range, 3).unwrap());
+    assert_eq!(ends(&ground), ends(&HalfPlaneGround::new(soil(), &strips).unwrap()));
+
+    let under = |nodes: &[f64], ends: &[usize], count| {
+        HalfPlaneGround::under(soil(), &Ends(nodes.to_vec(), ends.to_vec()), count).err().unwrap()
+    };
+    assert!(matches!(under(&[], &[], 3), Error::Size { found: 0, .. }));
+    assert!(matches!(under(&[1.0], &[], 3), Error::Size { found: 1, .. }));
+    assert!(matches!(under(&nodes, &[0], 3), Error::Size { found: 1, .. }));
+    assert!(matches!(under(&nodes, &[3, 2], 3), Error::Size { found: 0, .. }));
+    assert!(matches!(under(&nodes, &[usize::MAX], 3), Error::Index { bound: 7, .. }));
+    assert!(matches!(under(&nodes, &[2], 0), Error::Input { .. }));
+    assert!(matches!(under(&[0.0, f64::NAN], &[], 3), Error::Input { .. }));
+    assert!(matches!(under(&[1.0, 0.0], &[], 3), Error::Input { .. }));
+}
+
+#[test]
+fn a_structure_has_weight_unless_told_otherwise() {
+    let weight = STANDARD_GRAVITY * block().total_mass();
+    assert!((simulation().state().normal_force / weight - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn steps_of_a_duration() {
+    let simulation = simulation();
+    for (duration, steps) in [
+        (0.0, 0),
+        (0.07, 7),
+        (0.29, 29),
+        (0.291, 30),
+        (1e4, 1_000_000),
+        (-1.0, 0),
+        (f64::NAN, 0),
+        (f64::INFINITY, usize::MAX),
+    ] {
+        assert_eq!(simulation.steps_for(duration), steps, "{duration}");
+    }
+}
+
+#[test]
+fn a_sweep_collects_in_order() {
+    let found = Sweep::new(20).collect(|case| match case.index() {
+        7 => Err("seven"),
+        index => Ok(3 * index),
+    });
+    let wanted: Vec<_> = (0..20).map(|k| if k == 7 { Err("seven") } else { Ok(3 * k) }).collect();
+    assert_eq!(found, wanted);
+}
+
+#[test]
+fn records_of_functions() {
+    let ramp = Record::from_fn(0.25, 1.0, |t| 2.0 * t).unwrap();
+    assert_eq!(ramp, Record::new(0.25, vec![0.0, 0.5, 1.0, 1.5, 2.0]).unwrap());
+    for bad in BAD {
+        assert!(Record::from_fn(bad, 1.0, |t| t).is_err(), "{bad}");
+        assert!(Record::from_fn(0.1, bad, |t| t).is_err(), "{bad}");
+    }
+    assert!(matches!(Record::from_fn(1e-9, 1.0, |t| t), Err(Error::Input { .. })));
+    assert!(matches!(Record::from_fn(0.1, 1.0, |t| 1.0 / (t - 0.5)), Err(Error::Input { .. })));
+    assert!(matches!(Record::from_fn(1.0, 0.1, |t| t), Err(Error::Record { .. })));
+}
+
+#[test]
+fn a_recorder_runs_and_saves() -> Result<()> {
+    let short = Recorder::new().run(&mut simulation(), 100)?;
+    let mut marched = simulation();
+    let mut long = Recorder::new().start(&marched)?;
+    long.run(&mut marched, 100)?;
+    assert_eq!(short.series(Quantity::BaseShear), long.series(Quantity::BaseShear));
+    assert_eq!(short.times().len(), 101);
+
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("conveniences/new/one");
+    let _ = std::fs::remove_dir_all(&folder);
+    short.save_csv(folder.join("run.csv"))?;
+    let mut text = Vec::new();
+    short.write_csv(&mut text).unwrap();
+    assert_eq!(std::fs::read(folder.join("run.csv")).unwrap(), text);
+    let mut comparison = Comparison::new();
+    comparison.add("only", short.summary());
+    comparison.save_csv(folder.join("cases.csv"))?;
+    assert_eq!(std::fs::read_to_string(folder.join("cases.csv")).unwrap(), comparison.csv());
+    let nowhere = folder.join("run.csv/below_a_file.csv");
+    assert!(matches!(short.save_csv(&nowhere), Err(Error::Write { .. })));
+    assert!(matches!(comparison.save_csv(&nowhere), Err(Error::Write { .. })));
+    Ok(())
+}

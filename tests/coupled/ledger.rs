@@ -1,0 +1,118 @@
+//! GOAL: the energy ledger closes in every kind of run, and only if every term is right.
+//! SCENE: thirteen kinds of law, scheme, damping, structure and ground; stiff structures that
+//! travel far.
+//! REFERENCE: the identity of the energies; perturbing any term must open it.
+
+use basemat::bem::SpringGround;
+use basemat::coupled::{Ledger, Newmark, Run, SimulationBuilder, Theta};
+use basemat::fem::{Layer, Material, Mesh};
+use basemat::interface::{Activation, Bonded, ThinLayer};
+use basemat::structure::{Bilinear, FemModel, RayleighDamping, ShearBuilding, Storey, WithSprings};
+
+use crate::support::scenes::{Rider, SI, block, friction, scene, shake, soil, tower};
+
+fn run(builder: SimulationBuilder, steps: usize) -> Run {
+    builder.build().unwrap().run(steps, |_| {}).unwrap()
+}
+
+/// One run of each kind, by name.
+fn kinds() -> Vec<(&'static str, Run)> {
+    let damped = || tower(SI, Some(RayleighDamping::from_ratios([2.0, 20.0], [0.05; 2]).unwrap()));
+    let rate = friction(0.4).with_activation(Activation::Rate { closed_below: 1e-9 }).unwrap();
+    let theta = Theta::new(0.6).unwrap();
+    let base = || scene(SI, 0.6);
+    let layer = ThinLayer::new(soil(SI), 1.0, 0.3).unwrap();
+    vec![
+        ("bonded", run(base().structure(tower(SI, None)).interface(Bonded), 300)),
+        ("uplift", run(base().structure(block(SI)).interface(friction(f64::INFINITY)), 400)),
+        ("sliding", run(base().structure(block(SI)).interface(friction(0.2)), 400)),
+        ("flexible, sliding", run(base().structure(tower(SI, None)).interface(friction(0.3)), 300)),
+        ("θ", run(base().structure(tower(SI, None)).interface(friction(0.4)).scheme(theta), 300)),
+        ("Rayleigh damping", run(base().structure(damped()).interface(friction(0.4)), 300)),
+        (
+            "θ and Rayleigh damping, bonded",
+            run(base().structure(damped()).interface(Bonded).scheme(theta), 300),
+        ),
+        ("thin layer", run(base().structure(block(SI)).interface(layer), 400)),
+        (
+            "thin layer, Newmark",
+            run(base().structure(tower(SI, None)).interface(layer).scheme(Newmark::default()), 300),
+        ),
+        ("rate", run(base().structure(block(SI)).interface(rate), 400)),
+        (
+            "nonlinear",
+            run(base().structure(Rider { block: block(SI) }).interface(friction(0.4)), 400),
+        ),
+        ("yielding damper", {
+            let storeys = [Storey::new(3.0, 15e3, 25e6); 3];
+            let building = ShearBuilding::new(4.0, 3e4, 8e4, &storeys).unwrap();
+            let drift = building.drift(0).unwrap();
+            let law = Bilinear::new(1e7, 2e4, 0.1).unwrap();
+            let damped = WithSprings::new(building).spring(drift, law).unwrap();
+            run(base().structure(damped).interface(friction(0.4)), 400)
+        }),
+        ("spring bed", {
+            let bed = SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap();
+            let bed = bed.with_dashpots(4e5, 3e5).unwrap();
+            run(base().ground(bed).structure(block(SI)).interface(friction(0.4)), 400)
+        }),
+    ]
+}
+
+/// The terms of a ledger, those of its left-hand side first.
+fn terms(ledger: &mut Ledger) -> [(&'static str, &mut f64); 10] {
+    [
+        ("kinetic", &mut ledger.kinetic),
+        ("strain", &mut ledger.strain),
+        ("hysteresis", &mut ledger.hysteresis),
+        ("damping", &mut ledger.damping),
+        ("numerical", &mut ledger.numerical),
+        ("soil", &mut ledger.soil),
+        ("contact", &mut ledger.contact),
+        ("layer", &mut ledger.layer),
+        ("preload", &mut ledger.preload),
+        ("input", &mut ledger.input),
+    ]
+}
+
+#[test]
+fn ledger_closes_and_every_term_counts() {
+    let mut seen = [false; 10];
+    for (name, run) in kinds() {
+        let residual = run.ledger.residual();
+        println!("{name}: largest {:.1e}, end {residual:.1e}", run.ledger_residual);
+        assert!(run.ledger_residual < 1e-10, "{name}: {:e}", run.ledger_residual);
+        for k in 0..10 {
+            let mut ledger = run.ledger;
+            let (term, value) = terms(&mut ledger).into_iter().nth(k).unwrap();
+            let size = value.abs();
+            *value *= 1.0 + 1e-3;
+            let share = size / terms(&mut ledger).iter().fold(0.0_f64, |m, t| m.max(t.1.abs()));
+            // Terms that matter open the residual when they are off by one in a thousand.
+            if share > 1e-4 {
+                seen[k] = true;
+                let opened = ledger.residual();
+                assert!(opened > 0.5e-3 * share, "{name}: {term} may be off, {opened:e}");
+            }
+        }
+    }
+    assert_eq!(seen, [true; 10], "a term was never put to the test");
+}
+
+/// A stiff structure that rides far with the ground: K u and ½ u·K u are those of a deformation of
+/// micrometres on a displacement of decimetres. Rounding of the ride opens the ledger in proportion
+/// to the stiffness, most while the motion is still weak, and no more than that.
+#[test]
+fn long_rides_open_the_ledger_by_rounding_only() {
+    for (modulus, strength) in [(2e8, 1.0), (2e10, 1.0), (2e10, 10.0), (2e12, 10.0)] {
+        let material = Material::new(modulus, 0.2, 1500.0).unwrap();
+        let mesh = Mesh::layered_block(-2.0..2.0, 6, &[Layer::new(6.0, 6, material)]).unwrap();
+        let model = FemModel::on_base(mesh).unwrap();
+        let bonded = scene(SI, strength).motion(shake(SI, strength)).interface(Bonded);
+        let run = run(bonded.structure(model), 300);
+        let (largest, end) = (run.ledger_residual, run.ledger.residual());
+        println!("E = {modulus:e}, strength {strength}: {largest:.1e}, at the end {end:.1e}");
+        assert!(largest < 1e-21 * modulus, "E = {modulus:e}, strength {strength}: {largest:e}");
+        assert!(end < 3e-22 * modulus, "E = {modulus:e}, strength {strength}: {end:e}");
+    }
+}

@@ -1,0 +1,13 @@
+//! Structure, ground and contact stepped together.
+
+mod checkpoint;
+mod conditioning;
+mod conveniences;
+mod coordinates;
+mod ledger;
+mod preload_of_soft_structures;
+#[path = "../support/mod.rs"]
+mod support;
+mod sweep;
+mod travel;
+mod wave_passage;

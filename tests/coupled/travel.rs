@@ -1,0 +1,192 @@
+//! GOAL: a ground that travels far costs no digits of what the structure does on it.
+//! SCENE: stiff and light structures on grounds that drift by kilometres, sticking and sliding,
+//! with three time schemes; two buildings whose grounds part.
+//! REFERENCE: the energy ledger; the same run without the travel.
+
+use std::f64::consts::TAU;
+
+use basemat::Simulation;
+use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::coupled::{HhtAlpha, Midpoint, Newmark, Probe, Run, TimeScheme};
+use basemat::fem::{Layer, Material, Mesh};
+use basemat::interface::Bonded;
+use basemat::motion::{FreeField, FreeFieldFn};
+use basemat::structure::{
+    Bilinear, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, Structure,
+    StructureGroup, WithSprings,
+};
+
+use crate::support::scenes::{GRAVITY, SI, friction, shake, soil};
+
+fn schemes() -> Vec<(&'static str, Box<dyn TimeScheme>)> {
+    vec![
+        ("midpoint", Box::new(Midpoint)),
+        ("Newmark", Box::new(Newmark::default())),
+        ("HHT", Box::new(HhtAlpha::new(-0.1).unwrap())),
+    ]
+}
+
+fn building() -> ShearBuilding {
+    let storeys = [Storey::new(3.0, 2.0e4, 2.0e7); 3];
+    ShearBuilding::new(4.0, 3.0e4, 8.0e4, &storeys).unwrap().with_stiffness_damping(0.03).unwrap()
+}
+
+/// A concrete wall, stiff against everything around it.
+fn wall() -> FemModel {
+    let concrete = Material::new(3e10, 0.2, 2400.0).unwrap();
+    let mesh = Mesh::layered_block(-2.0..2.0, 6, &[Layer::new(6.0, 6, concrete)]).unwrap();
+    let damping = RayleighDamping::from_ratios([5.0, 50.0], [0.03; 2]).unwrap();
+    FemModel::on_base(mesh).unwrap().with_rayleigh(damping)
+}
+
+fn structures() -> Vec<(&'static str, Box<dyn Structure>)> {
+    let shears = building();
+    let drift = shears.drift(1).unwrap();
+    let law = Bilinear::new(4e6, 2e4, 0.1).unwrap();
+    vec![
+        ("block", Box::new(RigidBlock::new(4.0, 6.0, 1500.0).unwrap())),
+        ("building", Box::new(building())),
+        ("wall", Box::new(wall())),
+        ("yielding", Box::new(WithSprings::new(shears).spring(drift, law).unwrap())),
+    ]
+}
+
+fn ground() -> HalfPlaneGround {
+    let strip = Strip::new(-2.0..2.0, 6, Grading::Cosine).unwrap();
+    HalfPlaneGround::new(soil(SI), &[strip]).unwrap()
+}
+
+/// Sways slowly by `travel` (m) in both directions, with a period of `period` (s), from rest.
+fn sway(travel: f64, period: f64) -> impl Fn(f64) -> [f64; 2] + Clone {
+    move |t| {
+        let part = 0.5 * travel * (1.0 - (TAU * t / period).cos());
+        [part, 0.3 * part]
+    }
+}
+
+/// Largest displacement of any unknown, relative to the ground.
+fn largest(simulation: &Simulation) -> f64 {
+    simulation.state().displacement().iter().fold(0.0_f64, |m, u| m.max(u.abs()))
+}
+
+#[test]
+fn ledger_closes_while_a_sticking_structure_travels() {
+    let (travel, period) = (1e6, 6e4);
+    for (structure_name, _) in structures() {
+        for (scheme_name, _) in schemes() {
+            let pick = |(name, _): &(&str, _)| *name == structure_name;
+            let (_, structure) = structures().into_iter().find(pick).unwrap();
+            let (_, scheme) = schemes().into_iter().find(|(name, _)| *name == scheme_name).unwrap();
+            let at = sway(travel, period);
+            let mut simulation = Simulation::builder(5.0)
+                .structure(structure)
+                .ground(ground())
+                .interface(friction(f64::INFINITY))
+                .scheme(scheme)
+                .motion(FreeFieldFn::new(move |_, t| at(t)))
+                .gravity(GRAVITY)
+                .build()
+                .unwrap();
+            let mut deformation = 0.0_f64;
+            let mut residual = 0.0_f64;
+            for _ in 0..400 {
+                let state = simulation.step().unwrap();
+                residual = residual.max(state.ledger.residual());
+                deformation = deformation.max(largest(&simulation));
+            }
+            println!(
+                "{structure_name}, {scheme_name}: travel {:.1e} of the deformation, {residual:.1e}",
+                travel / deformation
+            );
+            assert!(residual < 1e-9, "{structure_name}, {scheme_name}: {residual:.1e}");
+        }
+    }
+}
+
+#[test]
+fn ledger_closes_while_a_sliding_structure_is_left_behind() {
+    for (name, structure) in structures() {
+        let at = sway(400.0, 40.0);
+        let mut simulation = Simulation::builder(5e-3)
+            .structure(structure)
+            .ground(ground())
+            .interface(friction(0.05))
+            .motion(FreeFieldFn::new(move |_, t| at(t)))
+            .gravity(GRAVITY)
+            .build()
+            .unwrap();
+        let run = simulation.run(2000, |_| {}).unwrap();
+        println!("{name}: slip {:.1e} m, {:.1e}", run.largest_slip.value, run.ledger_residual);
+        assert!(run.largest_slip.magnitude() > 10.0, "{name}");
+        assert!(run.ledger_residual < 1e-9, "{name}: {:.1e}", run.ledger_residual);
+    }
+}
+
+#[test]
+fn buildings_of_a_group_travel_apart() {
+    let group = StructureGroup::new().with(building(), -10.0).unwrap();
+    let group = group.with(building(), 10.0).unwrap();
+    let at = sway(1e6, 6e4);
+    let motion = FreeFieldFn::new(move |x, t| at(t).map(|u| if x < 0.0 { u } else { -0.7 * u }));
+    let ground = HalfPlaneGround::under(soil(SI), &group, 6).unwrap();
+    let mut simulation = Simulation::builder(5.0)
+        .structure(group)
+        .ground(ground)
+        .interface(friction(0.5))
+        .motion(motion)
+        .gravity(GRAVITY)
+        .build()
+        .unwrap();
+    let mut residual = 0.0_f64;
+    for _ in 0..400 {
+        residual = residual.max(simulation.step().unwrap().ledger.residual());
+    }
+    println!("apart: {residual:.1e}, displacement {:.1e} m", largest(&simulation));
+    assert!(residual < 1e-9, "{residual:.1e}");
+    assert!(largest(&simulation) < 1.0, "only their grounds have moved");
+}
+
+#[test]
+fn travel_superposes_on_a_record() {
+    let carrier = sway(1e3, 400.0);
+    let record = shake(SI, 0.6);
+    let run = |motion: FreeFieldFn| -> Vec<[f64; 3]> {
+        let building = building();
+        let mut simulation = Simulation::builder(2.5e-3)
+            .probe(Probe::displacement("roof", building.roof()))
+            .probe(Probe::acceleration("roof acceleration", building.roof()))
+            .structure(building)
+            .ground(ground())
+            .interface(Bonded)
+            .motion(motion)
+            .gravity(GRAVITY)
+            .build()
+            .unwrap();
+        let mut seen = Vec::new();
+        let _: Run = simulation
+            .run(800, |state| {
+                seen.push([state.probes[0], state.probes[1], state.base_shear]);
+            })
+            .unwrap();
+        seen
+    };
+    let moved = |record_share: f64, carrier_share: f64| {
+        let (carrier, record) = (carrier.clone(), shake(SI, 0.6));
+        FreeFieldFn::new(move |x, t| {
+            let (far, near) = (carrier(t), record.displacement(x, t));
+            [0, 1].map(|k| carrier_share * far[k] + record_share * near[k])
+        })
+    };
+    drop(record);
+    let (both, far, near) = (run(moved(1.0, 1.0)), run(moved(0.0, 1.0)), run(moved(1.0, 0.0)));
+    for k in 0..3 {
+        let peak = near.iter().fold(0.0_f64, |m, values| m.max(values[k].abs()));
+        let apart = both
+            .iter()
+            .zip(&far)
+            .zip(&near)
+            .fold(0.0_f64, |m, ((both, far), near)| m.max((both[k] - far[k] - near[k]).abs()));
+        println!("quantity {k}: {:.1e} of the peak", apart / peak);
+        assert!(apart < 1e-9 * peak, "quantity {k}: {:.1e}", apart / peak);
+    }
+}

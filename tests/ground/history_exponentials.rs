@@ -1,0 +1,282 @@
+//! GOAL: the history by exponentials keeps its tolerance and passivity, and bounds its own error.
+//! SCENE: uniform, graded and double strips over c₁Δt/l and ν, random tractions and pulses.
+//! REFERENCE: the direct sum, its work, and the coefficients themselves.
+
+use std::sync::Arc;
+
+use basemat::bem::{ContactElement, Grading, Ground, HalfPlaneGround, PatchKernel, Strip};
+use basemat::history::{
+    ChoiceReason, ConvolutionHistory, DirectHistory, ExponentialHistory, History, LagKernel,
+};
+use basemat::{Error, Soil};
+
+use crate::support::passivity::Scene;
+use crate::support::random::Random;
+
+/// A strip of length 2 with soil of unit modulus and density, β = c₁Δt over the mean element.
+fn kernel(poisson: f64, beta: f64, elements: Vec<ContactElement>) -> Arc<dyn LagKernel> {
+    let soil = Soil::new(1.0, poisson, 1.0).unwrap();
+    let length = 2.0 / elements.len() as f64;
+    let step = beta * length / soil.pressure_wave_speed();
+    Arc::new(PatchKernel::new(soil, elements, step).unwrap())
+}
+
+fn strip(count: usize, grading: Grading) -> Vec<ContactElement> {
+    Strip::new(-1.0..1.0, count, grading).unwrap().elements()
+}
+
+fn two_strips() -> Vec<ContactElement> {
+    let mut elements = Strip::uniform(-1.0..-0.5, 2).unwrap().elements();
+    elements.extend(Strip::new(0.0..1.0, 3, Grading::Cosine).unwrap().elements());
+    elements
+}
+
+/// What a march in step with the direct sum finds.
+struct March {
+    /// Largest difference over the largest displacement.
+    difference: f64,
+    /// Largest change of a difference over a step, over what was promised.
+    increment: f64,
+    /// Difference of the works done, over what was promised, and what was promised over the work.
+    work: [f64; 2],
+}
+
+fn march(kernel: &Arc<dyn LagKernel>, tolerance: f64) -> March {
+    let mut history = ExponentialHistory::new(Arc::clone(kernel), tolerance).unwrap();
+    let mut direct = DirectHistory::new(Arc::clone(kernel));
+    let steps = 4 * history.window() + 200;
+    let count = kernel.classes().elements().len();
+    let size = 2 * count;
+    let mut instantaneous = vec![0.0; size * size];
+    kernel.instantaneous(&mut instantaneous).unwrap();
+    let mut random = Random(7);
+    let [mut a, mut b, mut traction, mut before, mut last] = [(); 5].map(|()| vec![0.0; size]);
+    let (mut worst, mut largest, mut increment) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut apart, mut bound, mut work) = (0.0, 0.0, 0.0);
+    for _ in 0..steps {
+        a.fill(f64::NAN);
+        history.evaluate(&mut a).unwrap();
+        direct.evaluate(&mut b).unwrap();
+        let promised = history.increment_error_bound();
+        for i in 0..size {
+            let change = a[i] - b[i] - before[i];
+            before[i] = a[i] - b[i];
+            worst = worst.max(before[i].abs());
+            largest = largest.max(b[i].abs());
+            if change.abs() > 1e-13 * largest {
+                increment = increment.max(change.abs() / promised);
+            }
+            traction[i] = 0.9 * traction[i] + random.within(-1.0, 1.0);
+            let length = kernel.classes().elements()[i % count].length();
+            apart += length * traction[i] * change;
+            bound += length * traction[i].abs() * promised;
+        }
+        for i in 0..size {
+            let row = &instantaneous[i * size..(i + 1) * size];
+            let now = b[i] + row.iter().zip(&traction).map(|(g, t)| g * t).sum::<f64>();
+            work += kernel.classes().elements()[i % count].length() * traction[i] * (now - last[i]);
+            last[i] = now;
+        }
+        history.push(&traction);
+        direct.push(&traction);
+        assert_eq!(history.steps(), direct.steps());
+    }
+    March { difference: worst / largest, increment, work: [apart.abs() / bound, bound / work] }
+}
+
+#[test]
+fn stays_within_its_tolerance_of_the_direct_sum() {
+    for (name, elements) in [
+        ("one element", strip(1, Grading::Uniform)),
+        ("uniform", strip(6, Grading::Uniform)),
+        ("graded", strip(7, Grading::Cosine)),
+        ("two strips", two_strips()),
+    ] {
+        for (poisson, beta) in
+            [(1.0 / 3.0, 0.5), (-0.5, 0.5), (0.0, 5.0), (0.4999, 20.0), (0.263_082, 0.3)]
+        {
+            let kernel = kernel(poisson, beta, elements.clone());
+            for tolerance in [1e-4, 1e-10] {
+                let March { difference, increment, work } = march(&kernel, tolerance);
+                println!(
+                    "{name}, ν = {poisson}, β = {beta}, {tolerance:e}: {difference:.1e}, \
+                     {increment:.1e} {work:?}"
+                );
+                assert!(difference <= tolerance, "{name}: {difference:e} for {tolerance:e}");
+                assert!(increment <= 1.0, "{name}: {increment} times what was promised");
+                assert!(work[0] <= 1.0, "{name}: {} times the work promised", work[0]);
+                assert!(work[1] < 300.0 * tolerance, "{name}: promises nothing, {}", work[1]);
+            }
+            // Coarse exponentials must show: otherwise they were not looked at.
+            assert!(march(&kernel, 1e-3).difference > 1e-9, "{name}: only the window was seen");
+        }
+    }
+}
+
+/// The answer to a pulse is the coefficients themselves, lag by lag.
+#[test]
+fn every_coefficient_is_within_the_bound_up_to_the_horizon_and_slowly_leaves_it() {
+    let kernel = kernel(1.0 / 3.0, 0.5, strip(2, Grading::Uniform));
+    let horizon = 2_000;
+    for tolerance in [1e-5, 1e-9] {
+        let mut history =
+            ExponentialHistory::with_horizon(Arc::clone(&kernel), tolerance, horizon).unwrap();
+        let bound = history.error_bound();
+        assert!(bound <= tolerance && bound > 0.0);
+        let mut out = [0.0; 4];
+        let mut beyond = 0.0_f64;
+        history.push(&[1.0, 0.0, 0.0, 1.0]);
+        for lag in 2..=100_000_usize {
+            if lag > 40 && lag % (1 + lag / 40) == 0 || lag == history.window() + 1 {
+                history.evaluate(&mut out).unwrap();
+                let pairs = kernel.classes().pairs();
+                let of = |pair: usize| {
+                    let [mut zz, mut xx, mut zx] = [[0.0]; 3];
+                    let class = pairs[pair].class;
+                    kernel.coefficients(class, lag, &mut zz, &mut xx, &mut zx).unwrap();
+                    [pairs[pair].scale * zz[0], pairs[pair].scale * xx[0]]
+                };
+                let (near, far) = (of(0), of(1));
+                for (found, wanted, largest) in [
+                    (out[0], near[0], near[0]),
+                    (out[1], far[0], near[0]),
+                    (out[2], far[1], near[1]),
+                    (out[3], near[1], near[1]),
+                ] {
+                    let error = (found - wanted).abs() / largest;
+                    if lag <= horizon {
+                        assert!(error <= 1.3 * bound, "lag {lag}: {error:e}, bound {bound:e}");
+                    } else {
+                        beyond = beyond.max(error / (lag as f64 / horizon as f64));
+                    }
+                }
+            }
+            history.push(&[]);
+        }
+        println!("beyond: {beyond:e} times lag over horizon");
+        assert!(beyond <= 2.0 * tolerance, "{beyond:e}");
+    }
+}
+
+#[test]
+fn random_tractions_never_extract_energy() {
+    let (mut least, mut largest) = (f64::INFINITY, 0.0_f64);
+    for beta in [0.25, 0.5, 2.0, 50.0] {
+        for poisson in [-0.5, 0.0, 1.0 / 3.0, 0.4999] {
+            for (graded, tolerance) in [(false, 1e-3), (true, 1e-10)] {
+                let scene = Scene {
+                    poisson,
+                    beta,
+                    graded,
+                    elements: 6,
+                    steps: 8000,
+                    seed: 5,
+                    history: History::Exponentials,
+                    tolerance,
+                };
+                let (work, growth) = (scene.least_work(), scene.growth_of_tractions());
+                assert!(work >= 0.0, "{scene:?}: {work:e}");
+                assert!(growth < 2.0, "{scene:?}: {growth}");
+                (least, largest) = (least.min(work), largest.max(growth));
+            }
+        }
+    }
+    println!("least work {least:e}, largest growth {largest}");
+}
+
+#[test]
+fn margins_are_positive_and_do_not_depend_on_the_tolerance() {
+    for (poisson, beta) in [(1.0 / 3.0, 0.5), (0.0, 0.1), (0.49, 5.0)] {
+        let kernel = kernel(poisson, beta, strip(5, Grading::Cosine));
+        let margin = |tolerance| {
+            let history = ExponentialHistory::new(Arc::clone(&kernel), tolerance).unwrap();
+            history.passivity_margin()
+        };
+        let (coarse, fine) = (margin(1e-5), margin(1e-11));
+        println!("ν = {poisson}, β = {beta}: {coarse:.6} {fine:.6}");
+        assert!(fine > 1e-3, "{fine}");
+        assert!((coarse / fine - 1.0).abs() < 1e-2, "{coarse} {fine}");
+    }
+}
+
+#[test]
+fn memory_does_not_grow() {
+    let kernel = kernel(1.0 / 3.0, 0.5, strip(10, Grading::Uniform));
+    let mut history = ExponentialHistory::new(kernel, 1e-9).unwrap();
+    let held = history.memory();
+    history.reserve(usize::MAX).unwrap();
+    for step in 0..3_000 {
+        history.push(&[f64::from(step % 7); 20]);
+    }
+    assert_eq!(history.memory(), held);
+    assert!(held < 1_000_000, "{held} bytes");
+    assert!(history.save().unwrap().len() < 10_000);
+}
+
+#[test]
+fn bad_input_is_an_error() {
+    let kernel = kernel(0.3, 0.5, strip(2, Grading::Uniform));
+    for tolerance in [0.0, -1.0, 1e-13, 0.1, f64::NAN, f64::INFINITY] {
+        let found = ExponentialHistory::new(Arc::clone(&kernel), tolerance).err();
+        assert!(matches!(found, Some(Error::Input { .. })), "{tolerance}: {found:?}");
+    }
+    let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
+    let ground = || HalfPlaneGround::strip(soil, -1.0..1.0, 2).unwrap();
+    assert!(ground().with_history_tolerance(f64::NAN).is_err());
+    // Windows of more than a million steps are refused; Auto takes the transforms instead.
+    let mut short = ground().with_history_kind(History::Exponentials);
+    assert!(matches!(short.prepare(1e-7), Err(Error::Input { .. })));
+    let mut history = ExponentialHistory::with_horizon(kernel, 1e-6, 0).unwrap();
+    history.evaluate(&mut [0.0; 4]).unwrap();
+    assert!(matches!(history.evaluate(&mut [0.0; 3]), Err(Error::Size { .. })));
+}
+
+#[test]
+fn the_choice_is_made_and_explained() {
+    use ChoiceReason::{Exact, MemoryLimit, NoExponentials, ToleranceAllowed, UnknownLength};
+    use History::{Exponentials, RelaxedFft};
+
+    let soil = Soil::new(80.0e6, 0.3, 1900.0).unwrap();
+    let choose = |tolerance: Option<f64>, memory: Option<usize>, steps: Option<usize>, dt| {
+        let mut ground = HalfPlaneGround::strip(soil, -2.0..2.0, 6).unwrap();
+        if let Some(tolerance) = tolerance {
+            ground = ground.with_history_tolerance(tolerance).unwrap();
+        }
+        if let Some(memory) = memory {
+            ground = ground.with_history_memory(memory);
+        }
+        ground.prepare(dt).unwrap();
+        assert_eq!(ground.history_choice(), None);
+        match steps {
+            Some(steps) => ground.reserve(steps).unwrap(),
+            None => ground.history(&mut [0.0; 12]).unwrap(),
+        }
+        let choice = ground.history_choice().unwrap();
+        println!("{choice}");
+        assert!(choice.to_string().contains(&choice.reason.to_string()));
+        (choice.kind, choice.reason)
+    };
+    // Of whatever number of steps: a longer run may follow.
+    assert_eq!(choose(None, None, Some(40), 1e-3), (RelaxedFft, Exact));
+    assert_eq!(choose(None, None, Some(20_000), 1e-3), (RelaxedFft, Exact));
+    assert_eq!(choose(None, None, None, 1e-3), (RelaxedFft, UnknownLength));
+    assert_eq!(choose(Some(1e-8), None, Some(20_000), 1e-3), (Exponentials, ToleranceAllowed));
+    assert_eq!(choose(Some(1e-8), None, None, 1e-3), (Exponentials, ToleranceAllowed));
+    assert_eq!(choose(None, Some(1_000_000), Some(20_000), 1e-3), (Exponentials, MemoryLimit));
+    assert_eq!(choose(None, Some(1_000), Some(200), 1e-9), (RelaxedFft, NoExponentials));
+    // Equal elements on a lattice: transforms along the surface are cheaper than exponentials.
+    for (grading, wanted) in [(Grading::Uniform, RelaxedFft), (Grading::Cosine, Exponentials)] {
+        let strip = Strip::new(-4.0..4.0, 12, grading).unwrap();
+        let ground = HalfPlaneGround::new(soil, &[strip]).unwrap();
+        let mut ground = ground.with_history_tolerance(1e-8).unwrap();
+        ground.prepare(1e-3).unwrap();
+        ground.reserve(20_000).unwrap();
+        assert_eq!(ground.history_choice().unwrap().kind, wanted);
+    }
+    let mut asked =
+        HalfPlaneGround::strip(soil, -2.0..2.0, 6).unwrap().with_history_kind(Exponentials);
+    asked.prepare(1e-3).unwrap();
+    let choice = asked.history_choice().unwrap();
+    assert_eq!((choice.kind, choice.reason), (Exponentials, ChoiceReason::Asked));
+    assert!(choice.error_bound > 0.0 && choice.error_bound <= ExponentialHistory::TOLERANCE);
+}

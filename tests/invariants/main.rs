@@ -1,0 +1,6 @@
+//! What holds for every run: properties of given scenes and of random ones.
+
+mod properties;
+mod random_scenes;
+#[path = "../support/mod.rs"]
+mod support;

@@ -1,0 +1,319 @@
+//! Random scenes: plain data that proptest can shrink, and how a simulation is built from it.
+
+use basemat::bem::{Grading, HalfPlaneGround, SpringGround, Strip};
+use basemat::coupled::{
+    Coordinates, HhtAlpha, Midpoint, Newmark, Placement, SimulationBuilder, State, Theta,
+};
+use basemat::fem::{Layer, Material, Mesh};
+use basemat::history::History;
+use basemat::interface::{Bonded, Coulomb, ThinLayer};
+use basemat::structure::{FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey};
+use basemat::{Error, Simulation, Soil};
+use proptest::prelude::*;
+
+use super::shaking::{Kind, Shaking};
+use crate::support::scenes::{Frame, GRAVITY};
+
+/// Steps of a run.
+pub(crate) const STEPS: usize = 80;
+/// Width of the base, m.
+pub(crate) const WIDTH: f64 = 4.0;
+
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Building {
+    Block { height: f64, density: f64 },
+    Tower { height: f64, rows: usize, columns: usize, young: f64, damped: bool },
+    Storeys { count: usize, stiffness: f64, damped: bool },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Bed {
+    HalfPlane { graded: bool, poisson: f64, history: History },
+    Springs { dashpots: bool },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Law {
+    Coulomb(f64),
+    UpliftOnly,
+    Bonded,
+    /// Friction, and share of the stiffness left in debonding.
+    ThinLayer(f64, f64),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Scheme {
+    Midpoint,
+    Theta(f64),
+    Newmark(f64),
+    Hht(f64),
+}
+
+/// A scene in SI units.
+#[derive(Debug, Clone)]
+pub(crate) struct Recipe {
+    pub(crate) building: Building,
+    pub(crate) bed: Bed,
+    pub(crate) elements: usize,
+    pub(crate) law: Law,
+    pub(crate) scheme: Scheme,
+    pub(crate) coordinates: Coordinates,
+    pub(crate) placement: Placement,
+    pub(crate) kind: Kind,
+    /// Accelerations of the ground, about: of gravity.
+    pub(crate) strength: f64,
+    /// c_P Δt over the mean element length.
+    pub(crate) courant: f64,
+    /// Shear modulus of the soil, Pa.
+    pub(crate) modulus: f64,
+}
+
+impl Recipe {
+    fn soil(&self, frame: Frame) -> Soil {
+        let poisson = match self.bed {
+            Bed::HalfPlane { poisson, .. } => poisson,
+            Bed::Springs { .. } => 0.3,
+        };
+        let modulus = self.modulus * frame.pressure();
+        Soil::new(modulus, poisson, 1900.0 * frame.density()).unwrap()
+    }
+
+    /// Time step, s; all in the frame's units.
+    pub(crate) fn time_step(&self, frame: Frame) -> f64 {
+        let length = WIDTH / self.elements as f64 * frame.length;
+        self.courant * length / self.soil(frame).pressure_wave_speed()
+    }
+
+    /// Friction coefficient, infinite where nothing slides.
+    pub(crate) fn friction(&self) -> f64 {
+        match self.law {
+            Law::Coulomb(friction) | Law::ThinLayer(friction, _) => friction,
+            Law::UpliftOnly | Law::Bonded => f64::INFINITY,
+        }
+    }
+
+    /// Weight of the structure in SI units, N/m.
+    pub(crate) fn weight(&self) -> f64 {
+        let mass = match self.building {
+            Building::Block { height, density } => WIDTH * height * density,
+            Building::Tower { height, .. } => WIDTH * height * 2000.0,
+            Building::Storeys { count, .. } => 3e4 + 10e3 * count as f64,
+        };
+        mass * GRAVITY
+    }
+
+    /// Whether pressure and friction obey Signorini and Coulomb exactly.
+    pub(crate) fn is_hard(&self) -> bool {
+        matches!(self.law, Law::Coulomb(_) | Law::UpliftOnly)
+    }
+
+    /// Whether elements carry shear while they are open.
+    pub(crate) fn pulls_while_open(&self) -> bool {
+        matches!(self.law, Law::ThinLayer(_, share) if share > 0.0)
+    }
+
+    /// Simulation whose ground motion begins `delay` steps late.
+    pub(crate) fn build(&self, frame: Frame, delay: usize) -> Result<Simulation, Error> {
+        let step = self.time_step(frame);
+        let duration = STEPS as f64 * step;
+        let motion = Shaking {
+            kind: self.kind.clone(),
+            // Three periods in the run, peak displacement = acceleration / ω².
+            amplitude: self.strength * GRAVITY * frame.acceleration() * (duration / 19.0).powi(2),
+            sign: frame.sign(),
+            delay: delay as f64 * step,
+            duration,
+        };
+        let builder = Simulation::builder(step)
+            .motion(motion)
+            .gravity(GRAVITY * frame.acceleration())
+            .placement(self.placement)
+            .coordinates(self.coordinates);
+        let builder = self.with_ground(builder, frame)?;
+        let builder = self.with_structure(builder, frame)?;
+        let builder = match self.law {
+            Law::Coulomb(friction) => builder.interface(Coulomb::new(friction)?),
+            Law::UpliftOnly => builder.interface(Coulomb::uplift_only()),
+            Law::Bonded => builder.interface(Bonded),
+            Law::ThinLayer(friction, share) => {
+                let layer = ThinLayer::new(self.soil(frame), frame.length, friction)?;
+                builder.interface(layer.with_debonded_share(share)?)
+            }
+        };
+        let builder = match self.scheme {
+            Scheme::Midpoint => builder.scheme(Midpoint),
+            Scheme::Theta(theta) => builder.scheme(Theta::new(theta)?),
+            Scheme::Newmark(gamma) => builder.scheme(Newmark::new(gamma, 0.5 * gamma)?),
+            Scheme::Hht(alpha) => builder.scheme(HhtAlpha::new(alpha)?),
+        };
+        builder.build()
+    }
+
+    fn with_ground(
+        &self,
+        builder: SimulationBuilder,
+        frame: Frame,
+    ) -> Result<SimulationBuilder, Error> {
+        let soil = self.soil(frame);
+        let half = 0.5 * WIDTH * frame.length;
+        Ok(match self.bed {
+            Bed::HalfPlane { graded, history, .. } => {
+                let grading = if graded { Grading::Cosine } else { Grading::Uniform };
+                let strip = Strip::new(-half..half, self.elements, grading)?;
+                builder.ground(HalfPlaneGround::new(soil, &[strip])?.with_history_kind(history))
+            }
+            Bed::Springs { dashpots } => {
+                let stiffness = soil.shear_modulus() / frame.length;
+                let bed =
+                    SpringGround::new(-half..half, self.elements, stiffness, 0.5 * stiffness)?;
+                let impedance =
+                    if dashpots { soil.density() * soil.shear_wave_speed() } else { 0.0 };
+                builder.ground(bed.with_dashpots(2.0 * impedance, impedance)?)
+            }
+        })
+    }
+
+    fn with_structure(
+        &self,
+        builder: SimulationBuilder,
+        frame: Frame,
+    ) -> Result<SimulationBuilder, Error> {
+        let width = WIDTH * frame.length;
+        Ok(match self.building {
+            Building::Block { height, density } => {
+                let (height, density) = (height * frame.length, density * frame.density());
+                builder.structure(RigidBlock::new(width, height, density)?)
+            }
+            Building::Tower { height, rows, columns, young, damped } => {
+                let material =
+                    Material::new(young * frame.pressure(), 0.2, 2000.0 * frame.density())?;
+                let layers = [Layer::new(height * frame.length, rows, material)];
+                let half = 0.5 * width;
+                let model = FemModel::on_base(Mesh::layered_block(-half..half, columns, &layers)?)?;
+                if damped {
+                    let frequencies = [2.0 / frame.time, 20.0 / frame.time];
+                    let damping = RayleighDamping::from_ratios(frequencies, [0.05; 2])?;
+                    builder.structure(model.with_rayleigh(damping))
+                } else {
+                    builder.structure(model)
+                }
+            }
+            Building::Storeys { count, stiffness, damped } => {
+                let (mass, length) = (frame.mass / frame.length, frame.length);
+                let storey = Storey::new(3.0 * length, 10e3 * mass, stiffness * frame.pressure());
+                let inertia = 5e4 * mass * length * length;
+                let building =
+                    ShearBuilding::new(width, 3e4 * mass, inertia, &vec![storey; count])?;
+                let ratio = if damped { 0.05 } else { 0.0 };
+                builder.structure(building.with_stiffness_damping(ratio)?)
+            }
+        })
+    }
+
+    /// All states of a run, the static one first.
+    pub(crate) fn run(&self, frame: Frame, delay: usize) -> Result<Vec<State>, Error> {
+        let mut simulation = self.build(frame, delay)?;
+        let mut states = vec![simulation.state().clone()];
+        for _ in 0..STEPS + delay {
+            states.push(simulation.step()?.clone());
+        }
+        Ok(states)
+    }
+}
+
+/// 10^x with x uniform.
+fn decades(from: f64, to: f64) -> impl Strategy<Value = f64> {
+    (from.log10()..to.log10()).prop_map(|power| 10.0_f64.powf(power))
+}
+
+fn building() -> impl Strategy<Value = Building> {
+    prop_oneof![
+        (0.5..10.0, decades(300.0, 3000.0))
+            .prop_map(|(height, density)| Building::Block { height, density }),
+        (0.5..10.0, 1_usize..4, 1_usize..5, decades(1e8, 3e10), any::<bool>()).prop_map(
+            |(height, rows, columns, young, damped)| Building::Tower {
+                height,
+                rows,
+                columns,
+                young,
+                damped
+            }
+        ),
+        (1_usize..4, decades(1e6, 1e9), any::<bool>())
+            .prop_map(|(count, stiffness, damped)| Building::Storeys { count, stiffness, damped }),
+    ]
+}
+
+fn bed() -> impl Strategy<Value = Bed> {
+    let history = prop::sample::select(vec![
+        History::Auto,
+        History::Direct,
+        History::RelaxedFft,
+        History::Exponentials,
+    ]);
+    prop_oneof![
+        3 => (any::<bool>(), 0.0..0.49, history)
+            .prop_map(|(graded, poisson, history)| Bed::HalfPlane { graded, poisson, history }),
+        1 => any::<bool>().prop_map(|dashpots| Bed::Springs { dashpots }),
+    ]
+}
+
+fn law(most_friction: f64) -> impl Strategy<Value = Law> {
+    let low = most_friction.min(1.0);
+    prop_oneof![
+        1 => Just(Law::Coulomb(0.0)),
+        4 => (0.05..low).prop_map(Law::Coulomb),
+        2 => (0.5 * low..most_friction).prop_map(Law::Coulomb),
+        // Friction without bound does not decide where the shear goes.
+        if most_friction < 1.0 { 0 } else { 2 } => Just(Law::UpliftOnly),
+        1 => Just(Law::Bonded),
+        2 => (0.0..most_friction, prop::sample::select(vec![0.0, 1e-3]))
+            .prop_map(|(friction, share)| Law::ThinLayer(friction, share)),
+    ]
+}
+
+fn scheme() -> impl Strategy<Value = Scheme> {
+    prop_oneof![
+        3 => Just(Scheme::Midpoint),
+        1 => (0.5..1.0).prop_map(Scheme::Theta),
+        1 => (0.5..0.8).prop_map(Scheme::Newmark),
+        1 => (-1.0 / 3.0..0.0).prop_map(Scheme::Hht),
+    ]
+}
+
+/// Scenes with friction of `most_friction` or less (and unbounded where nothing slides).
+pub(crate) fn recipes(most_friction: f64) -> impl Strategy<Value = Recipe> {
+    let coordinates =
+        prop::sample::select(vec![Coordinates::Auto, Coordinates::Unknowns, Coordinates::Modes]);
+    let placement =
+        prop::sample::select(vec![Placement::Frictionless, Placement::WithInterfaceLaw]);
+    let parts = (building(), bed(), 1_usize..8, law(most_friction), scheme());
+    let rest = (
+        coordinates,
+        placement,
+        super::shaking::kinds(),
+        decades(0.2, 10.0),
+        decades(0.2, 5.0),
+        decades(1e6, 1e9),
+    );
+    (parts, rest).prop_map(|((building, bed, elements, law, scheme), rest)| {
+        let (coordinates, placement, kind, strength, courant, modulus) = rest;
+        let mut recipe = Recipe {
+            building,
+            bed,
+            elements,
+            law,
+            scheme,
+            coordinates,
+            placement,
+            kind,
+            strength,
+            courant,
+            modulus,
+        };
+        // Rayleigh-damped or not, all structures here decouple; a base of one element does not
+        // resist rotation.
+        recipe.elements = recipe.elements.max(2);
+        recipe
+    })
+}

@@ -1,0 +1,148 @@
+//! GOAL: files that Gmsh 4.15 wrote make the models they describe.
+//! SCENE: a block 6 m wide of two materials, the lower 2 m and the upper 3 m high, unstructured and
+//! recombined (`tests/data/gmsh/block.py`), on a named line; first and second order.
+//! REFERENCE: areas, uniform strain, and the statics of the layered block.
+
+use basemat::fem::{Direction, Layer, Material, Mesh};
+use basemat::io::GmshMesh;
+use basemat::structure::{FemModel, Structure, Triplets};
+
+use crate::support::dense::{dot, product};
+
+const FILES: [(&str, usize); 2] = [("block_linear", 4), ("block_second_order", 8)];
+
+fn file(name: &str) -> GmshMesh {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/gmsh");
+    GmshMesh::read(format!("{folder}/{name}.msh")).unwrap()
+}
+
+fn lower() -> Material {
+    Material::new(2.0e9, 0.25, 2500.0).unwrap()
+}
+
+fn upper() -> Material {
+    Material::new(0.5e9, 0.3, 1800.0).unwrap()
+}
+
+fn model(gmsh: &GmshMesh) -> FemModel {
+    let mesh = gmsh.mesh(&[("upper", upper()), ("lower", lower())]).unwrap();
+    FemModel::new(mesh, &gmsh.line("base").unwrap()).unwrap()
+}
+
+fn stiffness(model: &FemModel) -> Triplets {
+    let mut matrix = Triplets::new(model.unknowns());
+    model.stiffness(&mut matrix);
+    matrix
+}
+
+#[test]
+fn elements_groups_and_lines_are_those_of_the_file() {
+    for (name, nodes) in FILES {
+        let gmsh = file(name);
+        assert_eq!(gmsh.surfaces(), ["lower", "upper"]);
+        assert_eq!(gmsh.lines(), ["base", "roof"]);
+        let model = model(&gmsh);
+        let elements = model.mesh().elements();
+        assert!(elements.clone().all(|element| element.nodes().len() == nodes));
+        for (line, height) in [("base", 0.0), ("roof", 5.0)] {
+            let line: Vec<[f64; 2]> =
+                gmsh.line(line).unwrap().into_iter().map(|node| gmsh.nodes()[node]).collect();
+            let (first, last) = (line[0], line[line.len() - 1]);
+            assert!((first[0] + 3.0).abs() < 1e-12 && (last[0] - 3.0).abs() < 1e-12);
+            assert!(line.iter().all(|node| (node[1] - height).abs() < 1e-12));
+            assert!(line.windows(2).all(|pair| pair[1][0] - pair[0][0] > 0.1));
+            assert!(line.len() > 16, "{}", line.len());
+        }
+        // All of the base: no other node lies as low.
+        assert_eq!(
+            gmsh.line("base").unwrap(),
+            model.mesh().nodes_at_height(0.0, 1e-9).unwrap(),
+            "{name}"
+        );
+    }
+}
+
+/// The mass is that of the areas, and uniform strain has the energy of both materials; its forces
+/// hold the edge and the seam alone, whatever the shape of the elements.
+#[test]
+fn areas_materials_and_the_order_of_nodes_are_right() {
+    for (name, _) in FILES {
+        let model = model(&file(name));
+        let ride = model.rigid_motion(Direction::X, [0.0; 2]);
+        let mut mass = Triplets::new(model.unknowns());
+        model.mass(&mut mass);
+        let expected = 2500.0 * 12.0 + 1800.0 * 18.0;
+        let found = dot(&ride, &product(&mass, &ride));
+        assert!((found / expected - 1.0).abs() < 1e-9, "{name}: {found}");
+        // u_x = x: σ_xx ε_xx = λ + 2μ.
+        let mut strain = vec![0.0; model.unknowns()];
+        for (node, [x, _]) in model.mesh().nodes().iter().enumerate() {
+            strain[model.unknown(node, Direction::X).unwrap()] = *x;
+        }
+        let modulus = |young: f64, nu: f64| young * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+        let expected = modulus(2.0e9, 0.25) * 12.0 + modulus(0.5e9, 0.3) * 18.0;
+        let force = product(&stiffness(&model), &strain);
+        let found = dot(&strain, &force);
+        assert!((found / expected - 1.0).abs() < 1e-9, "{name}: {found}");
+        for (node, &[x, y]) in model.mesh().nodes().iter().enumerate() {
+            let inside = x.abs() < 2.99 && y > 0.01 && y < 4.99 && (y - 2.0).abs() > 0.01;
+            if inside {
+                for direction in [Direction::X, Direction::Y] {
+                    let force = force[model.unknown(node, direction).unwrap()];
+                    assert!(force.abs() < 1e-6 * modulus(2.0e9, 0.25), "{name} {node}: {force}");
+                }
+            }
+        }
+    }
+}
+
+/// Work of a sideways weight of 1 m/s² on the block that stands on a fixed base: f·K⁻¹f by conjugate
+/// gradients.
+fn compliance(model: &FemModel) -> f64 {
+    let n = model.unknowns();
+    let mut held = vec![false; n];
+    for node in model.contact_nodes() {
+        node.horizontal.iter().chain(&node.vertical).for_each(|&(unknown, _)| held[unknown] = true);
+    }
+    let mut mass = Triplets::new(n);
+    model.mass(&mut mass);
+    let matrix = stiffness(model);
+    let mut scale = vec![0.0; n];
+    matrix.entries().iter().filter(|(i, j, _)| i == j).for_each(|&(i, _, k)| scale[i] += k);
+    let free = |mut vector: Vec<f64>| {
+        vector.iter_mut().zip(&held).filter(|(_, held)| **held).for_each(|(x, _)| *x = 0.0);
+        vector
+    };
+    let load = free(product(&mass, &model.rigid_motion(Direction::X, [0.0; 2])));
+    let precondition =
+        |r: &[f64]| -> Vec<f64> { r.iter().zip(&scale).map(|(r, k)| r / k).collect() };
+    let (mut u, mut r) = (vec![0.0; n], load.clone());
+    let mut z = precondition(&r);
+    let mut p = z.clone();
+    for _ in 0..20 * n {
+        let image = free(product(&matrix, &p));
+        let before = dot(&r, &z);
+        let step = before / dot(&p, &image);
+        u.iter_mut().zip(&p).for_each(|(u, p)| *u += step * p);
+        r.iter_mut().zip(&image).for_each(|(r, a)| *r -= step * a);
+        if dot(&r, &r) < 1e-20 * dot(&load, &load) {
+            return dot(&load, &u);
+        }
+        z = precondition(&r);
+        let share = dot(&r, &z) / before;
+        p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + share * *p);
+    }
+    panic!("no convergence");
+}
+
+#[test]
+fn a_static_solution_is_that_of_the_layered_block() {
+    let layers = [Layer::new(2.0, 16, lower()), Layer::new(3.0, 24, upper())];
+    let block = Mesh::layered_block(-3.0..3.0, 48, &layers).unwrap();
+    let fine = compliance(&FemModel::on_base(block).unwrap());
+    for ((name, _), tolerance) in FILES.into_iter().zip([5e-3, 2e-3]) {
+        let found = compliance(&model(&file(name)));
+        println!("{name}: {found:.6e}, fine block {fine:.6e}, apart by {:.1e}", found / fine - 1.0);
+        assert!((found / fine - 1.0).abs() < tolerance, "{name}: {found} {fine}");
+    }
+}

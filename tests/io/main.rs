@@ -1,0 +1,8 @@
+//! Files of other programs: Gmsh, Matrix Market, ParaView.
+
+mod gmsh;
+mod gmsh_files;
+mod matrix_market;
+#[path = "../support/mod.rs"]
+mod support;
+mod vtk;

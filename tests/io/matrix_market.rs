@@ -1,0 +1,211 @@
+//! GOAL: Matrix Market files keep every bit and are refused with line and reason.
+//! SCENE: files of scipy, spellings in use, round trips, bad files.
+//! REFERENCE: numbers that scipy and numpy give for the same files.
+
+use basemat::structure::Triplets;
+use basemat::{Error, MatrixFileError};
+
+use crate::support::random::Random;
+
+/// Dense sums of the entries.
+/// All entries, row by row.
+fn dense(matrix: &Triplets) -> Vec<f64> {
+    crate::support::dense::dense(matrix).concat()
+}
+
+fn data(name: &str) -> Triplets {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/matrix_market/");
+    Triplets::read_matrix_market(format!("{folder}{name}.mtx")).unwrap()
+}
+
+fn parse(text: &str) -> basemat::Result<Triplets> {
+    Triplets::from_matrix_market("text", text.as_bytes())
+}
+
+/// Files of scipy.io.mmwrite; what scipy.io.mmread and numpy say of them: entries that are not
+/// zero, two of them, and the sum of the logarithms of all.
+#[test]
+fn files_of_scipy_mean_the_same() {
+    const GENERAL: (usize, usize, [f64; 2], f64) =
+        (6, 21, [-255_566.503_131_418_17, 0.0], 98.743_898_183_749);
+    const SYMMETRIC: (usize, usize, [f64; 2], f64) =
+        (6, 30, [-255_566.505_151_404_3, 1.002_313_601_275_691_3e-9], 134.547_795_023_493_85);
+    for (name, (order, count, [above, below], logarithms)) in [
+        ("coordinate_general", GENERAL),
+        ("array_general", GENERAL),
+        ("coordinate_symmetric", SYMMETRIC),
+        ("array_symmetric", SYMMETRIC),
+        ("integer_symmetric", (3, 7, [-1.0, -1.0], 2.079_441_541_679_835_7)),
+    ] {
+        let values = dense(&data(name));
+        assert_eq!(values.len(), order * order);
+        let there: Vec<f64> = values.iter().copied().filter(|value| *value != 0.0).collect();
+        assert_eq!(there.len(), count, "{name}");
+        assert_eq!((values[1], values[order * order - 2]), (above, below), "{name}");
+        let sum: f64 = there.iter().map(|value| value.abs().ln()).sum();
+        assert!((sum - logarithms).abs() < 1e-10, "{name}: {sum}");
+    }
+    assert_eq!(dense(&data("coordinate_general")), dense(&data("array_general")));
+    assert_eq!(dense(&data("coordinate_symmetric")), dense(&data("array_symmetric")));
+}
+
+#[test]
+fn round_trips_keep_every_bit() {
+    let mut random = Random(5);
+    for symmetric in [false, true] {
+        let mut matrix = Triplets::new(40);
+        for _ in 0..300 {
+            let [i, j] = [0; 2].map(|_| (random.bits() % 40) as usize);
+            let value = random.within(-1.0, 1.0) * random.log_within(1e-300, 1e300);
+            matrix.add(i, j, value);
+            if symmetric && i != j {
+                matrix.add(j, i, value);
+            }
+        }
+        matrix.add(0, 39, 0.0);
+        let mut file = Vec::new();
+        matrix.to_matrix_market("memory", &mut file).unwrap();
+        let text = String::from_utf8(file).unwrap();
+        assert_eq!(text.lines().next().unwrap().ends_with("symmetric"), symmetric);
+        assert!(text.lines().all(|line| !line.ends_with(" 0e0")), "zeros are left out");
+        let back = parse(&text).unwrap();
+        assert_eq!(dense(&back), dense(&matrix));
+        // And once more, byte by byte.
+        let mut again = Vec::new();
+        back.to_matrix_market("memory", &mut again).unwrap();
+        assert_eq!(again, text.as_bytes());
+    }
+}
+
+#[test]
+fn spellings_that_occur_are_read() {
+    let text = "%%matrixmarket MATRIX Coordinate Real General\r\n% c\r\n\r\n 2 2 3 \r\n\
+                1 1 1.5D+3\r\n% between\r\n2  2\t-1e-3\r\n1 1 0.5\r\n\r\n";
+    assert_eq!(dense(&parse(text).unwrap()), [1500.5, 0.0, 0.0, -1e-3]);
+    let array = "%%MatrixMarket matrix array real symmetric\n2 2\n1\n2\n3\n";
+    assert_eq!(dense(&parse(array).unwrap()), [1.0, 2.0, 2.0, 3.0]);
+    assert_eq!(parse("%%MatrixMarket matrix array real general\n0 0").unwrap().order(), 0);
+}
+
+/// Editors may write a byte-order mark before the first line.
+#[test]
+fn a_byte_order_mark_is_passed_over() {
+    let text = "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 2.0\n";
+    let marked = format!("\u{feff}{text}");
+    assert_eq!(parse(&marked).unwrap(), parse(text).unwrap());
+    let Error::MatrixFile { line, .. } = parse(&marked.replace("2.0", "x")).unwrap_err() else {
+        panic!("a matrix's file")
+    };
+    assert_eq!(line, 3);
+    assert!(parse(&text.replace("2.0", "\u{feff}2.0")).is_err());
+}
+
+#[test]
+fn numbers_are_read_wholly_or_refused() {
+    let with = |value: &str| {
+        format!("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 {value}\n")
+    };
+    for two in ["2", "2.", "+2.0", "0.2e1", "2D0", "2.0d+00", ".2E+1"] {
+        assert_eq!(dense(&parse(&with(two)).unwrap()), [2.0], "{two}");
+    }
+    for bad in ["2,0", "2.0m", "2D", "0x2", "2_0", "1D999", "inf", "\u{2212}2", "2;", "**", "Dinf"]
+    {
+        let error = parse(&with(bad)).unwrap_err();
+        let reason = MatrixFileError::NotANumber { text: bad.into() };
+        assert_eq!(error, Error::MatrixFile { file: "text".into(), line: 3, reason }, "{bad}");
+    }
+    for bad in ["1,0", "1.0", "1D0", "-1", "1e0"] {
+        let text = with("2").replace("1 1 2", &format!("{bad} 1 2"));
+        assert!(matches!(parse(&text), Err(Error::MatrixFile { line: 3, .. })), "{bad}");
+    }
+}
+
+#[test]
+fn bad_files_are_refused_with_line_and_reason() {
+    use MatrixFileError as E;
+    let coordinate = |rest: &str| format!("%%MatrixMarket matrix coordinate real general\n{rest}");
+    let symmetric = |rest: &str| format!("%%MatrixMarket matrix coordinate real symmetric\n{rest}");
+    let array = |rest: &str| format!("%%MatrixMarket matrix array real general\n{rest}");
+    let header = |text: &str| format!("%%MatrixMarket {text}\n2 2 0\n");
+    let not = |text: &str| E::NotANumber { text: text.into() };
+    let unsupported = |text: &str| E::Unsupported { text: text.into() };
+    let entries = |found, needed| E::Entries { found, needed };
+    let long = "1".repeat(70_000);
+    for (text, line, reason) in [
+        (String::new(), 0, E::Empty),
+        ("1 2 3\n".into(), 1, E::Header { text: "1 2 3".into() }),
+        (
+            "%%MatrixMarket matrix coordinate real\n".into(),
+            1,
+            E::Header { text: "%%MatrixMarket matrix coordinate real".into() },
+        ),
+        (header("vector coordinate real general"), 1, unsupported("vector")),
+        (header("matrix sparse real general"), 1, unsupported("sparse")),
+        (header("matrix coordinate complex general"), 1, unsupported("complex")),
+        (header("matrix coordinate pattern general"), 1, unsupported("pattern")),
+        (header("matrix coordinate real hermitian"), 1, unsupported("hermitian")),
+        (header("matrix coordinate real skew-symmetric"), 1, unsupported("skew-symmetric")),
+        (coordinate("% only a comment\n"), 2, E::Fields { found: 0, needed: 3 }),
+        (coordinate("2 2\n"), 2, E::Fields { found: 2, needed: 3 }),
+        (coordinate("2 -2 1\n"), 2, not("-2")),
+        (coordinate("2 2 x\n"), 2, not("x")),
+        (coordinate("2 3 1\n"), 2, E::NotSquare { rows: 2, columns: 3 }),
+        (coordinate("2 2 1\n1 1\n"), 3, E::Fields { found: 2, needed: 3 }),
+        (coordinate("2 2 1\n1 1 1 0\n"), 3, E::Fields { found: 4, needed: 3 }),
+        (coordinate("2 2 1\n1 1 nan\n"), 3, not("nan")),
+        (coordinate("2 2 1\n1 1 1e999\n"), 3, not("1e999")),
+        (coordinate("2 2 1\n1.5 1 1\n"), 3, not("1.5")),
+        (coordinate("2 2 1\n0 1 1\n"), 3, E::Index { index: 0, order: 2 }),
+        (coordinate("2 2 1\n1 3 1\n"), 3, E::Index { index: 3, order: 2 }),
+        (coordinate("2 2 3\n1 1 1\n%\n2 2 1\n"), 5, entries(2, 3)),
+        (coordinate("2 2 1\n1 1 1\n\n2 2 1\n"), 5, entries(2, 1)),
+        (coordinate("2 2 18446744073709551615\n1 1 1\n"), 3, entries(1, usize::MAX)),
+        (
+            coordinate("99999999999999 99999999999999 0\n"),
+            2,
+            E::TooLarge { rows: 99_999_999_999_999, most: 100_000_000 },
+        ),
+        (array("30000 30000\n1\n"), 2, E::TooLarge { rows: 30_000, most: 20_000 }),
+        (symmetric("2 2 1\n1 2 1.0\n"), 3, E::AboveDiagonal { row: 1, column: 2 }),
+        (array("2 2\n1\n2\n3\n"), 5, entries(3, 4)),
+        (array("2 2\n1\n2\n3\n4\n5\n"), 7, entries(5, 4)),
+        (array("2 2\n1 2\n"), 3, E::Fields { found: 2, needed: 1 }),
+        (coordinate(&long), 2, E::LineTooLong { bytes: 65_536 }),
+        (coordinate("\u{fffd}\n"), 2, E::Fields { found: 1, needed: 3 }),
+    ] {
+        let expected = Error::MatrixFile { file: "text".into(), line, reason };
+        assert_eq!(parse(&text).unwrap_err(), expected, "{}", &text[..text.len().min(90)]);
+    }
+    let missing = Triplets::read_matrix_market("/no/such/file.mtx").unwrap_err();
+    assert!(missing.to_string().starts_with("/no/such/file.mtx, line 0: cannot be read"));
+    let nowhere = Triplets::new(1).write_matrix_market("/no/such/file.mtx").unwrap_err();
+    assert!(nowhere.to_string().contains("cannot be written"), "{nowhere}");
+    let mut bad = Triplets::new(1);
+    bad.add(0, 0, f64::NAN);
+    assert!(matches!(bad.to_matrix_market("m", Vec::new()), Err(Error::Input { .. })));
+    bad.clear();
+    bad.add(0, 1, 1.0);
+    assert!(matches!(bad.to_matrix_market("m", Vec::new()), Err(Error::Index { .. })));
+}
+
+#[test]
+fn a_bad_matrix_leaves_the_file_as_it_was() {
+    let path = std::env::temp_dir().join(format!("basemat_{}_kept.mtx", std::process::id()));
+    let mut good = Triplets::new(2);
+    good.add(0, 0, 1.0);
+    good.write_matrix_market(&path).unwrap();
+    let mut bad = Triplets::new(2);
+    bad.add(0, 2, 1.0);
+    assert!(matches!(bad.write_matrix_market(&path), Err(Error::Index { .. })));
+    let kept = Triplets::read_matrix_market(&path);
+    std::fs::remove_file(&path).unwrap();
+    assert_eq!(kept.unwrap(), good);
+}
+
+#[test]
+fn orders_beyond_memory_are_refused() {
+    for order in [100_000_001, usize::MAX - 1, usize::MAX] {
+        let written = Triplets::new(order).to_matrix_market("huge", Vec::new());
+        assert!(matches!(written, Err(Error::Input { .. })), "{order}");
+    }
+}

@@ -1,0 +1,194 @@
+//! GOAL: files for ParaView hold the states they were written from.
+//! SCENE: a tower and wireframes that move, written as series.
+//! REFERENCE: the XML, parsed here, and the recorded states.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use basemat::Error;
+use basemat::coupled::State;
+use basemat::fem::{Beam, Direction, Mesh};
+use basemat::interface::Mode;
+use basemat::io::paraview;
+use basemat::results::{Histories, Recorder, WirePoint, Wireframe};
+use basemat::structure::{FemModel, RigidBlock, Row, ShearBuilding, Storey};
+
+use crate::support::scenes::{SI, block, friction, scene, tower};
+
+/// A folder of its own for each test, emptied before.
+fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("vtk_{name}"));
+    let _ = std::fs::remove_dir_all(&path);
+    path
+}
+
+/// Checks that tags are nested and closed; returns the arrays by name.
+fn arrays(xml: &str) -> BTreeMap<String, Vec<f64>> {
+    let mut open: Vec<String> = Vec::new();
+    let mut found = BTreeMap::new();
+    for piece in xml.trim_start_matches("<?xml version=\"1.0\"?>").split('<').skip(1) {
+        let (tag, text) = piece.split_once('>').expect("every < has its >");
+        if let Some(closed) = tag.strip_prefix('/') {
+            assert_eq!(open.pop().as_deref(), Some(closed));
+        } else if !tag.ends_with('/') {
+            open.push(tag.split_whitespace().next().unwrap().to_owned());
+        }
+        if tag.starts_with("DataArray") {
+            let name = tag.split("Name=\"").nth(1).unwrap().split('"').next().unwrap();
+            let numbers = text.split_whitespace().map(|word| word.parse().unwrap());
+            found.insert(name.to_owned(), numbers.collect());
+        } else {
+            assert!(text.trim().is_empty(), "text in {tag}");
+        }
+    }
+    assert!(open.is_empty() && !found.is_empty());
+    found
+}
+
+fn recorded() -> (Vec<State>, Histories, Wireframe) {
+    let tower = tower(SI, None);
+    let shape = Wireframe::of_model(&tower);
+    let mut simulation = scene(SI, 0.6).structure(tower).interface(friction(0.35)).build().unwrap();
+    let mut histories = Recorder::new().contact(40).motion(40).start(&simulation).unwrap();
+    let mut states = vec![simulation.state().clone()];
+    let observe = |state: &State| {
+        histories.record(state);
+        states.push(state.clone());
+    };
+    simulation.run(200, observe).unwrap();
+    (states, histories, shape)
+}
+
+#[test]
+fn a_series_holds_the_states() {
+    let (states, histories, shape) = recorded();
+    let folder = folder("series");
+    assert_eq!(paraview::write_series(&folder, "tower", &shape, &histories), Ok(12));
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+
+    let collection = read("tower.pvd");
+    let entries: Vec<&str> = collection.lines().filter(|l| l.contains("<DataSet")).collect();
+    assert_eq!(entries.len(), 12);
+    for (k, entry) in entries.iter().enumerate() {
+        let value = |key: &str| {
+            let rest = entry.split(&format!("{key}=\"")).nth(1).unwrap();
+            rest.split('"').next().unwrap().to_owned()
+        };
+        assert_eq!(value("timestep").parse(), Ok(states[40 * (k / 2)].time));
+        assert_eq!(value("part").parse(), Ok(k % 2));
+        assert!(folder.join(value("file")).exists());
+    }
+
+    for frame in 0..6 {
+        let state = &states[40 * frame];
+        let grid = arrays(&read(&format!("tower_{frame:04}.vtu")));
+        let (points, cells) = (shape.points().len(), shape.cells().len());
+        assert_eq!((points, cells), (49, 36));
+        assert_eq!(grid["points"].len(), 3 * points);
+        assert_eq!(grid["offsets"], (1..=cells).map(|k| 4.0 * k as f64).collect::<Vec<_>>());
+        assert_eq!(grid["types"], vec![9.0; cells]);
+        assert!(grid["connectivity"].iter().all(|&k| k < points as f64));
+        for (name, values) in
+            [("displacement", state.displacement()), ("velocity", state.velocity())]
+        {
+            for (found, known) in grid[name].chunks(3).zip(values.chunks(2)) {
+                assert_eq!(found, [known[0], known[1], 0.0]);
+            }
+        }
+        let base = arrays(&read(&format!("tower_base_{frame:04}.vtu")));
+        let pressure: Vec<f64> = state.contact.iter().map(|c| c.pressure).collect();
+        assert_eq!(base["pressure"], pressure);
+        let gap: Vec<f64> = state.contact.iter().map(|c| c.gap).collect();
+        assert_eq!(base["gap"], gap);
+        let open: Vec<bool> = base["mode"].iter().map(|&mode| mode == 3.0).collect();
+        let known: Vec<bool> = state.modes.iter().map(|&mode| mode == Mode::Open).collect();
+        assert_eq!(open, known);
+        assert_eq!(base["types"], vec![3.0; state.modes.len()]);
+    }
+}
+
+#[test]
+fn wireframes_move_as_their_structures() {
+    // A building turns about the middle of its base; its floors keep their own sway.
+    let storeys = [Storey::new(3.0, 1e4, 1e7), Storey::new(4.0, 1e4, 1e7)];
+    let building = ShearBuilding::new(10.0, 1e4, 1e5, &storeys).unwrap();
+    let building = building.centered_at(7.0).unwrap();
+    let shape = Wireframe::of_building(&building).unwrap();
+    assert_eq!(shape.points()[5].position, [12.0, 7.0]);
+    assert_eq!(shape.cells().len(), 3 + 4);
+    let moved = shape.displacements(&[0.1, 0.2, 0.01, 0.3, 0.4]).unwrap();
+    for (found, known) in moved[5].iter().zip([0.4, 0.2 + 0.05]) {
+        assert!((found - known).abs() < 1e-15);
+    }
+    assert_eq!(moved[0][0], 0.1);
+    assert_eq!(moved[2][0], 0.3);
+
+    // Beams are lines, and a node without unknowns does not move.
+    let mut mesh = Mesh::new();
+    let nodes = [0.0, 1.0, 2.0].map(|x| mesh.add_node(x, 0.0).unwrap());
+    mesh.add_node(5.0, 5.0).unwrap();
+    for k in 0..2 {
+        mesh.add(Beam::new([nodes[k], nodes[k + 1]], 1e6, 1e6, 1.0, 1.0).unwrap()).unwrap();
+    }
+    let model = FemModel::new(mesh, &nodes).unwrap();
+    let shape = Wireframe::of_model(&model);
+    assert_eq!(shape.cells(), [[0, 1], [1, 2]]);
+    let mut unknowns = vec![0.0; 9];
+    unknowns[model.unknown(1, Direction::Y).unwrap()] = 0.25;
+    let moved = shape.displacements(&unknowns).unwrap();
+    assert_eq!(moved, [[0.0; 2], [0.0, 0.25], [0.0; 2], [0.0; 2]]);
+
+    // Followers of a rigid link go with it.
+    let mut mesh = Mesh::new();
+    let places = [[0.0, 0.0], [0.0, 3.0], [-2.0, 0.0], [2.0, 0.0]];
+    let [foot, top, left, right] = places.map(|[x, y]| mesh.add_node(x, y).unwrap());
+    mesh.add(Beam::new([foot, top], 1e6, 1e6, 1.0, 1.0).unwrap()).unwrap();
+    for node in [left, right] {
+        mesh.add(Beam::new([foot, node], 1e6, 1e6, 1.0, 1.0).unwrap()).unwrap();
+    }
+    let model = FemModel::new(mesh, &[left, right]).unwrap();
+    let model = model.with_rigid_link(foot, &[left, right]).unwrap();
+    let ride = model.rigid_motion(Direction::X, [0.0; 2]);
+    let moved = Wireframe::of_model(&model).displacements(&ride).unwrap();
+    assert_eq!(moved, [[1.0, 0.0]; 4]);
+
+    // P from a block: a rigid turn leaves all distances, to second order.
+    let shape = Wireframe::of_block(&RigidBlock::new(4.0, 6.0, 1e3).unwrap(), 6.0).unwrap();
+    let moved = shape.displacements(&[0.0, 0.0, 1e-5]).unwrap();
+    let at = |k: usize| [0, 1].map(|d| shape.points()[k].position[d] + moved[k][d]);
+    let distance = (at(0)[0] - at(2)[0]).hypot(at(0)[1] - at(2)[1]);
+    assert!((distance - 52.0_f64.sqrt()).abs() < 1e-9);
+}
+
+#[test]
+fn bad_requests_are_errors() {
+    let (_, histories, shape) = recorded();
+    let folder = folder("errors");
+    let series = |name, shape: &Wireframe, histories| {
+        paraview::write_series(&folder, name, shape, histories).unwrap_err()
+    };
+    for name in ["", "a/b", "..", "a b", "\"x\""] {
+        assert!(matches!(series(name, &shape, &histories), Error::Scene { .. }));
+    }
+    // More unknowns than the run has.
+    let point = WirePoint { position: [0.0; 2], horizontal: 98.into(), vertical: Row::default() };
+    let other = Wireframe::new(vec![point.clone()], vec![vec![0]]).unwrap();
+    assert!(matches!(series("a", &other, &histories), Error::Index { index: 98, bound: 98, .. }));
+    let simulation = scene(SI, 0.6).structure(block(SI)).interface(friction(0.3)).build().unwrap();
+    let without = Recorder::new().start(&simulation).unwrap();
+    assert!(matches!(series("a", &shape, &without), Error::Scene { .. }));
+    // A folder that cannot be made.
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("file"), "").unwrap();
+    let fault = paraview::write_series(folder.join("file/deeper"), "a", &shape, &histories);
+    assert!(matches!(fault, Err(Error::Write { .. })));
+
+    assert!(Wireframe::new(vec![], vec![]).is_err());
+    assert!(Wireframe::new(vec![point.clone()], vec![vec![]]).is_err());
+    assert!(Wireframe::new(vec![point.clone()], vec![vec![0, 1]]).is_err());
+    let nan = WirePoint { position: [f64::NAN, 0.0], ..point.clone() };
+    assert!(Wireframe::new(vec![nan], vec![]).is_err());
+    let infinite = WirePoint { vertical: (0, f64::INFINITY).into(), ..point };
+    assert!(Wireframe::new(vec![infinite], vec![]).is_err());
+    assert!(Wireframe::of_block(&block(SI), 0.0).is_err());
+}

@@ -1,7 +1,0 @@
-//! Structures given by their matrices: files, checks, and reduction.
-
-mod market;
-mod model;
-mod reduction;
-mod ride;
-mod semi_definite;

@@ -1,0 +1,220 @@
+//! GOAL: everything that reads the bytes of a record takes wrong ones without a panic.
+//! SCENE: any bytes, valid files damaged in every way, sources that fail midway, and a corpus of
+//! files that are hard to read (`tests/data/fuzz`).
+//! REFERENCE: a record that can be asked for anything, or a typed error with its line.
+//!
+//! `PROPTEST_CASES=100000 cargo test --release --test motion fuzz` looks longer. Checkpoints are read
+//! by serde: `tests/coupled/checkpoint/text.rs` damages those.
+
+use std::io::Read;
+
+use basemat::motion::{
+    AccelerationUnit, ColumnFormat, CosmosFormat, KNetFormat, PeerFormat, Record, RecordFormat,
+};
+use basemat::{Error, Result};
+use proptest::prelude::*;
+use proptest::sample::Index;
+
+/// A valid file of each format, with its reader.
+fn valid() -> Vec<(&'static str, Box<dyn RecordFormat>)> {
+    let columns = ColumnFormat::new(AccelerationUnit::Gal);
+    vec![
+        (
+            "PEER NGA STRONG MOTION DATABASE RECORD\nEl Centro, 180\n\
+             ACCELERATION TIME SERIES IN UNITS OF G\nNPTS=     6, DT=   .0100 SEC,\n \
+             .1E-02-.2E-02  .3E-02  .4E-02-.5E-02\n  .6E-02\n",
+            Box::new(PeerFormat),
+        ),
+        ("Title\nUNITS OF G\n   4    .0100    NPTS, DT\n 1 2\r\n 3 4\r\n", Box::new(PeerFormat)),
+        (
+            "Corrected accelerogram\n\
+             4 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.3)\n    \
+             1.000    -2.000     3.000-12345.678\n\
+             4 points of veloc data equally spaced at  .005 sec, in cm/sec.  (8f10.3)\n    \
+             1.000    -2.000     3.000     4.000\n/&  ---- End of data for channel  1 ----\n",
+            Box::new(CosmosFormat::default()),
+        ),
+        (
+            "36 Real-header values follow on   6 lines, Format= (6F13.6)\n\
+             1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1\n1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 5 1 1\n\
+             3 acceleration pts, approx  0 secs, units=cm/s^2 (4),Format=(10F8.5)\n\
+             -0.00003-0.00004 9.99999\nEnd-of-data for Chan  1 acceleration\n",
+            Box::new(CosmosFormat::default()),
+        ),
+        (
+            "Origin Time       2011/03/11 14:46:00\nSampling Freq(Hz) 2Hz\nDuration Time(s)  3\n\
+             Scale Factor      2000(gal)/1000\nMemo.\n 1 2 3 4\n 5 -6\n",
+            Box::new(KNetFormat),
+        ),
+        ("# station 1\nt,a\n0.00, 0\n0.01, 98.1\n0.02, -49.05\n", Box::new(columns)),
+        ("1 0.0 5\n2 0.1 -5\n3 0.2 7\n", Box::new(columns.with_columns(2, 3))),
+    ]
+}
+
+/// What is read is a record that can be asked for anything; what is not, names its line.
+fn check(result: Result<Record>) {
+    match result {
+        Ok(record) => {
+            assert!(record.len() >= 2 && record.time_step() > 0.0);
+            for values in [record.accelerations(), record.velocities(), record.displacements()] {
+                assert_eq!(values.len(), record.len());
+                assert!(values.iter().all(|value| value.is_finite()));
+            }
+            let _ = record.displacement_at(0.5 * record.duration());
+        }
+        Err(Error::Record { line, reason, .. }) => {
+            assert!(!reason.to_string().is_empty() && line < 1 << 40);
+        }
+        Err(Error::Input { needed, .. }) => assert!(!needed.is_empty()),
+        Err(other) => panic!("{other}"),
+    }
+}
+
+#[test]
+fn valid_files_are_read() {
+    for (text, format) in valid() {
+        let record = Record::from_reader("valid", text.as_bytes(), format.as_ref()).unwrap();
+        assert!(record.len() >= 3, "{text}");
+    }
+}
+
+#[derive(Debug, Clone)]
+enum Damage {
+    Overwrite(u8),
+    Insert(Vec<u8>),
+    Remove(usize),
+    /// A part of the file again, somewhere else.
+    Repeat(Index, usize),
+    Cut,
+}
+
+fn damage() -> impl Strategy<Value = Damage> {
+    let pieces = [
+        "-",
+        "+",
+        "E",
+        "e9",
+        "1e308",
+        "nan",
+        "inf",
+        ".",
+        "\n",
+        "\r",
+        ",",
+        " ",
+        "\0",
+        "\u{feff}",
+        "é",
+        "99999999999999999999",
+        "4.9e-324",
+        "#",
+        "=",
+        "(gal)/",
+        "NPTS",
+        "DT",
+    ];
+    prop_oneof![
+        any::<u8>().prop_map(Damage::Overwrite),
+        prop::sample::select(pieces.to_vec())
+            .prop_map(|piece| Damage::Insert(piece.as_bytes().to_vec())),
+        prop::collection::vec(any::<u8>(), 1..6).prop_map(Damage::Insert),
+        (1_usize..40).prop_map(Damage::Remove),
+        (any::<Index>(), 1_usize..120).prop_map(|(from, length)| Damage::Repeat(from, length)),
+        Just(Damage::Cut),
+    ]
+}
+
+fn damaged(text: &str, damages: &[(Index, Damage)]) -> Vec<u8> {
+    let mut bytes = text.as_bytes().to_vec();
+    for (place, damage) in damages {
+        if bytes.is_empty() {
+            break;
+        }
+        let at = place.index(bytes.len());
+        match damage {
+            Damage::Overwrite(value) => bytes[at] = *value,
+            Damage::Insert(piece) => {
+                bytes.splice(at..at, piece.iter().copied());
+            }
+            Damage::Remove(length) => {
+                bytes.drain(at..(at + length).min(bytes.len()));
+            }
+            Damage::Repeat(from, length) => {
+                let from = from.index(bytes.len());
+                let part = bytes[from..(from + length).min(bytes.len())].to_vec();
+                bytes.splice(at..at, part);
+            }
+            Damage::Cut => bytes.truncate(at),
+        }
+    }
+    bytes
+}
+
+/// A source that gives a few bytes at a time, and fails after some.
+struct Failing<'a> {
+    rest: &'a [u8],
+    at_a_time: usize,
+    left: usize,
+}
+
+impl Read for Failing<'_> {
+    fn read(&mut self, out: &mut [u8]) -> std::io::Result<usize> {
+        if self.left == 0 {
+            return Err(std::io::Error::from(std::io::ErrorKind::ConnectionReset));
+        }
+        let count = self.at_a_time.min(self.left).min(self.rest.len()).min(out.len());
+        out[..count].copy_from_slice(&self.rest[..count]);
+        self.rest = &self.rest[count..];
+        self.left -= count;
+        Ok(count)
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn damaged_files_are_read_or_refused(
+        damages in prop::collection::vec((any::<Index>(), damage()), 1..8),
+    ) {
+        for (text, format) in valid() {
+            let bytes = damaged(text, &damages);
+            check(Record::from_reader("damaged", &bytes[..], format.as_ref()));
+        }
+    }
+
+    #[test]
+    fn any_bytes_are_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..500)) {
+        for (_, format) in valid() {
+            check(Record::from_reader("any", &bytes[..], format.as_ref()));
+        }
+    }
+
+    #[test]
+    fn sources_that_fail_are_refused(at_a_time in 1_usize..9, share in 0.0..1.2_f64) {
+        for (text, format) in valid() {
+            let rest = text.as_bytes();
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
+            let left = (share * rest.len() as f64) as usize;
+            let outcome =
+                Record::from_reader("failing", Failing { rest, at_a_time, left }, format.as_ref());
+            prop_assert!(left > rest.len() || !text.contains("PEER") || outcome.is_err());
+            check(outcome);
+        }
+    }
+}
+
+/// Files that are hard to read, each with every reader.
+#[test]
+fn corpus_is_read_or_refused() {
+    let folder = crate::support::data_path("fuzz");
+    let mut files = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        files += 1;
+        for (_, format) in valid() {
+            check(Record::read(&path, format.as_ref()));
+        }
+    }
+    assert!(files >= 13, "{files}");
+}

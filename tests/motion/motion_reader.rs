@@ -1,0 +1,239 @@
+//! GOAL: records in columns are read in every usual layout, or refused with line and reason.
+//! SCENE: layouts, units, printed time steps, bad lines, any bytes.
+//! REFERENCE: the samples that were printed.
+
+use approx::assert_relative_eq;
+use basemat::motion::{AccelerationUnit, ColumnFormat, Record, el_centro_1940};
+use basemat::{Error, RecordError};
+use proptest::prelude::*;
+
+use super::refusal;
+
+const METRIC: AccelerationUnit = AccelerationUnit::MetrePerSecondSquared;
+
+fn metric() -> ColumnFormat {
+    ColumnFormat::new(METRIC)
+}
+
+fn read(text: &str) -> Result<Record, Error> {
+    Record::from_reader("text", text.as_bytes(), &metric())
+}
+
+fn not_a_number(text: &str) -> RecordError {
+    RecordError::NotANumber { text: text.into() }
+}
+
+#[test]
+fn reader_takes_every_usual_layout() {
+    let wanted = Record::new(0.02, vec![0.0, 1.5, -2.5e-1]).unwrap();
+    for text in [
+        "0,0\n0.02,1.5\n0.04,-0.25\n",
+        "0 0\n0.02 1.5\n0.04 -.25",
+        "  0\t0 \r\n\r\n 0.02\t+1.5\r\n0.04 \t -25E-2\r\n",
+        "# a comment\ntime, acceleration\n# another\n0 , 0\n0.02 , 1.5\n0.04 , -0.25\n# end",
+        "\u{feff}t a\n0 0 9 9\n0.02 1.5 x y\n0.04 -0.25\n",
+        "5.00,0\n5.02,1.5\n5.04,-0.25\n",
+        "time; acceleration\r\n0;0\r\n0.02 ; 1.5\r\n0.04;\t-0.25\r\n",
+    ] {
+        assert_eq!(read(text).unwrap(), wanted, "{text:?}");
+    }
+    let alone = ColumnFormat::equally_spaced(METRIC, 0.02);
+    for text in ["0\n1.5\n-0.25", "# 0.02 s\nacceleration\n 0.0 \r\n\n+1.5\n-25e-2\n"] {
+        assert_eq!(Record::from_reader("text", text.as_bytes(), &alone).unwrap(), wanted);
+    }
+    let third = alone.with_acceleration_column(3).with_samples(3);
+    let text = b"9;9;0\n9;x;1.5\n8;9;-0.25\n";
+    assert_eq!(Record::from_reader("text", &text[..], &third).unwrap(), wanted);
+    let swapped = b"1 0.0 0\n2 1.5 0.02\n3 -0.25 0.04\n";
+    let format = metric().with_columns(3, 2).with_samples(3);
+    assert_eq!(Record::from_reader("text", &swapped[..], &format).unwrap(), wanted);
+    // bytes that are not UTF-8 do no harm in comments
+    let latin = b"# S\xe9isme\n0 0\n0.02 1.5\n0.04 -0.25\n";
+    assert_eq!(Record::from_reader("text", &latin[..], &metric()).unwrap(), wanted);
+}
+
+#[test]
+fn reader_rounds_the_time_step_of_printed_times() {
+    // a third of a hundredth, printed with five digits
+    let lines: Vec<String> = (0..301).map(|k| format!("{:.5} 1", f64::from(k) / 300.0)).collect();
+    let record = read(&lines.join("\n")).unwrap();
+    assert_relative_eq!(record.time_step(), 1.0 / 300.0, max_relative = 1e-11);
+    assert_eq!(read("0 0\n0.1 0\n0.2 0\n0.3 0\n").unwrap().time_step(), 0.1);
+}
+
+#[test]
+fn units_are_converted() {
+    for (unit, factor) in [
+        (METRIC, 1.0),
+        (AccelerationUnit::MillimetrePerSecondSquared, 1e-3),
+        (AccelerationUnit::StandardGravity, 9.80665),
+        (AccelerationUnit::Gal, 0.01),
+        (AccelerationUnit::FootPerSecondSquared, 0.3048),
+        (AccelerationUnit::InchPerSecondSquared, 0.3048 / 12.0),
+    ] {
+        let text = "0 2\n1 4\n";
+        let record = Record::from_reader("", text.as_bytes(), &ColumnFormat::new(unit)).unwrap();
+        assert_relative_eq!(record.accelerations()[1], 4.0 * factor, max_relative = 1e-15);
+    }
+}
+
+#[test]
+fn reader_refuses_with_line_and_reason() {
+    let format = metric();
+    let cases: [(&[u8], usize, RecordError); 20] = [
+        (b"", 0, RecordError::TooShort { found: 0, needed: 2 }),
+        (b"# only\n\ncomments\n", 0, RecordError::TooShort { found: 0, needed: 2 }),
+        (b"0 1\n", 1, RecordError::TooShort { found: 1, needed: 2 }),
+        (b"0 1\n1 nan\n", 2, not_a_number("nan")),
+        (b"0 1\n1 -inf\n", 2, not_a_number("-inf")),
+        (b"0 1\nNaN 1\n", 2, not_a_number("NaN")),
+        (b"0 1\n1 1e999\n", 2, not_a_number("1e999")),
+        (b"0 1\n1\n", 2, RecordError::Column { found: 1, needed: 2 }),
+        (b"0,1\n1,\n", 2, not_a_number("")),
+        (b"0,1\n,1\n", 2, not_a_number("")),
+        (b"0;1\n1;;1\n", 2, not_a_number("")),
+        // Decimal commas.
+        (b"0;1\n0,02;1\n", 2, not_a_number("0,02")),
+        (b"0;1\n1;1,5\n", 2, not_a_number("1,5")),
+        (b"t a\nt a\n0 0\n1 1\n", 2, not_a_number("t")),
+        (b"0 0\nt a\n1 1\n", 2, not_a_number("t")),
+        (b"0 x\n1 1\n", 1, not_a_number("x")),
+        (b"0 1\n\xff\xfe 1\n", 2, not_a_number("\u{fffd}\u{fffd}")),
+        (b"0 1\n1 1\n1 1\n", 3, RecordError::TimeNotIncreasing { found: 0.0 }),
+        (b"0 1\n-1 1\n", 2, RecordError::TimeNotIncreasing { found: -1.0 }),
+        (b"0 1\n1 1\n\n2.2 1\n", 4, RecordError::UnequalStep { found: 1.2, expected: 1.0 }),
+    ];
+    for (text, line, reason) in cases {
+        let shown = String::from_utf8_lossy(text);
+        assert_eq!(refusal(text, &format), (line, reason), "{shown:?}");
+    }
+}
+
+#[test]
+fn reader_refuses_wrong_columns_and_counts() {
+    let text = b"0 1\n1 1\n";
+    let found = refusal(text, &metric().with_columns(1, 3));
+    assert_eq!(found, (1, RecordError::Column { found: 2, needed: 3 }));
+    let found = refusal(text, &metric().with_columns(0, 1));
+    assert_eq!(found, (1, RecordError::Column { found: 2, needed: 0 }));
+    let found = refusal(text, &metric().with_samples(3));
+    assert_eq!(found, (2, RecordError::SampleCount { found: 2, needed: 3 }));
+    // the acceleration taken for the time
+    let found = refusal(b"0 1\n1 3\n2 9\n", &metric().with_columns(2, 1));
+    assert_eq!(found, (3, RecordError::UnequalStep { found: 6.0, expected: 2.0 }));
+}
+
+#[test]
+fn a_single_column_is_single() {
+    let alone = ColumnFormat::equally_spaced(METRIC, 0.02);
+    let found = refusal(b"1\n2 3\n", &alone);
+    assert_eq!(found, (2, RecordError::SeveralColumns { found: 2 }));
+    let found = refusal(b"0.00,1\n0.02,2\n", &alone);
+    assert_eq!(found, (1, RecordError::SeveralColumns { found: 2 }));
+    let found = refusal(b"1\n2\n3\n", &alone.with_samples(2));
+    assert_eq!(found, (3, RecordError::SampleCount { found: 3, needed: 2 }));
+    let found = refusal(b"1\n2\n", &alone.with_acceleration_column(2));
+    assert_eq!(found, (1, RecordError::Column { found: 1, needed: 2 }));
+    for step in [0.0, -0.02, f64::NAN, f64::INFINITY] {
+        let format = ColumnFormat::equally_spaced(METRIC, step);
+        let (line, reason) = refusal(b"1\n2\n", &format);
+        assert!(line == 0 && matches!(reason, RecordError::Unusable(_)), "{reason}");
+    }
+    // A time column after all.
+    let record = Record::from_reader("", &b"0 5\n1 6\n"[..], &alone.with_columns(1, 2)).unwrap();
+    assert_eq!((record.time_step(), record.accelerations()), (1.0, &[5.0, 6.0][..]));
+}
+
+#[test]
+fn numbers_that_make_no_record_name_the_file() {
+    let (line, reason) = refusal(b"0 1e200\n1e200 1e200\n", &metric());
+    assert_eq!(line, 0);
+    let RecordError::Unusable(error) = reason else { panic!("{reason}") };
+    assert!(matches!(*error, Error::Input { quantity: "velocity of the record", .. }), "{error}");
+}
+
+#[test]
+fn reader_refuses_drifting_steps_and_endless_lines() {
+    let mut time = 0.0;
+    let mut lines = Vec::new();
+    for k in 0..100 {
+        lines.push(format!("{time} 0"));
+        time += 1.0 + 5e-5 * f64::from(k);
+    }
+    let (_, reason) = refusal(lines.join("\n").as_bytes(), &metric());
+    assert!(matches!(reason, RecordError::DriftingStep { .. }), "{reason}");
+    let endless = std::io::Read::take(std::io::repeat(b'1'), 1 << 40);
+    let error = Record::from_reader("zeros", endless, &metric()).unwrap_err();
+    let reason = RecordError::LineTooLong { bytes: 65_536 };
+    assert_eq!(error, Error::Record { file: "zeros".into(), line: 1, reason });
+}
+
+#[test]
+fn reader_refuses_a_truncated_record() {
+    let text = include_str!("../../data/elcentro1940_NS_peknold_0319g.csv");
+    let format = ColumnFormat::new(AccelerationUnit::StandardGravity).with_samples(1560);
+    let whole = text.trim_end();
+    assert_eq!(Record::from_reader("", whole.as_bytes(), &format).unwrap().len(), 1560);
+    let line = whole.lines().count();
+    let last_number = whole.len() - whole.rfind(',').unwrap() - 1;
+    let last_line = whole.lines().last().unwrap().len();
+    for cut in 1..=last_line {
+        let outcome = Record::from_reader("", &whole.as_bytes()[..whole.len() - cut], &format);
+        // a number cut within its digits is still a number: only that passes unseen
+        if cut >= last_number {
+            let error = outcome.unwrap_err();
+            assert!(matches!(error, Error::Record { line: l, .. } if l + 1 >= line), "{error}");
+        }
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_are_named() {
+    let error = Record::read("/nowhere/record.csv", &metric()).unwrap_err();
+    assert_eq!(error.to_string(), "/nowhere/record.csv, line 0: cannot be read: entity not found");
+    let error = Record::read(crate::support::data_path(""), &metric()).unwrap_err();
+    assert!(matches!(error, Error::Record { reason: RecordError::Unreadable(_), .. }));
+    let file = crate::support::data_path("../../data/elcentro1940_NS_peknold_0319g.csv");
+    let format = ColumnFormat::new(AccelerationUnit::StandardGravity);
+    assert_eq!(Record::read(file, &format).unwrap(), el_centro_1940());
+}
+
+/// Lines much like those of records, so that the reader's inner parts are reached.
+fn nearly_a_record() -> impl Strategy<Value = Vec<u8>> {
+    let piece = prop_oneof![
+        Just(" ".to_owned()),
+        Just(",".to_owned()),
+        Just("\n".to_owned()),
+        Just("#".to_owned()),
+        Just("nan".to_owned()),
+        Just("\u{feff}".to_owned()),
+        (0..40).prop_map(|k| format!("\n{} ", f64::from(k) * 0.5)),
+        any::<f64>().prop_map(|value| format!("{value:e}")),
+    ];
+    prop::collection::vec(piece, 0..40).prop_map(|pieces| pieces.concat().into_bytes())
+}
+
+proptest! {
+    #[test]
+    fn reader_never_panics(
+        bytes in prop_oneof![prop::collection::vec(any::<u8>(), 0..300), nearly_a_record()],
+        time in 0..4_usize,
+        acceleration in 0..4_usize,
+    ) {
+        let format = metric().with_columns(time, acceleration);
+        if let Ok(record) = Record::from_reader("bytes", &bytes[..], &format) {
+            prop_assert!(record.len() >= 2 && record.time_step() > 0.0);
+            prop_assert!(record.accelerations().iter().all(|a| a.is_finite()));
+            prop_assert!(record.displacements().iter().all(|u| u.is_finite()));
+        }
+    }
+
+    #[test]
+    fn printed_records_are_read_back(step in 0.001..1.0_f64, values in prop::collection::vec(-10.0..10.0_f64, 2..60)) {
+        let line = |(k, a)| format!("{}, {a}", k as f64 * step);
+        let lines: Vec<String> = values.iter().enumerate().map(line).collect();
+        let record = read(&lines.join("\n")).unwrap();
+        prop_assert_eq!(record.accelerations(), &values[..]);
+        prop_assert!((record.time_step() - step).abs() <= 1e-11 * step);
+    }
+}

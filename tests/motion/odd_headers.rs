@@ -1,0 +1,386 @@
+//! Headers of record files: every number and unit is understood wholly, or refused with its line.
+
+use basemat::motion::{
+    AccelerationUnit, CosmosFormat, KNetFormat, PeerFormat, Record, RecordFormat,
+};
+use basemat::{Error, RecordError};
+
+const GRAVITY: f64 = 9.80665;
+
+fn read(text: &str, format: &dyn RecordFormat) -> Result<Record, Error> {
+    Record::from_reader("file", text.as_bytes(), format)
+}
+
+/// Line and reason of the refusal.
+#[track_caller]
+fn refusal(text: &str, format: &dyn RecordFormat) -> (usize, RecordError) {
+    match read(text, format) {
+        Err(Error::Record { line, reason, .. }) => (line, reason),
+        other => panic!("{text:?}: {other:?}"),
+    }
+}
+
+#[track_caller]
+fn same(record: &Record, step: f64, wanted: &[f64]) {
+    let apart = (record.time_step() / step - 1.0).abs();
+    assert!(apart < 1e-15, "{} s, not {step} s", record.time_step());
+    assert_eq!(record.len(), wanted.len());
+    for (found, wanted) in record.accelerations().iter().zip(wanted) {
+        assert!((found - wanted).abs() <= 1e-14 * wanted.abs(), "{found} {wanted}");
+    }
+}
+
+/// Steps that can be read, in s.
+const STEPS: [(&str, f64); 16] = [
+    (".005 SEC", 0.005),
+    ("5.0D-03", 0.005),
+    ("5.0d-03 sec", 0.005),
+    ("5.0D-03SEC", 0.005),
+    ("0.5E-2SEC.", 0.005),
+    ("10 MSEC", 0.01),
+    ("10MSEC", 0.01),
+    ("5 msec", 0.005),
+    ("5 ms", 0.005),
+    ("20 milliseconds", 0.02),
+    ("1/100 SEC", 0.01),
+    ("1 / 200", 0.005),
+    ("1/128 s", 1.0 / 128.0),
+    (".01 (SEC)", 0.01),
+    ("+.01 seconds", 0.01),
+    ("1E1MS", 0.01),
+];
+
+/// Steps that cannot.
+const UNCLEAR: [&str; 17] = [
+    "1,5",
+    "1,5 SEC",
+    "0,005 SEC",
+    "5.0X-03",
+    "5.0 D-03",
+    ".01E",
+    "100 HZ",
+    "200 SAMPLES/SEC",
+    ".01 MIN",
+    ".01 SEC X 2",
+    ".01.2",
+    "1/100/2",
+    "1/0",
+    "~.01",
+    "NAN",
+    "INF SEC",
+    "********",
+];
+
+fn peer(header: &str) -> String {
+    format!("TITLE\nACCELERATION TIME SERIES IN UNITS OF G\n{header}\n.1 -.2 .3 .4\n")
+}
+
+fn csmip(title: &str) -> String {
+    format!(
+        "Corrected accelerogram\n4 points of accel data equally spaced at {title}\n1. -2. 3. 4.\n"
+    )
+}
+
+#[test]
+fn time_steps_of_peer_files_are_whole_quantities() {
+    let wanted = [0.1, -0.2, 0.3, 0.4].map(|a| a * GRAVITY);
+    for (text, step) in STEPS {
+        for header in [
+            format!("NPTS= 4, DT= {text}"),
+            format!("NPTS=4,DT={text},"),
+            format!("DT= {text}, NPTS= 4"),
+            format!("NPTS: 4; DT: {text}; PGA=.4"),
+            format!("  4  {text}  NPTS, DT"),
+        ] {
+            println!("{header}");
+            same(&read(&peer(&header), &PeerFormat).unwrap(), step, &wanted);
+        }
+    }
+    for text in UNCLEAR {
+        for header in [format!("NPTS= 4, DT= {text}"), format!("4  {text}  NPTS, DT")] {
+            let (line, reason) = refusal(&peer(&header), &PeerFormat);
+            assert_eq!(line, 3, "{header}: {reason}");
+            assert!(
+                matches!(&reason, RecordError::Unclear { text: found, .. }
+                if text.to_uppercase().contains(found.as_str())),
+                "{header}: {reason}"
+            );
+        }
+    }
+    let unclear = |quantity, text: &str| RecordError::Unclear { quantity, text: text.into() };
+    let (line, reason) = refusal(&peer("NPTS= 4, DT= 1,5 SEC"), &PeerFormat);
+    assert_eq!((line, &reason), (3, &unclear("time step", "1,5 SEC")));
+    assert_eq!(reason.to_string(), "the time step '1,5 SEC' is not understood");
+    for (header, text) in [
+        ("NPTS= 4,000, DT= .01", "4,000"),
+        ("NPTS= 4 X, DT= .01", "4 X"),
+        ("NPTS= 4;5, DT= .01", "4;5"),
+        ("NPTS= 0X4, DT= .01", "0X4"),
+    ] {
+        let (line, reason) = refusal(&peer(header), &PeerFormat);
+        assert_eq!((line, reason), (3, unclear("number of points", text)), "{header}");
+    }
+}
+
+#[test]
+fn the_time_step_of_a_peer_file_is_the_one_called_dt() {
+    let wanted = [0.1, -0.2, 0.3, 0.4].map(|a| a * GRAVITY);
+    for header in [
+        "ORIGINAL DT= .02, NPTS= 4, DT= .005",
+        "NPTS= 4, DT= .005, ORIGINAL DT= .02",
+        "NPTS= 4, ORIGINAL NPTS= 8, DT= .005 SEC, OLD DT= .02",
+        "WIDTH= 3, NPTS= 4, DT= .005",
+        "NPTS= 4  DT= .005 SEC",
+        "DT= .005 SEC NPTS= 4",
+        "NPTS= 4, DT= .005, DT= 5 MSEC",
+        "4 .005 NPTS, DT (SEC)",
+        "4, 5 NPTS, DT (MSEC)",
+    ] {
+        println!("{header}");
+        same(&read(&peer(header), &PeerFormat).unwrap(), 0.005, &wanted);
+    }
+    for header in [
+        "NPTS= 4, ORIGINAL DT= .02",
+        "NPTS= 4, DT= .005, DT= .02",
+        "NPTS= 4, NPTS= 5, DT= .02",
+        "NPTS= 4, WIDTH= .02",
+        "4 5 .02 NPTS, DT",
+        "4 .02 NPTS, DT, SCALE",
+        "4 .02 DT, NPTS",
+    ] {
+        let (line, reason) = refusal(&peer(header), &PeerFormat);
+        let typed = matches!(reason, RecordError::Missing { .. } | RecordError::Unclear { .. });
+        assert!(line >= 3 && typed, "{header}: {reason}");
+    }
+}
+
+#[test]
+fn a_unit_of_g_with_a_factor_is_refused() {
+    for unit in [
+        "ACCELERATION TIME SERIES IN UNITS OF G X 1000",
+        "ACCELERATION TIME SERIES IN UNITS OF G*1000",
+        "ACCELERATION TIME SERIES IN UNITS OF G * 1000",
+        "ACCELERATION TIME SERIES IN UNITS OF G, X 1000",
+        "ACCELERATION TIME SERIES IN UNITS OF G. TIMES 1000",
+        "ACCELERATION TIME SERIES IN UNITS OF G/10",
+        "ACCELERATION TIME SERIES IN UNITS OF G / 1000",
+        "ACCELERATION TIME SERIES IN UNITS OF G E-3",
+        "ACCELERATION TIME SERIES IN UNITS OF G TIMES A THOUSAND",
+        "ACCELERATION TIME SERIES IN UNITS OF G, MULTIPLIED BY TEN",
+        "ACCELERATION TIME SERIES IN UNITS OF G (X 1000)",
+        "ACCELERATION TIME SERIES IN UNITS OF G (1000)",
+        "ACCELERATION TIME SERIES IN UNITS OF G (10)",
+        "ACCELERATION TIME SERIES IN UNITS OF 0.001 G",
+        "ACCELERATION TIME SERIES IN UNITS OF MILLI G",
+        "ACCELERATION TIME SERIES IN UNITS OF MG",
+        "ACCELERATION TIME SERIES IN UNITS OF % G",
+        "ACCELERATION TIME SERIES IN G X 1000",
+        "ACCELERATION TIME SERIES (G) X 1000",
+        "ACCELERATION TIME SERIES (G), 1000",
+        "ACCELERATION TIME SERIES (G X 1000)",
+        "ACCELERATION TIME SERIES (G/10)",
+        "UNITS OF G X 1000",
+        "ACCELERATION TIMES 1000 IN UNITS OF G",
+        "1000 X ACCELERATION IN UNITS OF G",
+        "1000*ACCELERATION IN UNITS OF G",
+        "UNITS OF G, GAIN: 1000",
+    ] {
+        let text = format!("TITLE\n{unit}\nNPTS= 2, DT= .01 SEC\n1 2\n");
+        let (line, reason) = refusal(&text, &PeerFormat);
+        let unit_refused =
+            matches!(reason, RecordError::NotAcceleration { .. } | RecordError::Missing { .. });
+        assert!((line == 2 || line == 3) && unit_refused, "{unit}: {reason}");
+    }
+    // Whatever line says so.
+    for rest in ["UNITS= CM/S/S, NPTS= 2, DT= .01", "NPTS= 2, DT= .01 SEC, UNITS: MG"] {
+        let (line, reason) = refusal(&format!("UNITS OF G\n{rest}\n1 2\n"), &PeerFormat);
+        assert!(line == 2 && matches!(reason, RecordError::NotAcceleration { .. }), "{reason}");
+    }
+    for rest in ["NPTS= 2, DT= .01, SCALE FACTOR= 1000", "NPTS= 2, DT= .01 SEC, SCALE: 10"] {
+        let (line, reason) = refusal(&format!("UNITS OF G\n{rest}\n1 2\n"), &PeerFormat);
+        assert!(line == 2 && matches!(reason, RecordError::Unclear { .. }), "{reason}");
+    }
+    for unit in [
+        "UNITS OF G",
+        "UNITS OF G.",
+        "UNITS OF G, CORRECTED",
+        "UNITS OF G (9.81)",
+        "UNITS OF G (9.81 M/S/S)",
+        "UNITS OF G (980.665)",
+        "UNITS OF G. FILTER POINTS: HP=0.1 HZ LP=40.0 HZ",
+        "ACCELERATION (G), CORRECTED",
+        "**** ACCELERATION (G)",
+        "1/3 SCALE MODEL, ACCELERATION (G)",
+    ] {
+        let text = format!("TITLE\n{unit}\nNPTS= 2, DT= .01 SEC\n1 2\n");
+        same(&read(&text, &PeerFormat).unwrap(), 0.01, &[GRAVITY, 2.0 * GRAVITY]);
+    }
+}
+
+#[test]
+fn time_steps_of_csmip_files_are_whole_quantities() {
+    let format = CosmosFormat::default().with_unit(AccelerationUnit::Gal);
+    let wanted = [0.01, -0.02, 0.03, 0.04];
+    for (text, step) in STEPS {
+        for rest in [" in cm/sec2. (8f10.3)", ", in cm/sec2. (8f10.3)", "", "  (8f10.3)"] {
+            if !(text.contains('(') && rest.is_empty()) {
+                println!("{text}{rest}");
+                same(&read(&csmip(&format!("{text}{rest}")), &format).unwrap(), step, &wanted);
+            }
+        }
+    }
+    for text in UNCLEAR {
+        for rest in [", in cm/sec2. (8f10.3)", " in cm/sec2. (8f10.3)", " (8f10.3)", ""] {
+            let (line, reason) = refusal(&csmip(&format!("{text}{rest}")), &format);
+            let typed = matches!(reason, RecordError::Unclear { .. });
+            assert!(line == 2 && typed, "{text}{rest}: {reason}");
+        }
+    }
+}
+
+#[test]
+fn units_and_formats_of_csmip_and_cosmos_are_whole() {
+    let format = CosmosFormat::default().with_unit(AccelerationUnit::MetrePerSecondSquared);
+    for title in [
+        ".01 sec, in g X 1000. (8f10.3)",
+        ".01 sec, in g*1000 (8f10.3)",
+        ".01 sec, in g. x 1000 (8f10.3)",
+        ".01 sec, in g, x 1000 (8f10.3)",
+        ".01 sec, in g (x 1000) (8f10.3)",
+        ".01 sec, in g (8f10.3) x 1000",
+        ".01 sec, in cm/sec2 (50) (8f10.3)",
+        ".01 sec, in g (4) (8f10.3)",
+        ".01 sec, in g, (4) (8f10.3)",
+        ".01 sec, in milli g (8f10.3)",
+        ".01 sec, units=g, scale 1000, format=(8f10.3)",
+        // A unit that no `in` announces contradicts the one given for files without.
+        ".01 sec, cm/sec2 (8f10.3)",
+        ".01 sec. cm/sec/sec (8f10.3)",
+        // Formats that say where numbers stand, in a way that is not understood.
+        ".01 sec, in g (8f10.3,2x)",
+        ".01 sec, in g (2(4f10.3))",
+        ".01 sec (8f10,3)",
+    ] {
+        let (line, reason) = refusal(&csmip(title), &format);
+        let typed =
+            matches!(reason, RecordError::NotAcceleration { .. } | RecordError::Unclear { .. });
+        assert!(line == 2 && typed, "{title}: {reason}");
+    }
+    for (title, factor) in [
+        (".01 sec, in cm/sec2. (8f10.3)", 0.01),
+        (".01 sec, units=cm/s^2,Format=(8F10.3)", 0.01),
+        (".01 sec, units=cm/s^2 (4),Format=(1F15.6E)", 0.01),
+        (".01 sec, in g. (*)", GRAVITY),
+        (".01 sec, units=g , format=8f10.3", GRAVITY),
+        (".01 sec. (8f10.3)", 1.0),
+    ] {
+        let wanted = [1.0, -2.0, 3.0, 4.0].map(|a| a * factor);
+        same(&read(&csmip(title), &format).unwrap(), 0.01, &wanted);
+    }
+}
+
+fn in_columns(format: &str, body: &str) -> String {
+    format!("4 points of accel data equally spaced at .01 sec, in cm/sec2. ({format})\n{body}\n")
+}
+
+/// A field without a point has as many decimals as the format says.
+#[test]
+fn fields_without_a_point_have_fortrans() {
+    let format = CosmosFormat::default();
+    let wanted = [0.123_45, -0.023_45, 0.03, 0.0];
+    for (layout, body) in [
+        ("8f10.3", "     12345     -2345      3000         0"),
+        ("2f10.3", "     12345     -2345\n      3000         0"),
+        ("8f10.3", "    12.345     -2345     3.000       000"),
+        ("2f5.3", "12345-2345\n 3000    0"),
+        ("8e10.3", "  12345E+0 -23450E-1   .3D+01         0"),
+        ("4d10.3", "     12345     -2345    3.0D00      0.0"),
+        // A scale factor divides what has no exponent.
+        ("1p4f10.3", "    123450    -23450    30.000         0"),
+        ("1p4e10.3", " 1.2345E01-2.345E+00 3.000E+00 0.000E+00"),
+    ] {
+        println!("{layout}: {body:?}");
+        same(&read(&in_columns(layout, body), &format).unwrap(), 0.01, &wanted);
+    }
+    // The interval among the real header values, ms.
+    let mut values = vec!["      -999000"; 36];
+    values[33] = "         5000";
+    let header: Vec<String> = values.chunks(6).map(<[_]>::concat).collect();
+    let cosmos = format!(
+        "36 Real-header values follow on   6 lines, Format= (6F13.3)\n{}\n\
+         4 acceleration pts, approx 0 secs, units=cm/s^2 (4),Format=(10F8.3)\n   \
+         12345   -2345    3000       0\n",
+        header.join("\n")
+    );
+    same(&read(&cosmos, &format).unwrap(), 0.005, &wanted);
+}
+
+/// Whole numbers, some of which keep to the columns while others do not: by a factor apart.
+#[test]
+fn fields_without_a_point_out_of_their_columns_are_refused() {
+    let format = CosmosFormat::default();
+    for body in ["     12345     -2345\n3000 1", "3000 1\n     12345     -2345", "12 13\n14\n15"] {
+        let (line, reason) = refusal(&in_columns("2f10.3", body), &format);
+        let typed = matches!(reason, RecordError::OffColumns { .. });
+        assert!(line == 3 && typed, "{body}: {reason}");
+    }
+    // The scale factor holds for fields of the format; these are none.
+    let (line, reason) = refusal(&in_columns("1p4f10.3", "1. -2. 3. 4."), &format);
+    assert!(line == 2 && matches!(reason, RecordError::OffColumns { .. }), "{reason}");
+    // A column that ends in the midst of a number.
+    same(
+        &read(&in_columns("4f4.2", "1.5 20.25\n3. 4."), &format).unwrap(),
+        0.01,
+        &[0.015, 0.2025, 0.03, 0.04],
+    );
+}
+
+#[test]
+fn double_precision_is_read_everywhere() {
+    let wanted = [0.1, -0.2, 0.3, 0.4].map(|a| a * GRAVITY);
+    let text = "UNITS OF G\nNPTS= 4, DT= 1.D-2\n 1.0D-01-2.0d-01\n .3D0 4D-1\n";
+    same(&read(text, &PeerFormat).unwrap(), 0.01, &wanted);
+    for bad in
+        ["1,0", "1D", "D1", "1D2D3", "1E2D3", "0x1", "1_0", "1e", "\u{2212}1", "١", "1 000,5"]
+    {
+        let text = format!("UNITS OF G\nNPTS= 2, DT= .01\n{bad}\n2\n");
+        let (line, reason) = refusal(&text, &PeerFormat);
+        assert!(line == 3 && matches!(reason, RecordError::NotANumber { .. }), "{bad}: {reason}");
+    }
+}
+
+#[test]
+fn quantities_of_k_net_are_whole() {
+    let text = |frequency: &str, duration: &str, scale: &str| {
+        format!(
+            "Sampling Freq(Hz) {frequency}\nDuration Time(s)  {duration}\n\
+             Scale Factor      {scale}\nMemo.\n 1 2 3 4\n"
+        )
+    };
+    let wanted = [0.01, 0.02, 0.03, 0.04];
+    for (frequency, duration, scale) in [
+        ("2Hz", "2", "2000(gal)/2000"),
+        ("2 HZ", "2.0", " 2.0D3 (gal)/ 2000 "),
+        ("2.0", "2 sec", "2000(gal)/2.0E+03"),
+        ("2D0Hz", "2s", "1(gal)/1"),
+    ] {
+        same(&read(&text(frequency, duration, scale), &KNetFormat).unwrap(), 0.5, &wanted);
+    }
+    for (line, frequency, duration, scale) in [
+        (1, "2,0Hz", "2", "1(gal)/1"),
+        (1, "2kHz", "2", "1(gal)/1"),
+        (1, "2Hz 4Hz", "2", "1(gal)/1"),
+        (1, "2 x 1", "2", "1(gal)/1"),
+        (2, "2Hz", "2,5", "1(gal)/1"),
+        (2, "2Hz", "2 min", "1(gal)/1"),
+        (2, "2Hz", "2 3", "1(gal)/1"),
+        (3, "2Hz", "2", "1,5(gal)/1"),
+        (3, "2Hz", "2", "1(gal)/1x"),
+        (2, "2Hz\nSampling Freq(Hz) 4Hz", "2", "1(gal)/1"),
+        (3, "2Hz", "2", "1(gal)/1/2"),
+    ] {
+        let (found, reason) = refusal(&text(frequency, duration, scale), &KNetFormat);
+        let typed = matches!(reason, RecordError::Unclear { .. });
+        assert!(found == line && typed, "{frequency} {duration} {scale}: {reason}");
+    }
+}

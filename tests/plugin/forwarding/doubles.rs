@@ -1,0 +1,341 @@
+//! One double for all traits but the structure's.
+
+use basemat::bem::full_plane::{BoundaryKernel, IncidentField, Segment};
+use basemat::bem::{ContactElement, Ground};
+use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
+use basemat::fem::{Direction, Element, MassKind};
+use basemat::history::{ConvolutionHistory, HistoryChoice};
+use basemat::interface::{
+    Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+};
+use basemat::motion::{FreeField, Record, RecordFormat};
+use basemat::structure::{Hysteresis, InternalEnergy, SpringResponse};
+use basemat::{Error, Result};
+
+use super::Log;
+
+/// A number that no default knows.
+pub(crate) const CORRECT: f64 = 0.625;
+
+/// An error of the double's own.
+pub(crate) fn refusal() -> Error {
+    Error::part("double", "refuses")
+}
+
+pub(crate) fn start() -> StepStart {
+    StepStart::new(ContactState::default(), Mode::Stick, 0.01)
+}
+
+pub(crate) fn tolerance() -> Tolerance {
+    Tolerance::new(1e-9, 1e-3)
+}
+
+pub(crate) struct Double(Log);
+
+impl Double {
+    pub(crate) fn new(log: &Log) -> Self {
+        Self(log.clone())
+    }
+}
+
+impl Hysteresis for Double {
+    fn response(&self, deformation: f64) -> SpringResponse {
+        self.0.asked("response");
+        SpringResponse { force: deformation * CORRECT, tangent: CORRECT }
+    }
+
+    fn energy(&self, deformation: f64) -> InternalEnergy {
+        self.0.asked("energy");
+        InternalEnergy { stored: deformation * CORRECT, dissipated: 0.0 }
+    }
+
+    fn commit(&mut self, _: f64) {
+        self.0.asked("commit");
+    }
+
+    fn save(&self) -> Vec<f64> {
+        self.0.asked("save");
+        vec![CORRECT]
+    }
+
+    fn restore(&mut self, _: &[f64]) -> Result<()> {
+        self.0.asked("restore");
+        Err(refusal())
+    }
+}
+
+impl InterfaceLaw for Double {
+    fn modes(&self) -> &[Mode] {
+        self.0.asked("modes");
+        &[Mode::SlipLeft]
+    }
+
+    fn conditions(&self, _: Mode, _: &StepStart) -> [Condition; 2] {
+        self.0.asked("conditions");
+        [Condition::gap_is(0.0), Condition::slip_is(CORRECT)]
+    }
+
+    fn next_mode(&self, _: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+        self.0.asked("next_mode");
+        Mode::SlipRight
+    }
+
+    fn compliance(&self, _: Mode) -> [f64; 2] {
+        self.0.asked("compliance");
+        [CORRECT; 2]
+    }
+
+    fn friction_coefficient(&self) -> Option<f64> {
+        self.0.asked("friction_coefficient");
+        Some(CORRECT)
+    }
+
+    /// Smooth contact whose only closed mode is another one than the default's first.
+    fn smooth(&self) -> Box<dyn InterfaceLaw> {
+        struct Smooth(Coulomb);
+        impl InterfaceLaw for Smooth {
+            fn modes(&self) -> &[Mode] {
+                &[Mode::SlipRight]
+            }
+            fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+                self.0.conditions(mode, start)
+            }
+            fn next_mode(&self, _: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+                Mode::SlipRight
+            }
+        }
+        self.0.asked("smooth");
+        Box::new(Smooth(Coulomb::uplift_only()))
+    }
+
+    fn check(&self, _: &ContactScene) -> Result<()> {
+        self.0.asked("check");
+        Err(refusal())
+    }
+}
+
+impl Ground for Double {
+    fn elements(&self) -> &[ContactElement] {
+        self.0.asked("elements");
+        &[ContactElement { left: 0.0, right: 1.0 }]
+    }
+
+    fn prepare(&mut self, _: f64) -> Result<()> {
+        self.0.asked("prepare");
+        Err(refusal())
+    }
+
+    fn announce(&mut self, _: usize) -> Result<()> {
+        self.0.asked("announce");
+        Err(refusal())
+    }
+
+    fn reserve(&mut self, _: usize) -> Result<()> {
+        self.0.asked("reserve");
+        Err(refusal())
+    }
+
+    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+        self.0.asked("instantaneous");
+        matrix.fill(CORRECT);
+        Ok(())
+    }
+
+    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
+        self.0.asked("history");
+        displacement.fill(2.0 * CORRECT);
+        Ok(())
+    }
+
+    fn commit(&mut self, _: &[f64]) {
+        self.0.asked("commit");
+    }
+
+    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        self.0.asked("static_compliance");
+        matrix.fill(3.0 * CORRECT);
+        Ok(())
+    }
+
+    /// Only the crate makes one: that it was asked is all there is to see.
+    fn shear_wave_speed(&self) -> Option<f64> {
+        self.0.asked("shear_wave_speed");
+        Some(CORRECT)
+    }
+
+    fn history_choice(&self) -> Option<HistoryChoice> {
+        self.0.asked("history_choice");
+        None
+    }
+
+    fn increment_error_bound(&self) -> f64 {
+        self.0.asked("increment_error_bound");
+        CORRECT
+    }
+
+    fn save(&self) -> Result<Vec<f64>> {
+        self.0.asked("save");
+        Ok(vec![CORRECT])
+    }
+
+    fn restore(&mut self, _: usize, _: &[f64]) -> Result<()> {
+        self.0.asked("restore");
+        Err(refusal())
+    }
+
+    fn free_field(&self, _: &dyn FreeField, _: f64, displacement: &mut [f64]) {
+        self.0.asked("free_field");
+        displacement.fill(4.0 * CORRECT);
+    }
+}
+
+impl FreeField for Double {
+    fn displacement(&self, x: f64, _: f64) -> [f64; 2] {
+        self.0.asked("displacement");
+        [x, CORRECT]
+    }
+
+    fn velocity(&self, x: f64, _: f64) -> [f64; 2] {
+        self.0.asked("velocity");
+        [CORRECT, x]
+    }
+}
+
+impl IncidentField for Double {
+    fn displacement(&self, point: [f64; 2], _: f64) -> [f64; 2] {
+        self.0.asked("displacement");
+        [point[0], CORRECT]
+    }
+
+    fn stress(&self, point: [f64; 2], _: f64) -> [f64; 3] {
+        self.0.asked("stress");
+        [CORRECT, point[0], point[1]]
+    }
+}
+
+impl ConvolutionHistory for Double {
+    fn steps(&self) -> usize {
+        self.0.asked("steps");
+        7
+    }
+
+    fn reserve(&mut self, _: usize) -> Result<()> {
+        self.0.asked("reserve");
+        Err(refusal())
+    }
+
+    fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
+        self.0.asked("evaluate");
+        displacement.fill(CORRECT);
+        Ok(())
+    }
+
+    fn push(&mut self, _: &[f64]) {
+        self.0.asked("push");
+    }
+
+    fn increment_error_bound(&self) -> f64 {
+        self.0.asked("increment_error_bound");
+        CORRECT
+    }
+
+    fn save(&self) -> Result<Vec<f64>> {
+        self.0.asked("save");
+        Ok(vec![CORRECT])
+    }
+
+    fn restore(&mut self, _: usize, _: &[f64]) -> Result<()> {
+        self.0.asked("restore");
+        Err(refusal())
+    }
+}
+
+impl TimeScheme for Double {
+    fn coefficients(&self, time_step: f64) -> SchemeCoefficients {
+        self.0.asked("coefficients");
+        SchemeCoefficients { load_fraction: time_step, ..Midpoint.coefficients(time_step) }
+    }
+}
+
+impl Element for Double {
+    fn nodes(&self) -> &[usize] {
+        self.0.asked("nodes");
+        &[5]
+    }
+
+    fn directions(&self) -> &[Direction] {
+        self.0.asked("directions");
+        &[Direction::X, Direction::Y]
+    }
+
+    fn stiffness(&self, _: &[[f64; 2]], matrix: &mut [f64]) {
+        self.0.asked("stiffness");
+        matrix[0] += CORRECT;
+    }
+
+    fn geometric_stiffness(&self, _: &[[f64; 2]], matrix: &mut [f64]) {
+        self.0.asked("geometric_stiffness");
+        matrix[0] += 4.0 * CORRECT;
+    }
+
+    fn in_static_state(&self, _: &[[f64; 2]], _: &[f64], _: f64) -> Option<Box<dyn Element>> {
+        self.0.asked("in_static_state");
+        Some(Box::new(Double(self.0.clone())))
+    }
+
+    fn compression(&self) -> Option<f64> {
+        self.0.asked("compression");
+        Some(CORRECT)
+    }
+
+    fn mass(&self, _: &[[f64; 2]], _: MassKind, matrix: &mut [f64]) {
+        self.0.asked("mass");
+        matrix[0] += 2.0 * CORRECT;
+    }
+
+    fn damping(&self, _: &[[f64; 2]], matrix: &mut [f64]) {
+        self.0.asked("damping");
+        matrix[0] += 3.0 * CORRECT;
+    }
+
+    fn corners(&self) -> &[usize] {
+        self.0.asked("corners");
+        &[7]
+    }
+
+    fn check(&self, _: &[[f64; 2]]) -> Result<()> {
+        self.0.asked("check");
+        Err(refusal())
+    }
+
+    fn order(&self) -> usize {
+        self.0.asked("order");
+        11
+    }
+}
+
+impl BoundaryKernel for Double {
+    fn segments(&self) -> &[Segment] {
+        self.0.asked("segments");
+        &[]
+    }
+
+    fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
+        self.0.asked("coefficients");
+        g.fill(lag as f64);
+        h.fill(CORRECT);
+        Ok(())
+    }
+
+    fn symbol(&self, _: [f64; 2], _: &mut [f64], _: &mut [f64]) -> Result<Option<[f64; 2]>> {
+        self.0.asked("symbol");
+        Ok(Some([CORRECT; 2]))
+    }
+}
+
+impl RecordFormat for Double {
+    fn parse(&self, _: &str, _: &mut dyn std::io::Read) -> Result<Record> {
+        self.0.asked("parse");
+        Err(refusal())
+    }
+}

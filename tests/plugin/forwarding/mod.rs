@@ -1,0 +1,260 @@
+//! GOAL: a boxed part behaves as the part itself, and a part made of another hands on every
+//! question.
+//! SCENE: doubles that answer every method of their trait with something else than its default and
+//! write down what they were asked.
+//! REFERENCE: the methods listed in the trait's source, so that a new one that nobody forwards is
+//! found.
+#![allow(clippy::needless_pass_by_value, reason = "parts are given away, as to a builder")]
+
+mod doubles;
+mod structure;
+
+use std::collections::BTreeSet;
+use std::sync::{Arc, Mutex};
+
+use basemat::bem::full_plane::{BoundaryKernel, IncidentField};
+use basemat::bem::{Ground, SpringGround};
+use basemat::coupled::TimeScheme;
+use basemat::fem::{Element, MassKind};
+use basemat::history::ConvolutionHistory;
+use basemat::interface::{ContactState, InterfaceLaw, Mode};
+use basemat::motion::{AtRest, FreeField, RecordFormat};
+use basemat::structure::{Hysteresis, RigidBlock, Structure};
+use basemat::{Simulation, Soil};
+
+use doubles::{CORRECT, Double};
+
+/// What a double was asked.
+#[derive(Clone, Default)]
+struct Log(Arc<Mutex<BTreeSet<String>>>);
+
+impl Log {
+    fn asked(&self, method: &str) {
+        self.0.lock().unwrap().insert(method.to_owned());
+    }
+
+    fn take(&self) -> BTreeSet<String> {
+        std::mem::take(&mut self.0.lock().unwrap())
+    }
+}
+
+/// The methods of a trait, in its source.
+fn methods(source: &str, name: &str) -> BTreeSet<String> {
+    let (_, body) = source.split_once(&format!("pub trait {name}")).unwrap();
+    let (body, _) = body.split_once("\n}\n").unwrap();
+    let name = |line: &str| {
+        let (name, _) = line.strip_prefix("    fn ")?.split_once('(')?;
+        Some(name.to_owned())
+    };
+    let all: BTreeSet<_> = body.lines().filter_map(name).collect();
+    assert!(!all.is_empty());
+    all
+}
+
+macro_rules! source {
+    ($path:literal) => {
+        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/", $path))
+    };
+}
+use source;
+
+#[test]
+fn boxed_springs() {
+    fn ask(mut part: impl Hysteresis) {
+        assert_eq!(part.response(2.0).force, 2.0 * CORRECT);
+        assert_eq!(part.energy(2.0).stored, 2.0 * CORRECT);
+        part.commit(1.0);
+        assert_eq!(part.save(), [CORRECT]);
+        assert_eq!(part.restore(&[1.0]), Err(doubles::refusal()));
+    }
+    let log = Log::default();
+    let part: Box<dyn Hysteresis> = Box::new(Double::new(&log));
+    ask(part);
+    assert_eq!(log.take(), methods(source!("structure/hysteresis/mod.rs"), "Hysteresis"));
+}
+
+#[test]
+fn boxed_laws() {
+    fn ask(part: impl InterfaceLaw) {
+        let start = doubles::start();
+        let tolerance = doubles::tolerance();
+        assert_eq!(part.modes(), [Mode::SlipLeft]);
+        assert_eq!(part.conditions(Mode::Open, &start)[1].value, CORRECT);
+        let next = part.next_mode(Mode::Open, &start, &ContactState::default(), tolerance);
+        assert_eq!(next, Mode::SlipRight);
+        assert_eq!(part.compliance(Mode::Open), [CORRECT; 2]);
+        assert_eq!(part.friction_coefficient(), Some(CORRECT));
+        assert_eq!(part.smooth().modes(), [Mode::SlipRight]);
+    }
+    let log = Log::default();
+    let part = || -> Box<dyn InterfaceLaw> { Box::new(Double::new(&log)) };
+    ask(part());
+    // `check` has an argument that only a simulation can make.
+    let ground = SpringGround::new(-2.0..2.0, 4, 1e7, 1e7).unwrap();
+    let built = Simulation::builder(0.01)
+        .structure(RigidBlock::new(4.0, 4.0, 2000.0).unwrap())
+        .ground(ground)
+        .interface(part())
+        .build();
+    assert_eq!(built.err(), Some(doubles::refusal()));
+    assert_eq!(log.take(), methods(source!("interface/mod.rs"), "InterfaceLaw"));
+}
+
+#[test]
+fn boxed_grounds() {
+    fn ask(mut part: impl Ground) {
+        let mut matrix = [0.0; 4];
+        assert_eq!(part.elements().len(), 1);
+        assert_eq!(part.prepare(CORRECT), Err(doubles::refusal()));
+        assert_eq!(part.announce(3), Err(doubles::refusal()));
+        assert_eq!(part.reserve(3), Err(doubles::refusal()));
+        part.instantaneous(&mut matrix).unwrap();
+        assert_eq!(matrix, [CORRECT; 4]);
+        part.history(&mut matrix[..2]).unwrap();
+        part.commit(&[1.0, 2.0]);
+        part.static_compliance(&mut matrix).unwrap();
+        assert_eq!(matrix, [3.0 * CORRECT; 4]);
+        assert_eq!(part.shear_wave_speed(), Some(CORRECT));
+        assert_eq!(part.history_choice(), None);
+        assert_eq!(part.increment_error_bound(), CORRECT);
+        assert_eq!(part.save(), Ok(vec![CORRECT]));
+        assert_eq!(part.restore(1, &[1.0]), Err(doubles::refusal()));
+        part.free_field(&AtRest, 1.0, &mut matrix[..2]);
+        assert_eq!(matrix[..2], [4.0 * CORRECT; 2]);
+    }
+    let log = Log::default();
+    let part: Box<dyn Ground> = Box::new(Double::new(&log));
+    ask(part);
+    assert_eq!(log.take(), methods(source!("bem/mod.rs"), "Ground"));
+}
+
+#[test]
+fn boxed_motions() {
+    fn ask(part: impl FreeField) {
+        assert_eq!(part.displacement(3.0, 1.0), [3.0, CORRECT]);
+        assert_eq!(part.velocity(3.0, 1.0), [CORRECT, 3.0]);
+    }
+    let log = Log::default();
+    let part: Box<dyn FreeField> = Box::new(Double::new(&log));
+    ask(part);
+    assert_eq!(log.take(), methods(source!("motion/mod.rs"), "FreeField"));
+}
+
+#[test]
+fn boxed_incident_fields() {
+    fn ask(part: impl IncidentField) {
+        assert_eq!(part.displacement([3.0, 1.0], 1.0), [3.0, CORRECT]);
+        assert_eq!(part.stress([3.0, 1.0], 1.0), [CORRECT, 3.0, 1.0]);
+    }
+    let log = Log::default();
+    let part: Box<dyn IncidentField> = Box::new(Double::new(&log));
+    ask(part);
+    assert_eq!(log.take(), methods(source!("bem/full_plane/incident.rs"), "IncidentField"));
+}
+
+#[test]
+fn boxed_histories() {
+    fn ask(mut part: impl ConvolutionHistory) {
+        let mut values = [0.0; 2];
+        assert_eq!(part.steps(), 7);
+        assert_eq!(part.reserve(3), Err(doubles::refusal()));
+        part.evaluate(&mut values).unwrap();
+        assert_eq!(values, [CORRECT; 2]);
+        part.push(&values);
+        assert_eq!(part.increment_error_bound(), CORRECT);
+        assert_eq!(part.save(), Ok(vec![CORRECT]));
+        assert_eq!(part.restore(1, &[1.0]), Err(doubles::refusal()));
+    }
+    let log = Log::default();
+    let part: Box<dyn ConvolutionHistory> = Box::new(Double::new(&log));
+    ask(part);
+    assert_eq!(log.take(), methods(source!("history/convolution.rs"), "ConvolutionHistory"));
+}
+
+#[test]
+fn boxed_schemes() {
+    fn ask(part: impl TimeScheme) {
+        assert_eq!(part.coefficients(CORRECT).load_fraction, CORRECT);
+    }
+    let log = Log::default();
+    let part: Box<dyn TimeScheme> = Box::new(Double::new(&log));
+    ask(part);
+    assert_eq!(log.take(), methods(source!("coupled/scheme/mod.rs"), "TimeScheme"));
+}
+
+#[test]
+fn boxed_elements() {
+    fn ask(part: impl Element) {
+        let mut matrix = [0.0];
+        assert_eq!(part.nodes(), [5]);
+        assert_eq!(part.directions().len(), 2);
+        part.stiffness(&[], &mut matrix);
+        part.geometric_stiffness(&[], &mut matrix);
+        part.mass(&[], MassKind::Lumped, &mut matrix);
+        part.damping(&[], &mut matrix);
+        assert_eq!(matrix, [10.0 * CORRECT]);
+        assert!(part.in_static_state(&[], &[], 9.0).is_some());
+        assert_eq!(part.compression(), Some(CORRECT));
+        assert_eq!(part.corners(), [7]);
+        assert_eq!(part.check(&[]), Err(doubles::refusal()));
+        assert_eq!(part.order(), 11);
+    }
+    let log = Log::default();
+    let part: Box<dyn Element> = Box::new(Double::new(&log));
+    ask(part);
+    assert_eq!(log.take(), methods(source!("fem/element.rs"), "Element"));
+}
+
+#[test]
+fn boxed_kernels() {
+    fn ask(part: impl BoundaryKernel) {
+        let (mut g, mut h) = ([0.0], [0.0]);
+        assert_eq!(part.segments().len(), 0);
+        part.coefficients(2, &mut g, &mut h).unwrap();
+        assert_eq!((g, h), ([2.0], [CORRECT]));
+        assert_eq!(part.symbol([0.0; 2], &mut g, &mut h), Ok(Some([CORRECT; 2])));
+    }
+    let log = Log::default();
+    let part: Box<dyn BoundaryKernel> = Box::new(Double::new(&log));
+    ask(part);
+    assert_eq!(log.take(), methods(source!("bem/full_plane/mod.rs"), "BoundaryKernel"));
+}
+
+#[test]
+fn boxed_formats() {
+    fn ask(part: impl RecordFormat) {
+        assert_eq!(part.parse("", &mut &b""[..]), Err(doubles::refusal()));
+    }
+    let log = Log::default();
+    let part: Box<dyn RecordFormat> = Box::new(Double::new(&log));
+    ask(part);
+    assert_eq!(log.take(), methods(source!("motion/format.rs"), "RecordFormat"));
+}
+
+/// GOAL: parts chosen at run time make a simulation, the same one.
+#[test]
+fn parts_chosen_at_run_time() {
+    let soil = Soil::new(40.0e6, 0.3, 1800.0).unwrap();
+    let motion = basemat::motion::RickerDisplacement::new(0.05, 0.12, 0.6).unwrap();
+    let block = || RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
+    let ground = || basemat::bem::HalfPlaneGround::strip(soil, -2.0..2.0, 6).unwrap();
+    let law = || basemat::interface::Coulomb::new(0.4).unwrap();
+    let builder = || Simulation::builder(0.005).gravity(9.81);
+    let plain = builder().structure(block()).ground(ground()).interface(law()).motion(motion);
+    let structure: Box<dyn Structure> = Box::new(block());
+    let boxed_ground: Box<dyn Ground> = Box::new(ground());
+    let boxed_law: Box<dyn InterfaceLaw> = Box::new(law());
+    let boxed_motion: Box<dyn FreeField> = Box::new(motion);
+    let boxed_scheme: Box<dyn TimeScheme> = Box::new(basemat::coupled::Midpoint);
+    let boxed = builder()
+        .structure(structure)
+        .ground(boxed_ground)
+        .interface(boxed_law)
+        .motion(boxed_motion)
+        .scheme(boxed_scheme);
+    let (mut plain, mut boxed) = (plain.build().unwrap(), boxed.build().unwrap());
+    plain.run(200, |_| {}).unwrap();
+    boxed.run(200, |_| {}).unwrap();
+    assert_eq!(plain.state(), boxed.state());
+    assert_eq!(plain.checkpoint(), boxed.checkpoint());
+}

@@ -1,0 +1,199 @@
+//! GOAL: structures in boxes, and everything that wraps a structure, hand every question on.
+//! SCENE: a double of the trait `Structure`, boxed, grouped, with springs, damped and reduced.
+//! REFERENCE: the methods of the trait's source.
+
+use std::collections::BTreeSet;
+
+use basemat::structure::{
+    ContactNode, CraigBampton, InternalEnergy, ModalDamping, Structure, StructureGroup, Triplets,
+    WithSprings,
+};
+use basemat::{Error, Result};
+
+use super::doubles::CORRECT;
+use super::{Log, methods, source};
+
+/// Four unknowns, two of them those of the base.
+struct Double {
+    log: Log,
+    linear: bool,
+}
+
+fn refusal() -> Error {
+    Error::part("structure", "refuses")
+}
+
+fn add_diagonal(matrix: &mut Triplets, value: f64) {
+    (0..4).for_each(|i| matrix.add(i, i, value));
+}
+
+impl Structure for Double {
+    fn unknowns(&self) -> usize {
+        self.log.asked("unknowns");
+        4
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.log.asked("contact_nodes");
+        [0.0, 1.0, 2.0, 3.0].map(|x| ContactNode::free(x, 0, 1)).to_vec()
+    }
+
+    fn foundation_ends(&self) -> Vec<usize> {
+        self.log.asked("foundation_ends");
+        vec![1]
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        self.log.asked("mass");
+        add_diagonal(matrix, CORRECT);
+        // What is to be reduced must have something to do with the base.
+        for (i, j) in [(0, 2), (2, 0), (0, 3), (3, 0)].into_iter().filter(|_| self.linear) {
+            matrix.add(i, j, 1e-20);
+        }
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        self.log.asked("stiffness");
+        add_diagonal(matrix, 2.0 * CORRECT);
+    }
+
+    fn damping(&self, matrix: &mut Triplets) {
+        self.log.asked("damping");
+        add_diagonal(matrix, 3.0 * CORRECT);
+    }
+
+    fn has_active_damping(&self) -> bool {
+        self.log.asked("has_active_damping");
+        true
+    }
+
+    fn describe(&self, unknowns: &[usize]) -> Option<String> {
+        self.log.asked("describe");
+        Some(format!("places {unknowns:?}"))
+    }
+
+    fn load(&self, time: f64, load: &mut [f64]) {
+        self.log.asked("load");
+        load[0] += time;
+    }
+
+    fn is_linear(&self) -> bool {
+        self.log.asked("is_linear");
+        self.linear
+    }
+
+    fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]) {
+        self.log.asked("nonlinear_force");
+        force[0] += displacement[0];
+    }
+
+    fn nonlinear_tangent(&self, _: &[f64], matrix: &mut Triplets) {
+        self.log.asked("nonlinear_tangent");
+        add_diagonal(matrix, 4.0 * CORRECT);
+    }
+
+    fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
+        self.log.asked("nonlinear_energy");
+        Some(InternalEnergy { stored: displacement[0], dissipated: CORRECT })
+    }
+
+    fn commit(&mut self, _: &[f64]) {
+        self.log.asked("commit");
+    }
+
+    fn save(&self) -> Result<Vec<f64>> {
+        self.log.asked("save");
+        Ok(vec![CORRECT])
+    }
+
+    fn restore(&mut self, _: &[f64]) -> Result<()> {
+        self.log.asked("restore");
+        Err(refusal())
+    }
+}
+
+/// Asks all there is to ask; `damping` as it should come out on the diagonal at the unknown `place`.
+fn ask(mut part: impl Structure, place: usize, damping: f64) {
+    let ends = part.foundation_ends();
+    assert_eq!((part.unknowns(), part.contact_nodes().len(), ends), (4, 4, vec![1]));
+    let diagonal = |fill: &dyn Fn(&mut Triplets)| {
+        let mut matrix = Triplets::new(4);
+        fill(&mut matrix);
+        let entries = matrix.entries().iter();
+        entries
+            .filter(|(i, j, _)| (*i, *j) == (place, place))
+            .map(|(_, _, value)| value)
+            .sum::<f64>()
+    };
+    assert_eq!(diagonal(&|m| part.mass(m)), CORRECT);
+    assert_eq!(diagonal(&|m| part.stiffness(m)), 2.0 * CORRECT);
+    assert!((diagonal(&|m| part.damping(m)) - damping).abs() < 1e-12);
+    assert!(part.has_active_damping());
+    assert!(part.describe(&[1]).is_some_and(|text| text.ends_with("places [1]")));
+    let mut load = [0.0; 4];
+    part.load(0.25, &mut load);
+    assert_eq!(load, [0.25, 0.0, 0.0, 0.0]);
+    if part.is_linear() {
+        return;
+    }
+    part.nonlinear_force(&[0.5; 4], &mut load);
+    assert_eq!(load, [0.75, 0.0, 0.0, 0.0]);
+    assert_eq!(diagonal(&|m| part.nonlinear_tangent(&[0.0; 4], m)), 4.0 * CORRECT);
+    let energy = InternalEnergy { stored: 0.5, dissipated: CORRECT };
+    assert_eq!(part.nonlinear_energy(&[0.5; 4]), Some(energy));
+    part.commit(&[0.0; 4]);
+    let saved = part.save().unwrap();
+    assert!(saved.contains(&CORRECT));
+    assert_eq!(part.restore(&saved), Err(refusal()));
+}
+
+fn all() -> BTreeSet<String> {
+    methods(source!("structure/mod.rs"), "Structure")
+}
+
+fn double(log: &Log) -> Double {
+    Double { log: log.clone(), linear: false }
+}
+
+#[test]
+fn boxed_structures() {
+    let log = Log::default();
+    let part: Box<dyn Structure> = Box::new(double(&log));
+    ask(part, 0, 3.0 * CORRECT);
+    assert_eq!(log.take(), all());
+    // A box in a box.
+    let part: Box<dyn Structure> = Box::new(double(&log));
+    ask(Box::new(part), 0, 3.0 * CORRECT);
+    assert_eq!(log.take(), all());
+}
+
+#[test]
+fn structures_with_something_around_them() {
+    let log = Log::default();
+    ask(WithSprings::new(double(&log)), 0, 3.0 * CORRECT);
+    assert_eq!(log.take(), all());
+
+    let damped = ModalDamping::new(&[0.5]).unwrap().on(double(&log)).unwrap();
+    log.take();
+    // 2 ζ ω m more, with ω² = 6, stiffness and first tangent over mass; at an unknown that is none
+    // of the base's, for a motion of the base alone counts as rigid.
+    ask(damped, 2, CORRECT * (3.0 + 6.0_f64.sqrt()));
+    assert_eq!(log.take(), all());
+
+    ask(StructureGroup::new().with(double(&log), 0.0).unwrap(), 0, 3.0 * CORRECT);
+    assert_eq!(log.take(), all());
+}
+
+/// What a reduction keeps of a linear structure, the only kind that it takes.
+#[test]
+fn reduced_structures() {
+    let log = Log::default();
+    let full = Double { log: log.clone(), linear: true };
+    let reduced = CraigBampton::new(2).reduce(full).unwrap();
+    ask(reduced, 0, 3.0 * CORRECT);
+    let nonlinear = ["commit", "save", "restore"].map(str::to_owned);
+    let linear = all()
+        .into_iter()
+        .filter(|name| !nonlinear.contains(name) && !name.starts_with("nonlinear_"));
+    assert_eq!(log.take(), linear.collect());
+}

@@ -1,0 +1,336 @@
+//! GOAL: the linear problem: impedances, and structures under an SV pulse.
+//! SCENE: rigid strips, rigid blocks, a cantilever and a shear building, bonded or relaxed.
+//! REFERENCE: Luco & Westmann 1972, Karasudhi, Keer & Lee 1968, tables computed independently of
+//! this crate.
+
+use basemat::Soil;
+use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::coupled::State;
+use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
+
+use crate::support::cantilever::Cantilever;
+use crate::support::impedance::{impedance_errors, ricker};
+use crate::support::rigid_strip::{Contact, RigidStrip};
+use crate::support::sampled_block::under_pulse;
+use crate::support::series::{Error, Series, whole, within};
+use crate::support::table;
+
+/// Errors of `[uy_Fy, ux_Fx, th_Fx, ux_M, th_M]`.
+fn transient_errors(
+    file: &str,
+    poisson: f64,
+    mesh: (Grading, usize, f64),
+    bonded: bool,
+    load: impl Fn(f64) -> f64,
+) -> [f64; 5] {
+    let (grading, elements, time_step) = mesh;
+    let table = table(file);
+    let [vertical, horizontal, coupling, rocking] =
+        ["uy_Fy", "ux_Fx", "th_Fx", "th_M"].map(|column| Series::new(&table, column));
+    let strip = |contact| RigidStrip::new(poisson, grading, elements, time_step, contact);
+    let mut errors = [Error::default(); 5];
+    let mut runs = if bonded {
+        [strip(Contact::Bonded), strip(Contact::Bonded)]
+    } else {
+        [strip(Contact::Tangential), strip(Contact::Normal)]
+    };
+    let steps = whole(vertical.duration() / time_step);
+    for n in 1..=steps {
+        let time = n as f64 * time_step;
+        let force =
+            (load(time - time_step) + 4.0 * load(time - 0.5 * time_step) + load(time)) / 6.0;
+        let [first, second] = if bonded {
+            [runs[0].push([force, force, 0.0]), runs[1].push([0.0, 0.0, force])]
+        } else {
+            let [across, [_, down, turn]] =
+                [runs[0].push([force, 0.0, 0.0]), runs[1].push([0.0, force, force])];
+            [[across[0], down, 0.0], [0.0, 0.0, turn]]
+        };
+        errors[0].add(first[1], vertical.at(time));
+        errors[1].add(first[0], horizontal.at(time));
+        errors[2].add(first[2], coupling.at(time));
+        errors[3].add(second[0], coupling.at(time));
+        errors[4].add(second[2], rocking.at(time));
+    }
+    errors.map(Error::relative)
+}
+
+/// A column, the same quantity of a state, and whether it is a mean over the step.
+type Check<'a> = (&'a str, &'a dyn Fn(&State) -> f64, bool);
+
+/// Errors of a structure with unknowns `[u_x, u_y, θ, …]` under the vertically incident S wave of
+/// the tables.
+fn structure_errors<const N: usize>(
+    file: &str,
+    structure: impl Structure + 'static,
+    poisson: f64,
+    (grading, elements, time_step): (Grading, usize, f64),
+    checks: [Check; N],
+) -> [f64; N] {
+    let table = table(file);
+    let columns = checks.map(|check| Series::new(&table, check.0));
+    let soil = Soil::new(1.0, poisson, 1.0).unwrap();
+    let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
+    let ground = HalfPlaneGround::new(soil, &[strip]).unwrap();
+    let mut simulation = under_pulse(structure, ground, time_step);
+    let mut errors = [Error::default(); N];
+    let steps = whole(columns[0].duration() / time_step);
+    let run = simulation
+        .run(steps, |state| {
+            for k in 0..N {
+                let wanted = if checks[k].2 {
+                    columns[k].mean(state.time, time_step)
+                } else {
+                    columns[k].at(state.time)
+                };
+                errors[k].add(checks[k].1(state), wanted);
+            }
+        })
+        .unwrap();
+    assert!(run.ledger_residual < 1e-9, "ledger open by {:.1e}", run.ledger_residual);
+    assert!(run.ledger.soil > 0.0, "energy radiated: {:e}", run.ledger.soil);
+    errors.map(Error::relative)
+}
+
+fn base_motion(state: &State) -> f64 {
+    state.absolute_displacement()[0]
+}
+
+/// The tables count rotations and moments clockwise.
+fn rotation(state: &State) -> f64 {
+    -state.absolute_displacement()[2]
+}
+
+fn shear(state: &State) -> f64 {
+    state.base_shear
+}
+
+fn moment(state: &State) -> f64 {
+    -state.base_moment
+}
+
+fn block_errors(
+    name: &str,
+    poisson: f64,
+    height: f64,
+    density: f64,
+    mesh: (Grading, usize, f64),
+) -> [f64; 5] {
+    let roof = |state: &State| {
+        state.absolute_displacement()[0] - height * state.absolute_displacement()[2]
+    };
+    structure_errors(
+        &format!("td_block_SV_{name}.csv"),
+        RigidBlock::new(2.0, height, density).unwrap(),
+        poisson,
+        mesh,
+        [
+            ("u_base", &base_motion, false),
+            ("theta", &rotation, false),
+            ("u_roof", &roof, false),
+            ("V", &shear, true),
+            ("M", &moment, true),
+        ],
+    )
+}
+
+fn cantilever_errors(mesh: (Grading, usize, f64), beams: usize) -> [f64; 6] {
+    let cantilever = Cantilever::new(beams);
+    let top = cantilever.top();
+    let tip = move |state: &State| state.absolute_displacement()[top];
+    let beam_shear = |state: &State| -state.base_shear - state.acceleration()[0];
+    structure_errors(
+        "td_EBcantilever_SV_nu0333.csv",
+        cantilever,
+        1.0 / 3.0,
+        mesh,
+        [
+            ("u_base", &base_motion, false),
+            ("theta", &rotation, false),
+            ("u_top", &tip, false),
+            ("V_beam", &beam_shear, true),
+            ("V", &shear, true),
+            ("M", &moment, true),
+        ],
+    )
+}
+
+fn building_errors(mesh: (Grading, usize, f64)) -> [f64; 7] {
+    let storey = Storey {
+        height: 1.0,
+        mass: 1.0,
+        rotary_inertia: 1.0 / 3.0,
+        stiffness: 2.0,
+        damping: 2.0 * 0.158_885_451_5,
+    };
+    let building = ShearBuilding::new(2.0, 1.0, 1.0 / 3.0, &[storey; 3]).unwrap();
+    let first_shear = building.shear(0).unwrap();
+    // Storey displacements relative to the frame of the base.
+    let relative = |j: usize| {
+        move |state: &State| {
+            let u = state.absolute_displacement();
+            u[2 + j] - u[0] + j as f64 * u[2]
+        }
+    };
+    let storey_shear = move |s: &State| {
+        first_shear.value(s.absolute_displacement(), s.velocity(), s.acceleration())
+    };
+    structure_errors(
+        "td_shearbuilding3_SV_nu0333_sig1.csv",
+        building,
+        1.0 / 3.0,
+        mesh,
+        [
+            ("u_base", &base_motion, false),
+            ("theta", &rotation, false),
+            ("v1", &relative(1), false),
+            ("v3", &relative(3), false),
+            ("V1", &storey_shear, false),
+            ("V", &shear, true),
+            ("M", &moment, true),
+        ],
+    )
+}
+
+const U8: (Grading, usize, f64) = (Grading::Uniform, 8, 0.05);
+const U16: (Grading, usize, f64) = (Grading::Uniform, 16, 0.05);
+const U32: (Grading, usize, f64) = (Grading::Uniform, 32, 0.05);
+const C8: (Grading, usize, f64) = (Grading::Cosine, 8, 0.05);
+const C16: (Grading, usize, f64) = (Grading::Cosine, 16, 0.05);
+
+const POISSON: [(&str, f64); 3] = [("0", 0.0), ("025", 0.25), ("0333", 1.0 / 3.0)];
+
+/// Errors of the impedances on four meshes, their limits, and the order in the element size.
+fn check_impedances(bonded: bool) {
+    let (kind, names) = if bonded {
+        ("bonded", &["khh", "kvv", "krr", "khr"][..])
+    } else {
+        ("relaxed", &["khh", "kvv", "krr"][..])
+    };
+    let count = names.len();
+    for (name, poisson) in POISSON {
+        let file = format!("strip_{kind}_nu{name}_xi00.csv");
+        let limits = [
+            (U8, [4e-2, 4e-2, 1.3e-1, 7.3e-2]),
+            (U16, [2e-2, 2e-2, 6.2e-2, 3.5e-2]),
+            (C8, [1.3e-2, 1.3e-2, 3.9e-2, 1.9e-2]),
+            (C16, [3.5e-3, 3.3e-3, 9.7e-3, 6.2e-3]),
+        ];
+        let [u8, u16, c8, c16] = limits.map(|(mesh, limits)| {
+            let errors = impedance_errors(&file, poisson, mesh, bonded);
+            let scene = format!("{kind} {name} {:?} {}", mesh.0, mesh.1);
+            within(&scene, names, &errors[..count], &limits[..count]);
+            errors
+        });
+        for k in 0..3 {
+            let (uniform, cosine) = ((u8[k] / u16[k]).log2(), (c8[k] / c16[k]).log2());
+            assert!((0.9..1.2).contains(&uniform), "order of {}: {uniform}", names[k]);
+            assert!((1.7..2.3).contains(&cosine), "order of {}: {cosine}", names[k]);
+        }
+    }
+}
+
+/// GOAL: the soil operator alone, all components, is the half-plane's, and converges to it.
+/// SCENE: massless rigid strip, bonded; a Ricker pulse of each rigid motion, Fourier transformed.
+/// REFERENCE: impedances over a₀, the problem of Luco & Westmann 1972, by a spectral method.
+#[test]
+fn luco_westmann_1972_bonded_strip() {
+    check_impedances(true);
+    let file = "strip_bonded_nu0333_xi00.csv";
+    let errors = impedance_errors(file, 1.0 / 3.0, U32, true);
+    let limits = [8.5e-3, 9.5e-3, 2.9e-2, 1.8e-2];
+    within("bonded 0333 Uniform 32", &["khh", "kvv", "krr", "khr"], &errors, &limits);
+}
+
+/// GOAL: as above for the diagonal parts of the operator, without their coupling.
+/// SCENE: the strip presses without friction, or drags without pressure.
+/// REFERENCE: relaxed impedances, the problem of Karasudhi, Keer & Lee 1968.
+#[test]
+fn karasudhi_keer_lee_1968_relaxed_strip() {
+    check_impedances(false);
+}
+
+/// GOAL: the operator in time, with forces prescribed.
+/// SCENE: massless rigid strip under a Gaussian or Ricker pulse of each force.
+/// REFERENCE: `td_strip_*`, Fourier syntheses of the impedances, in time.
+#[test]
+fn td_strip_force_pulses() {
+    let gauss = |t: f64| (-((t - 3.0) / 0.5).powi(2)).exp();
+    let names = ["uy_Fy", "ux_Fx", "th_M", "th_Fx", "ux_M"];
+    let order = [0, 1, 4, 2, 3];
+    for (kind, count) in [("bonded", 5), ("relaxed", 3)] {
+        for (name, poisson) in &POISSON[1..] {
+            for (pulse, limits) in [
+                (
+                    "gauss",
+                    [
+                        [7e-3, 6.4e-3, 3e-2, 2.6e-2, 2.6e-2],
+                        [1.8e-3, 1.6e-3, 7.5e-3, 6.6e-3, 6.6e-3],
+                    ],
+                ),
+                (
+                    "ricker2",
+                    [[1.2e-2, 1e-2, 3.5e-2, 3.9e-2, 3.9e-2], [3.1e-3, 2.6e-3, 8.4e-3, 1e-2, 1e-2]],
+                ),
+            ] {
+                let file = format!("td_strip_{kind}_nu{name}_{pulse}.csv");
+                let load = |t: f64| if pulse == "gauss" { gauss(t) } else { ricker(t, 1.0, 5.0) };
+                for (mesh, limits) in [C8, C16].into_iter().zip(limits) {
+                    let errors = transient_errors(&file, *poisson, mesh, kind == "bonded", load);
+                    let errors = order.map(|k| errors[k]);
+                    let scene = format!("{kind} {name} {pulse} cosine {}", mesh.1);
+                    within(&scene, &names[..count], &errors[..count], &limits[..count]);
+                }
+            }
+        }
+    }
+}
+
+/// GOAL: structure, soil and incident wave together, forces on the soil included.
+/// SCENE: rigid blocks of three slendernesses, bonded, vertically incident SV Ricker pulse.
+/// REFERENCE: `td_block_SV_*`, frequency domain; forces as their means over the step.
+#[test]
+fn td_block_under_sv_pulse() {
+    let names = ["u_base", "theta", "u_roof", "V", "M"];
+    let third = 1.0 / 3.0;
+    for (name, poisson, height, density, limits) in [
+        ("nu025_h1_rho1", 0.25, 1.0, 1.0, [4e-3, 8.5e-3, 9.3e-3, 2e-3, 1.5e-2]),
+        ("nu025_h2_rho1", 0.25, 2.0, 1.0, [4.5e-3, 5.2e-3, 8.2e-3, 2.7e-3, 1.5e-2]),
+        ("nu025_h4_rho0.5", 0.25, 4.0, 0.5, [3.6e-3, 3.8e-3, 4.8e-3, 2.9e-3, 1.6e-2]),
+        ("nu0333_h1_rho1", third, 1.0, 1.0, [3.6e-3, 8.5e-3, 8.7e-3, 2e-3, 1.4e-2]),
+        ("nu0333_h2_rho1", third, 2.0, 1.0, [4.2e-3, 5.1e-3, 8.3e-3, 2.4e-3, 1.5e-2]),
+        ("nu0333_h4_rho0.5", third, 4.0, 0.5, [3.4e-3, 3.7e-3, 5e-3, 2.7e-3, 1.6e-2]),
+    ] {
+        let errors = block_errors(name, poisson, height, density, C16);
+        within(&format!("block {name} cosine 16"), &names, &errors, &limits);
+    }
+    for (mesh, limits) in [
+        (U8, [4.8e-2, 5.9e-2, 1e-1, 3e-2, 1.8e-1]),
+        (U16, [2.3e-2, 2.8e-2, 5e-2, 1.5e-2, 8.5e-2]),
+        (U32, [1.2e-2, 1.4e-2, 2.4e-2, 7.3e-3, 4.2e-2]),
+        (C8, [1.5e-2, 1.8e-2, 3.2e-2, 9.2e-3, 5.3e-2]),
+    ] {
+        let errors = block_errors("nu0333_h2_rho1", third, 2.0, 1.0, mesh);
+        within(&format!("block nu0333_h2_rho1 {:?} {}", mesh.0, mesh.1), &names, &errors, &limits);
+    }
+}
+
+/// GOAL: a flexible structure of finite elements with damping, brought by a user.
+/// SCENE: Euler–Bernoulli cantilever (8 beams) on a bonded rigid base, SV Ricker pulse.
+/// REFERENCE: `td_EBcantilever_SV_nu0333.csv`, exact beam functions in the frequency domain.
+#[test]
+fn td_cantilever_under_sv_pulse() {
+    let names = ["u_base", "theta", "u_top", "V_beam", "V", "M"];
+    let limits = [3.8e-3, 6.9e-3, 6.1e-3, 3.6e-3, 3.2e-3, 1.3e-2];
+    within("cantilever cosine 16", &names, &cantilever_errors(C16, 8), &limits);
+}
+
+/// GOAL: the shear building, its storeys' dashpots and section forces.
+/// SCENE: three storeys on a massive bonded base, SV Ricker pulse.
+/// REFERENCE: `td_shearbuilding3_SV_nu0333_sig1.csv`, frequency domain.
+#[test]
+fn td_shear_building_under_sv_pulse() {
+    let names = ["u_base", "theta", "v1", "v3", "V1", "V", "M"];
+    let limits = [3.3e-3, 4.5e-3, 3.8e-3, 7.6e-3, 3.4e-3, 2.1e-3, 1.15e-2];
+    within("shear building cosine 16", &names, &building_errors(C16), &limits);
+}

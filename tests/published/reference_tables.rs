@@ -1,0 +1,214 @@
+//! GOAL: closed forms against tables.
+//! SCENE: Housner's and Newmark's blocks, strips on the half-plane and on springs.
+//! REFERENCE: tables computed independently of this crate.
+
+use basemat::Soil;
+use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
+use basemat::reference::{
+    NoTensionStrip, RigidStrip, RockingBlock, SlidingBlock, SlidingEvent, WinklerStrip,
+};
+
+use crate::support::{close, table};
+
+/// Housner 1963: periods and next amplitudes of the block 1 m × 4 m.
+#[test]
+fn housner_1963_periods_and_peaks() {
+    let block = RockingBlock::new(0.5, 2.0, 9.81).unwrap();
+    close("alpha", block.slenderness_angle(), 0.244_978_663_126_864, 1e-15, 0.0);
+    close("p", block.frequency_parameter(), 1.889_156_352_028_5, 0.0, 1e-13);
+    close("restitution", block.restitution(), 0.911_764_705_882_353, 1e-15, 0.0);
+    let alpha = block.slenderness_angle();
+    let rows = table("housner_period.csv").rows([
+        "theta0_over_alpha",
+        "T_exact",
+        "T_housner_linear",
+        "next_amp_over_alpha_exact",
+        "next_amp_over_alpha_housner",
+    ]);
+    assert_eq!(rows.len(), 19);
+    for [ratio, exact, slender, next, next_slender] in rows {
+        let amplitude = ratio * alpha;
+        close("period", block.period(amplitude).unwrap(), exact, 0.0, 1e-12);
+        close("slender period", block.period_slender(amplitude).unwrap(), slender, 0.0, 1e-12);
+        close("peak", block.next_peak(amplitude).unwrap() / alpha, next, 0.0, 1e-12);
+        let peak = block.next_peak_slender(amplitude).unwrap() / alpha;
+        close("slender peak", peak, next_slender, 0.0, 1e-12);
+    }
+}
+
+/// Housner 1963: 44 impacts after release, and the amplitudes between them.
+#[test]
+fn housner_1963_free_rocking() {
+    let block = RockingBlock::new(0.5, 2.0, 9.81).unwrap();
+    let start = 0.6 * block.slenderness_angle();
+    let table = table("housner_free.csv");
+    let words = table.words_after("impact times:");
+    let times = block.impact_times(start, words.len()).unwrap();
+    assert_eq!(times.len(), 44);
+    for (time, word) in times.iter().zip(&words) {
+        close("impact time", *time, word.parse().unwrap(), 1e-10, 0.0);
+    }
+    // the largest tabulated tilt between two impacts is at most half a sample from the peak, where
+    // the tilt is below it by p² sin(α) (Δt/2)²/2 at most
+    let below = block.frequency_parameter().powi(2) * 0.25 * 0.005_f64.powi(2) / 2.0;
+    let rows = table.rows(["t", "theta"]);
+    let mut amplitude = start;
+    for impacts in times.windows(2).take(20) {
+        amplitude = block.next_peak(amplitude).unwrap();
+        let within = rows.iter().filter(|row| row[0] > impacts[0] && row[0] < impacts[1]);
+        let peak = within.fold(0.0, |most: f64, row| most.max(row[1].abs()));
+        assert!(peak <= amplitude + 1e-12 && peak >= amplitude - below, "{peak} {amplitude}");
+    }
+    // rate before the first impact: the tabulated rate is linear there to (p Δt)²
+    let before = rows.iter().zip(table.column("omega")).rev().find(|(row, _)| row[0] < times[0]);
+    let ([time, _], rate) = before.map(|(row, rate)| (*row, rate)).unwrap();
+    let acceleration = block.frequency_parameter().powi(2) * block.slenderness_angle().sin();
+    let expected = rate.abs() + acceleration * (times[0] - time);
+    close("impact rate", block.impact_rate(start).unwrap(), expected, 1e-6, 0.0);
+}
+
+/// Newmark 1965: sine shaking, events and slip against the exact solution for the sine itself.
+#[test]
+fn newmark_1965_sine() {
+    for (file, amplitude, frequency, friction) in [
+        ("newmark_sine_A0.3g_f0.5_mu0.25.csv", 0.3, 0.5, 0.25),
+        ("newmark_sine_A0.4g_f1.0_mu0.2.csv", 0.4, 1.0, 0.2),
+        ("newmark_sine_A0.8g_f2.0_mu0.1.csv", 0.8, 2.0, 0.1),
+    ] {
+        let (step, gravity) = (1e-4, 9.81);
+        let omega = 2.0 * std::f64::consts::PI * frequency;
+        let ground = |k: i32| amplitude * gravity * (omega * f64::from(k) * step).sin();
+        let record = Record::new(step, (0..=104_000).map(ground).collect()).unwrap();
+        let history = SlidingBlock::new(friction, gravity).unwrap().slide(&record);
+        let table = table(file);
+        // the table's events go on past its last row at 10 s, so 10.4 s;
+        // the polygon departs from the sine by A (ω Δt)²/8, 2e-7 of it at 2 Hz; slip velocities
+        // and slips then by that over the duration
+        for [time, velocity, slip] in table.rows(["t", "v_rel", "d_rel"]) {
+            close(file, history.slip_velocity(time), velocity, 2e-6, 0.0);
+            close(file, history.slip(time), slip, 2e-6, 0.0);
+        }
+        let words = table.words_after("exact events:");
+        assert!(words.len() >= 20 && history.events().len() >= words.len());
+        for (word, event) in words.iter().zip(history.events()) {
+            let (time, kind) = word.split_once(':').unwrap();
+            // the table calls every zero of the slip velocity a stop
+            let found = match (*event, kind) {
+                (SlidingEvent::Slip { time }, "slip")
+                | (SlidingEvent::Stop { time } | SlidingEvent::Reversal { time }, "stop") => time,
+                other => panic!("{file}: {other:?} at {time}"),
+            };
+            close(file, found, time.parse().unwrap(), 1e-6, 0.0);
+        }
+    }
+}
+
+/// Newmark 1965: slip under El Centro for eight friction coefficients.
+#[test]
+fn newmark_1965_el_centro() {
+    let table = table("sliding_rigid_block.csv");
+    let columns = ["mu", "slip_max_m", "slip_min_m", "slip_residual_m", "max_abs_slip_m"];
+    let records = table.text("record");
+    let rows = table.rows(columns);
+    let rows = rows.iter().zip(records).filter(|(_, record)| *record == "peknold");
+    let mut count = 0;
+    for ([friction, maximum, minimum, residual, largest], _) in rows {
+        let block = SlidingBlock::new(*friction, STANDARD_GRAVITY).unwrap();
+        let history = block.slide(&el_centro_1940());
+        // the table's own sub-steps leave 2e-6 m
+        close("maximum", history.maximum(), *maximum, 2.5e-6, 0.0);
+        close("minimum", history.minimum(), *minimum, 2.5e-6, 0.0);
+        close("residual", history.residual(), *residual, 2.5e-6, 0.0);
+        let found = history.maximum().max(-history.minimum());
+        close("largest", found, *largest, 2.5e-6, 0.0);
+        count += 1;
+    }
+    assert_eq!(count, 8);
+}
+
+/// Tilted rigid strip on the half-plane, smooth and fully sliding, with and without uplift.
+#[test]
+fn half_plane_no_tension_strip() {
+    let table = table("halfplane_tilted_punch.csv");
+    let columns = ["nu", "f", "e", "g", "contact_length", "x_left", "x_right", "theta"];
+    let rows = table.rows(columns);
+    assert!(rows.len() > 200);
+    for [poisson, friction, eccentricity, exponent, length, left, right, theta] in rows {
+        let soil = Soil::new(1.0, poisson, 1.0).unwrap();
+        let strip = NoTensionStrip::new(soil, 1.0, friction).unwrap();
+        close("exponent", strip.exponent(), exponent, 1e-12, 0.0);
+        let contact = strip.contact(1.0, eccentricity).unwrap();
+        close("length", contact.length(), length, 1e-10, 0.0);
+        close("left", contact.left, left, 1e-10, 0.0);
+        close("right", contact.right, right, 1e-10, 0.0);
+        // the table's theta lowers the right side
+        close("tilt", contact.tilt, -theta, 1e-10, 1e-10);
+        let moment = strip.moment(1.0, contact.tilt).unwrap();
+        close("moment", moment, -eccentricity, 1e-12, 0.0);
+    }
+}
+
+/// Rigid strip on springs without tension.
+#[test]
+fn winkler_no_tension_strip() {
+    let (stiffness, half_width, load) = (3e7, 2.5, 4e5);
+    let strip = WinklerStrip::new(stiffness, half_width).unwrap();
+    let uplift = strip.uplift_tilt(load).unwrap();
+    let rows = table("winkler_static_M_theta.csv").rows([
+        "theta_over_thu",
+        "M_over_NB",
+        "contact_over_2B",
+    ]);
+    assert!(rows.len() > 50);
+    for [ratio, moment, contact] in rows {
+        for side in [1.0, -1.0] {
+            let tilt = side * ratio * uplift;
+            let found = strip.moment(load, tilt).unwrap() / (load * half_width);
+            close("moment", found, side * moment, 0.0, 1e-11);
+            let found = strip.contact_length(load, tilt).unwrap() / (2.0 * half_width);
+            close("contact", found, contact, 0.0, 1e-11);
+        }
+    }
+}
+
+/// Static and high-frequency limits of the strip against the ends of its impedance tables.
+#[test]
+fn rigid_strip_limits() {
+    for (name, poisson) in [("0", 0.0), ("025", 0.25), ("0333", 1.0 / 3.0)] {
+        let strip = RigidStrip::new(Soil::new(1.0, poisson, 1.0).unwrap(), 1.0).unwrap();
+        let relaxed = table(&format!("strip_relaxed_nu{name}_xi00.csv"));
+        let bonded = table(&format!("strip_bonded_nu{name}_xi00.csv"));
+        for (table, rocking) in [
+            (&relaxed, strip.smooth_rocking_stiffness()),
+            (&bonded, strip.bonded_rocking_stiffness()),
+        ] {
+            // the departure goes with a₀² ln a₀: below 4e-4 at a₀ = 0.01, and the larger one at
+            // 0.05 says that it tends to zero
+            let compliance = table.column("re_crr");
+            close("static rocking", 1.0 / compliance[0], rocking, 0.0, 4e-4);
+            let (near, far) = (compliance[0] * rocking - 1.0, compliance[1] * rocking - 1.0);
+            assert!(near.abs() < far.abs() / 12.0, "{near:e} {far:e}");
+            let quadrature = strip.quadrature_compliance();
+            close("Im c_hh", table.column("im_chh")[0], quadrature, 0.0, 2e-3);
+            close("Im c_vv", table.column("im_cvv")[0], quadrature, 0.0, 5e-3);
+            // slope over ln(1/a₀) between the first two frequencies
+            for column in ["re_chh", "re_cvv"] {
+                let values = table.column(column);
+                let slope = (values[0] - values[1]) / 5.0_f64.ln();
+                close("log slope", slope, strip.logarithmic_compliance(), 0.0, 0.01);
+            }
+            let last = table.len() - 1;
+            let frequency = table.column("a0")[last];
+            for (column, dashpot) in [
+                ("im_khh", strip.horizontal_dashpot()),
+                ("im_kvv", strip.vertical_dashpot()),
+                ("im_krr", strip.rocking_dashpot()),
+            ] {
+                close(column, table.column(column)[last] / frequency, dashpot, 0.0, 0.03);
+            }
+        }
+        // c_hr/c_rr = −K_hr/K_hh; the table's rotation is clockwise, which turns its sign
+        let coupling = bonded.column("re_chr")[0] / bonded.column("re_crr")[0];
+        close("coupling", coupling, strip.bonded_coupling_length(), 0.0, 1e-3);
+    }
+}

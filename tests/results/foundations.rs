@@ -1,0 +1,86 @@
+//! GOAL: a summary tells of each foundation what a run of its own tells.
+//! SCENE: a tower and a block on independent springs.
+//! REFERENCE: each of them alone.
+
+use basemat::coupled::{Extremes, Peak};
+use basemat::prelude::*;
+
+fn tower() -> RigidBlock {
+    RigidBlock::new(4.0, 12.0, 1500.0).unwrap()
+}
+
+fn block() -> RigidBlock {
+    RigidBlock::new(3.0, 3.0, 1800.0).unwrap()
+}
+
+/// On springs, where what stands on one foundation knows nothing of the other.
+fn march(structure: impl Structure + 'static) -> Summary {
+    let ground = SpringGround::under(&structure, 8, 2e7, 1e7).unwrap();
+    let mut simulation = Simulation::builder(0.005)
+        .structure(structure)
+        .ground(ground.with_dashpots(2e5, 1e5).unwrap())
+        .interface(Coulomb::new(0.35).unwrap())
+        .motion(el_centro_1940())
+        .build()
+        .unwrap();
+    Recorder::new().run(&mut simulation, 1200).unwrap().summary()
+}
+
+#[track_caller]
+fn same(a: Peak, b: Peak, scale: f64) {
+    assert!((a.value - b.value).abs() < 1e-9 * scale, "{a:?} {b:?}");
+    assert!((a.time - b.time).abs() < 1e-9, "{a:?} {b:?}");
+}
+
+#[track_caller]
+fn alike(a: Extremes, b: Extremes) {
+    let scale = a.largest().value.abs();
+    same(a.lowest, b.lowest, scale);
+    same(a.highest, b.highest, scale);
+}
+
+#[test]
+fn each_foundation_is_summed_up_by_itself() {
+    let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 10.0).unwrap();
+    let both = march(group);
+    let alone = [march(tower()), march(block())];
+    assert_eq!(both.foundations.len(), 2);
+    assert_eq!(both.foundations[1].elements, 8..16);
+    assert_eq!(both.foundations[1].ends, [8.5, 11.5]);
+    for (own, alone) in both.foundations.iter().zip(&alone) {
+        assert!((own.static_normal_force / alone.static_normal_force - 1.0).abs() < 1e-9);
+        alike(alone.base_shear, own.base_shear);
+        alike(alone.base_moment, own.base_moment);
+        alike(alone.normal_force, own.normal_force);
+        alike(alone.base_rotation, own.base_rotation);
+        same(alone.uplift.peak, own.uplifted_fraction, 1.0);
+        same(alone.sliding.peak, own.mean_slip.largest(), 1e-3);
+        assert!((alone.sliding.residual - own.residual_slip).abs() < 1e-9);
+        let sliding = [alone.least_sliding_safety, own.least_sliding_safety];
+        assert!(sliding.iter().all(|peak| peak.is_some_and(|peak| peak.value >= 1.0 - 1e-9)));
+        let overturning = own.least_overturning_safety.value;
+        assert!((alone.least_overturning_safety.value - overturning).abs() < 1e-9);
+        // A single foundation is all there is.
+        let [only] = &alone.foundations[..] else { panic!("one foundation") };
+        assert_eq!(only.base_shear, alone.base_shear);
+        assert_eq!(only.least_overturning_safety, alone.least_overturning_safety);
+        assert_eq!(only.least_sliding_safety, alone.least_sliding_safety);
+    }
+    // They are not alike, so nothing above holds by chance; the tower rocks.
+    let [tower, block] = &both.foundations[..] else { unreachable!() };
+    let turned =
+        |own: &basemat::results::FoundationSummary| own.base_rotation.largest().magnitude();
+    assert!(tower.uplifted_fraction.value > 0.2 && turned(tower) > 2.0 * turned(block));
+
+    let page = both.to_string();
+    println!("{page}");
+    assert!(page.contains("-2.00 to 2.00") && page.contains("8.50 to 11.50"), "{page}");
+    assert!(!alone[0].to_string().contains("-2.00 to 2.00"));
+    // Not all 16 elements are printed, which is said; that with the largest pressure is.
+    assert!(page.contains("of 16 elements"));
+    let (element, peak) = both.largest_pressure().unwrap();
+    let line = page
+        .lines()
+        .find(|line| line.trim_start().starts_with(&format!("{:.3} ", element.element.center())));
+    assert!(line.is_some_and(|line| line.contains(&format!("{:.3}", peak.time))), "{page}");
+}

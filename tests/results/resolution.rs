@@ -1,0 +1,167 @@
+//! Warnings of time steps and elements that miss what structure and ground do.
+
+use std::f64::consts::PI;
+
+use basemat::coupled::{Run, Warning};
+use basemat::motion::{FreeFieldFn, RickerDisplacement, TravellingWave};
+use basemat::prelude::*;
+
+/// Largest base shear of the three storeys under El Centro with steps of 1 ms, N/m.
+const THREE_STOREYS: f64 = 703.6e3;
+/// Root-mean-square frequency of El Centro's acceleration, Hz.
+const EL_CENTRO: f64 = 3.65;
+/// Period of the slender block in rocking on its soil, from the same run at 1 ms, s.
+const SLENDER: f64 = 0.85;
+
+fn soil(speed: f64) -> Soil {
+    Soil::from_shear_wave_speed(speed, 0.33, 1900.0).unwrap()
+}
+
+fn storeys() -> ShearBuilding {
+    let storeys = [Storey::new(3.0, 30e3, 60e6); 3];
+    let building = ShearBuilding::new(8.0, 60e3, 4e5, &storeys).unwrap();
+    building.with_stiffness_damping(0.05).unwrap()
+}
+
+/// Ten seconds of a bonded structure, its page and the page of its summary.
+fn run(
+    structure: impl Structure + 'static,
+    motion: impl FreeField + 'static,
+    soil: Soil,
+    elements: usize,
+    time_step: f64,
+) -> (Run, Summary) {
+    let mut simulation = Simulation::builder(time_step)
+        .ground(HalfPlaneGround::under(soil, &structure, elements).unwrap())
+        .structure(structure)
+        .motion(motion)
+        .interface(Bonded)
+        .build()
+        .unwrap();
+    let mut histories = Recorder::new().start(&simulation).unwrap();
+    let steps = simulation.steps_for(10.0);
+    let run = histories.run(&mut simulation, steps).unwrap();
+    let summary = histories.summary();
+    assert_eq!(run.warnings, summary.warnings);
+    for warning in &run.warnings {
+        let line = format!("warning: {warning}");
+        assert!(run.to_string().contains(&line) && summary.to_string().contains(&line));
+        assert!(line.chars().count() <= 100, "{line}");
+    }
+    (run, summary)
+}
+
+fn ricker(frequency: f64) -> RickerDisplacement {
+    RickerDisplacement::new(0.05, 1.0 / (PI * frequency), 2.0).unwrap()
+}
+
+/// The frequency is that of the record, though none of these steps sees it; a run with the step that
+/// is asked for is right.
+#[test]
+fn steps_that_miss_the_record() {
+    let shake = |step| run(storeys(), el_centro_1940(), soil(250.0), 12, step).0;
+    for time_step in [0.1, 0.2, 0.5, 1.0] {
+        let run = shake(time_step);
+        let error = (run.base_shear.magnitude() / THREE_STOREYS - 1.0).abs();
+        assert!(error > 0.15, "Δt = {time_step}: {error}");
+        let [Warning::UnresolvedMotion { frequency, time_step: told, needed }] = run.warnings[..]
+        else {
+            panic!("Δt = {time_step}: {:?}", run.warnings)
+        };
+        assert!((frequency / EL_CENTRO - 1.0).abs() < 0.05, "{frequency}");
+        assert_eq!(told, time_step);
+        let resolved = shake(needed);
+        let error = (resolved.base_shear.magnitude() / THREE_STOREYS - 1.0).abs();
+        assert!(error < 0.06, "Δt = {needed}: {error}");
+        assert_eq!(resolved.warnings, []);
+    }
+}
+
+/// A pulse of 1 Hz is resolved by ten steps a second, the rocking that it leaves behind is not.
+#[test]
+fn steps_that_miss_the_structure() {
+    let block = || RigidBlock::new(10.0, 25.0, 2000.0).unwrap();
+    let shake = |step| run(block(), ricker(1.0), soil(200.0), 12, step).0;
+    let fine = shake(2.5e-3);
+    assert_eq!(fine.warnings, []);
+    let coarse = shake(0.1);
+    assert!(coarse.base_shear.magnitude() < 0.75 * fine.base_shear.magnitude());
+    let [Warning::UnresolvedPeriod { period, time_step: 0.1, needed }] = coarse.warnings[..] else {
+        panic!("{:?}", coarse.warnings)
+    };
+    assert!((period / SLENDER - 1.0).abs() < 0.2, "{period}");
+    let resolved = shake(needed);
+    let error = resolved.base_shear.magnitude() / fine.base_shear.magnitude() - 1.0;
+    assert!(error.abs() < 0.1, "{error}");
+    assert_eq!(resolved.warnings, []);
+}
+
+/// A squat block on stiff soil vibrates far too fast for the step, and follows the ground.
+#[test]
+fn stiff_structures_need_no_fine_steps() {
+    let shake = |step| {
+        let block = RigidBlock::new(10.0, 5.0, 2000.0).unwrap();
+        run(block, ricker(1.0), soil(1500.0), 8, step).0
+    };
+    let (fine, coarse) = (shake(2e-3), shake(0.08));
+    let error = coarse.base_shear.magnitude() / fine.base_shear.magnitude() - 1.0;
+    assert!(error.abs() < 0.06, "{error}");
+    assert_eq!(coarse.warnings, []);
+}
+
+/// What is recorded step by step is judged by what the steps saw.
+#[test]
+fn recorded_by_hand() {
+    let structure = storeys();
+    let mut simulation = Simulation::builder(0.5)
+        .ground(HalfPlaneGround::under(soil(250.0), &structure, 12).unwrap())
+        .structure(structure)
+        .motion(el_centro_1940())
+        .interface(Bonded)
+        .build()
+        .unwrap();
+    let mut histories = Recorder::new().start(&simulation).unwrap();
+    for _ in 0..20 {
+        histories.record(simulation.step().unwrap());
+    }
+    let warnings = histories.summary().warnings;
+    assert!(matches!(warnings[..], [Warning::UnresolvedMotion { .. }]), "{warnings:?}");
+}
+
+/// Rocking on one element meets no stiffness, on two too little of it.
+#[test]
+fn too_few_elements() {
+    let shake = |elements| run(storeys(), el_centro_1940(), soil(250.0), elements, 5e-3).0;
+    let fine = shake(12).base_shear.magnitude();
+    for elements in [1, 2, 3] {
+        let found = shake(elements).warnings;
+        assert_eq!(found, [Warning::FewElements { foundation: 0, elements, needed: 4 }]);
+    }
+    assert!(shake(1).base_shear.magnitude() < 0.5 * fine);
+    let enough = shake(4);
+    assert!((enough.base_shear.magnitude() / fine - 1.0).abs() < 0.05);
+    assert_eq!(enough.warnings, []);
+}
+
+/// A pulse of 8 Hz that runs along a raft of 40 m with the soil's shear wave speed.
+#[test]
+fn elements_longer_than_waves() {
+    let shake = |elements| {
+        let block = RigidBlock::new(40.0, 5.0, 2000.0).unwrap();
+        let pulse = FreeFieldFn::new(|_, t| {
+            let a = PI * 8.0 * (t - 1.0);
+            [1e-3 * (1.0 - 2.0 * a * a) * (-a * a).exp(), 0.0]
+        });
+        let wave = TravellingWave::new(pulse, 100.0, -20.0).unwrap();
+        run(block, wave, soil(100.0), elements, 4e-3).0
+    };
+    let fine = shake(40);
+    assert_eq!(fine.warnings, []);
+    let coarse = shake(5);
+    let error = coarse.base_shear.magnitude() / fine.base_shear.magnitude() - 1.0;
+    assert!(error.abs() > 0.1, "{error}");
+    let [Warning::LongElements { element_length, wavelength, needed }] = coarse.warnings[..] else {
+        panic!("{:?}", coarse.warnings)
+    };
+    assert!((element_length - 8.0).abs() < 1e-12 && wavelength < 32.0 && needed < 4.0);
+}

@@ -1,0 +1,131 @@
+//! GOAL: beams and trusses.
+//! SCENE: cantilevers in any direction, with and without shear flexibility; a bracket of two bars.
+//! REFERENCE: Euler–Bernoulli and Timoshenko theory, orders of convergence.
+
+use crate::support::dense::{eigenvalues, form, mass, part, solve_held, stiffness};
+use basemat::fem::{Beam, Direction, MassKind, Mesh, Truss};
+use basemat::structure::{FemModel, Structure};
+
+const E: f64 = 30.0e9;
+const AREA: f64 = 0.4;
+const INERTIA: f64 = 0.02;
+const DENSITY: f64 = 2400.0;
+
+/// Straight beam of `length` in the direction `angle` with a weak bar that makes a base of two.
+fn cantilever(length: f64, angle: f64, elements: usize, shear: Option<f64>) -> FemModel {
+    let mut mesh = Mesh::new();
+    let (sin, cos) = angle.sin_cos();
+    for k in 0..=elements {
+        let s = length * k as f64 / elements as f64;
+        mesh.add_node(s * cos, s * sin).unwrap();
+    }
+    for k in 0..elements {
+        let beam = Beam::new([k, k + 1], E, AREA, INERTIA, DENSITY).unwrap();
+        let beam = match shear {
+            Some(stiffness) => beam.with_shear_stiffness(stiffness).unwrap(),
+            None => beam,
+        };
+        mesh.add(beam).unwrap();
+    }
+    let other = mesh.add_node(-1.0, 0.0).unwrap();
+    mesh.add(Truss::new([other, 0], 1.0, 1.0, 0.0).unwrap()).unwrap();
+    FemModel::new(mesh, &[other, 0]).unwrap()
+}
+
+/// Unknowns other than those of the clamped foot and the bar's far end.
+fn free_unknowns(model: &FemModel) -> Vec<usize> {
+    (3..model.unknowns() - 2).collect()
+}
+
+#[test]
+fn tip_deflection_is_that_of_euler_bernoulli_and_timoshenko() {
+    let (length, load) = (5.0, 1000.0);
+    for angle in [0.0_f64, 0.5, 2.0] {
+        for shear in [None, Some(2.0e9)] {
+            let model = cantilever(length, angle, 3, shear);
+            let n = model.unknowns();
+            let held: Vec<(usize, f64)> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
+            let mut force = vec![0.0; n];
+            let [x, y, turn] = [Direction::X, Direction::Y, Direction::Rotation]
+                .map(|direction| model.unknown(3, direction).unwrap());
+            // Across the beam, to the left: turns its tip counter-clockwise.
+            force[x] = -load * angle.sin();
+            force[y] = load * angle.cos();
+            let found = solve_held(&stiffness(&model), &force, &held);
+            let deflection = -found[x] * angle.sin() + found[y] * angle.cos();
+            let exact = load * length.powi(3) / (3.0 * E * INERTIA)
+                + shear.map_or(0.0, |stiffness| load * length / stiffness);
+            assert!((deflection / exact - 1.0).abs() < 1e-11, "{angle} {shear:?}");
+            let slope = load * length.powi(2) / (2.0 * E * INERTIA);
+            assert!((found[turn] / slope - 1.0).abs() < 1e-11);
+            let along = found[x] * angle.cos() + found[y] * angle.sin();
+            assert!(along.abs() < 1e-11 * exact);
+        }
+    }
+}
+
+/// First bending frequency of a cantilever, (1.87510407)² √(EI/(ρ A L⁴)): fourth order with
+/// consistent mass, second with lumped.
+#[test]
+fn cantilever_frequency_converges_with_its_order() {
+    let length = 8.0;
+    let exact =
+        (1.875_104_068_711_961_f64.powi(4)) * E * INERTIA / (DENSITY * AREA * f64::powi(length, 4));
+    let error = |elements, kind| {
+        let model = cantilever(length, 0.7, elements, None).with_mass(kind);
+        let free = free_unknowns(&model);
+        let found = eigenvalues(&part(&stiffness(&model), &free), &part(&mass(&model), &free))[0];
+        found / exact - 1.0
+    };
+    for (kind, order) in [(MassKind::Consistent, 4.0), (MassKind::Lumped, 2.0)] {
+        let [coarse, fine] = [4, 8].map(|elements| error(elements, kind));
+        println!("{kind:?}, square of the frequency, four and eight elements: {coarse:e} {fine:e}");
+        assert_eq!(fine > 0.0, kind == MassKind::Consistent, "bound from above or below");
+        let found: f64 = (coarse / fine).log2();
+        assert!((found - order).abs() < 0.1, "{kind:?}: {found}");
+    }
+}
+
+/// With very small shear flexibility, Timoshenko's matrices become Euler–Bernoulli's.
+#[test]
+fn timoshenko_tends_to_euler_bernoulli() {
+    let [thin, stiff] = [None, Some(1.0e22)].map(|shear| cantilever(3.0, 0.3, 1, shear));
+    for (a, b) in [(stiffness(&thin), stiffness(&stiff)), (mass(&thin), mass(&stiff))] {
+        for (x, y) in a.iter().flatten().zip(b.iter().flatten()) {
+            assert!((x - y).abs() <= 1e-9 * a[4][4]);
+        }
+    }
+}
+
+/// A parabola w = x² has no shear: both beams carry it exactly, and ∫ ρ A w² = ρ A L⁵/5.
+#[test]
+fn consistent_mass_carries_constant_curvature_exactly() {
+    let length = 3.0_f64;
+    for shear in [None, Some(1.0e8)] {
+        let model = cantilever(length, 0.0, 1, shear);
+        let mut field = vec![0.0; model.unknowns()];
+        field[4] = length.powi(2);
+        field[5] = 2.0 * length;
+        let found = form(&field, &mass(&model), &field);
+        let exact = DENSITY * AREA * length.powi(5) / 5.0;
+        assert!((found / exact - 1.0).abs() < 1e-13, "{shear:?}");
+    }
+}
+
+/// Two bars at 45° under a vertical load: each carries P/√2, the tip sinks by P L/(E A).
+#[test]
+fn bracket_of_two_trusses_sinks_by_its_closed_form() {
+    let mut mesh = Mesh::new();
+    let [left, right, top] =
+        [[-2.0, 0.0], [2.0, 0.0], [0.0, 2.0]].map(|[x, y]| mesh.add_node(x, y).unwrap());
+    for foot in [left, right] {
+        mesh.add(Truss::new([foot, top], E, 0.01, DENSITY).unwrap()).unwrap();
+    }
+    let model = FemModel::on_base(mesh).unwrap();
+    let held: Vec<(usize, f64)> = (0..4).map(|index| (index, 0.0)).collect();
+    let load = [0.0, 0.0, 0.0, 0.0, 700.0, -1000.0];
+    let found = solve_held(&stiffness(&model), &load, &held);
+    let flexibility = 8.0_f64.sqrt() / (E * 0.01);
+    assert!((found[5] / (-1000.0 * flexibility) - 1.0).abs() < 1e-12);
+    assert!((found[4] / (700.0 * flexibility) - 1.0).abs() < 1e-12);
+}

@@ -1,0 +1,133 @@
+//! GOAL: quadrilaterals in bending: shear and volumetric locking, and their cure.
+//! SCENE: cantilevers and single rectangles of any aspect ratio, ν up to nearly ½.
+//! REFERENCE: beam theory and closed-form energies.
+
+use crate::support::dense::{dot, form, solve_held, stiffness};
+use basemat::fem::{Direction, Element, Layer, Material, Mesh, Quad4, QuadFormulation};
+use basemat::structure::{FemModel, Structure};
+
+const E: f64 = 1.0e7;
+
+/// Column of `length` and unit width, fixed at its base.
+fn column(length: f64, [across, along]: [usize; 2], nu: f64, kind: QuadFormulation) -> FemModel {
+    let material = Material::new(E, nu, 1.0).unwrap();
+    let layer = Layer::new(length, along, material).with_formulation(kind);
+    FemModel::on_base(Mesh::layered_block(-0.5..0.5, across, &[layer]).unwrap()).unwrap()
+}
+
+fn fixed_base(model: &FemModel) -> Vec<(usize, f64)> {
+    let ends = model.contact_nodes();
+    ends.iter()
+        .flat_map(|node| [(node.horizontal.terms()[0].0, 0.0), (node.vertical.terms()[0].0, 0.0)])
+        .collect()
+}
+
+/// Tip deflection under a unit shear, relative to Timoshenko's beam in plane strain.
+fn tip_ratio(mesh: [usize; 2], nu: f64, kind: QuadFormulation) -> f64 {
+    let length = 10.0;
+    let model = column(length, mesh, nu, kind);
+    let mut load = vec![0.0; model.unknowns()];
+    let top = model.mesh().nodes_at_height(length, 1e-9).unwrap();
+    for (place, &node) in top.iter().enumerate() {
+        let share = if place == 0 || place + 1 == top.len() { 0.5 } else { 1.0 };
+        load[model.unknown(node, Direction::X).unwrap()] = share / (top.len() - 1) as f64;
+    }
+    let found = solve_held(&stiffness(&model), &load, &fixed_base(&model));
+    let bending = length.powi(3) / (3.0 * E / (1.0 - nu * nu) / 12.0);
+    let shear = length / (5.0 / 6.0 * 0.5 * E / (1.0 + nu));
+    dot(&load, &found) / (bending + shear)
+}
+
+#[test]
+fn cantilever_locks_with_full_integration_and_not_with_incompatible_modes() {
+    let full = QuadFormulation::Full;
+    let free = QuadFormulation::IncompatibleModes;
+    let table = [[1, 10], [2, 20], [4, 40]].map(|mesh| {
+        let row = [full, free, QuadFormulation::OnePoint].map(|kind| tip_ratio(mesh, 0.3, kind));
+        println!("{mesh:?}: full, incompatible, one point: {row:?}");
+        row
+    });
+    for (row, least) in table.iter().zip([0.6, 0.85, 0.95]) {
+        assert!(row[0] > least && row[0] < 0.99, "full: too stiff, converging from below");
+    }
+    assert!(table[0][0] < 0.7, "one full element across locks");
+    for row in table {
+        assert!((row[1] - 1.0).abs() < 0.015, "incompatible modes: right at once");
+    }
+    assert!(table[0][2] > 1e6, "one row of one-point elements is a mechanism in bending");
+    assert!(table[1][2] > 1.3 && table[2][2] > 1.05, "several rows bend too easily");
+    assert!(table[2][2] < 1.07, "and converge from above");
+}
+
+#[test]
+fn nearly_incompressible_material_locks_only_with_full_integration() {
+    assert!(tip_ratio([2, 20], 0.4999, QuadFormulation::Full) < 0.5);
+    let free = tip_ratio([2, 20], 0.4999, QuadFormulation::IncompatibleModes);
+    let fine = tip_ratio([4, 40], 0.4999, QuadFormulation::IncompatibleModes);
+    println!("incompatible modes at 0.4999: {free} {fine}");
+    // A fixed base also hinders the strain across it, which beam theory leaves out.
+    assert!((free - fine).abs() < 0.02 && (fine - 1.0).abs() < 0.05, "{free} {fine}");
+}
+
+/// Rectangles in pure bending are exact: rotation at the end M L / (E' I), any aspect ratio.
+#[test]
+fn pure_bending_of_rectangles_is_exact() {
+    for (rows, nu) in [(1, 0.3), (3, 0.0), (7, 0.45)] {
+        let length = 6.0;
+        let model = column(length, [1, rows], nu, QuadFormulation::IncompatibleModes);
+        let mut load = vec![0.0; model.unknowns()];
+        for (x, sign) in [(-0.5, -1.0), (0.5, 1.0)] {
+            let node = model.node_at(x, length).unwrap();
+            load[model.unknown(node, Direction::Y).unwrap()] = sign;
+        }
+        // The base may widen: only its left node is held sideways.
+        let held: Vec<(usize, f64)> =
+            fixed_base(&model).into_iter().filter(|&(index, _)| index != 2).collect();
+        let found = solve_held(&stiffness(&model), &load, &held);
+        let rotation = length / (E / (1.0 - nu * nu) / 12.0);
+        // The couple of two unit forces 1 m apart does work on the end's rotation.
+        assert!((dot(&load, &found) / rotation - 1.0).abs() < 1e-10);
+    }
+}
+
+fn element_matrix(kind: QuadFormulation, [a, b]: [f64; 2], nu: f64) -> Vec<Vec<f64>> {
+    let quad = Quad4::new([0, 1, 2, 3], Material::new(E, nu, 1.0).unwrap(), kind);
+    let mut matrix = vec![0.0; 64];
+    quad.stiffness(&[[0.0, 0.0], [a, 0.0], [a, b], [0.0, b]], &mut matrix);
+    matrix.chunks(8).map(<[f64]>::to_vec).collect()
+}
+
+const HOURGLASS: [f64; 8] = [1.0, 0.0, -1.0, 0.0, 1.0, 0.0, -1.0, 0.0];
+
+/// Energy of the bending pattern `u_x = 4 x y/(a b)`: `ε_x = κ y` and γ = κ x with κ = 4/(a b) for
+/// full integration; E' I κ² a/2 for a beam.
+#[test]
+fn locking_of_one_rectangle_is_that_of_its_closed_form() {
+    let ([a, b], nu) = ([2.0_f64, 0.7], 0.3);
+    let direct = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    let shear = E / (2.0 * (1.0 + nu));
+    let twice_energy = (4.0 / (a * b)).powi(2) * a * b / 12.0;
+    let full = form(&HOURGLASS, &element_matrix(QuadFormulation::Full, [a, b], nu), &HOURGLASS);
+    let locked = twice_energy * (direct * b * b + shear * a * a);
+    assert!((full / locked - 1.0).abs() < 1e-12);
+    let cured = element_matrix(QuadFormulation::IncompatibleModes, [a, b], nu);
+    let exact = twice_energy * E / (1.0 - nu * nu) * b * b;
+    assert!((form(&HOURGLASS, &cured, &HOURGLASS) / exact - 1.0).abs() < 1e-12);
+    let one = element_matrix(QuadFormulation::OnePoint, [a, b], nu);
+    assert!(form(&HOURGLASS, &one, &HOURGLASS).abs() < 1e-9 * exact, "no resistance");
+}
+
+/// On a rectangle, incompatible modes add only hourglass stiffness to the one-point element.
+#[test]
+fn incompatible_modes_are_one_point_plus_hourglass_stiffness() {
+    let one = element_matrix(QuadFormulation::OnePoint, [2.0, 0.7], 0.3);
+    let cured = element_matrix(QuadFormulation::IncompatibleModes, [2.0, 0.7], 0.3);
+    for i in 0..8 {
+        for j in 0..8 {
+            let own = cured[i % 2][i % 2] - one[i % 2][i % 2];
+            let sign = HOURGLASS[2 * (i / 2)] * HOURGLASS[2 * (j / 2)];
+            let expected = if i % 2 == j % 2 { sign * own } else { 0.0 };
+            assert!((cured[i][j] - one[i][j] - expected).abs() < 1e-9 * E, "({i}, {j})");
+        }
+    }
+}

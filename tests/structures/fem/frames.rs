@@ -1,0 +1,234 @@
+//! GOAL: beam–columns, rotary inertia and rigid links.
+//! SCENE: compressed and leaning columns, simply supported beams, rigid arms and blocks.
+//! REFERENCE: Euler, Engesser, Timoshenko 1921, and closed-form sway.
+
+use crate::support::dense::{
+    dot, eigenvalues, form, largest, mass, multiply, part, solve_held, stiffness,
+};
+use basemat::Error;
+use basemat::fem::{Beam, Direction, Layer, LumpedMass, MassKind, Material, Mesh};
+use basemat::structure::{ContactNode, FemModel, RigidBlock, Row, Structure};
+
+const E: f64 = 30.0e9;
+const AREA: f64 = 0.4;
+const INERTIA: f64 = 0.02;
+const DENSITY: f64 = 2400.0;
+const LENGTH: f64 = 8.0;
+const SHEAR: f64 = 4.0e8;
+
+/// Column of beams on node 0, with a second foot for the base; `change` alters each beam.
+fn column(elements: usize, change: impl Fn(Beam) -> Beam) -> FemModel {
+    let mut mesh = Mesh::new();
+    for k in 0..=elements {
+        mesh.add_node(0.0, LENGTH * k as f64 / elements as f64).unwrap();
+    }
+    for k in 0..elements {
+        let beam = Beam::new([k, k + 1], E, AREA, INERTIA, DENSITY).unwrap();
+        mesh.add(change(beam)).unwrap();
+    }
+    let other = mesh.add_node(1.0, 0.0).unwrap();
+    mesh.add(LumpedMass::new(other, 1.0).unwrap()).unwrap();
+    FemModel::new(mesh, &[0, other]).unwrap()
+}
+
+/// Unknowns above the clamped foot.
+fn above(model: &FemModel) -> Vec<usize> {
+    (3..model.unknowns() - 2).collect()
+}
+
+/// Euler's load of a cantilever, by Engesser with shear: P_E/(1 + P_E/(G A_s)).
+#[test]
+fn columns_buckle_under_eulers_load() {
+    let euler = std::f64::consts::PI.powi(2) * E * INERTIA / (4.0 * LENGTH * LENGTH);
+    for shear in [None, Some(SHEAR)] {
+        let critical = shear.map_or(euler, |stiffness| euler / (1.0 + euler / stiffness));
+        for (factor, stands) in [(0.999, true), (1.001, false)] {
+            let model = column(8, |beam| {
+                let beam = match shear {
+                    Some(stiffness) => beam.with_shear_stiffness(stiffness).unwrap(),
+                    None => beam,
+                };
+                beam.with_compression(factor * critical).unwrap()
+            });
+            let free = above(&model);
+            let lowest =
+                eigenvalues(&part(&stiffness(&model), &free), &part(&mass(&model), &free))[0];
+            assert_eq!(lowest > 0.0, stands, "{shear:?} {factor}: {lowest}");
+        }
+    }
+}
+
+/// Sway under a load H across: H/P (tan kL/k − L), k² = P/EI; hyperbolic in tension.
+#[test]
+fn beam_columns_sway_by_their_closed_form() {
+    let load = 1000.0;
+    for compression in [2.0e7, -2.0e7_f64] {
+        let model = column(20, |beam| beam.with_compression(compression).unwrap());
+        let n = model.unknowns();
+        let mut force = vec![0.0; n];
+        let tip = model.unknown(20, Direction::X).unwrap();
+        force[tip] = load;
+        let held: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
+        let found = solve_held(&stiffness(&model), &force, &held)[tip];
+        let k = (compression.abs() / (E * INERTIA)).sqrt();
+        let curve = if compression > 0.0 { (k * LENGTH).tan() } else { (k * LENGTH).tanh() };
+        let exact = load / compression * (curve / k - LENGTH);
+        assert!((found / exact - 1.0).abs() < 1e-6, "{compression}: {found} {exact}");
+    }
+}
+
+/// A translation meets no force, a rotation ψ the moment −P L ψ of a leaning column.
+#[test]
+fn leaning_columns_overturn() {
+    let compression = 3.0e6;
+    let bent = |beam: Beam| beam.with_shear_stiffness(SHEAR).unwrap();
+    let model = column(3, |beam| bent(beam).with_compression(compression).unwrap());
+    let matrix = stiffness(&model);
+    for direction in [Direction::X, Direction::Y] {
+        let ride = model.rigid_motion(direction, [0.0; 2]);
+        assert!(largest(&multiply(&matrix, &ride)) < 1e-12 * E);
+    }
+    let turn = model.rigid_motion(Direction::Rotation, [0.0; 2]);
+    let moment = form(&turn, &matrix, &turn);
+    assert!((moment + compression * LENGTH).abs() < 1e-9 * E * AREA, "{moment}");
+}
+
+/// Simply supported Timoshenko beam with rotary inertia (Timoshenko 1921): with k = nπ/L,
+/// ω⁴ ρI/(G A_s) − ω² (1 + k² I/A + k² EI/(G A_s)) + EI k⁴/(ρA) = 0, the lower root.
+#[test]
+fn rotary_inertia_and_shear_lower_the_frequencies_as_they_should() {
+    for (shear, rotary) in [(SHEAR, true), (SHEAR, false), (1e15, true)] {
+        let errors = [12, 24].map(|elements| {
+            let model = column(elements, |beam| {
+                let beam = beam.with_shear_stiffness(shear).unwrap();
+                if rotary { beam.with_rotary_inertia() } else { beam }
+            });
+            let held = [(0, Direction::X), (0, Direction::Y), (elements, Direction::X)]
+                .map(|(node, direction)| model.unknown(node, direction).unwrap());
+            let free: Vec<usize> =
+                (0..model.unknowns() - 2).filter(|unknown| !held.contains(unknown)).collect();
+            let found = eigenvalues(&part(&stiffness(&model), &free), &part(&mass(&model), &free));
+            [1.0, 2.0, 3.0].map(|n| {
+                let k = n * std::f64::consts::PI / LENGTH;
+                let turn = if rotary { k * k * INERTIA / AREA } else { 0.0 };
+                let b = 1.0 + turn + k * k * E * INERTIA / shear;
+                let a = if rotary { DENSITY * INERTIA / shear } else { 0.0 };
+                let c = E * INERTIA * k.powi(4) / (DENSITY * AREA);
+                let square = 2.0 * c / (b + (b * b - 4.0 * a * c).sqrt());
+                // The nearest one: axial vibrations are among them.
+                let off = found.iter().map(|x| x / square - 1.0);
+                off.min_by(|x, y| x.abs().total_cmp(&y.abs())).unwrap()
+            })
+        });
+        println!("{shear:e} {rotary}: {errors:?}");
+        // The shear strain is constant in an element, so that the error falls with the square of its
+        // length, and two meshes extrapolate; without shear it falls with the fourth power.
+        for (coarse, fine) in errors[0].into_iter().zip(errors[1]) {
+            if shear < 1e10 {
+                let limit = (4.0 * fine - coarse) / 3.0;
+                assert!(limit.abs() < 3e-3 * coarse, "{shear:e} {rotary}: {limit:e}");
+            } else {
+                assert!(fine.abs() < 1e-4 && fine.abs() < 0.1 * coarse.abs(), "{errors:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn lumped_rotary_inertia_is_that_of_the_sections() {
+    let with = column(2, Beam::with_rotary_inertia).with_mass(MassKind::Lumped);
+    let without = column(2, |beam| beam).with_mass(MassKind::Lumped);
+    let sum = |model: &FemModel| (0..model.unknowns()).map(|i| mass(model)[i][i]).sum::<f64>();
+    let more = sum(&with) - sum(&without);
+    assert!((more / (DENSITY * INERTIA * LENGTH) - 1.0).abs() < 1e-9, "{more}");
+}
+
+/// All nodes of a block of quadrilaterals tied to one: the rigid block of the same shape.
+#[test]
+fn a_block_of_followers_is_a_rigid_block() {
+    let material = Material::new(1e9, 0.3, 2000.0).unwrap();
+    let mut mesh = Mesh::layered_block(-2.0..2.0, 4, &[Layer::new(6.0, 5, material)]).unwrap();
+    let leader = mesh.node_at(0.0, 0.0).unwrap();
+    let mark = LumpedMass::new(leader, 1e-12).unwrap().with_rotary_inertia(1e-12).unwrap();
+    mesh.add(mark).unwrap();
+    let all: Vec<usize> = (0..mesh.nodes().len()).filter(|node| *node != leader).collect();
+    let linked = FemModel::on_base(mesh).unwrap().with_rigid_link(leader, &all).unwrap();
+    assert_eq!(linked.unknowns(), 3);
+    let block = RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
+    let (found, expected) = (mass(&linked), mass(&block));
+    for i in 0..3 {
+        for j in 0..3 {
+            assert!((found[i][j] - expected[i][j]).abs() < 1e-9 * expected[2][2], "{i} {j}");
+        }
+        assert!(largest(&stiffness(&linked)[i]) < 1e-4);
+    }
+    let feet = linked.contact_nodes();
+    assert_eq!(feet.len(), 5);
+    assert_eq!(feet[0], ContactNode::rigid(-2.0, 0.0, [0, 1, 2]));
+    assert_eq!(feet[2].vertical, Row::from(1));
+    // The section at the base sees the same resultants in either numbering.
+    let section = linked.section(0.0, 0.0).unwrap();
+    let up = [0.0, 1.0, 0.0];
+    let weight = section.compression.value(&[0.0; 3], &[0.0; 3], &up);
+    assert!(weight > 0.0);
+}
+
+/// A beam with a rigid arm at its tip: H (L³/3 + L² a + L a²)/EI at the arm's end.
+#[test]
+fn arms_lengthen_a_cantilever() {
+    let arm = 1.5;
+    let mut mesh = Mesh::new();
+    let nodes: Vec<usize> = [0.0, LENGTH, LENGTH + arm, LENGTH + 2.0 * arm]
+        .map(|y| mesh.add_node(0.0, y).unwrap())
+        .to_vec();
+    let other = mesh.add_node(1.0, 0.0).unwrap();
+    mesh.add(LumpedMass::new(other, 1.0).unwrap()).unwrap();
+    mesh.add(LumpedMass::new(nodes[2], 1.0).unwrap()).unwrap();
+    mesh.add(Beam::new([0, 1], E, AREA, INERTIA, DENSITY).unwrap()).unwrap();
+    // A beam between the arm and a free end strains nothing and checks the rotation.
+    mesh.add(Beam::new([2, 3], E, AREA, INERTIA, DENSITY).unwrap()).unwrap();
+    let model = FemModel::new(mesh, &[0, other]).unwrap().with_rigid_link(1, &[nodes[2]]).unwrap();
+    assert_eq!(model.unknown(2, Direction::X), None);
+    let n = model.unknowns();
+    let row = model.row(2, Direction::X).unwrap();
+    // The leader's motion and its turn times the arm.
+    let [lead, turn] = [Direction::X, Direction::Rotation].map(|d| model.row(1, d).unwrap());
+    assert_eq!(row, lead + -arm * turn);
+    let mut force = vec![0.0; n];
+    for &(index, weight) in &row {
+        force[index] += 1000.0 * weight;
+    }
+    let held: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
+    let found = solve_held(&stiffness(&model), &force, &held);
+    let at = |row: &Row| row.iter().map(|&(i, w)| w * found[i]).sum::<f64>();
+    let (l, a) = (LENGTH, arm);
+    let exact = 1000.0 * (l.powi(3) / 3.0 + l * l * a + l * a * a) / (E * INERTIA);
+    assert!((at(&row) / exact - 1.0).abs() < 1e-10);
+    let turn = at(&model.row(2, Direction::Rotation).unwrap());
+    let tip = found[model.unknown(3, Direction::X).unwrap()];
+    assert!((tip - (at(&row) - arm * turn)).abs() < 1e-10 * exact);
+    // A rigid ride is still one.
+    let ride = model.rigid_motion(Direction::Rotation, [0.0; 2]);
+    assert!(largest(&multiply(&stiffness(&model), &ride)) < 1e-12 * E);
+    assert!(dot(&ride, &ride) > 0.0);
+}
+
+#[test]
+fn bad_frames_are_refused() {
+    let beam = || Beam::new([0, 1], E, AREA, INERTIA, DENSITY).unwrap();
+    for bad in [f64::NAN, f64::INFINITY] {
+        assert!(matches!(beam().with_compression(bad), Err(Error::Input { .. })));
+    }
+    let model = || column(3, |beam| beam);
+    let scene = |result: basemat::Result<FemModel>| matches!(result, Err(Error::Scene { .. }));
+    assert!(matches!(model().with_rigid_link(9, &[0]), Err(Error::Index { index: 9, .. })));
+    assert!(matches!(model().with_rigid_link(0, &[9]), Err(Error::Index { index: 9, .. })));
+    assert!(scene(model().with_rigid_link(4, &[0])), "no rotation");
+    assert!(scene(model().with_rigid_link(1, &[1])));
+    assert!(scene(model().with_rigid_link(1, &[2, 2])));
+    let linked = || model().with_rigid_link(1, &[2]).unwrap();
+    assert!(scene(linked().with_rigid_link(2, &[3])), "a follower leads nobody");
+    assert!(scene(linked().with_rigid_link(3, &[1])), "a leader follows nobody");
+    assert!(scene(linked().with_rigid_link(3, &[2])));
+    assert!(linked().with_rigid_link(1, &[3]).is_ok());
+}

@@ -1,0 +1,104 @@
+//! GOAL: layered blocks, their contact line, and the look-up of nodes.
+//! SCENE: blocks of one to three layers, uniform and graded; bars and masses.
+//! REFERENCE: coordinates and numbers written down here.
+
+use basemat::Error;
+use basemat::fem::{Direction, Layer, LumpedMass, Material, Mesh, Quad4, QuadFormulation, Truss};
+use basemat::structure::{FemModel, Row, Structure};
+
+fn soft() -> Material {
+    Material::new(1.0e7, 0.2, 1500.0).unwrap()
+}
+
+#[test]
+fn layered_block_runs_from_the_base_upwards() {
+    let stiff = Material::new(30.0e9, 0.2, 2400.0).unwrap();
+    let layers = [
+        Layer::new(1.0, 1, stiff),
+        Layer::new(4.0, 2, soft()).with_formulation(QuadFormulation::OnePoint),
+        Layer::new(2.0, 1, stiff),
+    ];
+    let mesh = Mesh::layered_block(-3.0..3.0, 3, &layers).unwrap();
+    assert_eq!(mesh.elements().len(), 12);
+    let heights: Vec<f64> = mesh.nodes().iter().step_by(4).map(|node| node[1]).collect();
+    assert_eq!(heights, [0.0, 1.0, 3.0, 5.0, 7.0]);
+    let line: Vec<f64> = mesh.nodes()[..4].iter().map(|node| node[0]).collect();
+    assert_eq!(line, [-3.0, -1.0, 1.0, 3.0]);
+    assert_eq!(mesh.element(3).unwrap().nodes(), [4, 5, 9, 8]);
+    assert_eq!(mesh.nodes_at_height(3.0, 1e-9).unwrap(), [8, 9, 10, 11]);
+    assert_eq!(mesh.nearest_node(1.4, 4.8), Some(14));
+    assert_eq!(Mesh::new().nearest_node(0.0, 0.0), None);
+    assert!(mesh.element(12).is_none());
+    // A clone grows by itself.
+    let mut larger = mesh.clone();
+    let [low, high] = [0.0, 1.0].map(|y| larger.add_node(5.0, y).unwrap());
+    larger.add(Quad4::new([3, low, high, 7], stiff, QuadFormulation::OnePoint)).unwrap();
+    assert_eq!((mesh.elements().len(), larger.elements().len()), (12, 13));
+    let last = larger.elements().last().unwrap();
+    assert_eq!(last.nodes(), [3, 20, 21, 7]);
+    assert_eq!((mesh.nodes().len(), larger.nodes().len()), (20, 22));
+    let model = FemModel::on_base(mesh).unwrap();
+    assert_eq!(model.clone().unknowns(), model.unknowns());
+}
+
+/// A point without a node is refused, however near the next one: nobody shall read the wrong one.
+#[test]
+fn a_node_is_where_it_is_looked_for_or_nowhere() {
+    let mesh = Mesh::layered_block(-2.0..2.0, 3, &[Layer::new(20.0, 10, soft())]).unwrap();
+    let model = FemModel::on_base(mesh).unwrap();
+    // Coordinates with rounding: −2 + 4/3 and 7 · 2.
+    assert_eq!(model.node_at(-0.666_666_67, 14.0), Ok(7 * 4 + 1));
+    for (x, y, nearest) in
+        [(0.0, 200.0, [-2.0 / 3.0, 20.0]), (2.0, 13.9, [2.0, 14.0]), (2.001, 14.0, [2.0, 14.0])]
+    {
+        let Err(Error::NoNode { nearest: found, distance, .. }) = model.node_at(x, y) else {
+            panic!("({x}, {y})")
+        };
+        assert!((found[0] - nearest[0]).hypot(found[1] - nearest[1]) < 1e-12);
+        assert!((distance - (x - nearest[0]).hypot(y - nearest[1])).abs() < 1e-12);
+    }
+    let error = model.node_at(2.0, 200.0).unwrap_err().to_string();
+    assert_eq!(error, "no node at (2, 200): the nearest, at (2, 20), is 180 m away");
+    for bad in [f64::NAN, f64::INFINITY] {
+        assert!(matches!(model.node_at(bad, 0.0), Err(Error::Input { .. })));
+        assert!(matches!(model.node_at(0.0, bad), Err(Error::Input { .. })));
+    }
+    assert!(matches!(Mesh::new().node_at(0.0, 0.0), Err(Error::Size { .. })));
+    // A single node has no size: only its own place will do.
+    let mut point = Mesh::new();
+    point.add_node(1.0, 2.0).unwrap();
+    assert_eq!(point.node_at(1.0, 2.0), Ok(0));
+    assert!(point.node_at(1.0, 2.0 + 1e-12).is_err());
+}
+
+#[test]
+fn rows_that_no_node_has_are_refused() {
+    let mesh = Mesh::layered_block(-2.0..2.0, 2, &[Layer::new(2.0, 1, soft())]).unwrap();
+    let model = FemModel::on_base(mesh).unwrap();
+    assert_eq!(model.row(5, Direction::Y), Ok(Row::from(11)));
+    let none = Error::NoUnknown { node: 5, direction: Direction::Rotation };
+    assert_eq!(model.row(5, Direction::Rotation), Err(none));
+    let none = Error::Index { quantity: "node", index: 6, bound: 6 };
+    assert_eq!(model.row(6, Direction::X), Err(none));
+}
+
+#[test]
+fn graded_grid_becomes_the_contact_line() {
+    let grid = [-1.0, -0.8, 0.0, 0.8, 1.0];
+    let model =
+        FemModel::on_base(Mesh::graded_block(&grid, &[Layer::new(1.0, 1, soft())]).unwrap());
+    let places: Vec<f64> = model.unwrap().contact_nodes().iter().map(|node| node.x).collect();
+    assert_eq!(places, grid);
+}
+
+#[test]
+fn only_used_directions_are_numbered() {
+    let mut mesh = Mesh::new();
+    for k in 0..4 {
+        mesh.add_node(f64::from(k), 0.0).unwrap();
+    }
+    mesh.add(Truss::new([0, 1], 1.0, 1.0, 0.0).unwrap()).unwrap();
+    mesh.add(LumpedMass::new(3, 2.0).unwrap().with_rotary_inertia(1.0).unwrap()).unwrap();
+    // node 2 has no element, node 3 a rotation
+    assert_eq!(FemModel::new(mesh, &[0, 1]).unwrap().unknowns(), 7);
+}

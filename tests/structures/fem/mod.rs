@@ -1,0 +1,21 @@
+//! GOAL: finite elements and built-in structures.
+//! SCENE: single elements, patches, beams, frames, blocks and shear buildings.
+//! REFERENCE: closed forms, statics, and elements from outside the crate.
+
+mod beams;
+mod bending;
+mod by_hand;
+mod damping;
+mod detached;
+mod errors;
+mod frames;
+mod meshes;
+mod modal_damping;
+mod own_element;
+mod p_delta;
+mod patch;
+mod quad8;
+mod rigid_block;
+mod rigid_motion;
+mod section;
+mod shear_building;

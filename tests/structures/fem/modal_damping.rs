@@ -1,0 +1,196 @@
+//! GOAL: modal damping gives each mode its ratio and rigid-body modes none.
+//! SCENE: towers, shear buildings, a free bar of 400 beams, structures with two footings.
+//! REFERENCE: eigenvalues of C, closed-form bending modes, the march in unknowns.
+
+use crate::support::dense::{damping, eigenvalues, form, largest, mass, multiply, stiffness};
+use basemat::bem::SpringGround;
+use basemat::coupled::Coordinates;
+use basemat::fem::{Beam, Direction, Layer, Material, Mesh};
+use basemat::interface::Bonded;
+use basemat::motion::el_centro_1940;
+use basemat::structure::{
+    ContactNode, FemModel, ModalDamping, RayleighDamping, RigidBlock, ShearBuilding, Storey,
+    Structure, Triplets,
+};
+use basemat::{Error, Simulation};
+
+fn tower() -> FemModel {
+    let material = Material::new(2.0e9, 0.2, 2000.0).unwrap();
+    let mesh = Mesh::layered_block(-2.0..2.0, 2, &[Layer::new(12.0, 4, material)]).unwrap();
+    FemModel::on_base(mesh).unwrap()
+}
+
+/// C φ = 2 ζ ω M φ: the eigenvalues of C are those of K by 2 ζ √λ.
+#[test]
+fn every_mode_has_its_ratio() {
+    let model = tower();
+    let squares = eigenvalues(&stiffness(&model), &mass(&model));
+    let damped = ModalDamping::new(&[0.05]).unwrap().on(tower()).unwrap();
+    let found = eigenvalues(&damping(&damped), &mass(&model));
+    let top = squares[squares.len() - 1].sqrt();
+    for (rate, square) in found.iter().zip(&squares).skip(3) {
+        assert!((rate - 2.0 * 0.05 * square.sqrt()).abs() < 1e-9 * top, "{rate} {square}");
+    }
+    for (frequency, square) in damped.frequencies().iter().zip(&squares[3..]) {
+        let expected = square.sqrt() / std::f64::consts::TAU;
+        assert!((frequency / expected - 1.0).abs() < 1e-9);
+    }
+    for direction in [Direction::X, Direction::Y, Direction::Rotation] {
+        let ride = model.rigid_motion(direction, [0.0; 2]);
+        let force = largest(&multiply(&damping(&damped), &ride));
+        assert!(force < 1e-9 * top * 2000.0, "{direction:?} {force}");
+    }
+}
+
+/// Different ratios: the sum of C's eigenvalues is Σ 2 ζ ω, and a structure's own damping stays.
+#[test]
+fn ratios_go_from_the_lowest_mode_and_the_last_one_stays() {
+    let storeys = [Storey::new(3.0, 2.0e4, 4.0e7); 3];
+    let building = || ShearBuilding::new(10.0, 5.0e4, 4.0e5, &storeys).unwrap();
+    let squares = eigenvalues(&stiffness(&building()), &mass(&building()));
+    let damped = ModalDamping::new(&[0.05, 0.02]).unwrap().on(building()).unwrap();
+    let mut expected: Vec<f64> = squares[3..]
+        .iter()
+        .zip([0.05, 0.02, 0.02])
+        .map(|(square, ratio)| 2.0 * ratio * square.sqrt())
+        .collect();
+    expected.sort_by(f64::total_cmp);
+    let found = eigenvalues(&damping(&damped), &mass(&building()));
+    for (a, b) in found[3..].iter().zip(&expected) {
+        assert!((a / b - 1.0).abs() < 1e-10, "{a} {b}");
+    }
+    let rayleigh = RayleighDamping::new(0.3, 0.0).unwrap();
+    let both = ModalDamping::new(&[0.0]).unwrap().on(tower().with_rayleigh(rayleigh)).unwrap();
+    assert_eq!(damping(&both), damping(&tower().with_rayleigh(rayleigh)));
+}
+
+#[test]
+fn modes_and_unknowns_march_alike() {
+    let march = |coordinates| {
+        let structure = ModalDamping::new(&[0.05, 0.03]).unwrap().on(tower()).unwrap();
+        let mut simulation = Simulation::builder(0.005)
+            .structure(structure)
+            .ground(SpringGround::new(-2.0..2.0, 4, 5e7, 4e7).unwrap())
+            .interface(Bonded)
+            .motion(el_centro_1940())
+            .coordinates(coordinates)
+            .build()
+            .unwrap();
+        let run = simulation.run(600, |_| {}).unwrap();
+        assert!(run.ledger_residual < 1e-9 && run.ledger.damping > 0.0);
+        (run.base_shear.value, run.ledger.damping)
+    };
+    let (modes, unknowns) = (march(Coordinates::Modes), march(Coordinates::Unknowns));
+    assert!((modes.0 / unknowns.0 - 1.0).abs() < 1e-8, "{modes:?} {unknowns:?}");
+    assert!((modes.1 / unknowns.1 - 1.0).abs() < 1e-8, "{modes:?} {unknowns:?}");
+}
+
+/// Bending modes of a free bar are φ = cosh βx + cos βx − κ (sinh βx + sin βx) with cos βL cosh βL = 1
+/// (Blevins 1979, table 8-1). In so fine a mesh their eigenvalues are 10⁻¹¹ of the highest or less.
+#[test]
+fn the_lowest_modes_of_a_fine_mesh_are_damped() {
+    const ELEMENTS: usize = 400;
+    let (length, modulus, area, inertia, density) = (30.0, 30.0e9, 0.5, 0.01, 2400.0);
+    let bar = || {
+        let mut mesh = Mesh::new();
+        for k in 0..=ELEMENTS {
+            mesh.add_node(length * k as f64 / ELEMENTS as f64, 0.0).unwrap();
+        }
+        for k in 0..ELEMENTS {
+            mesh.add(Beam::new([k, k + 1], modulus, area, inertia, density).unwrap()).unwrap();
+        }
+        FemModel::new(mesh, &[0, ELEMENTS]).unwrap()
+    };
+    let ratios = [0.05, 0.04, 0.03, 0.02];
+    let damped = ModalDamping::new(&ratios).unwrap().on(bar()).unwrap();
+    assert_eq!(damped.frequencies().len(), 3 * (ELEMENTS + 1) - 3);
+    let model = bar();
+    let (mass, damping) = (mass(&model), damping(&damped));
+    let betas: [f64; 3] = [4.730_040_744_862_704, 7.853_204_624_095_838, 10.995_607_838_001_671];
+    for (k, beta) in betas.into_iter().enumerate() {
+        let kappa = (beta.cosh() - beta.cos()) / (beta.sinh() - beta.sin());
+        let mut mode = vec![0.0; 3 * (ELEMENTS + 1)];
+        for (node, values) in mode.chunks_exact_mut(3).enumerate() {
+            let z = beta * node as f64 / ELEMENTS as f64;
+            values[1] = z.cosh() + z.cos() - kappa * (z.sinh() + z.sin());
+            values[2] = beta / length * (z.sinh() - z.sin() - kappa * (z.cosh() + z.cos()));
+        }
+        let circular = (beta / length).powi(2) * f64::sqrt(modulus * inertia / (density * area));
+        let ratio = form(&mode, &damping, &mode) / (2.0 * circular * form(&mode, &mass, &mode));
+        assert!((ratio / ratios[k] - 1.0).abs() < 1e-4, "mode {}: {ratio}", k + 1);
+        let frequency = damped.frequencies()[k] * std::f64::consts::TAU;
+        assert!((frequency / circular - 1.0).abs() < 1e-5, "mode {}: {frequency}", k + 1);
+    }
+}
+
+/// What has two footings and no stiffness between them rides in six ways, what has P–Δ still in three.
+#[test]
+fn rigid_motions_are_counted_by_what_they_are() {
+    use basemat::structure::StructureGroup;
+    let one = ModalDamping::new(&[0.05]).unwrap().on(tower()).unwrap().frequencies().len();
+    assert_eq!(one, tower().unknowns() - 3);
+    let block = RigidBlock::new(2.0, 2.0, 2000.0).unwrap();
+    let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block, 9.0).unwrap();
+    let two = ModalDamping::new(&[0.05]).unwrap().on(group).unwrap();
+    assert_eq!(two.frequencies().len(), one);
+    let storeys = [Storey::new(3.0, 2.0e4, 4.0e7); 3];
+    let building = ShearBuilding::new(10.0, 5.0e4, 4.0e5, &storeys).unwrap();
+    let leaning = ModalDamping::new(&[0.05]).unwrap().on(building.with_p_delta(9.81).unwrap());
+    assert_eq!(leaning.unwrap().frequencies().len(), 3);
+}
+
+/// A structure whose mass matrix has a zero.
+struct Massless(RigidBlock);
+
+impl Structure for Massless {
+    fn unknowns(&self) -> usize {
+        4
+    }
+    fn contact_nodes(&self) -> Vec<basemat::structure::ContactNode> {
+        self.0.contact_nodes()
+    }
+    fn mass(&self, matrix: &mut Triplets) {
+        (0..3).for_each(|i| matrix.add(i, i, 1.0));
+    }
+    fn stiffness(&self, matrix: &mut Triplets) {
+        matrix.add_spring(0, 3, 1.0);
+    }
+}
+
+#[test]
+fn bad_ratios_and_structures_are_refused() {
+    assert!(matches!(ModalDamping::new(&[]), Err(Error::Size { .. })));
+    for bad in [-0.1, f64::NAN, f64::INFINITY] {
+        assert!(matches!(ModalDamping::new(&[0.05, bad]), Err(Error::Input { .. })));
+    }
+    let damping = ModalDamping::new(&[0.05]).unwrap();
+    let massless = Massless(RigidBlock::new(2.0, 2.0, 2.0).unwrap());
+    assert!(matches!(damping.on(massless), Err(Error::Scene { .. })));
+    let material = Material::new(2.0e9, 0.2, 2000.0).unwrap();
+    let large = Mesh::layered_block(0.0..1.0, 40, &[Layer::new(1.0, 40, material)]).unwrap();
+    let large = damping.on(FemModel::on_base(large).unwrap());
+    assert!(matches!(large, Err(Error::Input { value: 3362.0, .. })));
+}
+
+/// A structure whose base is not made of its unknowns.
+struct Astray;
+
+impl Structure for Astray {
+    fn unknowns(&self) -> usize {
+        2
+    }
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        vec![ContactNode::free(0.0, 0, 1), ContactNode::free(1.0, usize::MAX, 2)]
+    }
+    fn mass(&self, matrix: &mut Triplets) {
+        matrix.add(0, 0, 1.0);
+        matrix.add(1, 1, 1.0);
+    }
+    fn stiffness(&self, _: &mut Triplets) {}
+}
+
+#[test]
+fn a_base_of_unknowns_that_are_not_there_is_refused() {
+    let fault = ModalDamping::new(&[0.05]).unwrap().on(Astray).unwrap_err();
+    assert!(matches!(fault, Error::Index { index: usize::MAX, bound: 2, .. }), "{fault}");
+}

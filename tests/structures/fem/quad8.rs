@@ -1,0 +1,203 @@
+//! GOAL: eight-node quadrilaterals.
+//! SCENE: the patch of `MacNeal` & Harder, straight and curved; bent rows; bad shapes.
+//! REFERENCE: uniform strain, rigid motions, pure bending, exact mass.
+
+use super::patch::{POINTS, QUADS};
+use crate::support::dense::{dot, form, largest, mass, multiply, solve_held, stiffness};
+use basemat::Error;
+use basemat::fem::{Direction, Element, MassKind, Material, Mesh, Quad8, Quad8Integration};
+use basemat::structure::{FemModel, Structure};
+
+const BOTH: [Quad8Integration; 2] = [Quad8Integration::Reduced, Quad8Integration::Full];
+
+/// Mesh of eight-node quadrilaterals from corners: a node in the middle of every edge, moved by
+/// `bulge` times the edge's length to its left.
+fn refined(
+    corners: &[[f64; 2]],
+    quads: &[[usize; 4]],
+    material: Material,
+    integration: Quad8Integration,
+    bulge: f64,
+) -> Mesh {
+    let mut mesh = Mesh::new();
+    for &[x, y] in corners {
+        mesh.add_node(x, y).unwrap();
+    }
+    let mut middles: Vec<([usize; 2], usize)> = Vec::new();
+    for quad in quads {
+        let mut nodes = [0; 8];
+        for k in 0..4 {
+            let mut ends = [quad[k], quad[(k + 1) % 4]];
+            ends.sort_unstable();
+            let known = middles.iter().find(|(edge, _)| *edge == ends).map(|(_, node)| *node);
+            let [[x0, y0], [x1, y1]] = ends.map(|node| corners[node]);
+            nodes[k] = quad[k];
+            nodes[k + 4] = known.unwrap_or_else(|| {
+                let x = 0.5 * (x0 + x1) - bulge * (y1 - y0);
+                let node = mesh.add_node(x, 0.5 * (y0 + y1) + bulge * (x1 - x0)).unwrap();
+                middles.push((ends, node));
+                node
+            });
+        }
+        mesh.add(Quad8::new(nodes, material).with_integration(integration)).unwrap();
+    }
+    mesh
+}
+
+/// The patch of `MacNeal` & Harder, straight and with curved inner edges.
+#[test]
+fn constant_strain_is_reproduced_on_distorted_and_curved_quads() {
+    for (integration, poisson, bulge) in
+        [(BOTH[0], 0.3, 0.0), (BOTH[1], 0.3, 0.0), (BOTH[0], 0.3, 0.03), (BOTH[1], 0.4999, 0.03)]
+    {
+        let material = Material::new(1.0e6, poisson, 1.0).unwrap();
+        let mesh = refined(&POINTS, &QUADS, material, integration, bulge);
+        let nodes = mesh.nodes().to_vec();
+        let model = FemModel::new(mesh, &[0, 1]).unwrap();
+        let mut field = vec![0.0; model.unknowns()];
+        for (node, [x, y]) in nodes.iter().enumerate() {
+            field[model.unknown(node, Direction::X).unwrap()] = 1e-3 * (x + 0.5 * y);
+            field[model.unknown(node, Direction::Y).unwrap()] = 1e-3 * (y + 0.5 * x);
+        }
+        // Corners and the middles of the outer edges, bulged or not.
+        let on_edge = |[x, y]: [f64; 2]| [x, y, x - 0.24, y - 0.12].iter().any(|d| d.abs() < 0.01);
+        let held: Vec<(usize, f64)> = nodes
+            .iter()
+            .enumerate()
+            .filter(|(_, place)| on_edge(**place))
+            .flat_map(|(node, _)| [2 * node, 2 * node + 1])
+            .map(|unknown| (unknown, field[unknown]))
+            .collect();
+        assert!(held.len() < field.len(), "something is free");
+        let found = solve_held(&stiffness(&model), &vec![0.0; field.len()], &held);
+        let off: Vec<f64> = found.iter().zip(&field).map(|(a, b)| a - b).collect();
+        assert!(largest(&off) < 1e-12, "{integration:?} {poisson} {bulge}: {:e}", largest(&off));
+    }
+}
+
+#[test]
+fn rigid_motions_meet_no_force_and_their_inertia_is_exact() {
+    for integration in BOTH {
+        let material = Material::new(1.0e6, 0.3, 5.0).unwrap();
+        let mesh = refined(&POINTS, &QUADS, material, integration, 0.04);
+        let model = FemModel::new(mesh, &[0, 1]).unwrap();
+        for direction in [Direction::X, Direction::Y, Direction::Rotation] {
+            let ride = model.rigid_motion(direction, [0.0; 2]);
+            let matrix = stiffness(&model);
+            let stiffest = matrix.iter().map(|row| largest(row)).fold(0.0, f64::max);
+            assert!(largest(&multiply(&matrix, &ride)) < 1e-14 * stiffest);
+        }
+    }
+    // A rectangle 2 × 3 of density 5 about its corner: m and m (w² + h²)/3.
+    let material = Material::new(1.0e6, 0.3, 5.0).unwrap();
+    let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 3.0], [0.0, 3.0]];
+    for (kind, turns) in [(MassKind::Consistent, true), (MassKind::Lumped, false)] {
+        let mesh = refined(&corners, &[[0, 1, 2, 3]], material, BOTH[0], 0.0);
+        let model = FemModel::new(mesh, &[0, 1]).unwrap().with_mass(kind);
+        let inertia = |direction| {
+            let ride = model.rigid_motion(direction, [0.0; 2]);
+            form(&ride, &mass(&model), &ride)
+        };
+        assert!((inertia(Direction::X) - 30.0).abs() < 1e-12);
+        assert!((inertia(Direction::Y) - 30.0).abs() < 1e-12);
+        assert_eq!((inertia(Direction::Rotation) - 130.0).abs() < 1e-11, turns);
+        assert!((0..16).all(|i| mass(&model)[i][i] > 0.0));
+    }
+}
+
+/// Tip deflection of a cantilever 1 × 10 under a unit shear, relative to Timoshenko's beam.
+fn tip_ratio(elements: usize, nu: f64, integration: Quad8Integration) -> f64 {
+    let (young, length) = (1.0e7, 10.0);
+    let material = Material::new(young, nu, 1.0).unwrap();
+    let corners: Vec<[f64; 2]> = (0..=elements)
+        .flat_map(|k| {
+            let y = length * k as f64 / elements as f64;
+            [[-0.5, y], [0.5, y]]
+        })
+        .collect();
+    let quads: Vec<[usize; 4]> =
+        (0..elements).map(|k| [2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2]).collect();
+    let mesh = refined(&corners, &quads, material, integration, 0.0);
+    let model = FemModel::on_base(mesh).unwrap();
+    assert_eq!(model.contact_nodes().len(), 3);
+    let held: Vec<(usize, f64)> = model
+        .contact_nodes()
+        .iter()
+        .flat_map(|node| [(node.horizontal.terms()[0].0, 0.0), (node.vertical.terms()[0].0, 0.0)])
+        .collect();
+    let top = model.mesh().nodes_at_height(length, 1e-9).unwrap();
+    let mut load = vec![0.0; model.unknowns()];
+    for (&node, share) in top.iter().zip([1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]) {
+        load[model.unknown(node, Direction::X).unwrap()] = share;
+    }
+    let found = solve_held(&stiffness(&model), &load, &held);
+    let bending = length.powi(3) / (3.0 * young / (1.0 - nu * nu) / 12.0);
+    let shear = length / (5.0 / 6.0 * 0.5 * young / (1.0 + nu));
+    dot(&load, &found) / (bending + shear)
+}
+
+#[test]
+fn one_row_bends_as_it_should() {
+    for elements in [10, 20] {
+        for (integration, nu, tolerance) in [
+            (Quad8Integration::Reduced, 0.3, 0.02),
+            (Quad8Integration::Full, 0.3, 0.03),
+            (Quad8Integration::Reduced, 0.4999, 0.1),
+        ] {
+            // The clamped foot stiffens it, the more the nearer ν is to ½; locking would halve it.
+            let ratio = tip_ratio(elements, nu, integration);
+            println!("{elements} {integration:?} {nu}: {ratio}");
+            assert!((ratio - 1.0).abs() < tolerance, "{elements} {integration:?} {nu}: {ratio}");
+        }
+    }
+}
+
+/// u_x = −κ (y² + ν′ x²)/2, u_y = κ x y with ν′ = ν/(1−ν): the stress of pure bending, whose energy
+/// in a rectangle 1 × 3 is κ² E/(1−ν²)/12 · 3/2.
+#[test]
+fn pure_bending_is_exact() {
+    let (young, nu) = (1.0e7, 0.3);
+    for integration in BOTH {
+        let material = Material::new(young, nu, 1.0).unwrap();
+        let corners = [[-0.5, 0.0], [0.5, 0.0], [0.5, 3.0], [-0.5, 3.0]];
+        let mesh = refined(&corners, &[[0, 1, 2, 3]], material, integration, 0.0);
+        let nodes = mesh.nodes().to_vec();
+        let model = FemModel::new(mesh, &[0, 1]).unwrap();
+        let mut field = Vec::new();
+        for [x, y] in nodes {
+            field.extend([-0.5 * (y * y + nu / (1.0 - nu) * x * x), x * y]);
+        }
+        let twice = form(&field, &stiffness(&model), &field);
+        let exact = young / (1.0 - nu * nu) / 12.0 * 3.0;
+        assert!((twice / exact - 1.0).abs() < 1e-12, "{integration:?}: {twice} {exact}");
+    }
+}
+
+#[test]
+fn bad_shapes_are_refused() {
+    let quad = || Quad8::new([0, 1, 2, 3, 4, 5, 6, 7], Material::new(1.0, 0.3, 1.0).unwrap());
+    let good = [
+        [0.0, 0.0],
+        [2.0, 0.0],
+        [2.0, 1.0],
+        [0.0, 1.0],
+        [1.0, 0.0],
+        [2.0, 0.5],
+        [1.0, 1.0],
+        [0.0, 0.5],
+    ];
+    assert!(quad().check(&good).is_ok());
+    assert!(matches!(quad().check(&good[..7]), Err(Error::Size { .. })));
+    let mut clockwise = good;
+    clockwise.swap(1, 3);
+    clockwise.swap(4, 7);
+    clockwise.swap(5, 6);
+    assert!(matches!(quad().check(&clockwise), Err(Error::Input { .. })));
+    // The node of an edge beyond its quarter: the map folds at the corner.
+    let mut folded = good;
+    folded[4] = [0.4, 0.0];
+    assert!(matches!(quad().check(&folded), Err(Error::Input { .. })));
+    let mut missing = good;
+    missing[2] = [f64::NAN, 1.0];
+    assert!(matches!(quad().check(&missing), Err(Error::Input { .. })));
+}

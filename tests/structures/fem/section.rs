@@ -1,0 +1,116 @@
+//! GOAL: section forces.
+//! SCENE: a frame on a block, under a static load and in any motion.
+//! REFERENCE: the free body above the section, which is a model of its own.
+
+use crate::support::dense::{damping, dot, form, mass, multiply, noise, solve_held, stiffness};
+use basemat::fem::{
+    Beam, Dashpot, Direction, Layer, LumpedMass, Material, Mesh, Quad4, QuadFormulation,
+};
+use basemat::structure::{FemModel, RayleighDamping, SectionRows, Structure};
+
+const CUT: f64 = 2.0;
+
+/// Frame on a block, everything above `CUT` also as a model of its own (`upper`).
+fn frame_on_block() -> [FemModel; 2] {
+    let concrete = Material::new(2.0e8, 0.2, 2400.0).unwrap();
+    let layers = [Layer::new(CUT, 2, concrete), Layer::new(3.0, 3, concrete)];
+    let models = [Mesh::layered_block(-1.0..3.0, 2, &layers), {
+        let mut mesh = Mesh::new();
+        let block = Mesh::layered_block(-1.0..3.0, 2, &layers[1..]).unwrap();
+        for [x, y] in block.nodes() {
+            mesh.add_node(*x, y + CUT).unwrap();
+        }
+        for element in block.elements() {
+            let nodes: [usize; 4] = element.nodes().try_into().unwrap();
+            mesh.add(Quad4::new(nodes, concrete, QuadFormulation::default())).unwrap();
+        }
+        Ok(mesh)
+    }];
+    models.map(|mesh| {
+        let mut mesh = mesh.unwrap();
+        let roof = mesh.node_at(1.0, 5.0).unwrap();
+        let foot = mesh.node_at(3.0, CUT).unwrap();
+        let top = mesh.add_node(3.5, 6.0).unwrap();
+        // The second beam stands on the cut itself: its foot's moment passes through, too.
+        for nodes in [[roof, top], [foot, top]] {
+            mesh.add(Beam::new(nodes, 2.0e8, 0.5, 0.02, 2400.0).unwrap()).unwrap();
+        }
+        mesh.add(LumpedMass::new(top, 3000.0).unwrap().with_rotary_inertia(500.0).unwrap())
+            .unwrap();
+        mesh.add(Dashpot::axial([foot, roof], 6.0e4).unwrap()).unwrap();
+        let base = mesh.nodes_at_height(mesh.lowest(), 1e-9).unwrap();
+        let model = FemModel::new(mesh, &base).unwrap();
+        model.with_rayleigh(RayleighDamping::new(0.0, 0.003).unwrap())
+    })
+}
+
+/// Static: load at the top, base held; the section passes on exactly that load and its moment.
+#[test]
+fn static_load_passes_through_every_section() {
+    let [model, _] = frame_on_block();
+    let top = model.node_at(3.5, 6.0).unwrap();
+    let mut load = vec![0.0; model.unknowns()];
+    load[model.unknown(top, Direction::X).unwrap()] = 700.0;
+    load[model.unknown(top, Direction::Y).unwrap()] = -300.0;
+    load[model.unknown(top, Direction::Rotation).unwrap()] = 50.0;
+    let held: Vec<(usize, f64)> = (0..6).map(|index| (index, 0.0)).collect();
+    let u = solve_held(&stiffness(&model), &load, &held);
+    for height in [0.0, 1.0, CUT] {
+        let section = model.section(height, 1.0).unwrap();
+        let value = |rows: &SectionRows| rows.value(&u, &[], &[]);
+        assert!((value(&section.shear) - 700.0).abs() < 1e-6);
+        assert!((value(&section.compression) - 300.0).abs() < 1e-6);
+        let moment = -300.0 * (3.5 - 1.0) - 700.0 * (6.0 - height) + 50.0;
+        assert!((value(&section.moment) - moment).abs() < 1e-5);
+    }
+}
+
+/// Any motion: force on the nodes above, less the rate of momentum of the upper part (its own
+/// model), is what the section passes on.
+#[test]
+fn moving_structure_keeps_the_balance_of_its_upper_part() {
+    let [model, upper] = frame_on_block();
+    let n = model.unknowns();
+    let first = model.node_at(-1.0, CUT).unwrap();
+    assert_eq!(model.unknowns() - upper.unknowns(), 2 * first);
+    let [u, v, a] = [1, 2, 3].map(|seed| noise(n, seed));
+    let force: Vec<f64> = multiply(&stiffness(&model), &u)
+        .iter()
+        .zip(multiply(&damping(&model), &v))
+        .zip(multiply(&mass(&model), &a))
+        .map(|((k, c), m)| k + c + m)
+        .collect();
+    // The upper model's nodes are the full model's from the cut upwards.
+    let skip = 2 * first;
+    let mut on_upper = force[skip..].to_vec();
+    for node in 0..3 {
+        for direction in [Direction::X, Direction::Y, Direction::Rotation] {
+            if let Some(index) = upper.unknown(node, direction) {
+                on_upper[index] = 0.0;
+            }
+        }
+    }
+    let section = model.section(CUT, 0.3).unwrap();
+    let inertia = mass(&upper);
+    for (rows, direction, sign) in [
+        (&section.shear, Direction::X, 1.0),
+        (&section.compression, Direction::Y, -1.0),
+        (&section.moment, Direction::Rotation, 1.0),
+    ] {
+        let motion = upper.rigid_motion(direction, [0.3, CUT]);
+        let balance = dot(&motion, &on_upper) - form(&motion, &inertia, &a[skip..]);
+        let found = rows.value(&u, &v, &a);
+        assert!((found - sign * balance).abs() < 1e-11 * 2.0e8, "{direction:?} {found} {balance}");
+        assert!(found.abs() > 1e3, "the balance is not an empty one");
+    }
+}
+
+#[test]
+fn section_needs_a_row_of_nodes_with_elements_above() {
+    let [model, _] = frame_on_block();
+    for (height, reference) in
+        [(0.5, 0.0), (3.0, 0.0), (6.0, 0.0), (9.0, 0.0), (f64::NAN, 0.0), (0.0, f64::INFINITY)]
+    {
+        assert!(model.section(height, reference).is_err(), "{height}");
+    }
+}

@@ -1,0 +1,381 @@
+//! GOAL: several structures on one ground.
+//! SCENE: far apart on the half-plane; on springs; twins; nonlinear members.
+//! REFERENCE: each alone, or its mirror image.
+
+use basemat::bem::{HalfPlaneGround, SpringGround, Strip};
+use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};
+use basemat::history::History;
+use basemat::interface::{Bonded, Coulomb};
+use basemat::motion::{RickerDisplacement, STANDARD_GRAVITY, el_centro_1940};
+use basemat::structure::{
+    CraigBampton, ModalDamping, RigidBlock, Row, ShearBuilding, Storey, Structure, StructureGroup,
+    Triplets, WithSprings,
+};
+use basemat::{CheckpointError, Error, Result, Simulation, Soil};
+
+use crate::support::wrapped::needed_from;
+
+const STEP: f64 = 0.002;
+
+fn soil() -> Soil {
+    Soil::new(60.0e6, 0.3, 1900.0).unwrap()
+}
+
+fn tower() -> ShearBuilding {
+    let storeys = [Storey::new(3.0, 15.0e3, 25.0e6); 4];
+    let tower = ShearBuilding::new(4.0, 30.0e3, 8.0e4, &storeys).unwrap();
+    tower.with_stiffness_damping(0.04).unwrap()
+}
+
+fn block() -> RigidBlock {
+    RigidBlock::new(3.0, 7.0, 1800.0).unwrap()
+}
+
+fn base() -> SimulationBuilder {
+    Simulation::builder(STEP)
+        .interface(Coulomb::new(0.4).unwrap())
+        .motion(el_centro_1940())
+        .gravity(STANDARD_GRAVITY)
+}
+
+fn strip(center: f64, width: f64) -> Strip {
+    Strip::uniform(center - 0.5 * width..center + 0.5 * width, 6).unwrap()
+}
+
+fn half_plane(strips: &[Strip]) -> HalfPlaneGround {
+    HalfPlaneGround::new(soil(), strips).unwrap()
+}
+
+fn states(mut simulation: Simulation, steps: usize) -> Vec<State> {
+    let mut all = Vec::new();
+    simulation.run(steps, |state| all.push(state.clone())).unwrap();
+    all
+}
+
+/// Largest difference of the tractions of two lists of elements over the largest of the first.
+fn apart(whole: &[State], part: &[State], first: usize) -> f64 {
+    let (mut difference, mut scale) = (0.0_f64, 0.0_f64);
+    for (whole, part) in whole.iter().zip(part) {
+        for (k, own) in part.contact.iter().enumerate() {
+            let other = &whole.contact[first + k];
+            for (a, b) in [(own.pressure, other.pressure), (own.shear, other.shear)] {
+                scale = scale.max(a.abs());
+                difference = difference.max((a - b).abs());
+            }
+        }
+    }
+    difference / scale
+}
+
+/// GOAL: until waves have gone from one to the other, each moves as if it were alone.
+/// CONFIG: half-plane without weight (statics act at any distance), 20 m apart, both bonded.
+#[test]
+fn two_far_apart_are_two_alone_until_waves_arrive() {
+    let run = |builder: SimulationBuilder, steps| {
+        let bonded = builder.gravity(0.0).interface(Bonded);
+        states(bonded.coordinates(Coordinates::Unknowns).build().unwrap(), steps)
+    };
+    let distance = 20.0;
+    let travel = (distance - 3.5) / soil().pressure_wave_speed();
+    let before = (1_u32..1000).take_while(|&n| f64::from(n) * STEP <= travel).count();
+    let steps = 8 * before;
+    let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), distance).unwrap();
+    let strips = [strip(0.0, 4.0), strip(distance, 3.0)];
+    let both = run(base().structure(group).ground(half_plane(&strips)), steps);
+    let first = run(base().structure(tower()).ground(half_plane(&strips[..1])), steps);
+    let block = block().centered_at(distance).unwrap();
+    let second = run(base().structure(block).ground(half_plane(&strips[1..])), steps);
+    let quiet = |all: &[State]| all[..before].to_vec();
+    assert!(before > 20 && first[before - 1].contact[0].shear != 0.0);
+    for (alone, from) in [(&first, 0), (&second, 6)] {
+        assert!(apart(&quiet(&both), &quiet(alone), from) < 1e-12);
+        // Later they do hear of each other.
+        let late = apart(&both, alone, from);
+        assert!(late > 1e-6, "{late}");
+    }
+}
+
+/// GOAL: without a soil between them, two structures are two single runs: modes, weight, uplift,
+/// sliding and all.
+/// CONFIG: spring beds, in unknowns and in modes.
+#[test]
+fn on_springs_each_is_alone() {
+    let bed = |center: f64, width: f64| -> SpringGround {
+        let range = center - 0.5 * width..center + 0.5 * width;
+        SpringGround::new(range, 6, 60.0e6, 40.0e6).unwrap().with_dashpots(3.0e5, 2.0e5).unwrap()
+    };
+    for coordinates in [Coordinates::Unknowns, Coordinates::Modes] {
+        // Elements of one bed from −2 to 2 carry the first, of its continuation the second.
+        let first = base().structure(tower()).ground(bed(0.0, 4.0)).coordinates(coordinates);
+        let first = states(first.build().unwrap(), 2000);
+        let moved = block().centered_at(4.5).unwrap();
+        let second = base().structure(moved).ground(bed(4.5, 3.0)).coordinates(coordinates);
+        let second = states(second.build().unwrap(), 2000);
+        let mixed = TwoBeds { beds: [bed(0.0, 4.0), bed(4.5, 3.0)], elements: Vec::new() };
+        let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 4.5).unwrap();
+        let both = base().structure(group).ground(mixed.joined()).coordinates(coordinates);
+        let both = states(both.build().unwrap(), 2000);
+        for (alone, from, which) in [(&first, 0, 0), (&second, 6, 1)] {
+            let difference = apart(&both, alone, from);
+            assert!(difference < 1e-7, "{coordinates:?}: {difference:e}");
+            let opened = alone.iter().any(|state| state.uplifted_fraction > 0.3);
+            assert!(opened || which == 0);
+            let (state, own) = (&both[1999], &alone[1999]);
+            let foundation = &state.foundations[which];
+            let scale = own.normal_force;
+            assert!((foundation.shear - own.base_shear).abs() < 1e-6 * scale);
+            assert!((foundation.moment - own.base_moment).abs() < 1e-6 * scale);
+            assert!((foundation.normal_force - own.normal_force).abs() < 1e-6 * scale);
+            assert!((foundation.rotation - own.base_rotation).abs() < 1e-9);
+            assert!((foundation.mean_slip - own.mean_slip).abs() < 1e-9);
+            assert_eq!(foundation.uplifted_fraction, own.uplifted_fraction);
+        }
+        assert!(both.iter().all(|state| state.ledger.residual() < 1e-9));
+    }
+}
+
+/// Two spring beds as one ground.
+struct TwoBeds {
+    beds: [SpringGround; 2],
+    elements: Vec<basemat::bem::ContactElement>,
+}
+
+impl TwoBeds {
+    fn joined(mut self) -> Self {
+        use basemat::bem::Ground;
+        self.elements = self.beds.iter().flat_map(|bed| bed.elements().to_vec()).collect();
+        self
+    }
+
+    /// Contact components of bed `k` of 2, six elements each.
+    fn own(k: usize) -> impl Iterator<Item = usize> {
+        (6 * k..6 * k + 6).chain(12 + 6 * k..18 + 6 * k)
+    }
+
+    fn spread(matrix: &mut [f64], blocks: impl Fn(usize, &mut [f64]) -> Result<()>) -> Result<()> {
+        matrix.fill(0.0);
+        for k in 0..2 {
+            let mut block = [0.0; 144];
+            blocks(k, &mut block)?;
+            for (a, row) in Self::own(k).enumerate() {
+                for (b, column) in Self::own(k).enumerate() {
+                    matrix[row * 24 + column] = block[a * 12 + b];
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl basemat::bem::Ground for TwoBeds {
+    fn elements(&self) -> &[basemat::bem::ContactElement] {
+        &self.elements
+    }
+
+    fn prepare(&mut self, time_step: f64) -> Result<()> {
+        self.beds.iter_mut().try_for_each(|bed| bed.prepare(time_step))
+    }
+
+    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+        Self::spread(matrix, |k, block| self.beds[k].instantaneous(block))
+    }
+
+    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
+        for k in 0..2 {
+            let mut own = [0.0; 12];
+            self.beds[k].history(&mut own)?;
+            Self::own(k).zip(own).for_each(|(i, value)| displacement[i] = value);
+        }
+        Ok(())
+    }
+
+    fn commit(&mut self, traction: &[f64]) {
+        for k in 0..2 {
+            let own: Vec<f64> = Self::own(k).map(|i| traction[i]).collect();
+            self.beds[k].commit(&own);
+        }
+    }
+
+    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        Self::spread(matrix, |k, block| self.beds[k].static_compliance(block))
+    }
+}
+
+/// GOAL: twins under a motion that is the same everywhere do mirror images of each other's motion
+/// (one pulled from the left, the other from the right) when the pulse is vertical.
+#[test]
+fn twins_mirror_each_other_under_a_vertical_pulse() {
+    let pulse = RickerDisplacement::new(0.05, 0.05, 0.3).unwrap().vertical();
+    let group = StructureGroup::new().with(block(), -2.5).unwrap().with(block(), 2.5).unwrap();
+    let strips = [strip(-2.5, 3.0), strip(2.5, 3.0)];
+    let simulation = base().structure(group).motion(pulse).ground(half_plane(&strips)).build();
+    let all = states(simulation.unwrap(), 400);
+    let peak = all.iter().fold(0.0_f64, |m, s| m.max(s.foundations[0].rotation.abs()));
+    assert!(peak > 1e-6);
+    for state in &all {
+        let [left, right] = &state.foundations[..] else { panic!() };
+        assert!((left.rotation + right.rotation).abs() < 1e-8 * peak.max(1e-3));
+        assert!((left.shear + right.shear).abs() < 1e-7 * left.normal_force.abs().max(1.0e3));
+    }
+}
+
+/// A member with internal variables and a nonlinear force.
+struct Softening {
+    block: RigidBlock,
+    memory: f64,
+}
+
+impl Structure for Softening {
+    needed_from!(block);
+
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    /// A dead weight's P–Δ, as a force.
+    fn nonlinear_force(&self, u: &[f64], force: &mut [f64]) {
+        force[RigidBlock::ROTATION] -= 2.0e5 * u[RigidBlock::ROTATION];
+    }
+
+    fn nonlinear_tangent(&self, _: &[f64], matrix: &mut Triplets) {
+        matrix.add(RigidBlock::ROTATION, RigidBlock::ROTATION, -2.0e5);
+    }
+
+    fn commit(&mut self, u: &[f64]) {
+        self.memory = u[0];
+    }
+
+    fn save(&self) -> Result<Vec<f64>> {
+        Ok(vec![self.memory])
+    }
+
+    fn restore(&mut self, values: &[f64]) -> Result<()> {
+        let [memory] = values else {
+            return Err(CheckpointError::Corrupt { quantity: "memory" }.into());
+        };
+        self.memory = *memory;
+        Ok(())
+    }
+}
+
+#[test]
+fn nonlinear_members_keep_to_their_places() {
+    let soft = || Softening { block: block(), memory: 0.0 };
+    let group = || StructureGroup::new().with(block(), 0.0).unwrap().with(soft(), 5.0).unwrap();
+    let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
+    let build = || {
+        let ground = half_plane(&strips).with_history_kind(History::Direct);
+        base().structure(group()).ground(ground).build().unwrap()
+    };
+    let mut simulation = build();
+    simulation.run(100, |_| {}).unwrap();
+    let saved = simulation.checkpoint().unwrap();
+    let then = states(simulation, 50);
+    let mut other = build();
+    other.resume(&saved).unwrap();
+    let again = states(other, 50);
+    assert_eq!(then[49].absolute_displacement(), again[49].absolute_displacement());
+    // The P–Δ of the second, linear: the same motion.
+    let linear = block().with_p_delta(2.0e5 / (block().total_mass() * 3.5)).unwrap();
+    let pair = StructureGroup::new().with(block(), 0.0).unwrap().with(linear, 5.0).unwrap();
+    let reference = base().structure(pair).ground(half_plane(&strips));
+    let reference = states(reference.build().unwrap(), 150);
+    let difference = apart(&reference[100..], &then, 0);
+    assert!(difference < 1e-6, "{difference:e}");
+}
+
+#[test]
+fn groups_that_make_no_sense_are_refused() {
+    let two = StructureGroup::new().with(block(), 0.0).unwrap();
+    assert!(matches!(two.with(block(), 2.9), Err(Error::Input { .. })));
+    let two = StructureGroup::new().with(block(), 0.0).unwrap();
+    assert!(matches!(two.with(block(), f64::NAN), Err(Error::Input { .. })));
+    let pair = || StructureGroup::new().with(block(), 0.0).unwrap().with(block(), 5.0).unwrap();
+    // An element between the two, and a foundation without any.
+    let across = [strip(0.0, 3.0), Strip::uniform(1.7..2.3, 1).unwrap(), strip(5.0, 3.0)];
+    let built = base().structure(pair()).ground(half_plane(&across)).build();
+    assert!(matches!(built, Err(Error::Input { .. })), "{:?}", built.err());
+    let built = base().structure(pair()).ground(half_plane(&across[..1])).build();
+    assert!(matches!(built, Err(Error::Size { .. })), "{:?}", built.err());
+    let empty = base().structure(StructureGroup::new()).ground(half_plane(&across[..1])).build();
+    assert!(empty.is_err());
+}
+
+#[test]
+fn foundations_stay_apart_in_every_wrapper() {
+    let pair = || StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 5.0).unwrap();
+    let wrapped: [Box<dyn Structure>; 3] = [
+        Box::new(WithSprings::new(pair())),
+        Box::new(ModalDamping::new(&[0.05]).unwrap().on(pair()).unwrap()),
+        Box::new(CraigBampton::new(2).reduce(pair()).unwrap()),
+    ];
+    assert_eq!(pair().foundation_ends(), [1]);
+    for structure in wrapped {
+        assert_eq!(structure.foundation_ends(), [1]);
+    }
+    let strips = [strip(0.0, 4.0), strip(5.0, 3.0)];
+    let simulation = base().structure(WithSprings::new(pair())).ground(half_plane(&strips));
+    assert_eq!(simulation.build().unwrap().state().foundations.len(), 2);
+}
+
+/// A block that names a last contact node of its own choice.
+struct Ends(RigidBlock, usize);
+
+impl Structure for Ends {
+    needed_from!(0);
+
+    fn foundation_ends(&self) -> Vec<usize> {
+        vec![self.1]
+    }
+}
+
+#[test]
+fn foundations_that_end_nowhere_are_refused() {
+    let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
+    for end in [2, usize::MAX] {
+        let pair = StructureGroup::new()
+            .with(block(), 0.0)
+            .unwrap()
+            .with(Ends(block(), end), 5.0)
+            .unwrap();
+        let built = base().structure(pair).ground(half_plane(&strips)).build();
+        assert!(matches!(built, Err(Error::Index { bound: 4, .. })), "{:?}", built.err());
+    }
+}
+
+/// GOAL: a probe of one member never reads another one.
+/// CONFIG: a tower of seven unknowns before a block of three.
+#[test]
+fn rows_and_probes_stay_within_their_member() {
+    let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 5.0).unwrap();
+    assert_eq!(group.row(0, tower().roof()).unwrap(), Row::from(6));
+    assert_eq!(group.row(1, 2).unwrap(), Row::from(9));
+    // The tower's eighth unknown would be the block's first.
+    let quantity = "unknown of a structure of the group";
+    assert_eq!(group.row(0, 7), Err(Error::Index { quantity, index: 7, bound: 7 }));
+    for index in [3, usize::MAX] {
+        assert_eq!(group.row(1, index), Err(Error::Index { quantity, index, bound: 3 }));
+    }
+    let quantity = "structure of the group";
+    assert_eq!(group.row(2, 0), Err(Error::Index { quantity, index: 2, bound: 2 }));
+    assert!(matches!(group.row(0, (0, f64::NAN)), Err(Error::Input { .. })));
+
+    // A section has displacements and velocities, and all of them move.
+    let rows = tower().shear(1).unwrap();
+    let alone = Probe::section("shear", &rows);
+    let group = StructureGroup::new().with(block(), -5.0).unwrap().with(tower(), 0.0).unwrap();
+    let moved = group.probe(1, alone.clone()).unwrap();
+    assert_eq!(moved.name, "shear");
+    for (moved, alone) in
+        [(&moved.displacement, &alone.displacement), (&moved.velocity, &alone.velocity)]
+    {
+        assert!(!alone.is_empty());
+        let expected: Row = alone.into_iter().map(|&(index, weight)| (index + 3, weight)).collect();
+        assert_eq!(*moved, expected);
+    }
+    assert!(moved.acceleration.is_empty());
+    let error = group.probe(0, alone).unwrap_err();
+    let source =
+        Error::Index { quantity: "unknown of a structure of the group", index: 4, bound: 3 };
+    assert_eq!(error, Error::Probe { name: "shear".to_owned(), source: Box::new(source) });
+}

@@ -1,0 +1,252 @@
+//! GOAL: yielding and base-isolated buildings in the coupled integrator.
+//! SCENE: five storeys on the half-plane under El Centro; one storey on rock.
+//! REFERENCE: tangents by differences, the ledger, Runge–Kutta integration.
+
+use basemat::bem::{HalfPlaneGround, SpringGround};
+use basemat::coupled::{Newmark, Probe, Run, SimulationBuilder, Theta};
+use basemat::interface::{Bonded, Coulomb};
+use basemat::motion::{FreeFieldFn, STANDARD_GRAVITY, el_centro_1940};
+use basemat::structure::{
+    Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber,
+    NonlinearShearBuilding, ShearBuilding, Storey, Structure, Triplets,
+};
+use basemat::{Simulation, Soil};
+
+fn five_storeys() -> ShearBuilding {
+    let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
+    let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys).unwrap();
+    building.with_stiffness_damping(0.02).unwrap()
+}
+
+const LEVEL: IsolationLevel =
+    IsolationLevel { height: 0.3, slab_mass: 30.0e3, slab_inertia: 2.5e5, damping: 0.0 };
+
+fn isolated(law: impl Hysteresis + 'static) -> NonlinearShearBuilding {
+    NonlinearShearBuilding::isolated(five_storeys(), LEVEL, law).unwrap()
+}
+
+/// All storeys yield at 0.15 of the weight above.
+fn yielding(law: impl Fn(f64) -> Box<dyn Hysteresis>) -> NonlinearShearBuilding {
+    let mut building = NonlinearShearBuilding::new(five_storeys());
+    for storey in 0..5 {
+        let weight = STANDARD_GRAVITY * 20.0e3 * (5 - storey) as f64;
+        building = building.with_law(storey, law(0.15 * weight)).unwrap();
+    }
+    building
+}
+
+/// Builds a structure anew.
+type Make = Box<dyn Fn() -> NonlinearShearBuilding>;
+
+fn on_soil(structure: impl Structure + 'static, time_step: f64) -> SimulationBuilder {
+    let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
+    Simulation::builder(time_step)
+        .structure(structure)
+        .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 8).unwrap())
+        .interface(Coulomb::new(0.4).unwrap())
+        .motion(el_centro_1940())
+        .gravity(STANDARD_GRAVITY)
+}
+
+/// ∂f/∂u of the whole structure by central differences, where no law is near a kink.
+#[test]
+fn tangents_are_consistent() {
+    let mut building = yielding(|force| Box::new(BoucWen::new(40e6, force, 0.05).unwrap()));
+    building.commit(&[0.0, 0.0, 0.0, 0.004, 0.01, 0.012, 0.011, 0.015]);
+    let u = [0.001, 0.002, 1e-4, 0.003, 0.012, 0.0125, 0.0115, 0.0162];
+    let mut matrix = Triplets::new(8);
+    building.nonlinear_tangent(&u, &mut matrix);
+    let mut tangent = [[0.0; 8]; 8];
+    for &(i, j, value) in matrix.entries() {
+        tangent[i][j] += value;
+    }
+    for j in 0..8 {
+        let force = |step: f64| {
+            let (mut u, mut force) = (u, [0.0; 8]);
+            u[j] += step;
+            building.nonlinear_force(&u, &mut force);
+            force
+        };
+        let (above, below) = (force(1e-7), force(-1e-7));
+        for i in 0..8 {
+            let found = (above[i] - below[i]) / 2e-7;
+            let expected = tangent[i][j];
+            assert!((found - expected).abs() < 1e-6 * 4e8, "{i} {j}: {found} {expected}");
+        }
+    }
+}
+
+/// All laws in the coupled integrator with uplift and friction: Newton converges, the ledger closes,
+/// and the laws take energy and give none back.
+#[test]
+fn runs_converge_and_every_joule_is_booked() {
+    let weight = STANDARD_GRAVITY * 130.0e3;
+    let runs: Vec<(&str, Make)> = vec![
+        (
+            "bilinear storeys",
+            Box::new(|| yielding(|f| Box::new(Bilinear::new(40e6, f, 0.03).unwrap()))),
+        ),
+        (
+            "Bouc–Wen storeys",
+            Box::new(|| yielding(|f| Box::new(BoucWen::new(40e6, f, 0.03).unwrap()))),
+        ),
+        (
+            "friction pendulum",
+            Box::new(move || isolated(FrictionPendulum::new(weight, 2.0, 0.06).unwrap())),
+        ),
+        (
+            "lead–rubber",
+            Box::new(move || isolated(LeadRubber::from_strength(0.6e6, 0.06 * weight).unwrap())),
+        ),
+    ];
+    for (name, structure) in &runs {
+        for time_step in [0.01, 0.0025] {
+            let mut simulation = on_soil(structure(), time_step).build().unwrap();
+            let mut lost = 0.0;
+            let run = simulation
+                .run(1500, |state| {
+                    assert!(state.ledger.hysteresis >= lost, "{name} gives energy back");
+                    lost = state.ledger.hysteresis;
+                })
+                .unwrap();
+            let ledger = run.ledger;
+            println!("{name}, {time_step} s: {run}");
+            assert!(run.ledger_residual < 1e-9, "{name}: {:e}", run.ledger_residual);
+            assert!(lost > 0.05 * ledger.input, "{name} takes next to nothing");
+            assert!(ledger.strain >= -1e-9 * ledger.input, "{name}");
+            // One point in a step: what the midpoint misses shrinks with the step.
+            let missed = ledger.numerical.abs() / ledger.input;
+            assert!(missed < if time_step > 0.005 { 0.05 } else { 0.01 }, "{name}: {missed}");
+        }
+    }
+}
+
+#[test]
+fn other_time_schemes_march_too() {
+    let structure = || yielding(|f| Box::new(Bilinear::new(40e6, f, 0.03).unwrap()));
+    let run =
+        |builder: SimulationBuilder| -> Run { builder.build().unwrap().run(800, |_| {}).unwrap() };
+    let schemes = [
+        run(on_soil(structure(), 0.005)),
+        run(on_soil(structure(), 0.005).scheme(Newmark::default())),
+        run(on_soil(structure(), 0.005).scheme(Theta::new(0.55).unwrap())),
+    ];
+    for run in &schemes {
+        assert!(run.ledger_residual < 1e-9);
+        let ratio = run.ledger.hysteresis / schemes[0].ledger.hysteresis;
+        assert!((ratio - 1.0).abs() < 0.25, "{ratio}");
+    }
+}
+
+/// Ground displacement of the shaken single storey: two frequencies, starting from rest.
+fn ground(t: f64) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for (amplitude, w) in [(0.03, 4.0), (0.01, 9.0_f64)] {
+        sum[0] += amplitude * (1.0 - (w * t).cos() - 0.5 * (1.0 - (2.0 * w * t).cos()) / 4.0);
+        sum[1] += amplitude * w * ((w * t).sin() - (2.0 * w * t).sin() / 4.0);
+        sum[2] += amplitude * w * w * ((w * t).cos() - (2.0 * w * t).cos() / 2.0);
+    }
+    sum
+}
+
+/// One storey on rock against m ẍ = −F(x − x_g), ż = …, integrated by Runge–Kutta in fine steps: the
+/// coupled march must converge to it with the square of the step.
+#[test]
+fn yielding_storey_converges_to_its_differential_equation() {
+    let (mass, stiffness, strength, alpha) = (2.0e4, 2.0e6, 1.2e4, 0.1);
+    let dy = strength / stiffness;
+    let end = 3.0;
+    // y = [x, v, z]
+    let rate = |t: f64, y: [f64; 3]| {
+        let g = ground(t);
+        let (d, v) = (y[0] - g[0], y[1] - g[1]);
+        let force = alpha * stiffness * d + (1.0 - alpha) * strength * y[2];
+        let sign = if v * y[2] > 0.0 { 1.0 } else { -1.0 };
+        let z = (1.0 - (0.6 * sign + 0.4) * y[2].abs().powf(1.5)) * v / dy;
+        [y[1], -force / mass, z]
+    };
+    let (fine, mut y) = (300_000_u32, [0.0; 3]);
+    let h = end / f64::from(fine);
+    for step in 0..fine {
+        let t = f64::from(step) * h;
+        let go = |y: [f64; 3], k: [f64; 3], h: f64| [0, 1, 2].map(|i| y[i] + h * k[i]);
+        let a = rate(t, y);
+        let b = rate(t + 0.5 * h, go(y, a, 0.5 * h));
+        let c = rate(t + 0.5 * h, go(y, b, 0.5 * h));
+        let d = rate(t + h, go(y, c, h));
+        y = [0, 1, 2].map(|i| y[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]));
+    }
+    let error = |steps: u32| {
+        let law = BoucWen::new(stiffness, strength, alpha).unwrap().with_shape(1.5, 0.6).unwrap();
+        let storey = Storey::new(1e-3, mass, stiffness);
+        let building = ShearBuilding::new(4.0, 1e3, 1e7, &[storey]).unwrap();
+        // Rock: so stiff that the base does what the ground does.
+        let rock = SpringGround::new(-2.0..2.0, 2, 1e13, 1e13).unwrap();
+        let motion = FreeFieldFn::new(|_, t| [ground(t)[0], 0.0]);
+        let mut simulation = Simulation::builder(end / f64::from(steps))
+            .structure(NonlinearShearBuilding::new(building).with_law(0, law).unwrap())
+            .ground(rock)
+            .interface(Bonded)
+            .motion(motion)
+            .build()
+            .unwrap();
+        simulation.run(steps as usize, |_| {}).unwrap();
+        simulation.state().absolute_displacement()[3] - y[0]
+    };
+    let errors = [150, 300, 600, 1200, 2400, 4800].map(error);
+    println!("floor at the end {:.4} m, errors {errors:?}", y[0]);
+    assert!(errors[5].abs() < 1e-6, "{errors:?}");
+    // The mean order over five halvings; single ones wander with where in a step the motion turns.
+    let order = (errors[0] / errors[5]).abs().log2() / 5.0;
+    assert!((order - 2.0).abs() < 0.3, "order {order}");
+}
+
+/// Isolated by a pendulum with long sliding: the force through the bearings is what the law allows.
+#[test]
+fn bearings_pass_no_more_than_their_law() {
+    let weight = STANDARD_GRAVITY * 130.0e3;
+    let (radius, friction) = (2.0, 0.06);
+    let structure = isolated(FrictionPendulum::new(weight, radius, friction).unwrap());
+    let drift = structure.building().drift(0).unwrap();
+    let shear = structure.shear(0).unwrap();
+    let mut simulation = on_soil(structure, 0.0025)
+        .probe(Probe::displacement("bearing", drift))
+        .probe(Probe::section("shear", &shear))
+        .build()
+        .unwrap();
+    let (mut before, mut slid) = (0.0, 0);
+    simulation
+        .run(3000, |state| {
+            let [bearing, force] = [state.probes[0], state.probes[1]];
+            let middle = 0.5 * (before + bearing);
+            let friction_part = force - weight / radius * middle;
+            assert!(friction_part.abs() < friction * weight * (1.0 + 1e-6), "{friction_part}");
+            if friction_part.abs() > 0.999 * friction * weight {
+                slid += 1;
+            }
+            before = bearing;
+        })
+        .unwrap();
+    assert!(slid > 100, "slid in {slid} steps only");
+    // A fixed-base building of this kind sees several times the bearings' friction.
+    let mut fixed = on_soil(five_storeys(), 0.0025).build().unwrap();
+    let fixed = fixed.run(3000, |_| {}).unwrap().base_shear.value.abs();
+    assert!(fixed > 2.0 * friction * weight, "{fixed}");
+}
+
+#[test]
+fn checkpoints_carry_the_laws() {
+    let scene = || {
+        let law = |f| -> Box<dyn Hysteresis> { Box::new(BoucWen::new(40e6, f, 0.03).unwrap()) };
+        on_soil(yielding(law), 0.01).build().unwrap()
+    };
+    let mut whole = scene();
+    whole.run(250, |_| {}).unwrap();
+    let saved = whole.checkpoint().unwrap();
+    assert!(whole.state().ledger.hysteresis > 0.0);
+    whole.run(100, |_| {}).unwrap();
+    let mut resumed = scene();
+    resumed.resume(&saved).unwrap();
+    resumed.run(100, |_| {}).unwrap();
+    assert_eq!(resumed.state(), whole.state());
+}

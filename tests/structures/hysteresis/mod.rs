@@ -1,0 +1,8 @@
+//! GOAL: hysteretic springs, yielding storeys and base isolators.
+//! SCENE: the laws alone, and buildings in the coupled integrator.
+//! REFERENCE: differential equations, energies, closed-form loops.
+
+mod building;
+mod laws;
+mod p_delta;
+mod refused;

@@ -1,0 +1,141 @@
+//! GOAL: P–Δ of isolated and yielding buildings.
+//! SCENE: bearings under their weight, a storey at its buckling load, columns that collapse.
+//! REFERENCE: the potential energy of the weight, differentiated twice; typed errors.
+
+use crate::support::curvature::curvature;
+use basemat::bem::{HalfPlaneGround, SpringGround};
+use basemat::coupled::{Probe, Run};
+use basemat::interface::{Bonded, Coulomb};
+use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::structure::{
+    Bilinear, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber, NonlinearShearBuilding,
+    ShearBuilding, Storey, Structure, Triplets,
+};
+use basemat::{Error, Simulation, Soil, StepError};
+
+const LEVEL: IsolationLevel =
+    IsolationLevel { height: 0.3, slab_mass: 30.0e3, slab_inertia: 2.5e5, damping: 0.0 };
+const WEIGHT: f64 = STANDARD_GRAVITY * 130.0e3;
+
+fn building(gravity: f64) -> ShearBuilding {
+    let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
+    let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys).unwrap();
+    building.with_p_delta(gravity).unwrap()
+}
+
+/// El Centro on soil, the base free to uplift and slide; the probe is the drift of the isolators.
+fn shaken(gravity: f64, law: impl Hysteresis + 'static) -> Run {
+    let structure = NonlinearShearBuilding::isolated(building(gravity), LEVEL, law).unwrap();
+    let drift = structure.building().drift(0).unwrap();
+    let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
+    Simulation::builder(5e-3)
+        .structure(structure)
+        .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 6).unwrap())
+        .interface(Coulomb::new(0.4).unwrap())
+        .motion(el_centro_1940())
+        .gravity(STANDARD_GRAVITY)
+        .probe(Probe::displacement("drift", drift))
+        .build()
+        .unwrap()
+        .run(2000, |_| {})
+        .unwrap()
+}
+
+/// The weight's own stiffness of bearings 0.3 m high would be −4.2 MN/m, and theirs 0.6 to 0.9 MN/m.
+#[test]
+fn isolators_drift_as_they_do_without_p_delta() {
+    let pendulum = || FrictionPendulum::new(WEIGHT, 2.0, 0.06).unwrap();
+    let rubber = || LeadRubber::from_strength(0.6e6, 0.05 * WEIGHT).unwrap();
+    let pairs = [
+        [shaken(0.0, pendulum()), shaken(STANDARD_GRAVITY, pendulum())],
+        [shaken(0.0, rubber()), shaken(STANDARD_GRAVITY, rubber())],
+    ];
+    for pair in pairs {
+        let [without, with] = pair.map(|run| {
+            assert!(run.ledger_residual < 1e-9);
+            run.probe("drift").unwrap().value.abs()
+        });
+        println!("{:.1} mm, with P–Δ {:.1} mm", 1e3 * without, 1e3 * with);
+        assert!((0.03..0.2).contains(&without));
+        assert!((with / without - 1.0).abs() < 0.1, "{without} {with}");
+    }
+}
+
+/// The height of the weights on a slider that moves along the plane of a base that turns, with
+/// inextensible columns above, differentiated twice by steps.
+#[test]
+fn the_weight_on_isolators_has_the_curvature_of_its_potential() {
+    let stiffness = |gravity| {
+        let law = Bilinear::new(1.0e6, 1.0e4, 0.1).unwrap();
+        let isolated = NonlinearShearBuilding::isolated(building(gravity), LEVEL, law).unwrap();
+        let mut triplets = Triplets::new(9);
+        isolated.stiffness(&mut triplets);
+        let mut full = [[0.0; 9]; 9];
+        for &(i, j, value) in triplets.entries() {
+            full[i][j] += value;
+        }
+        full
+    };
+    let (with, without) = (stiffness(10.0), stiffness(0.0));
+    let energy = |u: &[f64; 9]| {
+        let (sin, cos) = u[2].sin_cos();
+        // Along the turned plane the slider stands where it makes the slab move by u_3.
+        let along = (u[3] - u[0] + LEVEL.height * sin) / cos;
+        let mut height = along * sin + LEVEL.height * cos;
+        let mut sum = 10.0 * LEVEL.slab_mass * height;
+        for floor in 4..9 {
+            height += (9.0 - (u[floor] - u[floor - 1]).powi(2)).sqrt();
+            sum += 10.0 * 20.0e3 * height;
+        }
+        sum
+    };
+    for i in 0..9 {
+        for j in 0..9 {
+            let curvature = curvature(energy, [i, j], 1e-3);
+            let found = with[i][j] - without[i][j];
+            assert!((found - curvature).abs() < 1e-5 * 1.3e6, "({i}, {j}): {found} {curvature}");
+        }
+    }
+}
+
+/// A storey of k = W/h is at its buckling load.
+#[test]
+fn columns_that_would_buckle_are_refused() {
+    let storeys = [Storey::new(3.0, 1000.0, 1.0e4), Storey::new(2.0, 1000.0, 1.0e6)];
+    let building = || ShearBuilding::new(5.0, 1000.0, 1000.0, &storeys).unwrap();
+    // 2000 g/3 against 1e4: the lower storey buckles at 15 m/s².
+    assert!(building().with_p_delta(14.999).is_ok());
+    for gravity in [15.001, 1e3, 1e300, f64::MAX] {
+        let refused = building().with_p_delta(gravity);
+        assert!(matches!(refused, Err(Error::Input { value: 3.0, .. })), "{refused:?}");
+    }
+    let under = |stiffness| {
+        let building = NonlinearShearBuilding::new(building().with_p_delta(10.0).unwrap());
+        building.with_law(0, Bilinear::new(stiffness, 10.0, 0.5).unwrap())
+    };
+    assert!(under(6667.0).is_ok());
+    assert!(matches!(under(6666.0), Err(Error::Input { value: 3.0, .. })));
+}
+
+/// Columns that yield and do not harden buckle under what they carry: the end of the building, and of
+/// the run, not a drift of 10⁸⁰ m with a closed ledger.
+#[test]
+fn a_collapse_ends_the_run() {
+    let storeys = [Storey::new(3.0, 20.0e3, 4.0e6)];
+    let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys).unwrap();
+    let building = NonlinearShearBuilding::new(building.with_p_delta(10.0).unwrap());
+    let building = building.with_law(0, Bilinear::new(4.0e6, 2.0e4, 1e-3).unwrap()).unwrap();
+    let mut simulation = Simulation::builder(0.05)
+        .structure(building)
+        .ground(SpringGround::new(-5.0..5.0, 4, 1.0e9, 1.0e9).unwrap())
+        .interface(Bonded)
+        .motion(el_centro_1940())
+        .build()
+        .unwrap();
+    let Err(Error::Step { step, source, .. }) = simulation.run(2000, |_| {}) else {
+        panic!("collapsed unnoticed");
+    };
+    assert!(matches!(source, StepError::Runaway { increment } if increment > 1e15), "{source}");
+    assert_eq!(simulation.state().step + 1, step);
+    assert!(step < 1000, "{step}");
+}

@@ -1,0 +1,163 @@
+//! GOAL: bad parameters and bad saved states are typed errors that change nothing.
+//! SCENE: one number spoilt at a time.
+//! REFERENCE: the error, and the structure as it was.
+
+use basemat::structure::{
+    Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber,
+    NonlinearShearBuilding, RigidBlock, ShearBuilding, Storey, Structure, WithSprings,
+};
+use basemat::{CheckpointError, Error, Result};
+
+const BAD: [f64; 5] = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+#[expect(clippy::needless_pass_by_value, reason = "every call makes its own")]
+fn is_input<T>(result: Result<T>) -> bool {
+    matches!(result, Err(Error::Input { .. }))
+}
+
+#[test]
+fn bad_parameters_are_refused() {
+    for bad in BAD {
+        assert!(is_input(Bilinear::new(bad, 1.0, 0.1)));
+        assert!(is_input(Bilinear::new(1.0, bad, 0.1)));
+        assert!(is_input(BoucWen::new(bad, 1.0, 0.1)));
+        assert!(is_input(BoucWen::new(1.0, bad, 0.1)));
+        assert!(is_input(FrictionPendulum::new(bad, 1.0, 0.1)));
+        assert!(is_input(FrictionPendulum::new(1.0, bad, 0.1)));
+        assert!(is_input(FrictionPendulum::new(1.0, 1.0, bad)));
+        let pendulum = FrictionPendulum::new(1.0, 1.0, 0.1).unwrap();
+        assert!(is_input(pendulum.sliding_period(bad)));
+        assert!(is_input(pendulum.with_yield_displacement(bad)));
+        for k in 0..4 {
+            let mut p = [0.4e6, 0.5, 0.2, 0.01];
+            p[k] = bad;
+            assert!(is_input(LeadRubber::new(p[0], p[1], p[2], p[3])));
+        }
+        assert!(is_input(LeadRubber::from_strength(bad, 1.0)));
+        assert!(is_input(LeadRubber::from_strength(1.0, 1.0).unwrap().with_stiffness_ratio(bad)));
+    }
+    for bad in [-0.1, 1.0, 2.0, f64::NAN, f64::INFINITY] {
+        assert!(is_input(Bilinear::new(1.0, 1.0, bad)));
+        assert!(is_input(BoucWen::new(1.0, 1.0, bad)));
+    }
+    for (n, beta) in [(0.9, 0.5), (11.0, 0.5), (f64::NAN, 0.5), (2.0, 0.4), (2.0, 1.1)] {
+        assert!(is_input(BoucWen::new(1.0, 1.0, 0.0).unwrap().with_shape(n, beta)));
+    }
+    // Products that leave the range of numbers
+    assert!(is_input(Bilinear::new(1e-320, 1e-320, 1.0 - 1e-16)));
+    assert!(is_input(BoucWen::new(1e300, 1e-300, 0.0)));
+    assert!(is_input(FrictionPendulum::new(1e300, 1e-300, 0.1)));
+    assert!(is_input(LeadRubber::from_strength(1e308, 1.0)));
+}
+
+fn building() -> ShearBuilding {
+    let storeys = [Storey::new(3.0, 2e4, 4e7); 2];
+    ShearBuilding::new(10.0, 5e4, 4e5, &storeys).unwrap()
+}
+
+fn law() -> Bilinear {
+    Bilinear::new(4e7, 1e5, 0.05).unwrap()
+}
+
+#[test]
+fn laws_have_one_storey_each() {
+    let one = NonlinearShearBuilding::new(building()).with_law(1, law()).unwrap();
+    assert!(matches!(one.with_law(1, law()), Err(Error::Scene { .. })));
+    let one = NonlinearShearBuilding::new(building()).with_law(1, law()).unwrap();
+    assert!(matches!(one.building().shear(1), Err(Error::Scene { .. })));
+    assert!(one.building().shear(0).is_ok() && one.shear(1).is_ok());
+    let none = NonlinearShearBuilding::new(building());
+    assert!(none.is_linear());
+    assert!(matches!(none.shear(2), Err(Error::Index { .. })));
+    assert!(matches!(none.with_law(2, law()), Err(Error::Index { index: 2, bound: 2, .. })));
+    let level = IsolationLevel { height: 0.3, slab_mass: 3e4, slab_inertia: 0.0, damping: 0.0 };
+    for bad in BAD {
+        for level in [
+            IsolationLevel { height: bad, ..level },
+            IsolationLevel { slab_mass: bad, ..level },
+            IsolationLevel { slab_inertia: bad.min(-1.0), ..level },
+            IsolationLevel { damping: if bad == 0.0 { -1.0 } else { bad }, ..level },
+        ] {
+            assert!(is_input(NonlinearShearBuilding::isolated(building(), level, law())));
+        }
+    }
+    let isolated = NonlinearShearBuilding::isolated(building(), level, law()).unwrap();
+    assert_eq!(isolated.unknowns(), 6);
+    assert_eq!(isolated.building().storeys().len(), 3);
+}
+
+#[test]
+fn springs_need_unknowns_that_exist() {
+    let block = || WithSprings::new(RigidBlock::new(2.0, 4.0, 2000.0).unwrap());
+    assert!(block().is_linear());
+    assert!(matches!(block().spring(vec![(3, 1.0)], law()), Err(Error::Index { .. })));
+    assert!(is_input(block().spring(vec![(0, f64::NAN)], law())));
+}
+
+#[test]
+fn saved_states_that_are_not_finite_are_refused() {
+    let laws: [Box<dyn Hysteresis>; 4] = [
+        Box::new(law()),
+        Box::new(LeadRubber::from_strength(1e6, 1e5).unwrap()),
+        Box::new(FrictionPendulum::new(1e6, 2.0, 0.05).unwrap()),
+        Box::new(BoucWen::new(1e7, 1e5, 0.1).unwrap()),
+    ];
+    for mut law in laws {
+        law.commit(0.05);
+        let (saved, before) = (law.save(), law.response(0.03));
+        for place in 0..saved.len() {
+            for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let mut wrong = saved.clone();
+                wrong[place] = bad;
+                let error = law.restore(&wrong).unwrap_err();
+                let corrupt = CheckpointError::Corrupt { quantity: "state of a hysteretic spring" };
+                assert_eq!(error, Error::Checkpoint(corrupt), "{place}: {bad}");
+                assert_eq!(law.response(0.03), before);
+            }
+        }
+        law.restore(&saved).unwrap();
+    }
+}
+
+#[test]
+fn saved_states_come_back_or_change_nothing() {
+    let bouc_wen = BoucWen::new(1e7, 1e5, 0.1).unwrap();
+    let mut held =
+        WithSprings::new(NonlinearShearBuilding::new(building()).with_law(0, law()).unwrap())
+            .spring(vec![(3, 1.0), (0, -1.0)], bouc_wen.clone())
+            .unwrap();
+    let u = [0.0, 0.0, 0.0, 0.02, 0.03];
+    held.commit(&u);
+    let force = |held: &WithSprings| {
+        let mut force = [0.0; 5];
+        held.nonlinear_force(&[0.0, 0.0, 0.0, 0.015, 0.03], &mut force);
+        force
+    };
+    let (saved, before) = (held.save().unwrap(), force(&held));
+    assert_eq!(saved.len(), 5);
+    for (place, value) in [(1, 2.0), (2, -1.0), (4, -1.0)] {
+        let mut wrong = saved.clone();
+        wrong[place] = value;
+        assert!(matches!(held.restore(&wrong), Err(Error::Checkpoint(_))), "{place}");
+        assert_eq!(force(&held), before);
+    }
+    for length in [0, 2, 3, 4, 6] {
+        let mut wrong = saved.clone();
+        wrong.resize(length, 0.0);
+        assert!(matches!(held.restore(&wrong), Err(Error::Checkpoint(_))), "{length}");
+        assert_eq!(force(&held), before);
+    }
+    held.commit(&[0.0, 0.0, 0.0, -0.04, -0.05]);
+    assert_ne!(force(&held), before);
+    held.restore(&saved).unwrap();
+    assert_eq!(force(&held), before);
+    // Slices that are too short count as zero beyond their ends.
+    held.nonlinear_force(&[0.0; 2], &mut [0.0; 2]);
+    held.commit(&[]);
+    // Out-of-range deformations give numbers that are not finite, and no panic.
+    for wild in [f64::NAN, f64::INFINITY, 1e300] {
+        let _ = bouc_wen.response(wild);
+        let _ = bouc_wen.energy(wild);
+        let _ = law().response(wild);
+    }
+}

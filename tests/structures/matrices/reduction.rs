@@ -1,0 +1,261 @@
+//! GOAL: Craig–Bampton reduction.
+//! SCENE: a damped tower reduced to a few modes, with springs on kept unknowns.
+//! REFERENCE: the full model, closed-form cantilever modes, the ratios on a fixed base.
+
+use basemat::Error;
+use basemat::coupled::{Coordinates, Probe};
+use basemat::fem::Direction;
+use basemat::structure::{
+    Bilinear, ContactNode, CraigBampton, FemModel, MatrixModel, ModalDamping, RayleighDamping,
+    Recovery, ReducedModel, Structure, StructureGroup, Triplets, WithSprings,
+};
+
+use super::model::{on_soil, tower};
+use crate::support::dense::{self, largest};
+
+fn damped() -> FemModel {
+    tower(6, 12).with_rayleigh(RayleighDamping::from_ratios([1.0, 8.0], [0.03; 2]).unwrap())
+}
+
+fn top(model: &FemModel) -> usize {
+    model.unknown(model.node_at(0.0, 15.0).unwrap(), Direction::X).unwrap()
+}
+
+/// A x for a matrix of the structure.
+/// A structure's matrix times a vector.
+fn product(
+    structure: &dyn Structure,
+    fill: fn(&dyn Structure, &mut Triplets),
+    x: &[f64],
+) -> Vec<f64> {
+    let mut matrix = Triplets::new(structure.unknowns());
+    fill(structure, &mut matrix);
+    dense::product(&matrix, x)
+}
+
+/// Reduced unknowns of a motion of the full model that static answers alone can make.
+fn static_motion(recovery: &Recovery, order: usize, full: &[f64]) -> Vec<f64> {
+    let mut reduced: Vec<f64> = recovery.kept().iter().map(|&unknown| full[unknown]).collect();
+    reduced.resize(order, 0.0);
+    reduced
+}
+
+#[test]
+fn rigid_motions_weight_and_inertia_pass_exactly() {
+    let model = damped();
+    let rides = [Direction::X, Direction::Y, Direction::Rotation]
+        .map(|direction| model.rigid_motion(direction, [0.0, 0.0]));
+    let inertia: Vec<Vec<f64>> =
+        rides.iter().map(|ride| product(&model, Structure::mass, ride)).collect();
+    let reduced = CraigBampton::new(5).reduce(model).unwrap();
+    let recovery = reduced.recovery();
+    let order = reduced.unknowns();
+    for (ride, momentum) in rides.iter().zip(&inertia) {
+        let q = static_motion(&recovery, order, ride);
+        let back = recovery.full(&q).unwrap();
+        let apart: Vec<f64> = back.iter().zip(ride).map(|(a, b)| a - b).collect();
+        assert!(largest(&apart) < 1e-9 * largest(ride), "{:e}", largest(&apart));
+        let force = product(&reduced, Structure::stiffness, &q);
+        assert!(largest(&force) < 1e-11 * 2.0e9 * largest(ride), "{:e}", largest(&force));
+        for other in &rides {
+            let expected: f64 = other.iter().zip(momentum).map(|(a, b)| a * b).sum();
+            let own = static_motion(&recovery, order, other);
+            let found: f64 =
+                product(&reduced, Structure::mass, &q).iter().zip(&own).map(|(a, b)| a * b).sum();
+            let scale = 15.0_f64.powi(2) * 180e3;
+            assert!((found - expected).abs() < 1e-9 * scale, "{found} {expected}");
+        }
+    }
+}
+
+/// Sway of the top and base moment of the reduced model against those of the full one, uplift and
+/// sliding included: the more modes, the nearer, and with all of them the same.
+#[test]
+fn marches_like_the_full_model() {
+    let steps = 500;
+    let full = {
+        let model = damped();
+        let row = top(&model);
+        let mut simulation = on_soil(model)
+            .probe(Probe::displacement("top", row))
+            .coordinates(Coordinates::Unknowns)
+            .build()
+            .unwrap();
+        let mut history = Vec::new();
+        simulation.run(steps, |state| history.push([state.probes[0], state.base_moment])).unwrap();
+        (history, simulation.state().displacement().to_vec())
+    };
+    let peak = |k: usize| full.0.iter().fold(0.0_f64, |m, pair| m.max(pair[k].abs()));
+    let interior = damped().unknowns() - 14;
+    let mut last = f64::INFINITY;
+    for (modes, limit) in [(1, 0.2), (4, 0.04), (16, 0.004), (interior, 1e-7)] {
+        let model = damped();
+        let unknown = top(&model);
+        let reduced = CraigBampton::new(modes).reduce(model).unwrap();
+        assert_eq!(reduced.unknowns(), 14 + modes);
+        let recovery = reduced.recovery();
+        let probe = recovery.probe(Probe::displacement("top", unknown)).unwrap();
+        assert!(probe.velocity.is_empty() && probe.acceleration.is_empty());
+        let mut simulation = on_soil(reduced).probe(probe).build().unwrap();
+        let (mut apart, mut step) = ([0.0_f64; 2], 0);
+        let run = simulation
+            .run(steps, |state| {
+                for (k, value) in [state.probes[0], state.base_moment].into_iter().enumerate() {
+                    apart[k] = apart[k].max((value - full.0[step][k]).abs() / peak(k));
+                }
+                step += 1;
+            })
+            .unwrap();
+        println!("{modes} modes: sway off by {:.1e}, moment by {:.1e}", apart[0], apart[1]);
+        assert!(run.ledger_residual < 1e-9, "{:e}", run.ledger_residual);
+        assert!(apart[0] < limit && apart[0] < last, "{modes} modes: {apart:?}");
+        last = apart[0];
+        let back = recovery.full(simulation.state().displacement()).unwrap();
+        assert!((back[unknown] - simulation.state().probes[0]).abs() < 1e-12);
+        if modes == interior {
+            let off: Vec<f64> = back.iter().zip(&full.1).map(|(a, b)| a - b).collect();
+            assert!(largest(&off) < 1e-6 * peak(0), "{:e}", largest(&off));
+        }
+    }
+}
+
+/// Kept unknowns stay themselves, and springs on them work as on the full model.
+#[test]
+fn springs_on_kept_unknowns_are_those_of_the_full_model() {
+    let law = || Bilinear::new(3.0e7, 2.0e4, 0.05).unwrap();
+    let model = damped();
+    let (unknown, left) = (top(&model), model.unknown(0, Direction::X).unwrap());
+    let brace = vec![(unknown, 1.0), (left, -1.0)];
+    let march = |structure: WithSprings| {
+        let mut simulation = on_soil(structure).build().unwrap();
+        let run = simulation.run(300, |_| {}).unwrap();
+        (run.ledger.hysteresis, run.base_shear.value)
+    };
+    let expected = march(WithSprings::new(damped()).spring(brace.clone(), law()).unwrap());
+    let reduced = CraigBampton::new(60).keep(&[unknown]).reduce(model).unwrap();
+    let recovery = reduced.recovery();
+    let place = recovery.kept().iter().position(|kept| *kept == unknown).unwrap();
+    let row = recovery.row(&brace[..]).unwrap();
+    for (index, weight) in &row {
+        let is_end = *index == place || recovery.kept().get(*index) == Some(&left);
+        assert_eq!(weight.abs(), f64::from(u8::from(is_end)), "{index}");
+    }
+    let found = march(WithSprings::new(reduced).spring(row, law()).unwrap());
+    assert!(expected.0 > 100.0, "it yields");
+    assert!((found.0 / expected.0 - 1.0).abs() < 0.01, "{found:?} {expected:?}");
+    assert!((found.1 / expected.1 - 1.0).abs() < 0.02, "{found:?} {expected:?}");
+}
+
+/// Free decay on a held base: with the base of a huge mass, a mode on a fixed base loses 2πζ a cycle.
+#[test]
+fn damping_ratios_are_those_of_the_modes_on_a_fixed_base() {
+    let reduced =
+        CraigBampton::new(3).reduce(tower(6, 12)).unwrap().with_damping_ratio(0.04).unwrap();
+    let order = reduced.unknowns();
+    for (k, frequency) in reduced.frequencies().iter().enumerate() {
+        let mut q = vec![0.0; order];
+        q[order - 3 + k] = 1.0;
+        let diagonal = |fill| product(&reduced, fill, &q)[order - 3 + k];
+        let w = std::f64::consts::TAU * frequency;
+        assert!((diagonal(|s: &dyn Structure, m| s.stiffness(m)) / (w * w) - 1.0).abs() < 1e-12);
+        assert!((diagonal(Structure::mass) - 1.0).abs() < 1e-10);
+        assert!((diagonal(Structure::damping) / (2.0 * 0.04 * w) - 1.0).abs() < 1e-12);
+    }
+}
+
+/// The first mode of a slender cantilever: 1.8751² √(EI/(m L⁴)), with E/(1−ν²) in plane strain.
+#[test]
+fn modes_on_a_fixed_base_are_those_of_a_cantilever() {
+    use basemat::fem::{Layer, Material, Mesh};
+    let material = Material::new(2.0e9, 0.2, 2000.0).unwrap();
+    let mesh = Mesh::layered_block(-0.5..0.5, 4, &[Layer::new(40.0, 160, material)]).unwrap();
+    let reduced = CraigBampton::new(2).reduce(FemModel::on_base(mesh).unwrap()).unwrap();
+    let stiffness = 2.0e9 / (1.0 - 0.04) / 12.0;
+    let speed = (stiffness / 2000.0_f64).sqrt() / 40.0_f64.powi(2) / std::f64::consts::TAU;
+    for (frequency, root) in reduced.frequencies().iter().zip([1.875_104, 4.694_091_f64]) {
+        let expected = root * root * speed;
+        assert!((frequency / expected - 1.0).abs() < 5e-3, "{frequency} {expected}");
+    }
+}
+
+#[test]
+fn what_cannot_be_reduced_is_refused() {
+    let refuse = |result: basemat::Result<ReducedModel>| result.err().unwrap();
+    let law = Bilinear::new(1e6, 1e3, 0.0).unwrap();
+    let springs = WithSprings::new(tower(2, 2)).spring(vec![(0, 1.0)], law).unwrap();
+    assert!(matches!(refuse(CraigBampton::new(1).reduce(springs)), Error::Scene { .. }));
+    let missing = CraigBampton::new(1).keep(&[1000]).reduce(tower(2, 2));
+    assert!(matches!(refuse(missing), Error::Index { index: 1000, .. }));
+    let many = CraigBampton::new(13).reduce(tower(2, 2));
+    assert!(matches!(refuse(many), Error::Size { found: 13, needed: 12, .. }));
+    // A node that nothing holds.
+    let mut mesh = basemat::fem::Mesh::layered_block(
+        -1.0..1.0,
+        2,
+        &[basemat::fem::Layer::new(1.0, 1, basemat::fem::Material::new(1e9, 0.2, 2e3).unwrap())],
+    )
+    .unwrap();
+    let loose = mesh.add_node(0.0, 5.0).unwrap();
+    mesh.add(basemat::fem::LumpedMass::new(loose, 10.0).unwrap()).unwrap();
+    let hanging = CraigBampton::new(1).reduce(FemModel::on_base(mesh).unwrap());
+    let Error::Detached { unknowns, place } = refuse(hanging) else { panic!() };
+    assert_eq!((unknowns, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
+    let reduced = || CraigBampton::new(2).reduce(tower(2, 2)).unwrap();
+    for bad in [-0.1, f64::NAN, f64::INFINITY] {
+        assert!(matches!(refuse(reduced().with_damping_ratio(bad)), Error::Input { .. }));
+    }
+    let recovery = reduced().recovery();
+    assert_eq!(recovery.full_unknowns(), 18);
+    assert!(matches!(recovery.row(18), Err(Error::Index { .. })));
+    let probe = Probe::displacement("far", 18);
+    assert!(matches!(recovery.probe(probe), Err(Error::Probe { name, .. }) if name == "far"));
+    assert!(matches!(recovery.row((0, f64::NAN)), Err(Error::Input { .. })));
+    assert!(matches!(recovery.full(&[0.0; 3]), Err(Error::Size { .. })));
+    // A matrix of another order gets entries out of range, which it reports when it is used.
+    reduced().mass(&mut Triplets::new(0));
+    // Nothing left to reduce: the same structure.
+    let all: Vec<usize> = (0..18).collect();
+    let same = CraigBampton::new(0).keep(&all).reduce(tower(2, 2)).unwrap();
+    assert_eq!(same.unknowns(), 18);
+}
+
+/// The sums over a large stiffness matrix are not zero to the last bit; a frictionless base that is
+/// set down must not care.
+#[test]
+fn tall_meshes_stand() {
+    use basemat::fem::{Layer, MassKind, Material, Mesh};
+    let material = Material::new(5.0e9, 0.2, 600.0).unwrap();
+    let model = || {
+        let mesh = Mesh::layered_block(-3.0..3.0, 12, &[Layer::new(100.0, 200, material)]).unwrap();
+        FemModel::on_base(mesh).unwrap().with_mass(MassKind::Lumped)
+    };
+    let weight = 6.0 * 100.0 * 600.0 * basemat::motion::STANDARD_GRAVITY;
+    let reduced = on_soil(CraigBampton::new(4).reduce(model()).unwrap()).build().unwrap();
+    let full = on_soil(model()).coordinates(Coordinates::Unknowns).build().unwrap();
+    for simulation in [&full, &reduced] {
+        assert!((simulation.state().normal_force / weight - 1.0).abs() < 1e-7);
+    }
+    for (a, b) in full.state().contact.iter().zip(&reduced.state().contact) {
+        // Slow loads pass by static answers; weight on the interior by the modes that are kept.
+        assert!((a.pressure - b.pressure).abs() < 1e-2 * weight / 6.0, "{a:?} {b:?}");
+    }
+}
+
+/// A weightless mast on a rigid base has no modes of its own.
+#[test]
+fn without_mass_or_unknowns_there_are_no_modes() {
+    let mast = || {
+        let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(4));
+        (0..3).for_each(|unknown| mass.add(unknown, unknown, 1e4));
+        stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4e6);
+        let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
+        MatrixModel::new(mass, stiffness, contact).unwrap()
+    };
+    for modes in [0, 1] {
+        let reduced = CraigBampton::new(modes).reduce(mast()).unwrap();
+        assert_eq!(reduced.unknowns(), 3);
+        assert!(reduced.frequencies().is_empty());
+    }
+    let nothing = ModalDamping::new(&[0.05]).unwrap().on(StructureGroup::new()).unwrap();
+    assert!(nothing.frequencies().is_empty());
+}

@@ -1,0 +1,142 @@
+//! GOAL: negative masses and stiffnesses are told from rounding and from constraints.
+//! SCENE: floors tied by a multiplier, masses of rounding size, unstable columns.
+//! REFERENCE: the same structure without the constraint; typed errors.
+
+use basemat::structure::{ContactNode, MatrixModel, Triplets};
+use basemat::{Error, Result};
+
+use super::model::on_soil;
+
+/// Lever of the floors over the base in m.
+const HEIGHT: f64 = 5.0;
+
+fn base_masses(order: usize) -> Triplets {
+    let mut mass = Triplets::new(order);
+    [1.0e5, 1.0e5, 4.0e5].into_iter().enumerate().for_each(|(i, m)| mass.add(i, i, m));
+    mass
+}
+
+fn on_base(mass: Triplets, stiffness: Triplets) -> Result<MatrixModel> {
+    MatrixModel::new(mass, stiffness, ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]))
+}
+
+/// Adds a column of stiffness `stiffness` from the base to the floor `unknown`.
+fn column(matrix: &mut Triplets, unknown: usize, stiffness: f64) {
+    matrix.add_outer([(unknown, 1.0), (0, -1.0), (2, HEIGHT)], stiffness);
+}
+
+/// Two floors at one height, with a spring between them, and a multiplier of coefficient
+/// `coefficient` that ties them.
+fn tied(coefficient: f64, between: f64, columns: [f64; 2]) -> MatrixModel {
+    let mut mass = base_masses(6);
+    mass.add(3, 3, 1.0e4);
+    mass.add(4, 4, 2.0e4);
+    let mut stiffness = Triplets::new(6);
+    column(&mut stiffness, 3, columns[0]);
+    column(&mut stiffness, 4, columns[1]);
+    stiffness.add_spring(3, 4, between);
+    for (floor, sign) in [(3, 1.0), (4, -1.0)] {
+        stiffness.add(5, floor, sign * coefficient);
+        stiffness.add(floor, 5, sign * coefficient);
+    }
+    on_base(mass, stiffness).unwrap()
+}
+
+fn history(model: MatrixModel) -> Vec<f64> {
+    let mut simulation = on_soil(model).build().unwrap();
+    let mut history = Vec::new();
+    simulation.run(500, |state| history.push(state.absolute_displacement()[3])).unwrap();
+    history
+}
+
+/// A multiplier is no negative stiffness, whatever its coefficient, nor is one that it keeps from
+/// acting: a spring between tied floors, or a column that the other outweighs.
+#[test]
+fn floors_tied_by_a_multiplier_march_as_one() {
+    let mut mass = base_masses(4);
+    mass.add(3, 3, 3.0e4);
+    let mut stiffness = Triplets::new(4);
+    column(&mut stiffness, 3, 7.0e6);
+    let merged = history(on_base(mass, stiffness).unwrap());
+    let largest = merged.iter().fold(0.0, |m: f64, u| m.max(u.abs()));
+    assert!(largest > 1e-3, "{largest}");
+    for (coefficient, between, columns) in [
+        (1.0e6, 0.0, [4.0e6, 3.0e6]),
+        (1.0, 0.0, [4.0e6, 3.0e6]),
+        (1.0e6, -1.0e8, [4.0e6, 3.0e6]),
+        (1.0e6, 0.0, [-1.0e6, 8.0e6]),
+    ] {
+        let two = history(tied(coefficient, between, columns));
+        let error = two.iter().zip(&merged).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+        assert!(error < 1e-9 * largest, "{coefficient:e} {between:e} {columns:?}: {error:e}");
+    }
+}
+
+/// Beside a multiplier negative stiffness is still found, and so is a multiplier with a mass, which
+/// is none.
+#[test]
+fn multipliers_hide_no_negative_stiffness() {
+    let refused = |model: MatrixModel| {
+        let built = on_soil(model).gravity(0.0).build();
+        assert!(matches!(built, Err(Error::Indefinite { .. })), "{:?}", built.err());
+    };
+    refused(tied(1.0e6, 0.0, [-5.0e6, 4.0e6]));
+    refused(tied(1.0, 0.0, [-5.0e6, 4.0e6]));
+    let mut mass = base_masses(5);
+    mass.add(3, 3, 1.0e4);
+    mass.add(4, 4, 1.0e-3);
+    let mut stiffness = Triplets::new(5);
+    column(&mut stiffness, 3, 4.0e6);
+    stiffness.add(3, 4, 1.0e6);
+    stiffness.add(4, 3, 1.0e6);
+    refused(on_base(mass, stiffness).unwrap());
+}
+
+/// A floor of mass 1e4 on the base, and on it an unknown 4 with these masses.
+fn appended(entries: &[(usize, usize, f64)]) -> Result<MatrixModel> {
+    let mut mass = base_masses(5);
+    mass.add(3, 3, 1.0e4);
+    for &(row, column, value) in entries {
+        mass.add(row, column, value);
+        if row != column {
+            mass.add(column, row, value);
+        }
+    }
+    let mut stiffness = Triplets::new(5);
+    column(&mut stiffness, 3, 4.0e6);
+    stiffness.add_spring(3, 4, 1.0e6);
+    on_base(mass, stiffness)
+}
+
+/// What a reduction or a file leaves of a massless unknown marches as without it.
+#[test]
+fn masses_of_rounding_are_none() {
+    let massless = history(appended(&[]).unwrap());
+    for rounding in [
+        &[(4, 4, -1e-18)][..],
+        &[(3, 4, 1e-13)],
+        &[(4, 4, 1e-20), (0, 4, 1e-7)],
+        &[(4, 4, -1e-12), (3, 4, -1e-9)],
+    ] {
+        let found = history(appended(rounding).unwrap());
+        for (a, b) in found.iter().zip(&massless) {
+            assert!((a - b).abs() < 1e-10, "{rounding:?}: {a} {b}");
+        }
+    }
+}
+
+/// Refused by name of the unknown that is at fault.
+#[test]
+fn masses_beyond_rounding_are_refused() {
+    for (entries, diagonal) in [
+        (&[(4, 4, -1000.0)][..], -1000.0),
+        (&[(4, 4, -400.0)], -400.0),
+        (&[(4, 4, -1e-6)], -1e-6),
+        (&[(0, 4, 100.0)], 0.0),
+        (&[(3, 4, 1.0)], 0.0),
+        (&[(4, 4, 1.0), (3, 4, -101.0)], 1.0),
+    ] {
+        let refused = appended(entries).unwrap_err();
+        assert_eq!(refused, Error::Indefinite { matrix: "mass matrix", row: 4, diagonal });
+    }
+}

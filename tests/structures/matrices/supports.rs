@@ -1,0 +1,128 @@
+//! GOAL: elastic supports are refused and rounding is not: a structure must keep its rigid-body
+//! modes.
+//! SCENE: a slender wall by its matrices, with weak springs and with few digits.
+//! REFERENCE: the force that a rigid translation meets.
+
+use super::model::{on_soil, tower};
+use basemat::Error;
+use basemat::bem::HalfPlaneGround;
+use basemat::fem::{Direction, Layer, Material, Mesh};
+use basemat::interface::Coulomb;
+use basemat::structure::{CraigBampton, FemModel, MatrixModel, Structure, Triplets};
+use basemat::{Result, Simulation, Soil};
+
+/// The model by its matrices: every entry of K through `change`, and a spring to a fixed point, of a
+/// `share` of the largest stiffness.
+fn by_matrices(
+    model: &FemModel,
+    change: impl Fn(f64) -> f64,
+    support: Option<(usize, f64)>,
+) -> MatrixModel {
+    let n = model.unknowns();
+    let [mut mass, mut all, mut stiffness] = [(); 3].map(|()| Triplets::new(n));
+    model.mass(&mut mass);
+    model.stiffness(&mut all);
+    let mut sums = std::collections::BTreeMap::new();
+    for &(row, column, value) in all.entries() {
+        *sums.entry((row, column)).or_insert(0.0) += value;
+    }
+    let largest = sums.values().fold(0.0_f64, |a, value| a.max(value.abs()));
+    for (&(row, column), &value) in sums.iter().filter(|((row, column), _)| row >= column) {
+        stiffness.add(row, column, change(value));
+        if row > column {
+            stiffness.add(column, row, change(value));
+        }
+    }
+    if let Some((unknown, share)) = support {
+        stiffness.add(unknown, unknown, share * largest);
+    }
+    MatrixModel::new(mass, stiffness, model.contact_nodes()).unwrap()
+}
+
+/// As a file with so many significant digits has it.
+fn digits(count: usize) -> impl Fn(f64) -> f64 {
+    move |value| format!("{value:.*e}", count - 1).parse().unwrap()
+}
+
+/// 0.5 m wide and 50 m high.
+fn wall() -> FemModel {
+    let material = Material::new(2.0e9, 0.2, 2000.0).unwrap();
+    let mesh = Mesh::layered_block(-0.25..0.25, 2, &[Layer::new(50.0, 100, material)]).unwrap();
+    FemModel::on_base(mesh).unwrap()
+}
+
+fn wall_on_soil(structure: impl Structure + 'static) -> Result<Simulation> {
+    let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
+    Simulation::builder(0.01)
+        .structure(structure)
+        .ground(HalfPlaneGround::strip(soil, -0.25..0.25, 4).unwrap())
+        .interface(Coulomb::new(0.4).unwrap())
+        .build()
+}
+
+/// A spring of 1e-9 of the largest stiffness anywhere, and the wall's own softness beside it: the error
+/// says where, and how strong.
+#[test]
+fn weak_supports_are_refused_and_named() {
+    let block = tower(6, 20);
+    for (place, direction, name) in
+        [([0.0, 15.0], Direction::X, "to the right"), ([-1.0, 7.5], Direction::Y, "upwards")]
+    {
+        let unknown = block.unknown(block.nearest_node(place[0], place[1]), direction).unwrap();
+        let stiffest = by_matrices(&block, |value| value, None);
+        let mut entries = Triplets::new(block.unknowns());
+        stiffest.stiffness(&mut entries);
+        let largest = entries.entries().iter().fold(0.0_f64, |a, entry| a.max(entry.2));
+        for share in [1e-9, 1e-7, 1e-5] {
+            let held = by_matrices(&block, |value| value, Some((unknown, share)));
+            match on_soil(held).build().err() {
+                Some(Error::Supported { direction, force, unknown: found, share: beside }) => {
+                    assert_eq!((direction, found), (name, unknown), "{share:e}");
+                    assert!((force / (share * largest) - 1.0).abs() < 1e-3, "{share:e}: {force}");
+                    assert!(beside > 0.2 * share && beside < 5.0 * share, "{share:e}: {beside:e}");
+                }
+                other => panic!("{share:e}: {other:?}"),
+            }
+        }
+    }
+    let top = wall().unknown(wall().nearest_node(0.0, 50.0), Direction::X).unwrap();
+    for share in [1e-9, 1e-6, 1e-3, 1.0, 1e3] {
+        let held = by_matrices(&wall(), |value| value, Some((top, share)));
+        let reduced = CraigBampton::new(5).reduce(held.clone()).unwrap();
+        for built in [wall_on_soil(held), wall_on_soil(reduced)] {
+            assert!(matches!(built, Err(Error::Supported { .. })), "{share:e}: {:?}", built.err());
+        }
+    }
+}
+
+/// Rounding of sums, of entries with twelve digits, and of a reduction, is no support.
+#[test]
+fn rounding_is_no_support() {
+    let shuffled = |value: f64| (value * 1.1) / 1.1;
+    for built in [
+        on_soil(by_matrices(&tower(6, 20), shuffled, None)).build(),
+        on_soil(by_matrices(&tower(6, 20), digits(12), None)).build(),
+        wall_on_soil(by_matrices(&wall(), shuffled, None)),
+        wall_on_soil(by_matrices(&wall(), digits(12), None)),
+        wall_on_soil(wall()),
+    ] {
+        assert!(built.is_ok(), "{:?}", built.err());
+    }
+    let top = wall().unknown(wall().nearest_node(0.0, 50.0), Direction::X).unwrap();
+    let reduced = CraigBampton::new(10).keep(&[top]).reduce(wall()).unwrap();
+    let built = wall_on_soil(reduced);
+    assert!(built.is_ok(), "{:?}", built.err());
+}
+
+/// Seven digits leave forces that bend the ride: refused, with their size.
+#[test]
+fn matrices_of_few_digits_are_refused() {
+    for (count, size) in [(6, 1e-5), (7, 1e-6), (8, 1e-7)] {
+        match on_soil(by_matrices(&tower(6, 20), digits(count), None)).build().err() {
+            Some(Error::Supported { share, .. }) => {
+                assert!(share < size && share > 1e-3 * size, "{count}: {share:e}");
+            }
+            other => panic!("{count}: {other:?}"),
+        }
+    }
+}
