@@ -9,6 +9,8 @@
 //! 1963). Elastic soil gives way under the edge: there the block rocks on less base than it has,
 //! and loses energy by radiation as well as by impacts.
 
+use std::ops::ControlFlow::{Break, Continue};
+
 use basemat::Result;
 use basemat::prelude::*;
 use basemat::reference::RockingBlock;
@@ -40,7 +42,7 @@ fn rock(shear_wave_speed: f64, motion: Record, fallen: f64) -> Result<Summary> {
     // The observer records every step, and ends the run when the block is past its tipping point.
     simulation.run(STEPS, |state| {
         histories.record(state);
-        if state.base_rotation.abs() > fallen { Flow::Stop } else { Flow::Continue }
+        if state.base_rotation.abs() > fallen { Break(()) } else { Continue(()) }
     })?;
     Ok(histories.summary())
 }

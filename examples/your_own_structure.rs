@@ -93,7 +93,7 @@ fn main() -> basemat::Result<()> {
         .probe(Probe::acceleration("roof acceleration", roof))
         .build()?;
 
-    // The observer sees every step; it could return `Flow::Stop`.
+    // The observer sees every step; it could return `ControlFlow::Break`.
     let run = simulation.run(2400, |state| {
         if state.step % 400 == 0 {
             let [ground, _] = state.free_field;

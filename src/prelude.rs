@@ -1,7 +1,7 @@
 //! What most programs name: `use basemat::prelude::*;`.
 
 pub use crate::bem::{Ground, HalfPlaneGround, SpringGround};
-pub use crate::coupled::{Flow, Probe, Run, Simulation, State};
+pub use crate::coupled::{Probe, Run, Simulation, State};
 pub use crate::interface::{Bonded, Coulomb, InterfaceLaw};
 pub use crate::motion::{FreeField, Record, STANDARD_GRAVITY, el_centro_1940};
 pub use crate::results::{Comparison, Histories, Quantity, Recorder, Summary};

@@ -1,9 +1,10 @@
 //! One scheme on one row: how far it marches, and with what.
 
+use std::ops::ControlFlow::{Break, Continue};
 use std::time::Duration;
 
 use basemat::Simulation;
-use basemat::coupled::{Flow, State};
+use basemat::coupled::State;
 use basemat::{Error, StepError};
 use cpu_time::ProcessTime;
 
@@ -40,7 +41,7 @@ pub(crate) fn march(
     let mut shear = Vec::with_capacity(steps);
     let ran = simulation.run(steps, |state: &State| {
         shear.push(state.probes[0]);
-        if state.probes[0].abs() > limit { Flow::Stop } else { Flow::Continue }
+        if state.probes[0].abs() > limit { Break(()) } else { Continue(()) }
     });
     let end = match ran {
         Ok(_) if shear.len() < steps => End::Grew,

@@ -3,7 +3,7 @@
 use super::ledger::Ledger;
 use super::motion::Motion;
 use super::scene::Scene;
-use super::state::{Foundation, State, Transition};
+use super::state::{Foundation, Origin, State, Transition};
 use super::step::forcing::Forcing;
 use super::step::increment::Increment;
 use crate::contact::SearchMethod;
@@ -36,6 +36,7 @@ impl State {
         let mut state = Self {
             step: 0,
             time: 0.0,
+            origin: Origin::new(),
             motion: Motion::new(model.unknowns, model.influence.clone(), model.modes.clone()),
             contact,
             modes,

@@ -1,34 +1,19 @@
 //! Results of a run: peaks, warnings, energies.
 
 use std::fmt;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::ledger::Ledger;
 use super::peak::{Extremes, Peak, ProbePeak, probe_index};
 use super::probe::Probe;
 use super::resolution::Resolution;
-use super::state::{State, Transition};
+use super::state::State;
 use super::warning::Warning;
 use crate::bem::{ContactElement, Ground};
 use crate::contact::SearchMethod;
 use crate::error::Result;
 use crate::motion::FreeField;
 use crate::results::unit::{number, printed};
-
-/// Whether a run goes on after an observer has seen a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Flow {
-    /// Go on.
-    Continue,
-    /// Stop after this step.
-    Stop,
-}
-
-impl From<()> for Flow {
-    fn from((): ()) -> Self {
-        Flow::Continue
-    }
-}
 
 /// Steps whose contact modes the first search did not find, see
 /// [`SearchMethod`](super::SearchMethod).
@@ -71,8 +56,12 @@ pub struct Run {
     pub base_rotation: Peak,
     /// Largest values of the probes, in the order they were given to the builder.
     pub probes: Vec<ProbePeak>,
-    /// Every change of contact mode.
-    pub transitions: Vec<Transition>,
+    /// Changes of contact mode; each is in [`State::transitions`] of its step.
+    pub mode_changes: usize,
+    /// Those by which an element opened.
+    pub debondings: usize,
+    /// Those by which one closed again.
+    pub rebondings: usize,
     /// The ledger at the end.
     pub ledger: Ledger,
     /// Largest ledger residual of the run.
@@ -88,6 +77,8 @@ pub struct Run {
     shortest: f64,
     static_moment: f64,
     resolution: Resolution,
+    start: f64,
+    begin: Option<Instant>,
 }
 
 impl Run {
@@ -115,7 +106,9 @@ impl Run {
                     peak: Peak::default(),
                 })
                 .collect(),
-            transitions: Vec::new(),
+            mode_changes: 0,
+            debondings: 0,
+            rebondings: 0,
             ledger: start.ledger,
             ledger_residual: 0.0,
             trials: 0,
@@ -125,12 +118,15 @@ impl Run {
             shortest: elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min),
             static_moment: start.base_moment,
             resolution,
+            start: start.time,
+            // There is no clock in bare WebAssembly.
+            begin: (!cfg!(target_family = "wasm")).then(Instant::now),
         }
     }
 
-    pub(super) fn record(&mut self, state: &State) {
+    /// Takes in the next step; [`Simulation::run`](crate::Simulation::run) does it for every step.
+    pub fn record(&mut self, state: &State) {
         let time = state.time;
-        self.time = time;
         self.steps += 1;
         self.resolution.see(state);
         self.base_shear.see(state.base_shear, time);
@@ -144,7 +140,9 @@ impl Run {
         for (probe, value) in self.probes.iter_mut().zip(&state.probes) {
             probe.peak.see(*value, time);
         }
-        self.transitions.extend_from_slice(&state.transitions);
+        self.mode_changes += state.transitions.len();
+        self.debondings += state.transitions.iter().filter(|t| t.is_debonding()).count();
+        self.rebondings += state.transitions.iter().filter(|t| t.is_rebonding()).count();
         self.ledger_residual = self.ledger_residual.max(state.ledger.residual());
         self.trials += state.trials;
         match state.method {
@@ -154,11 +152,13 @@ impl Run {
         }
     }
 
-    pub(super) fn finish(&mut self, state: &State, wall: Duration) {
+    /// Closes the run at `state`; the ground is sampled where steps may have missed something.
+    pub(super) fn finish(&mut self, state: &State, ground: &dyn Ground, motion: &dyn FreeField) {
         self.time = state.time;
         self.residual_slip = state.mean_slip;
         self.ledger = state.ledger;
-        self.wall = wall;
+        self.wall = self.begin.map_or(Duration::ZERO, |begin| begin.elapsed());
+        self.resolution.resolve_ground(ground, motion, self.start..self.time);
         self.warnings = Warning::all(
             self.largest_slip.value,
             self.shortest,
@@ -166,16 +166,6 @@ impl Run {
             state.ledger.residual(),
         );
         self.resolution.warn(&mut self.warnings);
-    }
-
-    /// Samples the ground since `start` (s) where steps may have missed something.
-    pub(super) fn resolve_ground(
-        &mut self,
-        ground: &dyn Ground,
-        motion: &dyn FreeField,
-        start: f64,
-    ) {
-        self.resolution.resolve_ground(ground, motion, start..self.time);
     }
 
     /// What it asked of time step and elements.
@@ -232,12 +222,10 @@ impl fmt::Display for Run {
         }
         let residual = number(1e3 * self.residual_slip);
         writeln!(f, "  {:<width$}{residual:>12} mm", "mean slip at the end")?;
-        let opened = self.transitions.iter().filter(|t| t.is_debonding()).count();
-        let closed = self.transitions.iter().filter(|t| t.is_rebonding()).count();
         writeln!(
             f,
-            "  {} mode changes ({opened} debondings, {closed} rebondings)",
-            self.transitions.len()
+            "  {} mode changes ({} debondings, {} rebondings)",
+            self.mode_changes, self.debondings, self.rebondings
         )?;
         write!(f, "{}", self.ledger)?;
         for warning in &self.warnings {

@@ -1,10 +1,13 @@
 //! The simulation: the loop over steps.
 
+use std::ops::ControlFlow;
+
 use super::books::Books;
 use super::checkpoint::{self, Checkpoint};
+use super::observed::Observed;
 use super::probe::Probe;
 use super::resolution::Resolution;
-use super::run::{Flow, Run};
+use super::run::Run;
 use super::scene::Scene;
 use super::scene::conditioning::Conditioning;
 use super::state::State;
@@ -191,38 +194,69 @@ impl Simulation {
 
     /// Makes up to `steps` steps, calling `observe` after each with the new state.
     ///
-    /// `observe` may return nothing, or a [`Flow`] to stop early.
+    /// `observe` may return nothing, [`ControlFlow`] to stop early, or a [`Result`] of either: see
+    /// [`Observed`].
     ///
     /// # Errors
-    /// [`crate::Error::Step`] for a step that could not be solved; the simulation stays at the last
-    /// accepted one, and [`Simulation::state`] shows it.
-    pub fn run<R: Into<Flow>>(
+    /// [`crate::Error::Step`] for a step that could not be solved, or the observer's error; the
+    /// simulation stays at the last accepted step, and [`Simulation::state`] shows it.
+    pub fn run<R: Observed>(
         &mut self,
         steps: usize,
         mut observe: impl FnMut(&State) -> R,
     ) -> Result<Run> {
-        // There is no clock in bare WebAssembly.
-        let begin = (!cfg!(target_family = "wasm")).then(std::time::Instant::now);
         // Of so many steps an observer may well stop the run: histories grow by doubling then.
         let announced = self.state.step.saturating_add(steps);
         self.ground.announce(announced)?;
         if steps <= RESERVED_STEPS {
             self.ground.reserve(announced)?;
         }
-        let (probes, elements) = (&self.scene.probes, &self.scene.elements);
-        let mut run = Run::new(probes, elements, &self.state, self.resolution());
-        let start = self.state.time;
+        let mut run = self.begin_run();
         for _ in 0..steps {
             self.step()?;
             run.record(&self.state);
-            if observe(&self.state).into() == Flow::Stop {
+            if observe(&self.state).flow()? == ControlFlow::Break(()) {
                 break;
             }
         }
-        let wall = begin.map_or(std::time::Duration::ZERO, |begin| begin.elapsed());
-        run.resolve_ground(self.ground.as_ref(), self.motion.as_ref(), start);
-        run.finish(&self.state, wall);
-        Ok(run)
+        Ok(self.end_run(run))
+    }
+
+    /// An empty run that begins at the present state, for a loop of one's own: with
+    /// [`Run::record`] after every step and [`Simulation::end_run`] it becomes what
+    /// [`Simulation::run`] returns.
+    ///
+    /// ```
+    /// use basemat::bem::SpringGround;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::motion::el_centro_1940;
+    /// use basemat::structure::RigidBlock;
+    /// use basemat::Simulation;
+    ///
+    /// let mut simulation = Simulation::builder(0.01)
+    ///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+    ///     .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
+    ///     .interface(Coulomb::new(0.4)?)
+    ///     .motion(el_centro_1940())
+    ///     .build()?;
+    /// let mut run = simulation.begin_run();
+    /// while simulation.state().time < 3.0 {
+    ///     run.record(simulation.step()?);
+    /// }
+    /// let run = simulation.end_run(run);
+    /// assert_eq!(run.steps, 300);
+    /// assert!(run.ledger_residual < 1e-9);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn begin_run(&self) -> Run {
+        let (probes, elements) = (&self.scene.probes, &self.scene.elements);
+        Run::new(probes, elements, &self.state, self.resolution())
+    }
+
+    /// Closes a run at the present state: its time, ledger and warnings.
+    pub fn end_run(&self, mut run: Run) -> Run {
+        run.finish(&self.state, self.ground.as_ref(), self.motion.as_ref());
+        run
     }
 
     /// Condition numbers of the matrices of a step, estimated when the simulation was built.

@@ -1,5 +1,7 @@
 //! What a step leaves behind.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use super::ledger::Ledger;
 use super::motion::{Motion, Quantity};
 use crate::contact::SearchMethod;
@@ -69,6 +71,29 @@ impl Foundation {
     }
 }
 
+/// Which simulation a state belongs to; not part of what makes two states equal.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Origin(u64);
+
+impl Origin {
+    /// One that no other simulation has.
+    pub(crate) fn new() -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        Self(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+
+    /// Whether both are of one simulation.
+    pub(crate) fn is(self, other: Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+impl PartialEq for Origin {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
 /// The simulation at the end of an accepted step.
 ///
 /// Displacements are changes against the static state under weight, relative to the free field's
@@ -112,6 +137,7 @@ pub struct State {
     pub trials: usize,
     /// How the modes were found; in a nonlinear step, the farthest that any iteration had to go.
     pub method: SearchMethod,
+    pub(crate) origin: Origin,
     pub(crate) motion: Motion,
     /// What the laws see of it in the next step, per element.
     pub(crate) start: Vec<StepStart>,

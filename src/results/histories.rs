@@ -9,7 +9,9 @@ use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
 use super::unit::labelled;
 use super::{Extremes, Quantity, Recorder, Sliding, Uplift};
 use crate::bem::ContactElement;
-use crate::coupled::{Ledger, Peak, Probe, Resolution, Run, Simulation, State, probe_index};
+use crate::coupled::{
+    Ledger, Origin, Peak, Probe, Resolution, Run, Simulation, State, probe_index,
+};
 use crate::error::{Error, Result, write_file};
 
 /// Histories of a run, its peaks and envelopes: made by [`Recorder::start`], fed by
@@ -23,6 +25,7 @@ pub struct Histories {
     pub(super) elements: Vec<ContactElement>,
     pub(super) probes: Vec<Probe>,
     pub(super) time_step: f64,
+    origin: Origin,
     unknowns: usize,
     times: Vec<f64>,
     scalars: Vec<Vec<f64>>,
@@ -108,6 +111,7 @@ impl Histories {
         let mut histories = Self {
             probes: simulation.probes().to_vec(),
             time_step: simulation.time_step(),
+            origin: state.origin,
             unknowns: recorder.motion.map_or(0, |_| state.displacement().len()),
             times: Vec::new(),
             scalars: vec![Vec::new(); Quantity::ALL.len()],
@@ -179,7 +183,8 @@ impl Histories {
             && state.modes.len() == self.elements.len()
             && foundation::fit(&self.tally.foundations, state)
             && state.probes.len() == self.probes.len()
-            && state.time > self.tally.end;
+            && state.time > self.tally.end
+            && state.origin.is(self.origin);
         if !fits {
             return;
         }

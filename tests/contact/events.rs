@@ -5,7 +5,7 @@
 
 use basemat::Simulation;
 use basemat::bem::{Grading, SpringGround};
-use basemat::coupled::{Run, SimulationBuilder};
+use basemat::coupled::{Run, SimulationBuilder, Transition};
 use basemat::interface::Mode;
 use basemat::motion::FreeFieldFn;
 use basemat::structure::RigidBlock;
@@ -23,6 +23,7 @@ struct Outcome {
     /// Steps in which all elements changed their mode.
     at_once: usize,
     all_open: bool,
+    transitions: Vec<Transition>,
 }
 
 fn block(height: f64) -> RigidBlock {
@@ -37,7 +38,7 @@ fn bed() -> SpringGround {
 /// Runs a scene with the step SAMPLE / `parts` for `duration` seconds.
 fn outcome(builder: SimulationBuilder, parts: usize, duration: f64) -> Outcome {
     let mut simulation = builder.gravity(GRAVITY).build().unwrap();
-    let (mut history, mut at_once, mut all_open) = (Vec::new(), 0, false);
+    let (mut history, mut at_once, mut all_open, mut transitions) = (Vec::new(), 0, false, vec![]);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
     let samples = (duration / SAMPLE).round() as usize;
     let run = simulation
@@ -46,11 +47,18 @@ fn outcome(builder: SimulationBuilder, parts: usize, duration: f64) -> Outcome {
                 let u = state.absolute_displacement();
                 history.push([u[0], u[1], u[2]]);
             }
+            transitions.extend_from_slice(&state.transitions);
             at_once += usize::from(state.transitions.len() == state.modes.len());
             all_open |= state.modes.iter().all(|mode| *mode == Mode::Open);
         })
         .unwrap();
-    Outcome { history, run, at_once, all_open }
+    let opened = transitions.iter().filter(|change| change.is_debonding()).count();
+    let closed = transitions.iter().filter(|change| change.is_rebonding()).count();
+    assert_eq!(
+        [run.mode_changes, run.debondings, run.rebondings],
+        [transitions.len(), opened, closed]
+    );
+    Outcome { history, run, at_once, all_open, transitions }
 }
 
 /// Runs with ever shorter steps; returns them and the largest differences between neighbours,
@@ -75,10 +83,9 @@ fn refine(
         })
         .collect();
     for run in &runs {
-        let Run { transitions, trials, steps, fallbacks, ledger_residual, .. } = &run.run;
+        let Run { mode_changes, trials, steps, fallbacks, ledger_residual, .. } = &run.run;
         println!(
-            "{name}: {steps} steps, {trials} solves, fallbacks {fallbacks:?}, {} changes, {} at once, ledger {ledger_residual:.1e}",
-            transitions.len(),
+            "{name}: {steps} steps, {trials} solves, fallbacks {fallbacks:?}, {mode_changes} changes, {} at once, ledger {ledger_residual:.1e}",
             run.at_once
         );
         assert!(*ledger_residual < 1e-9, "{name}");
@@ -124,7 +131,7 @@ fn whole_base_lifts_off_and_lands() {
     let (runs, apart) = refine("half-plane", &parts, 0.8, half_plane);
     assert_converging("half-plane", &apart, 0.01);
     for run in &runs {
-        let back = run.run.transitions.iter().filter(|change| change.is_rebonding()).count();
+        let back = run.run.rebondings;
         assert!(run.all_open && back >= ELEMENTS, "{back}");
     }
 }
@@ -139,18 +146,15 @@ fn slip_reverses_in_all_elements() {
             .interface(friction(0.25))
             .motion(motion)
     };
-    let reversals = |run: &Run| {
+    let reversals = |run: &Outcome| {
         let turns = |a: Mode, b: Mode| a.is_slip() && b.is_slip() && a != b;
         run.transitions.iter().filter(|change| turns(change.from, change.to)).count()
     };
     let parts = [1, 2, 4, 8];
     let (runs, apart) = refine("spring bed", &parts, 1.2, |step| scene(step).ground(bed()));
     assert_converging("spring bed", &apart, 0.01);
-    println!(
-        "{:?} reversals within a step",
-        runs.iter().map(|o| reversals(&o.run)).collect::<Vec<_>>()
-    );
-    assert!(reversals(&runs[0].run) >= ELEMENTS && runs.iter().all(|run| run.at_once > 0));
+    println!("{:?} reversals within a step", runs.iter().map(reversals).collect::<Vec<_>>());
+    assert!(reversals(&runs[0]) >= ELEMENTS && runs.iter().all(|run| run.at_once > 0));
     let half_plane = |step| scene(step).ground(ground(SI, ELEMENTS, Grading::Cosine));
     let (runs, apart) = refine("half-plane", &parts, 1.2, half_plane);
     assert_converging("half-plane", &apart, 0.01);

@@ -6,7 +6,7 @@ use basemat::bem::{
     ContactElement, Grading, Ground, HalfPlaneGround, KernelGround, KernelSource, PatchKernel,
     SharedKernels, SpringGround, Strip,
 };
-use basemat::coupled::{Flow, Run};
+use basemat::coupled::Run;
 use basemat::history::{
     ChoiceReason, ConvolutionHistory, DirectHistory, ExponentialHistory, ExponentialTail, History,
     LagKernel, LateLags, PairClasses, RelaxedFftHistory, SharedSpectra, TailProduct,
@@ -502,7 +502,7 @@ fn the_steps_of_a_run_are_announced_however_many() {
             .motion(push())
             .build()
             .unwrap();
-        simulation.run(steps, |_| Flow::Stop).unwrap();
+        simulation.run(steps, |_| std::ops::ControlFlow::Break(())).unwrap();
         let choice = simulation.history_choice().unwrap();
         assert_eq!((choice.kind, choice.reason), (kind, reason), "{steps} steps");
         assert_eq!(choice.steps.is_none(), steps == usize::MAX);

@@ -73,3 +73,14 @@ fn bad_requests_are_errors() {
     assert_eq!(histories.times().len(), 2);
     assert_eq!(histories.summary().steps, 1);
 }
+
+/// States of another simulation of the same sizes are not taken for the next ones of this.
+#[test]
+fn states_of_another_simulation_are_ignored() {
+    let (mut own, mut other) = (simulation(), simulation());
+    let mut histories = Recorder::new().start(&own).unwrap();
+    histories.record(other.step().unwrap());
+    assert_eq!(histories.times(), [0.0]);
+    histories.record(own.step().unwrap());
+    assert_eq!(histories.times(), [0.0, own.time_step()]);
+}

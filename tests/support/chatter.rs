@@ -106,7 +106,7 @@ impl Scene {
             numerical: run.ledger.numerical / input,
             penetration,
             ledger_residual: run.ledger_residual,
-            changes: run.transitions.len(),
+            changes: run.mode_changes,
         })
     }
 }
