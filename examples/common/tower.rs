@@ -46,7 +46,7 @@ pub(crate) fn damped(
     Ok(MatrixModel::new(mass, stiffness, contact)?.with_rayleigh(damping))
 }
 
-/// The structure on soil, with the sway of its top as a probe, ready to march.
+/// The structure on soil, with the displacement of its top as a probe, ready to march.
 pub(crate) fn scene(
     structure: impl Structure + 'static,
     top: Row,
@@ -58,7 +58,7 @@ pub(crate) fn scene(
         .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 20)?)
         .interface(Coulomb::new(0.5)?)
         .motion(el_centro_1940())
-        .probe(Probe::displacement("top", top))
+        .probe(Probe::absolute_displacement("top", top))
         .coordinates(coordinates)
         .expected_steps(3000)
         .build()

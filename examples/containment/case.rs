@@ -91,8 +91,8 @@ pub(crate) fn run(
         .ground(HalfPlaneGround::strip(scene.soil()?, scene.base(), scene.elements)?)
         .motion(record.clone())
         .expected_steps(steps)
-        .probe(Probe::displacement("roof x", roof_x))
-        .probe(Probe::displacement("roof y", roof_y))
+        .probe(Probe::absolute_displacement("roof x", roof_x))
+        .probe(Probe::absolute_displacement("roof y", roof_y))
         .probe(base_shear);
     let mut simulation = match case.kind {
         Kind::Bonded => builder.interface(Bonded),
