@@ -114,6 +114,7 @@
 //! | [`Sweep`] | many simulations, on all processors with the feature `rayon` |
 //! | [`structure`] | finite-element model, shear building, rigid block, given matrices, reduction, hysteretic springs, and the trait for your own |
 //! | [`fem`] | meshes and elements |
+//! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
 //! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], grounds of any step coefficients |
 //! | [`history`] | the convolution with all past tractions, its kinds and their choice |
@@ -151,7 +152,8 @@
 //! | boundary operator (`full-plane`) | `bem::full_plane::BoundaryKernel` | 2 |
 //! | fundamental solution | [`fundamental::FundamentalSolution`] | 3 |
 //!
-//! The examples `your_own_structure`, `your_own_law` and `your_own_ground` do it.
+//! The examples `your_own_structure`, `your_own_law` and `your_own_ground` do it; `host_integrator`
+//! takes ground and contact into a time integrator of its own.
 //!
 //! # Examples
 //!

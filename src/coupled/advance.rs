@@ -83,14 +83,7 @@ impl State {
             }
         }
         for (e, start) in self.start.iter_mut().enumerate() {
-            let slip_rate = (self.contact[e].slip - start.state.slip) / scene.time_step;
-            *start = StepStart {
-                state: self.contact[e],
-                mode: self.modes[e],
-                has_opened: start.has_opened || !self.modes[e].is_closed(),
-                slip_rate,
-                ..*start
-            };
+            start.advance(self.contact[e], self.modes[e]);
         }
         (self.trials, self.method) = (increment.trials, increment.method);
         self.update_resultants(scene);

@@ -108,6 +108,13 @@ impl StepStart {
             time_step,
         }
     }
+
+    /// Goes on to the start of the next step, after this one has ended in `state` and `mode`.
+    pub fn advance(&mut self, state: ContactState, mode: Mode) {
+        self.slip_rate = (state.slip - self.state.slip) / self.time_step;
+        self.has_opened |= !mode.is_closed();
+        (self.state, self.mode) = (state, mode);
+    }
 }
 
 /// One linear condition on the end of a step:

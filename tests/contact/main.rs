@@ -3,6 +3,7 @@
 mod chatter;
 mod contact_problems;
 mod events;
+mod host;
 mod paper_parts;
 mod spring_bed;
 #[path = "../support/mod.rs"]
