@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::books::Books;
+use super::ledger::Ledger;
 use super::probe::Probe;
 use super::scene::base::Base;
 use super::scene::conditioning;
@@ -280,7 +281,10 @@ impl SimulationBuilder {
         };
         let mut solver = Solver::new(&scene, operators, ModeSearch::new(count, self.search));
         let (operators, contact) = solver.parts_mut();
-        let state = State::at_rest(&scene);
+        let mut state = State::at_rest(&scene);
+        if !self.ledger {
+            state.ledger = Ledger::LEFT_OUT;
+        }
         let conditioning = conditioning::assess(&scene, operators, contact, &state.start)?;
         Ok(Simulation {
             forcing: Forcing::new(&scene),

@@ -97,6 +97,9 @@ impl Ledger {
 /// Energies in kJ/m.
 impl fmt::Display for Ledger {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.input.is_nan() {
+            return write!(f, "energy ledger left out");
+        }
         let shown = |energy: f64| number(1e-3 * energy);
         writeln!(f, "energy, kJ/m: input {}", shown(self.input))?;
         let pairs = [

@@ -64,7 +64,7 @@ pub struct Run {
     pub rebondings: usize,
     /// The ledger at the end.
     pub ledger: Ledger,
-    /// Largest ledger residual of the run.
+    /// Largest ledger residual of the run; NaN if no ledger is kept.
     pub ledger_residual: f64,
     /// Linear solves of the mode search, in all.
     pub trials: usize,
@@ -110,7 +110,7 @@ impl Run {
             debondings: 0,
             rebondings: 0,
             ledger: start.ledger,
-            ledger_residual: 0.0,
+            ledger_residual: start.ledger.residual(),
             trials: 0,
             fallbacks: Fallbacks::default(),
             warnings: Vec::new(),

@@ -132,7 +132,7 @@ impl Histories {
                 foundations,
                 input: Peak { value: state.ledger.input, time: state.time },
                 ledger: state.ledger,
-                ledger_residual: 0.0,
+                ledger_residual: state.ledger.residual(),
                 mode_changes: 0,
                 resolution: simulation.resolution(),
             },

@@ -116,3 +116,38 @@ fn long_rides_open_the_ledger_by_rounding_only() {
         assert!(end < 3e-22 * modulus, "E = {modulus:e}, strength {strength}: {end:e}");
     }
 }
+
+/// Without its ledger a run goes the same way, and claims nothing of its energies.
+#[test]
+fn a_ledger_that_is_left_out_changes_nothing_else() {
+    let builder = || scene(SI, 0.6).structure(tower(SI, None)).interface(friction(0.3));
+    let mut with = builder().build().unwrap();
+    let mut without = builder().without_ledger().build().unwrap();
+    let (kept, left_out) = (with.run(200, |_| {}).unwrap(), without.run(200, |_| {}).unwrap());
+    assert!(kept.ledger_residual < 1e-9);
+    assert!(left_out.ledger_residual.is_nan() && left_out.ledger.soil.is_nan());
+    assert!(left_out.to_string().contains("energy ledger left out"));
+    assert_eq!(left_out.warnings, kept.warnings);
+    let (a, b) = (with.state(), without.state());
+    assert_eq!((&a.contact, &a.probes), (&b.contact, &b.probes));
+    assert_eq!(a.displacement(), b.displacement());
+    // A checkpoint knows whether there is one.
+    assert!(with.resume(&without.checkpoint().unwrap()).is_err());
+    let saved = without.checkpoint().unwrap();
+    let mut other = builder().without_ledger().build().unwrap();
+    other.resume(&saved).unwrap();
+    assert!(other.step().unwrap().ledger.residual().is_nan());
+}
+
+/// Absolute and relative input energy differ by the kinetic energies that go with them (Uang and
+/// Bertero 1990, eq. 12), so they agree once the ground has come to rest, and not before.
+#[test]
+fn relative_input_meets_the_absolute_one_when_the_ground_rests() {
+    let of = |steps: usize| {
+        let builder = scene(SI, 0.6).structure(tower(SI, None)).interface(Bonded);
+        run(builder.gravity(0.0), steps).ledger
+    };
+    let (shaking, at_rest) = (of(130), of(600));
+    assert!((shaking.relative_input / shaking.input - 1.0).abs() > 0.2);
+    assert!((at_rest.relative_input / at_rest.input - 1.0).abs() < 2e-3);
+}
