@@ -270,7 +270,7 @@ impl Simulation {
     /// the exponentials.
     ///
     /// # Errors
-    /// [`CheckpointError::Unsupported`] if the ground, its history or the structure cannot save its
+    /// [`CheckpointError::Unsupported`](crate::CheckpointError::Unsupported) if the ground, its history or the structure cannot save its
     /// state.
     ///
     /// ```

@@ -65,7 +65,7 @@ impl Warning {
     /// Rotation above which a run warns, rad: the cosine is off by half a percent.
     pub const ROTATION_LIMIT: f64 = 0.1;
     /// Ledger residual at the end of a run above which it warns. Earlier, while energies are still
-    /// small, the relative residual may be larger: see [`Run::ledger_residual`].
+    /// small, the relative residual may be larger: see [`Run::ledger_residual`](super::Run::ledger_residual).
     pub const LEDGER_LIMIT: f64 = 1e-9;
 
     /// Those that largest slip, shortest element, largest rotation and the last ledger residual

@@ -22,7 +22,7 @@ use crate::matrix::SparseMatrix;
 #[non_exhaustive]
 pub enum Coordinates {
     /// Whichever is expected to take less time, with the modes' own computation counted against
-    /// them; see [`super::SimulationBuilder::expected_steps`]. Nonlinear structures, and those that
+    /// them; see [`SimulationBuilder::expected_steps`](crate::coupled::SimulationBuilder::expected_steps). Nonlinear structures, and those that
     /// modes do not decouple, keep their unknowns.
     #[default]
     Auto,
