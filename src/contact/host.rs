@@ -2,7 +2,7 @@
 
 use super::problem::{ContactInput, ContactSolver};
 use super::search::{ContactSearch, ModeSearch, SearchMethod};
-use crate::error::{Error, Result, StepError, finite, same_length};
+use crate::error::{Error, Result, StepError, finite, positive, same_length};
 use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart};
 use crate::linalg::largest;
 
@@ -48,14 +48,13 @@ pub struct ContactProblem {
     search: ModeSearch,
     modes: Vec<Mode>,
     steps: usize,
-    time: f64,
 }
 
 short_debug! {
     ContactProblem; self; elements: self.modes.len(), laws: self.laws.len(), steps: self.steps
 }
 
-/// What solves the contact problem of a step.
+/// Solution of the contact problem of a step.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct ContactSolution<'a> {
@@ -82,7 +81,8 @@ impl ContactSolution<'_> {
 
 impl ContactProblem {
     /// The problem with this Delassus operator (2Q × 2Q, row-major, m/Pa), and one law for all
-    /// elements or one each; unpressed at first.
+    /// elements or one each; unpressed at first. The laws' own
+    /// [`check`](InterfaceLaw::check) is not called.
     ///
     /// # Errors
     /// [`Error::Size`] unless the operator is that of one element or more and the laws fit,
@@ -111,7 +111,6 @@ impl ContactProblem {
             search: ModeSearch::new(count, ContactSearch::default()),
             modes: vec![Mode::Stick; count],
             steps: 0,
-            time: 0.0,
         })
     }
 
@@ -143,11 +142,17 @@ impl ContactProblem {
     ///
     /// # Errors
     /// [`Error::Size`] and [`Error::Input`] for slices that do not fit or are not finite;
-    /// [`Error::Step`] if no modes satisfy the laws, numbered by the problems solved so far.
+    /// [`Error::Step`] if no modes satisfy the laws, numbered by the problems solved so far and with
+    /// the time of as many steps.
     pub fn solve(&mut self, free_jump: &[f64], start: &[StepStart]) -> Result<ContactSolution<'_>> {
         same_length("free jump", free_jump.len(), 2 * self.modes.len())?;
         same_length("starts of the step", start.len(), self.modes.len())?;
         check_finite("free jump", free_jump)?;
+        for start in start {
+            positive("time step", start.time_step)?;
+            let ContactState { gap, slip, pressure, shear } = start.state;
+            check_finite("state of an element", &[gap, slip, pressure, shear, start.slip_rate])?;
+        }
         for (mode, start) in self.modes.iter_mut().zip(start) {
             *mode = start.mode;
         }
@@ -159,11 +164,12 @@ impl ContactProblem {
             laws: &self.laws,
             length_scale: largest(free_jump),
         };
-        let (step, time) = (self.steps + 1, self.time + start[0].time_step);
+        let step = self.steps + 1;
+        let time = step as f64 * start[0].time_step;
         let failed = |source: StepError| Error::Step { step, time, source };
         let found = self.search.solve(&mut self.solver, &input, &mut self.modes);
         let (trials, method) = found.map_err(failed)?;
-        (self.steps, self.time) = (step, time);
+        self.steps = step;
         Ok(ContactSolution {
             traction: &self.solver.traction,
             states: &self.solver.states,

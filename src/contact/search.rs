@@ -77,9 +77,8 @@ impl ModeSearch {
         modes: &mut [Mode],
     ) -> Result<(usize, SearchMethod), StepError> {
         let mut trials = 0;
-        // Laws of one mode have nothing to be asked: one solve, with factors made once.
-        let bonded =
-            input.laws.iter().all(|law| law.modes().len() == 1 && modes_fit(law.as_ref(), modes));
+        // Laws with a single mode skip the search: one solve, with factors made once.
+        let bonded = modes.iter().enumerate().all(|(e, mode)| input.law(e).modes() == [*mode]);
         if bonded && solver.trial(input, modes) {
             return Ok((1, SearchMethod::ActiveSet));
         }
@@ -225,11 +224,6 @@ impl ModeSearch {
         }
         false
     }
-}
-
-/// Whether all `modes` are the first of `law`.
-fn modes_fit(law: &dyn crate::interface::InterfaceLaw, modes: &[Mode]) -> bool {
-    modes.iter().all(|mode| law.modes().first() == Some(mode))
 }
 
 /// Solves element `e` alone, the tractions of the others held, and returns its mode.

@@ -11,7 +11,7 @@ use super::scene::modal_basis::{Coordinates, ModalBasis};
 use super::scene::model::{Model, Tangent};
 use super::scene::operators::{Factor, Operators};
 use super::scene::static_state::{self, Placement, StaticState};
-use super::scene::translation_check::check_force;
+use super::scene::translation_check::joined_by_force;
 use super::scene::{ProbeRows, Scene};
 use super::scheme::{Midpoint, TimeScheme};
 use super::simulation::Simulation;
@@ -244,9 +244,10 @@ impl SimulationBuilder {
             ground.reserve(self.steps)?;
         }
         let static_state = self.static_state(structure.as_ref(), ground.as_ref(), &base, &model)?;
-        check_force(&model, structure.as_ref(), &static_state)?;
+        let joined = joined_by_force(&model, structure.as_ref(), &static_state)?;
 
         let coefficients = self.scheme.coefficients(time_step);
+        coefficients.check()?;
         let mut soil = vec![0.0; 4 * count * count];
         ground.instantaneous(&mut soil)?;
         if let Some(bad) = soil.iter().find(|g| !g.is_finite()) {
@@ -270,6 +271,7 @@ impl SimulationBuilder {
             compliant: self.laws.iter().any(|law| is_compliant(law.as_ref())),
             laws: self.laws,
             static_state,
+            joined,
             soil,
             start_motion: motion_at_start(ground.as_ref(), self.motion.as_ref(), count)?,
             probe_rows: self.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect(),

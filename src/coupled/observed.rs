@@ -1,10 +1,10 @@
-//! What the observer of a run returns.
+//! Answers of the observer of a run: go on, stop, or fail.
 
 use std::ops::ControlFlow;
 
 use crate::error::{Error, Result};
 
-/// What an observer of [`Simulation::run`](crate::Simulation::run) may return: nothing,
+/// Answer of an observer of [`Simulation::run`](crate::Simulation::run): nothing,
 /// [`ControlFlow`] to stop after a step, or a [`Result`] of either, whose error ends the run.
 ///
 /// ```
@@ -26,7 +26,7 @@ use crate::error::{Error, Result};
 ///     if state.uplifted_fraction > 0.2 { Break(()) } else { Continue(()) }
 /// })?;
 /// assert!(run.steps < 500);
-/// let refused = simulation.run(500, |_| Err(Error::part("observer", "has seen enough")));
+/// let refused = simulation.run(500, |_| Err::<(), _>(Error::part("observer", "has seen enough")));
 /// assert!(refused.is_err());
 /// # Ok::<(), Error>(())
 /// ```

@@ -143,7 +143,10 @@ impl Run {
         self.mode_changes += state.transitions.len();
         self.debondings += state.transitions.iter().filter(|t| t.is_debonding()).count();
         self.rebondings += state.transitions.iter().filter(|t| t.is_rebonding()).count();
-        self.ledger_residual = self.ledger_residual.max(state.ledger.residual());
+        let residual = state.ledger.residual();
+        if residual.is_nan() || residual > self.ledger_residual {
+            self.ledger_residual = residual;
+        }
         self.trials += state.trials;
         match state.method {
             SearchMethod::ActiveSet => {}
@@ -163,7 +166,7 @@ impl Run {
             self.largest_slip.value,
             self.shortest,
             self.base_rotation.value,
-            state.ledger.residual(),
+            &state.ledger,
         );
         self.resolution.warn(&mut self.warnings);
     }
@@ -173,8 +176,8 @@ impl Run {
         &self.resolution
     }
 
-    /// Bound on what the ledger's `soil` owes to an approximate history, J/m since the start; zero
-    /// for exact histories. See [`Ledger::soil_error_bound`].
+    /// Error bound of the ledger's `soil` by an approximate history, J/m since the start; zero for
+    /// exact histories, NaN if no ledger is kept. See [`Ledger::soil_error_bound`].
     pub fn history_error_bound(&self) -> f64 {
         self.ledger.soil_error_bound
     }

@@ -131,7 +131,7 @@ pub struct State {
     pub foundations: Vec<Foundation>,
     /// Mean horizontal and vertical (up) displacement of the free field under the base, m.
     pub free_field: [f64; 2],
-    /// The energy ledger.
+    /// The energy ledger; every term is NaN if none is kept.
     pub ledger: Ledger,
     /// Linear solves that the mode search needed.
     pub trials: usize,
@@ -148,7 +148,8 @@ impl State {
     /// connected part has moved since t = 0 beyond the mean translation of the ground under it.
     ///
     /// These four are worked out when they are first asked for in a step: a structure that is
-    /// stepped in its modes pays for all n² of them then, and nothing otherwise. A few quantities
+    /// stepped in its modes pays for all n² of them then, and nothing otherwise; absolute displacements
+    /// are made at every step that asks for them. A few quantities
     /// at every step are cheaper as a [`Probe`](super::Probe).
     pub fn displacement(&self) -> &[f64] {
         self.motion.unknowns(Quantity::Displacement)

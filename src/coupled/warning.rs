@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::ledger::Ledger;
+
 /// Where the assumptions of a run are strained, or its time step or elements too coarse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -70,7 +72,7 @@ impl Warning {
 
     /// Those that largest slip, shortest element, largest rotation and the last ledger residual
     /// call for.
-    pub(crate) fn all(slip: f64, element_length: f64, rotation: f64, residual: f64) -> Vec<Self> {
+    pub(crate) fn all(slip: f64, element_length: f64, rotation: f64, ledger: &Ledger) -> Vec<Self> {
         let (slip, rotation) = (slip.abs(), rotation.abs());
         let mut warnings = Vec::new();
         if slip > element_length {
@@ -79,7 +81,8 @@ impl Warning {
         if rotation > Self::ROTATION_LIMIT {
             warnings.push(Self::LargeRotation { rotation });
         }
-        if residual > Self::LEDGER_LIMIT {
+        let residual = ledger.residual();
+        if residual > Self::LEDGER_LIMIT || (residual.is_nan() && !ledger.is_left_out()) {
             warnings.push(Self::Ledger { residual });
         }
         warnings

@@ -334,7 +334,10 @@ impl Tally {
         self.sliding.see(state, begin);
         self.input.see(state.ledger.input, time);
         self.ledger = state.ledger;
-        self.ledger_residual = self.ledger_residual.max(state.ledger.residual());
+        let residual = state.ledger.residual();
+        if residual.is_nan() || residual > self.ledger_residual {
+            self.ledger_residual = residual;
+        }
         self.mode_changes += state.transitions.len();
         self.resolution.see(state);
     }

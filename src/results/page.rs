@@ -175,6 +175,9 @@ impl Summary {
     }
 
     fn energies(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.ledger.is_left_out() {
+            return write!(f, "\nEnergy: no ledger was kept");
+        }
         match &self.energy {
             Some(shares) => {
                 writeln!(f, "\nEnergy: input {:.4} kJ/m, of which", 1e-3 * shares.input)?;

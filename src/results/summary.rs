@@ -64,7 +64,7 @@ impl Histories {
             tally.sliding.element_peak.value,
             shortest,
             self.extremes(Quantity::BaseRotation).largest().value,
-            tally.ledger.residual(),
+            &tally.ledger,
         );
         tally.resolution.warn(&mut warnings);
         let sliding_safety = self.extremes(Quantity::SlidingSafety).lowest;

@@ -52,7 +52,8 @@ use crate::error::{CheckpointError, Result};
 ///
 /// A structure has `n` unknowns, displacements and rotations (m, rad; x to the right, y up, rotations
 /// counter-clockwise), measured from the unloaded state. Its matrices are written for **absolute**
-/// ones; since no translation strains it, it is stepped, and f is evaluated, relative to the ground's. It obeys
+/// ones. Since no translation strains it, f is evaluated, and a step committed, at displacements less
+/// the mean translation of the base (of each connected part), with the static ones added. It obeys
 ///
 /// ```text
 /// M a + C v_rel + K u + f(u) = p(t) + weight + contact forces

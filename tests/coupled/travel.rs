@@ -12,8 +12,8 @@ use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::motion::{FreeField, FreeFieldFn};
 use basemat::structure::{
-    Bilinear, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, Structure,
-    StructureGroup, WithSprings,
+    Bilinear, ContactNode, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, Structure,
+    StructureGroup, Triplets, WithSprings,
 };
 
 use crate::support::scenes::{GRAVITY, SI, friction, shake, soil};
@@ -122,10 +122,10 @@ fn ledger_closes_while_a_sliding_structure_is_left_behind() {
     }
 }
 
-#[test]
-fn buildings_of_a_group_travel_apart() {
-    let group = StructureGroup::new().with(building(), -10.0).unwrap();
-    let group = group.with(building(), 10.0).unwrap();
+/// Two buildings whose grounds part by more than a thousand kilometres.
+fn apart(name: &str, member: impl Fn() -> Box<dyn Structure>) {
+    let group = StructureGroup::new().with(member(), -10.0).unwrap();
+    let group = group.with(member(), 10.0).unwrap();
     let at = sway(1e6, 6e4);
     let motion = FreeFieldFn::new(move |x, t| at(t).map(|u| if x < 0.0 { u } else { -0.7 * u }));
     let ground = HalfPlaneGround::under(soil(SI), &group, 6).unwrap();
@@ -141,9 +141,111 @@ fn buildings_of_a_group_travel_apart() {
     for _ in 0..400 {
         residual = residual.max(simulation.step().unwrap().ledger.residual());
     }
-    println!("apart: {residual:.1e}, displacement {:.1e} m", largest(&simulation));
-    assert!(residual < 1e-9, "{residual:.1e}");
-    assert!(largest(&simulation) < 1.0, "only their grounds have moved");
+    println!("{name}: {residual:.1e}, displacement {:.1e} m", largest(&simulation));
+    assert!(residual < 1e-9, "{name}: {residual:.1e}");
+    assert!(largest(&simulation) < 1.0, "{name}: only the grounds have moved");
+}
+
+#[test]
+fn buildings_of_a_group_travel_apart() {
+    apart("linear", || Box::new(building()));
+    apart("yielding", || {
+        let shears = building();
+        let drift = shears.drift(1).unwrap();
+        let law = Bilinear::new(4e6, 2e4, 0.1).unwrap();
+        Box::new(WithSprings::new(shears).spring(drift, law).unwrap())
+    });
+}
+
+/// Two blocks, and a spring between them beyond a gap: a nonlinear force that joins two parts.
+struct Pounding {
+    blocks: StructureGroup,
+    rows: [usize; 2],
+}
+
+const GAP: f64 = 0.02;
+const STOP: f64 = 5e6;
+
+impl Pounding {
+    fn new() -> Self {
+        let block = || RigidBlock::new(4.0, 6.0, 1500.0).unwrap();
+        let blocks = StructureGroup::new().with(block(), -3.0).unwrap();
+        Self { blocks: blocks.with(block(), 3.0).unwrap(), rows: [0, 3] }
+    }
+
+    /// How far the left block has run into the right one.
+    fn overlap(&self, u: &[f64]) -> f64 {
+        (u[self.rows[0]] - u[self.rows[1]] - GAP).max(0.0)
+    }
+}
+
+impl Structure for Pounding {
+    fn unknowns(&self) -> usize {
+        self.blocks.unknowns()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.blocks.contact_nodes()
+    }
+
+    fn foundation_ends(&self) -> Vec<usize> {
+        self.blocks.foundation_ends()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) {
+        self.blocks.mass(matrix);
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) {
+        self.blocks.stiffness(matrix);
+    }
+
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    fn nonlinear_force(&self, u: &[f64], force: &mut [f64]) {
+        let push = STOP * self.overlap(u);
+        force[self.rows[0]] += push;
+        force[self.rows[1]] -= push;
+    }
+
+    fn nonlinear_tangent(&self, u: &[f64], matrix: &mut Triplets) {
+        if self.overlap(u) > 0.0 {
+            matrix.add_spring(self.rows[0], self.rows[1], STOP);
+        }
+    }
+}
+
+/// The grounds of two blocks approach each other by five gaps: what stands on them must meet, though
+/// nothing joins the two at rest.
+#[test]
+fn a_force_between_parts_sees_their_distance() {
+    let structure = Pounding::new();
+    let ground = HalfPlaneGround::under(soil(SI), &structure, 6).unwrap();
+    let at =
+        |x: f64, t: f64| -x.signum() * 0.5 * 5.0 * GAP * (1.0 - (TAU * t.min(1.0)).cos()) / 2.0;
+    let mut simulation = Simulation::builder(2.5e-3)
+        .structure(structure)
+        .ground(ground)
+        .interface(Bonded)
+        .motion(FreeFieldFn::new(move |x, t| [at(x, t), 0.0]))
+        .gravity(GRAVITY)
+        .build()
+        .unwrap();
+    let mut nearest = f64::INFINITY;
+    let mut pushed = 0.0_f64;
+    simulation
+        .run(400, |state| {
+            let u = state.absolute_displacement();
+            nearest = nearest.min(u[3] - u[0]);
+            pushed = pushed.max(-state.foundations[0].shear);
+            assert!(state.ledger.residual() < 1e-9);
+        })
+        .unwrap();
+    // Beyond the gap, but less than the grounds: the blocks push each other back.
+    assert!(nearest < -GAP && nearest > -5.0 * GAP, "{nearest}");
+    assert!(pushed > 0.1 * STOP * (-nearest - GAP), "{pushed}");
 }
 
 #[test]

@@ -99,7 +99,35 @@ impl Influence {
             }
         }
         let roots: Vec<usize> = (0..n).map(|unknown| parts.root(unknown)).collect();
-        Ok(Self::split(base, &translations, &roots))
+        let influence = Self::split(base, &translations, &roots);
+        influence.check(base, n)?;
+        Ok(influence)
+    }
+
+    /// Refuses a part whose base does not translate as a whole: B R must be 1 where it moves.
+    fn check(&self, base: &Base, unknowns: usize) -> Result<()> {
+        let count = base.lengths().len();
+        let mut means = vec![0.0; 2 * count];
+        for part in &self.parts {
+            for (direction, vector) in part.vectors.iter().enumerate() {
+                let mut full = vec![0.0; unknowns];
+                for &(i, r) in vector {
+                    full[i] = r;
+                }
+                base.means(&full, &mut means);
+                for &e in part.elements.iter().filter(|_| !vector.is_empty()) {
+                    let moved = if direction == 0 { means[count + e] } else { -means[e] };
+                    if (moved - 1.0).abs() > 10.0 * EXACT {
+                        return Err(Error::Input {
+                            quantity: "mean of the base under a rigid translation of 1 m",
+                            value: moved,
+                            needed: "1: all of a connected part's base must translate with it",
+                        });
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Splits the vectors of the whole structure into those of its parts.

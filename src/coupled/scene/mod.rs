@@ -14,6 +14,7 @@ pub(crate) mod translation_check;
 use crate::bem::ContactElement;
 use crate::interface::{InterfaceLaw, law_of};
 use base::Base;
+use influence::Part;
 use model::Model;
 use static_state::StaticState;
 use stepped_row::SteppedRow;
@@ -36,6 +37,8 @@ pub(crate) struct Scene {
     /// Whether any law stores energy in its elements.
     pub(crate) compliant: bool,
     pub(crate) static_state: StaticState,
+    /// Parts that the nonlinear force joins with others.
+    pub(crate) joined: Vec<bool>,
     /// Instantaneous operator of the ground, 2Q × 2Q.
     pub(crate) soil: Vec<f64>,
     /// Free field at t = 0, from which it is measured, 2Q.
@@ -95,9 +98,10 @@ impl Scene {
         influence.translate(-1.0, parts, displacement);
     }
 
-    /// Makes of a relative displacement the one that a nonlinear force sees: measured from the mean
-    /// translation of the first part's base, so that it stays small, with the distances between
-    /// parts as they are. `translations` are those of the parts' free fields.
+    /// Makes of a relative displacement the one that a nonlinear force sees: each part's measured
+    /// from the mean translation of its base, so that it stays small. Parts that the force joins are
+    /// measured from that of the first of them, with the distances between them as they are.
+    /// `translations` are those of the parts' free fields.
     pub(crate) fn seen_by_force(
         &self,
         displacement: &mut [f64],
@@ -106,10 +110,14 @@ impl Scene {
     ) {
         self.base.means(displacement, means);
         let influence = &self.model.influence;
-        let Some(part) = influence.parts().first() else { return };
-        let own = part.mean(&self.base, means);
-        let first = translations.clone().next().unwrap_or_default();
-        let shifts = translations.map(|y| [0, 1].map(|k| (y[k] - first[k]) - own[k]));
+        let mean = |part: &Part| part.mean(&self.base, means);
+        let parts = || influence.parts().iter().zip(&self.joined);
+        let first = parts().zip(translations.clone()).find(|((_, joined), _)| **joined);
+        let first = first.map(|((part, _), y)| (mean(part), y));
+        let shifts = parts().zip(translations).map(|((part, joined), y)| match first {
+            Some((own, reference)) if *joined => [0, 1].map(|k| (y[k] - reference[k]) - own[k]),
+            _ => mean(part).map(|own| -own),
+        });
         influence.translate(1.0, shifts, displacement);
     }
 }

@@ -6,7 +6,7 @@ mod newmark;
 pub use hht::HhtAlpha;
 pub use newmark::Newmark;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, finite};
 
 /// Where in the step the equation of motion is written, and how the step ends.
 ///
@@ -96,6 +96,16 @@ fn theta_coefficients(theta: f64, time_step: f64) -> SchemeCoefficients {
 }
 
 impl SchemeCoefficients {
+    /// Refuses coefficients that are not finite.
+    pub(crate) fn check(&self) -> Result<()> {
+        let rows = [self.displacement, self.velocity, self.acceleration];
+        let ends = [self.new_velocity, self.new_acceleration, [self.load_fraction; 3]];
+        rows.into_iter()
+            .chain(ends)
+            .flatten()
+            .try_for_each(|value| finite("coefficient of the time scheme", value).map(|_| ()))
+    }
+
     /// Whether the scheme leaves kinetic and linear strain energy exactly to the forces: whether
     /// Δu = Δt (v₀+v₁)/2, a* = (v₁−v₀)/Δt and u* = u₀ + Δu/2.
     pub(crate) fn conserves_energy(&self, time_step: f64) -> bool {
