@@ -9,7 +9,7 @@
 //! rotation, mass to the right. Its mass matrix is diagonal, so a step needs no solve:
 //! `u₁ = 2u₀ − u₋₁ + Δt² M⁻¹ (−K u₀ − BᵀA τ)`, and `W = G¹ + Δt² B M⁻¹ BᵀA`.
 
-use basemat::bem::{Ground, HalfPlaneGround};
+use basemat::bem::{ContactElement, Ground, HalfPlaneGround};
 use basemat::contact::ContactProblem;
 use basemat::interface::{ContactState, Coulomb, Mode, StepStart};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
@@ -46,8 +46,8 @@ fn main() -> Result<()> {
     let soil = Soil::new(60.0e6, 0.33, 1900.0)?;
     let mut ground = HalfPlaneGround::graded_strip(soil, -HALF_WIDTH..HALF_WIDTH, 10)?;
     let motion = el_centro_1940();
-    let centers: Vec<f64> = ground.elements().iter().map(|e| e.center()).collect();
-    let lengths: Vec<f64> = ground.elements().iter().map(|e| e.length()).collect();
+    let centers: Vec<f64> = ground.elements().iter().map(ContactElement::center).collect();
+    let lengths: Vec<f64> = ground.elements().iter().map(ContactElement::length).collect();
     let (count, size) = (centers.len(), 2 * centers.len());
 
     ground.prepare(STEP)?;
