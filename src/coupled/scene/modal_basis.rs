@@ -77,10 +77,15 @@ impl ModalBasis {
             parts.couple(matrix);
         }
         let most = RIGID_MOTIONS * parts.sets().len();
-        let uncertain = smallest.fold(top, f64::min) < SMALLEST * top;
-        if rigid > most || uncertain || values.first().is_some_and(|least| *least < -noise) {
+        if rigid > most || smallest.fold(top, f64::min) < SMALLEST * top {
             return None;
         }
+        // Rigid modes first; those that P–Δ makes unstable come before them in ascending order.
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by_key(|&j| values[j].abs() > noise);
+        values = order.iter().map(|&j| values[j]).collect();
+        let vectors =
+            vectors.chunks_exact(n).flat_map(|row| order.iter().map(|&j| row[j])).collect();
         values[..rigid].fill(0.0);
         let mut modes = Self { stiffness: values, damping: vec![0.0; n], vectors };
         modes.separate_translations(rigid, mass, translations)?;
