@@ -97,7 +97,8 @@ impl Ledger {
         self.input.is_nan()
     }
 
-    /// Left-hand side minus input, relative to the largest term; NaN if no ledger is kept.
+    /// Left-hand side minus input, relative to the largest term (or to 10⁻¹² of the relative input, if
+    /// that is more); NaN if no ledger is kept.
     pub fn residual(&self) -> f64 {
         if self.is_left_out() {
             return f64::NAN;
@@ -113,7 +114,9 @@ impl Ledger {
             self.layer,
             self.preload,
         ];
-        let scale = left.iter().fold(self.input.abs(), |m, x| m.max(x.abs()));
+        // A structure that the ground leaves behind has no energy but rounding.
+        let least = self.input.abs().max(1e-12 * self.relative_input.abs());
+        let scale = left.iter().fold(least, |m, x| m.max(x.abs()));
         if scale > 0.0 { (left.iter().sum::<f64>() - self.input).abs() / scale } else { 0.0 }
     }
 }
