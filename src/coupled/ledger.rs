@@ -97,7 +97,7 @@ impl Ledger {
         self.input.is_nan()
     }
 
-    /// Left-hand side minus input, relative to the largest term (or to 10⁻¹² of the relative input, if
+    /// Left-hand side minus input, relative to the largest term (or to a thousandth of the relative input, if
     /// that is more); NaN if no ledger is kept.
     pub fn residual(&self) -> f64 {
         if self.is_left_out() {
@@ -115,7 +115,7 @@ impl Ledger {
             self.preload,
         ];
         // A structure that the ground leaves behind has no energy but rounding.
-        let least = self.input.abs().max(1e-12 * self.relative_input.abs());
+        let least = self.input.abs().max(1e-3 * self.relative_input.abs());
         let scale = left.iter().fold(least, |m, x| m.max(x.abs()));
         if scale > 0.0 { (left.iter().sum::<f64>() - self.input).abs() / scale } else { 0.0 }
     }
