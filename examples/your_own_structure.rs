@@ -45,7 +45,7 @@ impl Structure for Building {
     }
 
     // Entries at the same place add up.
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         let total = self.base_mass + FLOORS as f64 * self.floor_mass;
         let [sway, heave, turn] = BASE;
         matrix.add(sway, sway, self.base_mass);
@@ -54,20 +54,23 @@ impl Structure for Building {
         for floor in 0..FLOORS {
             matrix.add(floor + 3, floor + 3, self.floor_mass);
         }
+        Ok(())
     }
 
     // A spring that sees the deformation l·u has the matrix k lᵀl. No support: the ground holds
     // the building up, and a rigid ride must give no force.
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         for storey in 0..FLOORS {
             matrix.add_outer(self.drift(storey), self.storey_stiffness);
         }
+        Ok(())
     }
 
-    fn damping(&self, matrix: &mut Triplets) {
+    fn damping(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         for storey in 0..FLOORS {
             matrix.add_outer(self.drift(storey), self.storey_dashpot);
         }
+        Ok(())
     }
 }
 

@@ -20,10 +20,10 @@ impl SparseMatrix {
     pub(crate) fn assembled(
         name: &'static str,
         order: usize,
-        fill: &dyn Fn(&mut Triplets),
+        fill: &dyn Fn(&mut Triplets) -> Result<()>,
     ) -> Result<Self> {
         let mut triplets = Triplets::new(order);
-        fill(&mut triplets);
+        fill(&mut triplets)?;
         same_length(name, triplets.order(), order)?;
         Self::new(name, &triplets)
     }

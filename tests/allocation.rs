@@ -14,7 +14,7 @@ use basemat::coupled::{Coordinates, Probe, SimulationBuilder, Theta};
 use basemat::history::History;
 use basemat::interface::Bonded;
 use basemat::results::Recorder;
-use basemat::structure::{RayleighDamping, RigidBlock, Structure, Triplets};
+use basemat::structure::{NonlinearForce, RayleighDamping, RigidBlock, Structure, Triplets};
 
 use crate::support::scenes::{SI, block, friction, scene, soil, tower};
 use crate::support::wrapped::needed_from;
@@ -61,14 +61,24 @@ struct Quadratic(RigidBlock);
 impl Structure for Quadratic {
     needed_from!(0);
 
-    fn is_linear(&self) -> bool {
-        false
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        Some(self)
     }
-    fn nonlinear_force(&self, u: &[f64], force: &mut [f64]) {
+
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        Some(self)
+    }
+}
+
+impl NonlinearForce for Quadratic {
+    fn force(&self, u: &[f64], force: &mut [f64]) -> basemat::Result<()> {
         force[2] += 1e5 * u[2] + 1e3 * u[2] * u[2];
+        Ok(())
     }
-    fn nonlinear_tangent(&self, _: &[f64], matrix: &mut Triplets) {
+
+    fn tangent(&self, _: &[f64], matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add(2, 2, 1e5);
+        Ok(())
     }
 }
 

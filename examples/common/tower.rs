@@ -29,8 +29,8 @@ impl Tower {
         let mesh = Mesh::layered_block(-5.0..5.0, 50, &[Layer::new(100.0, 500, material)])?;
         let model = FemModel::on_base(mesh)?.with_mass(MassKind::Lumped);
         let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(model.unknowns()));
-        model.mass(&mut mass);
-        model.stiffness(&mut stiffness);
+        model.mass(&mut mass)?;
+        model.stiffness(&mut stiffness)?;
         let top = model.row(model.node_at(0.0, 100.0)?, Direction::X)?;
         Ok(Self { mass, stiffness, contact: model.contact_nodes(), top })
     }

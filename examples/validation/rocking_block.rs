@@ -72,16 +72,17 @@ impl Structure for Pushed {
         self.0.contact_nodes()
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
-        self.0.mass(matrix);
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.0.mass(matrix)
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
-        self.0.stiffness(matrix);
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.0.stiffness(matrix)
     }
 
-    fn load(&self, time: f64, load: &mut [f64]) {
+    fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
         load[RigidBlock::ROTATION] += push(time);
+        Ok(())
     }
 }
 

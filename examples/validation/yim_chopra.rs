@@ -76,20 +76,23 @@ impl Structure for Model {
         ContactNode::rigid_base(-self.half_width, self.half_width, [0, 1, 2])
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add(0, 0, self.mat);
         matrix.add(1, 1, self.mass + self.mat);
         matrix.add(2, 2, self.mat_inertia());
         matrix.add(3, 3, self.mass);
+        Ok(())
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add_outer([(3, 1.0), (0, -1.0), (2, self.height)], self.stiffness);
         matrix.add_outer([(3, 1.0), (0, -1.0)], -self.leaning());
+        Ok(())
     }
 
-    fn damping(&self, matrix: &mut Triplets) {
+    fn damping(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add_outer([(3, 1.0), (0, -1.0), (2, self.height)], self.damping);
+        Ok(())
     }
 }
 

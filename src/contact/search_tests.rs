@@ -116,9 +116,9 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     };
     let unknowns = structure.unknowns();
     let base = Base::of(structure.as_ref(), ground.elements()).unwrap();
-    let model = Model::new(structure.as_ref(), &base).unwrap();
+    let model = Model::new(structure.as_ref(), true, &base).unwrap();
     let mut tangent = Tangent::new(unknowns);
-    tangent.refill(&model, structure.as_ref(), &vec![0.0; unknowns]).unwrap();
+    tangent.refill(structure.as_ref(), &vec![0.0; unknowns]).unwrap();
     let coefficients = Midpoint.coefficients(time_step);
     let factor = Factor::new(&model, &coefficients, &tangent.matrix).unwrap();
     let operators = Operators::new(&model, &base, &operator, factor, tangent.matrix);

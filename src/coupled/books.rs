@@ -139,7 +139,8 @@ impl Books {
     ) {
         let at_rest = &scene.static_state;
         let done = dot(&increment.force, &self.scratch.total);
-        let energies = at_rest.energy.zip(structure.nonlinear_energy(&increment.seen));
+        let energies =
+            at_rest.energy.zip(structure.nonlinear().and_then(|own| own.energy(&increment.seen)));
         let Some((start, energy)) = energies else {
             self.nonlinear_work += done;
             return;

@@ -24,7 +24,7 @@ use crate::contact::{ContactSearch, ModeSearch};
 use crate::error::{Error, Result, finite, not_negative, positive};
 use crate::interface::{ContactScene, InterfaceLaw};
 use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
-use crate::structure::Structure;
+use crate::structure::{Structure, is_nonlinear};
 
 /// Steps that modes have to pay for themselves in, if not told otherwise.
 const STEPS: usize = 10_000;
@@ -218,8 +218,9 @@ impl SimulationBuilder {
         not_negative("gravity", self.gravity)?;
         let missing = |quantity, needed| Error::Scene { quantity, needed };
         let structure = self.structure.take();
-        let structure =
+        let mut structure =
             structure.ok_or(missing("structure", "give one to the builder with `structure`"))?;
+        let linear = !is_nonlinear(structure.as_mut())?;
         let ground = self.ground.take();
         let mut ground =
             ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
@@ -237,7 +238,7 @@ impl SimulationBuilder {
             });
         }
         let mut base = Base::of(structure.as_ref(), &elements)?;
-        let mut model = Model::new(structure.as_ref(), &base)?;
+        let mut model = Model::new(structure.as_ref(), linear, &base)?;
         super::probe::check(&self.probes, unknowns)?;
         ground.prepare(time_step)?;
         if self.steps > 0 {
@@ -254,7 +255,7 @@ impl SimulationBuilder {
             finite("instantaneous operator of the ground", *bad)?;
         }
         let mut tangent = Tangent::new(unknowns);
-        tangent.refill(&model, structure.as_ref(), &static_state.displacement)?;
+        tangent.refill(structure.as_ref(), &static_state.displacement)?;
         let mut factor = Factor::new(&model, &coefficients, &tangent.matrix)?;
         if let Some(modes) = self.choose_modes(&model, factor.stored(), 2 * count)? {
             base.decouple(&modes);
@@ -314,7 +315,7 @@ impl SimulationBuilder {
         let mut state = StaticState::weightless(base.lengths().len(), unknowns);
         if self.gravity > 0.0 {
             let mut static_load = vec![0.0; unknowns];
-            structure.load(0.0, &mut static_load);
+            structure.load(0.0, &mut static_load)?;
             let mut load = static_load.clone();
             let [_, up] = model.influence.of_all(unknowns);
             model.mass.multiply_add(-self.gravity, &up, &mut load);
@@ -325,7 +326,7 @@ impl SimulationBuilder {
             state = static_state::solve(model, structure, ground, base, laws, placement, &load)?;
             state.load = static_load;
         }
-        (state.force, state.energy) = model.nonlinear_state(structure, &state.displacement);
+        (state.force, state.energy) = model.nonlinear_state(structure, &state.displacement)?;
         Ok(state)
     }
 

@@ -9,7 +9,7 @@ use super::translation::Translation;
 use crate::bem::Ground;
 use crate::error::{CheckpointError, Result};
 use crate::interface::ContactState;
-use crate::structure::Structure;
+use crate::structure::{Structure, restore_variables, save_variables};
 
 /// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
 const FORMAT: u32 = 4;
@@ -128,7 +128,7 @@ pub(super) fn save(
         modes,
         state: numbers.into_iter().map(|value| *value).collect(),
         ground: ground.save()?,
-        structure: structure.save()?,
+        structure: save_variables(structure)?,
     })
 }
 
@@ -167,10 +167,10 @@ pub(super) fn restore(
     }
     own.into_iter().zip(&checkpoint.state).for_each(|(own, saved)| *own = *saved);
     restore_modes(scene, &checkpoint.modes, &mut state)?;
-    let before = structure.save()?;
-    structure.restore(&checkpoint.structure)?;
+    let before = save_variables(structure)?;
+    restore_variables(structure, &checkpoint.structure)?;
     if let Err(error) = ground.restore(checkpoint.steps, &checkpoint.ground) {
-        structure.restore(&before)?;
+        restore_variables(structure, &before)?;
         return Err(error);
     }
     state.step = checkpoint.steps;

@@ -23,7 +23,7 @@ pub struct Ledger {
     /// not tell stored from dissipated energy.
     pub strain: f64,
     /// What hysteretic parts of the structure have turned into heat
-    /// ([`Structure::nonlinear_energy`](crate::structure::Structure::nonlinear_energy)); never less
+    /// ([`NonlinearForce::energy`](crate::structure::NonlinearForce::energy)); never less
     /// than before.
     pub hysteresis: f64,
     /// Work of the dashpots, on displacements relative to the free field's translation.

@@ -69,8 +69,8 @@ impl Simulation {
         }
         state.advance(scene, forcing, increment);
         ground.commit(&increment.traction);
-        if !scene.model.linear {
-            structure.commit(&increment.seen);
+        if let Some(force) = structure.nonlinear_mut() {
+            force.commit(&increment.seen);
         }
         Ok(&self.state)
     }

@@ -36,6 +36,14 @@ pub enum StepError {
     /// The ground could not give its history.
     #[error("history of the ground: {0}")]
     Ground(Box<Error>),
+    /// The structure could not give its load, nonlinear force or tangent.
+    #[error("{quantity}: {source}")]
+    Structure {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// The structure's reason.
+        source: Box<Error>,
+    },
     /// A number became NaN or infinite.
     #[error("{quantity} is not finite")]
     NotFinite {
@@ -55,4 +63,11 @@ pub enum StepError {
         /// Name of the matrix.
         matrix: &'static str,
     },
+}
+
+impl StepError {
+    /// The structure's own reason, for [`StepError::Structure`].
+    pub(crate) fn structure(quantity: &'static str) -> impl FnOnce(Error) -> Self {
+        move |source| Self::Structure { quantity, source: Box::new(source) }
+    }
 }

@@ -11,6 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::detached::{check_attached, numbers};
 use super::matrix_model::SYMMETRIC;
+use super::nonlinear::is_nonlinear;
 use super::recovery::{Basis, Recovery};
 use super::{ContactNode, Row, Structure, Triplets};
 use crate::error::{Error, Result, not_negative};
@@ -101,13 +102,13 @@ impl CraigBampton {
     /// kept unknown that does not exist, [`Error::Size`] for more modes than
     /// unknowns are left, [`Error::Singular`] when the kept unknowns do not hold the rest or its
     /// stiffness is not positive.
-    pub fn reduce(&self, structure: impl Structure + 'static) -> Result<ReducedModel> {
+    pub fn reduce(&self, mut structure: impl Structure + 'static) -> Result<ReducedModel> {
         let n = structure.unknowns();
-        if !structure.is_linear() {
+        if is_nonlinear(&mut structure)? {
             let needed = "must be linear: put springs on the reduced model";
             return Err(Error::Scene { quantity: "structure to be reduced", needed });
         }
-        let assemble = |name, fill: &dyn Fn(&mut Triplets)| {
+        let assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
             let matrix = SparseMatrix::assembled(name, n, fill)?;
             if matrix.asymmetry() > SYMMETRIC {
                 return Err(Error::Scene { quantity: name, needed: "must be symmetric" });
@@ -301,16 +302,19 @@ impl Structure for ReducedModel {
         self.foundation_ends.clone()
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         add(&self.mass, self.unknowns(), matrix);
+        Ok(())
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         add(&self.stiffness, self.unknowns(), matrix);
+        Ok(())
     }
 
-    fn damping(&self, matrix: &mut Triplets) {
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
         add(&self.damping, self.unknowns(), matrix);
+        Ok(())
     }
 
     fn has_active_damping(&self) -> bool {
@@ -334,15 +338,16 @@ impl Structure for ReducedModel {
     }
 
     /// The load of the full model, as it works on the reduced unknowns.
-    fn load(&self, time: f64, load: &mut [f64]) {
+    fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
         let mut full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
         let FullLoad { structure, values } = &mut *full;
         values.fill(0.0);
-        structure.load(time, values);
+        structure.load(time, values)?;
         if values.iter().any(|force| *force != 0.0) {
             for (sum, row) in load.iter_mut().zip(self.basis.rows()) {
                 *sum += dot(row, values);
             }
         }
+        Ok(())
     }
 }

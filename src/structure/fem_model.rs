@@ -323,17 +323,19 @@ impl Structure for FemModel {
         self.ends.clone()
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         self.condensed(matrix, |matrix| {
             assemble_mass(&self.mesh, &self.numbering, self.mass_kind, 1.0, matrix);
         });
+        Ok(())
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         self.condensed(matrix, |matrix| {
             assemble_stiffness(&self.mesh, &self.numbering, 1.0, matrix);
             assemble_geometric_stiffness(&self.mesh, &self.numbering, 1.0, matrix);
         });
+        Ok(())
     }
 
     /// Nodes with their places, and whether one of the rest lies where one of them does.
@@ -349,7 +351,7 @@ impl Structure for FemModel {
         self.active_damping
     }
 
-    fn damping(&self, matrix: &mut Triplets) {
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
         let (mass, stiffness) = (self.damping.mass(), self.damping.stiffness());
         self.condensed(matrix, |matrix| {
             if mass > 0.0 {
@@ -360,5 +362,6 @@ impl Structure for FemModel {
             }
             assemble_damping(&self.mesh, &self.numbering, 1.0, matrix);
         });
+        Ok(())
     }
 }

@@ -1,7 +1,8 @@
 //! Several structures on one ground.
 
 use super::detached::numbers;
-use super::{ContactNode, InternalEnergy, Row, Structure, Triplets};
+use super::nonlinear::{is_nonlinear, restore_variables, save_variables};
+use super::{ContactNode, InternalEnergy, NonlinearForce, Row, Structure, Triplets};
 use crate::coupled::Probe;
 use crate::error::{CheckpointError, Error, Result, finite};
 
@@ -127,12 +128,21 @@ impl StructureGroup {
         probe.try_map_rows(|row| self.row(member, row))
     }
 
-    fn write(&self, matrix: &mut Triplets, write: impl Fn(&dyn Structure, &mut Triplets)) {
-        for member in &self.members {
+    fn write(
+        &self,
+        matrix: &mut Triplets,
+        write: impl Fn(&dyn Structure, &mut Triplets) -> Result<()>,
+    ) -> Result<()> {
+        self.members.iter().try_for_each(|member| {
             matrix.block(member.first_unknown, member.unknowns, |block| {
-                write(member.structure.as_ref(), block);
-            });
-        }
+                write(member.structure.as_ref(), block)
+            })
+        })
+    }
+
+    /// The nonlinear forces, each with its member.
+    fn forces(&self) -> impl Iterator<Item = (&Member, &dyn NonlinearForce)> {
+        self.members.iter().filter_map(|member| Some((member, member.structure.nonlinear()?)))
     }
 }
 
@@ -177,16 +187,16 @@ impl Structure for StructureGroup {
         ends
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
-        self.write(matrix, Structure::mass);
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+        self.write(matrix, Structure::mass)
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
-        self.write(matrix, Structure::stiffness);
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.write(matrix, Structure::stiffness)
     }
 
-    fn damping(&self, matrix: &mut Triplets) {
-        self.write(matrix, Structure::damping);
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
+        self.write(matrix, Structure::damping)
     }
 
     /// Those that none of the members describes by numbers of the group.
@@ -209,51 +219,61 @@ impl Structure for StructureGroup {
         self.members.iter().any(|member| member.structure.has_active_damping())
     }
 
-    fn load(&self, time: f64, load: &mut [f64]) {
+    fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
         for member in &self.members {
             if let Some(load) = load.get_mut(member.range()) {
-                member.structure.load(time, load);
+                member.structure.load(time, load)?;
             }
         }
+        Ok(())
     }
 
-    fn is_linear(&self) -> bool {
-        self.members.iter().all(|member| member.structure.is_linear())
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        self.forces().next().is_some().then_some(self)
     }
 
-    fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]) {
-        for member in self.members.iter().filter(|member| !member.structure.is_linear()) {
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        let shown = self.nonlinear().is_some();
+        // A member that shows its force by one of the two methods only: so does the group.
+        let consistent =
+            self.members.iter_mut().all(|m| is_nonlinear(m.structure.as_mut()).is_ok());
+        (shown == consistent).then_some(self)
+    }
+}
+
+impl NonlinearForce for StructureGroup {
+    fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
+        for (member, own) in self.forces() {
             let range = member.range();
             if let (Some(u), Some(f)) = (displacement.get(range.clone()), force.get_mut(range)) {
-                member.structure.nonlinear_force(u, f);
+                own.force(u, f)?;
             }
         }
+        Ok(())
     }
 
-    fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets) {
-        for member in self.members.iter().filter(|member| !member.structure.is_linear()) {
+    fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
+        for (member, own) in self.forces() {
             if let Some(u) = displacement.get(member.range()) {
-                matrix.block(member.first_unknown, member.unknowns, |block| {
-                    member.structure.nonlinear_tangent(u, block);
-                });
+                matrix
+                    .block(member.first_unknown, member.unknowns, |block| own.tangent(u, block))?;
             }
         }
+        Ok(())
     }
 
     /// Known if all nonlinear members know theirs.
-    fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        let mut sum = InternalEnergy::default();
-        for member in self.members.iter().filter(|member| !member.structure.is_linear()) {
-            let own = displacement.get(member.range())?;
-            sum = sum + member.structure.nonlinear_energy(own)?;
-        }
-        Some(sum)
+    fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
+        self.forces().try_fold(InternalEnergy::default(), |sum, (member, own)| {
+            Some(sum + own.energy(displacement.get(member.range())?)?)
+        })
     }
 
     fn commit(&mut self, displacement: &[f64]) {
-        for member in self.members.iter_mut().filter(|member| !member.structure.is_linear()) {
-            if let Some(u) = displacement.get(member.range()) {
-                member.structure.commit(u);
+        for member in &mut self.members {
+            let own = displacement.get(member.range());
+            if let (Some(u), Some(force)) = (own, member.structure.nonlinear_mut()) {
+                force.commit(u);
             }
         }
     }
@@ -261,7 +281,7 @@ impl Structure for StructureGroup {
     fn save(&self) -> Result<Vec<f64>> {
         let mut all = Vec::new();
         for member in &self.members {
-            let own = member.structure.save()?;
+            let own = save_variables(member.structure.as_ref())?;
             all.push(own.len() as f64);
             all.extend(own);
         }
@@ -282,12 +302,12 @@ impl Structure for StructureGroup {
         if !rest.is_empty() {
             return Err(corrupt().into());
         }
-        let before = self.members.iter().map(|member| member.structure.save());
+        let before = self.members.iter().map(|member| save_variables(member.structure.as_ref()));
         let before = before.collect::<Result<Vec<_>>>()?;
         for k in 0..parts.len() {
-            if let Err(error) = self.members[k].structure.restore(parts[k]) {
+            if let Err(error) = restore_variables(self.members[k].structure.as_mut(), parts[k]) {
                 for (member, before) in self.members[..k].iter_mut().zip(&before) {
-                    member.structure.restore(before)?;
+                    restore_variables(member.structure.as_mut(), before)?;
                 }
                 return Err(error);
             }

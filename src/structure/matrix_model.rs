@@ -154,16 +154,19 @@ impl Structure for MatrixModel {
         self.contact.clone()
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         add(&self.mass, 1.0, matrix);
+        Ok(())
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         add(&self.stiffness, 1.0, matrix);
+        Ok(())
     }
 
-    fn damping(&self, matrix: &mut Triplets) {
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
         add(&self.damping, 1.0, matrix);
+        Ok(())
     }
 
     fn has_active_damping(&self) -> bool {

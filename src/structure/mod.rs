@@ -9,6 +9,7 @@ mod hysteresis;
 mod matrix_model;
 mod modal_damping;
 mod node_names;
+mod nonlinear;
 mod nonlinear_shear_building;
 mod p_delta;
 mod rayleigh;
@@ -34,6 +35,8 @@ pub use hysteresis::{
 pub use matrix_model::MatrixModel;
 pub(crate) use matrix_model::{check_damping, check_mass};
 pub use modal_damping::{ModalDamping, WithModalDamping};
+pub use nonlinear::NonlinearForce;
+pub(crate) use nonlinear::{is_nonlinear, restore_variables, save_variables};
 pub use nonlinear_shear_building::{IsolationLevel, NonlinearShearBuilding};
 pub use rayleigh::RayleighDamping;
 pub use recovery::Recovery;
@@ -46,7 +49,7 @@ pub use triplets::Triplets;
 
 use std::any::Any;
 
-use crate::error::{CheckpointError, Result};
+use crate::error::Result;
 
 /// What the integrator needs of a structure: implement this for your own model.
 ///
@@ -60,8 +63,8 @@ use crate::error::{CheckpointError, Result};
 /// ```
 ///
 /// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping
-/// does not act on the translation with the ground) and f the optional nonlinear force. Four methods are
-/// needed: [`unknowns`](Structure::unknowns), [`contact_nodes`](Structure::contact_nodes),
+/// does not act on the translation with the ground) and f the optional [`NonlinearForce`]. Four methods
+/// are needed: [`unknowns`](Structure::unknowns), [`contact_nodes`](Structure::contact_nodes),
 /// [`mass`](Structure::mass) and [`stiffness`](Structure::stiffness).
 ///
 /// No support is fixed, the ground holds the structure up: neither K nor the tangent of f at rest
@@ -71,7 +74,9 @@ use crate::error::{CheckpointError, Result};
 /// node ([`Error::Detached`](crate::Error::Detached)). Coordinates of modes and others relative to
 /// the base, which a stiffness of their own holds and the mass couples with the rest, are no such part.
 ///
-/// All forces are per metre of thickness.
+/// All forces are per metre of thickness. Matrices and loads may fail, with
+/// [`Error::part`](crate::Error::part) for a reason of your own: it ends the build, or the step with
+/// nothing of it committed.
 ///
 /// Every structure is [`Any`], so that [`Simulation::structure`](crate::Simulation::structure) leads
 /// back to your own type, and what its internal variables have become.
@@ -95,7 +100,10 @@ pub trait Structure: Any + Send {
     /// the largest entry of the matrix, and eigenvalues down to −10⁻⁶ of the matrix scaled to a
     /// diagonal of one. With more than that no simulation is built
     /// ([`Error::Indefinite`](crate::Error::Indefinite)).
-    fn mass(&self, matrix: &mut Triplets);
+    ///
+    /// # Errors
+    /// Any: it is what `build` returns.
+    fn mass(&self, matrix: &mut Triplets) -> Result<()>;
 
     /// Adds the stiffness matrix (n × n, N/m per metre) to `matrix`.
     ///
@@ -105,14 +113,22 @@ pub trait Structure: Any + Send {
     /// an unknown with exactly zero on the diagonal, no mass and no damping, but coefficients cⱼ in
     /// its row and column, is the force that keeps Σ cⱼ uⱼ = 0, and the rest must be positive
     /// semi-definite for the displacements that this leaves.
-    fn stiffness(&self, matrix: &mut Triplets);
+    ///
+    /// # Errors
+    /// Any: it is what `build` returns.
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
 
     /// Adds the viscous damping matrix (n × n) to `matrix`. Default: none.
     ///
     /// Symmetric and positive semi-definite, up to rounding as for the mass, or no simulation is
     /// built ([`Error::Scene`](crate::Error::Scene), [`Error::Indefinite`](crate::Error::Indefinite));
     /// [`has_active_damping`](Structure::has_active_damping) lifts that.
-    fn damping(&self, _matrix: &mut Triplets) {}
+    ///
+    /// # Errors
+    /// Any: it is what `build` returns.
+    fn damping(&self, _matrix: &mut Triplets) -> Result<()> {
+        Ok(())
+    }
 
     /// Whether the damping matrix is meant to be unsymmetric or to feed energy in, as gyroscopes and
     /// active dampers do: then it is taken as it is. Default: no.
@@ -127,59 +143,26 @@ pub trait Structure: Any + Send {
     }
 
     /// Adds the external load at `time` (n, N/m), weight excepted, to `load`. Default: none.
-    fn load(&self, _time: f64, _load: &mut [f64]) {}
-
-    /// Whether f(u) is zero (the default); the methods below are then never called.
-    fn is_linear(&self) -> bool {
-        true
+    ///
+    /// # Errors
+    /// Any: at t = 0 it is what `build` returns, later the source of
+    /// [`StepError::Structure`](crate::StepError::Structure).
+    fn load(&self, _time: f64, _load: &mut [f64]) -> Result<()> {
+        Ok(())
     }
 
-    /// Adds the nonlinear force f(u) (beyond K u) to `force`. Internal variables stay as they are.
-    fn nonlinear_force(&self, _displacement: &[f64], _force: &mut [f64]) {}
-
-    /// Adds the tangent ∂f/∂u to `matrix`, with the same sparsity at every call or less.
-    fn nonlinear_tangent(&self, _displacement: &[f64], _matrix: &mut Triplets) {}
-
-    /// Energies of f at `displacement`, reached from the last committed one, where the structure
-    /// knows them: what is stored then counts as strain energy of the ledger, and what is
-    /// dissipated as [`hysteresis`](crate::coupled::Ledger::hysteresis). Default: unknown, and all
-    /// work of f counts as strain energy.
-    fn nonlinear_energy(&self, _displacement: &[f64]) -> Option<InternalEnergy> {
+    /// The nonlinear force f(u); `None`, the default, for a linear structure. A structure that
+    /// implements [`NonlinearForce`] itself says `Some(self)`, here and in
+    /// [`nonlinear_mut`](Structure::nonlinear_mut).
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
         None
     }
 
-    /// Accepts a step that ended with `displacement`: internal variables may change here only. Not
-    /// called for a linear structure, which has none.
-    fn commit(&mut self, _displacement: &[f64]) {}
-
-    /// The internal variables that [`Structure::commit`] changes, for a checkpoint. Default: none
-    /// for a linear structure, which has none.
-    ///
-    /// A nonlinear structure whose runs are to be saved must implement this, and
-    /// [`Structure::restore`] if it has internal variables: one that is elastic, without memory,
-    /// says `Ok(Vec::new())`.
-    ///
-    /// # Errors
-    /// [`CheckpointError::Unsupported`] for a nonlinear structure that does not implement it.
-    fn save(&self) -> Result<Vec<f64>> {
-        if self.is_linear() {
-            Ok(Vec::new())
-        } else {
-            Err(CheckpointError::Unsupported { part: "structure" }.into())
-        }
-    }
-
-    /// Takes back what [`Structure::save`] returned; all values are finite. Unchanged on an error.
-    ///
-    /// # Errors
-    /// [`CheckpointError::Corrupt`] for values that cannot be such, or
-    /// [`Error::part`](crate::Error::part) with more to say. The default takes none.
-    fn restore(&mut self, values: &[f64]) -> Result<()> {
-        if values.is_empty() {
-            Ok(())
-        } else {
-            Err(CheckpointError::Corrupt { quantity: "state of the structure" }.into())
-        }
+    /// The same force, to commit a step or restore a state. No simulation takes a structure that
+    /// gives it here and not in [`nonlinear`](Structure::nonlinear), or the other way round
+    /// ([`Error::Scene`](crate::Error::Scene)).
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        None
     }
 }
 
@@ -189,18 +172,13 @@ impl<T: Structure + ?Sized> Structure for Box<T> {
         fn unknowns(&self) -> usize;
         fn contact_nodes(&self) -> Vec<ContactNode>;
         fn foundation_ends(&self) -> Vec<usize>;
-        fn mass(&self, matrix: &mut Triplets);
-        fn stiffness(&self, matrix: &mut Triplets);
-        fn damping(&self, matrix: &mut Triplets);
+        fn mass(&self, matrix: &mut Triplets) -> Result<()>;
+        fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
+        fn damping(&self, matrix: &mut Triplets) -> Result<()>;
         fn has_active_damping(&self) -> bool;
         fn describe(&self, unknowns: &[usize]) -> Option<String>;
-        fn load(&self, time: f64, load: &mut [f64]);
-        fn is_linear(&self) -> bool;
-        fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]);
-        fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets);
-        fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy>;
-        fn commit(&mut self, displacement: &[f64]);
-        fn save(&self) -> Result<Vec<f64>>;
-        fn restore(&mut self, values: &[f64]) -> Result<()>;
+        fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
+        fn nonlinear(&self) -> Option<&dyn NonlinearForce>;
+        fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce>;
     }
 }

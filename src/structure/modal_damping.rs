@@ -1,7 +1,7 @@
 //! Damping given mode by mode.
 
 use super::rigid_motions::rigid_momenta;
-use super::{ContactNode, InternalEnergy, Structure, Triplets};
+use super::{ContactNode, NonlinearForce, Structure, Triplets};
 use crate::error::{Error, Result, not_negative};
 use crate::linalg::{SparseMatrix, dot, generalised_modes};
 
@@ -78,10 +78,8 @@ impl ModalDamping {
         }
         let mass = SparseMatrix::assembled("mass matrix", n, &|matrix| structure.mass(matrix))?;
         let stiffness = SparseMatrix::assembled("stiffness matrix", n, &|matrix| {
-            structure.stiffness(matrix);
-            if !structure.is_linear() {
-                structure.nonlinear_tangent(&vec![0.0; n], matrix);
-            }
+            structure.stiffness(matrix)?;
+            structure.nonlinear().map_or(Ok(()), |force| force.tangent(&vec![0.0; n], matrix))
         })?;
         let scene = Error::Scene {
             quantity: "structure with modal damping",
@@ -134,22 +132,17 @@ impl Structure for WithModalDamping {
         fn unknowns(&self) -> usize;
         fn contact_nodes(&self) -> Vec<ContactNode>;
         fn foundation_ends(&self) -> Vec<usize>;
-        fn mass(&self, matrix: &mut Triplets);
-        fn stiffness(&self, matrix: &mut Triplets);
+        fn mass(&self, matrix: &mut Triplets) -> Result<()>;
+        fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
         fn has_active_damping(&self) -> bool;
         fn describe(&self, unknowns: &[usize]) -> Option<String>;
-        fn load(&self, time: f64, load: &mut [f64]);
-        fn is_linear(&self) -> bool;
-        fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]);
-        fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets);
-        fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy>;
-        fn commit(&mut self, displacement: &[f64]);
-        fn save(&self) -> Result<Vec<f64>>;
-        fn restore(&mut self, values: &[f64]) -> Result<()>;
+        fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
+        fn nonlinear(&self) -> Option<&dyn NonlinearForce>;
+        fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce>;
     }
 
-    fn damping(&self, matrix: &mut Triplets) {
-        self.structure.damping(matrix);
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
+        self.structure.damping(matrix)?;
         let n = self.structure.unknowns().max(1);
         for (place, &value) in self.damping.iter().enumerate() {
             // a b and b a round alike: the matrix stays symmetric to the last bit.
@@ -159,5 +152,6 @@ impl Structure for WithModalDamping {
                 0.5 * (value + self.damping[place % n * n + place / n]),
             );
         }
+        Ok(())
     }
 }

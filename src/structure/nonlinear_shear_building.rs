@@ -1,9 +1,9 @@
 //! Shear building with yielding storeys, or on isolators.
 
-use super::hysteresis::{Hysteresis, InternalEnergy};
+use super::hysteresis::Hysteresis;
 use super::section::SectionRows;
 use super::springs::Springs;
-use super::{ContactNode, ShearBuilding, Storey, Structure, Triplets};
+use super::{ContactNode, NonlinearForce, ShearBuilding, Storey, Structure, Triplets};
 use crate::error::{Result, not_negative, positive};
 
 /// The level of isolators between the basemat and the slab on which a building stands.
@@ -32,10 +32,10 @@ pub struct IsolationLevel {
 /// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?;
 /// let soft = Bilinear::new(40.0e6, 150.0e3, 0.05)?;
 /// let building = NonlinearShearBuilding::new(building).with_law(0, soft)?;
-/// assert!(!building.is_linear());
+/// let nonlinear = building.nonlinear().expect("a storey yields");
 /// // 10 mm of drift in the lowest storey, far beyond its 3.75 mm at yield
 /// let mut force = [0.0; 6];
-/// building.nonlinear_force(&[0.0, 0.0, 0.0, 0.01, 0.01, 0.01], &mut force);
+/// nonlinear.force(&[0.0, 0.0, 0.0, 0.01, 0.01, 0.01], &mut force)?;
 /// assert!((force[3] - (150.0e3 + 2.0e6 * 6.25e-3)).abs() < 1e-6);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -124,37 +124,19 @@ impl Structure for NonlinearShearBuilding {
         fn unknowns(&self) -> usize;
         fn contact_nodes(&self) -> Vec<ContactNode>;
         fn foundation_ends(&self) -> Vec<usize>;
-        fn mass(&self, matrix: &mut Triplets);
-        fn stiffness(&self, matrix: &mut Triplets);
-        fn damping(&self, matrix: &mut Triplets);
+        fn mass(&self, matrix: &mut Triplets) -> Result<()>;
+        fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
+        fn damping(&self, matrix: &mut Triplets) -> Result<()>;
         fn has_active_damping(&self) -> bool;
         fn describe(&self, unknowns: &[usize]) -> Option<String>;
-        fn load(&self, time: f64, load: &mut [f64]);
+        fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
     }
 
-    fn is_linear(&self) -> bool {
-        self.springs.is_empty()
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        self.springs.nonlinear()
     }
 
-    forward! {
-        self.springs;
-        fn commit(&mut self, displacement: &[f64]);
-        fn restore(&mut self, values: &[f64]) -> Result<()>;
-    }
-
-    fn save(&self) -> Result<Vec<f64>> {
-        Ok(self.springs.save())
-    }
-
-    fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]) {
-        self.springs.force(displacement, force);
-    }
-
-    fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets) {
-        self.springs.tangent(displacement, matrix);
-    }
-
-    fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        Some(self.springs.energy(displacement))
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        self.springs.nonlinear_mut()
     }
 }

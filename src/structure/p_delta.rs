@@ -99,7 +99,7 @@ impl FemModel {
     fn under_weight(&self, gravity: f64) -> Result<Vec<f64>> {
         let n = self.unknowns();
         let mut mass = Triplets::new(n);
-        self.mass(&mut mass);
+        self.mass(&mut mass)?;
         let mass = SparseMatrix::new("mass matrix", &mass)?;
         let mut weight = vec![0.0; n];
         mass.multiply_add(-gravity, &self.rigid_motion(Direction::Y, [0.0; 2]), &mut weight);

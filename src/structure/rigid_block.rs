@@ -14,7 +14,7 @@ use crate::error::{Result, finite, not_negative, positive};
 /// let block = RigidBlock::new(4.0, 10.0, 2000.0)?;
 /// assert_eq!(block.total_mass(), 80_000.0);
 /// let mut mass = Triplets::new(3);
-/// block.mass(&mut mass);
+/// block.mass(&mut mass)?;
 /// // the centre of gravity, 5 m up, moves by u_x − 5 θ
 /// assert!(mass.entries().contains(&(0, 2, -400_000.0)));
 /// # Ok::<(), basemat::Error>(())
@@ -117,19 +117,21 @@ impl Structure for RigidBlock {
         ContactNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION])
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         let coupling = -self.mass * self.center_height;
         matrix.add(Self::HORIZONTAL, Self::HORIZONTAL, self.mass);
         matrix.add(Self::VERTICAL, Self::VERTICAL, self.mass);
         matrix.add(Self::ROTATION, Self::ROTATION, self.base_inertia());
         matrix.add(Self::HORIZONTAL, Self::ROTATION, coupling);
         matrix.add(Self::ROTATION, Self::HORIZONTAL, coupling);
+        Ok(())
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         if self.gravity > 0.0 {
             let overturning = self.mass * self.gravity * self.center_height;
             matrix.add(Self::ROTATION, Self::ROTATION, -overturning);
         }
+        Ok(())
     }
 }

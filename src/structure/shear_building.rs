@@ -354,25 +354,28 @@ impl Structure for ShearBuilding {
         ContactNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION])
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         matrix.add(Self::HORIZONTAL, Self::HORIZONTAL, self.base_mass);
         matrix.add(Self::VERTICAL, Self::VERTICAL, self.total_mass());
         matrix.add(Self::ROTATION, Self::ROTATION, self.rotary_inertia());
         for (index, storey) in self.storeys.iter().enumerate() {
             matrix.add(index + 3, index + 3, storey.mass);
         }
+        Ok(())
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         self.add_drifts(matrix, |_, stiffness| stiffness);
         if self.gravity > 0.0 {
             self.add_p_delta(matrix);
         }
+        Ok(())
     }
 
-    fn damping(&self, matrix: &mut Triplets) {
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
         self.add_drifts(matrix, |storey, stiffness| {
             storey.damping + self.stiffness_damping * stiffness
         });
+        Ok(())
     }
 }

@@ -1,7 +1,8 @@
 //! Hysteretic springs on the unknowns of a structure.
 
 use super::hysteresis::{Hysteresis, InternalEnergy};
-use super::{ContactNode, Row, Structure, Triplets};
+use super::nonlinear::{is_nonlinear, restore_variables, save_variables};
+use super::{ContactNode, NonlinearForce, Row, Structure, Triplets};
 use crate::error::{CheckpointError, Result};
 
 /// A spring and the deformation l·u that it sees.
@@ -41,56 +42,21 @@ impl Springs {
         self.0.len()
     }
 
-    pub(super) fn force(&self, displacement: &[f64], force: &mut [f64]) {
-        for spring in &self.0 {
-            let value = spring.law.response(spring.deformation(displacement)).force;
-            for &(i, weight) in spring.row.terms() {
-                if let Some(force) = force.get_mut(i) {
-                    *force += weight * value;
-                }
-            }
-        }
+    pub(super) fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        (!self.is_empty()).then_some(self)
     }
 
-    pub(super) fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) {
-        for spring in &self.0 {
-            let tangent = spring.law.response(spring.deformation(displacement)).tangent;
-            matrix.add_outer(&spring.row, tangent);
-        }
-    }
-
-    pub(super) fn energy(&self, displacement: &[f64]) -> InternalEnergy {
-        let each = self.0.iter().map(|s| s.law.energy(s.deformation(displacement)));
-        each.fold(InternalEnergy::default(), |sum, one| sum + one)
-    }
-
-    pub(super) fn commit(&mut self, displacement: &[f64]) {
-        for spring in &mut self.0 {
-            let deformation = spring.deformation(displacement);
-            spring.law.commit(deformation);
-        }
-    }
-
-    pub(super) fn save(&self) -> Vec<f64> {
-        self.0.iter().flat_map(|spring| spring.law.save()).collect()
+    pub(super) fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        (!self.is_empty()).then_some(self)
     }
 
     /// Number of internal variables.
-    pub(super) fn variables(&self) -> usize {
+    fn variables(&self) -> usize {
         self.0.iter().map(|spring| spring.law.save().len()).sum()
     }
 
-    /// Takes back all or nothing.
-    pub(super) fn restore(&mut self, values: &[f64]) -> Result<()> {
-        let before = self.save();
-        if values.len() != before.len() {
-            return Err(CheckpointError::Corrupt { quantity: "state of the springs" }.into());
-        }
-        let outcome = self.try_restore(values);
-        if outcome.is_err() {
-            self.try_restore(&before)?;
-        }
-        outcome
+    fn state(&self) -> Vec<f64> {
+        self.0.iter().flat_map(|spring| spring.law.save()).collect()
     }
 
     fn try_restore(&mut self, values: &[f64]) -> Result<()> {
@@ -101,6 +67,57 @@ impl Springs {
             rest = after;
         }
         Ok(())
+    }
+}
+
+impl NonlinearForce for Springs {
+    fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
+        for spring in &self.0 {
+            let value = spring.law.response(spring.deformation(displacement)).force;
+            for &(i, weight) in spring.row.terms() {
+                if let Some(force) = force.get_mut(i) {
+                    *force += weight * value;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
+        for spring in &self.0 {
+            let tangent = spring.law.response(spring.deformation(displacement)).tangent;
+            matrix.add_outer(&spring.row, tangent);
+        }
+        Ok(())
+    }
+
+    fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
+        let each = self.0.iter().map(|s| s.law.energy(s.deformation(displacement)));
+        Some(each.fold(InternalEnergy::default(), |sum, one| sum + one))
+    }
+
+    fn commit(&mut self, displacement: &[f64]) {
+        for spring in &mut self.0 {
+            let deformation = spring.deformation(displacement);
+            spring.law.commit(deformation);
+        }
+    }
+
+    fn save(&self) -> Result<Vec<f64>> {
+        Ok(self.state())
+    }
+
+    /// Takes back all or nothing.
+    fn restore(&mut self, values: &[f64]) -> Result<()> {
+        let before = self.state();
+        if values.len() != before.len() {
+            return Err(CheckpointError::Corrupt { quantity: "state of the springs" }.into());
+        }
+        let outcome = self.try_restore(values);
+        if outcome.is_err() {
+            self.try_restore(&before)?;
+        }
+        outcome
     }
 }
 
@@ -116,7 +133,7 @@ impl Springs {
 /// unknowns translate together.
 ///
 /// ```
-/// use basemat::structure::{Bilinear, ShearBuilding, Storey, Structure, WithSprings};
+/// use basemat::structure::{Bilinear, NonlinearForce, ShearBuilding, Storey, WithSprings};
 ///
 /// // A building with a yielding damper beside its lowest columns.
 /// let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 3];
@@ -125,7 +142,7 @@ impl Springs {
 /// let damped = WithSprings::new(building).spring(drift, Bilinear::new(5.0e6, 2.0e4, 0.0)?)?;
 /// let mut force = [0.0; 6];
 /// // 10 mm of drift: it yields, and turns the base by its height of 3 m.
-/// damped.nonlinear_force(&[0.0, 0.0, 0.0, 0.01, 0.01, 0.01], &mut force);
+/// damped.force(&[0.0, 0.0, 0.0, 0.01, 0.01, 0.01], &mut force)?;
 /// assert_eq!(force, [-2.0e4, 0.0, 6.0e4, 2.0e4, 0.0, 0.0]);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -161,59 +178,68 @@ impl Structure for WithSprings {
         fn unknowns(&self) -> usize;
         fn contact_nodes(&self) -> Vec<ContactNode>;
         fn foundation_ends(&self) -> Vec<usize>;
-        fn mass(&self, matrix: &mut Triplets);
-        fn stiffness(&self, matrix: &mut Triplets);
-        fn damping(&self, matrix: &mut Triplets);
+        fn mass(&self, matrix: &mut Triplets) -> Result<()>;
+        fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
+        fn damping(&self, matrix: &mut Triplets) -> Result<()>;
         fn has_active_damping(&self) -> bool;
         fn describe(&self, unknowns: &[usize]) -> Option<String>;
-        fn load(&self, time: f64, load: &mut [f64]);
+        fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
     }
 
-    fn is_linear(&self) -> bool {
-        self.springs.is_empty() && self.structure.is_linear()
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        if self.springs.is_empty() { self.structure.nonlinear() } else { Some(self) }
     }
 
-    fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]) {
-        if !self.structure.is_linear() {
-            self.structure.nonlinear_force(displacement, force);
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        if self.springs.is_empty() {
+            return self.structure.nonlinear_mut();
         }
-        self.springs.force(displacement, force);
+        is_nonlinear(self.structure.as_mut()).is_ok().then_some(self)
     }
+}
 
-    fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets) {
-        if !self.structure.is_linear() {
-            self.structure.nonlinear_tangent(displacement, matrix);
+/// The springs and, where it has one, the structure's own force.
+impl NonlinearForce for WithSprings {
+    fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
+        if let Some(own) = self.structure.nonlinear() {
+            own.force(displacement, force)?;
         }
-        self.springs.tangent(displacement, matrix);
+        self.springs.force(displacement, force)
     }
 
-    fn nonlinear_energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        let own = if self.structure.is_linear() {
-            InternalEnergy::default()
-        } else {
-            self.structure.nonlinear_energy(displacement)?
-        };
-        Some(own + self.springs.energy(displacement))
+    fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
+        if let Some(own) = self.structure.nonlinear() {
+            own.tangent(displacement, matrix)?;
+        }
+        self.springs.tangent(displacement, matrix)
+    }
+
+    fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
+        let springs = self.springs.energy(displacement)?;
+        match self.structure.nonlinear() {
+            Some(own) => Some(own.energy(displacement)? + springs),
+            None => Some(springs),
+        }
     }
 
     fn commit(&mut self, displacement: &[f64]) {
-        if !self.structure.is_linear() {
-            self.structure.commit(displacement);
+        if let Some(own) = self.structure.nonlinear_mut() {
+            own.commit(displacement);
         }
         self.springs.commit(displacement);
     }
 
     fn save(&self) -> Result<Vec<f64>> {
-        let mut values = self.springs.save();
-        values.extend(self.structure.save()?);
+        let mut values = self.springs.state();
+        values.extend(save_variables(self.structure.as_ref())?);
         Ok(values)
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
         let (own, others) = values.split_at(self.springs.variables().min(values.len()));
-        let before = self.springs.save();
+        let before = self.springs.state();
         self.springs.restore(own)?;
-        let outcome = self.structure.restore(others);
+        let outcome = restore_variables(self.structure.as_mut(), others);
         if outcome.is_err() {
             self.springs.restore(&before)?;
         }

@@ -69,11 +69,17 @@ impl Triplets {
     }
 
     /// Lets `write` fill the diagonal block of `order` rows that begins at row `first`.
-    pub(crate) fn block(&mut self, first: usize, order: usize, write: impl FnOnce(&mut Self)) {
+    pub(crate) fn block<T>(
+        &mut self,
+        first: usize,
+        order: usize,
+        write: impl FnOnce(&mut Self) -> T,
+    ) -> T {
         let outer = (self.order, self.shift);
         (self.order, self.shift) = (order, Some(self.shift.unwrap_or(0) + first));
-        write(self);
+        let written = write(self);
         (self.order, self.shift) = outer;
+        written
     }
 
     /// Forgets all entries, keeping the memory.

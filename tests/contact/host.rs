@@ -29,12 +29,14 @@ impl Structure for Tower {
         ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2])
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         MASS.into_iter().enumerate().for_each(|(i, mass)| matrix.add(i, i, mass));
+        Ok(())
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add_outer([(3, 1.0), (0, -1.0), (2, HEIGHT)], COLUMN);
+        Ok(())
     }
 }
 

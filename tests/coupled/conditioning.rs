@@ -177,15 +177,17 @@ impl Structure for Wheels {
         ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2])
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         for (unknown, mass) in [1e4, 1e4, 5e4, 10.0, 10.0].into_iter().enumerate() {
             matrix.add(unknown, unknown, mass);
         }
+        Ok(())
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add_spring(3, 4, 1e22);
         matrix.add_spring(2, 3, 1e5);
+        Ok(())
     }
 }
 

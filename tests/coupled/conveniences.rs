@@ -40,8 +40,12 @@ impl Structure for Ends {
     fn foundation_ends(&self) -> Vec<usize> {
         self.1.clone()
     }
-    fn mass(&self, _: &mut Triplets) {}
-    fn stiffness(&self, _: &mut Triplets) {}
+    fn mass(&self, _: &mut Triplets) -> Result<()> {
+        Ok(())
+    }
+    fn stiffness(&self, _: &mut Triplets) -> Result<()> {
+        Ok(())
+    }
 }
 
 #[test]

@@ -12,8 +12,8 @@ use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::motion::{FreeField, FreeFieldFn};
 use basemat::structure::{
-    Bilinear, ContactNode, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, Structure,
-    StructureGroup, Triplets, WithSprings,
+    Bilinear, ContactNode, FemModel, NonlinearForce, RayleighDamping, RigidBlock, ShearBuilding,
+    Storey, Structure, StructureGroup, Triplets, WithSprings,
 };
 
 use crate::support::scenes::{GRAVITY, SI, friction, shake, soil};
@@ -192,28 +192,36 @@ impl Structure for Pounding {
         self.blocks.foundation_ends()
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
-        self.blocks.mass(matrix);
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.blocks.mass(matrix)
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
-        self.blocks.stiffness(matrix);
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.blocks.stiffness(matrix)
     }
 
-    fn is_linear(&self) -> bool {
-        false
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        Some(self)
     }
 
-    fn nonlinear_force(&self, u: &[f64], force: &mut [f64]) {
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        Some(self)
+    }
+}
+
+impl NonlinearForce for Pounding {
+    fn force(&self, u: &[f64], force: &mut [f64]) -> basemat::Result<()> {
         let push = STOP * self.overlap(u);
         force[self.rows[0]] += push;
         force[self.rows[1]] -= push;
+        Ok(())
     }
 
-    fn nonlinear_tangent(&self, u: &[f64], matrix: &mut Triplets) {
+    fn tangent(&self, u: &[f64], matrix: &mut Triplets) -> basemat::Result<()> {
         if self.overlap(u) > 0.0 {
             matrix.add_spring(self.rows[0], self.rows[1], STOP);
         }
+        Ok(())
     }
 }
 

@@ -3,7 +3,7 @@
 use basemat::Simulation;
 use basemat::coupled::SimulationBuilder;
 use basemat::interface::Bonded;
-use basemat::structure::{ContactNode, Structure, Triplets};
+use basemat::structure::{ContactNode, NonlinearForce, Structure, Triplets};
 
 use crate::support::block_on_springs::bed;
 
@@ -50,41 +50,56 @@ impl Structure for Spoilt {
         self.nodes.clone()
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         for i in 0..self.unknowns.min(3) {
             matrix.add(i, i, 1e4);
         }
         let (row, column, value) = self.mass;
         matrix.add(row, column, value);
+        Ok(())
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         let (row, column, value) = self.stiffness;
         matrix.add(row, column, value);
         if self.shrinks {
             *matrix = Triplets::new(1);
         }
+        Ok(())
     }
 
-    fn damping(&self, matrix: &mut Triplets) {
+    fn damping(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         let (row, column, value) = self.damping;
         matrix.add(row, column, value);
+        Ok(())
     }
 
-    fn load(&self, time: f64, load: &mut [f64]) {
+    fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
         load[0] += self.push;
         if time >= self.load_from {
             load[0] = f64::NAN;
         }
+        Ok(())
     }
 
-    fn is_linear(&self) -> bool {
-        self.tangent.is_none()
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        self.tangent.is_some().then_some(self)
     }
 
-    fn nonlinear_tangent(&self, _: &[f64], matrix: &mut Triplets) {
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        self.tangent.is_some().then_some(self)
+    }
+}
+
+impl NonlinearForce for Spoilt {
+    fn force(&self, _: &[f64], _: &mut [f64]) -> basemat::Result<()> {
+        Ok(())
+    }
+
+    fn tangent(&self, _: &[f64], matrix: &mut Triplets) -> basemat::Result<()> {
         if let Some((row, column, value)) = self.tangent {
             matrix.add(row, column, value);
         }
+        Ok(())
     }
 }

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use basemat::Simulation;
 use basemat::interface::Coulomb;
-use basemat::structure::{ContactNode, Structure, Triplets};
+use basemat::structure::{ContactNode, NonlinearForce, Structure, Triplets};
 
 use super::{assert_same_motion, run, shaken};
 use crate::support::block_on_springs::{bed, block};
@@ -39,29 +39,39 @@ impl Structure for Hardening {
         ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2])
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         for (unknown, mass) in [1.0e4, 3.0e4, 8.0e4, 2.0e4].into_iter().enumerate() {
             matrix.add(unknown, unknown, mass);
         }
+        Ok(())
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add_outer(DRIFT, SPRING);
+        Ok(())
     }
 
-    fn is_linear(&self) -> bool {
-        false
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        Some(self)
     }
 
-    fn nonlinear_force(&self, displacement: &[f64], force: &mut [f64]) {
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        Some(self)
+    }
+}
+
+impl NonlinearForce for Hardening {
+    fn force(&self, displacement: &[f64], force: &mut [f64]) -> basemat::Result<()> {
         let f = self.cubic * Self::drift(displacement).powi(3);
         for (index, weight) in DRIFT {
             force[index] += weight * f;
         }
+        Ok(())
     }
 
-    fn nonlinear_tangent(&self, displacement: &[f64], matrix: &mut Triplets) {
+    fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add_outer(DRIFT, 3.0 * self.cubic * Self::drift(displacement).powi(2));
+        Ok(())
     }
 
     fn commit(&mut self, displacement: &[f64]) {

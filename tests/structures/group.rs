@@ -8,8 +8,8 @@ use basemat::history::History;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{RickerDisplacement, STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
-    CraigBampton, ModalDamping, RigidBlock, Row, ShearBuilding, Storey, Structure, StructureGroup,
-    Triplets, WithSprings,
+    CraigBampton, ModalDamping, NonlinearForce, RigidBlock, Row, ShearBuilding, Storey, Structure,
+    StructureGroup, Triplets, WithSprings,
 };
 use basemat::{CheckpointError, Error, Result, Simulation, Soil};
 
@@ -228,17 +228,25 @@ struct Softening {
 impl Structure for Softening {
     needed_from!(block);
 
-    fn is_linear(&self) -> bool {
-        false
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        Some(self)
     }
 
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        Some(self)
+    }
+}
+
+impl NonlinearForce for Softening {
     /// A dead weight's P–Δ, as a force.
-    fn nonlinear_force(&self, u: &[f64], force: &mut [f64]) {
+    fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
         force[RigidBlock::ROTATION] -= 2.0e5 * u[RigidBlock::ROTATION];
+        Ok(())
     }
 
-    fn nonlinear_tangent(&self, _: &[f64], matrix: &mut Triplets) {
+    fn tangent(&self, _: &[f64], matrix: &mut Triplets) -> Result<()> {
         matrix.add(RigidBlock::ROTATION, RigidBlock::ROTATION, -2.0e5);
+        Ok(())
     }
 
     fn commit(&mut self, u: &[f64]) {

@@ -49,18 +49,21 @@ impl Structure for Cantilever {
         ContactNode::rigid_base(-1.0, 1.0, [0, 1, 2])
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add(0, 0, 1.0);
         matrix.add(1, 1, 1.0);
         matrix.add(2, 2, 1.0 / 3.0);
         self.add(1.0, matrix, |beam, at, block| beam.mass(at, MassKind::Consistent, block));
+        Ok(())
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         self.add(1.0, matrix, Beam::stiffness);
+        Ok(())
     }
 
-    fn damping(&self, matrix: &mut Triplets) {
+    fn damping(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         self.add(0.02, matrix, Beam::stiffness);
+        Ok(())
     }
 }

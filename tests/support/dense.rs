@@ -24,9 +24,12 @@ pub(crate) fn product(matrix: &Triplets, vector: &[f64]) -> Vec<f64> {
 }
 
 /// What a structure adds to an empty matrix.
-pub(crate) fn collect(structure: &dyn Structure, fill: impl FnOnce(&mut Triplets)) -> Matrix {
+pub(crate) fn collect(
+    structure: &dyn Structure,
+    fill: impl FnOnce(&mut Triplets) -> basemat::Result<()>,
+) -> Matrix {
     let mut triplets = Triplets::new(structure.unknowns());
-    fill(&mut triplets);
+    fill(&mut triplets).unwrap();
     dense(&triplets)
 }
 

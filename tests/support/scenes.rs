@@ -5,7 +5,9 @@ use basemat::coupled::{SimulationBuilder, State};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::motion::FreeFieldFn;
-use basemat::structure::{FemModel, RayleighDamping, RigidBlock, Structure, Triplets};
+use basemat::structure::{
+    FemModel, NonlinearForce, RayleighDamping, RigidBlock, Structure, Triplets,
+};
 use basemat::{Simulation, Soil};
 
 /// Units of length, time and mass, and whether left and right are exchanged.
@@ -124,34 +126,44 @@ impl Structure for Rider {
         self.block.contact_nodes()
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         let mut own = Triplets::new(3);
-        self.block.mass(&mut own);
+        self.block.mass(&mut own)?;
         for &(i, j, value) in own.entries() {
             matrix.add(i, j, value);
         }
         matrix.add(3, 3, 4000.0);
+        Ok(())
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add_outer([(0, -1.0), (2, 6.0), (3, 1.0)], 1e6);
+        Ok(())
     }
 
-    fn is_linear(&self) -> bool {
-        false
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        Some(self)
     }
 
-    fn nonlinear_force(&self, u: &[f64], force: &mut [f64]) {
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        Some(self)
+    }
+}
+
+impl NonlinearForce for Rider {
+    fn force(&self, u: &[f64], force: &mut [f64]) -> basemat::Result<()> {
         let stretch = u[3] - u[0] + 6.0 * u[2];
         let pull = 1e9 * stretch.powi(3);
         force[3] += pull;
         force[0] -= pull;
         force[2] += 6.0 * pull;
+        Ok(())
     }
 
-    fn nonlinear_tangent(&self, u: &[f64], matrix: &mut Triplets) {
+    fn tangent(&self, u: &[f64], matrix: &mut Triplets) -> basemat::Result<()> {
         let stretch = u[3] - u[0] + 6.0 * u[2];
         matrix.add_outer([(0, -1.0), (2, 6.0), (3, 1.0)], 3e9 * stretch * stretch);
+        Ok(())
     }
 
     /// Elastic, without memory.

@@ -13,12 +13,12 @@ macro_rules! needed_from {
             self.$field.contact_nodes()
         }
 
-        fn mass(&self, matrix: &mut basemat::structure::Triplets) {
-            self.$field.mass(matrix);
+        fn mass(&self, matrix: &mut basemat::structure::Triplets) -> basemat::Result<()> {
+            self.$field.mass(matrix)
         }
 
-        fn stiffness(&self, matrix: &mut basemat::structure::Triplets) {
-            self.$field.stiffness(matrix);
+        fn stiffness(&self, matrix: &mut basemat::structure::Triplets) -> basemat::Result<()> {
+            self.$field.stiffness(matrix)
         }
     };
 }
@@ -43,13 +43,14 @@ pub(crate) struct Pulled<S, F> {
 impl<S: Structure, F: Fn(f64) -> f64 + Send + 'static> Structure for Pulled<S, F> {
     needed_from!(structure);
 
-    fn damping(&self, matrix: &mut Triplets) {
-        self.structure.damping(matrix);
+    fn damping(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.structure.damping(matrix)
     }
 
-    fn load(&self, time: f64, load: &mut [f64]) {
+    fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
         for &(unknown, weight) in self.along.terms() {
             load[unknown] += weight * (self.force)(time);
         }
+        Ok(())
     }
 }

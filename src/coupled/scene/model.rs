@@ -44,13 +44,14 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    pub(crate) fn new(structure: &dyn Structure, base: &Base) -> Result<Self> {
+    pub(crate) fn new(structure: &dyn Structure, linear: bool, base: &Base) -> Result<Self> {
         let unknowns = structure.unknowns();
         if unknowns == 0 {
             return Err(Error::Size { quantity: "list of unknowns", found: 0, needed: 1 });
         }
-        let assemble =
-            |name, fill: &dyn Fn(&mut Triplets)| SparseMatrix::assembled(name, unknowns, fill);
+        let assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
+            SparseMatrix::assembled(name, unknowns, fill)
+        };
         let mass = assemble("mass matrix", &|m| structure.mass(m))?;
         check_mass(&mass)?;
         let damping = assemble("damping matrix", &|m| structure.damping(m))?;
@@ -58,7 +59,6 @@ impl Model {
             check_damping(&damping)?;
         }
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
-        let linear = structure.is_linear();
         let mut model = Self {
             unknowns,
             mass: Matrix::Sparse(mass),
@@ -69,7 +69,7 @@ impl Model {
             modes: None,
         };
         let mut tangent = Tangent::new(unknowns);
-        tangent.refill(&model, structure, &vec![0.0; unknowns])?;
+        tangent.refill(structure, &vec![0.0; unknowns])?;
         let mut at_rest = Triplets::new(unknowns);
         model.stiffness.add_to(1.0, &mut at_rest);
         tangent.matrix.add_to(1.0, &mut at_rest);
@@ -118,7 +118,7 @@ impl Model {
     }
 
     /// Adds the external load at `time`, weight excepted, minus `at_start`, to `load`; `scratch`
-    /// has an entry for every unknown.
+    /// has an entry for every unknown. An error is the structure's.
     pub(crate) fn load(
         &self,
         structure: &dyn Structure,
@@ -126,9 +126,12 @@ impl Model {
         at_start: &[f64],
         scratch: &mut [f64],
         load: &mut [f64],
-    ) {
+    ) -> Result<()> {
         scratch.fill(0.0);
-        structure.load(time, scratch);
+        structure.load(time, scratch)?;
+        if scratch == at_start {
+            return Ok(());
+        }
         for (now, at_start) in scratch.iter_mut().zip(at_start) {
             *now -= at_start;
         }
@@ -136,6 +139,7 @@ impl Model {
             Some(modes) => modes.project(scratch, load),
             None => load.iter_mut().zip(scratch).for_each(|(load, now)| *load += *now),
         }
+        Ok(())
     }
 
     /// f and its energies at a displacement; zero and unknown for a linear structure.
@@ -143,13 +147,11 @@ impl Model {
         &self,
         structure: &dyn Structure,
         displacement: &[f64],
-    ) -> (Vec<f64>, Option<InternalEnergy>) {
+    ) -> Result<(Vec<f64>, Option<InternalEnergy>)> {
         let mut force = vec![0.0; self.unknowns];
-        if self.linear {
-            return (force, None);
-        }
-        structure.nonlinear_force(displacement, &mut force);
-        (force, structure.nonlinear_energy(displacement))
+        let Some(own) = structure.nonlinear() else { return Ok((force, None)) };
+        own.force(displacement, &mut force)?;
+        Ok((force, own.energy(displacement)))
     }
 
     /// Refuses a symmetric K that is not positive semi-definite where the base is held.
@@ -203,19 +205,14 @@ impl Tangent {
     }
 
     /// Goes to the tangent at a displacement; allocates only for entries at new places.
-    pub(crate) fn refill(
-        &mut self,
-        model: &Model,
-        structure: &dyn Structure,
-        displacement: &[f64],
-    ) -> Result<()> {
+    pub(crate) fn refill(&mut self, structure: &dyn Structure, displacement: &[f64]) -> Result<()> {
         const NAME: &str = "tangent of the nonlinear force";
         self.entries.clear();
-        if !model.linear {
-            structure.nonlinear_tangent(displacement, &mut self.entries);
-            same_length(NAME, self.entries.order(), model.unknowns)?;
+        if let Some(own) = structure.nonlinear() {
+            own.tangent(displacement, &mut self.entries)?;
+            same_length(NAME, self.entries.order(), displacement.len())?;
         }
-        if self.matrix.order() != model.unknowns || !self.matrix.refill(&self.entries) {
+        if self.matrix.order() != displacement.len() || !self.matrix.refill(&self.entries) {
             self.matrix = SparseMatrix::new(NAME, &self.entries)?;
         }
         Ok(())

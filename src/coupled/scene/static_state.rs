@@ -149,7 +149,7 @@ pub(crate) fn solve(
     let mut iterations = 0;
     while iterations < ITERATIONS {
         iterations += 1;
-        tangent.refill(model, structure, &state.displacement)?;
+        tangent.refill(structure, &state.displacement)?;
         let current = match compliance.take() {
             Some(current) if model.linear => current,
             _ => {
@@ -161,7 +161,7 @@ pub(crate) fn solve(
         // (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. Under the springs alone the structure
         // would sink by 1/PROXIMAL_SHARE settlements; so what τ₀ answers to is put in by the columns
         // that take out τ₁, and only what is out of balance is solved for.
-        let mut displacement = out_of_balance(model, structure, base, load, &state);
+        let mut displacement = out_of_balance(model, structure, base, load, &state)?;
         current.factor.solve(&mut displacement);
         for (d, u) in displacement.iter_mut().zip(&state.displacement) {
             *d += u;
@@ -220,7 +220,7 @@ pub(crate) fn solve(
             solver.invalidate();
         }
     }
-    tangent.refill(model, structure, &vec![0.0; n])?;
+    tangent.refill(structure, &vec![0.0; n])?;
     // Of the structure against springs as stiff as the first ones.
     let share = epsilon / stiffest;
     let condition =
@@ -262,16 +262,13 @@ fn out_of_balance(
     base: &Base,
     load: &[f64],
     state: &StaticState,
-) -> Vec<f64> {
+) -> Result<Vec<f64>> {
     let mut rest = load.to_vec();
     model.stiffness.multiply_add(-1.0, &state.displacement, &mut rest);
     base.add_forces(-1.0, &state.traction, &mut rest);
-    if !model.linear {
-        let mut force = vec![0.0; rest.len()];
-        structure.nonlinear_force(&state.displacement, &mut force);
-        rest.iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
-    }
-    rest
+    let (force, _) = model.nonlinear_state(structure, &state.displacement)?;
+    rest.iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
+    Ok(rest)
 }
 
 /// How large a force is, relative to the load: each component over the square root of its mass, so

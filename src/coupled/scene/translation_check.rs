@@ -20,14 +20,12 @@ pub(crate) fn joined_by_force(
 ) -> Result<Vec<bool>> {
     let parts = model.influence.parts();
     let mut joined = vec![false; parts.len()];
-    if model.linear {
-        return Ok(joined);
-    }
+    let Some(own) = structure.nonlinear() else { return Ok(joined) };
     let n = model.unknowns;
     let mut tangent = Tangent::new(n);
-    tangent.refill(model, structure, &at_rest.displacement)?;
+    tangent.refill(structure, &at_rest.displacement)?;
     let stiffest = largest(&tangent.matrix.diagonal()).max(largest(&model.stiffness.diagonal()));
-    let resistance = |translation: &[f64]| {
+    let resistance = |translation: &[f64]| -> Result<Option<(f64, usize, f64)>> {
         let [_, around] = products(&tangent.matrix, translation);
         let mut force = vec![0.0; n];
         for distance in TRANSLATIONS {
@@ -38,33 +36,33 @@ pub(crate) fn joined_by_force(
                 .map(|(u, r)| u + distance * r)
                 .collect();
             force.fill(0.0);
-            structure.nonlinear_force(&moved, &mut force);
+            own.force(&moved, &mut force)?;
             for (unknown, (force, before)) in force.iter().zip(&at_rest.force).enumerate() {
                 let force = force - before;
                 let scale = distance.abs() * around[unknown] + before.abs();
                 let rounding = f64::EPSILON * stiffest * distance.abs();
                 if force.is_nan() || force.abs() > ROW * scale + rounding {
                     let share = if scale > 0.0 { force.abs() / scale } else { f64::INFINITY };
-                    return Some((force, unknown, share));
+                    return Ok(Some((force, unknown, share)));
                 }
             }
         }
-        None
+        Ok(None)
     };
     for (translation, direction) in model.influence.of_all(n).iter().zip(DIRECTIONS) {
-        if let Some((force, unknown, share)) = resistance(translation) {
+        if let Some((force, unknown, share)) = resistance(translation)? {
             return Err(Error::Supported { direction, force, unknown, share });
         }
     }
     if parts.len() > 1 {
         for (part, joined) in parts.iter().zip(&mut joined) {
-            *joined = part.vectors.iter().any(|vector| {
+            for vector in &part.vectors {
                 let mut translation = vec![0.0; n];
                 for &(i, r) in vector {
                     translation[i] = r;
                 }
-                resistance(&translation).is_some()
-            });
+                *joined |= resistance(&translation)?.is_some();
+            }
         }
     }
     Ok(joined)

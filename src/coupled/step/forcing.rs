@@ -84,7 +84,9 @@ impl Forcing {
         self.load.fill(0.0);
         let within = state.time + scene.coefficients.load_fraction * scene.time_step;
         let at_start = &scene.static_state.load;
-        scene.model.load(structure, within, at_start, &mut self.unknowns, &mut self.load);
-        Ok(())
+        scene
+            .model
+            .load(structure, within, at_start, &mut self.unknowns, &mut self.load)
+            .map_err(StepError::structure("load of the structure"))
     }
 }

@@ -53,11 +53,11 @@ impl Newton {
         }
         let mut residual = f64::INFINITY;
         let (mut trials, mut method) = (0, SearchMethod::ActiveSet);
+        self.evaluate(linear, scene, structure, state, forcing, increment)?;
         for iteration in 0..ITERATIONS {
-            self.evaluate(linear, scene, structure, state, forcing, increment);
             self.tangent
-                .refill(&scene.model, structure, &self.seen)
-                .map_err(|_| StepError::NotFinite { quantity: "tangent of the structure" })?;
+                .refill(structure, &self.seen)
+                .map_err(StepError::structure("tangent of the structure"))?;
             let tangent = &self.tangent.matrix;
             if !tangent.entries().eq(linear.operators.tangent.entries()) {
                 let (model, base) = (&scene.model, &scene.base);
@@ -80,7 +80,7 @@ impl Newton {
             let tangent = &linear.operators.tangent;
             tangent.multiply_add(weight, &increment.displacement, &mut self.linearised);
             self.guess.copy_from_slice(&increment.displacement);
-            self.evaluate(linear, scene, structure, state, forcing, increment);
+            self.evaluate(linear, scene, structure, state, forcing, increment)?;
             if increment.force.iter().any(|f| !f.is_finite()) {
                 return Err(StepError::NotFinite { quantity: "nonlinear force of the structure" });
             }
@@ -122,7 +122,7 @@ impl Newton {
         state: &State,
         forcing: &Forcing,
         increment: &mut Increment,
-    ) {
+    ) -> Result<(), StepError> {
         let c = scene.coefficients.displacement;
         let Motion { displacement: u, velocity: v, acceleration: a, .. } = &state.motion;
         for (i, seen) in self.seen.iter_mut().enumerate() {
@@ -137,9 +137,13 @@ impl Newton {
             *seen += at_rest;
         }
         increment.force.fill(0.0);
-        structure.nonlinear_force(&self.seen, &mut increment.force);
+        if let Some(own) = structure.nonlinear() {
+            own.force(&self.seen, &mut increment.force)
+                .map_err(StepError::structure("nonlinear force of the structure"))?;
+        }
         for (force, at_rest) in increment.force.iter_mut().zip(&scene.static_state.force) {
             *force -= at_rest;
         }
+        Ok(())
     }
 }

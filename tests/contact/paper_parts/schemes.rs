@@ -156,7 +156,7 @@ fn orders_are_two_unless_gamma_damps() {
 fn traction_enters_at_the_end_of_the_step() {
     for alpha in [0.0, -0.2] {
         let mut mass = Triplets::new(3);
-        block(SI).mass(&mut mass);
+        block(SI).mass(&mut mass).unwrap();
         let mut simulation = scene(SI, 0.5)
             .structure(block(SI))
             .interface(friction(0.3))

@@ -5,7 +5,7 @@
 use basemat::bem::{ContactElement, Ground, SpringGround};
 use basemat::history::History;
 use basemat::structure::{
-    ModalDamping, RigidBlock, Structure, StructureGroup, Triplets, WithSprings,
+    ModalDamping, NonlinearForce, RigidBlock, Structure, StructureGroup, Triplets, WithSprings,
 };
 use basemat::{CheckpointError, Error, Result};
 
@@ -89,16 +89,22 @@ struct Unsaved(Rider);
 impl Structure for Unsaved {
     needed_from!(0);
 
-    fn is_linear(&self) -> bool {
-        false
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        Some(self)
     }
 
-    fn nonlinear_force(&self, u: &[f64], force: &mut [f64]) {
-        self.0.nonlinear_force(u, force);
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        Some(self)
+    }
+}
+
+impl NonlinearForce for Unsaved {
+    fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
+        self.0.force(u, force)
     }
 
-    fn nonlinear_tangent(&self, u: &[f64], matrix: &mut Triplets) {
-        self.0.nonlinear_tangent(u, matrix);
+    fn tangent(&self, u: &[f64], matrix: &mut Triplets) -> Result<()> {
+        self.0.tangent(u, matrix)
     }
 }
 

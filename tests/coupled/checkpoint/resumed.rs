@@ -9,7 +9,7 @@ use basemat::bem::HalfPlaneGround;
 use basemat::coupled::{SimulationBuilder, State};
 use basemat::history::History;
 use basemat::interface::Bonded;
-use basemat::structure::{RigidBlock, Structure, Triplets};
+use basemat::structure::{NonlinearForce, RigidBlock, Structure, Triplets};
 use basemat::{CheckpointError, Result, Simulation};
 
 use super::{STEPS, carried, half_plane, spring_bed};
@@ -25,16 +25,24 @@ struct Sticky {
 impl Structure for Sticky {
     needed_from!(block);
 
-    fn is_linear(&self) -> bool {
-        false
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        Some(self)
     }
 
-    fn nonlinear_force(&self, u: &[f64], force: &mut [f64]) {
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        Some(self)
+    }
+}
+
+impl NonlinearForce for Sticky {
+    fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
         force[2] += 1e5 * (u[2] - self.anchor);
+        Ok(())
     }
 
-    fn nonlinear_tangent(&self, _: &[f64], matrix: &mut Triplets) {
+    fn tangent(&self, _: &[f64], matrix: &mut Triplets) -> Result<()> {
         matrix.add(2, 2, 1e5);
+        Ok(())
     }
 
     fn commit(&mut self, u: &[f64]) {

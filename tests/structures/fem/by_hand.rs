@@ -21,19 +21,21 @@ impl Structure for FiveStoreys {
         ContactNode::rigid_base(-5.0, 5.0, [0, 1, 2])
     }
 
-    fn mass(&self, matrix: &mut Triplets) {
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add(0, 0, self.mass);
         matrix.add(1, 1, 6.0 * self.mass);
         matrix.add(2, 2, 10.0 * self.mass);
         for floor in 3..8 {
             matrix.add(floor, floor, self.mass);
         }
+        Ok(())
     }
 
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         for (below, floor) in [(0, 3), (3, 4), (4, 5), (5, 6), (6, 7)] {
             matrix.add_outer([(floor, 1.0), (below, -1.0), (2, self.height)], self.stiffness);
         }
+        Ok(())
     }
 }
 

@@ -69,7 +69,7 @@ fn the_weight_on_isolators_has_the_curvature_of_its_potential() {
         let law = Bilinear::new(1.0e6, 1.0e4, 0.1).unwrap();
         let isolated = NonlinearShearBuilding::isolated(building(gravity), LEVEL, law).unwrap();
         let mut triplets = Triplets::new(9);
-        isolated.stiffness(&mut triplets);
+        isolated.stiffness(&mut triplets).unwrap();
         let mut full = [[0.0; 9]; 9];
         for &(i, j, value) in triplets.entries() {
             full[i][j] += value;

@@ -3,7 +3,7 @@
 //! REFERENCE: the error, and the structure as it was.
 
 use basemat::structure::{
-    Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber,
+    Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber, NonlinearForce,
     NonlinearShearBuilding, RigidBlock, ShearBuilding, Storey, Structure, WithSprings,
 };
 use basemat::{CheckpointError, Error, Result};
@@ -67,7 +67,7 @@ fn laws_have_one_storey_each() {
     assert!(matches!(one.building().shear(1), Err(Error::Scene { .. })));
     assert!(one.building().shear(0).is_ok() && one.shear(1).is_ok());
     let none = NonlinearShearBuilding::new(building());
-    assert!(none.is_linear());
+    assert!(none.nonlinear().is_none());
     assert!(matches!(none.shear(2), Err(Error::Index { .. })));
     assert!(matches!(none.with_law(2, law()), Err(Error::Index { index: 2, bound: 2, .. })));
     let level = IsolationLevel { height: 0.3, slab_mass: 3e4, slab_inertia: 0.0, damping: 0.0 };
@@ -89,7 +89,7 @@ fn laws_have_one_storey_each() {
 #[test]
 fn springs_need_unknowns_that_exist() {
     let block = || WithSprings::new(RigidBlock::new(2.0, 4.0, 2000.0).unwrap());
-    assert!(block().is_linear());
+    assert!(block().nonlinear().is_none());
     assert!(matches!(block().spring(vec![(3, 1.0)], law()), Err(Error::Index { .. })));
     assert!(is_input(block().spring(vec![(0, f64::NAN)], law())));
 }
@@ -130,7 +130,7 @@ fn saved_states_come_back_or_change_nothing() {
     held.commit(&u);
     let force = |held: &WithSprings| {
         let mut force = [0.0; 5];
-        held.nonlinear_force(&[0.0, 0.0, 0.0, 0.015, 0.03], &mut force);
+        held.force(&[0.0, 0.0, 0.0, 0.015, 0.03], &mut force).unwrap();
         force
     };
     let (saved, before) = (held.save().unwrap(), force(&held));
@@ -152,7 +152,7 @@ fn saved_states_come_back_or_change_nothing() {
     held.restore(&saved).unwrap();
     assert_eq!(force(&held), before);
     // Slices that are too short count as zero beyond their ends.
-    held.nonlinear_force(&[0.0; 2], &mut [0.0; 2]);
+    held.force(&[0.0; 2], &mut [0.0; 2]).unwrap();
     held.commit(&[]);
     // Out-of-range deformations give numbers that are not finite, and no panic.
     for wild in [f64::NAN, f64::INFINITY, 1e300] {

@@ -43,16 +43,17 @@ impl Structure for Damped {
     fn contact_nodes(&self) -> Vec<ContactNode> {
         self.0.contact_nodes()
     }
-    fn mass(&self, matrix: &mut Triplets) {
-        self.0.mass(matrix);
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.mass(matrix)
     }
-    fn stiffness(&self, matrix: &mut Triplets) {
-        self.0.stiffness(matrix);
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.stiffness(matrix)
     }
-    fn damping(&self, matrix: &mut Triplets) {
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
         for &(i, j, value) in self.1.entries() {
             matrix.add(i, j, value);
         }
+        Ok(())
     }
 }
 
@@ -146,13 +147,13 @@ fn damping_in_use_passes() {
         let model = tower(6, 40).with_rayleigh(beta);
         let mut digits = Triplets::new(model.unknowns());
         let mut full = Triplets::new(model.unknowns());
-        model.damping(&mut full);
+        model.damping(&mut full).unwrap();
         for &(i, j, value) in full.entries() {
             digits.add(i, j, format!("{value:.7e}").parse().unwrap());
         }
         let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(model.unknowns()));
-        model.mass(&mut mass);
-        model.stiffness(&mut stiffness);
+        model.mass(&mut mass).unwrap();
+        model.stiffness(&mut stiffness).unwrap();
         let given = MatrixModel::new(mass, stiffness, model.contact_nodes()).unwrap();
         passes(Box::new(given.with_damping(digits).unwrap()), "file");
         passes(Box::new(CraigBampton::new(20).reduce(model.clone()).unwrap()), "reduced");

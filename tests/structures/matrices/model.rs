@@ -34,9 +34,9 @@ pub(crate) fn on_soil(structure: impl Structure + 'static) -> SimulationBuilder 
 fn matrices_march_as_the_model_they_came_from() {
     let damping = RayleighDamping::from_ratios([1.0, 8.0], [0.05; 2]).unwrap();
     let model = tower(6, 10).with_rayleigh(damping);
-    let filled = |fill: &dyn Fn(&mut Triplets)| {
+    let filled = |fill: &dyn Fn(&mut Triplets) -> basemat::Result<()>| {
         let mut matrix = Triplets::new(model.unknowns());
-        fill(&mut matrix);
+        fill(&mut matrix).unwrap();
         matrix
     };
     let [mass, damp, stiffness] = [
@@ -103,7 +103,7 @@ fn stiffness_to_a_fixed_point_is_refused() {
     let block = || RigidBlock::new(6.0, 10.0, 80.0e3 / 60.0).unwrap();
     for (unknown, stiffness) in [(1, 1e-3), (1, 1.0), (1, 1e9), (0, 1e-3), (0, 1e9)] {
         let [mut mass, mut spring] = [(); 2].map(|()| Triplets::new(3));
-        block().mass(&mut mass);
+        block().mass(&mut mass).unwrap();
         spring.add(unknown, unknown, stiffness);
         refused(MatrixModel::new(mass, spring, block().contact_nodes()).unwrap());
         let law = Bilinear::new(stiffness, 1.0, 0.1).unwrap();
@@ -137,12 +137,14 @@ impl Structure for Light {
     fn contact_nodes(&self) -> Vec<ContactNode> {
         self.0.contact_nodes()
     }
-    fn mass(&self, matrix: &mut Triplets) {
-        self.0.mass(matrix);
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.0.mass(matrix)?;
         matrix.add(3, 3, -1000.0);
+        Ok(())
     }
-    fn stiffness(&self, matrix: &mut Triplets) {
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add_spring(0, 3, 4.0e6);
+        Ok(())
     }
 }
 

@@ -25,11 +25,11 @@ fn top(model: &FemModel) -> usize {
 /// A structure's matrix times a vector.
 fn product(
     structure: &dyn Structure,
-    fill: fn(&dyn Structure, &mut Triplets),
+    fill: fn(&dyn Structure, &mut Triplets) -> basemat::Result<()>,
     x: &[f64],
 ) -> Vec<f64> {
     let mut matrix = Triplets::new(structure.unknowns());
-    fill(structure, &mut matrix);
+    fill(structure, &mut matrix).unwrap();
     dense::product(&matrix, x)
 }
 
@@ -212,7 +212,7 @@ fn what_cannot_be_reduced_is_refused() {
     assert!(matches!(recovery.row((0, f64::NAN)), Err(Error::Input { .. })));
     assert!(matches!(recovery.full(&[0.0; 3]), Err(Error::Size { .. })));
     // A matrix of another order gets entries out of range, which it reports when it is used.
-    reduced().mass(&mut Triplets::new(0));
+    reduced().mass(&mut Triplets::new(0)).unwrap();
     // Nothing left to reduce: the same structure.
     let all: Vec<usize> = (0..18).collect();
     let same = CraigBampton::new(0).keep(&all).reduce(tower(2, 2)).unwrap();

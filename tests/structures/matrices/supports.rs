@@ -20,8 +20,8 @@ fn by_matrices(
 ) -> MatrixModel {
     let n = model.unknowns();
     let [mut mass, mut all, mut stiffness] = [(); 3].map(|()| Triplets::new(n));
-    model.mass(&mut mass);
-    model.stiffness(&mut all);
+    model.mass(&mut mass).unwrap();
+    model.stiffness(&mut all).unwrap();
     let mut sums = std::collections::BTreeMap::new();
     for &(row, column, value) in all.entries() {
         *sums.entry((row, column)).or_insert(0.0) += value;
@@ -71,7 +71,7 @@ fn weak_supports_are_refused_and_named() {
         let unknown = block.unknown(block.nearest_node(place[0], place[1]), direction).unwrap();
         let stiffest = by_matrices(&block, |value| value, None);
         let mut entries = Triplets::new(block.unknowns());
-        stiffest.stiffness(&mut entries);
+        stiffest.stiffness(&mut entries).unwrap();
         let largest = entries.entries().iter().fold(0.0_f64, |a, entry| a.max(entry.2));
         for share in [1e-9, 1e-7, 1e-5] {
             let held = by_matrices(&block, |value| value, Some((unknown, share)));

@@ -1,0 +1,146 @@
+//! Nonlinear internal forces of structures.
+
+use super::{InternalEnergy, Structure, Triplets};
+use crate::error::{CheckpointError, Error, Result};
+
+/// The nonlinear force f(u) of a structure, beyond K u: implement this for materials that yield,
+/// geometry that changes, parts that collide.
+///
+/// A [`Structure`] hands it out by [`Structure::nonlinear`] and [`Structure::nonlinear_mut`]. Force,
+/// tangent and energy belong to a trial `displacement` reached from the last **committed** one, and
+/// change nothing; [`commit`](NonlinearForce::commit) accepts the end of a step.
+///
+/// ```
+/// use basemat::structure::{ContactNode, NonlinearForce, RigidBlock, Structure, Triplets};
+/// use basemat::Result;
+///
+/// /// A block with a mass on top, on a spring that hardens: 1 MN/m and 10 GN/m³.
+/// struct Tuned(RigidBlock);
+///
+/// impl Structure for Tuned {
+///     fn unknowns(&self) -> usize {
+///         self.0.unknowns() + 1
+///     }
+///     fn contact_nodes(&self) -> Vec<ContactNode> {
+///         self.0.contact_nodes()
+///     }
+///     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+///         matrix.add(3, 3, 2.0e3);
+///         self.0.mass(matrix)
+///     }
+///     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+///         matrix.add_outer(&[(0, -1.0), (3, 1.0)], 1.0e6);
+///         Ok(())
+///     }
+///     fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+///         Some(self)
+///     }
+///     fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+///         Some(self)
+///     }
+/// }
+///
+/// impl NonlinearForce for Tuned {
+///     fn force(&self, u: &[f64], force: &mut [f64]) -> Result<()> {
+///         let hardening = 1.0e10 * (u[3] - u[0]).powi(3);
+///         force[3] += hardening;
+///         force[0] -= hardening;
+///         Ok(())
+///     }
+///     fn tangent(&self, u: &[f64], matrix: &mut Triplets) -> Result<()> {
+///         matrix.add_outer(&[(0, -1.0), (3, 1.0)], 3.0e10 * (u[3] - u[0]).powi(2));
+///         Ok(())
+///     }
+///     // Elastic, without internal variables.
+///     fn save(&self) -> Result<Vec<f64>> {
+///         Ok(Vec::new())
+///     }
+/// }
+///
+/// let tuned = Tuned(RigidBlock::new(4.0, 6.0, 2000.0)?);
+/// let mut force = [0.0; 4];
+/// tuned.force(&[0.0, 0.0, 0.0, 0.01], &mut force)?;
+/// assert_eq!(force, [-1.0e4, 0.0, 0.0, 1.0e4]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub trait NonlinearForce {
+    /// Adds f(u) (n, N per metre of thickness) to `force`.
+    ///
+    /// # Errors
+    /// Any error, [`Error::part`](crate::Error::part) for one of your own, ends the step with
+    /// [`StepError::Structure`](crate::StepError::Structure), and nothing of it is committed.
+    fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()>;
+
+    /// Adds the tangent ∂f/∂u (n × n) to `matrix`, with the same sparsity at every call or less.
+    ///
+    /// # Errors
+    /// As for [`force`](NonlinearForce::force).
+    fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()>;
+
+    /// Energies of f at `displacement`, where they are known: stored energy then counts as strain
+    /// energy of the ledger, dissipated energy as
+    /// [`hysteresis`](crate::coupled::Ledger::hysteresis). Default: unknown, and all work of f counts
+    /// as strain energy.
+    fn energy(&self, _displacement: &[f64]) -> Option<InternalEnergy> {
+        None
+    }
+
+    /// Accepts a step that ended with `displacement`: internal variables may change here only.
+    /// Default: there are none.
+    fn commit(&mut self, _displacement: &[f64]) {}
+
+    /// The internal variables that [`commit`](NonlinearForce::commit) changes, for a checkpoint. A
+    /// force without any says `Ok(Vec::new())`.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Unsupported`] unless implemented.
+    fn save(&self) -> Result<Vec<f64>> {
+        Err(CheckpointError::Unsupported { part: "structure" }.into())
+    }
+
+    /// Takes back what [`save`](NonlinearForce::save) returned; all values are finite. Unchanged on
+    /// an error.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Corrupt`] for values that cannot be such, or
+    /// [`Error::part`](crate::Error::part) with more to say. The default takes none.
+    fn restore(&mut self, values: &[f64]) -> Result<()> {
+        no_variables(values)
+    }
+}
+
+/// Internal variables of a structure that may be linear, for a checkpoint.
+pub(crate) fn save_variables(structure: &dyn Structure) -> Result<Vec<f64>> {
+    structure.nonlinear().map_or_else(|| Ok(Vec::new()), NonlinearForce::save)
+}
+
+/// Takes back internal variables; unchanged on an error.
+pub(crate) fn restore_variables(structure: &mut dyn Structure, values: &[f64]) -> Result<()> {
+    match structure.nonlinear_mut() {
+        Some(force) => force.restore(values),
+        None => no_variables(values),
+    }
+}
+
+fn no_variables(values: &[f64]) -> Result<()> {
+    if values.is_empty() {
+        Ok(())
+    } else {
+        Err(CheckpointError::Corrupt { quantity: "state of the structure" }.into())
+    }
+}
+
+/// Whether a structure has a nonlinear force.
+///
+/// # Errors
+/// [`Error::Scene`] if it shows one by only one of [`Structure::nonlinear`] and
+/// [`Structure::nonlinear_mut`].
+pub(crate) fn is_nonlinear(structure: &mut dyn Structure) -> Result<bool> {
+    let shown = structure.nonlinear().is_some();
+    if structure.nonlinear_mut().is_some() == shown {
+        return Ok(shown);
+    }
+    let quantity = "nonlinear force of the structure";
+    let needed = "`nonlinear` and `nonlinear_mut` must both give it, or neither";
+    Err(Error::Scene { quantity, needed })
+}
