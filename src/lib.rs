@@ -176,6 +176,7 @@ pub mod coupled;
 mod error;
 pub mod fem;
 pub mod fundamental;
+mod gauss;
 pub mod history;
 pub mod interface;
 #[cfg(feature = "io")]

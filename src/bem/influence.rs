@@ -23,7 +23,8 @@ use crate::contact_element::ContactElement;
 use crate::error::{Error, Result, positive};
 use crate::fundamental::branch::{Branches, Part, Weight};
 use crate::fundamental::laurent::{TERMS, late_coefficients};
-use crate::fundamental::{gauss, rayleigh::Rayleigh};
+use crate::fundamental::rayleigh::Rayleigh;
+use crate::gauss;
 use crate::soil::Soil;
 
 /// Mean displacement of a receiver element per unit traction on a source element, m/Pa.

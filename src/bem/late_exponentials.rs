@@ -24,8 +24,8 @@ use super::PatchKernel;
 use super::influence::LateSeries;
 use super::legendre::{Basis, legendre};
 use crate::error::Result;
-use crate::fundamental::gauss;
 use crate::fundamental::laurent::TERMS;
+use crate::gauss;
 use crate::history::{ExponentialTail, LagKernel, LateLags, TailProduct};
 
 /// Times that the Rayleigh wave has crossed the patch when exponentials take over. Behind three,

@@ -4,7 +4,7 @@ use super::Influence;
 use super::overlap::Overlap;
 use crate::contact_element::ContactElement;
 use crate::error::{Result, positive, same_length};
-use crate::fundamental::gauss;
+use crate::gauss;
 use crate::soil::Soil;
 
 /// Element means of the static surface displacement (Flamant):

@@ -4,6 +4,7 @@ use super::direction::{Direction, FRAME};
 use super::element::{Element, MassKind};
 use super::line::Line;
 use crate::error::{Result, finite, not_negative, positive};
+use crate::gauss;
 
 /// Straight prismatic beam between two nodes that rotate with it.
 ///
@@ -174,7 +175,7 @@ impl Element for Beam {
         if self.compression != 0.0 || self.taper != 0.0 {
             let ratio = self.shear_ratio(line.length);
             let mut local = [[0.0; 6]; 6];
-            for (place, weight) in GAUSS_4 {
+            for (place, weight) in gauss::rule(4).points_on_unit_interval() {
                 let slope = Self::slope(ratio, line.length, place);
                 let force = self.compression + self.taper * (0.5 - place);
                 add_outer(-force * line.length * weight, &slope, &mut local);
@@ -229,7 +230,8 @@ impl Element for Beam {
             return line.add_rotated(&local, matrix);
         }
         let ratio = self.shear_ratio(length);
-        for (place, weight) in GAUSS_4 {
+        // Four points: exact for products of two cubics.
+        for (place, weight) in gauss::rule(4).points_on_unit_interval() {
             let across = Self::deflection(ratio, length, place);
             let along = [1.0 - place, 0.0, 0.0, place, 0.0, 0.0];
             add_outer(mass * weight, &across, &mut local);
@@ -256,11 +258,3 @@ fn add_outer(factor: f64, row: &[f64; 6], matrix: &mut [[f64; 6]; 6]) {
         }
     }
 }
-
-/// Gauss points and weights on [0, 1]: exact for products of two cubics.
-const GAUSS_4: [(f64, f64); 4] = [
-    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
-    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
-    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
-    (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
-];

@@ -1,13 +1,7 @@
-//! Shape functions of the four-node quadrilateral, and its Gauss points.
+//! Shape functions of the four-node quadrilateral.
 
 /// Natural coordinates (ξ, η) of the four nodes, counter-clockwise.
 pub(super) const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-
-/// Gauss points of the 2 × 2 rule, ±1/√3; all weights are 1.
-pub(super) fn gauss_points() -> [[f64; 2]; 4] {
-    let place = 1.0 / 3.0_f64.sqrt();
-    CORNERS.map(|[xi, eta]| [place * xi, place * eta])
-}
 
 /// Bilinear shape functions at (ξ, η).
 pub(super) fn shape([xi, eta]: [f64; 2]) -> [f64; 4] {

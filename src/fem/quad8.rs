@@ -4,6 +4,7 @@ use super::direction::{Direction, TRANSLATIONS};
 use super::element::{Element, MassKind, add_square};
 use super::material::Material;
 use crate::error::{Error, Result, same_length};
+use crate::gauss;
 
 /// How the stiffness of a [`Quad8`] is integrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -117,16 +118,14 @@ fn slopes(point: [f64; 2], coordinates: &[[f64; 2]]) -> ([[f64; 2]; 8], f64) {
     (global, determinant)
 }
 
-/// Gauss points and weights of the square.
-fn gauss(integration: Quad8Integration) -> Vec<([f64; 2], f64)> {
-    let third = 1.0 / 3.0_f64.sqrt();
-    let far = 0.6_f64.sqrt();
-    let line: &[(f64, f64)] = match integration {
-        Quad8Integration::Reduced => &[(-third, 1.0), (third, 1.0)],
-        Quad8Integration::Full => &[(-far, 5.0 / 9.0), (0.0, 8.0 / 9.0), (far, 5.0 / 9.0)],
-    };
-    let pairs = line.iter().flat_map(|a| line.iter().map(move |b| (a, b)));
-    pairs.map(|((x, v), (y, w))| ([*x, *y], v * w)).collect()
+impl Quad8Integration {
+    /// Gauss points along a side of the square.
+    fn order(self) -> usize {
+        match self {
+            Self::Reduced => 2,
+            Self::Full => 3,
+        }
+    }
 }
 
 impl Element for Quad8 {
@@ -145,7 +144,7 @@ impl Element for Quad8 {
     fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
         let elasticity = self.material.elasticity();
         let mut block = [[0.0; 16]; 16];
-        for (point, weight) in gauss(self.integration) {
+        for (point, weight) in gauss::square(self.integration.order()) {
             let (slopes, determinant) = slopes(point, coordinates);
             let strain: [[f64; 3]; 16] = std::array::from_fn(|i| {
                 let [dx, dy] = slopes[i / 2];
@@ -167,7 +166,7 @@ impl Element for Quad8 {
     fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {
         let mut one = [[0.0; 8]; 8];
         let mut total = 0.0;
-        for (point, weight) in gauss(Quad8Integration::Full) {
+        for (point, weight) in gauss::square(Quad8Integration::Full.order()) {
             let shape = shape(point);
             let weight = weight * self.material.density() * slopes(point, coordinates).1;
             total += weight;
@@ -199,7 +198,7 @@ impl Element for Quad8 {
     /// [`Error::Input`] unless the element's map is regular at its nodes and Gauss points.
     fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
         same_length("coordinates of an eight-node quadrilateral", coordinates.len(), 8)?;
-        let points = gauss(Quad8Integration::Full).into_iter().map(|(point, _)| point);
+        let points = gauss::square(Quad8Integration::Full.order()).map(|(point, _)| point);
         for point in points.chain(PLACES) {
             let value = slopes(point, coordinates).1;
             if !(value.is_finite() && value > 0.0) {

@@ -14,7 +14,8 @@
 //! | s | √(τ²−a²), √(τ²−1), √(1−τ²), or u in the tail |
 
 use crate::fundamental::complex::Complex;
-use crate::fundamental::{gauss, rayleigh::Rayleigh};
+use crate::fundamental::rayleigh::Rayleigh;
+use crate::gauss;
 
 /// What the kernel is integrated against: a smooth function A of the slowness u.
 pub(crate) trait Weight {

@@ -8,7 +8,6 @@ pub(crate) mod branch;
 pub(crate) mod complex;
 #[cfg(feature = "full-plane")]
 mod full_plane;
-pub(crate) mod gauss;
 mod half_plane;
 pub(crate) mod laurent;
 pub(crate) mod rayleigh;

@@ -13,7 +13,7 @@ mod product;
 mod sparse;
 
 #[cfg(feature = "full-plane")]
-pub(crate) use complex::{ComplexFactor, hermitian_range};
+pub(crate) use complex::hermitian_range;
 pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
 pub(crate) use eigen::{generalised_modes, least_eigenvalue};

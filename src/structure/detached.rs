@@ -1,6 +1,6 @@
 //! Parts of a structure that nothing holds on its base.
 
-use super::matrix_model::MASSLESS;
+use super::matrix_checks::MASSLESS;
 use super::{Structure, Triplets};
 use crate::error::{Error, Result};
 use crate::linalg::{Partition, SparseFactor, SparseMatrix, largest, sparse_condition};

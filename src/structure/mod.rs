@@ -1,50 +1,33 @@
 //! Structures: the trait that users implement, implementations of it, and springs with a memory.
 
 mod contact_node;
-mod craig_bampton;
+mod damping;
 mod detached;
-mod fem_model;
-mod group;
 mod hysteresis;
-mod matrix_model;
-mod modal_damping;
-mod node_names;
+mod matrix_checks;
+mod models;
 mod nonlinear;
-mod nonlinear_shear_building;
-mod p_delta;
-mod rayleigh;
-mod recovery;
-mod rigid_block;
-mod rigid_links;
-mod rigid_motions;
+mod reduction;
 mod row;
-mod section;
-mod shear_building;
-mod springs;
 mod triplets;
 
 pub use contact_node::ContactNode;
 pub(crate) use contact_node::{check_contact_nodes, foundation_nodes};
-pub use craig_bampton::{CraigBampton, ReducedModel};
+pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
 pub(crate) use detached::check_attached;
-pub use fem_model::FemModel;
-pub use group::StructureGroup;
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
+    WithSprings,
 };
-pub use matrix_model::MatrixModel;
-pub(crate) use matrix_model::{check_damping, check_mass};
-pub use modal_damping::{ModalDamping, WithModalDamping};
+pub(crate) use matrix_checks::{check_damping, check_mass};
+pub use models::{
+    FemModel, IsolationLevel, MatrixModel, NonlinearShearBuilding, RigidBlock, Section,
+    SectionRows, ShearBuilding, Storey, StructureGroup,
+};
 pub use nonlinear::NonlinearForce;
 pub(crate) use nonlinear::{is_nonlinear, restore_variables, save_variables};
-pub use nonlinear_shear_building::{IsolationLevel, NonlinearShearBuilding};
-pub use rayleigh::RayleighDamping;
-pub use recovery::Recovery;
-pub use rigid_block::RigidBlock;
+pub use reduction::{CraigBampton, Recovery, ReducedModel};
 pub use row::Row;
-pub use section::{Section, SectionRows};
-pub use shear_building::{ShearBuilding, Storey};
-pub use springs::WithSprings;
 pub use triplets::Triplets;
 
 use std::any::Any;

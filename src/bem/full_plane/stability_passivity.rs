@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use realfft::num_complex::Complex64;
 
 use crate::error::Result;
-use crate::linalg::{ComplexFactor, hermitian_range};
+use crate::linalg::{DenseFactor, hermitian_range};
 
 use super::stability_symbol::Symbol;
 
@@ -39,8 +39,12 @@ pub(super) fn passivity(symbol: &Symbol) -> Result<Option<Passivity>> {
     if contact.is_empty() {
         return Ok(None);
     }
-    let mut compliance =
-        Compliance { symbol, contact, factor: ComplexFactor::new(symbol.order()), sum: vec![] };
+    let mut compliance = Compliance {
+        symbol,
+        contact,
+        factor: DenseFactor::with_columns(symbol.order(), symbol.order()),
+        sum: vec![],
+    };
     let (mut work, mut rate) = ([f64::INFINITY, 0.0], [f64::INFINITY, 0.0]);
     let mut angle = 0.0;
     let mut has_rate = false;
@@ -89,7 +93,7 @@ fn widen(extremes: &mut [f64; 2], range: [f64; 2]) {
 struct Compliance<'a> {
     symbol: &'a Symbol<'a>,
     contact: Vec<usize>,
-    factor: ComplexFactor,
+    factor: DenseFactor<Complex64>,
     sum: Vec<Complex64>,
 }
 
@@ -100,13 +104,13 @@ impl Compliance<'_> {
         let s = self.symbol.at(zeta, &mut self.sum)?;
         let (order, size) = (self.symbol.order(), self.contact.len());
         let (g, h) = self.sum.split_at(order * order);
-        if !self.factor.factor(h) {
+        if !self.factor.factor(h, order) {
             return Ok(None);
         }
         let mut columns: Vec<_> = (0..order)
             .flat_map(|row| self.contact.iter().map(move |column| g[row * order + column]))
             .collect();
-        self.factor.solve(&mut columns, size);
+        self.factor.solve_columns(&mut columns, size);
         let mut matrix = vec![Complex64::default(); size * size];
         let mut range_with = |factor: Complex64| {
             for (row, component) in self.contact.iter().enumerate() {

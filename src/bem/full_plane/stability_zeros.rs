@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use realfft::num_complex::Complex64;
 
 use crate::error::{Error, Result};
-use crate::linalg::ComplexFactor;
+use crate::linalg::DenseFactor;
 
 use super::stability_symbol::Symbol;
 
@@ -38,7 +38,7 @@ pub(super) struct Zeros {
 pub(super) fn smallest_zero(symbol: &Symbol, smallest_growth: f64) -> Result<Zeros> {
     let mut search = Search {
         symbol,
-        factor: ComplexFactor::new(symbol.order()),
+        factor: DenseFactor::with_capacity(symbol.order()),
         sum: vec![],
         operator: vec![],
     };
@@ -79,7 +79,7 @@ const LARGEST_GROWTH: f64 = 4.0;
 
 struct Search<'a> {
     symbol: &'a Symbol<'a>,
-    factor: ComplexFactor,
+    factor: DenseFactor<Complex64>,
     sum: Vec<Complex64>,
     operator: Vec<Complex64>,
 }
@@ -89,7 +89,7 @@ impl Search<'_> {
     fn log_determinant(&mut self, zeta: Complex64) -> Result<Complex64> {
         self.symbol.at(zeta, &mut self.sum)?;
         self.symbol.operator(&self.sum, &mut self.operator);
-        if self.factor.factor(&self.operator) {
+        if self.factor.factor(&self.operator, self.symbol.order()) {
             Ok(self.factor.log_determinant())
         } else {
             let order = self.symbol.order();
@@ -105,7 +105,7 @@ impl Search<'_> {
         let operators = self.symbol.operators_on(radius, POINTS);
         let mut values = Vec::with_capacity(operators.len());
         for operator in &operators {
-            if !self.factor.factor(operator) {
+            if !self.factor.factor(operator, self.symbol.order()) {
                 let order = self.symbol.order();
                 return Err(Error::Singular { matrix: "symbol of the boundary equation", order });
             }

@@ -218,7 +218,8 @@ pub(super) fn step_integrals(medium: &Medium, ends: [f64; 2], h: f64, time: f64)
 mod tests {
     use super::*;
     use crate::Soil;
-    use crate::fundamental::{FullPlane, FundamentalSolution, LoadHistory, gauss};
+    use crate::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
+    use crate::gauss;
 
     /// ∫ f from `low` to `high`, with square-root singularities at both ends.
     fn between(low: f64, high: f64, f: &dyn Fn(f64) -> [f64; 7]) -> [f64; 7] {

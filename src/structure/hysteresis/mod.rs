@@ -6,11 +6,14 @@ mod bouc_wen_curve;
 mod friction_pendulum;
 mod lead_rubber;
 mod slider;
+mod springs;
 
 pub use bilinear::Bilinear;
 pub use bouc_wen::BoucWen;
 pub use friction_pendulum::FrictionPendulum;
 pub use lead_rubber::LeadRubber;
+pub(super) use springs::Springs;
+pub use springs::WithSprings;
 
 use crate::error::{CheckpointError, Result};
 

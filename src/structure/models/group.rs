@@ -1,10 +1,10 @@
 //! Several structures on one ground.
 
-use super::detached::numbers;
-use super::nonlinear::{is_nonlinear, restore_variables, save_variables};
-use super::{ContactNode, InternalEnergy, NonlinearForce, Row, Structure, Triplets};
 use crate::coupled::Probe;
 use crate::error::{CheckpointError, Error, Result, finite};
+use crate::structure::detached::numbers;
+use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
+use crate::structure::{ContactNode, InternalEnergy, NonlinearForce, Row, Structure, Triplets};
 
 /// A structure of the group and where it stands.
 struct Member {

@@ -1,8 +1,8 @@
 //! The motions of a structure that strain nothing.
 
-use super::{ContactNode, Triplets};
 use crate::error::Result;
 use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot};
+use crate::structure::{ContactNode, Triplets};
 
 /// A part of a rigid motion with less of its momentum than this is rounding.
 const NOTHING: f64 = 1e-8;

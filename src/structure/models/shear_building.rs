@@ -1,8 +1,8 @@
 //! Shear building on a rigid base.
 
 use super::section::SectionRows;
-use super::{ContactNode, Row, Structure, Triplets};
 use crate::error::{Error, Result, finite, not_negative, positive};
+use crate::structure::{ContactNode, Row, Structure, Triplets};
 use std::f64::consts::{PI, TAU};
 
 /// Storey of a [`ShearBuilding`]: the columns and the floor they carry.

@@ -1,10 +1,9 @@
 //! Shear building with yielding storeys, or on isolators.
 
-use super::hysteresis::Hysteresis;
 use super::section::SectionRows;
-use super::springs::Springs;
-use super::{ContactNode, NonlinearForce, ShearBuilding, Storey, Structure, Triplets};
 use crate::error::{Result, not_negative, positive};
+use crate::structure::hysteresis::{Hysteresis, Springs};
+use crate::structure::{ContactNode, NonlinearForce, ShearBuilding, Storey, Structure, Triplets};
 
 /// The level of isolators between the basemat and the slab on which a building stands.
 #[derive(Debug, Clone, Copy, PartialEq)]

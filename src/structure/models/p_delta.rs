@@ -1,9 +1,9 @@
 //! P–Δ of finite-element models: axial forces from the weight, and when they buckle the structure.
 
-use super::{FemModel, Structure, Triplets};
 use crate::error::{Error, Result, not_negative};
 use crate::fem::{Direction, Quantity, assemble, set_static_state};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
+use crate::structure::{FemModel, Structure, Triplets};
 
 const HELD: &str = "stiffness matrix with the contact nodes held";
 /// Forces left over by a solve, relative to the weight: more are those of a mechanism.

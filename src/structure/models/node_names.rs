@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::detached::{NAMED, listed};
 use crate::fem::{Direction, Mesh};
+use crate::structure::detached::{NAMED, listed};
 
 /// Nodes of these unknowns with their places, and whether one of the rest lies where one of them
 /// does; `number` numbers the unknowns. `None` without unknowns of nodes.

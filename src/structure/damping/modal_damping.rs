@@ -1,9 +1,10 @@
 //! Damping given mode by mode.
 
 use super::rigid_motions::rigid_momenta;
-use super::{ContactNode, NonlinearForce, Structure, Triplets};
 use crate::error::{Error, Result, not_negative};
 use crate::linalg::{SparseMatrix, dot, generalised_modes};
+use crate::structure::matrix_checks::SYMMETRIC;
+use crate::structure::{ContactNode, NonlinearForce, Structure, Triplets};
 
 /// Damping ratios of a structure's own modes: C = M Φ diag(2 ζ ω) Φᵀ M.
 ///
@@ -66,7 +67,7 @@ impl ModalDamping {
     ///
     /// # Errors
     /// [`Error::Input`] for more than 3000 unknowns, of which a
-    /// [`CraigBampton`](super::CraigBampton) reduction leaves fewer; [`Error::Scene`] when the matrices
+    /// [`CraigBampton`](crate::structure::CraigBampton) reduction leaves fewer; [`Error::Scene`] when the matrices
     /// are not symmetric, the mass is not positive definite or a motion that is not rigid meets no
     /// stiffness or a negative one; [`Error::Singular`] when contact nodes at rest do not hold the
     /// structure; and what is wrong with the entries.
@@ -85,7 +86,7 @@ impl ModalDamping {
             quantity: "structure with modal damping",
             needed: "must have symmetric matrices and a positive definite mass",
         };
-        if mass.asymmetry().max(stiffness.asymmetry()) > super::matrix_model::SYMMETRIC {
+        if mass.asymmetry().max(stiffness.asymmetry()) > SYMMETRIC {
             return Err(scene);
         }
         let (values, vectors) = generalised_modes(&stiffness, &mass).ok_or(scene)?;

@@ -1,13 +1,13 @@
 //! Structure made of finite elements.
 
-use super::rayleigh::RayleighDamping;
+use super::node_names;
 use super::rigid_links::RigidLinks;
-use super::{ContactNode, Row, Structure, Triplets, node_names};
 use crate::error::{Error, Result, positive};
 use crate::fem::{
     Direction, MassKind, Mesh, Numbering, assemble_damping, assemble_geometric_stiffness,
     assemble_mass, assemble_stiffness,
 };
+use crate::structure::{ContactNode, RayleighDamping, Row, Structure, Triplets};
 
 /// Finite-element structure on a flat base.
 ///

@@ -44,6 +44,24 @@ impl Rule {
     }
 }
 
+impl Rule {
+    /// Nodes with their weights.
+    pub(crate) fn points(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
+        self.nodes.iter().copied().zip(self.weights.iter().copied())
+    }
+
+    /// The same on [0, 1].
+    pub(crate) fn points_on_unit_interval(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
+        self.points().map(|(x, weight)| (0.5 * (1.0 + x), 0.5 * weight))
+    }
+}
+
+/// Points and weights on the square [−1, 1]², `order` by `order`, with `order` from 2 to 8.
+pub(crate) fn square(order: usize) -> impl Iterator<Item = ([f64; 2], f64)> {
+    let line = rule(order).points();
+    line.clone().flat_map(move |(x, v)| line.clone().map(move |(y, w)| ([x, y], v * w)))
+}
+
 fn rules() -> &'static [Rule] {
     static RULES: OnceLock<Vec<Rule>> = OnceLock::new();
     RULES.get_or_init(|| ORDERS.iter().map(|&order| Rule::new(order)).collect())
@@ -51,6 +69,11 @@ fn rules() -> &'static [Rule] {
 
 /// Largest rule used on a piece before it is split.
 const LARGEST: usize = 10;
+
+/// The rule of `order` points, from 2 to 8.
+pub(crate) fn rule(order: usize) -> &'static Rule {
+    &rules()[order.clamp(2, 8) - 2]
+}
 
 /// The rule for polynomials up to degree 51.
 pub(crate) fn largest() -> &'static Rule {
@@ -78,6 +101,19 @@ pub(crate) fn reach(point: [f64; 2], low: f64, high: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rules_have_their_order() {
+        for order in 2..=8 {
+            assert_eq!(rule(order).nodes.len(), order);
+        }
+        let third = 1.0 / 3.0_f64.sqrt();
+        let mean: f64 = square(2).map(|([x, y], weight)| weight * (x * y).abs()).sum::<f64>() / 4.0;
+        assert!((mean - third * third).abs() < 1e-15);
+        let cubic = |(x, weight): (f64, f64)| weight * x.powi(3);
+        let sum: f64 = rule(4).points_on_unit_interval().map(cubic).sum();
+        assert!((sum - 0.25).abs() < 1e-15);
+    }
 
     #[test]
     fn rules_integrate_polynomials_exactly() {

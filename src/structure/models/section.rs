@@ -1,8 +1,8 @@
 //! Forces that pass through a horizontal cut, and those of a finite-element model.
 
-use super::{FemModel, Row, Triplets};
 use crate::error::{Error, Result, finite};
 use crate::fem::{Direction, Quantity, assemble};
+use crate::structure::{FemModel, Row, Triplets};
 
 /// Linear function of displacement, velocity and acceleration, as sparse rows.
 #[derive(Debug, Clone, PartialEq)]

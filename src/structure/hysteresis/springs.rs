@@ -1,9 +1,9 @@
 //! Hysteretic springs on the unknowns of a structure.
 
-use super::hysteresis::{Hysteresis, InternalEnergy};
-use super::nonlinear::{is_nonlinear, restore_variables, save_variables};
-use super::{ContactNode, NonlinearForce, Row, Structure, Triplets};
+use super::{Hysteresis, InternalEnergy};
 use crate::error::{CheckpointError, Result};
+use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
+use crate::structure::{ContactNode, NonlinearForce, Row, Structure, Triplets};
 
 /// A spring and the deformation l·u that it sees.
 struct Spring {
@@ -19,11 +19,11 @@ impl Spring {
 
 /// The nonlinear part of a structure with springs.
 #[derive(Default)]
-pub(super) struct Springs(Vec<Spring>);
+pub(crate) struct Springs(Vec<Spring>);
 
 impl Springs {
     /// Adds a spring to a structure of so many unknowns.
-    pub(super) fn add(
+    pub(crate) fn add(
         &mut self,
         row: Row,
         law: Box<dyn Hysteresis>,
@@ -34,19 +34,19 @@ impl Springs {
         Ok(())
     }
 
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.0.len()
     }
 
-    pub(super) fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+    pub(crate) fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
         (!self.is_empty()).then_some(self)
     }
 
-    pub(super) fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+    pub(crate) fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
         (!self.is_empty()).then_some(self)
     }
 
@@ -126,7 +126,7 @@ impl NonlinearForce for Springs {
 /// Each spring sees a deformation, a weighted sum of unknowns, and answers with the force of its
 /// [`Hysteresis`] law. It comes on top of what the structure has: a storey or a bearing that shall
 /// have the spring alone must have no stiffness of its own there. For shear buildings there is
-/// [`NonlinearShearBuilding`](super::NonlinearShearBuilding).
+/// [`NonlinearShearBuilding`](crate::structure::NonlinearShearBuilding).
 ///
 /// Unknowns are absolute: a spring on one alone would hold the structure to a point in space, not
 /// to the ground that moves, and no simulation takes it. A deformation must be zero when all

@@ -1,8 +1,8 @@
 //! Rigid links: nodes that follow another one like a rigid body.
 
-use super::Triplets;
 use crate::error::{Error, Result};
 use crate::fem::{Direction, Mesh, Numbering};
+use crate::structure::Triplets;
 
 /// Every unknown of the mesh as a weighted sum of those that remain.
 #[derive(Debug, Clone, PartialEq)]

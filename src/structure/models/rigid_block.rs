@@ -1,7 +1,7 @@
 //! Rigid block on its flat base.
 
-use super::{ContactNode, Row, Structure, Triplets};
 use crate::error::{Result, finite, not_negative, positive};
+use crate::structure::{ContactNode, Row, Structure, Triplets};
 
 /// Rigid body with a flat base: unknowns `[u_x, u_y, θ]` at the middle of the base.
 ///

@@ -9,13 +9,13 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::detached::{check_attached, numbers};
-use super::matrix_model::SYMMETRIC;
-use super::nonlinear::is_nonlinear;
 use super::recovery::{Basis, Recovery};
-use super::{ContactNode, Row, Structure, Triplets};
 use crate::error::{Error, Result, not_negative};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
+use crate::structure::detached::{check_attached, numbers};
+use crate::structure::matrix_checks::SYMMETRIC;
+use crate::structure::nonlinear::is_nonlinear;
+use crate::structure::{ContactNode, Row, Structure, Triplets};
 
 /// Craig & Bampton's reduction (1968): the contact nodes and any unknowns that are to be kept, and a
 /// number of modes of the rest with these held.
@@ -83,7 +83,7 @@ impl CraigBampton {
     }
 
     /// The same reduction that also keeps these `unknowns` as they are, for springs on them for
-    /// example ([`WithSprings`](super::WithSprings)).
+    /// example ([`WithSprings`](crate::structure::WithSprings)).
     #[must_use]
     pub fn keep(mut self, unknowns: &[usize]) -> Self {
         self.kept.extend_from_slice(unknowns);

@@ -1,0 +1,20 @@
+//! Structures that come with the crate.
+
+mod fem_model;
+mod group;
+mod matrix_model;
+mod node_names;
+mod nonlinear_shear_building;
+mod p_delta;
+mod rigid_block;
+mod rigid_links;
+mod section;
+mod shear_building;
+
+pub use fem_model::FemModel;
+pub use group::StructureGroup;
+pub use matrix_model::MatrixModel;
+pub use nonlinear_shear_building::{IsolationLevel, NonlinearShearBuilding};
+pub use rigid_block::RigidBlock;
+pub use section::{Section, SectionRows};
+pub use shear_building::{ShearBuilding, Storey};
