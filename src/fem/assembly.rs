@@ -17,14 +17,19 @@ pub(crate) enum Quantity {
 /// Adds `factor` times the stiffness of all elements, without geometric stiffness, to `matrix`.
 ///
 /// `numbering` must be that of `mesh`; where it is not, `matrix` gets indices out of range.
-pub fn assemble_stiffness(mesh: &Mesh, numbering: &Numbering, factor: f64, matrix: &mut Triplets) {
+pub(crate) fn assemble_stiffness(
+    mesh: &Mesh,
+    numbering: &Numbering,
+    factor: f64,
+    matrix: &mut Triplets,
+) {
     assemble(mesh, numbering, Quantity::Stiffness, factor, |_| true, matrix);
 }
 
 /// Adds `factor` times the geometric stiffness of all elements to `matrix`.
 ///
 /// `numbering` must be that of `mesh`; where it is not, `matrix` gets indices out of range.
-pub fn assemble_geometric_stiffness(
+pub(crate) fn assemble_geometric_stiffness(
     mesh: &Mesh,
     numbering: &Numbering,
     factor: f64,
@@ -36,7 +41,7 @@ pub fn assemble_geometric_stiffness(
 /// Adds `factor` times the mass of all elements to `matrix`.
 ///
 /// `numbering` must be that of `mesh`; where it is not, `matrix` gets indices out of range.
-pub fn assemble_mass(
+pub(crate) fn assemble_mass(
     mesh: &Mesh,
     numbering: &Numbering,
     kind: MassKind,
@@ -49,7 +54,12 @@ pub fn assemble_mass(
 /// Adds `factor` times the damping of all elements (not Rayleigh's) to `matrix`.
 ///
 /// `numbering` must be that of `mesh`; where it is not, `matrix` gets indices out of range.
-pub fn assemble_damping(mesh: &Mesh, numbering: &Numbering, factor: f64, matrix: &mut Triplets) {
+pub(crate) fn assemble_damping(
+    mesh: &Mesh,
+    numbering: &Numbering,
+    factor: f64,
+    matrix: &mut Triplets,
+) {
     assemble(mesh, numbering, Quantity::Damping, factor, |_| true, matrix);
 }
 

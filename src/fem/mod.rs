@@ -33,7 +33,7 @@ mod static_state;
 mod truss;
 
 pub(crate) use assembly::{Quantity, assemble};
-pub use assembly::{
+pub(crate) use assembly::{
     assemble_damping, assemble_geometric_stiffness, assemble_mass, assemble_stiffness,
 };
 pub use beam::Beam;
@@ -44,7 +44,7 @@ pub use layered_block::Layer;
 pub use lumped_mass::LumpedMass;
 pub use material::Material;
 pub use mesh::Mesh;
-pub use numbering::Numbering;
+pub(crate) use numbering::Numbering;
 pub use quad4::{Quad4, QuadFormulation};
 pub use quad8::{Quad8, Quad8Integration};
 pub use spring::Spring;

@@ -20,14 +20,14 @@ use super::mesh::Mesh;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Numbering {
+pub(crate) struct Numbering {
     numbers: Vec<[Option<usize>; 3]>,
     unknowns: usize,
 }
 
 impl Numbering {
     /// Numbers the unknowns of `mesh`.
-    pub fn new(mesh: &Mesh) -> Self {
+    pub(crate) fn new(mesh: &Mesh) -> Self {
         let mut used = vec![[false; 3]; mesh.nodes().len()];
         for element in mesh.elements() {
             for &node in element.nodes() {
@@ -48,12 +48,12 @@ impl Numbering {
     }
 
     /// Number of unknowns.
-    pub fn unknowns(&self) -> usize {
+    pub(crate) fn unknowns(&self) -> usize {
         self.unknowns
     }
 
     /// Index of the unknown of `node` in `direction`, if there is one.
-    pub fn unknown(&self, node: usize, direction: Direction) -> Option<usize> {
+    pub(crate) fn unknown(&self, node: usize, direction: Direction) -> Option<usize> {
         self.numbers.get(node)?[slot(direction)]
     }
 

@@ -101,11 +101,6 @@ impl HalfPlane {
         }
     }
 
-    /// Strength D of the Rayleigh pulse in `f_zx`.
-    pub fn rayleigh_pulse(&self) -> f64 {
-        self.branches.pulse
-    }
-
     /// F(τ) = ∫₀^τ f dη: a load H(t) gives u = F/(πμ).
     pub fn heaviside(&self, tau: f64) -> Surface {
         let even = self.even(tau)[1];
@@ -151,7 +146,7 @@ impl HalfPlane {
     }
 
     /// J(x, t) with `path` = `c_S` t, both in m; even in x for zz and xx, odd for zx; m².
-    pub fn twice_integrated(&self, x: f64, path: f64) -> Surface {
+    pub(crate) fn twice_integrated(&self, x: f64, path: f64) -> Surface {
         let r = x.abs();
         if r == 0.0 || path.is_nan() || path <= 0.0 {
             return Surface::default();

@@ -84,24 +84,13 @@ impl Rayleigh {
         self.at(y - self.a2)
     }
 
-    /// `y_R` = (`c_S`/`c_R`)², the root above 1.
-    pub fn rayleigh_root(&self) -> f64 {
-        self.square
-    }
-
-    /// The other two roots as (real, imaginary) pairs.
-    pub fn other_roots(&self) -> [[f64; 2]; 2] {
-        let (first, second) = self.shifted_roots(self.discriminant(), 0.0);
-        [[self.a2 + first.re, first.im], [self.a2 + second.re, second.im]]
-    }
-
     /// Time at which the Rayleigh wave passes, `c_S` t/|x|: `c_S`/`c_R`.
     pub fn arrival(&self) -> f64 {
         self.square.sqrt()
     }
 
     /// Rayleigh wave speed over shear wave speed.
-    pub fn speed_ratio(&self) -> f64 {
+    pub(crate) fn speed_ratio(&self) -> f64 {
         1.0 / self.arrival()
     }
 
@@ -165,8 +154,9 @@ mod tests {
     fn known_wave_speeds() {
         // nu = 1/4: y = (3 + sqrt 3)/4 exactly; nu = 0: c_R^2 = 3 - sqrt 5.
         let quarter = Rayleigh::new(soil(0.25));
-        assert!((quarter.rayleigh_root() - (3.0 + 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
-        let [[first, _], [second, _]] = quarter.other_roots();
+        assert!((quarter.square - (3.0 + 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
+        let (first, second) = quarter.shifted_roots(quarter.discriminant(), 0.0);
+        let [first, second] = [first, second].map(|root| quarter.a2 + root.re);
         assert!((first - (3.0 - 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
         assert!((second - 0.25).abs() < 4e-16);
         let speed = soil(0.0).rayleigh_wave_speed();

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::envelope::{self, ElementEnvelope};
 use super::foundation::{self, FootingTally};
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
+use super::table::csv_cell;
 use super::unit::labelled;
 use super::{Extremes, Quantity, Recorder, Sliding, Uplift};
 use crate::bem::ContactElement;
@@ -292,8 +293,7 @@ impl Histories {
     }
 
     /// Writes times, scalars, probes and the ledger's input as CSV: a heading and a line for every
-    /// kept step. Names of probes have their unit in brackets; commas, quotes and line ends in them
-    /// become spaces.
+    /// kept step, as RFC 4180 has it. Names of probes have their unit in brackets.
     ///
     /// # Errors
     /// Those of `out`.
@@ -304,7 +304,7 @@ impl Histories {
         }
         for probe in &self.probes {
             let heading = labelled(&probe.name, &probe.unit);
-            write!(out, ",{}", heading.replace([',', '"', '\n', '\r'], " "))?;
+            write!(out, ",{}", csv_cell(&heading))?;
         }
         writeln!(out, ",input_energy_j_per_m")?;
         for (k, time) in self.times.iter().enumerate() {

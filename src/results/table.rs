@@ -1,5 +1,16 @@
 //! Plain tables.
 
+use std::borrow::Cow;
+
+/// A cell as CSV has it (RFC 4180): in quotes where it needs them.
+pub(super) fn csv_cell(cell: &str) -> Cow<'_, str> {
+    if cell.contains([',', '"', '\n', '\r']) {
+        Cow::Owned(format!("\"{}\"", cell.replace('"', "\"\"")))
+    } else {
+        Cow::Borrowed(cell)
+    }
+}
+
 /// A heading and rows of cells; the first column holds names.
 pub(super) struct Table {
     pub(super) heading: Vec<String>,
@@ -41,16 +52,9 @@ impl Table {
 
     /// As CSV (RFC 4180).
     pub(super) fn csv(&self) -> String {
-        let cell = |cell: &String| {
-            if cell.contains([',', '"', '\n', '\r']) {
-                format!("\"{}\"", cell.replace('"', "\"\""))
-            } else {
-                cell.clone()
-            }
-        };
         let mut text = String::new();
         for row in std::iter::once(&self.heading).chain(&self.rows) {
-            text += &row.iter().map(cell).collect::<Vec<_>>().join(",");
+            text += &row.iter().map(|cell| csv_cell(cell)).collect::<Vec<_>>().join(",");
             text.push('\n');
         }
         text
