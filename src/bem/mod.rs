@@ -49,6 +49,7 @@ use crate::motion::FreeField;
 ///
 /// Every ground is [`Any`], so that [`Simulation::ground`](crate::Simulation::ground) leads back to
 /// your own type, and what it has found or kept.
+#[auto_impl::auto_impl(Box)]
 pub trait Ground: Any + Send {
     /// The elements, from left to right, not overlapping.
     fn elements(&self) -> &[ContactElement];
@@ -148,25 +149,5 @@ pub trait Ground: Any + Send {
             *down = -vertical;
             *along = horizontal;
         }
-    }
-}
-
-impl<T: Ground + ?Sized> Ground for Box<T> {
-    forward! {
-        (**self);
-        fn elements(&self) -> &[ContactElement];
-        fn prepare(&mut self, time_step: f64) -> Result<()>;
-        fn announce(&mut self, steps: usize) -> Result<()>;
-        fn reserve(&mut self, steps: usize) -> Result<()>;
-        fn instantaneous(&self, matrix: &mut [f64]) -> Result<()>;
-        fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
-        fn commit(&mut self, traction: &[f64]);
-        fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
-        fn shear_wave_speed(&self) -> Option<f64>;
-        fn history_choice(&self) -> Option<HistoryChoice>;
-        fn increment_error_bound(&self) -> f64;
-        fn save(&self) -> Result<Vec<f64>>;
-        fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
-        fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]);
     }
 }

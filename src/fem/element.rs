@@ -45,6 +45,7 @@ pub enum MassKind {
 /// assert_eq!(mesh.element(0).map(|tie| tie.order()), Some(2));
 /// # Ok::<(), basemat::Error>(())
 /// ```
+#[auto_impl::auto_impl(Box)]
 pub trait Element: Send + Sync {
     /// Its nodes, as indices into the mesh.
     fn nodes(&self) -> &[usize];
@@ -106,25 +107,6 @@ pub trait Element: Send + Sync {
     /// Number of its unknowns: nodes × directions.
     fn order(&self) -> usize {
         self.nodes().len() * self.directions().len()
-    }
-}
-
-impl<T: Element + ?Sized> Element for Box<T> {
-    forward! {
-        (**self);
-        fn nodes(&self) -> &[usize];
-        fn directions(&self) -> &[Direction];
-        fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
-        fn geometric_stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
-        fn in_static_state(
-            &self, coordinates: &[[f64; 2]], displacement: &[f64], gravity: f64
-        ) -> Option<Box<dyn Element>>;
-        fn compression(&self) -> Option<f64>;
-        fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]);
-        fn damping(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
-        fn corners(&self) -> &[usize];
-        fn check(&self, coordinates: &[[f64; 2]]) -> Result<()>;
-        fn order(&self) -> usize;
     }
 }
 

@@ -5,6 +5,7 @@ use crate::error::{CheckpointError, Result};
 /// Discrete convolution h^N = Σ_{m<N} G^{N−m+1} τ^m, with the inputs known only up to now.
 ///
 /// Contact vectors are laid out as in [`crate::bem`].
+#[auto_impl::auto_impl(Box)]
 pub trait ConvolutionHistory: Send {
     /// Inputs accepted so far.
     fn steps(&self) -> usize;
@@ -48,19 +49,6 @@ pub trait ConvolutionHistory: Send {
     /// [`save`]: ConvolutionHistory::save
     fn restore(&mut self, _steps: usize, _values: &[f64]) -> Result<()> {
         Err(CheckpointError::Unsupported { part: "convolution history" }.into())
-    }
-}
-
-impl<T: ConvolutionHistory + ?Sized> ConvolutionHistory for Box<T> {
-    forward! {
-        (**self);
-        fn steps(&self) -> usize;
-        fn reserve(&mut self, steps: usize) -> Result<()>;
-        fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()>;
-        fn push(&mut self, traction: &[f64]);
-        fn increment_error_bound(&self) -> f64;
-        fn save(&self) -> Result<Vec<f64>>;
-        fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
     }
 }
 

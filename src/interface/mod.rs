@@ -196,6 +196,7 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 /// How base and soil touch: implement this for a law of your own.
 ///
 /// A law is a rule without memory: what it needs of the past is in [`StepStart`].
+#[auto_impl::auto_impl(Box)]
 pub trait InterfaceLaw: Send {
     /// The modes that this law uses; the first is that of an element at rest in contact.
     fn modes(&self) -> &[Mode];
@@ -239,18 +240,5 @@ pub trait InterfaceLaw: Send {
     /// With the reason if it does not, as [`Error::part`](crate::Error::part) for example.
     fn check(&self, _scene: &ContactScene) -> Result<()> {
         Ok(())
-    }
-}
-
-impl<T: InterfaceLaw + ?Sized> InterfaceLaw for Box<T> {
-    forward! {
-        (**self);
-        fn modes(&self) -> &[Mode];
-        fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2];
-        fn next_mode(&self, mode: Mode, start: &StepStart, trial: &ContactState, tolerance: Tolerance) -> Mode;
-        fn compliance(&self, mode: Mode) -> [f64; 2];
-        fn friction_coefficient(&self) -> Option<f64>;
-        fn smooth(&self) -> Box<dyn InterfaceLaw>;
-        fn check(&self, scene: &ContactScene) -> Result<()>;
     }
 }

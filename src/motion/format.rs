@@ -11,6 +11,7 @@ use crate::error::{Error, RecordError, Result};
 /// The crate's formats are [`ColumnFormat`](super::ColumnFormat), [`PeerFormat`](super::PeerFormat)
 /// (`.AT2`), [`CosmosFormat`](super::CosmosFormat) (`.V2`) and
 /// [`KNetFormat`](super::KNetFormat).
+#[auto_impl::auto_impl(Box)]
 pub trait RecordFormat {
     /// Reads the record; `name` is what errors call the file.
     ///
@@ -18,13 +19,6 @@ pub trait RecordFormat {
     /// [`Error::Record`](crate::Error::Record) with the line and the reason, or
     /// [`Error::part`](crate::Error::part) for a reason of a format of your own.
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record>;
-}
-
-impl<T: RecordFormat + ?Sized> RecordFormat for Box<T> {
-    forward! {
-        (**self);
-        fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record>;
-    }
 }
 
 impl Record {

@@ -52,6 +52,7 @@ pub use unit::{AccelerationUnit, STANDARD_GRAVITY};
 pub use vertical_incidence::VerticalIncidence;
 
 /// Motion of the ground surface without the structure.
+#[auto_impl::auto_impl(Box)]
 pub trait FreeField: Send {
     /// Displacement `[horizontal, vertical up]` (m) at surface point `x` (m) and `time` (s).
     ///
@@ -87,12 +88,4 @@ fn differenced(field: &(impl FreeField + ?Sized), x: f64, time: f64) -> [f64; 2]
     let (from, to) = (field.displacement(x, before), field.displacement(x, after));
     // Not 2 · half: the two times are rounded.
     [0, 1].map(|k| (to[k] - from[k]) / (after - before))
-}
-
-impl<T: FreeField + ?Sized> FreeField for Box<T> {
-    forward! {
-        (**self);
-        fn displacement(&self, x: f64, time: f64) -> [f64; 2];
-        fn velocity(&self, x: f64, time: f64) -> [f64; 2];
-    }
 }

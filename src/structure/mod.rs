@@ -63,6 +63,7 @@ use crate::error::Result;
 ///
 /// Every structure is [`Any`], so that [`Simulation::structure`](crate::Simulation::structure) leads
 /// back to your own type, and what its internal variables have become.
+#[auto_impl::auto_impl(Box)]
 pub trait Structure: Any + Send {
     /// Number of unknowns n.
     fn unknowns(&self) -> usize;
@@ -146,22 +147,5 @@ pub trait Structure: Any + Send {
     /// ([`Error::Scene`](crate::Error::Scene)).
     fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
         None
-    }
-}
-
-impl<T: Structure + ?Sized> Structure for Box<T> {
-    forward! {
-        (**self);
-        fn unknowns(&self) -> usize;
-        fn contact_nodes(&self) -> Vec<ContactNode>;
-        fn foundation_ends(&self) -> Vec<usize>;
-        fn mass(&self, matrix: &mut Triplets) -> Result<()>;
-        fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
-        fn damping(&self, matrix: &mut Triplets) -> Result<()>;
-        fn has_active_damping(&self) -> bool;
-        fn describe(&self, unknowns: &[usize]) -> Option<String>;
-        fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
-        fn nonlinear(&self) -> Option<&dyn NonlinearForce>;
-        fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce>;
     }
 }

@@ -96,6 +96,7 @@ pub use time_kernel::TimeKernel;
 use crate::error::Result;
 
 /// The coefficients G^n and H^n of a boundary equation marched in time.
+#[auto_impl::auto_impl(Box)]
 pub trait BoundaryKernel: Send + Sync {
     /// The elements.
     fn segments(&self) -> &[Segment];
@@ -117,14 +118,5 @@ pub trait BoundaryKernel: Send + Sync {
     /// For slices of the wrong length.
     fn symbol(&self, _zeta: [f64; 2], _g: &mut [f64], _h: &mut [f64]) -> Result<Option<[f64; 2]>> {
         Ok(None)
-    }
-}
-
-impl<T: BoundaryKernel + ?Sized> BoundaryKernel for Box<T> {
-    forward! {
-        (**self);
-        fn segments(&self) -> &[Segment];
-        fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()>;
-        fn symbol(&self, zeta: [f64; 2], g: &mut [f64], h: &mut [f64]) -> Result<Option<[f64; 2]>>;
     }
 }

@@ -34,16 +34,10 @@ pub struct SchemeCoefficients {
 ///
 /// Contact and soil need nothing of it: they live on displacements at the ends of steps and
 /// tractions constant within them.
+#[auto_impl::auto_impl(Box)]
 pub trait TimeScheme: Send {
     /// The coefficients for steps of `time_step` seconds.
     fn coefficients(&self, time_step: f64) -> SchemeCoefficients;
-}
-
-impl<T: TimeScheme + ?Sized> TimeScheme for Box<T> {
-    forward! {
-        (**self);
-        fn coefficients(&self, time_step: f64) -> SchemeCoefficients;
-    }
 }
 
 /// Implicit midpoint rule (the default): second order, conserves energy exactly.

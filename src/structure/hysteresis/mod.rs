@@ -62,6 +62,7 @@ impl std::ops::Add for InternalEnergy {
 /// assert!((columns.response(0.018).force).abs() < 1e-6);
 /// # Ok::<(), basemat::Error>(())
 /// ```
+#[auto_impl::auto_impl(Box)]
 pub trait Hysteresis: Send {
     /// Force and tangent at `deformation` (m), reached straight from the last committed one.
     fn response(&self, deformation: f64) -> SpringResponse;
@@ -82,17 +83,6 @@ pub trait Hysteresis: Send {
     /// # Errors
     /// [`CheckpointError::Corrupt`] for values that cannot be such.
     fn restore(&mut self, values: &[f64]) -> Result<()>;
-}
-
-impl<T: Hysteresis + ?Sized> Hysteresis for Box<T> {
-    forward! {
-        (**self);
-        fn response(&self, deformation: f64) -> SpringResponse;
-        fn energy(&self, deformation: f64) -> InternalEnergy;
-        fn commit(&mut self, deformation: f64);
-        fn save(&self) -> Vec<f64>;
-        fn restore(&mut self, values: &[f64]) -> Result<()>;
-    }
 }
 
 /// The error for internal variables that cannot be.

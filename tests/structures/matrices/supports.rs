@@ -100,11 +100,11 @@ fn weak_supports_are_refused_and_named() {
 fn rounding_is_no_support() {
     let shuffled = |value: f64| (value * 1.1) / 1.1;
     for built in [
-        on_soil(by_matrices(&tower(6, 20), shuffled, None)).build(),
-        on_soil(by_matrices(&tower(6, 20), digits(12), None)).build(),
-        wall_on_soil(by_matrices(&wall(), shuffled, None)),
-        wall_on_soil(by_matrices(&wall(), digits(12), None)),
-        wall_on_soil(wall()),
+        on_soil(by_matrices(&tower(6, 20), shuffled, None)).build().map(drop),
+        on_soil(by_matrices(&tower(6, 20), digits(12), None)).build().map(drop),
+        wall_on_soil(by_matrices(&wall(), shuffled, None)).map(drop),
+        wall_on_soil(by_matrices(&wall(), digits(12), None)).map(drop),
+        wall_on_soil(wall()).map(drop),
     ] {
         assert!(built.is_ok(), "{:?}", built.err());
     }
