@@ -125,7 +125,7 @@ impl InfluenceKernel {
     }
 }
 
-/// How the kernel falls behind the Rayleigh wave: 1/(πμ) ∫ Σ `c_k` x^(2k) t^(−2k−1) dt.
+/// Series of the kernel behind the Rayleigh wave: 1/(πμ) ∫ Σ `c_k` x^(2k) t^(−2k−1) dt.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LateSeries<'a> {
     /// `c_k` of zz and xx.

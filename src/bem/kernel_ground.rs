@@ -124,7 +124,7 @@ short_debug! {
 /// Makes the history of a kernel.
 type MakeHistory = dyn Fn(Arc<dyn LagKernel>) -> Box<dyn ConvolutionHistory> + Send;
 
-/// What a time step brings with it.
+/// Kernel and history for one time step.
 struct Prepared {
     kernel: Arc<dyn LagKernel>,
     /// Left open until the number of steps is known or the first step is made.
@@ -308,7 +308,7 @@ impl Ground for KernelGround {
             self.prepared = Some(self.begin(kernel)?);
             return Ok(());
         }
-        // What was chosen then is chosen again, and taken once it has the values.
+        // The same history is chosen again, and taken once it has the values.
         let (mut history, choice) = self.options.make(&prepared.kernel, saved.steps)?;
         if choice.kind != saved.kind {
             return Err(other.into());

@@ -1,4 +1,4 @@
-//! What makes a ground of coefficients.
+//! Sources of step coefficients, of which grounds are made.
 
 use std::any::Any;
 use std::sync::Arc;

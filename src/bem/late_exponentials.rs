@@ -35,7 +35,7 @@ const CROSSINGS: f64 = 3.0;
 const DEGREES: usize = 24;
 /// Share of the tolerance for polynomials left out.
 const DROPPED: f64 = 0.05;
-/// What polynomials left out may take from the energy of slow motions, over that which a step
+/// Energy that neglected polynomials may take from slow motions, over that which a step
 /// radiates at once: far below what passivity has to spare.
 const DROPPED_ENERGY: f64 = 1e-4;
 
@@ -82,7 +82,7 @@ fn tail(
             let s = (fastest - k as f64 * h).exp();
             let weight = -unit * h * (-s * step).exp_m1() * (-s * begin).exp();
             let mut pole = Pole::new(terms, s, s * basis.half, weight);
-            // How much of the coefficient at its own time this pole makes up, at most.
+            // Largest share of this pole in the coefficient at its own time.
             let share = if s * begin > 1.0 { s * begin * (1.0 - s * begin).exp() } else { 1.0 };
             let energy = h * (-s * begin).exp() / (s * step);
             pole.cut(terms, DROPPED * tolerance / share, DROPPED_ENERGY / energy);
@@ -149,7 +149,7 @@ impl Pole {
                         (0..order).map(|b| rows[i * order + b] * project(j, b)).sum();
                 }
             }
-            // What is left of higher degrees at slow poles is rounding.
+            // Higher degrees at slow poles are rounding.
             let noise = 1e-15 * table[0].abs();
             for (place, value) in table.iter_mut().enumerate() {
                 let (i, j) = (place / DEGREES, place % DEGREES);

@@ -40,7 +40,7 @@ use crate::error::{CheckpointError, Result};
 use crate::history::HistoryChoice;
 use crate::motion::FreeField;
 
-/// What the time integrator needs of any soil.
+/// A soil as the time integrator sees it: implement this for a ground of your own.
 ///
 /// A ground answers with the mean displacement of every element at the end of a step, as the sum
 /// of an instantaneous part (a matrix times the tractions of this step, which are constant over

@@ -1,4 +1,4 @@
-//! How two elements see each other: the length of overlap at every offset, and its integrals over
+//! Geometry of a pair of elements: the length of overlap at every offset, and its integrals over
 //! the offsets that a wave of given slowness covers during a step.
 
 use crate::contact_element::ContactElement;

@@ -28,7 +28,7 @@ impl PatchKernel {
         Ok(Self { kernel, classes, spectra: SharedSpectra::default() })
     }
 
-    /// How all coefficients fall behind the Rayleigh wave.
+    /// Series of all coefficients behind the Rayleigh wave.
     pub(super) fn late_series(&self) -> LateSeries<'_> {
         self.kernel.late_series()
     }

@@ -1,9 +1,9 @@
-//! What an element is.
+//! The trait of finite elements.
 
 use super::direction::Direction;
 use crate::error::Result;
 
-/// How the mass of an element is spread over its unknowns.
+/// Distribution of an element's mass over its unknowns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum MassKind {

@@ -13,9 +13,9 @@ pub struct Layer {
     pub height: f64,
     /// Rows of elements, of equal height.
     pub rows: usize,
-    /// What it is made of.
+    /// Its material.
     pub material: Material,
-    /// How its quadrilaterals are integrated.
+    /// Integration of its quadrilaterals.
     pub formulation: QuadFormulation,
 }
 

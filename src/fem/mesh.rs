@@ -134,7 +134,7 @@ impl Mesh {
         for matrix in [stiffness, mass, damping] {
             let largest = matrix.iter().fold(0.0_f64, |most, entry| most.max(entry.abs()));
             for &row in &places {
-                // What rounding leaves of a zero depends on the order of the nodes.
+                // The rounding left of a zero depends on the order of the nodes.
                 let entry = |&column: &usize| matrix[row * order + column];
                 let clean = |entry: f64| if entry.abs() > ALIKE * largest { entry } else { 0.0 };
                 all.extend(places.iter().map(entry).map(clean));

@@ -7,7 +7,7 @@ use super::quad4_shape::{CORNERS, Jacobian, shape};
 use crate::error::{Error, Result, same_length};
 use crate::gauss;
 
-/// How the stiffness of a [`Quad4`] is formed.
+/// Formulation of the stiffness of a [`Quad4`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum QuadFormulation {

@@ -6,7 +6,7 @@ use super::material::Material;
 use crate::error::{Error, Result, same_length};
 use crate::gauss;
 
-/// How the stiffness of a [`Quad8`] is integrated.
+/// Integration of the stiffness of a [`Quad8`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Quad8Integration {

@@ -17,7 +17,7 @@ use crate::fundamental::complex::Complex;
 use crate::fundamental::rayleigh::Rayleigh;
 use crate::gauss;
 
-/// What the kernel is integrated against: a smooth function A of the slowness u.
+/// Weight under which the kernel is integrated: a smooth function A of the slowness u.
 pub(crate) trait Weight {
     /// A(u).
     fn at(&self, u: f64) -> f64;
@@ -301,7 +301,7 @@ impl Branches {
         }
     }
 
-    /// What stands before s²/(s²+c) at the root s² = −c beside the path.
+    /// Factor of s²/(s²+c) at the root s² = −c beside the path.
     fn beside(&self, part: Part, c: f64, a: &impl Weight) -> [f64; 2] {
         let r = &self.rayleigh;
         let y = r.a2 - c;

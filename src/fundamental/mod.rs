@@ -20,7 +20,7 @@ pub use rayleigh::Rayleigh;
 use crate::error::Result;
 use crate::soil::Soil;
 
-/// How the line load of 1 N/m varies in time.
+/// Variation in time of the line load of 1 N/m.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LoadHistory {
     /// δ(t): an impulse.

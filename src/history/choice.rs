@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::error::{CheckpointError, Result};
 
-/// How a ground sums what all past tractions give.
+/// Convolution history of a ground: the method by which it sums the effect of all past tractions.
 ///
 /// Q elements, N steps, C classes of pairs (Q on a uniform strip, about Q²/4 on a graded one), W
 /// the lags before the exponentials (on the half-plane, the steps in which the Rayleigh wave crosses
@@ -103,7 +103,7 @@ pub struct HistoryChoice {
     pub error_bound: f64,
 }
 
-/// What a checkpoint says of a choice: with the same options, the same is chosen again.
+/// A choice as a checkpoint has it: with the same options, the same is chosen again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct SavedChoice {
     /// [`History::Auto`] where none was made, or the history is one of the user's own.

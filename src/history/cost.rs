@@ -1,4 +1,4 @@
-//! What the table of [`History`] says.
+//! Cost model of the histories: the table of [`History`].
 
 use super::choice::History;
 use super::lag_kernel::LagKernel;

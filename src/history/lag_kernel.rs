@@ -1,4 +1,4 @@
-//! What a ground must know of itself to keep a convolution history: its coefficients, lag by lag.
+//! The kernel of a convolution history: a ground's coefficients, lag by lag.
 
 use super::late_lags::LateLags;
 use super::pair_classes::PairClasses;

@@ -42,7 +42,7 @@ pub struct ExponentialTail {
     products: Vec<TailProduct>,
 }
 
-/// What a function of the traction gives to a function of the displacement, and the other way
+/// Product of a function of the traction with a function of the displacement, and the other way
 /// round.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TailProduct {

@@ -1,4 +1,4 @@
-//! What a ground was told about its history, and the history made of it.
+//! Options of a ground's history, and the history made of them.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::error::Result;
 /// Steps that are estimated for where nothing is known.
 const UNKNOWN_STEPS: usize = 100_000;
 
-/// What a ground was told about its history.
+/// Options of a ground's history.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HistoryOptions {
     pub(crate) kind: History,

@@ -272,7 +272,7 @@ mod tests {
         assert_eq!(rows(&[(0, 0, 1e-4), (0, 2, 1e-3), (2, 0, 1e-3), (2, 2, 1e-3)]), Some(0));
         // The most negative entry tells most.
         assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -1e-9), (2, 2, -1e-3)]), Some(2));
-        // What is below the floor is rounding, just above it is not.
+        // Below the floor it is rounding, just above it is not.
         for (value, found) in [(0.99e-12, None), (1.01e-12, Some(1))] {
             assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -value)]), found);
         }

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 
-/// What is subtracted from a record so that it ends at, or near, rest.
+/// Baseline correction: a polynomial is subtracted from a record so that it ends at, or near, rest.
 ///
 /// Every treatment subtracts a polynomial in time, evaluated at the samples, from the
 /// acceleration, so that the treated record is again linear between samples, and the conditions
@@ -61,9 +61,9 @@ struct Fit {
     terms: usize,
     /// The polynomial has the factor t.
     starts_from_zero: bool,
-    /// What is made least.
+    /// Quantity that is minimised.
     least: Quantity,
-    /// What is made zero at the end.
+    /// Quantities that are zero at the end.
     zero_at_end: &'static [Quantity],
 }
 

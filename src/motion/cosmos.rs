@@ -114,7 +114,7 @@ fn read(lines: &mut Lines, format: &CosmosFormat) -> Reason<(f64, Vec<f64>)> {
     Err(lines.refuse(RecordError::Channel { found, needed: channel }))
 }
 
-/// What the title of a block says of its numbers.
+/// Numbers of a block as its title announces them.
 struct Block {
     points: usize,
     /// s.
@@ -171,7 +171,7 @@ fn points(title: &str, quantity: &'static str) -> std::result::Result<usize, Rec
     first.and_then(|field| count(finite(field)?)).ok_or(RecordError::Missing { quantity })
 }
 
-/// What a title of CSMIP says after its key: time step, unit and format.
+/// The text of a CSMIP title after its key: time step, unit and format.
 fn csmip(title: &str) -> Option<&str> {
     Some(title.split_once("equally spaced at")?.1)
 }
@@ -188,7 +188,7 @@ fn time_end(text: &str) -> usize {
     first.min(clause_end(text))
 }
 
-/// What a title says of the unit, from its first letter on.
+/// The unit in a title, from its first letter on.
 fn unit_text(title: &str) -> Option<&str> {
     let csmip = || csmip(title)?.split_once(" in ");
     Some(title.split_once("units=").or_else(csmip)?.1)
@@ -199,7 +199,7 @@ fn name_end(text: &str) -> usize {
     text.find([',', '(']).unwrap_or(text.len())
 }
 
-/// What follows unit or, without one, time step.
+/// The text after unit or, without one, time step.
 fn after_unit(title: &str) -> &str {
     if let Some(text) = unit_text(title) {
         return &text[name_end(text)..];

@@ -84,7 +84,7 @@ pub(super) fn is_header(fields: &Fields) -> bool {
     fields.texts.iter().any(has_letters) && !fields.texts.iter().any(|field| is_like_number(field))
 }
 
-/// What programs write where a number is missing, in lower case.
+/// Words for a missing number, in lower case.
 const MISSING: [&str; 8] = ["nan", "inf", "infinity", "na", "n/a", "null", "none", "missing"];
 
 /// Whether a field is a number, or was meant as one.

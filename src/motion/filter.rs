@@ -48,7 +48,7 @@ impl Record {
         }
         let quiet = PADS * f64::from(order) / corner;
         let padded = self.padded(quiet, quiet)?;
-        // What the circle of the transform would bring round is as quiet as the pads are long.
+        // The transform is circular: only the quiet pads are carried round.
         let length = padded.len().next_power_of_two();
         let step = 1.0 / (length as f64 * self.time_step());
         let exponent = f64::from(2 * order);

@@ -1,4 +1,4 @@
-//! What a reader of a file format has to do, and records by it.
+//! The trait of file formats, and records read by it.
 
 use std::io::Read;
 use std::path::Path;

@@ -57,7 +57,7 @@ impl Record {
 /// The transform at the samples, and at `around` more times on either side.
 pub(super) fn hilbert(samples: &[f64], around: usize) -> Result<Vec<f64>> {
     let count = samples.len() + 2 * around;
-    // What the kernel of an output and an input is indexed by: their distance, from the least on.
+    // The kernel is indexed by the distance of output and input, from the least on.
     let least = around + samples.len() - 1;
     let distances = count + samples.len() - 1;
     let length = distances.next_power_of_two();
@@ -110,7 +110,7 @@ mod tests {
         let found = hilbert(&samples, 0).unwrap();
         for (t, found) in times.iter().zip(&found).filter(|(t, _)| t.abs() < 200.0) {
             // The tails beyond T = 2000 s that the samples lack: 2t/(3πT³) at most.
-            // What is above the highest frequency of the samples: exp(−π/step).
+            // The share above the highest frequency of the samples: exp(−π/step).
             let slack = 2.0 * (-PI / step).exp() + 2.1 * t.abs() / (3.0 * PI * 2000.0_f64.powi(3));
             assert!((found - t / (1.0 + t * t)).abs() < slack, "{t}: {found}");
         }

@@ -35,7 +35,7 @@ impl RecordFormat for KNetFormat {
     }
 }
 
-/// What the header must say.
+/// Entries that the header must have.
 #[derive(Default)]
 struct Header {
     frequency: Option<f64>,

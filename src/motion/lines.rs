@@ -81,7 +81,7 @@ pub(super) fn push_numbers(
     Ok(())
 }
 
-/// How the numbers without a decimal point were read so far.
+/// Reading of numbers without a decimal point so far.
 #[derive(Default)]
 struct Points {
     /// Some with the point that the format implies.
@@ -174,7 +174,7 @@ pub(super) fn scaled(values: Vec<f64>, factor: f64) -> Vec<f64> {
 /// Time step and acceleration as a record, errors named after `file`.
 pub(super) fn record(file: &str, parsed: Reason<(f64, Vec<f64>)>) -> Result<super::Record> {
     let (step, samples) = parsed.map_err(refused(file))?;
-    // What no single line is to blame for.
+    // Faults of the file as a whole.
     let reason = |error| RecordError::Unusable(Box::new(error));
     super::Record::new(step, samples).map_err(|error| refused(file)((0, reason(error))))
 }

@@ -25,7 +25,7 @@ const TIME: Units = &[
 const FREQUENCY: Units = &[("hz", 1.0), ("", 1.0)];
 const NUMBER: Units = &[("", 1.0)];
 
-/// What the header of a file may give, and how errors call it.
+/// Quantities in the header of a file, and their names in errors.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Quantity {
     /// s.

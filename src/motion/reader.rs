@@ -12,9 +12,9 @@ use crate::error::{RecordError, Result};
 /// Wide enough for times printed with two digits of the step.
 const STEP_TOLERANCE: f64 = 0.01;
 
-/// How a text file holds a record: which columns, which unit.
+/// Layout of a record in a text file: its columns and its unit.
 ///
-/// What is understood:
+/// Understood are:
 /// * lines of numbers separated by commas, semicolons, spaces or tabs (a comma with spaces around it
 ///   is one separator; two commas enclose an empty field), the decimal point a `.`, the exponent
 ///   after an `E` or a `D`. A decimal comma is refused where it shows: beside semicolons or spaces

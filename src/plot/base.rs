@@ -29,7 +29,7 @@ pub(super) struct Break {
     /// Where it is drawn.
     pub(super) from: f64,
     pub(super) to: f64,
-    /// What it is, m.
+    /// Its width, m.
     pub(super) width: f64,
 }
 

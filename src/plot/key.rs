@@ -17,7 +17,7 @@ const SIDE: u32 = 52;
 const LINE: i32 = 18;
 const GAP: i32 = 6;
 
-/// How a name is shown.
+/// Sample beside a name.
 #[derive(Clone, Copy)]
 pub(super) enum Sample {
     Line(Stroke),

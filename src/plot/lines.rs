@@ -14,7 +14,7 @@ use crate::results::{Histories, Quantity};
 const BUCKETS: usize = 1500;
 /// Demands above this are drawn here.
 const MOST_DEMAND: f64 = 4.0;
-/// What is reached where a demand is one.
+/// Colour of the line at a demand of one.
 const LIMIT: RGBColor = RGBColor(120, 120, 120);
 
 /// A named curve.
@@ -80,7 +80,7 @@ pub fn history(title: &str, runs: &[(&str, &Histories)], quantity: Quantity) -> 
     };
     let (factor, unit) = engineering_unit(quantity);
     let value = |&value: &f64| match limit {
-        // What has no value, in flight or without a friction coefficient, is not drawn.
+        // Without a value, in flight or without a friction coefficient, nothing is drawn.
         Some(_) if value.is_nan() => f64::NAN,
         Some(_) => value.recip().min(MOST_DEMAND),
         None => factor * value,

@@ -13,7 +13,7 @@ use crate::results::{ContactFrame, Histories};
 /// Columns of the map: more than pixels help nobody.
 const COLUMNS: usize = 1000;
 
-/// What an element does, as drawn; where several share a column the greater shows.
+/// State of an element, as drawn; where several share a column the greater shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Shown {
     Stick,
@@ -61,7 +61,7 @@ impl Shown {
     }
 }
 
-/// What every element does in every frame, and what of this has to be in the key: the modes always,
+/// State of every element in every frame, and the states that the key shows: the modes always,
 /// touching without pressure where it occurs.
 pub(super) fn shown(frames: &[ContactFrame<'_>]) -> (Vec<Vec<Shown>>, Vec<Shown>) {
     let pressures = frames.iter().flat_map(|frame| frame.states).map(|state| state.pressure.abs());

@@ -1,4 +1,4 @@
-//! How curves are told apart: by colour, and by markers where there are more curves than colours.
+//! Styles of curves: told apart by colour, and by markers where there are more curves than colours.
 
 use plotters::prelude::*;
 

@@ -1,11 +1,11 @@
-//! How wide text will be, and what to do where there is no room for it.
+//! Width of text, and cuts where there is no room for it.
 //!
 //! Whoever shows the SVG chooses the font: widths are estimates for a wide one (DejaVu Sans, not
 //! condensed), so that others fit as well.
 
 /// plotters divides sizes of fonts by this.
 const FONT_SCALE: f64 = 1.24;
-/// What stands for the rest of a text that was cut.
+/// Stands for the rest of a text that was cut.
 const CUT: char = '…';
 
 /// Width of a letter over the font's size.

@@ -9,7 +9,7 @@ const LETTERS: usize = 9;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ticks {
     pub(super) marks: Vec<(f64, String)>,
-    /// What is to be added to the names, where it is not zero.
+    /// Offset to be added to the names, where it is not zero.
     pub(super) offset: Option<String>,
 }
 

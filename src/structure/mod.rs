@@ -34,7 +34,7 @@ use std::any::Any;
 
 use crate::error::Result;
 
-/// What the integrator needs of a structure: implement this for your own model.
+/// A structure as the integrator sees it: implement this for your own model.
 ///
 /// A structure has `n` unknowns, displacements and rotations (m, rad; x to the right, y up, rotations
 /// counter-clockwise), measured from the unloaded state. Its matrices are written for **absolute**
@@ -120,7 +120,7 @@ pub trait Structure: Any + Send {
         false
     }
 
-    /// What errors call these unknowns, for a person who knows the structure by its nodes or storeys.
+    /// Name of these unknowns in errors, for a person who knows the structure by its nodes or storeys.
     /// Default: `None`, and errors give their numbers.
     fn describe(&self, _unknowns: &[usize]) -> Option<String> {
         None

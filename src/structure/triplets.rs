@@ -8,7 +8,7 @@
 pub struct Triplets {
     order: usize,
     entries: Vec<(usize, usize, f64)>,
-    /// What is added to indices while a member of a group writes its block.
+    /// Offset of indices while a member of a group writes its block.
     shift: Option<usize>,
 }
 
@@ -28,7 +28,7 @@ impl Triplets {
         let place = |index: usize| match self.shift {
             None => index,
             Some(shift) if index < self.order => index + shift,
-            // What is beyond the block must not be within the whole.
+            // An index beyond the block must not be within the whole.
             Some(_) => usize::MAX,
         };
         self.entries.push((place(row), place(column), value));

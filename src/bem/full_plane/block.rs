@@ -38,7 +38,7 @@ impl Work {
     }
 }
 
-/// What b inputs give at the next b outputs: convolutions of length 2b.
+/// Effect of b inputs on the next b outputs: convolutions of length 2b.
 pub(super) struct Level {
     size: usize,
     forward: Arc<dyn RealToComplex<f64>>,

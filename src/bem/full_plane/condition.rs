@@ -1,6 +1,6 @@
-//! What is known on a boundary element.
+//! Boundary conditions of an element.
 
-/// What is known on a boundary element.
+/// Boundary condition of an element: the quantity that is prescribed there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundaryCondition {
     /// The traction is known (zero on a free surface), the displacement is sought.

@@ -1,4 +1,4 @@
-//! What all past displacements and tractions of a boundary give at the end of the next step.
+//! Effect of all past displacements and tractions of a boundary at the end of the next step.
 //!
 //! Relaxed blocked convolution, exact to rounding (Hairer, Lubich & Schlichte 1985, SIAM J. Sci.
 //! Stat. Comput. 6, 532–541), as in [`crate::history::RelaxedFftHistory`]: pairs of input and

@@ -74,7 +74,7 @@ short_debug! {
     prepared: self.prepared.is_some(),
 }
 
-/// What happens before the march.
+/// Assessment before the march.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Assessment {
     /// Growth is an error.
@@ -157,7 +157,7 @@ impl FullPlaneGround {
         self
     }
 
-    /// What [`Ground::prepare`] would find for steps of `time_step` seconds: growth is no error
+    /// Stability as [`Ground::prepare`] would find it for steps of `time_step` seconds: growth is no error
     /// here. Preparing for the same step then does not assess again.
     ///
     /// ```

@@ -1,4 +1,4 @@
-//! What is known of a full-plane ground before it marches.
+//! Stability of a full-plane ground, found before it marches.
 
 use std::fmt;
 

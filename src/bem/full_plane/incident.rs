@@ -53,7 +53,7 @@ impl VerticalWaves {
         Ok(Self { soil, surface: Box::new(surface), delay })
     }
 
-    /// How much later than its record the surface moves, s.
+    /// Delay of the surface behind its record, s.
     pub fn delay(&self) -> f64 {
         self.delay
     }

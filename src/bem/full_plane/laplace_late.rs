@@ -13,7 +13,7 @@
 //! * BDF2: δ = (1−ζ)(1 + (1−ζ)/2), expanded binomially; the factor ln(1 + (1−ζ)/2) is singular
 //!   only at ζ = 3 and leaves 3^{−n}.
 //!
-//! What is neglected is the smeared front: with ρ = r/(c₂Δt) a Cauchy circle of radius X bounds it
+//! The smeared front is neglected: with ρ = r/(c₂Δt) a Cauchy circle of radius X bounds it
 //! by e^{ρ(X−1)} X^{−n} (BDF1) and e^{ρ(X²−1)/2} X^{−n} (BDF2, 1 < X < 3).
 //!
 //! The leading term −A₀/n is Δt times the impulse response −A₀/t at t = nΔt. BDF2 departs from

@@ -85,7 +85,7 @@ impl BoundaryMarch {
     /// Hints that about `steps` steps will follow.
     ///
     /// # Errors
-    /// What the kernel says.
+    /// Those of the kernel.
     pub fn reserve(&mut self, steps: usize) -> Result<()> {
         self.history.reserve(steps)
     }

@@ -5,7 +5,7 @@ use super::{Boundary, BoundaryKernel, IncidentField};
 use crate::error::{Error, Result, same_length};
 use crate::linalg::{DenseFactor, dense_multiply_add};
 
-/// What a time step brings with it.
+/// Histories and operators for one time step.
 pub(super) struct Prepared {
     pub(super) history: BoundaryHistory,
     time_step: f64,

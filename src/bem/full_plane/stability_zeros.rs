@@ -26,7 +26,7 @@ const BISECTIONS: usize = 30;
 const COARSE: f64 = 0.25;
 const FINE: f64 = 0.01;
 
-/// What was found inside a circle.
+/// Zeros inside a circle: their number, and the smallest.
 pub(super) struct Zeros {
     /// Zeros inside.
     pub(super) count: usize,

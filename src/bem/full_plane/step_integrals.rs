@@ -43,7 +43,7 @@ impl Integrals {
     }
 }
 
-/// What the kernel needs of the soil.
+/// Constants of the soil in the kernel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Medium {
     /// c₁, c₂.

@@ -1,4 +1,4 @@
-//! How far the exponentials are from the coefficients that they stand for, over the whole horizon.
+//! Error of the exponentials against the coefficients that they stand for, over the whole horizon.
 
 use super::tail::Tail;
 use crate::error::Result;

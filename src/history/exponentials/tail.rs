@@ -1,4 +1,4 @@
-//! What acts longer ago than the window, carried from step to step by decaying exponentials.
+//! Tractions from before the window, carried from step to step by decaying exponentials.
 
 use crate::contact_element::ContactElement;
 use crate::error::{Result, same_length};

@@ -1,4 +1,4 @@
-//! How elements talk to each other, and over short lags.
+//! Coupling coefficients between elements, and those of short lags.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ pub(super) struct Coefficients {
     reaches: Vec<usize>,
     /// The largest of them.
     pub(super) coupling_reach: usize,
-    /// How far ahead the coupling is summed directly.
+    /// Number of lags over which the coupling is summed directly.
     pub(super) coupling_direct: usize,
     /// Steps of a leaf.
     leaf: usize,

@@ -10,7 +10,7 @@ use crate::history::pair_classes::{Pair, PairClasses};
 /// Frequencies that are multiplied together, so that all inputs and outputs stay in cache.
 const TILE: usize = 64;
 
-/// What b inputs give at the next b outputs: convolutions of length 2b.
+/// Effect of b inputs on the next b outputs: convolutions of length 2b.
 pub(super) struct Level {
     /// b.
     pub(super) size: usize,
@@ -68,7 +68,7 @@ pub(super) enum Part {
     All,
 }
 
-/// Where inputs and outputs are, and how elements talk to each other.
+/// Places of inputs and outputs, and the coupling between elements.
 pub(super) struct Block<'a> {
     /// 2Q rows: inputs before `now`, outputs from there on.
     pub(super) rows: &'a mut [f64],

@@ -1,4 +1,4 @@
-//! What histories of one kernel share: spectra of its coefficients, made by the first that needs
+//! Spectra of a kernel's coefficients, shared by its histories and made by the first that needs
 //! them.
 
 use std::fmt;

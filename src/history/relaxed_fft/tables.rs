@@ -1,6 +1,6 @@
 //! Coefficients over short delays, class by class.
 
-/// What is summed directly.
+/// Coefficients that are summed directly.
 ///
 /// Index d of a coefficient is the number of steps from the traction to the first step that sees
 /// it as history: lag d + 1 of the kernel.

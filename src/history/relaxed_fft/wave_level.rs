@@ -12,7 +12,7 @@ pub(super) const KINDS: usize = 3;
 /// Per kind, d = 0 … leaf − 1 times the number of wavenumbers.
 pub(super) type Near = [Vec<f64>; KINDS];
 
-/// What b inputs give at the next b outputs, for each wavenumber by itself: one wavenumber's blocks
+/// Effect of b inputs on the next b outputs, for each wavenumber by itself: one wavenumber's blocks
 /// and spectra fit into cache.
 pub(super) struct WaveLevel {
     /// b.

@@ -183,7 +183,7 @@ impl Blocks for Waves {
         }
         let leaves = steps.div_ceil(self.leaf).max(1);
         let largest = leaves.next_power_of_two();
-        // What was asked for at first is taken at its word; then memory grows by doubling.
+        // The first request is met exactly; later ones double the memory.
         let capacity = self.leaf * if self.capacity == 0 { leaves } else { largest };
         let waves = self.lattice.waves();
         let wanted = largest.ilog2() as usize;

@@ -28,7 +28,7 @@ pub(super) struct RawCell {
     pub(super) line: usize,
 }
 
-/// What of a file matters here.
+/// The parts of a file that matter here.
 #[derive(Debug, Default)]
 pub(super) struct Raw {
     pub(super) coordinates: Vec<Point>,

@@ -14,7 +14,7 @@ const MOST_ROWS_OF_ARRAY: usize = 20_000;
 /// Why a line is refused, and which.
 type Reason<T> = Result<T, (usize, MatrixFileError)>;
 
-/// What the first line says.
+/// The first line.
 struct Header {
     coordinate: bool,
     symmetric: bool,

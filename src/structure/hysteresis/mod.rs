@@ -29,9 +29,9 @@ pub struct SpringResponse {
 /// Energy of internal forces, J per metre of thickness.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct InternalEnergy {
-    /// What unloading would give back.
+    /// Energy that unloading gives back.
     pub stored: f64,
-    /// What has been turned into heat since the structure was new; it never decreases.
+    /// Energy turned into heat since the structure was new; it never decreases.
     pub dissipated: f64,
 }
 

@@ -162,7 +162,7 @@ impl Structure for StructureGroup {
         for member in &self.members {
             for mut node in member.structure.contact_nodes() {
                 node.x += member.shift;
-                // What is not an unknown of the member must not be one of the group.
+                // An index that is no unknown of the member must not be one of the group.
                 let place = |index: usize| {
                     let own = index < member.unknowns;
                     if own { index.saturating_add(member.first_unknown) } else { usize::MAX }

@@ -1,4 +1,4 @@
-//! What errors call the unknowns of a finite-element model: its nodes.
+//! Names of a finite-element model's unknowns in errors: its nodes.
 
 use std::fmt::Write;
 

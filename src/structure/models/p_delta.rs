@@ -75,9 +75,9 @@ impl FemModel {
         }
     }
 
-    /// What the axial forces of its elements ([`with_p_delta`](FemModel::with_p_delta) or given by
-    /// hand) must be multiplied by to buckle the structure, held at its contact nodes; infinite
-    /// where a million times as much does not.
+    /// Factor on the axial forces of its elements ([`with_p_delta`](FemModel::with_p_delta) or given
+    /// by hand) at which the structure buckles, held at its contact nodes; infinite where a million
+    /// times as much does not buckle it.
     ///
     /// To nine digits that of the finite elements; takes some forty sparse factorisations.
     ///
