@@ -80,11 +80,23 @@ fn nothing(_: &State) -> f64 {
 }
 
 /// All of the table.
-pub(crate) const ROWS: [Row; 9] = [
+pub(crate) const ROWS: [Row; 12] = [
     Row {
         name: "bonded",
         left_out: "the mode search: one solve with factors made once",
         make: |builder| Ok(builder.interface(Bonded)),
+        observe: nothing,
+    },
+    Row {
+        name: "bonded, without ledger",
+        left_out: "the mode search, the energy ledger",
+        make: |builder| Ok(builder.interface(Bonded).without_ledger()),
+        observe: nothing,
+    },
+    Row {
+        name: "bonded, without weight",
+        left_out: "the mode search; by `build` the static state",
+        make: |builder| Ok(builder.interface(Bonded).gravity(0.0)),
         observe: nothing,
     },
     Row {
@@ -109,6 +121,12 @@ pub(crate) const ROWS: [Row; 9] = [
         name: "uplift and sliding, friction 0.4",
         left_out: "the same; no observers: nothing of the structure's interior is computed",
         make: |builder| friction(builder, 0.4),
+        observe: nothing,
+    },
+    Row {
+        name: "the same, without ledger",
+        left_out: "the energy ledger",
+        make: |builder| friction(builder.without_ledger(), 0.4),
         observe: nothing,
     },
     Row {
