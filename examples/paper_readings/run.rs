@@ -48,9 +48,10 @@ impl Reading {
         let mut simulation = self.with_scheme(builder)?.build()?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above zero")]
         let run = simulation.run((self.duration / time_step).round() as usize, |_| {})?;
-        let probe = run.probe("base shear")?.value;
+        let probe = run.probe("base shear")?.largest().value;
         Ok(Row {
-            shear: [probe, run.base_shear.value].map(|force| pounds_per_foot(force.abs())),
+            shear: [probe, run.base_shear.largest().value]
+                .map(|force| pounds_per_foot(force.abs())),
             uplift: run.uplifted_fraction.value,
             slip: run.largest_slip.value,
             cycles: run.fallbacks.total(),

@@ -129,26 +129,24 @@ fn records_of_functions() {
 }
 
 #[test]
-fn a_recorder_runs_and_saves() -> Result<()> {
-    let short = Recorder::new().run(&mut simulation(), 100)?;
-    let mut marched = simulation();
-    let mut long = Recorder::new().start(&marched)?;
-    long.run(&mut marched, 100)?;
-    assert_eq!(short.series(Quantity::BaseShear), long.series(Quantity::BaseShear));
-    assert_eq!(short.times().len(), 101);
+fn runs_and_histories_are_saved() -> Result<()> {
+    let mut simulation = simulation();
+    let mut histories = Recorder::new().start(&simulation)?;
+    let run = simulation.run(100, |state| histories.record(state))?;
+    assert_eq!(histories.times().len(), 101);
 
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("conveniences/new/one");
     let _ = std::fs::remove_dir_all(&folder);
-    short.save_csv(folder.join("run.csv"))?;
+    histories.save_csv(folder.join("run.csv"))?;
     let mut text = Vec::new();
-    short.write_csv(&mut text).unwrap();
+    histories.write_csv(&mut text).unwrap();
     assert_eq!(std::fs::read(folder.join("run.csv")).unwrap(), text);
     let mut comparison = Comparison::new();
-    comparison.add("only", short.summary());
+    comparison.add("only", run);
     comparison.save_csv(folder.join("cases.csv"))?;
     assert_eq!(std::fs::read_to_string(folder.join("cases.csv")).unwrap(), comparison.csv());
     let nowhere = folder.join("run.csv/below_a_file.csv");
-    assert!(matches!(short.save_csv(&nowhere), Err(Error::Write { .. })));
+    assert!(matches!(histories.save_csv(&nowhere), Err(Error::Write { .. })));
     assert!(matches!(comparison.save_csv(&nowhere), Err(Error::Write { .. })));
     Ok(())
 }

@@ -27,8 +27,8 @@ fn shear(motion: impl FreeField + 'static) -> Vec<f64> {
         .build()
         .unwrap();
     let mut histories = Recorder::new().start(&simulation).unwrap();
-    histories.run(&mut simulation, 400).unwrap();
-    assert!(histories.summary().uplift.count > 0 && !histories.summary().sliding.events.is_empty());
+    let run = simulation.run(400, |state| histories.record(state)).unwrap();
+    assert!(run.uplift.count > 0 && !run.sliding.events.is_empty());
     histories.series(Quantity::BaseShear).to_vec()
 }
 

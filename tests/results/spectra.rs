@@ -25,7 +25,7 @@ fn floors_of_a_light_rigid_block_ride_on_the_ground() {
         .build()
         .unwrap();
     let mut histories = Recorder::new().start(&simulation).unwrap();
-    let run = histories.run(&mut simulation, 1500).unwrap();
+    let run = simulation.run(1500, |state| histories.record(state)).unwrap();
     assert_eq!(run.steps, 1500);
     let periods = log_spaced(0.2, 3.0, 12).unwrap();
     let floor = histories.floor_spectrum("top", &periods, 0.05).unwrap();

@@ -101,7 +101,7 @@ impl Scene {
             peak_slip: run.largest_slip.value.abs(),
             residual_slip: run.residual_slip,
             uplift: run.uplifted_fraction.value,
-            rotation: run.base_rotation.value.abs(),
+            rotation: run.base_rotation.magnitude(),
             contact: run.ledger.contact / input,
             numerical: run.ledger.numerical / input,
             penetration,

@@ -53,7 +53,7 @@ fn isolators_drift_as_they_do_without_p_delta() {
     for pair in pairs {
         let [without, with] = pair.map(|run| {
             assert!(run.ledger_residual < 1e-9);
-            run.probe("drift").unwrap().value.abs()
+            run.probe("drift").unwrap().magnitude()
         });
         println!("{:.1} mm, with P–Δ {:.1} mm", 1e3 * without, 1e3 * with);
         assert!((0.03..0.2).contains(&without));
