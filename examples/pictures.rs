@@ -38,7 +38,8 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, Histories, Wireframe)
     let shape = Wireframe::of_model(&tower);
     let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
-        .ground(HalfPlaneGround::under(soil, &tower, 16)?)
+        // Two equal elements of contact under each of the mesh.
+        .ground(HalfPlaneGround::uniform_under(soil, &tower, 16)?)
         .structure(tower)
         .interface(law)
         .motion(el_centro_1940())

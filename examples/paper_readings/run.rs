@@ -29,7 +29,7 @@ impl Reading {
         let record = if self.record == 1.0 { record } else { record.scaled(self.record)? };
         let builder = Simulation::builder(time_step)
             .structure(model)
-            .ground(HalfPlaneGround::strip(soil, scene.base(), scene.elements)?)
+            .ground(HalfPlaneGround::uniform_strip(soil, scene.base(), scene.elements)?)
             .motion(record)
             .gravity(self.gravity * STANDARD_GRAVITY)
             .probe(base_shear);

@@ -20,7 +20,7 @@ fn shear(motion: impl FreeField + 'static) -> Vec<f64> {
     let soil = Soil::new(8e7, 0.3, 1900.0).unwrap();
     let mut simulation = Simulation::builder(0.01)
         .structure(RigidBlock::new(2.0 * HALF, 14.0, 800.0).unwrap())
-        .ground(HalfPlaneGround::strip(soil, -HALF..HALF, 8).unwrap())
+        .ground(HalfPlaneGround::uniform_strip(soil, -HALF..HALF, 8).unwrap())
         .interface(Coulomb::new(0.35).unwrap())
         .motion(motion)
         .gravity(STANDARD_GRAVITY)

@@ -399,7 +399,7 @@ fn a_kernel_ground_is_what_the_half_plane_is_made_of() {
             self.0.static_compliance(matrix)
         }
     }
-    let ground = || HalfPlaneGround::graded_strip(soil(), -2.0..2.0, 6).unwrap();
+    let ground = || HalfPlaneGround::strip(soil(), -2.0..2.0, 6).unwrap();
     let elements = ground().elements().to_vec();
     let own = KernelGround::new(Outside(ground()), elements).unwrap();
     let (own, other) = (run(own, 5e-3, 300).0, run(ground(), 5e-3, 300).0);
@@ -497,7 +497,7 @@ fn the_steps_of_a_run_are_announced_however_many() {
     ] {
         let mut simulation = Simulation::builder(5e-3)
             .structure(block())
-            .ground(HalfPlaneGround::strip(soil(), -2.0..2.0, 8).unwrap())
+            .ground(HalfPlaneGround::uniform_strip(soil(), -2.0..2.0, 8).unwrap())
             .interface(Coulomb::new(0.4).unwrap())
             .motion(push())
             .build()

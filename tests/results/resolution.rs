@@ -32,7 +32,7 @@ fn run(
     time_step: f64,
 ) -> Run {
     let mut simulation = Simulation::builder(time_step)
-        .ground(HalfPlaneGround::under(soil, &structure, elements).unwrap())
+        .ground(HalfPlaneGround::uniform_under(soil, &structure, elements).unwrap())
         .structure(structure)
         .motion(motion)
         .interface(Bonded)
@@ -111,7 +111,7 @@ fn stiff_structures_need_no_fine_steps() {
 fn recorded_by_hand() {
     let structure = storeys();
     let mut simulation = Simulation::builder(0.5)
-        .ground(HalfPlaneGround::under(soil(250.0), &structure, 12).unwrap())
+        .ground(HalfPlaneGround::uniform_under(soil(250.0), &structure, 12).unwrap())
         .structure(structure)
         .motion(el_centro_1940())
         .interface(Bonded)

@@ -13,7 +13,7 @@ use basemat::{Simulation, Soil};
 /// A light block, bonded to stiff ground, moves as the ground does: so do its floors' spectra.
 #[test]
 fn floors_of_a_light_rigid_block_ride_on_the_ground() {
-    let ground = HalfPlaneGround::strip(Soil::new(2e9, 0.3, 2000.0).unwrap(), -2.0..2.0, 4);
+    let ground = HalfPlaneGround::uniform_strip(Soil::new(2e9, 0.3, 2000.0).unwrap(), -2.0..2.0, 4);
     let block = RigidBlock::new(4.0, 1.0, 10.0).unwrap();
     let top = block.horizontal_at(1.0);
     let mut simulation = Simulation::builder(0.01)

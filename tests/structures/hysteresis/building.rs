@@ -42,7 +42,7 @@ fn on_soil(structure: impl Structure + 'static, time_step: f64) -> SimulationBui
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     Simulation::builder(time_step)
         .structure(structure)
-        .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 8).unwrap())
+        .ground(HalfPlaneGround::uniform_strip(soil, -5.0..5.0, 8).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY)

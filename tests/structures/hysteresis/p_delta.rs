@@ -30,7 +30,7 @@ fn shaken(gravity: f64, law: impl Hysteresis + 'static) -> Run {
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     Simulation::builder(5e-3)
         .structure(structure)
-        .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 6).unwrap())
+        .ground(HalfPlaneGround::uniform_strip(soil, -5.0..5.0, 6).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY)

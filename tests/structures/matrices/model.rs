@@ -24,7 +24,7 @@ pub(crate) fn on_soil(structure: impl Structure + 'static) -> SimulationBuilder 
     let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
     Simulation::builder(0.01)
         .structure(structure)
-        .ground(HalfPlaneGround::strip(soil, -3.0..3.0, 6).unwrap())
+        .ground(HalfPlaneGround::uniform_strip(soil, -3.0..3.0, 6).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY)

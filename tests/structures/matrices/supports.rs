@@ -55,7 +55,7 @@ fn wall_on_soil(structure: impl Structure + 'static) -> Result<Simulation> {
     let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
     Simulation::builder(0.01)
         .structure(structure)
-        .ground(HalfPlaneGround::strip(soil, -0.25..0.25, 4).unwrap())
+        .ground(HalfPlaneGround::uniform_strip(soil, -0.25..0.25, 4).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .build()
 }
