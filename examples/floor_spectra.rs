@@ -41,7 +41,9 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<Histories> {
         .probe(Probe::acceleration("roof", roof))
         .build()?;
     let steps = simulation.steps_for(20.0);
-    Recorder::new().run(&mut simulation, steps)
+    let mut histories = Recorder::new().start(&simulation)?;
+    simulation.run(steps, |state| histories.record(state))?;
+    Ok(histories)
 }
 
 fn main() -> Result<()> {

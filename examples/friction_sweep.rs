@@ -54,8 +54,8 @@ fn slide(friction: f64, motion: Record) -> Result<f64> {
         .interface(Coulomb::new(friction)?)
         .motion(motion)
         .build()?;
-    let summary = Recorder::new().run(&mut simulation, 1500)?.summary();
-    Ok(summary.sliding.peak.magnitude())
+    let run = simulation.run(1500, |_| {})?;
+    Ok(run.mean_slip.magnitude())
 }
 
 fn main() -> Result<()> {

@@ -44,7 +44,7 @@ fn acceleration(u: &[f64; 4], traction: &[f64], centers: &[f64], lengths: &[f64]
 
 fn main() -> Result<()> {
     let soil = Soil::new(60.0e6, 0.33, 1900.0)?;
-    let mut ground = HalfPlaneGround::graded_strip(soil, -HALF_WIDTH..HALF_WIDTH, 10)?;
+    let mut ground = HalfPlaneGround::strip(soil, -HALF_WIDTH..HALF_WIDTH, 10)?;
     let motion = el_centro_1940();
     let centers: Vec<f64> = ground.elements().iter().map(ContactElement::center).collect();
     let lengths: Vec<f64> = ground.elements().iter().map(ContactElement::length).collect();

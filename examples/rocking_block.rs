@@ -27,7 +27,7 @@ fn pulse(peak: f64, period: f64) -> Result<Record> {
 }
 
 /// Rocks the block on soil of this shear wave speed (m/s).
-fn rock(shear_wave_speed: f64, motion: Record, fallen: f64) -> Result<Summary> {
+fn rock(shear_wave_speed: f64, motion: Record, fallen: f64) -> Result<Run> {
     let soil = Soil::from_shear_wave_speed(shear_wave_speed, 0.33, 1900.0)?;
     // P–Δ lets the weight help to overturn the block once it leans.
     let block = RigidBlock::new(2.0 * HALF_WIDTH, 2.0 * HALF_HEIGHT, 2400.0)?
@@ -38,13 +38,13 @@ fn rock(shear_wave_speed: f64, motion: Record, fallen: f64) -> Result<Summary> {
         .interface(Coulomb::uplift_only())
         .motion(motion)
         .build()?;
-    let mut histories = Recorder::new().start(&simulation)?;
-    // The observer records every step, and ends the run when the block is past its tipping point.
-    simulation.run(STEPS, |state| {
-        histories.record(state);
-        if state.base_rotation.abs() > fallen { Break(()) } else { Continue(()) }
-    })?;
-    Ok(histories.summary())
+    // The observer ends the run when the block is past its tipping point.
+    simulation.run(
+        STEPS,
+        |state| {
+            if state.base_rotation.abs() > fallen { Break(()) } else { Continue(()) }
+        },
+    )
 }
 
 fn main() -> Result<()> {
@@ -63,25 +63,25 @@ fn main() -> Result<()> {
     for strength in [0.5, 0.9, 1.2, 1.6, 2.0, 2.6, 3.2] {
         print!("{strength:<8.2}");
         for speed in [400.0, 120.0] {
-            let summary = rock(speed, pulse(strength * onset, 0.8)?, tipping)?;
-            let rotation = summary.base_rotation.largest().magnitude();
+            let run = rock(speed, pulse(strength * onset, 0.8)?, tipping)?;
+            let rotation = run.base_rotation.magnitude();
             let outcome = if rotation > tipping {
                 "falls"
-            } else if summary.uplift.peak.value >= 0.5 {
+            } else if run.uplifted_fraction.value >= 0.5 {
                 "rocks"
-            } else if summary.uplift.count > 0 {
+            } else if run.uplift.count > 0 {
                 "edge opens"
             } else {
                 "stands"
             };
             // The crate computes with small rotations and says so where they are not.
-            let large = if summary.warnings.is_empty() { ' ' } else { '*' };
+            let large = if run.warnings.is_empty() { ' ' } else { '*' };
             warned |= large == '*';
             print!(
                 "{:>8.1} mrad{large}{:>7.0} %{:>9}{outcome:>12}",
                 1e3 * rotation,
-                100.0 * summary.uplift.peak.value,
-                summary.uplift.count,
+                100.0 * run.uplifted_fraction.value,
+                run.uplift.count,
             );
         }
         println!();

@@ -34,7 +34,7 @@ struct Options {
     velocity: f64,
 }
 
-fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Summary> {
+fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Run> {
     let tower = RigidBlock::new(2.0 * HALF_WIDTH, HEIGHT, 600.0)?;
     let (top, edge) = (tower.horizontal_at(HEIGHT), tower.vertical_at(HALF_WIDTH));
     let mut simulation = Simulation::builder(5.0e-3)
@@ -46,7 +46,7 @@ fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Summary> {
         .probe(Probe::acceleration("edge, up", edge))
         .build()?;
     let steps = simulation.steps_for(LEAD + 12.0);
-    Ok(Recorder::new().run(&mut simulation, steps)?.summary())
+    simulation.run(steps, |_| {})
 }
 
 fn main() -> Result<()> {

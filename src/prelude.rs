@@ -4,7 +4,7 @@ pub use crate::bem::{Ground, HalfPlaneGround, SpringGround};
 pub use crate::coupled::{Probe, Run, Simulation, State};
 pub use crate::interface::{Bonded, Coulomb, InterfaceLaw};
 pub use crate::motion::{FreeField, Record, STANDARD_GRAVITY, el_centro_1940};
-pub use crate::results::{Comparison, Histories, Quantity, Recorder, Summary};
+pub use crate::results::{Comparison, Histories, Quantity, Recorder};
 pub use crate::soil::Soil;
 pub use crate::structure::{
     ContactNode, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, Structure,

@@ -55,7 +55,7 @@ pub(crate) fn scene(
     let soil = Soil::new(200.0e6, 0.33, 1900.0)?;
     Simulation::builder(TIME_STEP)
         .structure(structure)
-        .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 20)?)
+        .ground(HalfPlaneGround::uniform_strip(soil, -5.0..5.0, 20)?)
         .interface(Coulomb::new(0.5)?)
         .motion(el_centro_1940())
         .probe(Probe::absolute_displacement("top", top))

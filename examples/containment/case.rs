@@ -88,7 +88,8 @@ pub(crate) fn run(
 
     let builder = Simulation::builder(options.time_step_s())
         .structure(model)
-        .ground(HalfPlaneGround::strip(scene.soil()?, scene.base(), scene.elements)?)
+        // Equal elements, as in the paper.
+        .ground(HalfPlaneGround::uniform_strip(scene.soil()?, scene.base(), scene.elements)?)
         .motion(record.clone())
         .expected_steps(steps)
         .probe(Probe::absolute_displacement("roof x", roof_x))

@@ -29,7 +29,7 @@ impl Reading {
         let record = if self.record == 1.0 { record } else { record.scaled(self.record)? };
         let builder = Simulation::builder(time_step)
             .structure(model)
-            .ground(HalfPlaneGround::strip(soil, scene.base(), scene.elements)?)
+            .ground(HalfPlaneGround::uniform_strip(soil, scene.base(), scene.elements)?)
             .motion(record)
             .gravity(self.gravity * STANDARD_GRAVITY)
             .probe(base_shear);
@@ -48,9 +48,10 @@ impl Reading {
         let mut simulation = self.with_scheme(builder)?.build()?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above zero")]
         let run = simulation.run((self.duration / time_step).round() as usize, |_| {})?;
-        let probe = run.probe("base shear")?.value;
+        let probe = run.probe("base shear")?.largest().value;
         Ok(Row {
-            shear: [probe, run.base_shear.value].map(|force| pounds_per_foot(force.abs())),
+            shear: [probe, run.base_shear.largest().value]
+                .map(|force| pounds_per_foot(force.abs())),
             uplift: run.uplifted_fraction.value,
             slip: run.largest_slip.value,
             cycles: run.fallbacks.total(),

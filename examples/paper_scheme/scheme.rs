@@ -79,7 +79,7 @@ impl Scheme {
             Self::HalfPlane | Self::Own => {
                 let Containment { elements, .. } = scene.containment;
                 let (soil, base) = (scene.containment.soil()?, scene.containment.base());
-                builder.ground(HalfPlaneGround::strip(soil, base, elements)?)
+                builder.ground(HalfPlaneGround::uniform_strip(soil, base, elements)?)
             }
         };
         if self == Self::Own {

@@ -28,9 +28,9 @@ use crate::structure::Structure;
 /// let mut matrix = vec![0.0; 40 * 40];
 /// ground.instantaneous(&mut matrix)?;
 /// // Before waves reach the edges, a pressure moves the surface by p·t/(ρ c₁); a step of 0.1 ms
-/// // leaves all but the outer few percent of a half-metre element in that state.
+/// // leaves all but the outer few percent of an element of 0.8 m, at the middle, in that state.
 /// let plane_wave = 1.0e-4 / (1900.0 * soil.pressure_wave_speed());
-/// assert!((matrix[0] / plane_wave - 1.0).abs() < 0.05);
+/// assert!((matrix[10 * 40 + 10] / plane_wave - 1.0).abs() < 0.05);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct HalfPlaneGround {
@@ -65,29 +65,33 @@ impl KernelSource for HalfPlane {
 }
 
 impl HalfPlaneGround {
-    /// One strip over `range` (m) of `count` equal elements.
+    /// One strip over `range` (m) of `count` elements, graded towards its edges, where tractions are
+    /// singular ([`Grading::Cosine`]).
     ///
     /// # Errors
     /// As for [`Strip::new`].
     pub fn strip(soil: Soil, range: Range<f64>, count: usize) -> Result<Self> {
-        Self::new(soil, &[Strip::uniform(range, count)?])
+        Self::new(soil, &[Strip::graded(range, count)?])
     }
 
-    /// One strip graded towards its edges, where tractions are singular.
+    /// One strip over `range` (m) of `count` equal elements.
     ///
     /// # Errors
     /// As for [`Strip::new`].
-    pub fn graded_strip(soil: Soil, range: Range<f64>, count: usize) -> Result<Self> {
-        Self::new(soil, &[Strip::new(range, count, Grading::Cosine)?])
+    pub fn uniform_strip(soil: Soil, range: Range<f64>, count: usize) -> Result<Self> {
+        Self::new(soil, &[Strip::uniform(range, count)?])
     }
 
-    /// Strips of `count` equal elements under each foundation of `structure`, as wide as that is.
+    /// Strips of `count` elements under each foundation of `structure`, as wide as that is, graded
+    /// as in [`HalfPlaneGround::strip`].
     ///
     /// ```
     /// use basemat::{Soil, bem::{Ground, HalfPlaneGround}, structure::RigidBlock};
     /// let block = RigidBlock::new(6.0, 4.0, 2400.0)?;
     /// let ground = HalfPlaneGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, 12)?;
-    /// assert_eq!((ground.elements()[0].left, ground.elements()[11].right), (-3.0, 3.0));
+    /// let (edge, middle) = (ground.elements()[0], ground.elements()[6]);
+    /// assert_eq!((edge.left, ground.elements()[11].right), (-3.0, 3.0));
+    /// assert!(edge.length() < 0.15 * middle.length());
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -96,7 +100,15 @@ impl HalfPlaneGround {
     /// [`Error::Index`](crate::Error::Index) for a
     /// structure without foundations.
     pub fn under(soil: Soil, structure: &dyn Structure, count: usize) -> Result<Self> {
-        Self::new(soil, &strips_under(structure, count)?)
+        Self::new(soil, &strips_under(structure, count, Grading::Cosine)?)
+    }
+
+    /// The same of `count` equal elements each.
+    ///
+    /// # Errors
+    /// As for [`HalfPlaneGround::under`].
+    pub fn uniform_under(soil: Soil, structure: &dyn Structure, count: usize) -> Result<Self> {
+        Self::new(soil, &strips_under(structure, count, Grading::Uniform)?)
     }
 
     /// Several strips from left to right, which talk through the soil.

@@ -1,7 +1,7 @@
 //! Winkler's spring bed: a ground without memory.
 
 use super::strip::strips_under;
-use super::{Ground, Strip};
+use super::{Grading, Ground, Strip};
 use crate::contact_element::{ContactElement, check_order};
 use crate::error::{CheckpointError, Error, Result, not_negative, positive, same_length};
 use crate::structure::Structure;
@@ -57,7 +57,7 @@ impl SpringGround {
         normal_stiffness: f64,
         tangential_stiffness: f64,
     ) -> Result<Self> {
-        let strips = strips_under(structure, count)?;
+        let strips = strips_under(structure, count, Grading::Uniform)?;
         Self::on_strips(&strips, normal_stiffness, tangential_stiffness)
     }
 

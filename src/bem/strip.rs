@@ -10,11 +10,10 @@ use crate::structure::{Structure, foundation_nodes};
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum Grading {
-    /// Equal lengths: cheapest history.
-    #[default]
+    /// Equal lengths: cheapest history, first order.
     Uniform,
-    /// x = −cos(πk/Q): short elements at the ends, where tractions are singular. Second order
-    /// where uniform elements give first.
+    /// x = −cos(πk/Q): short elements at the ends, where tractions are singular. Second order.
+    #[default]
     Cosine,
 }
 
@@ -24,8 +23,8 @@ const MOST_ELEMENTS: usize = 10_000;
 /// A foundation strip: an interval of the surface cut into elements.
 ///
 /// ```
-/// use basemat::bem::{Grading, Strip};
-/// let strip = Strip::new(-5.0..5.0, 10, Grading::Cosine)?;
+/// use basemat::bem::Strip;
+/// let strip = Strip::graded(-5.0..5.0, 10)?;
 /// assert_eq!(strip.elements().len(), 10);
 /// assert_eq!(strip.elements()[9].right, 5.0);
 /// # Ok::<(), basemat::Error>(())
@@ -69,6 +68,14 @@ impl Strip {
         Self::from_nodes((0..=count).map(node).collect())
     }
 
+    /// Strip of `count` elements over `range` (m), graded towards its ends ([`Grading::Cosine`]).
+    ///
+    /// # Errors
+    /// As for [`Strip::new`].
+    pub fn graded(range: std::ops::Range<f64>, count: usize) -> Result<Self> {
+        Self::new(range, count, Grading::Cosine)
+    }
+
     /// Strip of `count` equal elements over `range` (m).
     ///
     /// # Errors
@@ -108,10 +115,15 @@ impl Strip {
     }
 }
 
-/// Strips of `count` equal elements under each foundation of `structure`.
-pub(super) fn strips_under(structure: &dyn Structure, count: usize) -> Result<Vec<Strip>> {
+/// Strips of `count` elements under each foundation of `structure`.
+pub(super) fn strips_under(
+    structure: &dyn Structure,
+    count: usize,
+    grading: Grading,
+) -> Result<Vec<Strip>> {
     let nodes = structure.contact_nodes();
     let foundations = foundation_nodes(nodes.len(), &structure.foundation_ends())?;
-    let strip = |own: Range<usize>| Strip::uniform(nodes[own.start].x..nodes[own.end - 1].x, count);
+    let strip =
+        |own: Range<usize>| Strip::new(nodes[own.start].x..nodes[own.end - 1].x, count, grading);
     foundations.into_iter().map(strip).collect()
 }

@@ -7,6 +7,7 @@ use super::ledger::Ledger;
 use super::probe::Probe;
 use super::scene::base::Base;
 use super::scene::conditioning;
+use super::scene::laws;
 use super::scene::modal_basis::{Coordinates, ModalBasis};
 use super::scene::model::{Model, Tangent};
 use super::scene::operators::{Factor, Operators};
@@ -49,6 +50,7 @@ pub struct SimulationBuilder {
     steps: usize,
     coordinates: Coordinates,
     ledger: bool,
+    safety_friction: Vec<f64>,
 }
 
 short_debug! {
@@ -88,6 +90,7 @@ impl SimulationBuilder {
             steps: 0,
             coordinates: Coordinates::default(),
             ledger: true,
+            safety_friction: Vec::new(),
         }
     }
 
@@ -202,6 +205,22 @@ impl SimulationBuilder {
         self
     }
 
+    /// Friction coefficient for the factor of safety against sliding, in place of that of the interface
+    /// laws ([`InterfaceLaw::friction_coefficient`]): for a bonded base, say, which has none. It
+    /// changes nothing else.
+    #[must_use]
+    pub fn safety_friction(mut self, coefficient: f64) -> Self {
+        self.safety_friction = vec![coefficient];
+        self
+    }
+
+    /// The same for each element, from left to right.
+    #[must_use]
+    pub fn safety_frictions(mut self, coefficients: Vec<f64>) -> Self {
+        self.safety_friction = coefficients;
+        self
+    }
+
     /// Checks the parts against each other, finds the static state and factors what stays constant.
     ///
     /// # Errors
@@ -228,7 +247,9 @@ impl SimulationBuilder {
         crate::contact_element::check_order(&elements)?;
         let count = elements.len();
         let contact_scene = ContactScene { gravity: self.gravity, time_step };
-        check_contact(&self.laws, self.search, &contact_scene, count)?;
+        laws::check(&self.laws, self.search, &contact_scene, count)?;
+        let safety_friction =
+            laws::safety_friction(&self.laws, std::mem::take(&mut self.safety_friction), count)?;
         let unknowns = structure.unknowns();
         if unknowns > MOST_UNKNOWNS {
             return Err(Error::Input {
@@ -269,8 +290,9 @@ impl SimulationBuilder {
             time_step,
             coefficients,
             conserves_energy: coefficients.conserves_energy(time_step),
-            compliant: self.laws.iter().any(|law| is_compliant(law.as_ref())),
+            compliant: self.laws.iter().any(|law| laws::is_compliant(law.as_ref())),
             laws: self.laws,
+            safety_friction,
             static_state,
             joined,
             soil,
@@ -356,35 +378,6 @@ impl SimulationBuilder {
             }),
         }
     }
-}
-
-/// Whether a law stores energy in any of its modes.
-fn is_compliant(law: &dyn InterfaceLaw) -> bool {
-    law.modes().iter().any(|&mode| law.compliance(mode) != [0.0; 2])
-}
-
-/// Whether the laws fit the ground's `count` elements, and laws and contact search the scene.
-fn check_contact(
-    laws: &[Box<dyn InterfaceLaw>],
-    search: ContactSearch,
-    scene: &ContactScene,
-    count: usize,
-) -> Result<()> {
-    let refuse = |quantity, needed| Err(Error::Scene { quantity, needed });
-    if laws.is_empty() {
-        return refuse("interface law", "give one to the builder with `interface`");
-    }
-    if laws.len() != 1 && laws.len() != count {
-        let quantity = "list of interface laws";
-        return Err(Error::Size { quantity, found: laws.len(), needed: count });
-    }
-    if laws.iter().any(|law| law.modes().is_empty()) {
-        return refuse("interface law", "`modes` must name at least one mode");
-    }
-    if search == (ContactSearch::FlowChart { iterations: 0 }) {
-        return refuse("contact search", "the flow chart needs one iteration or more");
-    }
-    laws.iter().try_for_each(|law| law.check(scene))
 }
 
 /// The free field at t = 0, from which it is measured.

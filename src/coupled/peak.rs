@@ -54,18 +54,11 @@ impl Extremes {
     pub fn largest(&self) -> Peak {
         if self.lowest.value.abs() > self.highest.value.abs() { self.lowest } else { self.highest }
     }
-}
 
-/// Largest value of a probe, by magnitude.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct ProbePeak {
-    /// Name of the probe.
-    pub name: String,
-    /// Its unit.
-    pub unit: String,
-    /// The value, and when.
-    pub peak: Peak,
+    /// Its value without its sign.
+    pub fn magnitude(&self) -> f64 {
+        self.largest().magnitude()
+    }
 }
 
 /// Smallest and largest value of a probe.

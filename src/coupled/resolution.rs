@@ -220,13 +220,6 @@ impl Resolution {
         self.wavelength().filter(|length| *length < PER_WAVELENGTH[0] * self.longest)
     }
 
-    /// What `other` has found between the steps.
-    pub(crate) fn learn(&mut self, other: &Self) {
-        let (known, new) = (self.samples, other.samples);
-        let frequency = new.frequency.or(known.frequency);
-        self.samples = GroundSamples { frequency, running: known.running || new.running };
-    }
-
     /// Adds what steps and elements have missed.
     pub(crate) fn warn(&self, warnings: &mut Vec<Warning>) {
         if !self.has_response() {
@@ -266,7 +259,7 @@ impl Resolution {
 
     /// Samples the ground between steps that may have missed something in `times` (s): what they
     /// see of a faster motion is aliased.
-    pub(super) fn resolve_ground(
+    pub(crate) fn resolve_ground(
         &mut self,
         ground: &dyn Ground,
         motion: &dyn FreeField,

@@ -7,7 +7,6 @@ use super::checkpoint::{self, Checkpoint};
 use super::observed::Observed;
 use super::probe::Probe;
 use super::resolution::Resolution;
-use super::run::Run;
 use super::scene::Scene;
 use super::scene::conditioning::Conditioning;
 use super::state::State;
@@ -17,8 +16,8 @@ use super::step::solver::Solver;
 use crate::bem::{ContactElement, Ground};
 use crate::error::{Error, Result, StepError};
 use crate::history::HistoryChoice;
-use crate::interface::InterfaceLaw;
 use crate::motion::FreeField;
+use crate::results::run::Run;
 use crate::structure::Structure;
 
 /// A structure on a ground, ready to march.
@@ -98,17 +97,9 @@ impl Simulation {
         &self.scene.elements
     }
 
-    /// Friction coefficient of the laws: one for all elements, one each, or none unless all have one.
-    pub(crate) fn friction(&self) -> Vec<f64> {
-        let each: Option<Vec<f64>> =
-            self.scene.laws.iter().map(InterfaceLaw::friction_coefficient).collect();
-        each.unwrap_or_default()
-    }
-
-    /// What a run asks of time step and elements, nothing seen yet.
-    pub(crate) fn resolution(&self) -> Resolution {
-        let Scene { time_step, elements, .. } = &self.scene;
-        Resolution::new(*time_step, elements, self.ground.shear_wave_speed(), &self.state)
+    /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
+    pub(crate) fn safety_friction(&self) -> &[f64] {
+        &self.scene.safety_friction
     }
 
     /// The structure as it is now, internal variables included. It is [`Any`](std::any::Any): of
@@ -195,7 +186,8 @@ impl Simulation {
     /// Makes up to `steps` steps, calling `observe` after each with the new state.
     ///
     /// `observe` may return nothing, [`ControlFlow`] to stop early, or a [`Result`] of either: see
-    /// [`Observed`].
+    /// [`Observed`]. It may feed [`Histories`](crate::results::Histories), and a [`Run`] that spans
+    /// several calls or outlives a failure ([`Simulation::begin_run`]).
     ///
     /// # Errors
     /// [`crate::Error::Step`] for a step that could not be solved, or the observer's error; the
@@ -224,7 +216,7 @@ impl Simulation {
 
     /// An empty run that begins at the present state, for a loop of one's own: with
     /// [`Run::record`] after every step and [`Simulation::end_run`] it becomes what
-    /// [`Simulation::run`] returns.
+    /// [`Simulation::run`] returns. As an observer it spans several calls of that.
     ///
     /// ```
     /// use basemat::bem::SpringGround;
@@ -249,13 +241,15 @@ impl Simulation {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn begin_run(&self) -> Run {
-        let (probes, elements) = (&self.scene.probes, &self.scene.elements);
-        Run::new(probes, elements, &self.state, self.resolution())
+        let Scene { time_step, elements, probes, safety_friction, .. } = &self.scene;
+        let speed = self.ground.shear_wave_speed();
+        let resolution = Resolution::new(*time_step, elements, speed, &self.state);
+        Run::start(probes, elements, safety_friction, &self.state, resolution)
     }
 
-    /// Closes a run at the present state: its time, ledger and warnings.
+    /// Closes a run of this simulation: its warnings and wall time.
     pub fn end_run(&self, mut run: Run) -> Run {
-        run.finish(&self.state, self.ground.as_ref(), self.motion.as_ref());
+        run.finish(self.ground.as_ref(), self.motion.as_ref());
         run
     }
 

@@ -222,7 +222,7 @@ pub trait InterfaceLaw: Send {
     }
 
     /// The friction coefficient, for the factor of safety against sliding
-    /// ([`Recorder`](crate::results::Recorder)): the base resists by this times the pressure.
+    /// ([`Run::least_sliding_safety`](crate::coupled::Run::least_sliding_safety)): the base resists by this times the pressure.
     /// Infinite for a law that never slides, `None` (the default) for one without such a number.
     fn friction_coefficient(&self) -> Option<f64> {
         None

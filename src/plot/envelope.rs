@@ -6,7 +6,7 @@ use super::key::{Key, Sample};
 use super::stroke::{COLORS, Stroke};
 use super::svg::{Sheet, Svg};
 use crate::error::Result;
-use crate::results::{ElementEnvelope, Histories};
+use crate::results::{ElementEnvelope, Run};
 
 /// Value of an element, as drawn.
 type Value = fn(&ElementEnvelope) -> f64;
@@ -16,8 +16,8 @@ type Value = fn(&ElementEnvelope) -> f64;
 ///
 /// # Errors
 /// Those of drawing, for values beyond all bounds.
-pub fn pressure_envelope(title: &str, histories: &Histories) -> Result<Svg> {
-    let envelope = histories.envelope();
+pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
+    let envelope = &run.envelope;
     let base = Base::of(envelope.iter().map(|e| e.element));
     let curves: [(&str, Value); 3] = [
         ("largest", |e| 1e-3 * e.pressure.highest.value),

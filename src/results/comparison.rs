@@ -6,15 +6,15 @@ use std::path::Path;
 use super::page::factor;
 use super::table::Table;
 use super::unit::{labelled, number, printed};
-use super::{ProbeExtremes, Summary};
+use super::{ProbeExtremes, Run};
 use crate::error::{Result, write_file};
 
-/// Summaries side by side; prints as a table with a row per quantity and a column per case.
+/// Runs side by side; prints as a table with a row per quantity and a column per case.
 ///
 /// ```no_run
-/// # fn summaries() -> Vec<(f64, basemat::results::Summary)> { vec![] }
+/// # fn runs() -> Vec<(f64, basemat::results::Run)> { vec![] }
 /// use basemat::results::Comparison;
-/// let named = summaries().into_iter().map(|(friction, s)| (format!("friction {friction}"), s));
+/// let named = runs().into_iter().map(|(friction, run)| (format!("friction {friction}"), run));
 /// let comparison: Comparison = named.collect();
 /// println!("{comparison}");
 /// comparison.save_csv("cases.csv")?;
@@ -22,16 +22,16 @@ use crate::error::{Result, write_file};
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct Comparison {
-    cases: Vec<(String, Summary)>,
+    cases: Vec<(String, Run)>,
 }
 
 /// Name, unit and heading of a row, the factor from SI to the unit, and its value.
-type Line = (&'static str, &'static str, &'static str, f64, fn(&Summary) -> Option<f64>);
+type Line = (&'static str, &'static str, &'static str, f64, fn(&Run) -> Option<f64>);
 
 const ROWS: [Line; 20] = [
     ("base shear", "kN/m", "base_shear_n_per_m", 1e-3, |s| Some(s.base_shear.largest().value)),
     ("  at", "s", "base_shear_time_s", 1.0, |s| Some(s.base_shear.largest().time)),
-    ("  over weight", "", "base_shear_over_weight", 1.0, Summary::shear_coefficient),
+    ("  over weight", "", "base_shear_over_weight", 1.0, Run::shear_coefficient),
     ("base moment", "kN·m/m", "base_moment_n_m_per_m", 1e-3, |s| {
         Some(s.base_moment.largest().value)
     }),
@@ -40,23 +40,23 @@ const ROWS: [Line; 20] = [
         s.largest_pressure().map(|(_, peak)| peak.value)
     }),
     ("base rotation", "mrad", "base_rotation_rad", 1e3, |s| Some(s.base_rotation.largest().value)),
-    ("uplifted part", "%", "uplifted_fraction", 100.0, |s| Some(s.uplift.peak.value)),
+    ("uplifted part", "%", "uplifted_fraction", 100.0, |s| Some(s.uplifted_fraction.value)),
     ("  for", "s", "uplift_duration_s", 1.0, |s| Some(s.uplift.duration)),
     ("largest gap", "mm", "largest_gap_m", 1e3, |s| Some(s.largest_gap().value)),
-    ("mean slip, peak", "mm", "mean_slip_m", 1e3, |s| Some(s.sliding.peak.value)),
-    ("mean slip, residual", "mm", "residual_slip_m", 1e3, |s| Some(s.sliding.residual)),
+    ("mean slip, peak", "mm", "mean_slip_m", 1e3, |s| Some(s.mean_slip.largest().value)),
+    ("mean slip, residual", "mm", "residual_slip_m", 1e3, |s| Some(s.residual_slip)),
     ("slip events", "", "slip_events", 1.0, |s| Some(s.sliding.events.len() as f64)),
-    ("safety, sliding", "", "sliding_safety", 1.0, |s| s.least_sliding_safety.map(|p| p.value)),
+    ("safety, sliding", "", "sliding_safety", 1.0, |s| s.least_sliding_safety().map(|p| p.value)),
     ("safety, overturning", "", "overturning_safety", 1.0, |s| {
-        Some(s.least_overturning_safety.value)
+        Some(s.least_overturning_safety().value)
     }),
     ("energy input", "kJ/m", "energy_input_j_per_m", 1e-3, |s| Some(s.ledger.input)),
-    ("  to the soil", "%", "energy_share_soil", 100.0, |s| s.energy.map(|e| e.soil)),
-    ("  friction, impact", "%", "energy_share_contact", 100.0, |s| s.energy.map(|e| e.contact)),
+    ("  to the soil", "%", "energy_share_soil", 100.0, |s| s.energy().map(|e| e.soil)),
+    ("  friction, impact", "%", "energy_share_contact", 100.0, |s| s.energy().map(|e| e.contact)),
     ("  hysteresis", "%", "energy_share_hysteresis", 100.0, |s| {
-        s.energy.map(|e| e.hysteresis).filter(|share| *share != 0.0)
+        s.energy().map(|e| e.hysteresis).filter(|share| *share != 0.0)
     }),
-    ("  damping", "%", "energy_share_damping", 100.0, |s| s.energy.map(|e| e.damping)),
+    ("  damping", "%", "energy_share_damping", 100.0, |s| s.energy().map(|e| e.damping)),
 ];
 
 impl Comparison {
@@ -66,19 +66,19 @@ impl Comparison {
     }
 
     /// Adds a case.
-    pub fn add(&mut self, name: impl Into<String>, summary: Summary) {
-        self.cases.push((name.into(), summary));
+    pub fn add(&mut self, name: impl Into<String>, run: Run) {
+        self.cases.push((name.into(), run));
     }
 
     /// The cases, in the order they were added.
-    pub fn cases(&self) -> &[(String, Summary)] {
+    pub fn cases(&self) -> &[(String, Run)] {
         &self.cases
     }
 
     fn table(&self) -> Table {
         let mut heading = vec![String::new(), "unit".to_owned()];
         heading.extend(self.cases.iter().map(|(name, _)| name.clone()));
-        let cell = |row: &Line, summary: &Summary| match (row.4)(summary) {
+        let cell = |row: &Line, run: &Run| match (row.4)(run) {
             None => "–".to_owned(),
             Some(value) if row.2.ends_with("safety") => factor(value),
             Some(value) if row.2 == "slip_events" => format!("{value:.0}"),
@@ -86,7 +86,7 @@ impl Comparison {
         };
         let line = |row: &Line| {
             let mut cells = vec![row.0.to_owned(), row.1.to_owned()];
-            cells.extend(self.cases.iter().map(|(_, summary)| cell(row, summary)));
+            cells.extend(self.cases.iter().map(|(_, run)| cell(row, run)));
             cells
         };
         // What no case has is no row.
@@ -96,12 +96,12 @@ impl Comparison {
         let mut rows: Vec<_> = ROWS.iter().filter(known).map(line).collect();
         for (k, probe) in self.common_probes().iter().enumerate() {
             let (factor, unit) = printed(&probe.unit);
-            let value = |summary: &Summary| {
-                let own = summary.probes.get(k).map(|own| own.extremes.largest().value);
+            let value = |run: &Run| {
+                let own = run.probes.get(k).map(|own| own.extremes.largest().value);
                 own.map_or("–".to_owned(), |value| number(factor * value))
             };
             let mut cells = vec![probe.name.clone(), unit.to_owned()];
-            cells.extend(self.cases.iter().map(|(_, summary)| value(summary)));
+            cells.extend(self.cases.iter().map(|(_, run)| value(run)));
             rows.push(cells);
         }
         Table { heading, rows }
@@ -109,8 +109,8 @@ impl Comparison {
 
     /// Probes of the first case, if all cases have the same ones.
     fn common_probes(&self) -> &[ProbeExtremes] {
-        fn labels(summary: &Summary) -> impl Iterator<Item = (&str, &str)> {
-            summary.probes.iter().map(|probe| (&probe.name[..], &probe.unit[..]))
+        fn labels(run: &Run) -> impl Iterator<Item = (&str, &str)> {
+            run.probes.iter().map(|probe| (&probe.name[..], &probe.unit[..]))
         }
         let Some(((_, first), others)) = self.cases.split_first() else { return &[] };
         let same = others.iter().all(|(_, other)| labels(other).eq(labels(first)));
@@ -137,9 +137,9 @@ impl Comparison {
         heading.extend(ROWS.iter().map(|row| row.2.to_owned()));
         let probes = self.common_probes();
         heading.extend(probes.iter().map(|probe| labelled(&probe.name, &probe.unit)));
-        let line = |(name, summary): &(String, Summary)| {
-            let values = ROWS.iter().map(|row| (row.4)(summary));
-            let own = summary.probes.iter().take(probes.len());
+        let line = |(name, run): &(String, Run)| {
+            let values = ROWS.iter().map(|row| (row.4)(run));
+            let own = run.probes.iter().take(probes.len());
             let peaks = own.map(|probe| Some(probe.extremes.largest().value));
             let cells = values.chain(peaks).map(|v| v.map_or(String::new(), |v| v.to_string()));
             std::iter::once(name.clone()).chain(cells).collect()
@@ -148,17 +148,17 @@ impl Comparison {
     }
 }
 
-impl<S: Into<String>> FromIterator<(S, Summary)> for Comparison {
-    fn from_iter<I: IntoIterator<Item = (S, Summary)>>(cases: I) -> Self {
+impl<S: Into<String>> FromIterator<(S, Run)> for Comparison {
+    fn from_iter<I: IntoIterator<Item = (S, Run)>>(cases: I) -> Self {
         let mut comparison = Self::new();
         comparison.extend(cases);
         comparison
     }
 }
 
-impl<S: Into<String>> Extend<(S, Summary)> for Comparison {
-    fn extend<I: IntoIterator<Item = (S, Summary)>>(&mut self, cases: I) {
-        self.cases.extend(cases.into_iter().map(|(name, summary)| (name.into(), summary)));
+impl<S: Into<String>> Extend<(S, Run)> for Comparison {
+    fn extend<I: IntoIterator<Item = (S, Run)>>(&mut self, cases: I) {
+        self.cases.extend(cases.into_iter().map(|(name, run)| (name.into(), run)));
     }
 }
 

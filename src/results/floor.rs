@@ -26,7 +26,7 @@ impl Histories {
             return refuse("the recorder must keep every step");
         }
         let kept = (self.times().len().max(1) - 1) as f64 * self.time_step;
-        if (kept - (self.tally.end - self.tally.start)).abs() > 0.5 * self.time_step {
+        if (kept - (self.sequence.end() - self.times()[0])).abs() > 0.5 * self.time_step {
             return refuse("every step of the run must have been recorded");
         }
         Record::new(self.time_step, self.probe_values[index].clone())

@@ -39,15 +39,7 @@ pub struct FoundationSummary {
     pub least_overturning_safety: Peak,
 }
 
-/// A foundation while the run goes on.
-#[derive(Debug, Clone)]
-pub(super) struct FootingTally {
-    pub(super) summary: FoundationSummary,
-    /// Factors of safety against sliding (NaN without a friction coefficient) and overturning now.
-    safety: [f64; 2],
-}
-
-impl FootingTally {
+impl FoundationSummary {
     /// As it stands at the start, for one friction coefficient for all elements, one each, or none.
     fn start(
         state: &State,
@@ -58,24 +50,21 @@ impl FootingTally {
         let time = state.time;
         let at_start = |value| Extremes::of(value, time);
         let own = &elements[foundation.elements.clone()];
-        let safety = safety(state, foundation, friction, elements);
-        let [sliding, overturning] = safety.map(|value| Peak { value, time });
+        let [sliding, overturning] =
+            safety(state, foundation, friction, elements).map(|value| Peak { value, time });
         Self {
-            summary: FoundationSummary {
-                elements: foundation.elements.clone(),
-                ends: [own.first().map_or(0.0, |e| e.left), own.last().map_or(0.0, |e| e.right)],
-                static_normal_force: foundation.normal_force,
-                base_shear: at_start(foundation.shear),
-                base_moment: at_start(foundation.moment),
-                normal_force: at_start(foundation.normal_force),
-                base_rotation: at_start(foundation.rotation),
-                uplifted_fraction: Peak { value: foundation.uplifted_fraction, time },
-                mean_slip: at_start(foundation.mean_slip),
-                residual_slip: foundation.mean_slip,
-                least_sliding_safety: (!friction.is_empty()).then_some(sliding),
-                least_overturning_safety: overturning,
-            },
-            safety,
+            elements: foundation.elements.clone(),
+            ends: [own.first().map_or(0.0, |e| e.left), own.last().map_or(0.0, |e| e.right)],
+            static_normal_force: foundation.normal_force,
+            base_shear: at_start(foundation.shear),
+            base_moment: at_start(foundation.moment),
+            normal_force: at_start(foundation.normal_force),
+            base_rotation: at_start(foundation.rotation),
+            uplifted_fraction: Peak { value: foundation.uplifted_fraction, time },
+            mean_slip: at_start(foundation.mean_slip),
+            residual_slip: foundation.mean_slip,
+            least_sliding_safety: (!friction.is_empty()).then_some(sliding),
+            least_overturning_safety: overturning,
         }
     }
 
@@ -86,20 +75,19 @@ impl FootingTally {
         friction: &[f64],
         elements: &[ContactElement],
     ) {
-        let (summary, time) = (&mut self.summary, state.time);
-        summary.base_shear.see(foundation.shear, time);
-        summary.base_moment.see(foundation.moment, time);
-        summary.normal_force.see(foundation.normal_force, time);
-        summary.base_rotation.see(foundation.rotation, time);
-        summary.uplifted_fraction.see(foundation.uplifted_fraction, time);
-        summary.mean_slip.see(foundation.mean_slip, time);
-        summary.residual_slip = foundation.mean_slip;
-        self.safety = safety(state, foundation, friction, elements);
-        let [sliding, overturning] = self.safety;
-        if let Some(least) = &mut summary.least_sliding_safety {
+        let time = state.time;
+        self.base_shear.see(foundation.shear, time);
+        self.base_moment.see(foundation.moment, time);
+        self.normal_force.see(foundation.normal_force, time);
+        self.base_rotation.see(foundation.rotation, time);
+        self.uplifted_fraction.see(foundation.uplifted_fraction, time);
+        self.mean_slip.see(foundation.mean_slip, time);
+        self.residual_slip = foundation.mean_slip;
+        let [sliding, overturning] = safety(state, foundation, friction, elements);
+        if let Some(least) = &mut self.least_sliding_safety {
             fall(least, sliding, time);
         }
-        fall(&mut summary.least_overturning_safety, overturning, time);
+        fall(&mut self.least_overturning_safety, overturning, time);
     }
 }
 
@@ -108,40 +96,33 @@ pub(super) fn start(
     state: &State,
     friction: &[f64],
     elements: &[ContactElement],
-) -> Vec<FootingTally> {
+) -> Vec<FoundationSummary> {
     let own = state.foundations.iter();
-    own.map(|foundation| FootingTally::start(state, foundation, friction, elements)).collect()
-}
-
-/// Whether the state's foundations are these.
-pub(super) fn fit(footings: &[FootingTally], state: &State) -> bool {
-    footings.len() == state.foundations.len()
-        && footings
-            .iter()
-            .zip(&state.foundations)
-            .all(|(own, other)| own.summary.elements == other.elements)
+    own.map(|foundation| FoundationSummary::start(state, foundation, friction, elements)).collect()
 }
 
 /// Takes in a step.
 pub(super) fn see(
-    footings: &mut [FootingTally],
+    summaries: &mut [FoundationSummary],
     state: &State,
     friction: &[f64],
     elements: &[ContactElement],
 ) {
-    for (footing, foundation) in footings.iter_mut().zip(&state.foundations) {
-        footing.see(state, foundation, friction, elements);
+    for (summary, foundation) in summaries.iter_mut().zip(&state.foundations) {
+        summary.see(state, foundation, friction, elements);
     }
 }
 
-/// The least factors of safety now, those in flight left out; NaN if all are.
-pub(super) fn least(footings: &[FootingTally]) -> [f64; 2] {
-    let lesser = |least: [f64; 2], own: &FootingTally| {
-        [least[0].min(own.safety[0]), least[1].min(own.safety[1])]
-    };
-    footings.iter().fold([f64::NAN; 2], lesser)
+/// The least factors of safety against sliding and overturning of a state, foundations in flight
+/// left out; NaN if all are.
+pub(super) fn least(state: &State, friction: &[f64], elements: &[ContactElement]) -> [f64; 2] {
+    state.foundations.iter().fold([f64::NAN; 2], |least: [f64; 2], foundation| {
+        let [sliding, overturning] = safety(state, foundation, friction, elements);
+        [least[0].min(sliding), least[1].min(overturning)]
+    })
 }
 
+/// Factors of safety against sliding (NaN without a friction coefficient) and overturning.
 fn safety(
     state: &State,
     foundation: &Foundation,

@@ -3,20 +3,18 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::envelope::{self, ElementEnvelope};
-use super::foundation::{self, FootingTally};
+use super::foundation;
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
+use super::sequence::Sequence;
 use super::table::csv_cell;
 use super::unit::labelled;
-use super::{Extremes, Quantity, Recorder, Sliding, Uplift};
+use super::{Quantity, Recorder};
 use crate::bem::ContactElement;
-use crate::coupled::{
-    Ledger, Origin, Peak, Probe, Resolution, Run, Simulation, State, probe_index,
-};
+use crate::coupled::{Ledger, Probe, Simulation, State, probe_index};
 use crate::error::{Error, Result, write_file};
 
-/// Histories of a run, its peaks and envelopes: made by [`Recorder::start`], fed by
-/// [`Histories::record`].
+/// Time series of a run and snapshots: made by [`Recorder::start`], fed by [`Histories::record`], the
+/// observer of [`Simulation::run`].
 ///
 /// The first entry of every history is the state it started from. See the [module](super) for an
 /// example.
@@ -26,7 +24,10 @@ pub struct Histories {
     pub(super) elements: Vec<ContactElement>,
     pub(super) probes: Vec<Probe>,
     pub(super) time_step: f64,
-    origin: Origin,
+    /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
+    friction: Vec<f64>,
+    pub(super) sequence: Sequence,
+    steps: usize,
     unknowns: usize,
     times: Vec<f64>,
     scalars: Vec<Vec<f64>>,
@@ -34,66 +35,17 @@ pub struct Histories {
     ledgers: Vec<Ledger>,
     contact: Option<ContactFrames>,
     motion: Option<MotionFrames>,
-    pub(super) tally: Tally,
 }
 
 /// Most steps that memory is reserved for.
 const MOST_RESERVED: usize = 1_000_000;
 
-/// What is followed at every step, whatever is kept.
-#[derive(Debug, Clone)]
-pub(super) struct Tally {
-    pub(super) steps: usize,
-    pub(super) start: f64,
-    pub(super) end: f64,
-    pub(super) static_normal_force: f64,
-    /// One for each [`Quantity`].
-    pub(super) scalars: Vec<Extremes>,
-    pub(super) probes: Vec<Extremes>,
-    pub(super) envelopes: Vec<ElementEnvelope>,
-    pub(super) uplift: Uplift,
-    pub(super) sliding: Sliding,
-    pub(super) foundations: Vec<FootingTally>,
-    pub(super) input: Peak,
-    pub(super) ledger: Ledger,
-    pub(super) ledger_residual: f64,
-    pub(super) mode_changes: usize,
-    pub(super) resolution: Resolution,
-}
-
 impl Recorder {
-    /// Makes up to `steps` steps of `simulation` and returns what was kept of them. To keep what was
-    /// recorded before a step that failed, see [`Recorder::start`] and [`Histories::run`].
-    ///
-    /// # Errors
-    /// As for [`Recorder::start`], and those of [`Simulation::run`].
-    pub fn run(self, simulation: &mut Simulation, steps: usize) -> Result<Histories> {
-        let mut histories = self.start(simulation)?;
-        histories.run(simulation, steps)?;
-        Ok(histories)
-    }
-
     /// Starts with the simulation as it stands.
     ///
     /// # Errors
-    /// [`Error::Input`] for a negative friction coefficient (infinity is one), the laws' included,
-    /// or an interval of zero steps; [`Error::Size`] unless there is one friction coefficient for all elements or one each.
-    pub fn start(mut self, simulation: &Simulation) -> Result<Histories> {
-        let count = simulation.elements().len();
-        if self.friction.is_empty() {
-            self.friction = simulation.friction();
-        }
-        if self.friction.len() > 1 && self.friction.len() != count {
-            return Err(Error::Size {
-                quantity: "list of friction coefficients",
-                found: self.friction.len(),
-                needed: count,
-            });
-        }
-        if let Some(&value) = self.friction.iter().find(|value| value.is_nan() || **value < 0.0) {
-            let (quantity, needed) = ("friction coefficient", "zero or more");
-            return Err(Error::Input { quantity, value, needed });
-        }
+    /// [`Error::Input`] for an interval of zero steps.
+    pub fn start(self, simulation: &Simulation) -> Result<Histories> {
         let intervals = [Some(self.every), self.contact, self.motion];
         if intervals.contains(&Some(0)) {
             let (quantity, needed) = ("steps between what is kept", "one or more");
@@ -106,13 +58,13 @@ impl Recorder {
 impl Histories {
     fn new(recorder: Recorder, simulation: &Simulation) -> Self {
         let state = simulation.state();
-        let elements = simulation.elements().to_vec();
-        let foundations = foundation::start(state, &recorder.friction, &elements);
-        let values = scalars(state, &foundations);
         let mut histories = Self {
+            elements: simulation.elements().to_vec(),
             probes: simulation.probes().to_vec(),
             time_step: simulation.time_step(),
-            origin: state.origin,
+            friction: simulation.safety_friction().to_vec(),
+            sequence: Sequence::new(state),
+            steps: 0,
             unknowns: recorder.motion.map_or(0, |_| state.displacement().len()),
             times: Vec::new(),
             scalars: vec![Vec::new(); Quantity::ALL.len()],
@@ -120,55 +72,22 @@ impl Histories {
             ledgers: Vec::new(),
             contact: recorder.contact.map(ContactFrames::new),
             motion: recorder.motion.map(MotionFrames::new),
-            tally: Tally {
-                steps: 0,
-                start: state.time,
-                end: state.time,
-                static_normal_force: state.normal_force,
-                scalars: values.iter().map(|&value| Extremes::of(value, state.time)).collect(),
-                probes: state.probes.iter().map(|&v| Extremes::of(v, state.time)).collect(),
-                envelopes: envelope::start(&elements, state),
-                uplift: Uplift::start(state.uplifted_fraction, state.time),
-                sliding: Sliding::start(state),
-                foundations,
-                input: Peak { value: state.ledger.input, time: state.time },
-                ledger: state.ledger,
-                ledger_residual: state.ledger.residual(),
-                mode_changes: 0,
-                resolution: simulation.resolution(),
-            },
-            elements,
             recorder,
         };
+        let values = histories.scalars_of(state);
         histories.keep(state, &values);
         histories
     }
 
-    /// Makes up to `steps` steps of `simulation` and records them; memory is reserved beforehand.
-    /// For an observer of your own beside it, call [`Histories::record`] from that.
-    ///
-    /// # Errors
-    /// Those of [`Simulation::run`]; what was recorded before stays.
-    pub fn run(&mut self, simulation: &mut Simulation, steps: usize) -> Result<Run> {
-        // Longer runs are meant to be stopped on the way.
-        if steps <= MOST_RESERVED {
-            self.reserve(steps);
-        }
-        let run = simulation.run(steps, |state| self.record(state))?;
-        self.tally.resolution.learn(run.resolution());
-        Ok(run)
-    }
-
-    /// Reserves memory for so many more steps, at most a million: recording them allocates nothing then (unless there
-    /// are more than a thousand slip events, or frames of motion of a structure that is stepped in
-    /// its modes, whose unknowns the state then makes).
+    /// Reserves memory for so many more steps, at most a million: recording them allocates nothing then
+    /// (but for frames of motion of a structure that is stepped in its modes, whose unknowns the
+    /// state then makes).
     pub fn reserve(&mut self, steps: usize) {
         let steps = steps.min(MOST_RESERVED);
         let count = steps / self.recorder.every + 1;
         let lists = self.scalars.iter_mut().chain(&mut self.probe_values);
         lists.chain([&mut self.times]).for_each(|list| list.reserve(count));
         self.ledgers.reserve(count);
-        self.tally.sliding.events.reserve(steps.min(1000));
         if let Some(frames) = &mut self.contact {
             frames.reserve(steps, self.elements.len());
         }
@@ -180,24 +99,16 @@ impl Histories {
     /// Takes in a step. States of another simulation and those that are not later than the last
     /// one are ignored.
     pub fn record(&mut self, state: &State) {
-        let fits = state.contact.len() == self.elements.len()
-            && state.modes.len() == self.elements.len()
-            && foundation::fit(&self.tally.foundations, state)
-            && state.probes.len() == self.probes.len()
-            && state.time > self.tally.end
-            && state.origin.is(self.origin);
-        if !fits {
+        if !self.sequence.takes(state) {
             return;
         }
-        let footings = &mut self.tally.foundations;
-        foundation::see(footings, state, &self.recorder.friction, &self.elements);
-        let values = scalars(state, footings);
-        self.tally.see(state, &values);
+        self.steps += 1;
+        let values = self.scalars_of(state);
         self.keep(state, &values);
     }
 
     fn keep(&mut self, state: &State, values: &[f64]) {
-        let due = |every: usize| self.tally.steps.is_multiple_of(every);
+        let due = |every: usize| self.steps.is_multiple_of(every);
         if due(self.recorder.every) {
             self.times.push(state.time);
             self.ledgers.push(state.ledger);
@@ -248,16 +159,6 @@ impl Histories {
     /// The contact elements.
     pub fn elements(&self) -> &[ContactElement] {
         &self.elements
-    }
-
-    /// Envelopes over all steps of pressure, shear, gap and slip, element by element.
-    pub fn envelope(&self) -> &[ElementEnvelope] {
-        &self.tally.envelopes
-    }
-
-    /// Smallest and largest value of a scalar over all steps.
-    pub fn extremes(&self, quantity: Quantity) -> Extremes {
-        self.tally.scalars[quantity as usize]
     }
 
     /// Snapshots of the base; none unless asked for with [`Recorder::contact`].
@@ -316,47 +217,22 @@ impl Histories {
         }
         Ok(())
     }
-}
 
-impl Tally {
-    fn see(&mut self, state: &State, values: &[f64]) {
-        let (begin, time) = (self.end, state.time);
-        let step = time - begin;
-        self.steps += 1;
-        self.end = time;
-        let kept = self.scalars.iter_mut().zip(values);
-        kept.for_each(|(extremes, &value)| extremes.see(value, time));
-        let kept = self.probes.iter_mut().zip(&state.probes);
-        kept.for_each(|(extremes, &value)| extremes.see(value, time));
-        envelope::see(&mut self.envelopes, state, step);
-        let closed = state.modes.iter().any(|mode| mode.is_closed());
-        self.uplift.see(state.uplifted_fraction, time, step, closed);
-        self.sliding.see(state, begin);
-        self.input.see(state.ledger.input, time);
-        self.ledger = state.ledger;
-        let residual = state.ledger.residual();
-        if residual.is_nan() || residual > self.ledger_residual {
-            self.ledger_residual = residual;
-        }
-        self.mode_changes += state.transitions.len();
-        self.resolution.see(state);
+    /// One value for each [`Quantity`], in the order of [`Quantity::ALL`].
+    fn scalars_of(&self, state: &State) -> [f64; Quantity::ALL.len()] {
+        let [sliding, overturning] = foundation::least(state, &self.friction, &self.elements);
+        Quantity::ALL.map(|quantity| match quantity {
+            Quantity::BaseShear => state.base_shear,
+            Quantity::BaseMoment => state.base_moment,
+            Quantity::NormalForce => state.normal_force,
+            Quantity::UpliftedFraction => state.uplifted_fraction,
+            Quantity::MeanSlip => state.mean_slip,
+            Quantity::LargestSlip => state.largest_slip(),
+            Quantity::BaseRotation => state.base_rotation,
+            Quantity::FreeFieldHorizontal => state.free_field[0],
+            Quantity::FreeFieldVertical => state.free_field[1],
+            Quantity::SlidingSafety => sliding,
+            Quantity::OverturningSafety => overturning,
+        })
     }
-}
-
-/// One value for each [`Quantity`], in the order of [`Quantity::ALL`].
-fn scalars(state: &State, foundations: &[FootingTally]) -> [f64; Quantity::ALL.len()] {
-    let [sliding, overturning] = foundation::least(foundations);
-    Quantity::ALL.map(|quantity| match quantity {
-        Quantity::BaseShear => state.base_shear,
-        Quantity::BaseMoment => state.base_moment,
-        Quantity::NormalForce => state.normal_force,
-        Quantity::UpliftedFraction => state.uplifted_fraction,
-        Quantity::MeanSlip => state.mean_slip,
-        Quantity::LargestSlip => state.largest_slip(),
-        Quantity::BaseRotation => state.base_rotation,
-        Quantity::FreeFieldHorizontal => state.free_field[0],
-        Quantity::FreeFieldVertical => state.free_field[1],
-        Quantity::SlidingSafety => sliding,
-        Quantity::OverturningSafety => overturning,
-    })
 }

@@ -1,7 +1,8 @@
 //! What engineers ask of a run: histories, peaks with their times, envelopes, factors of safety.
 //!
-//! A [`Recorder`] says what to keep, [`Histories`] watch the run and keep it, a [`Summary`] is the
-//! page for the report, and a [`Comparison`] puts several summaries into one table.
+//! [`Simulation::run`](crate::Simulation::run) gives a [`Run`]: peaks, envelopes, factors of safety,
+//! printed a page for the report. A [`Comparison`] puts several into one table. For time series and
+//! snapshots a [`Recorder`] says what to keep, and [`Histories`] keep it as the observer of the run.
 //!
 //! ```
 //! use basemat::bem::HalfPlaneGround;
@@ -24,15 +25,14 @@
 //!     .build()?;
 //!
 //! let mut histories = Recorder::new().start(&simulation)?;
-//! simulation.run(500, |state| histories.record(state))?;
+//! let run = simulation.run(500, |state| histories.record(state))?;
 //!
-//! let summary = histories.summary();
-//! println!("{summary}");
-//! assert!((summary.static_normal_force / weight - 1.0).abs() < 1e-9);
+//! println!("{run}");
+//! assert!((run.static_normal_force / weight - 1.0).abs() < 1e-9);
 //! // Coulomb's limit: the factor of safety never falls below one.
-//! assert!(summary.least_sliding_safety.is_some_and(|peak| peak.value > 1.0 - 1e-9));
+//! assert!(run.least_sliding_safety().is_some_and(|peak| peak.value > 1.0 - 1e-9));
 //! // The shares of the energy add up to all of it.
-//! assert!(summary.energy.is_some_and(|shares| (shares.sum() - 1.0).abs() < 1e-9));
+//! assert!(run.energy().is_some_and(|shares| (shares.sum() - 1.0).abs() < 1e-9));
 //!
 //! // A history, and the response spectrum of the roof.
 //! assert_eq!(histories.series(Quantity::BaseShear).len(), 501);
@@ -43,9 +43,10 @@
 //!
 //! # What it costs
 //!
-//! Nothing where it is not used. The scalar histories take 23 numbers and one per probe at every
-//! kept step (176 kB for 1000 steps); contact and motion frames are off unless asked for, see
-//! [`Histories::bytes`]. Peaks, envelopes and events are those of all steps, however few are kept.
+//! Nothing where it is not used. The scalar histories take 24 numbers and one per probe at every
+//! kept step (192 kB for 1000 steps); contact and motion frames are off unless asked for, see
+//! [`Histories::bytes`]. A [`Run`] keeps numbers per element and the slip events. Its peaks,
+//! envelopes and events are those of all steps, however few the histories keep.
 //!
 //! # Conventions
 //!
@@ -62,9 +63,10 @@ mod histories;
 mod page;
 mod quantity;
 mod recorder;
+pub(crate) mod run;
 mod safety;
+mod sequence;
 mod sliding;
-mod summary;
 mod table;
 pub(crate) mod unit;
 mod uplift;
@@ -81,8 +83,8 @@ pub use frames::{ContactFrame, MotionFrame};
 pub use histories::Histories;
 pub use quantity::Quantity;
 pub use recorder::Recorder;
+pub use run::Run;
 pub use sliding::{Sliding, SlipEvent};
-pub use summary::Summary;
 pub use uplift::Uplift;
 #[cfg(any(feature = "io", feature = "plot"))]
 pub use wireframe::{WirePoint, Wireframe};

@@ -1,16 +1,16 @@
-//! The printed page of a summary, in kN, mm and kPa.
+//! The printed page of a run, in kN, mm and kPa.
 
 use std::fmt;
 
 use super::table::Table;
 use super::unit::{number, printed};
-use super::{Extremes, Summary};
+use super::{Extremes, Run};
 use crate::coupled::Peak;
 
 /// Elements of the pressure envelope beyond which only some are printed.
 const MOST_ROWS: usize = 12;
 
-impl fmt::Display for Summary {
+impl fmt::Display for Run {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { steps, start, end, .. } = self;
         writeln!(f, "Run of {steps} steps from t = {start:.3} s to {end:.3} s")?;
@@ -31,6 +31,7 @@ impl fmt::Display for Summary {
         let part = if some < all { format!(", {some} of {all} elements") } else { String::new() };
         writeln!(f, "\nPressure under the base{part}\n{}", shown.text())?;
         self.energies(f)?;
+        self.effort(f)?;
         for warning in &self.warnings {
             write!(f, "\nwarning: {warning}")?;
         }
@@ -38,7 +39,7 @@ impl fmt::Display for Summary {
     }
 }
 
-impl Summary {
+impl Run {
     fn peaks(&self) -> Table {
         let heading = ["Peaks", "unit", "smallest", "at s", "largest", "at s"];
         let row = |name: &str, unit: &str, factor: f64, extremes: &Extremes| {
@@ -100,10 +101,10 @@ impl Summary {
                 peak.time
             )
         };
-        if let Some(peak) = self.least_sliding_safety {
+        if let Some(peak) = self.least_sliding_safety() {
             line("sliding", peak)?;
         }
-        line("overturning", self.least_overturning_safety)
+        line("overturning", self.least_overturning_safety())
     }
 
     fn uplift_and_sliding(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -112,8 +113,8 @@ impl Summary {
         writeln!(
             f,
             "  up to {:.1} % of the base, at {:.3} s; largest gap {:.3} mm",
-            100.0 * uplift.peak.value,
-            uplift.peak.time,
+            100.0 * self.uplifted_fraction.value,
+            self.uplifted_fraction.time,
             1e3 * self.largest_gap().value
         )?;
         writeln!(
@@ -121,15 +122,15 @@ impl Summary {
             "  {:.3} s in {} stretches, the longest {:.3} s; {:.3} s without contact",
             uplift.duration, uplift.count, uplift.longest, uplift.flight
         )?;
-        let sliding = &self.sliding;
+        let (sliding, mean) = (&self.sliding, self.mean_slip.largest());
         writeln!(f, "Sliding")?;
         writeln!(
             f,
             "  mean slip up to {:.3} mm at {:.3} s, {:.3} mm at the end; any element {:.3} mm",
-            1e3 * sliding.peak.value,
-            sliding.peak.time,
-            1e3 * sliding.residual,
-            1e3 * sliding.element_peak.value
+            1e3 * mean.value,
+            mean.time,
+            1e3 * self.residual_slip,
+            1e3 * self.largest_slip.value
         )?;
         write!(
             f,
@@ -146,7 +147,11 @@ impl Summary {
                 event.start, event.end
             )?;
         }
-        writeln!(f, "\nChanges of contact mode: {}", self.mode_changes)
+        writeln!(
+            f,
+            "\nChanges of contact mode: {} ({} debondings, {} rebondings)",
+            self.mode_changes, self.debondings, self.rebondings
+        )
     }
 
     fn pressures(&self) -> Table {
@@ -174,11 +179,23 @@ impl Summary {
         }
     }
 
+    fn effort(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (steps, wall) = (self.steps.max(1) as f64, self.wall.as_secs_f64());
+        write!(
+            f,
+            "\n\nTime taken: {wall:.2} s, {:.1} µs and {:.2} linear solves per step; fallbacks {}/{}",
+            wall / steps * 1e6,
+            self.trials as f64 / steps,
+            self.fallbacks.gauss_seidel,
+            self.fallbacks.path
+        )
+    }
+
     fn energies(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.ledger.is_left_out() {
-            return write!(f, "\nEnergy: no ledger was kept");
+            return write!(f, "\n{}", self.ledger);
         }
-        match &self.energy {
+        match self.energy() {
             Some(shares) => {
                 writeln!(f, "\nEnergy: input {:.4} kJ/m, of which", 1e-3 * shares.input)?;
                 for (name, share) in shares.named() {
@@ -190,7 +207,12 @@ impl Summary {
             }
             None => writeln!(f, "\nEnergy: input {:.4} kJ/m", 1e-3 * self.ledger.input)?,
         }
-        write!(f, "  ledger open by at most {:.1e} of its largest term", self.ledger_residual)
+        write!(f, "  ledger open by at most {:.1e} of its largest term", self.ledger_residual)?;
+        if self.history_error_bound() > 0.0 {
+            let bound = number(1e-3 * self.history_error_bound());
+            write!(f, "\n  soil within {bound} kJ/m (approximate history)")?;
+        }
+        Ok(())
     }
 }
 

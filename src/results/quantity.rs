@@ -23,8 +23,8 @@ pub enum Quantity {
     /// Mean vertical displacement (up) of the free field under the base, m.
     FreeFieldVertical,
     /// Resistance of the interface over the base shear: φN/|H|. Infinite without shear, NaN in
-    /// flight, and throughout if an element's law has no friction coefficient and the
-    /// [`Recorder`](super::Recorder) was told none.
+    /// flight, and throughout if an element's law has no friction coefficient and the builder was
+    /// told none ([`safety_friction`](crate::coupled::SimulationBuilder::safety_friction)).
     ///
     /// It is made of tractions that did act: on a base that may slide it reaches one when it does,
     /// and never falls below. On a bonded base it may, and says what the interface would have lacked.

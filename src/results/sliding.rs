@@ -1,6 +1,6 @@
 //! How far the base slid, and in how many events.
 
-use crate::coupled::{Peak, State};
+use crate::coupled::State;
 
 /// A stretch of steps in which the whole base slid one way: some elements are closed, all closed
 /// ones slide, and the mean slip does not turn round.
@@ -15,15 +15,9 @@ pub struct SlipEvent {
     pub slip: f64,
 }
 
-/// Sliding of a run. Slip is averaged over the base; tangential motion of open elements counts.
+/// Sliding of a run, by its mean slip.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sliding {
-    /// Largest mean slip, with its sign, m.
-    pub peak: Peak,
-    /// Mean slip at the end, m.
-    pub residual: f64,
-    /// Largest slip of any one element, m.
-    pub element_peak: Peak,
     /// Way slid, m: the sum of the events' |slip|.
     pub path: f64,
     /// Time in which the whole base slid, s.
@@ -34,27 +28,16 @@ pub struct Sliding {
 }
 
 impl Sliding {
-    /// Before the first step.
-    pub(super) fn start(state: &State) -> Self {
-        let mut sliding = Self { residual: state.mean_slip, ..Self::default() };
-        sliding.see_slips(state);
-        sliding
+    /// Before the first step, with memory for so many events.
+    pub(super) fn with_capacity(events: usize) -> Self {
+        Self { events: Vec::with_capacity(events), ..Self::default() }
     }
 
-    fn see_slips(&mut self, state: &State) {
-        self.peak.see(state.mean_slip, state.time);
-        for contact in &state.contact {
-            self.element_peak.see(contact.slip, state.time);
-        }
-    }
-
-    /// A step that began at `begin`.
-    pub(super) fn see(&mut self, state: &State, begin: f64) {
-        self.see_slips(state);
+    /// A step that began at `begin` with the mean slip `before`.
+    pub(super) fn see(&mut self, state: &State, begin: f64, before: f64) {
         let slides = state.modes.iter().any(|mode| mode.is_slip())
             && state.modes.iter().all(|mode| mode.is_slip() || !mode.is_closed());
-        self.advance(slides, state.mean_slip - self.residual, [begin, state.time]);
-        self.residual = state.mean_slip;
+        self.advance(slides, state.mean_slip - before, [begin, state.time]);
     }
 
     /// The mean slip changed by `slip` from the first to the second of `times`.

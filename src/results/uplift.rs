@@ -1,14 +1,12 @@
-//! How much of the base left the ground, and for how long.
+//! For how long the base left the ground.
 
-use crate::coupled::Peak;
+use crate::coupled::State;
 
 /// Uplift of a run. A stretch begins with the first step that ends with an open element, and ends
 /// with the first one that ends without.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Uplift {
-    /// Largest uplifted fraction of the base.
-    pub peak: Peak,
     /// Time with any part uplifted, s.
     pub duration: f64,
     /// Time without any contact at all, s.
@@ -21,14 +19,14 @@ pub struct Uplift {
 }
 
 impl Uplift {
-    /// Before the first step.
-    pub(super) fn start(fraction: f64, time: f64) -> Self {
-        Self { peak: Peak { value: fraction, time }, ..Self::default() }
+    /// A step that began at `begin`.
+    pub(super) fn see(&mut self, state: &State, begin: f64) {
+        let closed = state.modes.iter().any(|mode| mode.is_closed());
+        self.advance(state.uplifted_fraction, state.time - begin, closed);
     }
 
-    /// A step of length `step` that ended at `time`; `open` of `count` elements are open.
-    pub(super) fn see(&mut self, fraction: f64, time: f64, step: f64, closed: bool) {
-        self.peak.see(fraction, time);
+    /// A step of length `step`, and whether any element is closed at its end.
+    fn advance(&mut self, fraction: f64, step: f64, closed: bool) {
         if fraction <= 0.0 {
             self.current = 0.0;
             return;
@@ -51,11 +49,11 @@ mod tests {
 
     #[test]
     fn by_hand() {
-        let mut uplift = Uplift::start(0.0, 0.0);
-        for (k, fraction) in [0.0, 0.2, 0.5, 0.0, 1.0, 1.0, 0.3, 0.0].into_iter().enumerate() {
-            uplift.see(fraction, 0.1 * (k + 1) as f64, 0.1, fraction < 1.0);
+        let mut uplift = Uplift::default();
+        for fraction in [0.0, 0.2, 0.5, 0.0, 1.0, 1.0, 0.3, 0.0] {
+            uplift.advance(fraction, 0.1, fraction < 1.0);
         }
-        assert_eq!((uplift.count, uplift.peak.value, uplift.peak.time), (2, 1.0, 0.5));
+        assert_eq!(uplift.count, 2);
         for (found, known) in [(uplift.duration, 0.5), (uplift.flight, 0.2), (uplift.longest, 0.3)]
         {
             assert!((found - known).abs() < 1e-15);

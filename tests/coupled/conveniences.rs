@@ -2,7 +2,7 @@
 //! SCENE: soils from wave speeds, grounds under a structure, durations, sweeps, records, recorders.
 //! REFERENCE: the same thing at full length.
 
-use basemat::bem::Strip;
+use basemat::bem::{Grading, Strip};
 use basemat::prelude::*;
 use basemat::{Error, Result};
 
@@ -19,7 +19,7 @@ fn block() -> RigidBlock {
 fn simulation() -> Simulation {
     let block = block();
     Simulation::builder(0.01)
-        .ground(HalfPlaneGround::under(soil(), &block, 8).unwrap())
+        .ground(HalfPlaneGround::uniform_under(soil(), &block, 8).unwrap())
         .structure(block)
         .interface(Coulomb::new(0.5).unwrap())
         .motion(el_centro_1940())
@@ -64,17 +64,32 @@ fn strips_lie_under_foundations() {
     let ends = |ground: &HalfPlaneGround| {
         ground.elements().iter().map(|e| [e.left, e.right]).collect::<Vec<_>>()
     };
-    let ground = HalfPlaneGround::under(soil(), &block(), 8).unwrap();
-    assert_eq!(ends(&ground), ends(&HalfPlaneGround::strip(soil(), -3.0..3.0, 8).unwrap()));
+    // Graded elements are projections of equal arcs, and the default.
+    let arc = |k: i32| -3.0 * (std::f64::consts::PI * f64::from(k) / 8.0).cos();
+    let equal = |k: i32| -3.0 + 0.75 * f64::from(k);
+    let is_cut_at = |ground: Result<HalfPlaneGround>, node: &dyn Fn(i32) -> f64| {
+        let found = ends(&ground.unwrap());
+        assert_eq!(found.len(), 8);
+        for (k, [left, right]) in (0..).zip(found) {
+            assert!((left - node(k)).abs() < 1e-14 && (right - node(k + 1)).abs() < 1e-14);
+        }
+    };
+    is_cut_at(HalfPlaneGround::under(soil(), &block(), 8), &arc);
+    is_cut_at(HalfPlaneGround::strip(soil(), -3.0..3.0, 8), &arc);
+    is_cut_at(HalfPlaneGround::uniform_under(soil(), &block(), 8), &equal);
+    is_cut_at(HalfPlaneGround::uniform_strip(soil(), -3.0..3.0, 8), &equal);
+    assert_eq!(Grading::default(), Grading::Cosine);
 
     let nodes = vec![0.0, 1.0, 2.0, 5.0, 7.0, 10.0, 11.0];
     let several = Ends(nodes.clone(), vec![2, 4]);
-    let ground = HalfPlaneGround::under(soil(), &several, 3).unwrap();
+    let ground = HalfPlaneGround::uniform_under(soil(), &several, 3).unwrap();
     let strips = [0.0..2.0, 5.0..7.0, 10.0..11.0].map(|range| Strip::uniform(range, 3).unwrap());
     assert_eq!(ends(&ground), ends(&HalfPlaneGround::new(soil(), &strips).unwrap()));
 
     let under = |nodes: &[f64], ends: &[usize], count| {
-        HalfPlaneGround::under(soil(), &Ends(nodes.to_vec(), ends.to_vec()), count).err().unwrap()
+        HalfPlaneGround::uniform_under(soil(), &Ends(nodes.to_vec(), ends.to_vec()), count)
+            .err()
+            .unwrap()
     };
     assert!(matches!(under(&[], &[], 3), Error::Size { found: 0, .. }));
     assert!(matches!(under(&[1.0], &[], 3), Error::Size { found: 1, .. }));
@@ -133,26 +148,24 @@ fn records_of_functions() {
 }
 
 #[test]
-fn a_recorder_runs_and_saves() -> Result<()> {
-    let short = Recorder::new().run(&mut simulation(), 100)?;
-    let mut marched = simulation();
-    let mut long = Recorder::new().start(&marched)?;
-    long.run(&mut marched, 100)?;
-    assert_eq!(short.series(Quantity::BaseShear), long.series(Quantity::BaseShear));
-    assert_eq!(short.times().len(), 101);
+fn runs_and_histories_are_saved() -> Result<()> {
+    let mut simulation = simulation();
+    let mut histories = Recorder::new().start(&simulation)?;
+    let run = simulation.run(100, |state| histories.record(state))?;
+    assert_eq!(histories.times().len(), 101);
 
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("conveniences/new/one");
     let _ = std::fs::remove_dir_all(&folder);
-    short.save_csv(folder.join("run.csv"))?;
+    histories.save_csv(folder.join("run.csv"))?;
     let mut text = Vec::new();
-    short.write_csv(&mut text).unwrap();
+    histories.write_csv(&mut text).unwrap();
     assert_eq!(std::fs::read(folder.join("run.csv")).unwrap(), text);
     let mut comparison = Comparison::new();
-    comparison.add("only", short.summary());
+    comparison.add("only", run);
     comparison.save_csv(folder.join("cases.csv"))?;
     assert_eq!(std::fs::read_to_string(folder.join("cases.csv")).unwrap(), comparison.csv());
     let nowhere = folder.join("run.csv/below_a_file.csv");
-    assert!(matches!(short.save_csv(&nowhere), Err(Error::Write { .. })));
+    assert!(matches!(histories.save_csv(&nowhere), Err(Error::Write { .. })));
     assert!(matches!(comparison.save_csv(&nowhere), Err(Error::Write { .. })));
     Ok(())
 }

@@ -6,6 +6,7 @@ mod conveniences;
 mod coordinates;
 mod ledger;
 mod preload_of_soft_structures;
+mod runs;
 #[path = "../support/mod.rs"]
 mod support;
 mod sweep;

@@ -21,7 +21,7 @@ fn block(stiffness_ratio: f64) -> Simulation {
     let mesh = Mesh::layered_block(-5.0..5.0, 10, &layers).unwrap();
     Simulation::builder(1e-3)
         .structure(FemModel::on_base(mesh).unwrap())
-        .ground(HalfPlaneGround::strip(soil, -5.0..5.0, 10).unwrap())
+        .ground(HalfPlaneGround::uniform_strip(soil, -5.0..5.0, 10).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .gravity(GRAVITY)
         .build()

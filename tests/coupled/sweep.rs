@@ -85,8 +85,9 @@ fn shared_kernels_are_told_apart_and_bounded() {
     assert!(kernels.is_empty());
     let prepare = |modulus: f64, count: usize, step: f64| {
         let soil = Soil::new(modulus, 0.3, 1900.0).unwrap();
-        let mut ground =
-            HalfPlaneGround::strip(soil, -2.0..2.0, count).unwrap().with_shared_kernels(&kernels);
+        let mut ground = HalfPlaneGround::uniform_strip(soil, -2.0..2.0, count)
+            .unwrap()
+            .with_shared_kernels(&kernels);
         ground.prepare(step).unwrap();
         let mut matrix = vec![0.0; 4 * count * count];
         ground.instantaneous(&mut matrix).unwrap();

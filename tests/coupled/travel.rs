@@ -128,7 +128,7 @@ fn apart(name: &str, member: impl Fn() -> Box<dyn Structure>) {
     let group = group.with(member(), 10.0).unwrap();
     let at = sway(1e6, 6e4);
     let motion = FreeFieldFn::new(move |x, t| at(t).map(|u| if x < 0.0 { u } else { -0.7 * u }));
-    let ground = HalfPlaneGround::under(soil(SI), &group, 6).unwrap();
+    let ground = HalfPlaneGround::uniform_under(soil(SI), &group, 6).unwrap();
     let mut simulation = Simulation::builder(5.0)
         .structure(group)
         .ground(ground)
@@ -230,7 +230,7 @@ impl NonlinearForce for Pounding {
 #[test]
 fn a_force_between_parts_sees_their_distance() {
     let structure = Pounding::new();
-    let ground = HalfPlaneGround::under(soil(SI), &structure, 6).unwrap();
+    let ground = HalfPlaneGround::uniform_under(soil(SI), &structure, 6).unwrap();
     let at =
         |x: f64, t: f64| -x.signum() * 0.5 * 5.0 * GAP * (1.0 - (TAU * t.min(1.0)).cos()) / 2.0;
     let mut simulation = Simulation::builder(2.5e-3)

@@ -20,15 +20,15 @@ fn shear(motion: impl FreeField + 'static) -> Vec<f64> {
     let soil = Soil::new(8e7, 0.3, 1900.0).unwrap();
     let mut simulation = Simulation::builder(0.01)
         .structure(RigidBlock::new(2.0 * HALF, 14.0, 800.0).unwrap())
-        .ground(HalfPlaneGround::strip(soil, -HALF..HALF, 8).unwrap())
+        .ground(HalfPlaneGround::uniform_strip(soil, -HALF..HALF, 8).unwrap())
         .interface(Coulomb::new(0.35).unwrap())
         .motion(motion)
         .gravity(STANDARD_GRAVITY)
         .build()
         .unwrap();
     let mut histories = Recorder::new().start(&simulation).unwrap();
-    histories.run(&mut simulation, 400).unwrap();
-    assert!(histories.summary().uplift.count > 0 && !histories.summary().sliding.events.is_empty());
+    let run = simulation.run(400, |state| histories.record(state)).unwrap();
+    assert!(run.uplift.count > 0 && !run.sliding.events.is_empty());
     histories.series(Quantity::BaseShear).to_vec()
 }
 

@@ -35,8 +35,8 @@ fn strips_and_grounds() {
     let found = error_with("strip nodes", Strip::from_nodes(vec![1.0]));
     assert!(matches!(found, Error::Size { found: 1, needed: 2, .. }));
 
-    refused("length of the strip", &[-1.0], |x| HalfPlaneGround::strip(soil(), 0.0..x, 2));
-    refused("number of contact", &[0.0], |_| HalfPlaneGround::graded_strip(soil(), 0.0..1.0, 0));
+    refused("length of the strip", &[-1.0], |x| HalfPlaneGround::uniform_strip(soil(), 0.0..x, 2));
+    refused("number of contact", &[0.0], |_| HalfPlaneGround::strip(soil(), 0.0..1.0, 0));
     let none = error_with("contact elements", HalfPlaneGround::new(soil(), &[]));
     assert!(matches!(none, Error::Size { found: 0, needed: 1, .. }));
     let strip = |left: f64| Strip::uniform(left..left + 2.0, 2).unwrap();
@@ -50,12 +50,12 @@ fn strips_and_grounds() {
     refused("tangential dashpot", &NEGATIVE, |x| bed(2).with_dashpots(0.0, x));
     refused("theta", &[0.49, 1.01, f64::NAN], |x| bed(2).with_theta(x));
     refused("time step", &BAD, |x| bed(2).prepare(x));
-    refused("time step", &BAD, |x| HalfPlaneGround::strip(soil(), 0.0..1.0, 2)?.prepare(x));
+    refused("time step", &BAD, |x| HalfPlaneGround::uniform_strip(soil(), 0.0..1.0, 2)?.prepare(x));
 }
 
 #[test]
 fn an_unprepared_half_plane_says_so() {
-    let mut ground = HalfPlaneGround::strip(soil(), 0.0..1.0, 1).unwrap();
+    let mut ground = HalfPlaneGround::uniform_strip(soil(), 0.0..1.0, 1).unwrap();
     error_with("prepare", ground.instantaneous(&mut [0.0; 4]));
     error_with("prepare", ground.history(&mut [0.0; 2]));
     error_with("prepare", ground.reserve(10));
@@ -72,10 +72,13 @@ fn an_unprepared_spring_bed_says_so() {
 #[test]
 fn absurd_counts_do_not_panic() {
     for count in [0, 1_000_000_000_000, usize::MAX] {
-        error_with("number of contact elements", HalfPlaneGround::strip(soil(), 0.0..1.0, count));
+        error_with(
+            "number of contact elements",
+            HalfPlaneGround::uniform_strip(soil(), 0.0..1.0, count),
+        );
         error_with("number of contact elements", SpringGround::new(0.0..1.0, count, 1.0, 1.0));
     }
-    let mut ground = HalfPlaneGround::strip(soil(), 0.0..1.0, 1).unwrap();
+    let mut ground = HalfPlaneGround::uniform_strip(soil(), 0.0..1.0, 1).unwrap();
     ground.prepare(0.01).unwrap();
     ground.reserve(usize::MAX).unwrap();
 

@@ -152,7 +152,7 @@ fn groups_of_endless_structures_are_refused() {
     let endless = || Spoilt { unknowns: usize::MAX, ..Spoilt::sound() };
     let group = StructureGroup::new().with(endless(), 0.0).unwrap().with(endless(), 9.0).unwrap();
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
-    assert!(HalfPlaneGround::under(soil, &group, 4).is_ok());
+    assert!(HalfPlaneGround::uniform_under(soil, &group, 4).is_ok());
     let scene = Simulation::builder(1e-3).structure(group).ground(bed(4)).interface(Bonded);
     assert!(matches!(scene.build(), Err(Error::Input { .. })));
 }

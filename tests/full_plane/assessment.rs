@@ -134,7 +134,8 @@ fn a_simulation_is_refused_or_reports() {
     let skipped = build(ground().skip_assessment(), 0.25).unwrap();
     assert!(stability(skipped.ground()).is_none());
     // A ground that is stable for every step is of another type, and has nothing to report.
-    let half = build(HalfPlaneGround::strip(unit_soil(), -2.0..2.0, 4).unwrap(), 0.25).unwrap();
+    let half =
+        build(HalfPlaneGround::uniform_strip(unit_soil(), -2.0..2.0, 4).unwrap(), 0.25).unwrap();
     assert!(!(half.ground() as &dyn Any).is::<FullPlaneGround>());
 }
 

@@ -81,7 +81,7 @@ fn rocking_and_sliding_on_both_grounds() {
 /// REFERENCE: the half-plane's static compliance; between two elements, as there is no datum.
 #[test]
 fn static_compliance_tends_to_the_half_planes() {
-    let mut half = HalfPlaneGround::strip(soil(0.3), -1.0..1.0, 4).unwrap();
+    let mut half = HalfPlaneGround::uniform_strip(soil(0.3), -1.0..1.0, 4).unwrap();
     half.prepare(0.1).unwrap();
     let mut wanted = [0.0; 64];
     half.static_compliance(&mut wanted).unwrap();

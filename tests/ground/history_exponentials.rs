@@ -221,7 +221,7 @@ fn bad_input_is_an_error() {
         assert!(matches!(found, Some(Error::Input { .. })), "{tolerance}: {found:?}");
     }
     let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
-    let ground = || HalfPlaneGround::strip(soil, -1.0..1.0, 2).unwrap();
+    let ground = || HalfPlaneGround::uniform_strip(soil, -1.0..1.0, 2).unwrap();
     assert!(ground().with_history_tolerance(f64::NAN).is_err());
     // Windows of more than a million steps are refused; Auto takes the transforms instead.
     let mut short = ground().with_history_kind(History::Exponentials);
@@ -238,7 +238,7 @@ fn the_choice_is_made_and_explained() {
 
     let soil = Soil::new(80.0e6, 0.3, 1900.0).unwrap();
     let choose = |tolerance: Option<f64>, memory: Option<usize>, steps: Option<usize>, dt| {
-        let mut ground = HalfPlaneGround::strip(soil, -2.0..2.0, 6).unwrap();
+        let mut ground = HalfPlaneGround::uniform_strip(soil, -2.0..2.0, 6).unwrap();
         if let Some(tolerance) = tolerance {
             ground = ground.with_history_tolerance(tolerance).unwrap();
         }
@@ -274,7 +274,7 @@ fn the_choice_is_made_and_explained() {
         assert_eq!(ground.history_choice().unwrap().kind, wanted);
     }
     let mut asked =
-        HalfPlaneGround::strip(soil, -2.0..2.0, 6).unwrap().with_history_kind(Exponentials);
+        HalfPlaneGround::uniform_strip(soil, -2.0..2.0, 6).unwrap().with_history_kind(Exponentials);
     asked.prepare(1e-3).unwrap();
     let choice = asked.history_choice().unwrap();
     assert_eq!((choice.kind, choice.reason), (Exponentials, ChoiceReason::Asked));

@@ -192,7 +192,7 @@ fn memory() {
 fn grounds_with_either_history_agree() {
     let soil = Soil::new(80.0e6, 0.25, 1900.0).unwrap();
     let ground = |history| {
-        let ground = HalfPlaneGround::graded_strip(soil, -3.0..3.0, 4).unwrap();
+        let ground = HalfPlaneGround::strip(soil, -3.0..3.0, 4).unwrap();
         let mut ground = match history {
             Some(history) => ground.with_history_kind(history),
             None => ground,

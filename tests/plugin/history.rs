@@ -62,7 +62,7 @@ impl ConvolutionHistory for Plain {
 
 #[test]
 fn own_history() {
-    let inner = || HalfPlaneGround::strip(soil(), -2.0..2.0, 4).unwrap();
+    let inner = || HalfPlaneGround::uniform_strip(soil(), -2.0..2.0, 4).unwrap();
     let march = |scene: SimulationBuilder| {
         let law = Coulomb::new(0.4).unwrap();
         let mut simulation = scene.structure(block()).interface(law).build().unwrap();

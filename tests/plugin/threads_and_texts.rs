@@ -31,7 +31,7 @@ fn all_parts_can_be_shown() {
     let mut simulation = builder().ground(bed(4)).build().unwrap();
     simulation.step().unwrap();
     shown(&simulation, &["unknowns: 3", "elements: 4", "step: 1"]);
-    let ground = || HalfPlaneGround::strip(soil(), -2.0..2.0, 6).unwrap();
+    let ground = || HalfPlaneGround::uniform_strip(soil(), -2.0..2.0, 6).unwrap();
     shown(&ground(), &["Soil", "elements: 6"]);
     let kernel = Arc::new(PatchKernel::new(soil(), ground().elements().to_vec(), STEP).unwrap());
     shown(&DirectHistory::new(kernel), &["elements: 6", "steps: 0"]);

@@ -14,7 +14,7 @@ mod spectra;
 mod support;
 
 use basemat::Simulation;
-use basemat::coupled::{Probe, State};
+use basemat::coupled::{Probe, Run, State};
 use basemat::results::{Histories, Recorder};
 
 use crate::support::scenes::{SI, block, friction, scene};
@@ -32,16 +32,22 @@ fn simulation() -> Simulation {
         .unwrap()
 }
 
-/// The states of a run, and its histories.
-fn recorded(recorder: Recorder) -> (Vec<State>, Histories, Simulation) {
+/// A simulation that has run, and all that is left of it.
+struct Recorded {
+    simulation: Simulation,
+    states: Vec<State>,
+    histories: Histories,
+    run: Run,
+}
+
+fn recorded(recorder: Recorder) -> Recorded {
     let mut simulation = simulation();
     let mut histories = recorder.start(&simulation).unwrap();
     let mut states = vec![simulation.state().clone()];
-    simulation
-        .run(STEPS, |state| {
-            histories.record(state);
-            states.push(state.clone());
-        })
-        .unwrap();
-    (states, histories, simulation)
+    let observe = |state: &State| {
+        histories.record(state);
+        states.push(state.clone());
+    };
+    let run = simulation.run(STEPS, observe).unwrap();
+    Recorded { simulation, states, histories, run }
 }

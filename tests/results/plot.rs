@@ -5,7 +5,7 @@
 #![cfg(feature = "plot")]
 
 use basemat::bem::{HalfPlaneGround, Strip};
-use basemat::coupled::Probe;
+use basemat::coupled::{Probe, Run};
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::{SpectralOrdinate, el_centro_1940};
 use basemat::plot::{self, Curve, Svg};
@@ -22,10 +22,15 @@ fn simulation() -> (Simulation, Wireframe) {
 }
 
 fn recorded(recorder: Recorder) -> (Histories, Wireframe) {
+    let (histories, shape, _) = ran(recorder);
+    (histories, shape)
+}
+
+fn ran(recorder: Recorder) -> (Histories, Wireframe, Run) {
     let (mut simulation, shape) = simulation();
     let mut histories = recorder.start(&simulation).unwrap();
-    histories.run(&mut simulation, 200).unwrap();
-    (histories, shape)
+    let run = simulation.run(200, |state| histories.record(state)).unwrap();
+    (histories, shape, run)
 }
 
 /// Words of the picture; its tags must be nested, its numbers finite and its texts readable.
@@ -58,7 +63,7 @@ fn shows(svg: &Svg, needed: &[&str]) {
 
 #[test]
 fn every_picture_has_title_labels_units_and_legend() {
-    let (histories, shape) = recorded(Recorder::new().contact(1).motion(5));
+    let (histories, shape, run) = ran(Recorder::new().contact(1).motion(5));
     let runs = [("one", &histories), ("two", &histories)];
     for quantity in Quantity::ALL {
         let svg = plot::history("Title", &runs, quantity).unwrap();
@@ -68,8 +73,9 @@ fn every_picture_has_title_labels_units_and_legend() {
     shows(&svg, &["1 / factor of safety, sliding", "1: sliding"]);
     // Without a friction coefficient there is no demand to be drawn, however large.
     let builder = scene(SI, 0.6).structure(block(SI)).interface(Bonded);
-    let mut bonded = builder.build().unwrap();
-    let bonded = Recorder::new().run(&mut bonded, 50).unwrap();
+    let mut simulation = builder.build().unwrap();
+    let mut bonded = Recorder::new().start(&simulation).unwrap();
+    simulation.run(50, |state| bonded.record(state)).unwrap();
     let svg = plot::history("Title", &[("held", &bonded)], Quantity::SlidingSafety).unwrap();
     assert!(!words(&svg).contains("drawn at"));
     let svg = plot::history("a < b & c", &runs, Quantity::BaseMoment).unwrap();
@@ -83,7 +89,7 @@ fn every_picture_has_title_labels_units_and_legend() {
     for color in ["#D6DEE4", "#FFA62B", "#D62728", "#164878"] {
         assert!(svg.as_str().matches(color).count() > 2, "{color}");
     }
-    let svg = plot::pressure_envelope("Pressure", &histories).unwrap();
+    let svg = plot::pressure_envelope("Pressure", &run).unwrap();
     shows(&svg, &["pressure, kPa", "largest", "static", "least"]);
     let svg = plot::energy("Energy", &histories).unwrap();
     shows(&svg, &["energy, kJ/m", "input", "friction and impact", "soil"]);
@@ -255,7 +261,7 @@ fn every_text_can_be_read_whatever_is_drawn() {
 }
 
 /// Blocks of 4 m, so far apart.
-fn apart(distances: &[f64]) -> (Histories, Wireframe) {
+fn apart(distances: &[f64]) -> (Histories, Wireframe, Run) {
     let mut group = StructureGroup::new().with(block(SI), 0.0).unwrap();
     let mut strips = vec![Strip::uniform(-2.0..2.0, 4).unwrap()];
     let single = Wireframe::of_block(&block(SI), 6.0).unwrap();
@@ -278,21 +284,21 @@ fn apart(distances: &[f64]) -> (Histories, Wireframe) {
     let ground = HalfPlaneGround::new(scenes::soil(SI), &strips).unwrap();
     let scene = scene(SI, 0.6).structure(group).ground(ground).interface(friction(0.35));
     let mut simulation = scene.build().unwrap();
-    let recorder = Recorder::new().friction(0.35).contact(4).motion(4);
+    let recorder = Recorder::new().contact(4).motion(4);
     let mut histories = recorder.start(&simulation).unwrap();
-    histories.run(&mut simulation, 160).unwrap();
-    (histories, Wireframe::new(points, cells).unwrap())
+    let run = simulation.run(160, |state| histories.record(state)).unwrap();
+    (histories, Wireframe::new(points, cells).unwrap(), run)
 }
 
 #[test]
 fn foundations_far_apart_leave_no_sheet_blank() {
     let title = long("two blocks ");
     for distances in [&[40.0][..], &[4.3], &[9.0, 1000.0, 1007.0, 1_000_000.0]] {
-        let (histories, shape) = apart(distances);
+        let (histories, shape, run) = apart(distances);
         let name = format!("foundations at {distances:?}");
         for svg in [
             plot::mode_map(&title, &histories),
-            plot::pressure_envelope(&title, &histories),
+            plot::pressure_envelope(&title, &run),
             plot::energy(&title, &histories),
             plot::deformed_shapes(&title, &shape, &histories, &[0.1; 30], 1.234_567_890_1e-7),
             plot::animation(&title, &shape, &histories, 1.234_567_890_1e-7, 1e9),
@@ -309,7 +315,7 @@ fn foundations_far_apart_leave_no_sheet_blank() {
             assert_readable(svg.as_str(), quantity.name());
         }
     }
-    let (histories, _) = apart(&[40.0]);
+    let (histories, ..) = apart(&[40.0]);
     let svg = plot::mode_map("Far", &histories).unwrap();
     shows(&svg, &["gap 36 m", "-2", "38", "42"]);
     // Elements are 1 m high of 8.8 m between the axes.
@@ -327,7 +333,7 @@ fn nothing_slides_with_infinite_friction() {
     let law = Coulomb::uplift_only();
     let mut simulation = scene(SI, 0.6).structure(block(SI)).interface(law).build().unwrap();
     let mut histories = Recorder::new().contact(1).start(&simulation).unwrap();
-    histories.run(&mut simulation, 400).unwrap();
+    simulation.run(400, |state| histories.record(state)).unwrap();
     let slips = |mode: &Mode| matches!(mode, Mode::SlipLeft | Mode::SlipRight);
     let svg = plot::mode_map("T", &histories).unwrap();
     // What the key shows only.

@@ -23,32 +23,29 @@ fn storeys() -> ShearBuilding {
     building.with_stiffness_damping(0.05).unwrap()
 }
 
-/// Ten seconds of a bonded structure, its page and the page of its summary.
+/// Ten seconds of a bonded structure; its warnings are on its page.
 fn run(
     structure: impl Structure + 'static,
     motion: impl FreeField + 'static,
     soil: Soil,
     elements: usize,
     time_step: f64,
-) -> (Run, Summary) {
+) -> Run {
     let mut simulation = Simulation::builder(time_step)
-        .ground(HalfPlaneGround::under(soil, &structure, elements).unwrap())
+        .ground(HalfPlaneGround::uniform_under(soil, &structure, elements).unwrap())
         .structure(structure)
         .motion(motion)
         .interface(Bonded)
         .build()
         .unwrap();
-    let mut histories = Recorder::new().start(&simulation).unwrap();
     let steps = simulation.steps_for(10.0);
-    let run = histories.run(&mut simulation, steps).unwrap();
-    let summary = histories.summary();
-    assert_eq!(run.warnings, summary.warnings);
+    let run = simulation.run(steps, |_| {}).unwrap();
     for warning in &run.warnings {
         let line = format!("warning: {warning}");
-        assert!(run.to_string().contains(&line) && summary.to_string().contains(&line));
+        assert!(run.to_string().contains(&line));
         assert!(line.chars().count() <= 100, "{line}");
     }
-    (run, summary)
+    run
 }
 
 fn ricker(frequency: f64) -> RickerDisplacement {
@@ -59,7 +56,7 @@ fn ricker(frequency: f64) -> RickerDisplacement {
 /// is asked for is right.
 #[test]
 fn steps_that_miss_the_record() {
-    let shake = |step| run(storeys(), el_centro_1940(), soil(250.0), 12, step).0;
+    let shake = |step| run(storeys(), el_centro_1940(), soil(250.0), 12, step);
     for time_step in [0.1, 0.2, 0.5, 1.0] {
         let run = shake(time_step);
         let error = (run.base_shear.magnitude() / THREE_STOREYS - 1.0).abs();
@@ -81,7 +78,7 @@ fn steps_that_miss_the_record() {
 #[test]
 fn steps_that_miss_the_structure() {
     let block = || RigidBlock::new(10.0, 25.0, 2000.0).unwrap();
-    let shake = |step| run(block(), ricker(1.0), soil(200.0), 12, step).0;
+    let shake = |step| run(block(), ricker(1.0), soil(200.0), 12, step);
     let fine = shake(2.5e-3);
     assert_eq!(fine.warnings, []);
     let coarse = shake(0.1);
@@ -101,7 +98,7 @@ fn steps_that_miss_the_structure() {
 fn stiff_structures_need_no_fine_steps() {
     let shake = |step| {
         let block = RigidBlock::new(10.0, 5.0, 2000.0).unwrap();
-        run(block, ricker(1.0), soil(1500.0), 8, step).0
+        run(block, ricker(1.0), soil(1500.0), 8, step)
     };
     let (fine, coarse) = (shake(2e-3), shake(0.08));
     let error = coarse.base_shear.magnitude() / fine.base_shear.magnitude() - 1.0;
@@ -114,24 +111,24 @@ fn stiff_structures_need_no_fine_steps() {
 fn recorded_by_hand() {
     let structure = storeys();
     let mut simulation = Simulation::builder(0.5)
-        .ground(HalfPlaneGround::under(soil(250.0), &structure, 12).unwrap())
+        .ground(HalfPlaneGround::uniform_under(soil(250.0), &structure, 12).unwrap())
         .structure(structure)
         .motion(el_centro_1940())
         .interface(Bonded)
         .build()
         .unwrap();
-    let mut histories = Recorder::new().start(&simulation).unwrap();
+    let mut run = simulation.begin_run();
     for _ in 0..20 {
-        histories.record(simulation.step().unwrap());
+        run.record(simulation.step().unwrap());
     }
-    let warnings = histories.summary().warnings;
+    let warnings = simulation.end_run(run).warnings;
     assert!(matches!(warnings[..], [Warning::UnresolvedMotion { .. }]), "{warnings:?}");
 }
 
 /// Rocking on one element meets no stiffness, on two too little of it.
 #[test]
 fn too_few_elements() {
-    let shake = |elements| run(storeys(), el_centro_1940(), soil(250.0), elements, 5e-3).0;
+    let shake = |elements| run(storeys(), el_centro_1940(), soil(250.0), elements, 5e-3);
     let fine = shake(12).base_shear.magnitude();
     for elements in [1, 2, 3] {
         let found = shake(elements).warnings;
@@ -153,7 +150,7 @@ fn elements_longer_than_waves() {
             [1e-3 * (1.0 - 2.0 * a * a) * (-a * a).exp(), 0.0]
         });
         let wave = TravellingWave::new(pulse, 100.0, -20.0).unwrap();
-        run(block, wave, soil(100.0), elements, 4e-3).0
+        run(block, wave, soil(100.0), elements, 4e-3)
     };
     let fine = shake(40);
     assert_eq!(fine.warnings, []);

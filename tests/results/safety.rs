@@ -3,7 +3,7 @@
 //! REFERENCE: statics, μW/H and Wb/(Hh).
 
 use basemat::bem::{HalfPlaneGround, SpringGround, Strip};
-use basemat::coupled::Placement;
+use basemat::coupled::{Placement, Run};
 use basemat::interface::{
     Bonded, Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, ThinLayer, Tolerance,
 };
@@ -37,8 +37,8 @@ fn statics_of_a_pushed_block() {
         } else {
             builder.interface(Coulomb::new(0.6).unwrap())
         };
-        let simulation = builder.build().unwrap();
-        let histories = Recorder::new().friction(0.6).start(&simulation).unwrap();
+        let simulation = builder.safety_friction(0.6).build().unwrap();
+        let histories = Recorder::new().start(&simulation).unwrap();
         let value = |quantity| histories.series(quantity)[0];
         assert!((value(Quantity::SlidingSafety) * share / 0.6 - 1.0).abs() < 1e-6);
         assert!((value(Quantity::OverturningSafety) * share * height / 2.0 - 1.0).abs() < 1e-6);
@@ -65,10 +65,8 @@ fn factors_of_safety_are_those_of_the_worst_foundation() {
         .gravity(STANDARD_GRAVITY)
         .build()
         .unwrap();
-    let mut histories = Recorder::new().start(&simulation).unwrap();
     let mut least = [f64::INFINITY; 2];
     let run = simulation.run(500, |state| {
-        histories.record(state);
         for foundation in &state.foundations {
             // N b over the moment about the middle of its own base, and friction N over the shear.
             let safety = foundation.normal_force / foundation.moment.abs();
@@ -76,11 +74,10 @@ fn factors_of_safety_are_those_of_the_worst_foundation() {
             least[1] = least[1].min(0.5 * foundation.normal_force / foundation.shear.abs());
         }
     });
-    run.unwrap();
-    let summary = histories.summary();
+    let run = run.unwrap();
     let close = |found: f64, known: f64| (found / known - 1.0).abs() < 1e-9;
-    assert!(close(summary.least_overturning_safety.value, least[0]));
-    assert!(close(summary.least_sliding_safety.unwrap().value, least[1]));
+    assert!(close(run.least_overturning_safety().value, least[0]));
+    assert!(close(run.least_sliding_safety().unwrap().value, least[1]));
     assert!(least[0] < 1.3);
 }
 
@@ -114,17 +111,17 @@ impl InterfaceLaw for Nonsense {
 type Laws = Vec<Box<dyn InterfaceLaw>>;
 
 /// GOAL: the factor of safety is made of the laws' own coefficients, element by element, unless the
-/// recorder is told others; a base with an element that has none has no factor.
+/// builder is told others; a base with an element that has none has no factor.
 #[test]
 fn friction_is_that_of_the_laws() {
     let coulomb = |friction| Coulomb::new(friction).unwrap();
     let layer = |friction| ThinLayer::new(soil(SI), 0.5, friction).unwrap();
-    let start = |laws: Laws, recorder: Recorder| {
+    let march = |laws: Laws, told: Vec<f64>| {
         let builder = scene(SI, 0.6).structure(block(SI)).interfaces(laws);
-        let mut simulation = builder.build().unwrap();
-        let mut histories = recorder.start(&simulation)?;
-        histories.run(&mut simulation, 20).unwrap();
-        Ok::<_, Error>(histories)
+        let mut simulation = builder.safety_frictions(told).build()?;
+        let mut histories = Recorder::new().start(&simulation)?;
+        let run = simulation.run(20, |state| histories.record(state))?;
+        Ok::<_, Error>((run, histories))
     };
     let count = simulation().elements().len();
     let each = |friction: &dyn Fn(usize) -> f64| -> Laws {
@@ -132,14 +129,11 @@ fn friction_is_that_of_the_laws() {
     };
     let graded = |e: usize| 0.3 + 0.01 * e as f64;
     // Without the static state, which has no shear.
-    let factor = |histories: Result<Histories, Error>| {
-        histories.unwrap().series(Quantity::SlidingSafety)[1..].to_vec()
+    let factor = |marched: Result<(Run, Histories), Error>| {
+        marched.unwrap().1.series(Quantity::SlidingSafety)[1..].to_vec()
     };
-    let told = |laws: Laws| {
-        let recorder = Recorder::new().frictions((0..count).map(graded).collect());
-        factor(start(laws, recorder))
-    };
-    let read = |laws: Laws| factor(start(laws, Recorder::new()));
+    let told = |laws: Laws| factor(march(laws, (0..count).map(graded).collect()));
+    let read = |laws: Laws| factor(march(laws, Vec::new()));
     let own = read(each(&graded));
     assert!(own.iter().all(|factor| factor.is_finite()));
     assert_eq!(own, told(each(&graded)));
@@ -158,8 +152,14 @@ fn friction_is_that_of_the_laws() {
         laws
     };
     assert!(read(mixed()).iter().all(|factor| factor.is_nan()));
-    assert!(start(mixed(), Recorder::new()).unwrap().summary().least_sliding_safety.is_none());
+    assert!(march(mixed(), Vec::new()).unwrap().0.least_sliding_safety().is_none());
     assert!(told(mixed()).iter().all(|factor| factor.is_finite()));
-    let fault = start(vec![Box::new(Nonsense(coulomb(0.3)))], Recorder::new());
-    assert!(matches!(fault, Err(Error::Input { .. })));
+    let refused = |laws: Laws, told: Vec<f64>| march(laws, told).err().unwrap();
+    let nonsense = vec![Box::new(Nonsense(coulomb(0.3))) as Box<dyn InterfaceLaw>];
+    assert!(matches!(refused(nonsense, Vec::new()), Error::Input { .. }));
+    for coefficient in [-0.1, f64::NAN, f64::NEG_INFINITY] {
+        assert!(matches!(refused(mixed(), vec![coefficient]), Error::Input { .. }));
+    }
+    assert!(march(mixed(), vec![f64::INFINITY]).is_ok());
+    assert!(matches!(refused(mixed(), vec![0.4; 3]), Error::Size { found: 3, .. }));
 }

@@ -13,7 +13,7 @@ use basemat::{Simulation, Soil};
 /// A light block, bonded to stiff ground, moves as the ground does: so do its floors' spectra.
 #[test]
 fn floors_of_a_light_rigid_block_ride_on_the_ground() {
-    let ground = HalfPlaneGround::strip(Soil::new(2e9, 0.3, 2000.0).unwrap(), -2.0..2.0, 4);
+    let ground = HalfPlaneGround::uniform_strip(Soil::new(2e9, 0.3, 2000.0).unwrap(), -2.0..2.0, 4);
     let block = RigidBlock::new(4.0, 1.0, 10.0).unwrap();
     let top = block.horizontal_at(1.0);
     let mut simulation = Simulation::builder(0.01)
@@ -25,7 +25,7 @@ fn floors_of_a_light_rigid_block_ride_on_the_ground() {
         .build()
         .unwrap();
     let mut histories = Recorder::new().start(&simulation).unwrap();
-    let run = histories.run(&mut simulation, 1500).unwrap();
+    let run = simulation.run(1500, |state| histories.record(state)).unwrap();
     assert_eq!(run.steps, 1500);
     let periods = log_spaced(0.2, 3.0, 12).unwrap();
     let floor = histories.floor_spectrum("top", &periods, 0.05).unwrap();

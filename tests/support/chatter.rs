@@ -59,7 +59,7 @@ impl Scene {
         let half = 0.5 * WIDTH;
         let law = Coulomb::new(self.friction)?.with_activation(self.activation)?;
         let builder = Simulation::builder(self.time_step)
-            .ground(HalfPlaneGround::strip(soil, -half..half, self.elements)?)
+            .ground(HalfPlaneGround::uniform_strip(soil, -half..half, self.elements)?)
             .interface(law)
             .motion(el_centro_1940().scaled(2.0)?)
             .gravity(STANDARD_GRAVITY);
@@ -101,7 +101,7 @@ impl Scene {
             peak_slip: run.largest_slip.value.abs(),
             residual_slip: run.residual_slip,
             uplift: run.uplifted_fraction.value,
-            rotation: run.base_rotation.value.abs(),
+            rotation: run.base_rotation.magnitude(),
             contact: run.ledger.contact / input,
             numerical: run.ledger.numerical / input,
             penetration,

@@ -57,7 +57,7 @@ fn of_a_scene(count: usize, random: &mut Random) -> Vec<f64> {
     let poisson = random.pick(&[0.0, 0.2, 1.0 / 3.0, 0.45, 0.4999]);
     let soil = Soil::new(1e8, poisson, 2000.0).unwrap();
     let strip =
-        if random.chance(0.5) { HalfPlaneGround::graded_strip } else { HalfPlaneGround::strip };
+        if random.chance(0.5) { HalfPlaneGround::strip } else { HalfPlaneGround::uniform_strip };
     let mut ground = strip(soil, -2.0..2.0, count).unwrap();
     let courant = random.log_within(0.05, 20.0);
     let time_step = courant * 4.0 / count as f64 / soil.pressure_wave_speed();

@@ -26,7 +26,7 @@ impl Scene {
     fn ground(&self) -> HalfPlaneGround {
         let soil = Soil::new(1.0, self.poisson, 1.0).unwrap();
         let strip =
-            if self.graded { HalfPlaneGround::graded_strip } else { HalfPlaneGround::strip };
+            if self.graded { HalfPlaneGround::strip } else { HalfPlaneGround::uniform_strip };
         let mut ground =
             strip(soil, -1.0..1.0, self.elements).unwrap().with_history_kind(self.history);
         if self.tolerance > 0.0 {

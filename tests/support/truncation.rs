@@ -109,7 +109,7 @@ pub(crate) fn rocking(elements: usize, free: usize, beta: f64) -> [(Vec<f64>, f6
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
     let time_step = beta * 2.0 / elements as f64 / soil.pressure_wave_speed();
     let full = FullPlaneGround::strip(soil, -1.0..1.0, elements, free).unwrap();
-    let half = HalfPlaneGround::strip(soil, -1.0..1.0, elements).unwrap();
+    let half = HalfPlaneGround::uniform_strip(soil, -1.0..1.0, elements).unwrap();
     let run = |builder: SimulationBuilder| {
         let mut simulation = builder
             .structure(RigidBlock::new(2.0, 4.0, 0.5).unwrap())

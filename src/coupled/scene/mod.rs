@@ -3,6 +3,7 @@
 pub(crate) mod base;
 pub(crate) mod conditioning;
 pub(crate) mod influence;
+pub(crate) mod laws;
 pub(crate) mod modal_basis;
 pub(crate) mod model;
 pub(crate) mod operators;
@@ -34,6 +35,8 @@ pub(crate) struct Scene {
     pub(crate) base: Base,
     pub(crate) elements: Vec<ContactElement>,
     pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
+    /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
+    pub(crate) safety_friction: Vec<f64>,
     /// Whether any law stores energy in its elements.
     pub(crate) compliant: bool,
     pub(crate) static_state: StaticState,

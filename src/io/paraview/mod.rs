@@ -14,7 +14,7 @@
 //! let (mut simulation, block) = scene()?;
 //! let shape = Wireframe::of_block(&block, 10.0)?;
 //! let mut histories = Recorder::new().contact(10).motion(10).start(&simulation)?;
-//! histories.run(&mut simulation, 2000)?;
+//! simulation.run(2000, |state| histories.record(state))?;
 //! // results/block.pvd, block_0000.vtu, block_base_0000.vtu, …
 //! basemat::io::paraview::write_series("results", "block", &shape, &histories)?;
 //! # Ok::<(), basemat::Error>(())

@@ -17,7 +17,7 @@ use crate::support::scenes::{SI, block, friction, scene, soil, states};
 
 /// A block on equal elements whose ground chooses its history, in at most these bytes.
 pub(crate) fn auto(elements: usize, memory: usize) -> SimulationBuilder {
-    let ground = HalfPlaneGround::strip(soil(SI), -2.0..2.0, elements).unwrap();
+    let ground = HalfPlaneGround::uniform_strip(soil(SI), -2.0..2.0, elements).unwrap();
     let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
     base.ground(ground.with_history_memory(memory))
 }

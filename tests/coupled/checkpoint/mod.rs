@@ -19,7 +19,7 @@ use crate::support::scenes::{SI, soil};
 const STEPS: usize = 260;
 
 fn half_plane(history: History) -> HalfPlaneGround {
-    HalfPlaneGround::graded_strip(soil(SI), -2.0..2.0, 6).unwrap().with_history_kind(history)
+    HalfPlaneGround::strip(soil(SI), -2.0..2.0, 6).unwrap().with_history_kind(history)
 }
 
 fn spring_bed() -> SpringGround {

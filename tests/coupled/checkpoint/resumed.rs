@@ -77,7 +77,7 @@ fn kinds() -> Vec<Kind> {
             base().structure(tower(SI, None)).ground(half_plane(History::RelaxedFft))
         }),
         kind("transforms along the surface", move || {
-            let ground = HalfPlaneGround::strip(soil(SI), -2.0..2.0, 9).unwrap();
+            let ground = HalfPlaneGround::uniform_strip(soil(SI), -2.0..2.0, 9).unwrap();
             base().structure(block(SI)).ground(ground.with_history_kind(History::RelaxedFft))
         }),
         kind("exponentials", move || {

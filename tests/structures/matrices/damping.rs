@@ -128,7 +128,8 @@ fn damping_in_use_passes() {
     let passes = |structure: Box<dyn Structure>, what: &str| {
         let nodes = structure.contact_nodes();
         let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
-        let ground = HalfPlaneGround::strip(soil, nodes[0].x..nodes[nodes.len() - 1].x, 6).unwrap();
+        let ground =
+            HalfPlaneGround::uniform_strip(soil, nodes[0].x..nodes[nodes.len() - 1].x, 6).unwrap();
         let built = Simulation::builder(0.01)
             .structure(structure)
             .ground(ground)

@@ -24,7 +24,7 @@ pub(crate) fn on_soil(structure: impl Structure + 'static) -> SimulationBuilder 
     let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
     Simulation::builder(0.01)
         .structure(structure)
-        .ground(HalfPlaneGround::strip(soil, -3.0..3.0, 6).unwrap())
+        .ground(HalfPlaneGround::uniform_strip(soil, -3.0..3.0, 6).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY)
@@ -51,7 +51,7 @@ fn matrices_march_as_the_model_they_came_from() {
         let mut simulation = builder.build().unwrap();
         let run = simulation.run(400, |_| {}).unwrap();
         assert!(run.ledger_residual < 1e-9);
-        run.base_moment_change.value
+        run.base_moment.largest().value
     };
     let expected = run(on_soil(model));
     for found in [run(on_soil(full)), run(on_soil(rayleigh))] {

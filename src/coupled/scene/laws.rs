@@ -1,0 +1,61 @@
+//! The interface laws of a scene.
+
+use crate::contact::ContactSearch;
+use crate::error::{Error, Result};
+use crate::interface::{ContactScene, InterfaceLaw};
+
+/// Whether a law stores energy in any of its modes.
+pub(crate) fn is_compliant(law: &dyn InterfaceLaw) -> bool {
+    law.modes().iter().any(|&mode| law.compliance(mode) != [0.0; 2])
+}
+
+/// Whether the laws fit the ground's `count` elements, and laws and contact search the scene.
+pub(crate) fn check(
+    laws: &[Box<dyn InterfaceLaw>],
+    search: ContactSearch,
+    scene: &ContactScene,
+    count: usize,
+) -> Result<()> {
+    let refuse = |quantity, needed| Err(Error::Scene { quantity, needed });
+    if laws.is_empty() {
+        return refuse("interface law", "give one to the builder with `interface`");
+    }
+    if laws.len() != 1 && laws.len() != count {
+        let quantity = "list of interface laws";
+        return Err(Error::Size { quantity, found: laws.len(), needed: count });
+    }
+    if laws.iter().any(|law| law.modes().is_empty()) {
+        return refuse("interface law", "`modes` must name at least one mode");
+    }
+    if search == (ContactSearch::FlowChart { iterations: 0 }) {
+        return refuse("contact search", "the flow chart needs one iteration or more");
+    }
+    laws.iter().try_for_each(|law| law.check(scene))
+}
+
+/// Coefficients for the factor of safety against sliding: the `given` ones or those of the laws; one
+/// for all elements, one each, or none unless all laws have one.
+pub(crate) fn safety_friction(
+    laws: &[Box<dyn InterfaceLaw>],
+    given: Vec<f64>,
+    count: usize,
+) -> Result<Vec<f64>> {
+    let coefficients = if given.is_empty() {
+        let each: Option<_> = laws.iter().map(InterfaceLaw::friction_coefficient).collect();
+        each.unwrap_or_default()
+    } else {
+        given
+    };
+    if coefficients.len() > 1 && coefficients.len() != count {
+        let quantity = "list of friction coefficients";
+        return Err(Error::Size { quantity, found: coefficients.len(), needed: count });
+    }
+    // Infinity is a coefficient.
+    match coefficients.iter().find(|value| value.is_nan() || **value < 0.0) {
+        Some(&value) => {
+            let (quantity, needed) = ("friction coefficient", "zero or more");
+            Err(Error::Input { quantity, value, needed })
+        }
+        None => Ok(coefficients),
+    }
+}

@@ -1,0 +1,276 @@
+//! A run in numbers.
+
+use std::time::{Duration, Instant};
+
+use super::envelope::{self, ElementEnvelope};
+use super::foundation::{self, FoundationSummary};
+use super::sequence::Sequence;
+use super::{EnergyShares, Sliding, Uplift};
+use crate::bem::{ContactElement, Ground};
+use crate::contact::SearchMethod;
+use crate::coupled::{
+    Extremes, Ledger, Peak, Probe, ProbeExtremes, Resolution, State, Warning, probe_index,
+};
+use crate::error::Result;
+use crate::motion::FreeField;
+
+/// Most slip events that memory is reserved for.
+const EVENTS: usize = 1000;
+
+/// Steps whose contact modes the first search did not find, see
+/// [`SearchMethod`](crate::coupled::SearchMethod).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Fallbacks {
+    /// Steps that Gauss–Seidel over the elements solved.
+    pub gauss_seidel: usize,
+    /// Steps that needed a path of solutions to be followed.
+    pub path: usize,
+}
+
+impl Fallbacks {
+    /// Steps that needed either.
+    pub fn total(&self) -> usize {
+        self.gauss_seidel + self.path
+    }
+}
+
+/// Summary of a run: peaks with their times, envelopes, uplift, slip, energies, warnings. Printed,
+/// a page for a report.
+///
+/// Quantities are named and signed as in [`State`]: forces per metre of thickness, on the soil.
+/// The state from which the run begins counts as its steps do.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Run {
+    /// Steps of this run.
+    pub steps: usize,
+    /// Time at its beginning, s.
+    pub start: f64,
+    /// Time at its end, s.
+    pub end: f64,
+    /// Normal force at the start: the weight, N/m.
+    pub static_normal_force: f64,
+    /// Base shear, N/m.
+    pub base_shear: Extremes,
+    /// Base moment, static part included, N·m/m.
+    pub base_moment: Extremes,
+    /// Normal force, N/m.
+    pub normal_force: Extremes,
+    /// Rotation of the base, rad.
+    pub base_rotation: Extremes,
+    /// Largest uplifted fraction of the base.
+    pub uplifted_fraction: Peak,
+    /// Slip averaged over the base, m; tangential motion of open elements counts.
+    pub mean_slip: Extremes,
+    /// That slip at the end, m.
+    pub residual_slip: f64,
+    /// Largest slip of any one element, m.
+    pub largest_slip: Peak,
+    /// The probes, in the order they were given to the builder.
+    pub probes: Vec<ProbeExtremes>,
+    /// How long the base was uplifted.
+    pub uplift: Uplift,
+    /// How far and how long the base slid.
+    pub sliding: Sliding,
+    /// Each foundation by itself, from left to right.
+    pub foundations: Vec<FoundationSummary>,
+    /// Envelopes of the contact elements, from left to right.
+    pub envelope: Vec<ElementEnvelope>,
+    /// Changes of contact mode; each is in [`State::transitions`] of its step.
+    pub mode_changes: usize,
+    /// Those by which an element opened.
+    pub debondings: usize,
+    /// Those by which one closed again.
+    pub rebondings: usize,
+    /// The ledger at the end.
+    pub ledger: Ledger,
+    /// Largest ledger residual of the run; NaN if no ledger is kept.
+    pub ledger_residual: f64,
+    /// Linear solves of the mode search, in all.
+    pub trials: usize,
+    /// Steps that the first search for contact modes did not solve.
+    pub fallbacks: Fallbacks,
+    /// Warnings; none before the run is closed.
+    pub warnings: Vec<Warning>,
+    /// Wall time, observers included; zero where there is no clock (WebAssembly).
+    pub wall: Duration,
+    elements: Vec<ContactElement>,
+    /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
+    friction: Vec<f64>,
+    sequence: Sequence,
+    resolution: Resolution,
+    begin: Option<Instant>,
+}
+
+impl Run {
+    /// Before its first step, at `state`.
+    pub(crate) fn start(
+        probes: &[Probe],
+        elements: &[ContactElement],
+        friction: &[f64],
+        state: &State,
+        resolution: Resolution,
+    ) -> Self {
+        let time = state.time;
+        let extremes = |value| Extremes::of(value, time);
+        let probe = |(probe, &value): (&Probe, &f64)| ProbeExtremes {
+            name: probe.name.clone(),
+            unit: probe.unit.clone(),
+            extremes: extremes(value),
+        };
+        let mut run = Self {
+            steps: 0,
+            start: time,
+            end: time,
+            static_normal_force: state.normal_force,
+            base_shear: extremes(state.base_shear),
+            base_moment: extremes(state.base_moment),
+            normal_force: extremes(state.normal_force),
+            base_rotation: extremes(state.base_rotation),
+            uplifted_fraction: Peak { value: state.uplifted_fraction, time },
+            mean_slip: extremes(state.mean_slip),
+            residual_slip: state.mean_slip,
+            largest_slip: Peak::default(),
+            probes: probes.iter().zip(&state.probes).map(probe).collect(),
+            uplift: Uplift::default(),
+            sliding: Sliding::with_capacity(EVENTS),
+            foundations: foundation::start(state, friction, elements),
+            envelope: envelope::start(elements, state),
+            mode_changes: 0,
+            debondings: 0,
+            rebondings: 0,
+            ledger: state.ledger,
+            ledger_residual: state.ledger.residual(),
+            trials: 0,
+            fallbacks: Fallbacks::default(),
+            warnings: Vec::new(),
+            wall: Duration::ZERO,
+            elements: elements.to_vec(),
+            friction: friction.to_vec(),
+            sequence: Sequence::new(state),
+            resolution,
+            // There is no clock in bare WebAssembly.
+            begin: (!cfg!(target_family = "wasm")).then(Instant::now),
+        };
+        run.see_slips(state);
+        run
+    }
+
+    fn see_slips(&mut self, state: &State) {
+        for contact in &state.contact {
+            self.largest_slip.see(contact.slip, state.time);
+        }
+    }
+
+    /// Takes in the next step; [`Simulation::run`](crate::Simulation::run) does it for every step.
+    /// States of another simulation and those that are not later than the last one are ignored.
+    pub fn record(&mut self, state: &State) {
+        if !self.sequence.takes(state) {
+            return;
+        }
+        let (begin, time) = (self.end, state.time);
+        self.steps += 1;
+        self.end = time;
+        self.resolution.see(state);
+        self.base_shear.see(state.base_shear, time);
+        self.base_moment.see(state.base_moment, time);
+        self.normal_force.see(state.normal_force, time);
+        self.base_rotation.see(state.base_rotation, time);
+        self.uplifted_fraction.see(state.uplifted_fraction, time);
+        self.uplift.see(state, begin);
+        self.sliding.see(state, begin, self.residual_slip);
+        self.mean_slip.see(state.mean_slip, time);
+        self.residual_slip = state.mean_slip;
+        self.see_slips(state);
+        for (probe, value) in self.probes.iter_mut().zip(&state.probes) {
+            probe.extremes.see(*value, time);
+        }
+        foundation::see(&mut self.foundations, state, &self.friction, &self.elements);
+        envelope::see(&mut self.envelope, state, time - begin);
+        self.mode_changes += state.transitions.len();
+        self.debondings += state.transitions.iter().filter(|t| t.is_debonding()).count();
+        self.rebondings += state.transitions.iter().filter(|t| t.is_rebonding()).count();
+        self.ledger = state.ledger;
+        let residual = state.ledger.residual();
+        if residual.is_nan() || residual > self.ledger_residual {
+            self.ledger_residual = residual;
+        }
+        self.trials += state.trials;
+        match state.method {
+            SearchMethod::ActiveSet => {}
+            SearchMethod::GaussSeidel => self.fallbacks.gauss_seidel += 1,
+            SearchMethod::Path => self.fallbacks.path += 1,
+        }
+    }
+
+    /// Closes the run; the ground is sampled where steps may have missed something.
+    pub(crate) fn finish(&mut self, ground: &dyn Ground, motion: &dyn FreeField) {
+        self.wall = self.begin.map_or(Duration::ZERO, |begin| begin.elapsed());
+        self.resolution.resolve_ground(ground, motion, self.start..self.end);
+        let lengths = self.elements.iter().map(ContactElement::length);
+        self.warnings = Warning::all(
+            self.largest_slip.value,
+            lengths.fold(f64::INFINITY, f64::min),
+            self.base_rotation.largest().value,
+            &self.ledger,
+        );
+        self.resolution.warn(&mut self.warnings);
+    }
+
+    /// Smallest and largest value of the probe called `name`.
+    ///
+    /// # Errors
+    /// [`Error::Name`](crate::Error::Name) if there is none.
+    pub fn probe(&self, name: &str) -> Result<Extremes> {
+        probe_index(&self.probes, name, |probe| &probe.name).map(|k| self.probes[k].extremes)
+    }
+
+    /// Largest base shear over the weight; `None` without weight.
+    pub fn shear_coefficient(&self) -> Option<f64> {
+        (self.static_normal_force > 0.0)
+            .then(|| self.base_shear.magnitude() / self.static_normal_force)
+    }
+
+    /// Least factor of safety against sliding, of several foundations the least; `None` without a
+    /// friction coefficient ([`SimulationBuilder::safety_friction`](crate::coupled::SimulationBuilder::safety_friction)).
+    pub fn least_sliding_safety(&self) -> Option<Peak> {
+        least(self.foundations.iter().filter_map(|own| own.least_sliding_safety))
+    }
+
+    /// Least factor of safety against overturning, of several foundations the least; NaN for a base
+    /// in flight throughout.
+    pub fn least_overturning_safety(&self) -> Peak {
+        let all = self.foundations.iter().map(|own| own.least_overturning_safety);
+        least(all).unwrap_or(Peak { value: f64::NAN, time: self.start })
+    }
+
+    /// The element with the largest pressure, and that pressure, Pa.
+    pub fn largest_pressure(&self) -> Option<(&ElementEnvelope, Peak)> {
+        self.envelope
+            .iter()
+            .map(|envelope| (envelope, envelope.pressure.highest))
+            .max_by(|a, b| a.1.value.total_cmp(&b.1.value))
+    }
+
+    /// Largest gap of any element, m.
+    pub fn largest_gap(&self) -> Peak {
+        let gaps = self.envelope.iter().map(|envelope| envelope.gap);
+        gaps.max_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or_default()
+    }
+
+    /// Where the energy went, as shares of the input at the end; `None` if that is not positive.
+    pub fn energy(&self) -> Option<EnergyShares> {
+        EnergyShares::of(&self.ledger)
+    }
+
+    /// Error bound of the ledger's `soil` by an approximate history, J/m since the start; zero for
+    /// exact histories, NaN if no ledger is kept. See [`Ledger::soil_error_bound`].
+    pub fn history_error_bound(&self) -> f64 {
+        self.ledger.soil_error_bound
+    }
+}
+
+/// NaN, of a base in flight, counts if there is nothing else.
+fn least(peaks: impl Iterator<Item = Peak>) -> Option<Peak> {
+    peaks.reduce(|a, b| if b.value < a.value || a.value.is_nan() { b } else { a })
+}

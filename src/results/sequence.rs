@@ -1,0 +1,48 @@
+//! States that follow one another.
+
+use std::ops::Range;
+
+use crate::coupled::{Origin, State};
+
+/// The states of one simulation, each later than the one before.
+#[derive(Debug, Clone)]
+pub(super) struct Sequence {
+    origin: Origin,
+    elements: usize,
+    probes: usize,
+    foundations: Vec<Range<usize>>,
+    end: f64,
+}
+
+impl Sequence {
+    /// Beginning with `state`.
+    pub(super) fn new(state: &State) -> Self {
+        Self {
+            origin: state.origin,
+            elements: state.contact.len(),
+            probes: state.probes.len(),
+            foundations: state.foundations.iter().map(|own| own.elements.clone()).collect(),
+            end: state.time,
+        }
+    }
+
+    /// Whether `state` is of the same simulation and later; it is the last one then.
+    pub(super) fn takes(&mut self, state: &State) -> bool {
+        // Its fields are public: somebody may have changed them.
+        let takes = state.origin.is(self.origin)
+            && state.contact.len() == self.elements
+            && state.modes.len() == self.elements
+            && state.probes.len() == self.probes
+            && state.foundations.iter().map(|own| &own.elements).eq(&self.foundations)
+            && state.time > self.end;
+        if takes {
+            self.end = state.time;
+        }
+        takes
+    }
+
+    /// Time of the last state, s.
+    pub(super) fn end(&self) -> f64 {
+        self.end
+    }
+}
