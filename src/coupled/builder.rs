@@ -7,6 +7,7 @@ use super::ledger::Ledger;
 use super::probe::Probe;
 use super::scene::base::Base;
 use super::scene::conditioning;
+use super::scene::contact_laws;
 use super::scene::modal_basis::{Coordinates, ModalBasis};
 use super::scene::model::{Model, Tangent};
 use super::scene::operators::{Factor, Operators};
@@ -212,7 +213,8 @@ impl SimulationBuilder {
     /// base held.
     /// [`Error::Probe`] and [`Error::DuplicateName`] for a probe of an unknown that is not there or a
     /// name that comes twice. [`Error::Preload`] if the structure cannot stand,
-    /// [`Error::IllConditioned`] if double precision cannot carry the scene.
+    /// [`Error::IllConditioned`] if double precision cannot carry the scene, [`Error::Law`] for an
+    /// interface law that returns numbers which are not finite.
     pub fn build(mut self) -> Result<Simulation> {
         let time_step = positive("time step", self.time_step)?;
         not_negative("gravity", self.gravity)?;
@@ -227,7 +229,7 @@ impl SimulationBuilder {
         crate::contact_element::check_order(&elements)?;
         let count = elements.len();
         let contact_scene = ContactScene { gravity: self.gravity, time_step };
-        check_contact(&self.laws, self.search, &contact_scene, count)?;
+        contact_laws::check(&self.laws, self.search, &contact_scene, count)?;
         let unknowns = structure.unknowns();
         if unknowns > MOST_UNKNOWNS {
             return Err(Error::Input {
@@ -264,11 +266,11 @@ impl SimulationBuilder {
         let operators = Operators::new(&model, &base, &soil, factor, tangent.matrix);
         let middle = 0.5 * (elements[0].left + elements[count - 1].right);
         let moment_center = finite("moment center", self.moment_center.unwrap_or(middle))?;
-        let scene = Scene {
+        let mut scene = Scene {
             time_step,
             coefficients,
             conserves_energy: coefficients.conserves_energy(time_step),
-            compliant: self.laws.iter().any(|law| is_compliant(law.as_ref())),
+            compliant: false,
             laws: self.laws,
             static_state,
             joined,
@@ -283,15 +285,16 @@ impl SimulationBuilder {
         };
         let mut solver = Solver::new(&scene, operators, ModeSearch::new(count, self.search));
         let (operators, contact) = solver.parts_mut();
-        let mut state = State::at_rest(&scene);
+        let mut state = State::at_rest(&scene)?;
+        scene.compliant = scene.is_compliant(&state.start)?;
         if !self.ledger {
             state.ledger = Ledger::LEFT_OUT;
         }
         let conditioning = conditioning::assess(&scene, operators, contact, &state.start)?;
         Ok(Simulation {
             forcing: Forcing::new(&scene),
-            increment: Increment::new(&scene),
-            books: self.ledger.then(|| Books::new(&scene)),
+            increment: Increment::new(&scene, &state, self.ledger),
+            books: self.ledger.then(|| Books::new(&scene, &state)).transpose()?,
             motion: self.motion,
             structure,
             ground,
@@ -355,35 +358,6 @@ impl SimulationBuilder {
             }),
         }
     }
-}
-
-/// Whether a law stores energy in any of its modes.
-fn is_compliant(law: &dyn InterfaceLaw) -> bool {
-    law.modes().iter().any(|&mode| law.compliance(mode) != [0.0; 2])
-}
-
-/// Whether the laws fit the ground's `count` elements, and laws and contact search the scene.
-fn check_contact(
-    laws: &[Box<dyn InterfaceLaw>],
-    search: ContactSearch,
-    scene: &ContactScene,
-    count: usize,
-) -> Result<()> {
-    let refuse = |quantity, needed| Err(Error::Scene { quantity, needed });
-    if laws.is_empty() {
-        return refuse("interface law", "give one to the builder with `interface`");
-    }
-    if laws.len() != 1 && laws.len() != count {
-        let quantity = "list of interface laws";
-        return Err(Error::Size { quantity, found: laws.len(), needed: count });
-    }
-    if laws.iter().any(|law| law.modes().is_empty()) {
-        return refuse("interface law", "`modes` must name at least one mode");
-    }
-    if search == (ContactSearch::FlowChart { iterations: 0 }) {
-        return refuse("contact search", "the flow chart needs one iteration or more");
-    }
-    laws.iter().try_for_each(|law| law.check(scene))
 }
 
 /// The free field at t = 0, from which it is measured.

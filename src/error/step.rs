@@ -1,6 +1,6 @@
 //! Steps that fail.
 
-use super::Error;
+use super::{Error, LawError};
 use crate::interface::Mode;
 
 /// Why a step failed.
@@ -36,6 +36,9 @@ pub enum StepError {
     /// The ground could not give its history.
     #[error("history of the ground: {0}")]
     Ground(Box<Error>),
+    /// An interface law returned a number that is not finite.
+    #[error(transparent)]
+    Law(#[from] LawError),
     /// A number became NaN or infinite.
     #[error("{quantity} is not finite")]
     NotFinite {

@@ -2,6 +2,7 @@
 
 pub(crate) mod base;
 pub(crate) mod conditioning;
+pub(crate) mod contact_laws;
 pub(crate) mod influence;
 pub(crate) mod modal_basis;
 pub(crate) mod model;
