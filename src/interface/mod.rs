@@ -163,10 +163,10 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 
 /// How base and soil touch: implement this for a law of your own.
 ///
-/// A law is a rule and keeps nothing itself. The end of the step before is in [`StepStart`]; what else
-/// it needs of the past it names as a memory of a few numbers per element, which the simulation keeps,
-/// shows in [`StepStart::memory`] and saves in checkpoints. All numbers that a law returns must be
-/// finite, or they are a [`LawError`](crate::LawError).
+/// A law is a rule and keeps nothing itself. The end of the step before is in [`StepStart`]; what
+/// else it needs of the past it declares as a memory of a few numbers per element, which the
+/// simulation keeps, shows in [`StepStart::memory`] and saves in checkpoints. Numbers of a law that
+/// are not finite are a [`LawError`](crate::LawError).
 ///
 /// Friction that falls from 0.5 to 0.3 with the distance that an element has slid:
 /// ```
@@ -241,11 +241,12 @@ pub trait InterfaceLaw: Send {
 
     /// Elastic opening per traction in `mode`, m/Pa: gap per tension and slip per shear traction.
     /// Zero (the default) for hard contact. The energy ledger books what so much elasticity
-    /// stores, ½ compliance · traction² at the end of the step; only the rest of gap and slip, and what
-    /// is stored in a compliance that changes, can be lost to friction, impact and damage.
+    /// stores, ½ compliance · traction² at the end of the step; only the rest of gap and slip, and
+    /// what goes with a compliance that changes, can be lost to friction, impact and damage.
     ///
-    /// Asked once per step that is solved, with its start and the mode it ends in. A law without memory that is
-    /// hard in every mode at the static state counts as hard for the whole run.
+    /// Asked for every mode at the static state, and once per solved step for the mode it ends in. A
+    /// law without memory that is hard in every mode at the static state counts as hard for the
+    /// whole run.
     fn compliance(&self, _mode: Mode, _start: &StepStart) -> [f64; 2] {
         [0.0; 2]
     }
@@ -256,7 +257,8 @@ pub trait InterfaceLaw: Send {
     }
 
     /// Sets the memory that an element begins a run with, zeros unless this says otherwise, from
-    /// the `start` of its first step. Not called for a law without memory.
+    /// the `start` of its first step (and, where the law acts while the weight comes on, from one
+    /// without pressure for that). Not called for a law without memory.
     fn initial_memory(&self, _start: &StepStart, _memory: &mut [f64]) {}
 
     /// Brings the memory of an element to the `end` of a step in `mode`: it holds what it was at the
