@@ -39,16 +39,20 @@ impl ContactInput<'_> {
     }
 
     /// What its law imposes in `mode`, all of it finite.
+    #[inline]
     pub(super) fn conditions(
         &self,
         element: usize,
         mode: Mode,
     ) -> Result<[Condition; 2], LawError> {
         let pair = self.law(element).conditions(mode, &self.start.of(element));
-        match pair.iter().find_map(Condition::not_finite) {
-            None => Ok(pair),
-            Some((quantity, value)) => Err(LawError { element, mode, quantity, value }),
+        // Not finite, or a sum that overflows.
+        if !(pair[0].sum() + pair[1].sum()).is_finite()
+            && let Some((quantity, value)) = pair.iter().find_map(Condition::not_finite)
+        {
+            return Err(LawError { element, mode, quantity, value });
         }
+        Ok(pair)
     }
 
     /// The mode that its law wants next.

@@ -268,9 +268,9 @@ impl Books {
             ledger.soil += area * change * (soil[i] - self.soil_displacement[i]);
             ledger.soil_error_bound += area * change.abs() * doubt;
             let mut elastic = 0.0;
-            let (e, k) = (i % count, i / count);
-            if let Some(compliance) = self.compliance.get(e) {
-                let (c0, c1) = (compliance[k], increment.compliance[e][k]);
+            if !self.compliance.is_empty() {
+                let (e, k) = (i % count, i / count);
+                let (c0, c1) = (self.compliance[e][k], increment.compliance[e][k]);
                 let start = state.start.state(e);
                 let t0 = [start.pressure, start.shear][k];
                 let t1 = at_rest + change;

@@ -89,13 +89,14 @@ impl Condition {
         Self { gap: 1.0, value, ..Self::default() }
     }
 
+    /// Sum of all its numbers: finite only if they are.
+    pub(crate) fn sum(&self) -> f64 {
+        self.gap + self.slip + self.pressure + self.shear + self.value
+    }
+
     /// The first number that is not finite, with its name.
     pub(crate) fn not_finite(&self) -> Option<(&'static str, f64)> {
         let Self { gap, slip, pressure, shear, value } = *self;
-        // A finite sum has finite terms; one that overflows has them looked at.
-        if (gap + slip + pressure + shear + value).is_finite() {
-            return None;
-        }
         [
             ("coefficient of the gap", gap),
             ("coefficient of the slip", slip),

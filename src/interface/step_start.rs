@@ -178,6 +178,7 @@ impl StepStarts {
     }
 
     /// The start of an element that is there.
+    #[inline]
     pub(crate) fn of(&self, element: usize) -> StepStart<'_> {
         let Past { state, mode, has_opened, slip_rate, static_pressure } = self.past[element];
         let memory = self.memory_of(element);
@@ -238,10 +239,10 @@ impl StepStarts {
         modes: &[Mode],
         memory: &mut [f64],
     ) -> std::result::Result<(), LawError> {
-        memory.copy_from_slice(&self.memory);
         if memory.is_empty() {
             return Ok(());
         }
+        memory.copy_from_slice(&self.memory);
         for (e, (state, &mode)) in states.iter().zip(modes).enumerate() {
             let own = &mut memory[self.memory_range(e)];
             if !own.is_empty() {
@@ -260,7 +261,9 @@ impl StepStarts {
             past.has_opened |= !mode.is_closed();
             (past.state, past.mode) = (*state, *mode);
         }
-        self.memory.copy_from_slice(memory);
+        if !memory.is_empty() {
+            self.memory.copy_from_slice(memory);
+        }
     }
 }
 
