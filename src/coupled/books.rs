@@ -179,9 +179,7 @@ impl Books {
         let Scratch { total: du, vector, product, means, soil } = &mut self.scratch;
         ledger.kinetic = 0.5 * model.mass.form(v1, v1);
         if !model.damping.is_empty() {
-            for (i, x) in vector.iter_mut().enumerate() {
-                *x = SchemeCoefficients::apply(c.velocity, du[i], v0[i], a0[i]);
-            }
+            SchemeCoefficients::combine(c.velocity, du, v0, a0, vector);
             let velocities = forcing.translations.iter().map(|translation| translation.velocity);
             model.influence.translate(-1.0, velocities, vector);
             product.fill(0.0);
