@@ -199,7 +199,7 @@ pub mod structure;
 mod sweep;
 
 pub use coupled::Simulation;
-pub use error::{CheckpointError, Error, LawError, RecordError, Result, StepError};
+pub use error::{CheckpointError, Error, LawError, RecordError, Result, StandingError, StepError};
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};
 pub use soil::Soil;

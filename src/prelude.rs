@@ -1,7 +1,7 @@
 //! Names that most programs use: `use basemat::prelude::*;`.
 
 pub use crate::bem::{Ground, HalfPlaneGround, SpringGround};
-pub use crate::coupled::{Probe, Run, Simulation, State};
+pub use crate::coupled::{Load, Probe, Run, Simulation, State};
 pub use crate::interface::{Bonded, Coulomb, InterfaceLaw};
 pub use crate::motion::{FreeField, Record, STANDARD_GRAVITY, el_centro_1940};
 pub use crate::results::{Comparison, Histories, Quantity, Recorder};

@@ -33,7 +33,10 @@ impl State {
             .collect();
         let start: Vec<_> =
             (0..count).map(|e| StepStart::new(contact[e], modes[e], scene.time_step)).collect();
-        let start = StepStarts::new(&scene.laws, &start)?;
+        let mut start = StepStarts::new(&scene.laws, &start)?;
+        if !at.memory.is_empty() {
+            start.memory_mut().copy_from_slice(&at.memory);
+        }
         let foundations = scene.base.foundations().map(|(_, elements)| Foundation::new(elements));
         let mut state = Self {
             step: 0,

@@ -7,6 +7,7 @@
 //! | s, `s_ff` | soil displacement by tractions; free field |
 //! | y, R | translation of the free field under a part; influence vectors |
 
+use super::initial;
 use super::ledger::Ledger;
 use super::motion::Motion;
 use super::scene::Scene;
@@ -52,11 +53,18 @@ struct Scratch {
 }
 
 impl Books {
-    /// At the static state.
-    pub(crate) fn new(scene: &Scene, state: &State) -> Result<Self, LawError> {
+    /// At the beginning of a run; the energy of an initial motion counts as input.
+    pub(crate) fn new(
+        scene: &Scene,
+        structure: &dyn Structure,
+        state: &State,
+    ) -> Result<Self, LawError> {
         let (n, size) = (scene.model.unknowns, 2 * scene.count());
         let mut jump = scene.static_state.gap.clone();
         jump.resize(size, 0.0);
+        let mut means = vec![0.0; size];
+        scene.base.means(&state.motion.displacement, &mut means);
+        jump.iter_mut().zip(&means).for_each(|(jump, moved)| *jump -= moved);
         let compliance = |(e, &mode): (usize, &Mode)| scene.compliance(e, mode, &state.start);
         let compliant = if scene.compliant { state.modes.as_slice() } else { &[] };
         let compliance = compliant.iter().enumerate().map(compliance).collect::<Result<_, _>>()?;
@@ -69,7 +77,7 @@ impl Books {
                 product.into_iter().enumerate().filter(|(_, m)| *m != 0.0).collect()
             })
         });
-        Ok(Self {
+        let mut books = Self {
             ledger: Ledger::default(),
             free_field: vec![0.0; size],
             soil_displacement: vec![0.0; size],
@@ -83,10 +91,30 @@ impl Books {
                 total: vec![0.0; n],
                 vector: vec![0.0; n],
                 product: vec![0.0; n],
-                means: vec![0.0; size],
+                means,
                 soil: vec![0.0; size],
             },
-        })
+        };
+        books.begin(scene, structure, state);
+        Ok(books)
+    }
+
+    /// Kinetic and strain energy of the motion at t = 0.
+    fn begin(&mut self, scene: &Scene, structure: &dyn Structure, state: &State) {
+        let Motion { displacement, velocity, .. } = &state.motion;
+        let (model, ledger) = (&scene.model, &mut self.ledger);
+        ledger.kinetic = 0.5 * model.mass.form(velocity, velocity);
+        if !model.linear {
+            let seen = initial::seen(scene, state);
+            if let Some((stored, dissipated)) = energies(scene, structure, &seen) {
+                (self.nonlinear_work, ledger.hysteresis) = (stored, dissipated);
+            }
+        }
+        let Scratch { vector, means, .. } = &mut self.scratch;
+        vector.copy_from_slice(displacement);
+        scene.subtract_base(vector, means);
+        ledger.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_work;
+        ledger.input = ledger.kinetic + ledger.strain + ledger.hysteresis;
     }
 
     /// Every number that a step leaves to the next, always in this order.
@@ -146,19 +174,11 @@ impl Books {
         structure: &dyn Structure,
         increment: &Increment,
     ) {
-        let at_rest = &scene.static_state;
         let done = dot(&increment.force, &self.scratch.total);
-        let energies =
-            at_rest.energy.zip(structure.nonlinear().and_then(|own| own.energy(&increment.seen)));
-        let Some((start, energy)) = energies else {
+        let Some((stored, dissipated)) = energies(scene, structure, &increment.seen) else {
             self.nonlinear_work += done;
             return;
         };
-        // Forces count from the static ones, and so does the energy that they store.
-        let moved = increment.seen.iter().zip(&at_rest.displacement).map(|(u, start)| u - start);
-        let against: f64 = at_rest.force.iter().zip(moved).map(|(f, moved)| f * moved).sum();
-        let stored = energy.stored - start.stored - against;
-        let dissipated = energy.dissipated - start.dissipated;
         let ledger = &mut self.ledger;
         ledger.numerical +=
             done - (stored - self.nonlinear_work) - (dissipated - ledger.hysteresis);
@@ -292,4 +312,15 @@ impl Books {
         self.compliance.copy_from_slice(&increment.compliance);
         std::mem::swap(&mut self.soil_displacement, soil);
     }
+}
+
+/// Energies that the nonlinear force stores and has dissipated since the static state, where they
+/// are known. Forces count from the static ones, and so does the energy that they store.
+fn energies(scene: &Scene, structure: &dyn Structure, seen: &[f64]) -> Option<(f64, f64)> {
+    let at_rest = &scene.static_state;
+    let start = at_rest.energy?;
+    let energy = structure.nonlinear()?.energy(seen)?;
+    let moved = seen.iter().zip(&at_rest.displacement).map(|(u, start)| u - start);
+    let against: f64 = at_rest.force.iter().zip(moved).map(|(f, moved)| f * moved).sum();
+    Some((energy.stored - start.stored - against, energy.dissipated - start.dissipated))
 }

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use super::books::Books;
+use super::initial::Beginning;
 use super::ledger::Ledger;
+use super::load::Load;
 use super::probe::Probe;
 use super::scene::base::Base;
 use super::scene::conditioning;
@@ -11,7 +13,7 @@ use super::scene::laws;
 use super::scene::modal_basis::{Coordinates, ModalBasis};
 use super::scene::model::{Model, Tangent};
 use super::scene::operators::{Factor, Operators};
-use super::scene::static_state::{self, Placement, StaticState};
+use super::scene::static_state::Placement;
 use super::scene::translation_check::joined_by_force;
 use super::scene::{ProbeRows, Scene};
 use super::scheme::{Midpoint, TimeScheme};
@@ -24,7 +26,7 @@ use crate::bem::{ContactElement, Ground};
 use crate::contact::{ContactSearch, ModeSearch};
 use crate::error::{Error, Result, finite, not_negative, positive};
 use crate::interface::{ContactScene, InterfaceLaw};
-use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
+use crate::motion::{AtRest, FreeField};
 use crate::structure::{Structure, is_nonlinear};
 
 /// Steps that modes have to pay for themselves in, if not told otherwise.
@@ -43,8 +45,7 @@ pub struct SimulationBuilder {
     motion: Box<dyn FreeField>,
     scheme: Box<dyn TimeScheme>,
     search: ContactSearch,
-    gravity: f64,
-    placement: Placement,
+    beginning: Beginning,
     probes: Vec<Probe>,
     moment_center: Option<f64>,
     steps: usize,
@@ -60,8 +61,8 @@ short_debug! {
     structure: self.structure.is_some(),
     ground: self.ground.is_some(),
     laws: self.laws.len(),
-    gravity: self.gravity,
-    placement: self.placement,
+    gravity: self.beginning.gravity,
+    placement: self.beginning.placement,
     search: self.search,
     coordinates: self.coordinates,
 }
@@ -83,8 +84,7 @@ impl SimulationBuilder {
             motion: Box::new(AtRest),
             scheme: Box::new(Midpoint),
             search: ContactSearch::default(),
-            gravity: STANDARD_GRAVITY,
-            placement: Placement::default(),
+            beginning: Beginning::default(),
             probes: Vec::new(),
             moment_center: None,
             steps: 0,
@@ -145,19 +145,42 @@ impl SimulationBuilder {
         self
     }
 
-    /// Gravity g (m/s²), which gives the structure its weight; [`STANDARD_GRAVITY`] unless given. The
-    /// run starts from the static state under weight and the load at t = 0. Zero: the base starts
-    /// unpressed, and uplift and sliding have nothing to hold against.
+    /// Gravity g (m/s²), which gives the structure its weight;
+    /// [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY) unless given. The run starts from the
+    /// static state: weight first, then the loads at t = 0 with the interface law. Zero: there is no
+    /// static state, the base starts unpressed, and uplift and sliding have nothing to hold against.
     #[must_use]
     pub fn gravity(mut self, gravity: f64) -> Self {
-        self.gravity = gravity;
+        self.beginning.gravity = gravity;
+        self
+    }
+
+    /// An external load, beside those given before and the structure's own.
+    #[must_use]
+    pub fn load(mut self, load: Load) -> Self {
+        self.beginning.loads.push(load);
+        self
+    }
+
+    /// Displacement of the unknowns at t = 0 against the static state. It may move the base only with
+    /// [`Placement::Unloaded`], and not into the ground.
+    #[must_use]
+    pub fn initial_displacement(mut self, displacement: impl Into<Vec<f64>>) -> Self {
+        self.beginning.displacement = displacement.into();
+        self
+    }
+
+    /// Velocity of the unknowns at t = 0.
+    #[must_use]
+    pub fn initial_velocity(mut self, velocity: impl Into<Vec<f64>>) -> Self {
+        self.beginning.velocity = velocity.into();
         self
     }
 
     /// Friction while the weight comes on.
     #[must_use]
     pub fn placement(mut self, placement: Placement) -> Self {
-        self.placement = placement;
+        self.beginning.placement = placement;
         self
     }
 
@@ -230,12 +253,13 @@ impl SimulationBuilder {
     /// [`Error::Indefinite`] for a negative mass or damping, or a stiffness that is negative with the
     /// base held.
     /// [`Error::Probe`] and [`Error::DuplicateName`] for a probe of an unknown that is not there or a
-    /// name that comes twice. [`Error::Preload`] if the structure cannot stand,
+    /// name that comes twice. [`Error::Standing`] if the structure cannot stand under weight and the loads at
+    /// t = 0, [`Error::Preload`] if no equilibrium was found for another reason,
     /// [`Error::IllConditioned`] if double precision cannot carry the scene, [`Error::Law`] for an
     /// interface law that returns numbers which are not finite.
     pub fn build(mut self) -> Result<Simulation> {
         let time_step = positive("time step", self.time_step)?;
-        not_negative("gravity", self.gravity)?;
+        let gravity = not_negative("gravity", self.beginning.gravity)?;
         let missing = |quantity, needed| Error::Scene { quantity, needed };
         let structure = self.structure.take();
         let mut structure =
@@ -247,7 +271,7 @@ impl SimulationBuilder {
         let elements = ground.elements().to_vec();
         crate::contact_element::check_order(&elements)?;
         let count = elements.len();
-        let contact_scene = ContactScene { gravity: self.gravity, time_step };
+        let contact_scene = ContactScene { gravity, time_step };
         laws::check(&self.laws, self.search, &contact_scene, count)?;
         let safety_friction =
             laws::safety_friction(&self.laws, std::mem::take(&mut self.safety_friction), count)?;
@@ -262,11 +286,13 @@ impl SimulationBuilder {
         let mut base = Base::of(structure.as_ref(), &elements)?;
         let mut model = Model::new(structure.as_ref(), linear, &base)?;
         super::probe::check(&self.probes, unknowns)?;
+        self.beginning.check(unknowns)?;
         ground.prepare(time_step)?;
         if self.steps > 0 {
             ground.reserve(self.steps)?;
         }
-        let static_state = self.static_state(structure.as_ref(), ground.as_ref(), &base, &model)?;
+        let (laws, own, soil) = (&self.laws, structure.as_ref(), ground.as_ref());
+        let static_state = self.beginning.static_state(laws, own, soil, &base, &model)?;
         let joined = joined_by_force(&model, structure.as_ref(), &static_state)?;
 
         let coefficients = self.scheme.coefficients(time_step);
@@ -295,6 +321,8 @@ impl SimulationBuilder {
             laws: self.laws,
             safety_friction,
             static_state,
+            loads: self.beginning.stepped_loads(&model),
+            weight: self.beginning.stepped_weight(&model),
             joined,
             soil,
             start_motion: motion_at_start(ground.as_ref(), self.motion.as_ref(), count)?,
@@ -309,14 +337,15 @@ impl SimulationBuilder {
         let (operators, contact) = solver.parts_mut();
         let mut state = State::at_rest(&scene)?;
         scene.compliant = scene.is_compliant(&state.start)?;
-        if !self.ledger {
-            state.ledger = Ledger::LEFT_OUT;
-        }
+        self.beginning.set_in_motion(&scene, structure.as_mut(), &mut state)?;
+        let (own, books) = (structure.as_ref(), self.ledger);
+        let books = books.then(|| Books::new(&scene, own, &state)).transpose()?;
+        state.ledger = books.as_ref().map_or(Ledger::LEFT_OUT, |books| books.ledger);
         let conditioning = conditioning::assess(&scene, operators, contact, &state.start)?;
         Ok(Simulation {
             forcing: Forcing::new(&scene),
             increment: Increment::new(&scene, &state, self.ledger),
-            books: self.ledger.then(|| Books::new(&scene, &state)).transpose()?,
+            books,
             motion: self.motion,
             structure,
             ground,
@@ -325,33 +354,6 @@ impl SimulationBuilder {
             state,
             conditioning,
         })
-    }
-
-    /// The state under weight and the load at t = 0; trivial without gravity.
-    fn static_state(
-        &self,
-        structure: &dyn Structure,
-        ground: &dyn Ground,
-        base: &Base,
-        model: &Model,
-    ) -> Result<StaticState> {
-        let unknowns = model.unknowns;
-        let mut state = StaticState::weightless(base.lengths().len(), unknowns);
-        if self.gravity > 0.0 {
-            let mut static_load = vec![0.0; unknowns];
-            structure.load(0.0, &mut static_load)?;
-            let mut load = static_load.clone();
-            let [_, up] = model.influence.of_all(unknowns);
-            model.mass.multiply_add(-self.gravity, &up, &mut load);
-            if let Some(bad) = load.iter().find(|f| !f.is_finite()) {
-                finite("load at t = 0", *bad)?;
-            }
-            let (laws, placement) = (&self.laws, self.placement);
-            state = static_state::solve(model, structure, ground, base, laws, placement, &load)?;
-            state.load = static_load;
-        }
-        (state.force, state.energy) = model.nonlinear_state(structure, &state.displacement)?;
-        Ok(state)
     }
 
     /// The modes, if the structure is to be stepped in them; `factor` is the number of entries of

@@ -8,6 +8,7 @@ mod matrix_file;
 #[cfg(feature = "io")]
 mod mesh_file;
 mod record;
+mod standing;
 mod step;
 
 pub use checkpoint::CheckpointError;
@@ -18,6 +19,7 @@ pub use matrix_file::MatrixFileError;
 #[cfg(feature = "io")]
 pub use mesh_file::MeshFileError;
 pub use record::RecordError;
+pub use standing::StandingError;
 pub use step::StepError;
 
 use crate::fem::Direction;
@@ -252,8 +254,7 @@ pub enum Error {
     /// The static state under the structure's weight was not found.
     #[error(
         "no static equilibrium after {iterations} iterations: residual {residual:e} of the load \
-         (does the structure topple or slide under its own weight? horizontal static loads need \
-         `Placement::WithInterfaceLaw`)"
+         (no resultant of the loads is beyond what the base carries, and the structure is no mechanism)"
     )]
     Preload {
         /// Iterations made.
@@ -261,6 +262,9 @@ pub enum Error {
         /// Last change, relative to the load.
         residual: f64,
     },
+    /// Weight and loads at t = 0 cannot be carried, and why.
+    #[error("the structure cannot stand: {0}")]
+    Standing(Box<StandingError>),
     /// An interface law returned a number that is not finite before the first step.
     #[error(transparent)]
     Law(#[from] LawError),

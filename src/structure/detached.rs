@@ -31,7 +31,7 @@ pub(crate) fn check_attached(
 }
 
 /// Unknowns by their numbers.
-pub(super) fn numbers(unknowns: &[usize]) -> String {
+pub(crate) fn numbers(unknowns: &[usize]) -> String {
     let texts: Vec<String> = unknowns.iter().take(NAMED).map(ToString::to_string).collect();
     let noun = if unknowns.len() == 1 { "unknown" } else { "unknowns" };
     format!("{noun} {}", listed(&texts, unknowns.len()))

@@ -14,7 +14,7 @@ mod triplets;
 pub use contact_node::ContactNode;
 pub(crate) use contact_node::{check_contact_nodes, foundation_nodes};
 pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
-pub(crate) use detached::check_attached;
+pub(crate) use detached::{check_attached, numbers as unknown_numbers};
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
     WithSprings,

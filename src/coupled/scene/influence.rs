@@ -195,6 +195,11 @@ impl Influence {
 }
 
 impl Part {
+    /// Its contact elements.
+    pub(crate) fn elements(&self) -> &[usize] {
+        &self.elements
+    }
+
     /// Rᵀ f: the resultants to the right and upwards.
     pub(crate) fn resultants(&self, force: &[f64]) -> [f64; 2] {
         [0, 1].map(|k| self.vectors[k].iter().map(|&(i, r)| r * force[i]).sum())

@@ -7,6 +7,8 @@ pub(crate) mod laws;
 pub(crate) mod modal_basis;
 pub(crate) mod model;
 pub(crate) mod operators;
+mod proximal;
+mod standing;
 pub(crate) mod static_state;
 pub(crate) mod stepped_row;
 mod supports;
@@ -20,6 +22,7 @@ use model::Model;
 use static_state::StaticState;
 use stepped_row::SteppedRow;
 
+use super::load::SteppedLoad;
 use super::probe::Probe;
 use super::scheme::SchemeCoefficients;
 
@@ -40,6 +43,10 @@ pub(crate) struct Scene {
     /// Whether any law stores energy in its elements.
     pub(crate) compliant: bool,
     pub(crate) static_state: StaticState,
+    /// External loads beside the structure's own.
+    pub(crate) loads: Vec<SteppedLoad>,
+    /// Weight as a load, in stepped coordinates, where the run begins without a static state; else empty.
+    pub(crate) weight: Vec<f64>,
     /// Parts that the nonlinear force joins with others.
     pub(crate) joined: Vec<bool>,
     /// Instantaneous operator of the ground, 2Q × 2Q.

@@ -1,16 +1,15 @@
-//! The static state under the structure's weight, contact conditions included.
+//! The static state: weight first, then the loads at t = 0, contact conditions included.
 
 use super::base::Base;
-use super::model::{Model, Tangent};
-use super::operators::condense;
+use super::model::Model;
+use super::proximal::Standing;
+use super::standing;
 use crate::bem::Ground;
-use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
-use crate::error::{Error, Result, StepError};
-use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, StepStarts, law_of};
-use crate::linalg::{
-    SparseFactor, SparseMatrix, dot, largest, sparse_condition, wide_transposed_multiply_add,
+use crate::error::Result;
+use crate::interface::{
+    ContactState, InterfaceLaw, Mode, StepStart, StepStarts, law_of, memory_ends,
 };
-use crate::structure::{InternalEnergy, Structure, Triplets};
+use crate::structure::{InternalEnergy, Structure};
 
 /// Friction while the structure is placed on the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -23,6 +22,10 @@ pub enum Placement {
     Frictionless,
     /// The interface law acts while the weight comes on, in one step.
     WithInterfaceLaw,
+    /// There is no static state: the base begins unpressed, and weight and loads act from t = 0 on.
+    /// For a structure that is dropped, or tilted and let go
+    /// ([`initial_displacement`](crate::coupled::SimulationBuilder::initial_displacement)).
+    Unloaded,
 }
 
 /// Static tractions, gaps, displacements and modes.
@@ -33,8 +36,10 @@ pub(crate) struct StaticState {
     pub(crate) gap: Vec<f64>,
     pub(crate) displacement: Vec<f64>,
     pub(crate) modes: Vec<Mode>,
-    /// Load at t = 0, weight excepted.
+    /// The structure's own load at t = 0.
     pub(crate) load: Vec<f64>,
+    /// Memory of the laws that acted in it; empty if the laws begin anew.
+    pub(crate) memory: Vec<f64>,
     /// f(u) of a nonlinear structure, and its energies where it knows them.
     pub(crate) force: Vec<f64>,
     pub(crate) energy: Option<InternalEnergy>,
@@ -49,13 +54,14 @@ impl StaticState {
             displacement: vec![0.0; unknowns],
             modes: vec![Mode::Stick; elements],
             load: vec![0.0; unknowns],
+            memory: Vec::new(),
             force: Vec::new(),
             energy: None,
         }
     }
 
     /// Gaps from the states of the contact solver, exactly where a law pins them.
-    fn close_gaps(
+    pub(super) fn close_gaps(
         &mut self,
         laws: &[Box<dyn InterfaceLaw>],
         start: &StepStarts,
@@ -69,11 +75,9 @@ impl StaticState {
     }
 }
 
-const NAME: &str = "static stiffness matrix";
-/// Force out of balance, relative to the load, up to which a state is one of equilibrium.
-const EQUILIBRIUM: f64 = 1e-7;
-/// Condition beyond which rounding of K u is a larger force than that (`tests/coupled/conditioning.rs`).
-const STIFFEST_CONDITION: f64 = 1e10;
+/// Increments of a load under which elements slide: friction makes their path matter.
+const INCREMENTS: usize = 10;
+
 /// Nothing has happened yet.
 const AT_REST: StepStart<'static> = StepStart {
     state: ContactState { gap: 0.0, slip: 0.0, pressure: 0.0, shear: 0.0 },
@@ -85,282 +89,75 @@ const AT_REST: StepStart<'static> = StepStart {
     memory: &[],
 };
 
-/// Proximal iterations at most.
-const ITERATIONS: usize = 500;
-/// After so many iterations, a very stiff structure may be as far as rounding lets it go: up to this
-/// change, if the condition explains it.
-const LATE: usize = 100;
-const LATE_CHANGE: f64 = 1e-8;
-/// Most out-of-balance force of a steady drift, relative to the load.
-const DRIFT: f64 = 1e-8;
-/// Share of the foundation's stiffness that the fictitious springs start with.
-const PROXIMAL_SHARE: f64 = 1e-4;
-/// Share of that down to which they are softened.
-const SOFTEST: f64 = 1e-9;
-/// Decrease of their pull in an iteration above which they are softened tenfold, as long as it is
-/// more than [`ROUNDING`] of the load: a structure far softer than the ground sags against springs
-/// that are stiffer than itself.
-const SLOW: f64 = 0.2;
-/// Pull, relative to the load, that may not fall for rounding alone.
-const ROUNDING: f64 = 1e-6;
-
-/// Finds u and τ with K u + f(u) + BᵀA τ = `load` and the contact conditions of a soil at rest.
-///
-/// K alone is singular (rigid-body modes), and the settlement of a half-plane has no datum.
-/// Springs ε M to the last iterate make each iteration regular, and pull at nothing once it
-/// converges (proximal point method); Newton's linearisation of f goes along.
+/// The state under `weight`, placed as chosen, and then under `load`, with the interface laws.
 pub(crate) fn solve(
-    model: &Model,
-    structure: &dyn Structure,
+    (model, structure, base): (&Model, &dyn Structure, &Base),
     ground: &dyn Ground,
-    base: &Base,
     laws: &[Box<dyn InterfaceLaw>],
     placement: Placement,
-    load: &[f64],
+    [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {
-    let (n, count) = (model.unknowns, base.lengths().len());
-    let size = 2 * count;
-    let smooth: Vec<_> = laws.iter().map(InterfaceLaw::smooth).collect();
-    let laws = match placement {
-        // A base that never opens is bonded from the start.
-        Placement::Frictionless if laws.iter().any(|law| law.modes().contains(&Mode::Open)) => {
-            &smooth
-        }
-        Placement::Frictionless | Placement::WithInterfaceLaw => laws,
-    };
-    let mut soil = vec![0.0; size * size];
-    ground.static_compliance(&mut soil)?;
-    let mut epsilon =
-        PROXIMAL_SHARE * vertical_stiffness(&soil, base) / total_mass(model).max(f64::MIN_POSITIVE);
-
-    let stiffest = epsilon;
-
-    let start = StepStarts::new(laws, &vec![AT_REST; count])?;
-    let mut solver = ContactSolver::new(count);
-    let mut search = ModeSearch::new(count, ContactSearch::Robust);
-    let mut state = StaticState::weightless(count, n);
-    for (e, mode) in state.modes.iter_mut().enumerate() {
-        *mode = law_of(laws, e).modes()[0];
-    }
-    let measure = Measure::new(model, load);
-    let mut tangent = Tangent::new(n);
-    let mut compliance: Option<Compliance> = None;
-    let mut free_jump = vec![0.0; size];
-    let mut change = f64::INFINITY;
-    let mut iterations = 0;
-    while iterations < ITERATIONS {
-        iterations += 1;
-        tangent.refill(structure, &state.displacement)?;
-        let current = match compliance.take() {
-            Some(current) if model.linear => current,
-            _ => {
-                solver.invalidate();
-                Compliance::new(model, &tangent.matrix, base, &soil, epsilon)?
-            }
-        };
-        let current = compliance.insert(current);
-        // (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. Under the springs alone the structure
-        // would sink by 1/PROXIMAL_SHARE settlements; so what τ₀ answers to is put in by the columns
-        // that take out τ₁, and only what is out of balance is solved for.
-        let mut displacement = out_of_balance(model, structure, base, load, &state)?;
-        current.factor.solve(&mut displacement);
-        for (d, u) in displacement.iter_mut().zip(&state.displacement) {
-            *d += u;
-        }
-        wide_transposed_multiply_add(&current.columns, 1.0, &state.traction, &mut displacement);
-        base.means(&displacement, &mut free_jump);
-        for jump in &mut free_jump {
-            *jump = -*jump;
-        }
-        let input = ContactInput {
-            delassus: &current.delassus,
-            free_jump: &free_jump,
-            static_traction: &vec![0.0; size],
-            start: &start,
-            laws,
-            length_scale: largest(&free_jump),
-        };
-        let found = search.solve(&mut solver, &input, &mut state.modes);
-        found.map_err(|error| match error {
-            StepError::Law(error) => Error::Law(error),
-            _ => Error::Preload { iterations, residual: change },
-        })?;
-        let columns = &current.columns;
-        wide_transposed_multiply_add(columns, -1.0, &solver.traction, &mut displacement);
-        // What the fictitious springs still pull.
-        let moved: Vec<f64> =
-            displacement.iter().zip(&state.displacement).map(|(a, b)| a - b).collect();
-        let mut pull = vec![0.0; n];
-        model.mass.multiply_add(epsilon, &moved, &mut pull);
-        let previous = change;
-        change = measure.of(&pull);
-        state.displacement = displacement;
-        state.traction.copy_from_slice(&solver.traction);
-        // What the springs pull cannot be told more finely than the solve is exact.
-        let stalled = change <= 1e-10 && change >= 0.5 * previous;
-        let late = iterations > LATE
-            && change <= LATE_CHANGE
-            && change <= current.condition(model, &tangent.matrix, epsilon) * f64::EPSILON;
-        // What nothing resists (a frictionless base along the ground) drifts for ever by the same
-        // amount under what rounding leaves of the sums of K, a share that grows with its size.
-        let drifts = change <= DRIFT && (change - previous).abs() <= 1e-3 * change;
-        if change <= 1e-13 || stalled || late || drifts {
-            // Springs that pull at nothing are no equilibrium yet, if K u is all rounding.
-            let rest = imbalance(model, base, load, &state.traction);
-            if rest <= EQUILIBRIUM {
-                state.close_gaps(laws, &start, &solver.states);
-                return Ok(state);
-            }
-            change = rest;
-            break;
-        }
-        if !change.is_finite() {
-            break;
-        }
-        if change > ROUNDING.max(SLOW * previous) && epsilon > SOFTEST * stiffest {
-            epsilon *= 0.1;
-            compliance = None;
-            solver.invalidate();
-        }
-    }
-    tangent.refill(structure, &vec![0.0; n])?;
-    // Of the structure against springs as stiff as the first ones.
-    let share = epsilon / stiffest;
-    let condition =
-        compliance.map_or(1.0, |mut c| share * c.condition(model, &tangent.matrix, epsilon));
-    Err(failure(condition, iterations, change))
-}
-
-/// Message for a search without end.
-fn failure(condition: f64, iterations: usize, change: f64) -> Error {
-    if condition <= STIFFEST_CONDITION {
-        return Error::Preload { iterations, residual: change };
-    }
-    Error::IllConditioned {
-        matrix: NAME,
-        condition,
-        limit: STIFFEST_CONDITION,
-        quantity: "stiffness of the structure over that of the ground",
-        ratio: PROXIMAL_SHARE * condition,
-    }
-}
-
-/// Relative force imbalance: K resists no translation, so that tractions alone must carry the two
-/// resultants of the load.
-fn imbalance(model: &Model, base: &Base, load: &[f64], traction: &[f64]) -> f64 {
-    let mut rest = load.to_vec();
-    base.add_forces(-1.0, traction, &mut rest);
-    let [mut worst, mut scale] = [0.0_f64; 2];
-    for vector in &model.influence.of_all(model.unknowns) {
-        worst = worst.max(dot(vector, &rest).abs());
-        scale = scale.max(vector.iter().zip(load).map(|(r, f)| (r * f).abs()).sum());
-    }
-    worst / scale.max(f64::MIN_POSITIVE)
-}
-
-/// load − K u − f(u) − BᵀAτ.
-fn out_of_balance(
-    model: &Model,
-    structure: &dyn Structure,
-    base: &Base,
-    load: &[f64],
-    state: &StaticState,
-) -> Result<Vec<f64>> {
-    let mut rest = load.to_vec();
-    model.stiffness.multiply_add(-1.0, &state.displacement, &mut rest);
-    base.add_forces(-1.0, &state.traction, &mut rest);
-    let (force, _) = model.nonlinear_state(structure, &state.displacement)?;
-    rest.iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
-    Ok(rest)
-}
-
-/// Size of a force relative to the load: each component over the square root of its mass, so
-/// that forces and moments compare in any units.
-struct Measure {
-    weights: Vec<f64>,
-    scale: f64,
-}
-
-impl Measure {
-    fn new(model: &Model, load: &[f64]) -> Self {
-        let mut weights = model.mass.diagonal();
-        for weight in &mut weights {
-            *weight = if *weight > 0.0 { weight.sqrt().recip() } else { 0.0 };
-        }
-        let largest_of =
-            |w: &[f64]| w.iter().zip(load).fold(0.0_f64, |m, (w, f)| m.max(w * f.abs()));
-        let scale = largest_of(&weights);
-        if scale > 0.0 && scale.is_finite() {
-            return Self { weights, scale };
-        }
-        // Nothing but massless unknowns is loaded.
-        let weights = vec![1.0; load.len()];
-        Self { scale: largest(load).max(f64::MIN_POSITIVE), weights }
-    }
-
-    fn of(&self, force: &[f64]) -> f64 {
-        let weighted = self.weights.iter().zip(force).map(|(w, f)| w * f.abs());
-        // Unlike `max`, the sum does not lose NaN.
-        let sum: f64 = force.iter().sum();
-        if sum.is_finite() { weighted.fold(0.0, f64::max) / self.scale } else { f64::INFINITY }
-    }
-}
-
-/// Factors of K + D + εM, its answer to unit tractions, and the static Delassus operator.
-struct Compliance {
-    factor: SparseFactor,
-    /// Condition of K + D + εM, once it is known.
-    condition: Option<f64>,
-    columns: Vec<f64>,
-    delassus: Vec<f64>,
-}
-
-impl Compliance {
-    fn new(
-        model: &Model,
-        tangent: &SparseMatrix,
-        base: &Base,
-        soil: &[f64],
-        epsilon: f64,
-    ) -> Result<Self> {
-        let matrix = Self::matrix(model, tangent, epsilon);
-        let mut factor = SparseFactor::new(NAME, &matrix)?;
-        let (columns, delassus) = condense(|rhs| factor.solve(rhs), base, soil, model.unknowns);
-        Ok(Self { factor, condition: None, columns, delassus })
-    }
-
-    fn matrix(model: &Model, tangent: &SparseMatrix, epsilon: f64) -> Triplets {
-        let mut matrix = Triplets::new(model.unknowns);
-        model.stiffness.add_to(1.0, &mut matrix);
-        tangent.add_to(1.0, &mut matrix);
-        model.mass.add_to(epsilon, &mut matrix);
-        matrix
-    }
-
-    /// Condition of K + D + εM.
-    fn condition(&mut self, model: &Model, tangent: &SparseMatrix, epsilon: f64) -> f64 {
-        if let Some(known) = self.condition {
-            return known;
-        }
-        let matrix = SparseMatrix::new(NAME, &Self::matrix(model, tangent, epsilon));
-        let found = matrix.map_or(f64::INFINITY, |m| sparse_condition(&m, &mut self.factor));
-        *self.condition.insert(found)
-    }
-}
-
-/// Mass that a vertical translation moves.
-fn total_mass(model: &Model) -> f64 {
-    let [_, up] = model.influence.of_all(model.unknowns);
-    model.mass.form(&up, &up)
-}
-
-/// Vertical force per settlement of the soil under a uniform pressure.
-fn vertical_stiffness(soil: &[f64], base: &Base) -> f64 {
     let count = base.lengths().len();
-    let size = 2 * count;
-    let width: f64 = base.lengths().iter().sum();
-    let settled: f64 = (0..count)
-        .map(|p| base.lengths()[p] * (0..count).map(|q| soil[p * size + q]).sum::<f64>())
-        .sum();
-    width * width / settled
+    let mut soil = vec![0.0; 4 * count * count];
+    ground.static_compliance(&mut soil)?;
+    let stage = Standing { model, structure, base, soil: &soil };
+    let smooth: Vec<_> = laws.iter().map(InterfaceLaw::smooth).collect();
+    let can_open = laws.iter().any(|law| law.modes().contains(&Mode::Open));
+    // A base that never opens is bonded from the start.
+    let is_smooth = placement == Placement::Frictionless && can_open;
+    let placing = if is_smooth { &smooth } else { laws };
+    let start = StepStarts::new(placing, &vec![AT_REST; count])?;
+    let mut state = StaticState::weightless(count, model.unknowns);
+    for (e, mode) in state.modes.iter_mut().enumerate() {
+        *mode = law_of(placing, e).modes()[0];
+    }
+    let found = stage.equilibrium(placing, &start, state, weight);
+    let (mut state, contact) = found.map_err(|e| standing::cause(&stage, placing, weight, e))?;
+    let mut memory = start.memory().to_vec();
+    start.remember(placing, &contact, &state.modes, &mut memory)?;
+    // A law without friction that remembers as much is the same law; others begin anew.
+    if memory_ends(placing, count)? == memory_ends(laws, count)? {
+        state.memory = memory;
+    }
+    if load.iter().all(|force| *force == 0.0) {
+        return Ok(state);
+    }
+    // From here on the base sticks where it was placed.
+    for (e, mode) in state.modes.iter_mut().enumerate() {
+        let known = law_of(laws, e).modes();
+        *mode = known.iter().copied().find(|m| m == mode && !m.is_closed()).unwrap_or(known[0]);
+    }
+    let begin: Vec<_> = (contact.iter().zip(&state.modes))
+        .map(|(contact, &mode)| StepStart::new(*contact, mode, AT_REST.time_step))
+        .collect();
+    let mut begin = StepStarts::new(laws, &begin)?;
+    if !state.memory.is_empty() {
+        begin.memory_mut().copy_from_slice(&state.memory);
+    }
+    let path = |increments: usize| -> Result<StaticState> {
+        let (mut state, mut start) = (state.clone(), begin.clone());
+        for k in 1..=increments {
+            let share = k as f64 / increments as f64;
+            let total: Vec<f64> = weight.iter().zip(load).map(|(w, f)| w + share * f).collect();
+            let (next, contact) = stage.equilibrium(laws, &start, state, &total)?;
+            let mut memory = start.memory().to_vec();
+            start.remember(laws, &contact, &next.modes, &mut memory)?;
+            start.advance(&contact, &next.modes, &memory);
+            start.slip_rates_mut().for_each(|rate| *rate = 0.0);
+            state = next;
+        }
+        state.memory = start.memory().to_vec();
+        Ok(state)
+    };
+    let sticks = |e: usize| law_of(laws, e).modes().contains(&Mode::Stick);
+    let slides = |state: &StaticState| {
+        state.modes.iter().enumerate().any(|(e, mode)| mode.is_slip() && sticks(e))
+    };
+    match path(1) {
+        Ok(state) if !slides(&state) => Ok(state),
+        _ => path(INCREMENTS).map_err(|error| {
+            let total: Vec<f64> = weight.iter().zip(load).map(|(w, f)| w + f).collect();
+            standing::cause(&stage, laws, &total, error)
+        }),
+    }
 }

@@ -37,4 +37,16 @@ impl SteppedRow {
             Self::Modes(weights) => dot(weights, x),
         }
     }
+
+    /// Adds `factor` times the weights to `force`: what a force on the sum does to the coordinates.
+    pub(crate) fn add(&self, factor: f64, force: &mut [f64]) {
+        match self {
+            Self::Unknowns(terms) => {
+                terms.iter().for_each(|&(i, weight)| force[i] += factor * weight);
+            }
+            Self::Modes(weights) => {
+                force.iter_mut().zip(weights).for_each(|(f, weight)| *f += factor * weight);
+            }
+        }
+    }
 }

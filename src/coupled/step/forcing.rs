@@ -87,6 +87,13 @@ impl Forcing {
         scene
             .model
             .load(structure, within, at_start, &mut self.unknowns, &mut self.load)
-            .map_err(StepError::structure("load of the structure"))
+            .map_err(StepError::structure("load of the structure"))?;
+        self.load.iter_mut().zip(&scene.weight).for_each(|(load, weight)| *load += weight);
+        for load in &scene.loads {
+            if !load.add(within, &mut self.load) {
+                return Err(StepError::NotFinite { quantity: "external load" });
+            }
+        }
+        Ok(())
     }
 }

@@ -1,0 +1,256 @@
+//! Where a run begins: the static state, and what moves at t = 0.
+
+use super::load::{Load, SteppedLoad};
+use super::scene::Scene;
+use super::scene::base::Base;
+use super::scene::model::Model;
+use super::scene::static_state::{self, Placement, StaticState};
+use super::scene::stepped_row::SteppedRow;
+use super::state::State;
+use crate::bem::Ground;
+use crate::error::{Error, Result, finite, same_length};
+use crate::interface::{InterfaceLaw, Mode, StepStart, StepStarts};
+use crate::linalg::{SparseFactor, largest};
+use crate::matrix::SparseMatrix;
+use crate::motion::STANDARD_GRAVITY;
+use crate::structure::{Structure, Triplets};
+
+/// Gap relative to the largest displacement below which an element is closed.
+const CLOSED: f64 = 1e-12;
+
+/// Weight, loads and initial motion.
+pub(super) struct Beginning {
+    pub(super) gravity: f64,
+    pub(super) placement: Placement,
+    pub(super) loads: Vec<Load>,
+    /// Displacement and velocity of the unknowns at t = 0; empty for none.
+    pub(super) displacement: Vec<f64>,
+    pub(super) velocity: Vec<f64>,
+}
+
+impl Default for Beginning {
+    fn default() -> Self {
+        Self {
+            gravity: STANDARD_GRAVITY,
+            placement: Placement::default(),
+            loads: Vec::new(),
+            displacement: Vec::new(),
+            velocity: Vec::new(),
+        }
+    }
+}
+
+impl Beginning {
+    /// Refuses loads and motions of other unknowns than the structure's, and numbers that are not
+    /// finite.
+    pub(super) fn check(&self, unknowns: usize) -> Result<()> {
+        self.loads.iter().try_for_each(|load| load.check(unknowns))?;
+        for (values, quantity) in
+            [(&self.displacement, "initial displacement"), (&self.velocity, "initial velocity")]
+        {
+            if !values.is_empty() {
+                same_length(quantity, values.len(), unknowns)?;
+                values.iter().try_for_each(|value| finite(quantity, *value).map(|_| ()))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether weight and loads are there before the run begins.
+    fn is_static(&self) -> bool {
+        self.gravity > 0.0 && self.placement != Placement::Unloaded
+    }
+
+    /// The state under weight and the loads at t = 0; trivial without gravity.
+    pub(super) fn static_state(
+        &self,
+        laws: &[Box<dyn InterfaceLaw>],
+        structure: &dyn Structure,
+        ground: &dyn Ground,
+        base: &Base,
+        model: &Model,
+    ) -> Result<StaticState> {
+        let unknowns = model.unknowns;
+        let mut state = StaticState::weightless(base.lengths().len(), unknowns);
+        if self.is_static() {
+            let mut own = vec![0.0; unknowns];
+            structure.load(0.0, &mut own)?;
+            let mut load = own.clone();
+            for external in &self.loads {
+                SteppedRow::new(external.row().terms(), None).add(external.value(0.0), &mut load);
+            }
+            let weight = self.weight(model);
+            for force in weight.iter().chain(&load) {
+                finite("load at t = 0", *force)?;
+            }
+            let stage = (model, structure, base);
+            state = static_state::solve(stage, ground, laws, self.placement, [&weight, &load])?;
+            state.load = own;
+        }
+        (state.force, state.energy) = model.nonlinear_state(structure, &state.displacement)?;
+        Ok(state)
+    }
+
+    fn weight(&self, model: &Model) -> Vec<f64> {
+        let mut weight = vec![0.0; model.unknowns];
+        let [_, up] = model.influence.of_all(model.unknowns);
+        model.mass.multiply_add(-self.gravity, &up, &mut weight);
+        weight
+    }
+
+    /// Weight as a load, in stepped coordinates, if it is one.
+    pub(super) fn stepped_weight(&self, model: &Model) -> Vec<f64> {
+        let acts = self.gravity > 0.0 && self.placement == Placement::Unloaded;
+        if acts { self.weight(model) } else { Vec::new() }
+    }
+
+    /// The loads in stepped coordinates.
+    pub(super) fn stepped_loads(&mut self, model: &Model) -> Vec<SteppedLoad> {
+        let is_static = self.is_static();
+        let loads = std::mem::take(&mut self.loads).into_iter();
+        loads.map(|load| SteppedLoad::new(load, model.modes.as_deref(), is_static)).collect()
+    }
+
+    /// Sets `state`, which is at rest, and the structure's internal variables in motion.
+    pub(super) fn set_in_motion(
+        &self,
+        scene: &Scene,
+        structure: &mut dyn Structure,
+        state: &mut State,
+    ) -> Result<()> {
+        if self.displacement.is_empty() && self.velocity.is_empty() {
+            return Ok(());
+        }
+        let mut mass = None;
+        for (given, own) in [
+            (&self.displacement, &mut state.motion.displacement),
+            (&self.velocity, &mut state.motion.velocity),
+        ] {
+            if given.is_empty() {
+                continue;
+            }
+            let Some(modes) = &scene.model.modes else {
+                own.copy_from_slice(given);
+                continue;
+            };
+            // Φᵀ M u.
+            let mass = match &mass {
+                Some(mass) => mass,
+                None => mass.insert(assembled_mass(structure, given.len())?),
+            };
+            let mut momentum = vec![0.0; given.len()];
+            mass.multiply_add(1.0, given, &mut momentum);
+            modes.project(&momentum, own);
+        }
+        self.set_contact(scene, state)?;
+        if let Some(force) = structure.nonlinear_mut() {
+            force.commit(&seen(scene, state));
+        }
+        let c = &scene.coefficients;
+        if [c.displacement, c.velocity, c.acceleration, c.new_velocity, c.new_acceleration]
+            .iter()
+            .any(|row| row[2] != 0.0)
+        {
+            state.motion.acceleration = acceleration(scene, structure, state)?;
+        }
+        state.motion.changed();
+        state.update_resultants(scene);
+        Ok(())
+    }
+
+    /// Gaps, slips and modes of the displaced base.
+    fn set_contact(&self, scene: &Scene, state: &mut State) -> Result<()> {
+        let count = scene.count();
+        let [mut moved, mut rate] = [(); 2].map(|()| vec![0.0; 2 * count]);
+        scene.base.means(&state.motion.displacement, &mut moved);
+        scene.base.means(&state.motion.velocity, &mut rate);
+        let closed = CLOSED * largest(&self.displacement);
+        if self.is_static() {
+            if let Some(bad) = moved.iter().find(|means| means.abs() > closed) {
+                return Err(Error::Input {
+                    quantity: "initial displacement of the base, m",
+                    value: *bad,
+                    needed: "zero where weight holds it on the ground (begin with \
+                             `Placement::Unloaded`, or with a load that is released)",
+                });
+            }
+        }
+        let mut starts = Vec::with_capacity(count);
+        for e in 0..count {
+            let contact = &mut state.contact[e];
+            if !self.is_static() {
+                contact.gap = -moved[e];
+                contact.slip = moved[count + e];
+                if contact.gap < -closed {
+                    return Err(Error::Input {
+                        quantity: "gap of an element under the initial displacement, m",
+                        value: contact.gap,
+                        needed: "zero or more",
+                    });
+                }
+                if contact.gap > closed {
+                    if !scene.law(e).modes().contains(&Mode::Open) {
+                        return Err(Error::Scene {
+                            quantity: "initial displacement",
+                            needed: "must leave the base on the ground where the interface law \
+                                     does not open",
+                        });
+                    }
+                    state.modes[e] = Mode::Open;
+                }
+            }
+            starts.push(StepStart::new(*contact, state.modes[e], scene.time_step));
+        }
+        let memory = state.start.memory().to_vec();
+        state.start = StepStarts::new(&scene.laws, &starts)?;
+        if self.is_static() {
+            state.start.memory_mut().copy_from_slice(&memory);
+        }
+        state.start.slip_rates_mut().zip(&rate[count..]).for_each(|(own, rate)| *own = *rate);
+        Ok(())
+    }
+}
+
+/// The displacement that the nonlinear force sees at t = 0.
+pub(super) fn seen(scene: &Scene, state: &State) -> Vec<f64> {
+    let mut seen = state.motion.displacement.clone();
+    let mut means = vec![0.0; 2 * scene.count()];
+    let translations = state.motion.translations.iter().map(|y| y.displacement);
+    scene.seen_by_force(&mut seen, &mut means, translations);
+    for (seen, at_rest) in seen.iter_mut().zip(&scene.static_state.displacement) {
+        *seen += at_rest;
+    }
+    seen
+}
+
+fn assembled_mass(structure: &dyn Structure, unknowns: usize) -> Result<SparseMatrix> {
+    SparseMatrix::assembled("mass matrix", unknowns, &|m| structure.mass(m))
+}
+
+/// a of M a + C v + K u + f(u) = p at t = 0.
+fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Result<Vec<f64>> {
+    let model = &scene.model;
+    let n = model.unknowns;
+    let mut force = vec![0.0; n];
+    model.load(structure, 0.0, &scene.static_state.load, &mut vec![0.0; n], &mut force)?;
+    force.iter_mut().zip(&scene.weight).for_each(|(force, weight)| *force += weight);
+    for load in &scene.loads {
+        load.add(0.0, &mut force);
+    }
+    let mut displacement = state.motion.displacement.clone();
+    scene.subtract_base(&mut displacement, &mut vec![0.0; 2 * scene.count()]);
+    model.stiffness.multiply_add(-1.0, &displacement, &mut force);
+    model.damping.multiply_add(-1.0, &state.motion.velocity, &mut force);
+    let (nonlinear, _) = model.nonlinear_state(structure, &seen(scene, state))?;
+    for (force, (now, at_rest)) in
+        force.iter_mut().zip(nonlinear.iter().zip(&scene.static_state.force))
+    {
+        *force -= now - at_rest;
+    }
+    if model.modes.is_none() {
+        let mut mass = Triplets::new(n);
+        structure.mass(&mut mass)?;
+        SparseFactor::new("mass matrix, for the acceleration at t = 0", &mass)?.solve(&mut force);
+    }
+    Ok(force)
+}
