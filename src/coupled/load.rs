@@ -36,7 +36,7 @@ use crate::structure::Row;
 /// assert!((simulation.state().base_shear - 100.0e3).abs() < 1.0);
 /// let run = simulation.run(400, |_| {})?;
 /// // It swings back by more than it had been pulled, and comes to rest.
-/// assert!(run.probes[0].range.min.value < -5e-3);
+/// assert!(run.probes[0].extremes.lowest.value < -5e-3);
 /// assert!(simulation.state().base_shear.abs() < 1.0e3 && run.ledger_residual < 1e-9);
 /// # Ok::<(), basemat::Error>(())
 /// ```

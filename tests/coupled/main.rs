@@ -5,6 +5,7 @@ mod conditioning;
 mod conveniences;
 mod coordinates;
 mod ledger;
+mod loads;
 mod preload_of_soft_structures;
 mod runs;
 #[path = "../support/mod.rs"]

@@ -32,11 +32,12 @@ pub(super) fn cause(
     load: &[f64],
     error: Error,
 ) -> Error {
-    if !matches!(error, Error::Preload { .. } | Error::IllConditioned { .. }) {
+    use Error::{IllConditioned, Preload, Singular};
+    if !matches!(error, Preload { .. } | IllConditioned { .. } | Singular { .. }) {
         return error;
     }
-    resultants(stage, laws, load)
-        .or_else(|| mechanism(stage))
+    mechanism(stage)
+        .or_else(|| resultants(stage, laws, load))
         .map_or(error, |cause| Error::Standing(Box::new(cause)))
 }
 

@@ -1,0 +1,323 @@
+//! GOAL: loads, static stages and initial motion are what mechanics says, and the ledger books them.
+//! SCENE: blocks, frames and towers that are pushed, pulled, let go, thrown, tilted and dropped.
+//! REFERENCE: statics, a structure with the same load of its own, energy, free fall, Housner's block.
+
+use basemat::bem::HalfPlaneGround;
+use basemat::coupled::{Load, Placement, SimulationBuilder};
+use basemat::fem::{Beam, Mesh};
+use basemat::interface::{Bonded, Coulomb};
+use basemat::structure::{
+    ContactNode, FemModel, RigidBlock, Row, ShearBuilding, Storey, Structure, Triplets,
+};
+use basemat::{Error, Result, Simulation, Soil, StandingError};
+
+const GRAVITY: f64 = 9.80665;
+
+fn soil() -> Soil {
+    Soil::new(80.0e6, 0.33, 1900.0).unwrap()
+}
+
+fn block() -> RigidBlock {
+    RigidBlock::new(6.0, 9.0, 2000.0).unwrap()
+}
+
+/// Weight of [`block`], N/m.
+const WEIGHT: f64 = 6.0 * 9.0 * 2000.0 * GRAVITY;
+
+fn on_half_plane(structure: impl Structure + 'static) -> SimulationBuilder {
+    let ground = HalfPlaneGround::under(soil(), &structure, 8).unwrap();
+    Simulation::builder(0.005).ground(ground).structure(structure)
+}
+
+fn refused(builder: SimulationBuilder) -> StandingError {
+    match builder.build().map(|_| ()).unwrap_err() {
+        Error::Standing(cause) => *cause,
+        other => panic!("{other}"),
+    }
+}
+
+/// A structure with a load of its own.
+struct Loaded<S>(S, Row, fn(f64) -> f64);
+
+impl<S: Structure> Structure for Loaded<S> {
+    fn unknowns(&self) -> usize {
+        self.0.unknowns()
+    }
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.0.contact_nodes()
+    }
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.mass(matrix)
+    }
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.stiffness(matrix)
+    }
+    fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
+        for &(i, weight) in &self.1 {
+            load[i] += weight * (self.2)(time);
+        }
+        Ok(())
+    }
+}
+
+#[test]
+fn a_load_of_the_builder_is_one_of_the_structure() {
+    let push = |t: f64| 150.0e3 * (1.0 + (8.0 * t).sin());
+    let building =
+        || ShearBuilding::new(8.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 4.0e6); 5]).unwrap();
+    let roof = Row::from(building().roof());
+    let law = || Coulomb::new(0.6).unwrap();
+    let mut inside =
+        on_half_plane(Loaded(building(), roof.clone(), push)).interface(law()).build().unwrap();
+    // In two loads, of which one is rounded otherwise.
+    let mut outside = on_half_plane(building())
+        .interface(law())
+        .load(Load::new(roof.clone(), move |t| 0.5 * push(t)))
+        .load(Load::new(0.5 * roof, push))
+        .build()
+        .unwrap();
+    let a = inside.run(600, |_| {}).unwrap();
+    let b = outside.run(600, |_| {}).unwrap();
+    assert!(a.uplifted_fraction.value > 0.1, "{a}");
+    let [u, v] = [&inside, &outside].map(|simulation| simulation.state().displacement().to_vec());
+    let largest = u.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    assert!(u.iter().zip(&v).all(|(a, b)| (a - b).abs() < 1e-10 * largest), "{u:?} {v:?}");
+    assert!(a.ledger_residual < 1e-9 && b.ledger_residual < 1e-9);
+    assert!((inside.state().ledger.input / outside.state().ledger.input - 1.0).abs() < 1e-10);
+}
+
+/// Any horizontal load at t = 0, however small, is carried; its resultants are those of statics.
+#[test]
+fn static_loads_are_carried_by_statics() {
+    for (law, force) in [
+        (Box::new(Coulomb::new(0.5).unwrap()) as Box<dyn basemat::interface::InterfaceLaw>, 26.0),
+        (Box::new(Coulomb::new(0.5).unwrap()), 0.3 * WEIGHT),
+        (Box::new(Coulomb::uplift_only()), -0.2 * WEIGHT),
+        (Box::new(Bonded), 0.4 * WEIGHT),
+    ] {
+        let height = 3.0;
+        let load = Load::constant(block().horizontal_at(height), force);
+        let down = Load::constant(block().vertical_at(1.0), -1.0e5);
+        let mut simulation =
+            on_half_plane(block()).interface(law).load(load).load(down).build().unwrap();
+        let state = simulation.state();
+        let near = |found: f64, wanted: f64| (found - wanted).abs() < 1e-6 * WEIGHT;
+        assert!(near(state.base_shear, force), "{} {force}", state.base_shear);
+        assert!(near(state.normal_force, WEIGHT + 1.0e5), "{}", state.normal_force);
+        // On the soil, counter-clockwise about the middle of the base.
+        let moment = -force * height - 1.0e5;
+        assert!(near(state.base_moment, moment), "{} {moment}", state.base_moment);
+        let before = state.clone();
+        let run = simulation.run(100, |_| {}).unwrap();
+        // It stays where it is.
+        assert!(near(run.base_shear.magnitude(), force.abs()), "{run}");
+        let moved = simulation.state().displacement().iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        assert!(moved < 1e-9, "{moved:e} from {before:?}");
+    }
+}
+
+/// Beyond friction for some elements, but not for all: the edge elements slide a little while the
+/// load comes on, and none breaks the friction cone.
+#[test]
+fn elements_slide_while_a_load_comes_on() {
+    let load = Load::constant(block().horizontal_at(0.5), 0.45 * WEIGHT);
+    let simulation =
+        on_half_plane(block()).interface(Coulomb::new(0.5).unwrap()).load(load).build().unwrap();
+    let at_limit = simulation.state().contact.iter().filter(|c| {
+        assert!(c.shear.abs() <= 0.5 * c.pressure * (1.0 + 1e-9), "{c:?}");
+        c.shear.abs() >= 0.5 * c.pressure * (1.0 - 1e-6)
+    });
+    let at_limit = at_limit.count();
+    assert!(at_limit > 0 && at_limit < 8, "{at_limit}");
+}
+
+#[test]
+fn what_cannot_stand_is_refused_with_its_cause() {
+    let law = || Coulomb::new(0.5).unwrap();
+    let pushed = |height: f64, force: f64| {
+        let load = Load::constant(block().horizontal_at(height), force);
+        on_half_plane(block()).interface(law()).load(load)
+    };
+    let StandingError::Slides { horizontal, normal, resistance, ratio } =
+        refused(pushed(0.0, -0.6 * WEIGHT))
+    else {
+        panic!()
+    };
+    assert!((horizontal / WEIGHT + 0.6).abs() < 1e-9 && (normal / WEIGHT - 1.0).abs() < 1e-9);
+    assert!((resistance / WEIGHT - 0.5).abs() < 1e-9 && (ratio - 1.2).abs() < 1e-9);
+
+    let StandingError::Overturns { moment, eccentricity, ratio, .. } =
+        refused(pushed(9.0, 0.4 * WEIGHT))
+    else {
+        panic!()
+    };
+    assert!((moment / WEIGHT + 3.6).abs() < 1e-6, "{moment}");
+    assert!((eccentricity - 3.6).abs() < 1e-6 && (ratio - 1.2).abs() < 1e-6, "{eccentricity}");
+
+    let up = Load::constant(block().vertical_at(0.0), 1.5 * WEIGHT);
+    let StandingError::Lifted { upward } =
+        refused(on_half_plane(block()).interface(law()).load(up))
+    else {
+        panic!()
+    };
+    assert!((upward / WEIGHT - 0.5).abs() < 1e-9);
+
+    // A column hinged on a footing: two trusses in line.
+    let mut mesh = Mesh::new();
+    let line: Vec<usize> =
+        [-1.0, 0.0, 1.0].iter().map(|&x| mesh.add_node(x, 0.0).unwrap()).collect();
+    for pair in line.windows(2) {
+        mesh.add(Beam::new([pair[0], pair[1]], 30.0e9, 0.5, 0.01, 2400.0).unwrap()).unwrap();
+    }
+    let [hinge, top] = [mesh.add_node(0.0, 1.0).unwrap(), mesh.add_node(0.5, 4.0).unwrap()];
+    mesh.add(Beam::new([line[1], hinge], 30.0e9, 0.5, 0.01, 2400.0).unwrap()).unwrap();
+    mesh.add(basemat::fem::Truss::new([hinge, top], 30.0e9, 0.5, 2400.0).unwrap()).unwrap();
+    let model = FemModel::new(mesh, &line).unwrap();
+    let own = [basemat::fem::Direction::X, basemat::fem::Direction::Y]
+        .map(|direction| model.unknown(top, direction).unwrap());
+    let StandingError::Mechanism { unknowns, place } =
+        refused(on_half_plane(model).interface(law()))
+    else {
+        panic!()
+    };
+    assert_eq!(unknowns, own, "{place}");
+    assert!(place.contains("(0.5, 4)"), "{place}");
+}
+
+/// Snap-back of a tower: what its spring stores is what it begins with.
+#[test]
+fn a_released_load_leaves_its_energy() {
+    let building =
+        || ShearBuilding::new(8.0, 5.0e5, 4.0e6, &[Storey::new(3.0, 20.0e3, 4.0e6)]).unwrap();
+    let roof = Row::from(building().roof());
+    let force = 20.0e3;
+    let mut simulation = on_half_plane(building())
+        .interface(Bonded)
+        .load(Load::released(roof.clone(), force))
+        .build()
+        .unwrap();
+    let pulled = roof.value(simulation.static_displacement());
+    let run = simulation.run(2000, |_| {}).unwrap();
+    // Against the static state the load is −F from t = 0 on.
+    let moved = roof.value(simulation.state().displacement());
+    let input = -force * moved;
+    assert!((simulation.state().ledger.input / input - 1.0).abs() < 1e-9);
+    assert!(run.ledger_residual < 1e-9);
+    // At rest again where it was without the load: F/k in the storey and some from the rocking.
+    assert!(pulled > force / 4.0e6 && moved < -force / 4.0e6, "{pulled} {moved}");
+}
+
+#[test]
+fn an_initial_velocity_is_the_energy_that_a_run_begins_with() {
+    let building =
+        || ShearBuilding::new(8.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 4.0e6); 3]).unwrap();
+    let roof = building().roof();
+    let mut velocity = vec![0.0; building().unknowns()];
+    velocity[roof] = 0.5;
+    let mut displacement = vec![0.0; building().unknowns()];
+    displacement[roof] = 0.01;
+    for coordinates in
+        [basemat::coupled::Coordinates::Unknowns, basemat::coupled::Coordinates::Modes]
+    {
+        for newmark in [false, true] {
+            let mut builder = on_half_plane(building())
+                .interface(Coulomb::new(0.6).unwrap())
+                .coordinates(coordinates)
+                .initial_velocity(velocity.clone())
+                .initial_displacement(displacement.clone());
+            if newmark {
+                builder = builder.scheme(basemat::coupled::Newmark::default());
+            }
+            let mut simulation = builder.build().unwrap();
+            let begun = simulation.state().ledger;
+            let (kinetic, strain) = (0.5 * 20.0e3 * 0.25, 0.5 * 4.0e6 * 1e-4);
+            assert!((begun.kinetic / kinetic - 1.0).abs() < 1e-9, "{begun}");
+            assert!((begun.strain / strain - 1.0).abs() < 1e-9, "{begun}");
+            assert!((begun.input / (kinetic + strain) - 1.0).abs() < 1e-9, "{begun}");
+            assert!((simulation.state().velocity()[roof] - 0.5).abs() < 1e-12);
+            let acceleration = simulation.state().acceleration()[roof];
+            let wanted = if newmark { -4.0e6 * 0.01 / 20.0e3 } else { 0.0 };
+            assert!((acceleration - wanted).abs() < 1e-9, "{acceleration} {wanted}");
+            let run = simulation.run(1000, |_| {}).unwrap();
+            assert!(run.ledger_residual < 1e-9, "{run}");
+            // The soil has taken the rest.
+            let ledger = simulation.state().ledger;
+            let left = ledger.kinetic + ledger.strain;
+            assert!(left < 0.9 * (kinetic + strain) && ledger.soil > 0.0, "{run}");
+        }
+    }
+}
+
+/// A block falls freely until it lands: h = g t²/2, and then it bounces no higher.
+#[test]
+fn a_dropped_block_falls_freely_and_lands() {
+    let height = 0.05;
+    let mut simulation = on_half_plane(block())
+        .interface(Coulomb::new(0.5).unwrap())
+        .placement(Placement::Unloaded)
+        .initial_displacement([0.0, height, 0.0])
+        .build()
+        .unwrap();
+    let state = simulation.state();
+    assert!((state.contact[3].gap - height).abs() < 1e-15 && state.uplifted_fraction == 1.0);
+    assert_eq!(state.normal_force, 0.0);
+    let fall = (2.0 * height / GRAVITY).sqrt();
+    while simulation.state().time + 0.005 < fall {
+        let state = simulation.step().unwrap();
+        let wanted = height - 0.5 * GRAVITY * state.time.powi(2);
+        assert!((state.displacement()[1] - wanted).abs() < 1e-12, "{}", state.time);
+    }
+    let mut highest = 0.0_f64;
+    let run = simulation.run(600, |state| highest = highest.max(state.contact[3].gap)).unwrap();
+    assert!(run.ledger_residual < 1e-9 && highest < 0.5 * height, "{highest}");
+    // In the end the soil carries the weight.
+    assert!((simulation.state().normal_force / WEIGHT - 1.0).abs() < 0.01, "{run}");
+}
+
+#[test]
+fn initial_motions_and_loads_that_make_no_sense_are_refused() {
+    let scene = || on_half_plane(block()).interface(Coulomb::new(0.5).unwrap());
+    let unloaded = || scene().placement(Placement::Unloaded);
+    let text = |builder: SimulationBuilder| builder.build().map(|_| ()).unwrap_err().to_string();
+    let own = [
+        text(scene().initial_displacement([0.0, 0.0])),
+        text(scene().initial_velocity([0.0, f64::NAN, 0.0])),
+        text(scene().initial_displacement([0.0, 0.01, 0.0])),
+        text(unloaded().initial_displacement([0.0, -0.01, 0.0])),
+        text(unloaded().initial_displacement([0.0, 0.0, 0.01])),
+        text(unloaded().interface(Bonded).initial_displacement([0.0, 0.1, 0.0])),
+        text(scene().load(Load::constant(Row::from(3), 1.0))),
+        text(scene().load(Load::constant(Row::from((0, f64::NAN)), 1.0))),
+        text(scene().load(Load::new(Row::from(0), |t| 1.0 / t))),
+    ];
+    for (text, word) in own.iter().zip([
+        "initial displacement",
+        "initial velocity",
+        "Unloaded",
+        "gap of an element",
+        "gap of an element",
+        "does not open",
+        "unknown of a load",
+        "weight of an unknown",
+        "value of a load at t = 0",
+    ]) {
+        assert!(text.contains(word), "{text}: {word}");
+    }
+    let mut late = scene()
+        .load(Load::new(Row::from(0), |t| if t > 0.02 { f64::NAN } else { 0.0 }))
+        .build()
+        .unwrap();
+    let error = late.run(100, |_| {}).unwrap_err();
+    assert!(error.to_string().contains("external load"), "{error}");
+    assert!(matches!(error, Error::Step { step: 5, .. }) && late.state().step == 4, "{error:?}");
+    for (times, forces) in
+        [(vec![], vec![]), (vec![0.0, 0.0], vec![1.0, 1.0]), (vec![0.0], vec![f64::INFINITY])]
+    {
+        assert!(Load::table(0, &times, &forces).is_err());
+    }
+    let table = Load::table(0, &[1.0, 2.0, 4.0], &[0.0, 10.0, 20.0]).unwrap();
+    for (time, value) in [(0.5, 0.0), (1.5, 5.0), (2.0, 10.0), (3.0, 15.0), (4.0, 20.0), (4.1, 0.0)]
+    {
+        assert!((table.value(time) - value).abs() < 1e-14, "{time}");
+    }
+}
