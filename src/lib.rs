@@ -1,10 +1,10 @@
 //! Earthquake response of flexible structures whose base can uplift and slide on elastic ground.
 //!
 //! A structure (finite elements, a rigid block, a shear building, or any model of your own) stands
-//! on elastic ground: the flat surface of a homogeneous half-plane, a bed of springs, or your own. The ground shakes. Element by element,
-//! the base may stick, open, close again and slide with friction. Wanted are displacements, contact
-//! tractions, base shear and moment, uplift and slip. Everything is two-dimensional, per metre of
-//! thickness, for small displacements.
+//! on elastic ground: the flat surface of a homogeneous half-plane, a bed of springs, or your own.
+//! The ground shakes. Element by element, the base may stick, open, close again and slide with
+//! friction. Wanted are displacements, contact tractions, base shear and moment, uplift and slip.
+//! Everything is two-dimensional, per metre of thickness, for small displacements.
 //!
 //! # One complete example
 //!
