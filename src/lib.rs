@@ -140,6 +140,7 @@
 //! | for a … of your own | implement | methods needed |
 //! |---|---|---|
 //! | structure | [`structure::Structure`] | 4 |
+//! | nonlinear force in it | [`structure::NonlinearForce`] | 2; 5 with a memory |
 //! | finite element | [`fem::Element`] | 4 |
 //! | spring with a memory | [`structure::Hysteresis`] | 5 |
 //! | law between base and soil | [`interface::InterfaceLaw`] | 3 |
@@ -158,8 +159,8 @@
 //! # Examples
 //!
 //! Short programs that print a table: `shear_building`, `base_isolated`, `two_buildings`,
-//! `rocking_block`, `floor_spectra`, `friction_sweep`, `travelling_wave`, `from_matrices`; `pictures`
-//! draws everything (feature `png`). What each prints is in `docs/examples.md`.
+//! `portal_frame`, `rocking_block`, `floor_spectra`, `friction_sweep`, `travelling_wave`,
+//! `from_matrices`; `pictures` draws everything (feature `png`). What each prints is in `docs/examples.md`.
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

@@ -109,7 +109,7 @@ impl FemModel {
     /// use basemat::fem::{Beam, Mesh};
     /// use basemat::structure::{FemModel, Structure};
     ///
-    /// // A portal frame on two strips 2 m wide.
+    /// // A portal frame on two strips 2 m wide (the example `portal_frame` shakes one).
     /// let mut mesh = Mesh::new();
     /// let mut lines = Vec::new();
     /// let mut tops = Vec::new();
