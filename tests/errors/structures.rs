@@ -8,7 +8,7 @@ use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::{
     ContactNode, CraigBampton, ModalDamping, Row, Structure, StructureGroup, Triplets,
 };
-use basemat::{Error, Simulation, Soil};
+use basemat::{Error, Simulation, Soil, StandingError};
 
 use super::builder::unbuilt;
 use super::spoilt::Spoilt;
@@ -96,14 +96,23 @@ fn empty_base() -> Vec<ContactNode> {
 
 #[test]
 fn a_structure_that_slides_away_under_its_static_load_is_refused() {
-    let pushed = || Spoilt { push: 1e4, ..Spoilt::sound() };
+    let pushed = |push| Spoilt { push, ..Spoilt::sound() }.scene();
     let law = Coulomb::new(0.3).unwrap();
-    // Set down without friction, nothing holds it; with friction of 0.3 its weight does.
-    let error = unbuilt("no static equilibrium", pushed().scene().interface(law));
-    assert!(matches!(error, Error::Preload { iterations: 1.., .. }), "{error:?}");
-    let placed = pushed().scene().interface(law).placement(Placement::WithInterfaceLaw);
-    let shear = placed.build().unwrap().state().base_shear;
-    assert!((shear - 1e4).abs() < 1e-4, "{shear}");
+    // It is set down without friction; friction of 0.3 then holds it.
+    for placement in [Placement::Frictionless, Placement::WithInterfaceLaw] {
+        let placed = pushed(1e4).interface(law).placement(placement);
+        let shear = placed.build().unwrap().state().base_shear;
+        assert!((shear - 1e4).abs() < 1e-4, "{shear}");
+    }
+    let weight = pushed(0.0).interface(law).build().unwrap().state().normal_force;
+    let error = unbuilt("slides away", pushed(0.31 * weight).interface(law));
+    let Error::Standing(cause) = error else { panic!("{error:?}") };
+    match *cause {
+        StandingError::Slides { ratio, .. } => {
+            assert!((ratio - 0.31 / 0.3).abs() < 1e-6, "{ratio}")
+        }
+        other => panic!("{other:?}"),
+    }
 }
 
 #[test]
