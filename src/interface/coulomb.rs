@@ -132,11 +132,11 @@ impl InterfaceLaw for Coulomb {
         let open = [Condition::pressure_is(0.0), Condition::shear_is(0.0)];
         let Some(closed_gap) = self.closed_gap(start) else { return open };
         let closed = Condition::gap_is(closed_gap);
-        match mode {
-            Mode::Open => open,
-            Mode::Stick => [closed, Condition::slip_is(start.state.slip)],
+        match mode.elastic() {
             Mode::SlipRight => [closed, self.slip_condition(1.0, start)],
             Mode::SlipLeft => [closed, self.slip_condition(-1.0, start)],
+            Mode::Open => open,
+            _ => [closed, Condition::slip_is(start.state.slip)],
         }
     }
 

@@ -4,23 +4,28 @@
 //! [`Condition`]s between the element's opening and its traction, and after a trial it says which
 //! mode comes next. The mode search of [`crate::coupled`] does the rest and knows no law.
 
+mod adhesive;
 mod bonded;
 mod coulomb;
 mod step_start;
 mod thin_layer;
 mod variable_friction;
+mod yielding;
 
+pub use adhesive::Adhesive;
 pub use bonded::Bonded;
 pub use coulomb::{Activation, Coulomb};
 pub(crate) use step_start::memory_ends;
 pub use step_start::{StepStart, StepStarts};
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
 pub use variable_friction::VariableFriction;
+pub use yielding::Yielding;
 
 use crate::error::Result;
 
 /// Contact mode of an element during a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Mode {
     /// Closed, no slip (and the only mode of a bonded element).
     Stick,
@@ -30,6 +35,12 @@ pub enum Mode {
     SlipRight,
     /// Uplifted: no traction.
     Open,
+    /// Closed, no slip; the soil yields under the pressure ([`Yielding`]).
+    Yield,
+    /// The same; the structure slides to the left.
+    YieldLeft,
+    /// The same; the structure slides to the right.
+    YieldRight,
 }
 
 impl Mode {
@@ -40,8 +51,44 @@ impl Mode {
 
     /// Whether the element slides.
     pub fn is_slip(self) -> bool {
-        matches!(self, Mode::SlipLeft | Mode::SlipRight)
+        matches!(self.elastic(), Mode::SlipLeft | Mode::SlipRight)
     }
+
+    /// Whether the soil under the element yields.
+    pub fn is_yield(self) -> bool {
+        matches!(self, Mode::Yield | Mode::YieldLeft | Mode::YieldRight)
+    }
+
+    /// The same mode on soil that does not yield.
+    pub fn elastic(self) -> Self {
+        match self {
+            Mode::Yield => Mode::Stick,
+            Mode::YieldLeft => Mode::SlipLeft,
+            Mode::YieldRight => Mode::SlipRight,
+            mode => mode,
+        }
+    }
+
+    /// The same mode on soil that yields; an open element stays open.
+    pub fn yielding(self) -> Self {
+        match self {
+            Mode::Stick => Mode::Yield,
+            Mode::SlipLeft => Mode::YieldLeft,
+            Mode::SlipRight => Mode::YieldRight,
+            mode => mode,
+        }
+    }
+
+    /// All modes.
+    const ALL: [Self; 7] = [
+        Self::Stick,
+        Self::SlipLeft,
+        Self::SlipRight,
+        Self::Open,
+        Self::Yield,
+        Self::YieldLeft,
+        Self::YieldRight,
+    ];
 
     /// The modes of contact with uplift and Coulomb friction.
     fn with_friction(friction: f64) -> &'static [Self] {

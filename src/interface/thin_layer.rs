@@ -251,7 +251,7 @@ impl InterfaceLaw for ThinLayer {
         let along = match mode {
             Mode::SlipRight => self.slip_condition(1.0, start),
             Mode::SlipLeft => self.slip_condition(-1.0, start),
-            Mode::Stick | Mode::Open => {
+            _ => {
                 // What a closed layer carried along the base is gone when it opens.
                 let gone = mode == Mode::Open && start.mode.is_closed();
                 let before = if gone { 0.0 } else { start.state.shear };

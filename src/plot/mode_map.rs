@@ -31,12 +31,12 @@ impl Shown {
 
     /// Mode and tractions of an element, of a base whose largest pressure is `scale`.
     pub(super) fn of(mode: Mode, state: &ContactState, scale: f64) -> Self {
-        match mode {
-            Mode::Stick => Self::Stick,
+        match mode.elastic() {
             Mode::Open => Self::Open,
             _ if state.pressure.abs() <= 1e-9 * scale => Self::Weightless,
             Mode::SlipLeft => Self::SlipLeft,
             Mode::SlipRight => Self::SlipRight,
+            _ => Self::Stick,
         }
     }
 

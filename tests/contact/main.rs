@@ -9,3 +9,4 @@ mod spring_bed;
 #[path = "../support/mod.rs"]
 mod support;
 mod variable_friction;
+mod yielding;

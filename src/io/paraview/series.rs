@@ -74,6 +74,9 @@ fn base(histories: &Histories, cells: &[Vec<usize>], frame: &ContactFrame<'_>) -
         Mode::SlipLeft => 1.0,
         Mode::SlipRight => 2.0,
         Mode::Open => 3.0,
+        Mode::Yield => 4.0,
+        Mode::YieldLeft => 5.0,
+        Mode::YieldRight => 6.0,
     };
     let grid = Grid {
         points: ends.collect(),

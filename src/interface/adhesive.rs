@@ -1,0 +1,121 @@
+//! Contact that is glued until it breaks.
+
+use super::{Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance};
+use crate::error::{Result, not_negative};
+
+/// Adhesion that breaks once: an element sticks up to a tensile strength and a cohesion, and is one of
+/// Coulomb's law from the step on in which either is exceeded.
+///
+/// Glued, p ≥ −tension and |τ| ≤ cohesion + friction · max(p, 0). Each element remembers whether it is
+/// glued (1) or broken (0); one that stands open at first is broken. What broken elements carried goes
+/// over to their neighbours at once, so that a base may unzip in a step, and the elastic energy that
+/// is set free is radiated.
+///
+/// ```
+/// use basemat::Simulation;
+/// use basemat::bem::SpringGround;
+/// use basemat::interface::Adhesive;
+/// use basemat::motion::el_centro_1940;
+/// use basemat::structure::RigidBlock;
+///
+/// let mut simulation = Simulation::builder(0.002)
+///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+///     .ground(SpringGround::new(-2.0..2.0, 16, 8e7, 4e7)?.with_dashpots(7e5, 4e5)?)
+///     .interface(Adhesive::new(50.0e3, 30.0e3, 0.6)?)
+///     .motion(el_centro_1940())
+///     .build()?;
+/// let run = simulation.run(2500, |_| {})?;
+/// let glued = (0..16).filter(|&e| simulation.state().law_memory(e) == [1.0]).count();
+/// assert!(glued > 0 && glued < 16, "{glued}");
+/// assert!(run.ledger_residual < 1e-9);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Adhesive {
+    tension: f64,
+    cohesion: f64,
+    broken: Coulomb,
+}
+
+impl Adhesive {
+    /// Law with a tensile strength and a cohesion (Pa), and the friction coefficient of zero or more
+    /// that stays; infinity means that nothing ever slides.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for strengths that are not finite or below zero, for NaN
+    /// or a negative coefficient.
+    pub fn new(tension: f64, cohesion: f64, friction: f64) -> Result<Self> {
+        Ok(Self {
+            tension: not_negative("tensile strength of the interface", tension)?,
+            cohesion: not_negative("cohesion of the interface", cohesion)?,
+            broken: Coulomb::new(friction)?,
+        })
+    }
+
+    /// Tensile strength and cohesion, Pa.
+    pub fn strengths(&self) -> [f64; 2] {
+        [self.tension, self.cohesion]
+    }
+
+    /// The friction coefficient.
+    pub fn friction(&self) -> f64 {
+        self.broken.friction()
+    }
+
+    /// Whether a glued element holds.
+    fn holds(&self, trial: &ContactState, tolerance: Tolerance) -> bool {
+        let friction = match self.friction() * trial.pressure.max(0.0) {
+            limit if limit.is_nan() => 0.0,
+            limit => limit,
+        };
+        trial.pressure >= -self.tension - tolerance.traction
+            && trial.shear.abs() <= self.cohesion + friction + tolerance.traction
+    }
+}
+
+/// Whether the element was glued at the start of the step.
+fn is_glued(start: &StepStart) -> bool {
+    start.memory.first().is_some_and(|glued| *glued > 0.0)
+}
+
+impl InterfaceLaw for Adhesive {
+    fn modes(&self) -> &[Mode] {
+        &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        self.broken.conditions(mode, start)
+    }
+
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &StepStart,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        if mode == Mode::Stick && is_glued(start) && self.holds(trial, tolerance) {
+            return Mode::Stick;
+        }
+        self.broken.next_mode(mode, start, trial, tolerance)
+    }
+
+    fn memory(&self) -> usize {
+        1
+    }
+
+    fn initial_memory(&self, start: &StepStart, memory: &mut [f64]) {
+        memory[0] = if start.mode.is_closed() { 1.0 } else { 0.0 };
+    }
+
+    fn commit(&self, _start: &StepStart, _end: &ContactState, mode: Mode, memory: &mut [f64]) {
+        if mode != Mode::Stick {
+            memory[0] = 0.0;
+        }
+    }
+
+    /// That of the broken interface: adhesion is left out.
+    fn friction_coefficient(&self) -> Option<f64> {
+        Some(self.friction())
+    }
+}

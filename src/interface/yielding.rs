@@ -1,0 +1,143 @@
+//! Contact on soil that yields under its bearing pressure.
+
+use super::{Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance};
+use crate::error::{Result, positive};
+
+/// Coulomb friction and uplift on soil whose contact pressure is bounded: where it reaches the
+/// bearing pressure q, the base sinks in for good.
+///
+/// Each element remembers its indentation w ≥ 0: the surface that the base meets again lies w below
+/// the old one. The normal conditions of the element, crossed with stick and slip:
+///
+/// | | |
+/// |---|---|
+/// | open | p = 0, g ≥ −w |
+/// | closed | g = −w, 0 ≤ p ≤ q |
+/// | yielding | p = q, g ≤ −w; w becomes −g |
+///
+/// The ledger books q times the indentation in `contact`. It is the near field of a foundation: a
+/// rocking base settles and its soil is rounded, as in beds of yielding springs (Allotey & El Naggar
+/// 2003), while the half-plane below stays elastic. Sliding does not lower q.
+///
+/// ```
+/// use basemat::Simulation;
+/// use basemat::bem::SpringGround;
+/// use basemat::interface::Yielding;
+/// use basemat::motion::el_centro_1940;
+/// use basemat::structure::RigidBlock;
+///
+/// // 118 kPa of weight on soil that bears 300 kPa.
+/// let mut simulation = Simulation::builder(0.002)
+///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+///     .ground(SpringGround::new(-2.0..2.0, 16, 8e7, 4e7)?.with_dashpots(7e5, 4e5)?)
+///     .interface(Yielding::new(300.0e3, 0.6)?)
+///     .motion(el_centro_1940())
+///     .build()?;
+/// let run = simulation.run(2500, |state| {
+///     assert!(state.contact.iter().all(|c| c.pressure <= 300.0e3 * (1.0 + 1e-9)));
+/// })?;
+/// let indentation = simulation.state().law_memory(0)[0];
+/// assert!(indentation > 1e-3, "the edge has sunk in: {indentation}");
+/// assert!(run.ledger_residual < 1e-9 && simulation.state().ledger.contact > 0.0);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Yielding {
+    bearing_pressure: f64,
+    contact: Coulomb,
+}
+
+impl Yielding {
+    /// Law with a bearing pressure (Pa) and a friction coefficient of zero or more; infinity means
+    /// that nothing ever slides.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a pressure that is not finite and above zero, for NaN or a negative
+    /// coefficient.
+    pub fn new(bearing_pressure: f64, friction: f64) -> Result<Self> {
+        let bearing_pressure = positive("bearing pressure", bearing_pressure)?;
+        Ok(Self { bearing_pressure, contact: Coulomb::new(friction)? })
+    }
+
+    /// The bearing pressure q, Pa.
+    pub fn bearing_pressure(&self) -> f64 {
+        self.bearing_pressure
+    }
+
+    /// The friction coefficient.
+    pub fn friction(&self) -> f64 {
+        self.contact.friction()
+    }
+}
+
+/// The indentation that an element remembers.
+fn indentation(start: &StepStart) -> f64 {
+    start.memory.first().copied().unwrap_or(0.0)
+}
+
+impl InterfaceLaw for Yielding {
+    fn modes(&self) -> &[Mode] {
+        let friction = self.friction();
+        if friction == 0.0 {
+            &[Mode::SlipRight, Mode::Open, Mode::YieldRight]
+        } else if friction == f64::INFINITY {
+            // Its slip modes have no pressure.
+            &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open, Mode::Yield]
+        } else {
+            &Mode::ALL
+        }
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        let [normal, tangential] = self.contact.conditions(mode.elastic(), start);
+        if mode.is_yield() {
+            let bearing = Condition::pressure_is(self.bearing_pressure);
+            return [bearing, tangential];
+        }
+        if mode == Mode::Open {
+            return [normal, tangential];
+        }
+        [Condition::gap_is(-indentation(start)), tangential]
+    }
+
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &StepStart,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        // From the sunken surface.
+        let gap = trial.gap + indentation(start);
+        let seen = ContactState { gap, ..*trial };
+        let next = self.contact.next_mode(mode.elastic(), start, &seen, tolerance);
+        if next == Mode::Open {
+            return next;
+        }
+        let yields = if mode.is_yield() {
+            gap <= tolerance.length
+        } else {
+            mode.is_closed() && trial.pressure > self.bearing_pressure + tolerance.traction
+        };
+        if yields { next.yielding() } else { next }
+    }
+
+    fn memory(&self) -> usize {
+        1
+    }
+
+    fn commit(&self, _start: &StepStart, end: &ContactState, mode: Mode, memory: &mut [f64]) {
+        if mode.is_yield() {
+            memory[0] = memory[0].max(-end.gap);
+        }
+    }
+
+    fn friction_coefficient(&self) -> Option<f64> {
+        Some(self.friction())
+    }
+
+    /// The same bearing pressure without friction.
+    fn smooth(&self) -> Box<dyn InterfaceLaw> {
+        Box::new(Self { contact: Coulomb::smooth(), ..*self })
+    }
+}
