@@ -18,8 +18,8 @@ pub(crate) struct Rule {
 const TOLERANCE: f64 = 1e-14;
 
 impl Rule {
-    /// Newton's iteration on the Legendre polynomial (Davis & Rabinowitz 1984, § 2.7).
-    fn new(order: usize) -> Self {
+    /// The rule of `order` points: Newton's iteration on the Legendre polynomial (Davis & Rabinowitz 1984, § 2.7).
+    pub(crate) fn new(order: usize) -> Self {
         let count = order as f64;
         let (mut nodes, mut weights) = (vec![0.0; order], vec![0.0; order]);
         for i in 0..order {

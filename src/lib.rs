@@ -170,6 +170,7 @@ mod short_debug;
 
 pub mod bem;
 mod bounded_line;
+mod complex;
 pub mod contact;
 mod contact_element;
 pub mod coupled;
@@ -194,12 +195,14 @@ mod random;
 #[cfg(feature = "reference")]
 pub mod reference;
 pub mod results;
-mod soil;
+pub mod site;
+pub mod soil;
 pub mod structure;
 mod sweep;
 
+pub use complex::Complex;
 pub use coupled::Simulation;
-pub use error::{CheckpointError, Error, RecordError, Result, StepError};
+pub use error::{CheckpointError, Error, LayeredError, RecordError, Result, StepError};
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};
 pub use soil::Soil;
