@@ -6,6 +6,7 @@
 
 mod builder;
 mod laws_and_motions;
+mod layered;
 mod reasons;
 mod soils_and_grounds;
 mod spoilt;

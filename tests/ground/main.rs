@@ -1,9 +1,13 @@
-//! The half-plane: kernels, convolution histories and passivity.
+//! Half-plane and layered ground: kernels, convolution histories, passivity, site response.
 
 mod history;
 mod history_exponentials;
 mod history_fft;
 mod kernels;
+mod layered_coefficients;
+mod layered_impedances;
+mod layered_passivity;
 mod passivity;
+mod site_response;
 #[path = "../support/mod.rs"]
 mod support;
