@@ -12,8 +12,9 @@
 //! 3. is the trial that came out admissible, and if not, which mode should be tried next
 //!    ([`InterfaceLaw::next_mode`]).
 //!
-//! The solver does the rest. A law has no memory of its own: what it needs of the past is in
-//! [`StepStart`], the end of the step before. Here that is the speed at which the element slid.
+//! The solver does the rest. A law keeps nothing itself: the end of the step before is in
+//! [`StepStart`], here the speed at which the element slid. What a law has to remember for longer is
+//! its memory ([`InterfaceLaw::memory`], with an example).
 //!
 //! Where only the coefficient of Coulomb's law shall change, a closure in [`VariableFriction`] is
 //! enough: the last but one row of the table.

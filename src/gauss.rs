@@ -18,8 +18,21 @@ pub(crate) struct Rule {
 const TOLERANCE: f64 = 1e-14;
 
 impl Rule {
-    /// The rule of `order` points: Newton's iteration on the Legendre polynomial (Davis & Rabinowitz 1984, § 2.7).
+    /// Closed forms of two and three points, then Newton's iteration on the Legendre polynomial
+    /// (Davis & Rabinowitz 1984, § 2.7).
     pub(crate) fn new(order: usize) -> Self {
+        let [third, far] = [1.0 / 3.0_f64.sqrt(), 0.6_f64.sqrt()];
+        let (nodes, weights) = match order {
+            2 => (vec![-third, third], vec![1.0, 1.0]),
+            3 => (vec![-far, 0.0, far], vec![5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0]),
+            _ => Self::by_iteration(order),
+        };
+        // The error of an order-n rule falls like ρ^(−2n).
+        let rho = TOLERANCE.powf(-0.5 / order as f64);
+        Self { nodes, weights, reach: 0.5 * (rho + 1.0 / rho) }
+    }
+
+    fn by_iteration(order: usize) -> (Vec<f64>, Vec<f64>) {
         let count = order as f64;
         let (mut nodes, mut weights) = (vec![0.0; order], vec![0.0; order]);
         for i in 0..order {
@@ -38,9 +51,7 @@ impl Rule {
             nodes[i] = x;
             weights[i] = 2.0 / ((1.0 - x * x) * slope * slope);
         }
-        // The error of an order-n rule falls like ρ^(−2n).
-        let rho = TOLERANCE.powf(-0.5 / count);
-        Self { nodes, weights, reach: 0.5 * (rho + 1.0 / rho) }
+        (nodes, weights)
     }
 }
 

@@ -202,7 +202,7 @@ mod sweep;
 
 pub use complex::Complex;
 pub use coupled::Simulation;
-pub use error::{CheckpointError, Error, LayeredError, RecordError, Result, StepError};
+pub use error::{CheckpointError, Error, LawError, LayeredError, RecordError, Result, StepError};
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};
 pub use soil::Soil;

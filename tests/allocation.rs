@@ -16,6 +16,7 @@ use basemat::interface::Bonded;
 use basemat::results::Recorder;
 use basemat::structure::{NonlinearForce, RayleighDamping, RigidBlock, Structure, Triplets};
 
+use crate::support::laws_with_memory::{SlipWeakening, SofteningPads};
 use crate::support::scenes::{SI, block, friction, scene, soil, tower};
 use crate::support::wrapped::needed_from;
 
@@ -114,6 +115,8 @@ fn steps_do_not_allocate() {
     };
     let bed = || SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap();
     let modes = Coordinates::Modes;
+    let weakening = SlipWeakening { first: 0.3, residual: 0.1, distance: 0.1 };
+    let pads = SofteningPads { stiffness: [5e7, 4e7], softening: 1e5 };
     let theta = Theta::new(0.6).unwrap();
     let scenes = [
         ("bonded", base().structure(tower(SI, None)).interface(Bonded)),
@@ -124,6 +127,8 @@ fn steps_do_not_allocate() {
         ("smooth", base().structure(block(SI)).interface(friction(0.0))),
         ("direct history", direct().structure(block(SI)).interface(friction(0.3))),
         ("spring bed", base().ground(bed()).structure(block(SI)).interface(friction(0.3))),
+        ("memory", base().ground(bed()).structure(block(SI)).interface(weakening)),
+        ("bonded pads with memory", base().ground(bed()).structure(block(SI)).interface(pads)),
         ("Newton", base().structure(Quadratic(block(SI))).interface(friction(0.3))),
     ];
     for (name, builder) in scenes {

@@ -20,7 +20,7 @@ impl InterfaceLaw for Glue {
         Mode::Stick
     }
 
-    fn compliance(&self, mode: Mode) -> [f64; 2] {
-        self.0.compliance(mode)
+    fn compliance(&self, mode: Mode, start: &StepStart) -> [f64; 2] {
+        self.0.compliance(mode, start)
     }
 }

@@ -65,7 +65,7 @@ struct Read {
 }
 
 impl Read {
-    fn seen(&self, start: &StepStart) -> StepStart {
+    fn seen<'a>(&self, start: &StepStart<'a>) -> StepStart<'a> {
         let mut start = *start;
         match self.limit {
             Limit::Compression => start.state.pressure -= start.static_pressure,
@@ -114,8 +114,8 @@ impl InterfaceLaw for Read {
         self.layer.next_mode(mode, &self.seen(start), trial, tolerance)
     }
 
-    fn compliance(&self, mode: Mode) -> [f64; 2] {
-        let [normal, shear] = self.layer.compliance(mode);
+    fn compliance(&self, mode: Mode, start: &StepStart) -> [f64; 2] {
+        let [normal, shear] = self.layer.compliance(mode, start);
         [if mode.is_slip() { normal / self.slip_normal } else { normal }, shear]
     }
 

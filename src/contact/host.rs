@@ -3,7 +3,7 @@
 use super::problem::{ContactInput, ContactSolver};
 use super::search::{ContactSearch, ModeSearch, SearchMethod};
 use crate::error::{Error, Result, StepError, finite, positive, same_length};
-use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart};
+use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, StepStarts, memory_ends};
 use crate::linalg::largest;
 
 /// The contact problem of one step after another, condensed to the tractions of Q elements.
@@ -31,13 +31,14 @@ use crate::linalg::largest;
 /// let mut problem = ContactProblem::new(vec![1e-7, 0.0, 0.0, 1e-7], vec![Box::new(law)])?
 ///     .with_static_tractions(vec![10.0e3, 0.0])?;
 /// let pressed = ContactState { pressure: 10.0e3, ..ContactState::default() };
-/// let mut start = [StepStart::new(pressed, Mode::Stick, 0.01)];
+/// let mut start = problem.start(&[StepStart::new(pressed, Mode::Stick, 0.01)])?;
 /// // The structure moves to the right by 2 mm: it sticks up to 5 kPa, and slips the rest.
 /// let solution = problem.solve(&[0.0, -2.0e-3], &start)?;
 /// assert_eq!(solution.modes, [Mode::SlipRight]);
 /// assert!((solution.states[0].shear - 5.0e3).abs() < 1e-6);
 /// assert!((solution.states[0].slip - 1.5e-3).abs() < 1e-12);
-/// solution.advance(&mut start);
+/// solution.commit(&mut start)?;
+/// assert_eq!(start.get(0).map(|element| element.mode), Some(Mode::SlipRight));
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct ContactProblem {
@@ -47,6 +48,10 @@ pub struct ContactProblem {
     solver: ContactSolver,
     search: ModeSearch,
     modes: Vec<Mode>,
+    /// Where the memory of each element's law ends; empty if no law has any.
+    memory_ends: Vec<usize>,
+    /// Memories at the end of a step, until they are committed.
+    memory: Vec<f64>,
     steps: usize,
 }
 
@@ -55,7 +60,6 @@ short_debug! {
 }
 
 /// Solution of the contact problem of a step.
-#[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct ContactSolution<'a> {
     /// Change of traction against the static state, 2Q, Pa: what the ground is to be given.
@@ -68,14 +72,37 @@ pub struct ContactSolution<'a> {
     pub trials: usize,
     /// How the modes were found.
     pub method: SearchMethod,
+    laws: &'a [Box<dyn InterfaceLaw>],
+    memory_ends: &'a [usize],
+    memory: &'a mut [f64],
+    step: usize,
+    time: f64,
+}
+
+short_debug! {
+    ContactSolution<'_>;
+    self;
+    traction: self.traction,
+    states: self.states,
+    modes: self.modes,
+    trials: self.trials,
+    method: self.method,
 }
 
 impl ContactSolution<'_> {
-    /// Moves what the laws see to the start of the next step.
-    pub fn advance(&self, start: &mut [StepStart]) {
-        for ((start, state), mode) in start.iter_mut().zip(self.states).zip(self.modes) {
-            start.advance(*state, *mode);
-        }
+    /// Accepts the step: moves `start`, from which it was solved, to the start of the next one, and
+    /// has the laws commit it to their memories. A step that is to be solved anew is not committed.
+    ///
+    /// # Errors
+    /// [`Error::Size`] or [`Error::Scene`] for the start of another problem, [`Error::Step`] if a law remembers a number
+    /// that is not finite; `start` is then as it was.
+    pub fn commit(self, start: &mut StepStarts) -> Result<()> {
+        check_start(start, self.states.len(), self.memory_ends)?;
+        let Self { laws, states, modes, memory, step, time, .. } = self;
+        let remembered = start.remember(laws, states, modes, memory);
+        remembered.map_err(|error| Error::Step { step, time, source: error.into() })?;
+        start.advance(states, modes, memory);
+        Ok(())
     }
 }
 
@@ -86,7 +113,8 @@ impl ContactProblem {
     ///
     /// # Errors
     /// [`Error::Size`] unless the operator is that of one element or more and the laws fit,
-    /// [`Error::Scene`] for a law without modes, [`Error::Input`] for entries that are not finite.
+    /// [`Error::Scene`] for a law without modes, [`Error::Input`] for entries that are not finite or
+    /// laws that remember more than ten million numbers.
     pub fn new(delassus: Vec<f64>, laws: Vec<Box<dyn InterfaceLaw>>) -> Result<Self> {
         let size = delassus.len().isqrt();
         let count = size / 2;
@@ -103,7 +131,10 @@ impl ContactProblem {
             return Err(Error::Scene { quantity: "interface law", needed });
         }
         check_finite("Delassus operator", &delassus)?;
+        let memory_ends = memory_ends(&laws, count)?;
         Ok(Self {
+            memory: vec![0.0; memory_ends.last().copied().unwrap_or(0)],
+            memory_ends,
             delassus,
             laws,
             static_traction: vec![0.0; 2 * count],
@@ -137,23 +168,42 @@ impl ContactProblem {
         Ok(())
     }
 
-    /// Solves the step whose jump without changes of traction is `free_jump` (2Q, m), for laws that
-    /// see `start` (one each element). Allocates nothing.
+    /// The start of the first step, from that of each element ([`StepStart::new`]). An element whose
+    /// `memory` is empty gets what its law begins with.
     ///
     /// # Errors
-    /// [`Error::Size`] and [`Error::Input`] for slices that do not fit or are not finite;
-    /// [`Error::Step`] if no modes satisfy the laws, numbered by the problems solved so far and with
-    /// the time of as many steps.
-    pub fn solve(&mut self, free_jump: &[f64], start: &[StepStart]) -> Result<ContactSolution<'_>> {
-        same_length("free jump", free_jump.len(), 2 * self.modes.len())?;
-        same_length("starts of the step", start.len(), self.modes.len())?;
-        check_finite("free jump", free_jump)?;
-        for start in start {
-            positive("time step", start.time_step)?;
-            let ContactState { gap, slip, pressure, shear } = start.state;
-            check_finite("state of an element", &[gap, slip, pressure, shear, start.slip_rate])?;
+    /// [`Error::Size`] for a list or a memory of another length, [`Error::Input`] for time steps that
+    /// are not above zero or not all the same, and for numbers that are not finite;
+    /// [`Error::Law`] if these are a law's.
+    pub fn start(&self, elements: &[StepStart<'_>]) -> Result<StepStarts> {
+        same_length("starts of the step", elements.len(), self.modes.len())?;
+        for start in elements {
+            let value = positive("time step", start.time_step)?;
+            if value != elements[0].time_step {
+                let needed = "the same for all elements";
+                return Err(Error::Input { quantity: "time step", value, needed });
+            }
+            finite("static pressure", start.static_pressure)?;
+            check_element(start)?;
         }
-        for (mode, start) in self.modes.iter_mut().zip(start) {
+        StepStarts::new(&self.laws, elements)
+    }
+
+    /// Solves the step whose jump without changes of traction is `free_jump` (2Q, m), for laws that
+    /// see `start`. Allocates nothing. The start moves on with [`ContactSolution::commit`]; until
+    /// then the same step can be solved again.
+    ///
+    /// # Errors
+    /// [`Error::Size`], [`Error::Scene`] and [`Error::Input`] for a jump or a start that does not fit
+    /// or is not finite;
+    /// [`Error::Step`] if no modes satisfy the laws or a law returns a number that is not finite,
+    /// numbered by the problems solved so far and with the time of as many steps.
+    pub fn solve(&mut self, free_jump: &[f64], start: &StepStarts) -> Result<ContactSolution<'_>> {
+        same_length("free jump", free_jump.len(), 2 * self.modes.len())?;
+        check_start(start, self.modes.len(), &self.memory_ends)?;
+        check_finite("free jump", free_jump)?;
+        for (mode, start) in self.modes.iter_mut().zip(start.iter()) {
+            check_element(&start)?;
             *mode = start.mode;
         }
         let input = ContactInput {
@@ -165,7 +215,7 @@ impl ContactProblem {
             length_scale: largest(free_jump),
         };
         let step = self.steps + 1;
-        let time = step as f64 * start[0].time_step;
+        let time = step as f64 * start.time_step();
         let failed = |source: StepError| Error::Step { step, time, source };
         let found = self.search.solve(&mut self.solver, &input, &mut self.modes);
         let (trials, method) = found.map_err(failed)?;
@@ -176,8 +226,28 @@ impl ContactProblem {
             modes: &self.modes,
             trials,
             method,
+            laws: &self.laws,
+            memory_ends: &self.memory_ends,
+            memory: &mut self.memory,
+            step,
+            time,
         })
     }
+}
+
+/// Whether a start is that of `count` elements whose memories end where those of the laws do.
+fn check_start(start: &StepStarts, count: usize, memory_ends: &[usize]) -> Result<()> {
+    same_length("starts of the step", start.len(), count)?;
+    if start.memory_ends() == memory_ends {
+        return Ok(());
+    }
+    let needed = "one of a problem with the same laws: theirs remember other numbers";
+    Err(Error::Scene { quantity: "start of the step", needed })
+}
+
+fn check_element(start: &StepStart<'_>) -> Result<()> {
+    let ContactState { gap, slip, pressure, shear } = start.state;
+    check_finite("state of an element", &[gap, slip, pressure, shear, start.slip_rate])
 }
 
 fn check_finite(quantity: &'static str, values: &[f64]) -> Result<()> {

@@ -123,7 +123,7 @@ impl Path {
             *mode = if known.contains(&Mode::Open) { Mode::Open } else { known[0] };
             let row = &input.delassus[e * 2 * count..(e + 1) * 2 * count];
             let gap = input.free_jump[e] - dot(row, input.static_traction);
-            largest = largest.max(gap.abs()).max(input.start[e].state.gap.abs());
+            largest = largest.max(gap.abs()).max(input.start.state(e).gap.abs());
         }
         self.offset.fill(0.0);
         for (e, offset) in self.offset[..count].iter_mut().enumerate() {
@@ -145,14 +145,14 @@ impl Path {
             for i in [e, count + e] {
                 pressure = pressure.max(input.free_jump[i].abs() / input.delassus[i * (size + 1)]);
             }
-            pressure = pressure.max(input.start[e].state.pressure.abs());
+            pressure = pressure.max(input.start.state(e).pressure.abs());
         }
         if pressure == 0.0 {
             pressure = 1.0;
         }
         let mut change: Vec<f64> = input.static_traction.iter().map(|fixed| -fixed).collect();
         for (e, mode) in modes.iter_mut().enumerate() {
-            let (law, start) = (input.law(e), &input.start[e]);
+            let (law, start) = (input.law(e), &input.start.of(e));
             *mode = law.modes()[0];
             let pressed = (10.0 + 5.0 * spread(e)) * pressure;
             let mut wanted =
@@ -231,7 +231,7 @@ impl Path {
         for (e, &mode) in modes.iter().enumerate() {
             let admits = |distance: f64| {
                 let there = self.states[e].along(&self.rates[e], direction * distance);
-                input.law(e).next_mode(mode, &input.start[e], &there, tolerance) == mode
+                input.next_mode(e, mode, &there, tolerance) == mode
             };
             let Some(begin) = STEPS.into_iter().find(|&step| admits(step)) else {
                 return (0.0, e);

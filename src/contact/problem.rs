@@ -9,7 +9,10 @@
 //! jump = j₀ + W τ. Its normal components are gaps; slip of the structure is minus the tangential
 //! ones.
 
-use crate::interface::{Condition, ContactState, InterfaceLaw, Mode, StepStart, Tolerance, law_of};
+use crate::error::LawError;
+use crate::interface::{
+    Condition, ContactState, InterfaceLaw, Mode, StepStarts, Tolerance, law_of,
+};
 use crate::linalg::{DenseFactor, dense_condition, dense_multiply_add, largest};
 
 /// What a step gives to the contact problem.
@@ -22,7 +25,7 @@ pub(crate) struct ContactInput<'a> {
     /// Static tractions, 2Q.
     pub(crate) static_traction: &'a [f64],
     /// Per element, the end of the step before.
-    pub(crate) start: &'a [StepStart],
+    pub(crate) start: &'a StepStarts,
     /// One law for all elements, or one each.
     pub(crate) laws: &'a [Box<dyn InterfaceLaw>],
     /// Largest displacement that went into j₀: its rounding is the finest gap that can be told.
@@ -33,6 +36,34 @@ impl ContactInput<'_> {
     /// The law of an element.
     pub(crate) fn law(&self, element: usize) -> &dyn InterfaceLaw {
         law_of(self.laws, element)
+    }
+
+    /// What its law imposes in `mode`, all of it finite.
+    #[inline]
+    pub(super) fn conditions(
+        &self,
+        element: usize,
+        mode: Mode,
+    ) -> Result<[Condition; 2], LawError> {
+        let pair = self.law(element).conditions(mode, &self.start.of(element));
+        // Not finite, or a sum that overflows.
+        if !(pair[0].sum() + pair[1].sum()).is_finite()
+            && let Some((quantity, value)) = pair.iter().find_map(Condition::not_finite)
+        {
+            return Err(LawError { element, mode, quantity, value });
+        }
+        Ok(pair)
+    }
+
+    /// The mode that its law wants next.
+    pub(super) fn next_mode(
+        &self,
+        element: usize,
+        mode: Mode,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        self.law(element).next_mode(mode, &self.start.of(element), trial, tolerance)
     }
 }
 
@@ -56,6 +87,8 @@ pub(crate) struct ContactSolver {
     /// Opening and total traction of the last trial, per element.
     pub(crate) states: Vec<ContactState>,
     jump: Vec<f64>,
+    /// A law that returned a number that is not finite since this was taken last.
+    pub(super) fault: Option<LawError>,
     /// Number of factorings so far.
     pub(crate) factorings: usize,
 }
@@ -76,6 +109,7 @@ impl ContactSolver {
             traction: vec![0.0; size],
             states: vec![ContactState::default(); count],
             jump: vec![0.0; size],
+            fault: None,
             factorings: 0,
         }
     }
@@ -90,22 +124,21 @@ impl ContactSolver {
         &mut self,
         delassus: &[f64],
         static_traction: &[f64],
-        start: &[StepStart],
+        start: &StepStarts,
         laws: &[Box<dyn InterfaceLaw>],
-    ) -> f64 {
-        for (e, conditions) in self.conditions.iter_mut().enumerate() {
-            let law = law_of(laws, e);
-            let at_rest = law.modes().first().copied().unwrap_or(Mode::Stick);
-            *conditions = law.conditions(at_rest, &start[e]);
-        }
+    ) -> Result<f64, LawError> {
         let (free_jump, length_scale) = (static_traction, 0.0);
         let input =
             ContactInput { delassus, free_jump, static_traction, start, laws, length_scale };
+        for (e, conditions) in self.conditions.iter_mut().enumerate() {
+            let at_rest = input.law(e).modes().first().copied().unwrap_or(Mode::Stick);
+            *conditions = input.conditions(e, at_rest)?;
+        }
         let regular = self.assemble(&input);
         self.valid = false;
         self.factorings = 0;
         if !regular {
-            return f64::INFINITY;
+            return Ok(f64::INFINITY);
         }
         // The diagonal is to scale it, not the rows' largest entries.
         let order = self.unknowns.len();
@@ -114,13 +147,20 @@ impl ContactSolver {
                 *value /= scale;
             }
         }
-        dense_condition(&self.matrix, order)
+        Ok(dense_condition(&self.matrix, order))
     }
 
-    /// Solves the linear system that `modes` define; false if it is singular.
+    /// Solves the linear system that `modes` define; false if it is singular, or if a law is at
+    /// fault.
     pub(crate) fn trial(&mut self, input: &ContactInput<'_>, modes: &[Mode]) -> bool {
         for (e, &mode) in modes.iter().enumerate() {
-            self.conditions[e] = input.law(e).conditions(mode, &input.start[e]);
+            match input.conditions(e, mode) {
+                Ok(pair) => self.conditions[e] = pair,
+                Err(fault) => {
+                    self.fault = Some(fault);
+                    return false;
+                }
+            }
         }
         let same = |a: &Condition, b: &Condition| {
             (a.gap, a.slip, a.pressure, a.shear) == (b.gap, b.slip, b.pressure, b.shear)

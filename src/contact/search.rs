@@ -76,6 +76,21 @@ impl ModeSearch {
         input: &ContactInput<'_>,
         modes: &mut [Mode],
     ) -> Result<(usize, SearchMethod), StepError> {
+        solver.fault = None;
+        let found = self.find(solver, input, modes);
+        match solver.fault.take() {
+            Some(fault) => Err(fault.into()),
+            None => found,
+        }
+    }
+
+    /// As [`ModeSearch::solve`]; the solver knows whether a law was at fault.
+    fn find(
+        &mut self,
+        solver: &mut ContactSolver,
+        input: &ContactInput<'_>,
+        modes: &mut [Mode],
+    ) -> Result<(usize, SearchMethod), StepError> {
         let mut trials = 0;
         // Laws with a single mode skip the search: one solve, with factors made once.
         let bonded = modes.iter().enumerate().all(|(e, mode)| input.law(e).modes() == [*mode]);
@@ -85,13 +100,13 @@ impl ModeSearch {
         if self.active_set(solver, input, modes, &mut trials) {
             return Ok((trials, SearchMethod::ActiveSet));
         }
-        if self.search != ContactSearch::Robust {
+        if self.search != ContactSearch::Robust || solver.fault.is_some() {
             return Err(self.failure(solver, input, modes, trials));
         }
         if self.gauss_seidel(solver, input, modes, &mut trials) {
             return Ok((trials, SearchMethod::GaussSeidel));
         }
-        if self.along_path(solver, input, modes, &mut trials) {
+        if solver.fault.is_none() && self.along_path(solver, input, modes, &mut trials) {
             return Ok((trials, SearchMethod::Path));
         }
         Err(self.failure(solver, input, modes, trials))
@@ -145,7 +160,7 @@ impl ModeSearch {
         let mut settled = true;
         for (e, &mode) in modes.iter().enumerate() {
             let trial = &solver.states[e];
-            self.next[e] = input.law(e).next_mode(mode, &input.start[e], trial, tolerance);
+            self.next[e] = input.next_mode(e, mode, trial, tolerance);
             settled &= self.next[e] == mode;
         }
         settled
@@ -213,6 +228,9 @@ impl ModeSearch {
             for e in 0..modes.len() {
                 modes[e] = local_mode(solver, input, e, modes[e]);
             }
+            if solver.fault.is_some() {
+                return false;
+            }
             // Modes that survive a sweep are worth an exact solve; wait longer after each failure.
             if modes == self.before.as_slice() && sweep >= wait {
                 if solver.trial(input, modes) && self.ask_laws(solver, input, modes) {
@@ -249,7 +267,13 @@ fn local_mode(
     let tolerance = Tolerance { length: 1e-13 * input.length_scale, traction: 1e-12 * scale };
     let candidates = std::iter::once(current).chain(law.modes().iter().copied());
     for mode in candidates {
-        let conditions = law.conditions(mode, &input.start[e]);
+        let conditions = match input.conditions(e, mode) {
+            Ok(conditions) => conditions,
+            Err(fault) => {
+                solver.fault = Some(fault);
+                return current;
+            }
+        };
         let Some(change) = solve_element(conditions, jump, block, fixed) else { continue };
         let gap = jump[0] + block[0][0] * change[0] + block[0][1] * change[1];
         let tangential = jump[1] + block[1][0] * change[0] + block[1][1] * change[1];
@@ -259,7 +283,7 @@ fn local_mode(
             pressure: fixed[0] + change[0],
             shear: fixed[1] + change[1],
         };
-        if law.next_mode(mode, &input.start[e], &state, tolerance) == mode {
+        if input.next_mode(e, mode, &state, tolerance) == mode {
             solver.traction[n] = change[0];
             solver.traction[t] = change[1];
             solver.states[e] = state;

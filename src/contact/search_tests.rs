@@ -7,7 +7,7 @@ use crate::coupled::scene::model::{Model, Tangent};
 use crate::coupled::scene::operators::{Factor, Operators};
 use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
-use crate::interface::{Activation, Coulomb, InterfaceLaw, StepStart};
+use crate::interface::{Activation, Coulomb, InterfaceLaw, StepStart, StepStarts};
 use crate::linalg::dense_multiply_add;
 use crate::random::Random;
 use crate::soil::Soil;
@@ -36,7 +36,7 @@ struct Problem {
     delassus: Vec<f64>,
     free_jump: Vec<f64>,
     static_traction: Vec<f64>,
-    start: Vec<StepStart>,
+    start: StepStarts,
     modes: Vec<Mode>,
 }
 
@@ -65,7 +65,7 @@ impl Problem {
         let length = largest(&jump).max(largest(&self.free_jump));
         let Parameters { friction, activation, .. } = self.parameters;
         let element = |e: usize| {
-            let (start, pressure, shear) = (&self.start[e], total[e], total[count + e]);
+            let (start, pressure, shear) = (self.start.of(e), total[e], total[count + e]);
             let free = pressure.abs().max(shear.abs()) / force;
             let closed_gap = match activation {
                 Activation::Gap => 0.0,
@@ -173,17 +173,14 @@ fn begin(delassus: Vec<f64>, count: usize, random: &mut Random) -> Problem {
                 pressure: if open { 0.0 } else { static_traction[e] },
                 shear: 0.0,
             };
-            StepStart {
-                state,
-                mode,
-                has_opened: open || random.chance(0.5),
-                slip_rate: 0.0,
-                static_pressure: 0.0,
-                time_step: 1e-3,
-            }
+            let mut start = StepStart::new(state, mode, 1e-3);
+            start.has_opened = open || random.chance(0.5);
+            start.static_pressure = 0.0;
+            start
         })
         .collect::<Vec<_>>();
     let modes = start.iter().map(|s| s.mode).collect();
+    let start = StepStarts::new(&laws, &start).unwrap();
     let free_jump = vec![0.0; size];
     Problem { parameters, laws, delassus, free_jump, static_traction, start, modes }
 }
@@ -333,10 +330,7 @@ fn tally(count: usize, sequences: usize, seed: u64) -> Vec<Tally> {
         for _ in 0..20 {
             push(&mut problem, &mut random);
             let Some((modes, states)) = tallies[row].examine(&problem) else { break };
-            for (e, start) in problem.start.iter_mut().enumerate() {
-                let has_opened = start.has_opened || modes[e] == Mode::Open;
-                *start = StepStart { state: states[e], mode: modes[e], has_opened, ..*start };
-            }
+            problem.start.advance(&states, &modes, &[]);
             problem.modes = modes;
         }
     }

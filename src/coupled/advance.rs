@@ -7,11 +7,12 @@ use super::state::{Foundation, Origin, State, Transition};
 use super::step::forcing::Forcing;
 use super::step::increment::Increment;
 use crate::contact::SearchMethod;
-use crate::interface::{ContactState, StepStart};
+use crate::error::Result;
+use crate::interface::{ContactState, StepStart, StepStarts};
 
 impl State {
     /// The static state.
-    pub(super) fn at_rest(scene: &Scene) -> Self {
+    pub(super) fn at_rest(scene: &Scene) -> Result<Self> {
         let (model, count) = (&scene.model, scene.count());
         let at = &scene.static_state;
         let contact: Vec<_> = (0..count)
@@ -30,8 +31,9 @@ impl State {
                 if stays_open { at.modes[e] } else { known[0] }
             })
             .collect();
-        let start =
+        let start: Vec<_> =
             (0..count).map(|e| StepStart::new(contact[e], modes[e], scene.time_step)).collect();
+        let start = StepStarts::new(&scene.laws, &start)?;
         let foundations = scene.base.foundations().map(|(_, elements)| Foundation::new(elements));
         let mut state = Self {
             step: 0,
@@ -56,7 +58,7 @@ impl State {
             start,
         };
         state.update_resultants(scene);
-        state
+        Ok(state)
     }
 
     /// Goes to the end of the step that `increment` solved; the buffers of its velocities are
@@ -82,9 +84,7 @@ impl State {
                 *from = to;
             }
         }
-        for (e, start) in self.start.iter_mut().enumerate() {
-            start.advance(self.contact[e], self.modes[e]);
-        }
+        self.start.advance(&self.contact, &self.modes, &increment.memory);
         (self.trials, self.method) = (increment.trials, increment.method);
         self.update_resultants(scene);
     }

@@ -16,6 +16,8 @@ use super::state::State;
 use super::step::forcing::Forcing;
 use super::step::increment::Increment;
 use crate::bem::Ground;
+use crate::error::LawError;
+use crate::interface::Mode;
 use crate::linalg::{dense_multiply_add, dot};
 use crate::structure::Structure;
 
@@ -27,6 +29,8 @@ pub(crate) struct Books {
     pub(crate) free_field: Vec<f64>,
     pub(crate) soil_displacement: Vec<f64>,
     pub(crate) jump: Vec<f64>,
+    /// Compliance of each element at the end of the last step; empty if all laws are hard.
+    pub(crate) compliance: Vec<[f64; 2]>,
     /// Work of the nonlinear internal force so far; what it stores, where that is known.
     pub(crate) nonlinear_work: f64,
     /// Per part: Rᵀ M Δu of the last step, and its Δy.
@@ -49,10 +53,13 @@ struct Scratch {
 
 impl Books {
     /// At the static state.
-    pub(crate) fn new(scene: &Scene) -> Self {
+    pub(crate) fn new(scene: &Scene, state: &State) -> Result<Self, LawError> {
         let (n, size) = (scene.model.unknowns, 2 * scene.count());
         let mut jump = scene.static_state.gap.clone();
         jump.resize(size, 0.0);
+        let compliance = |(e, &mode): (usize, &Mode)| scene.compliance(e, mode, &state.start);
+        let compliant = if scene.compliant { state.modes.as_slice() } else { &[] };
+        let compliance = compliant.iter().enumerate().map(compliance).collect::<Result<_, _>>()?;
         let parts = scene.model.influence.parts();
         let inertia = parts.iter().map(|part| {
             [0, 1].map(|k| {
@@ -62,11 +69,12 @@ impl Books {
                 product.into_iter().enumerate().filter(|(_, m)| *m != 0.0).collect()
             })
         });
-        Self {
+        Ok(Self {
             ledger: Ledger::default(),
             free_field: vec![0.0; size],
             soil_displacement: vec![0.0; size],
             jump,
+            compliance,
             nonlinear_work: 0.0,
             momentum: vec![[0.0; 2]; parts.len()],
             translation: vec![[0.0; 2]; parts.len()],
@@ -78,7 +86,7 @@ impl Books {
                 means: vec![0.0; size],
                 soil: vec![0.0; size],
             },
-        }
+        })
     }
 
     /// Every number that a step leaves to the next, always in this order.
@@ -101,6 +109,7 @@ impl Books {
         all.extend([contact, layer, preload, input, relative_input, soil_error_bound, hysteresis]);
         let contact = [&mut self.free_field, &mut self.soil_displacement, &mut self.jump];
         all.extend(contact.into_iter().flatten());
+        all.extend(self.compliance.iter_mut().flatten());
         all.extend([&mut self.momentum, &mut self.translation].into_iter().flatten().flatten());
         all
     }
@@ -170,9 +179,7 @@ impl Books {
         let Scratch { total: du, vector, product, means, soil } = &mut self.scratch;
         ledger.kinetic = 0.5 * model.mass.form(v1, v1);
         if !model.damping.is_empty() {
-            for (i, x) in vector.iter_mut().enumerate() {
-                *x = SchemeCoefficients::apply(c.velocity, du[i], v0[i], a0[i]);
-            }
+            SchemeCoefficients::combine(c.velocity, du, v0, a0, vector);
             let velocities = forcing.translations.iter().map(|translation| translation.velocity);
             model.influence.translate(-1.0, velocities, vector);
             product.fill(0.0);
@@ -260,11 +267,11 @@ impl Books {
             ledger.soil += area * change * (soil[i] - self.soil_displacement[i]);
             ledger.soil_error_bound += area * change.abs() * doubt;
             let mut elastic = 0.0;
-            if scene.compliant {
+            if !self.compliance.is_empty() {
                 let (e, k) = (i % count, i / count);
-                let (law, start) = (scene.law(e), &state.start[e]);
-                let [c0, c1] = [start.mode, increment.modes[e]].map(|mode| law.compliance(mode)[k]);
-                let t0 = [start.state.pressure, start.state.shear][k];
+                let (c0, c1) = (self.compliance[e][k], increment.compliance[e][k]);
+                let start = state.start.state(e);
+                let t0 = [start.pressure, start.shear][k];
                 let t1 = at_rest + change;
                 elastic = c0 * t0 - c1 * t1;
                 ledger.layer += 0.5 * area * (c1 * t1 * t1 - c0 * t0 * t0);
@@ -282,6 +289,7 @@ impl Books {
             ledger.input -= area * change * (forcing.free_field[i] - self.free_field[i]);
         }
         self.free_field.copy_from_slice(&forcing.free_field);
+        self.compliance.copy_from_slice(&increment.compliance);
         std::mem::swap(&mut self.soil_displacement, soil);
     }
 }

@@ -231,7 +231,8 @@ impl SimulationBuilder {
     /// base held.
     /// [`Error::Probe`] and [`Error::DuplicateName`] for a probe of an unknown that is not there or a
     /// name that comes twice. [`Error::Preload`] if the structure cannot stand,
-    /// [`Error::IllConditioned`] if double precision cannot carry the scene.
+    /// [`Error::IllConditioned`] if double precision cannot carry the scene, [`Error::Law`] for an
+    /// interface law that returns numbers which are not finite.
     pub fn build(mut self) -> Result<Simulation> {
         let time_step = positive("time step", self.time_step)?;
         not_negative("gravity", self.gravity)?;
@@ -286,11 +287,11 @@ impl SimulationBuilder {
         let operators = Operators::new(&model, &base, &soil, factor, tangent.matrix);
         let middle = 0.5 * (elements[0].left + elements[count - 1].right);
         let moment_center = finite("moment center", self.moment_center.unwrap_or(middle))?;
-        let scene = Scene {
+        let mut scene = Scene {
             time_step,
             coefficients,
             conserves_energy: coefficients.conserves_energy(time_step),
-            compliant: self.laws.iter().any(|law| laws::is_compliant(law.as_ref())),
+            compliant: false,
             laws: self.laws,
             safety_friction,
             static_state,
@@ -306,15 +307,16 @@ impl SimulationBuilder {
         };
         let mut solver = Solver::new(&scene, operators, ModeSearch::new(count, self.search));
         let (operators, contact) = solver.parts_mut();
-        let mut state = State::at_rest(&scene);
+        let mut state = State::at_rest(&scene)?;
+        scene.compliant = scene.is_compliant(&state.start)?;
         if !self.ledger {
             state.ledger = Ledger::LEFT_OUT;
         }
         let conditioning = conditioning::assess(&scene, operators, contact, &state.start)?;
         Ok(Simulation {
             forcing: Forcing::new(&scene),
-            increment: Increment::new(&scene),
-            books: self.ledger.then(|| Books::new(&scene)),
+            increment: Increment::new(&scene, &state, self.ledger),
+            books: self.ledger.then(|| Books::new(&scene, &state)).transpose()?,
             motion: self.motion,
             structure,
             ground,

@@ -12,7 +12,7 @@ use crate::interface::ContactState;
 use crate::structure::{Structure, restore_variables, save_variables};
 
 /// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
-const FORMAT: u32 = 4;
+const FORMAT: u32 = 5;
 /// Most steps that a checkpoint may stand for: more would not fit into any run.
 const MOST_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,
@@ -33,6 +33,9 @@ pub struct Checkpoint {
     steps: usize,
     /// Per element: which of its law's modes, and whether it has been open.
     modes: Vec<(usize, bool)>,
+    /// What the laws of all elements remember.
+    #[cfg_attr(feature = "serde", serde(with = "bits"))]
+    memory: Vec<f64>,
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     state: Vec<f64>,
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
@@ -49,6 +52,8 @@ struct Identity {
     /// Whether a ledger is kept.
     ledger: bool,
     probes: Vec<String>,
+    /// Where the memory of each element's law ends; empty if no law has any.
+    memory: Vec<usize>,
     /// Time step and coefficients of the scheme.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     steps: Vec<f64>,
@@ -87,6 +92,7 @@ impl Identity {
             (close(&self.elements, &own.elements, span), "list of contact elements"),
             (self.ledger == own.ledger, "energy ledger"),
             (self.probes == own.probes, "list of probes"),
+            (self.memory == own.memory, "memory of the interface laws"),
             (close(&self.structure, &own.structure, 0.0), "structure"),
             (close(&self.ground, &own.ground, 0.0), "ground"),
             (close(&self.preload, &own.preload, 0.0), "static state"),
@@ -123,9 +129,10 @@ pub(super) fn save(
     let numbers = numbers(&mut own, own_books.as_mut());
     Ok(Checkpoint {
         format: FORMAT,
-        identity: identity(scene, operators, books.is_some()),
+        identity: identity(scene, operators, state, books.is_some()),
         steps: state.step,
         modes,
+        memory: state.start.memory().to_vec(),
         state: numbers.into_iter().map(|value| *value).collect(),
         ground: ground.save()?,
         structure: save_variables(structure)?,
@@ -146,12 +153,13 @@ pub(super) fn restore(
         let found = checkpoint.format;
         return Err(CheckpointError::Format { found, needed: FORMAT }.into());
     }
-    checkpoint.identity.check(&identity(scene, operators, books.is_some()))?;
+    checkpoint.identity.check(&identity(scene, operators, state, books.is_some()))?;
     let corrupt = |quantity| CheckpointError::Corrupt { quantity };
     if checkpoint.steps > MOST_STEPS {
         return Err(corrupt("number of steps").into());
     }
     for (values, quantity) in [
+        (&checkpoint.memory, "memory of the interface laws"),
         (&checkpoint.state, "state"),
         (&checkpoint.ground, "state of the ground"),
         (&checkpoint.structure, "state of the structure"),
@@ -167,6 +175,11 @@ pub(super) fn restore(
     }
     own.into_iter().zip(&checkpoint.state).for_each(|(own, saved)| *own = *saved);
     restore_modes(scene, &checkpoint.modes, &mut state)?;
+    let memory = state.start.memory_mut();
+    if memory.len() != checkpoint.memory.len() {
+        return Err(corrupt("memory of the interface laws").into());
+    }
+    memory.copy_from_slice(&checkpoint.memory);
     let before = save_variables(structure)?;
     restore_variables(structure, &checkpoint.structure)?;
     if let Err(error) = ground.restore(checkpoint.steps, &checkpoint.ground) {
@@ -191,13 +204,12 @@ fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> R
     for (e, &(number, has_opened)) in saved.iter().enumerate() {
         let mode = scene.law(e).modes().get(number).copied().ok_or_else(|| corrupt.clone())?;
         state.modes[e] = mode;
-        let start = &mut state.start[e];
-        (start.state, start.mode, start.has_opened) = (state.contact[e], mode, has_opened);
+        state.start.restore(e, state.contact[e], mode, has_opened);
     }
     Ok(())
 }
 
-fn identity(scene: &Scene, operators: &Operators, ledger: bool) -> Identity {
+fn identity(scene: &Scene, operators: &Operators, state: &State, ledger: bool) -> Identity {
     let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
     let model = &scene.model;
     // Modes may come with either sign. A nonlinear structure has none, and columns that change.
@@ -212,6 +224,7 @@ fn identity(scene: &Scene, operators: &Operators, ledger: bool) -> Identity {
         unknowns: model.unknowns,
         ledger,
         probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
+        memory: state.start.memory_ends().to_vec(),
         steps,
         elements: scene.elements.iter().flat_map(|e| [e.left, e.right]).collect(),
         structure: vec![
@@ -243,7 +256,7 @@ fn numbers<'a>(state: &'a mut State, books: Option<&'a mut Books>) -> Vec<&'a mu
     for ContactState { gap, slip, pressure, shear } in contact {
         all.extend([gap, slip, pressure, shear]);
     }
-    all.extend(start.iter_mut().map(|start| &mut start.slip_rate));
+    all.extend(start.slip_rates_mut());
     all.extend(books.into_iter().flat_map(Books::numbers));
     all
 }

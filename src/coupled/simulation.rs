@@ -79,7 +79,8 @@ impl Simulation {
         let Self { scene, structure, ground, motion, forcing, solver, increment, state, .. } = self;
         let structure = structure.as_ref();
         forcing.observe(scene, state, structure, ground.as_mut(), motion.as_ref(), time)?;
-        solver.solve(scene, structure, state, forcing, increment)
+        solver.solve(scene, structure, state, forcing, increment)?;
+        Ok(increment.ask_laws(scene, state)?)
     }
 
     /// The state at the end of the last accepted step (at first: the static state).

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::ledger::Ledger;
 use super::motion::{Motion, Quantity};
 use crate::contact::SearchMethod;
-use crate::interface::{ContactState, Mode, StepStart};
+use crate::interface::{ContactState, Mode, StepStarts};
 
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -140,7 +140,7 @@ pub struct State {
     pub(crate) origin: Origin,
     pub(crate) motion: Motion,
     /// What the laws see of it in the next step, per element.
-    pub(crate) start: Vec<StepStart>,
+    pub(crate) start: StepStarts,
 }
 
 impl State {
@@ -168,6 +168,13 @@ impl State {
     /// Total accelerations of the unknowns; for the midpoint and θ rules the mean over the step.
     pub fn acceleration(&self) -> &[f64] {
         self.motion.unknowns(Quantity::Acceleration)
+    }
+
+    /// The numbers that the law of an element remembers
+    /// ([`InterfaceLaw::memory`](crate::interface::InterfaceLaw::memory)); none if it has no memory,
+    /// or if there is no such element.
+    pub fn law_memory(&self, element: usize) -> &[f64] {
+        if element < self.start.len() { self.start.memory_of(element) } else { &[] }
     }
 
     /// Largest |slip| of any element, m.

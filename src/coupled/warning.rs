@@ -8,11 +8,11 @@ use super::ledger::Ledger;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
-    /// Slip beyond the length of the shortest element: elements no longer face each other.
+    /// Slip beyond the mean length of the elements: they no longer face each other.
     LargeSlip {
         /// Largest slip, m.
         slip: f64,
-        /// Shortest element, m.
+        /// Mean length of the elements, m.
         element_length: f64,
     },
     /// Rotation of the base beyond [`Warning::ROTATION_LIMIT`]: cosines are no longer one.
@@ -70,7 +70,7 @@ impl Warning {
     /// small, the relative residual may be larger: see [`Run::ledger_residual`](super::Run::ledger_residual).
     pub const LEDGER_LIMIT: f64 = 1e-9;
 
-    /// Those that largest slip, shortest element, largest rotation and the last ledger residual
+    /// Those that largest slip, mean element length, largest rotation and the last ledger residual
     /// call for.
     pub(crate) fn all(slip: f64, element_length: f64, rotation: f64, ledger: &Ledger) -> Vec<Self> {
         let (slip, rotation) = (slip.abs(), rotation.abs());
@@ -94,7 +94,7 @@ impl fmt::Display for Warning {
         match self {
             Self::LargeSlip { slip, element_length } => write!(
                 f,
-                "slip of {slip:.3e} m is beyond the shortest element, {element_length:.3e} m: \
+                "slip of {slip:.3e} m is beyond an element, {element_length:.3e} m on average: \
                  contact is paired for small displacements"
             ),
             Self::LargeRotation { rotation } => {

@@ -2,6 +2,7 @@
 
 mod checkpoint;
 mod checks;
+mod law;
 mod layered;
 #[cfg(feature = "io")]
 mod matrix_file;
@@ -12,6 +13,7 @@ mod step;
 
 pub use checkpoint::CheckpointError;
 pub(crate) use checks::{finite, not_negative, positive, same_length, write_file};
+pub use law::LawError;
 pub use layered::LayeredError;
 #[cfg(feature = "io")]
 pub use matrix_file::MatrixFileError;
@@ -261,6 +263,9 @@ pub enum Error {
         /// Last change, relative to the load.
         residual: f64,
     },
+    /// An interface law returned a number that is not finite before the first step.
+    #[error(transparent)]
+    Law(#[from] LawError),
     /// A history by exponentials is not as accurate as was asked for.
     #[error("history by exponentials: relative error {reached:e}, but {tolerance:e} was asked for")]
     Accuracy {

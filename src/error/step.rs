@@ -1,6 +1,6 @@
 //! Steps that fail.
 
-use super::Error;
+use super::{Error, LawError};
 use crate::interface::Mode;
 
 /// Why a step failed.
@@ -44,6 +44,9 @@ pub enum StepError {
         /// The structure's reason.
         source: Box<Error>,
     },
+    /// An interface law returned a number that is not finite.
+    #[error(transparent)]
+    Law(#[from] LawError),
     /// A number became NaN or infinite.
     #[error("{quantity} is not finite")]
     NotFinite {

@@ -5,20 +5,6 @@ use super::element::Element;
 use super::mesh::Mesh;
 
 /// Numbers of the unknowns: node by node, only the directions that some element uses.
-///
-/// ```
-/// use basemat::fem::{Beam, Direction, Mesh, Numbering, Truss};
-///
-/// let mut mesh = Mesh::new();
-/// let [a, b, c] = [mesh.add_node(0.0, 0.0)?, mesh.add_node(3.0, 0.0)?, mesh.add_node(6.0, 0.0)?];
-/// mesh.add(Beam::new([a, b], 1.0e9, 0.1, 1.0e-3, 0.0)?)?;
-/// mesh.add(Truss::new([b, c], 1.0e9, 0.1, 0.0)?)?;
-/// let numbering = Numbering::new(&mesh);
-/// assert_eq!(numbering.unknowns(), 8);
-/// assert_eq!(numbering.unknown(b, Direction::Rotation), Some(5));
-/// assert_eq!(numbering.unknown(c, Direction::Rotation), None);
-/// # Ok::<(), basemat::Error>(())
-/// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Numbering {
     numbers: Vec<[Option<usize>; 3]>,

@@ -3,9 +3,8 @@
 use super::direction::{Direction, TRANSLATIONS};
 use super::element::{Element, MassKind, add_square};
 use super::material::Material;
-use super::quad4_shape::{CORNERS, Jacobian, shape};
+use super::quad4_shape::{CORNERS, Jacobian, gauss_points, shape};
 use crate::error::{Error, Result, same_length};
-use crate::gauss;
 
 /// Formulation of the stiffness of a [`Quad4`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -57,16 +56,17 @@ impl Quad4 {
         Self { nodes, material, formulation }
     }
 
-    /// ∫ Sᵀ D S by points and weights, S holding the strains of N patterns; row-major N × N.
+    /// ∫ Sᵀ D S over the points, S holding the strains of N patterns; row-major N × N.
     fn integrate<const N: usize>(
         &self,
-        points: impl Iterator<Item = ([f64; 2], f64)>,
+        points: &[[f64; 2]],
+        weight: f64,
         coordinates: &[[f64; 2]],
         patterns: impl Fn([f64; 2], &Jacobian) -> [[f64; 3]; N],
     ) -> [[f64; N]; N] {
         let elasticity = self.material.elasticity();
         let mut matrix = [[0.0; N]; N];
-        for (point, weight) in points {
+        for &point in points {
             let jacobian = Jacobian::at(point, coordinates);
             let strain = patterns(point, &jacobian);
             let stress = strain.map(|e| elasticity.map(|row| dot(&row, &e)));
@@ -82,7 +82,7 @@ impl Quad4 {
 
     fn with_bending_modes(&self, coordinates: &[[f64; 2]]) -> [[f64; 8]; 8] {
         let centre = Jacobian::at([0.0; 2], coordinates);
-        let mut full = self.integrate(gauss::square(2), coordinates, |point, jacobian| {
+        let mut full = self.integrate(&gauss_points(), 1.0, coordinates, |point, jacobian| {
             let mut strain = [[0.0; 3]; 12];
             strain[..8].copy_from_slice(&node_strains(point, jacobian));
             // Slopes of 1 − ξ² and 1 − η² through the centre's Jacobian, scaled so that their
@@ -133,9 +133,11 @@ impl Element for Quad4 {
 
     fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
         let block = match self.formulation {
-            QuadFormulation::Full => self.integrate(gauss::square(2), coordinates, node_strains),
+            QuadFormulation::Full => {
+                self.integrate(&gauss_points(), 1.0, coordinates, node_strains)
+            }
             QuadFormulation::OnePoint => {
-                self.integrate(std::iter::once(([0.0; 2], 4.0)), coordinates, node_strains)
+                self.integrate(&[[0.0; 2]], 4.0, coordinates, node_strains)
             }
             QuadFormulation::IncompatibleModes => self.with_bending_modes(coordinates),
         };
@@ -145,9 +147,8 @@ impl Element for Quad4 {
     fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {
         let mut block = [[0.0; 8]; 8];
         // Exact: N_i N_j det J is of third degree in ξ and in η.
-        for (point, weight) in gauss::square(2) {
-            let weight =
-                weight * self.material.density() * Jacobian::at(point, coordinates).determinant;
+        for point in gauss_points() {
+            let weight = self.material.density() * Jacobian::at(point, coordinates).determinant;
             let shape = shape(point);
             for i in 0..4 {
                 for j in 0..4 {

@@ -1,7 +1,15 @@
-//! Shape functions of the four-node quadrilateral.
+//! Shape functions of the four-node quadrilateral, and its Gauss points.
+
+use crate::gauss;
 
 /// Natural coordinates (ξ, η) of the four nodes, counter-clockwise.
 pub(super) const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+
+/// Gauss points of the 2 × 2 rule in the order of the corners; all weights are 1.
+pub(super) fn gauss_points() -> [[f64; 2]; 4] {
+    let place = gauss::rule(2).nodes[1];
+    CORNERS.map(|[xi, eta]| [place * xi, place * eta])
+}
 
 /// Bilinear shape functions at (ξ, η).
 pub(super) fn shape([xi, eta]: [f64; 2]) -> [f64; 4] {

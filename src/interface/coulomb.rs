@@ -188,15 +188,8 @@ mod tests {
 
     const TOLERANCE: Tolerance = Tolerance { length: 1e-12, traction: 1e-9 };
 
-    fn start(mode: Mode) -> StepStart {
-        StepStart {
-            state: ContactState::default(),
-            mode,
-            has_opened: false,
-            slip_rate: 0.0,
-            static_pressure: 0.0,
-            time_step: 0.01,
-        }
+    fn start(mode: Mode) -> StepStart<'static> {
+        StepStart::new(ContactState::default(), mode, 0.01)
     }
 
     #[test]

@@ -6,11 +6,14 @@
 
 mod bonded;
 mod coulomb;
+mod step_start;
 mod thin_layer;
 mod variable_friction;
 
 pub use bonded::Bonded;
 pub use coulomb::{Activation, Coulomb};
+pub(crate) use step_start::memory_ends;
+pub use step_start::{StepStart, StepStarts};
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
 pub use variable_friction::VariableFriction;
 
@@ -64,59 +67,6 @@ pub struct ContactState {
     pub shear: f64,
 }
 
-/// What a law may need of the beginning of a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct StepStart {
-    /// Opening and traction at the end of the step before.
-    pub state: ContactState,
-    /// Mode of the step before.
-    pub mode: Mode,
-    /// Whether the element has been open at any time since the start of the run.
-    pub has_opened: bool,
-    /// Slip velocity of the step before, m/s: its change of slip over its length.
-    pub slip_rate: f64,
-    /// Pressure of the static state, Pa.
-    pub static_pressure: f64,
-    /// Time step, s.
-    pub time_step: f64,
-}
-
-impl StepStart {
-    /// Start of a step of `time_step` seconds from `state`, by which a law can be tried without a
-    /// simulation: it has opened if it is open, its slip rate is zero, and its static pressure that
-    /// of `state`. All fields can then be set.
-    ///
-    /// ```
-    /// use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance};
-    /// let law = Coulomb::new(0.5)?;
-    /// let pressed = ContactState { pressure: 10.0e3, ..ContactState::default() };
-    /// let mut start = StepStart::new(pressed, Mode::Stick, 0.01);
-    /// start.slip_rate = 0.2;
-    /// let trial = ContactState { shear: 6.0e3, ..pressed };
-    /// let next = law.next_mode(Mode::Stick, &start, &trial, Tolerance::new(1e-9, 1.0));
-    /// assert_eq!(next, Mode::SlipRight);
-    /// # Ok::<(), basemat::Error>(())
-    /// ```
-    pub fn new(state: ContactState, mode: Mode, time_step: f64) -> Self {
-        Self {
-            state,
-            mode,
-            has_opened: !mode.is_closed(),
-            slip_rate: 0.0,
-            static_pressure: state.pressure,
-            time_step,
-        }
-    }
-
-    /// Goes on to the start of the next step, after this one has ended in `state` and `mode`.
-    pub fn advance(&mut self, state: ContactState, mode: Mode) {
-        self.slip_rate = (state.slip - self.state.slip) / self.time_step;
-        self.has_opened |= !mode.is_closed();
-        (self.state, self.mode) = (state, mode);
-    }
-}
-
 /// One linear condition on the end of a step:
 /// `gap·g + slip·s + pressure·p + shear·τ = value`, coefficients in the fields.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -137,6 +87,25 @@ impl Condition {
     /// The gap is `value`.
     pub fn gap_is(value: f64) -> Self {
         Self { gap: 1.0, value, ..Self::default() }
+    }
+
+    /// Sum of all its numbers: finite only if they are.
+    pub(crate) fn sum(&self) -> f64 {
+        self.gap + self.slip + self.pressure + self.shear + self.value
+    }
+
+    /// The first number that is not finite, with its name.
+    pub(crate) fn not_finite(&self) -> Option<(&'static str, f64)> {
+        let Self { gap, slip, pressure, shear, value } = *self;
+        [
+            ("coefficient of the gap", gap),
+            ("coefficient of the slip", slip),
+            ("coefficient of the pressure", pressure),
+            ("coefficient of the shear traction", shear),
+            ("right-hand side of a condition", value),
+        ]
+        .into_iter()
+        .find(|(_, value)| !value.is_finite())
     }
 
     /// The gap that this condition gives for a pressure, if it relates nothing else.
@@ -195,7 +164,65 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 
 /// How base and soil touch: implement this for a law of your own.
 ///
-/// A law is a rule without memory: what it needs of the past is in [`StepStart`].
+/// A law is a rule and keeps nothing itself. The end of the step before is in [`StepStart`]; what
+/// else it needs of the past it declares as a memory of a few numbers per element, which the
+/// simulation keeps, shows in [`StepStart::memory`] and saves in checkpoints. Numbers of a law that
+/// are not finite are a [`LawError`](crate::LawError).
+///
+/// Friction that falls from 0.5 to 0.3 with the distance that an element has slid:
+/// ```
+/// use basemat::Simulation;
+/// use basemat::bem::SpringGround;
+/// use basemat::interface::{
+///     Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+/// };
+/// use basemat::motion::el_centro_1940;
+/// use basemat::structure::RigidBlock;
+///
+/// struct SlipWeakening;
+///
+/// impl SlipWeakening {
+///     /// Coulomb's law with the friction of this step.
+///     fn now(&self, start: &StepStart) -> Coulomb {
+///         let slid = start.memory[0];
+///         Coulomb::new(0.3 + 0.2 * (-slid / 0.01).exp()).expect("a friction above zero")
+///     }
+/// }
+///
+/// impl InterfaceLaw for SlipWeakening {
+///     fn modes(&self) -> &[Mode] {
+///         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
+///     }
+///     fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+///         self.now(start).conditions(mode, start)
+///     }
+///     fn next_mode(
+///         &self, mode: Mode, start: &StepStart, trial: &ContactState, tolerance: Tolerance,
+///     ) -> Mode {
+///         self.now(start).next_mode(mode, start, trial, tolerance)
+///     }
+///     fn memory(&self) -> usize {
+///         1
+///     }
+///     fn commit(&self, start: &StepStart, end: &ContactState, mode: Mode, memory: &mut [f64]) {
+///         if mode.is_slip() {
+///             memory[0] += (end.slip - start.state.slip).abs();
+///         }
+///     }
+/// }
+///
+/// let mut simulation = Simulation::builder(0.005)
+///     .structure(RigidBlock::new(8.0, 4.0, 2000.0)?)
+///     .ground(SpringGround::new(-4.0..4.0, 8, 2e8, 1e8)?.with_dashpots(7e5, 4e5)?)
+///     .interface(SlipWeakening)
+///     .motion(el_centro_1940().scaled(3.0)?)
+///     .build()?;
+/// let run = simulation.run(1000, |_| {})?;
+/// let slid = simulation.state().law_memory(3)[0];
+/// assert!(slid > 0.02 && slid > run.largest_slip.value.abs());
+/// assert!(run.ledger_residual < 1e-9);
+/// # Ok::<(), basemat::Error>(())
+/// ```
 #[auto_impl::auto_impl(Box)]
 pub trait InterfaceLaw: Send {
     /// The modes that this law uses; the first is that of an element at rest in contact.
@@ -216,10 +243,30 @@ pub trait InterfaceLaw: Send {
 
     /// Elastic opening per traction in `mode`, m/Pa: gap per tension and slip per shear traction.
     /// Zero (the default) for hard contact. The energy ledger books what so much elasticity
-    /// stores; only the rest of gap and slip can be lost to friction and impact.
-    fn compliance(&self, _mode: Mode) -> [f64; 2] {
+    /// stores, ½ compliance · traction² at the end of the step; only the rest of gap and slip, and
+    /// what goes with a compliance that changes, can be lost to friction, impact and damage.
+    ///
+    /// Asked for every mode at the static state, and once per solved step for the mode it ends in. A
+    /// law without memory that is hard in every mode at the static state counts as hard for the
+    /// whole run.
+    fn compliance(&self, _mode: Mode, _start: &StepStart) -> [f64; 2] {
         [0.0; 2]
     }
+
+    /// How many numbers the law remembers of each element, always the same; none by default.
+    fn memory(&self) -> usize {
+        0
+    }
+
+    /// Sets the memory that an element begins a run with, zeros unless this says otherwise, from
+    /// the `start` of its first step (and, where the law acts while the weight comes on, from one
+    /// without pressure for that). Not called for a law without memory.
+    fn initial_memory(&self, _start: &StepStart, _memory: &mut [f64]) {}
+
+    /// Brings the memory of an element to the `end` of a step in `mode`: it holds what it was at the
+    /// `start` of the step. Called once per accepted step, after its modes are found, and not for a
+    /// law without memory.
+    fn commit(&self, _start: &StepStart, _end: &ContactState, _mode: Mode, _memory: &mut [f64]) {}
 
     /// The friction coefficient, for the factor of safety against sliding
     /// ([`Run::least_sliding_safety`](crate::coupled::Run::least_sliding_safety)): the base resists by this times the pressure.

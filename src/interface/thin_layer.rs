@@ -305,7 +305,7 @@ impl InterfaceLaw for ThinLayer {
         }
     }
 
-    fn compliance(&self, mode: Mode) -> [f64; 2] {
+    fn compliance(&self, mode: Mode, _: &StepStart) -> [f64; 2] {
         match mode {
             Mode::Open if self.debonded == 0.0 => [0.0; 2],
             Mode::Open => self.stiffness().map(|k| 1.0 / (self.debonded * k)),

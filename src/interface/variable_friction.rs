@@ -46,7 +46,7 @@ short_debug! { VariableFriction; self; contact: self.contact }
 
 impl VariableFriction {
     /// Law with the friction coefficient `coefficient(start)`: zero or more, infinite where nothing
-    /// slides. Steps in which it is negative or NaN have no solution.
+    /// slides. Where it is negative or NaN, the step is refused with a [`LawError`](crate::LawError).
     pub fn new(coefficient: impl Fn(&StepStart) -> f64 + Send + 'static) -> Self {
         Self { coefficient: Box::new(coefficient), contact: Coulomb::smooth() }
     }

@@ -72,25 +72,27 @@ impl<T: ComplexField + Copy> DenseFactor<T> {
 
     /// Overwrites `rhs` with A⁻¹ rhs.
     pub(crate) fn solve(&mut self, rhs: &mut [T]) {
-        self.solve_columns(rhs, 1);
+        let order = self.order;
+        if order == 0 {
+            return;
+        }
+        self.solve_in(MatMut::from_column_major_slice_mut(rhs, order, 1));
     }
 
     /// Overwrites the `columns` columns of the row-major `rhs` with A⁻¹ rhs.
     pub(crate) fn solve_columns(&mut self, rhs: &mut [T], columns: usize) {
-        if self.order == 0 {
+        let order = self.order;
+        if order == 0 {
             return;
         }
+        self.solve_in(MatMut::from_row_major_slice_mut(rhs, order, columns));
+    }
+
+    fn solve_in(&mut self, rhs: MatMut<'_, T>) {
         let lu = MatRef::from_row_major_slice(&self.values, self.order, self.order);
         let permutation = PermRef::new_checked(&self.forward, &self.inverse, self.order);
-        dense_solve::solve_in_place_with_conj(
-            lu,
-            lu,
-            permutation,
-            Conj::No,
-            MatMut::from_row_major_slice_mut(rhs, self.order, columns),
-            Par::Seq,
-            MemStack::new(&mut self.buffer),
-        );
+        let stack = MemStack::new(&mut self.buffer);
+        dense_solve::solve_in_place_with_conj(lu, lu, permutation, Conj::No, rhs, Par::Seq, stack);
     }
 
     /// Overwrites `rhs` with A⁻ᵀ rhs.
@@ -107,7 +109,7 @@ impl<T: ComplexField + Copy> DenseFactor<T> {
             lu,
             permutation,
             Conj::No,
-            MatMut::from_row_major_slice_mut(rhs, self.order, 1),
+            MatMut::from_column_major_slice_mut(rhs, self.order, 1),
             Par::Seq,
             MemStack::new(&mut MemBuffer::new(scratch)),
         );

@@ -207,10 +207,10 @@ impl Run {
     pub(crate) fn finish(&mut self, ground: &dyn Ground, motion: &dyn FreeField) {
         self.wall = self.begin.map_or(Duration::ZERO, |begin| begin.elapsed());
         self.resolution.resolve_ground(ground, motion, self.start..self.end);
-        let lengths = self.elements.iter().map(ContactElement::length);
+        let lengths: f64 = self.elements.iter().map(ContactElement::length).sum();
         self.warnings = Warning::all(
             self.largest_slip.value,
-            lengths.fold(f64::INFINITY, f64::min),
+            lengths / self.elements.len() as f64,
             self.base_rotation.largest().value,
             &self.ledger,
         );

@@ -10,6 +10,8 @@ use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{ContactNode, Structure, Triplets};
 use basemat::{Error, Simulation};
 
+use crate::support::laws_with_memory::{Adhesion, SlipWeakening};
+
 const STEP: f64 = 1e-3;
 const STEPS: usize = 4000;
 const MASS: [f64; 4] = [10.0e3, 30.0e3, 40.0e3, 20.0e3];
@@ -95,7 +97,8 @@ fn by_hand() -> Vec<[f64; 3]> {
     let problem = ContactProblem::new(delassus, vec![Box::new(law())]).unwrap();
     let mut problem = problem.with_static_tractions(at_rest).unwrap();
     let pressed = ContactState { pressure, ..ContactState::default() };
-    let mut start = vec![StepStart::new(pressed, Mode::Stick, STEP); count];
+    let mut start =
+        problem.start(&vec![StepStart::new(pressed, Mode::Stick, STEP); count]).unwrap();
     let (mut before, mut now) = ([0.0; 4], [0.0; 4]);
     let [mut history, mut free_field] = [vec![0.0; size], vec![0.0; size]];
     let mut seen = Vec::new();
@@ -111,12 +114,12 @@ fn by_hand() -> Vec<[f64; 3]> {
         let pushed = acceleration(&[0.0; 4], solution.traction);
         next.iter_mut().zip(pushed).for_each(|(u, a)| *u += STEP * STEP * a);
         ground.commit(solution.traction);
-        solution.advance(&mut start);
         let mean = |of: fn(&ContactState) -> f64| {
             solution.states.iter().map(of).sum::<f64>() / count as f64
         };
         let open = solution.modes.iter().filter(|mode| !mode.is_closed()).count();
         seen.push([4.0 * mean(|s| s.shear), open as f64 / count as f64, mean(|s| s.slip)]);
+        solution.commit(&mut start).unwrap();
         (before, now) = (now, next);
     }
     seen
@@ -154,10 +157,29 @@ fn bad_problems_are_errors() {
     }
     let problem = || ContactProblem::new(unit(), laws()).unwrap();
     assert!(matches!(problem().with_static_tractions(vec![1.0]), Err(Error::Size { .. })));
-    let start = [StepStart::new(ContactState::default(), Mode::Stick, STEP)];
+    let element = StepStart::new(ContactState::default(), Mode::Stick, STEP);
     let mut own = problem();
+    let start = own.start(&[element]).unwrap();
     assert!(matches!(own.solve(&[0.0], &start), Err(Error::Size { .. })));
-    assert!(matches!(own.solve(&[0.0; 2], &[]), Err(Error::Size { .. })));
+    for few_or_many in [vec![], vec![element; 2]] {
+        assert!(matches!(own.start(&few_or_many), Err(Error::Size { .. })));
+    }
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let mut element = element;
+        element.time_step = bad;
+        assert!(matches!(own.start(&[element]), Err(Error::Input { .. })));
+        assert!(matches!(start.clone().set_time_step(bad), Err(Error::Input { .. })));
+    }
+    let mut remembers = element;
+    remembers.memory = &[1.0];
+    assert!(
+        matches!(own.start(&[remembers]), Err(Error::Size { .. })),
+        "Coulomb remembers nothing"
+    );
+    let wide = vec![1.0; 16];
+    let other = ContactProblem::new(wide, laws()).unwrap();
+    let other = other.start(&[element; 2]).unwrap();
+    assert!(matches!(own.solve(&[0.0; 2], &other), Err(Error::Size { .. })));
     assert!(matches!(own.solve(&[f64::NAN, 0.0], &start), Err(Error::Input { .. })));
     assert!(matches!(own.set_delassus(&[1.0]), Err(Error::Size { .. })));
     // Another operator counts from the next step on.
@@ -165,4 +187,74 @@ fn bad_problems_are_errors() {
     own.set_delassus(&[2.0, 0.0, 0.0, 2.0]).unwrap();
     let softer = own.solve(&[-1.0, 0.0], &start).unwrap().traction[0];
     assert!((pushed - 1.0).abs() < 1e-12 && (softer - 0.5).abs() < 1e-12);
+}
+
+/// One element that answers its own tractions alone, by 1e-7 m/Pa both ways, under no pressure.
+fn glued(law: Adhesion) -> ContactProblem {
+    ContactProblem::new(vec![1e-7, 0.0, 0.0, 1e-7], vec![Box::new(law)]).unwrap()
+}
+
+/// GOAL: a host commits the memory of laws, step by step; numbers by hand.
+#[test]
+fn glue_of_a_host_breaks_once() {
+    let law = Adhesion { friction: 0.5, strength: 1e4, breaks_by_sliding: true };
+    let mut problem = glued(law);
+    let element = StepStart::new(ContactState::default(), Mode::Stick, STEP);
+    let mut start = problem.start(&[element]).unwrap();
+    assert_eq!(start.get(0).unwrap().memory, [1e4, 0.0]);
+    assert_eq!(start.get(1), None);
+    // Jump without traction, then pressure and shear that follow from it, and the strength left.
+    for (jump, [pressure, shear], left) in [
+        // Lifted by 0.5 mm: 5 kPa of tension hold.
+        ([5e-4, 0.0], [-5e3, 0.0], 1e4),
+        // 0.2 mm and 0.3 mm to the right: 3 kPa are less than friction (10 − 2) kPa.
+        ([2e-4, -3e-4], [-2e3, 3e3], 1e4),
+        // 0.9 mm to the right: 9 kPa are more than 5 kPa, which drag for this step.
+        ([0.0, -9e-4], [0.0, 5e3], 0.0),
+        // Nothing holds any more, to the side (0.4 mm have slid) or up.
+        ([0.0, -9e-4], [0.0, 0.0], 0.0),
+        ([5e-4, -9e-4], [0.0, 0.0], 0.0),
+        // Pressed again by 1 mm, and pushed by 0.8 mm: friction alone.
+        ([-1e-3, -1.7e-3], [1e4, 5e3], 0.0),
+    ] {
+        let solution = problem.solve(&jump, &start).unwrap();
+        let found = [solution.states[0].pressure, solution.states[0].shear];
+        for (found, wanted) in found.into_iter().zip([pressure, shear]) {
+            assert!((found - wanted).abs() < 1e-6, "{jump:?}: {found}, {wanted} wanted");
+        }
+        solution.commit(&mut start).unwrap();
+        assert_eq!(start.get(0).unwrap().memory[0], left, "{jump:?}");
+    }
+}
+
+/// GOAL: a step that is not committed leaves nothing behind, and a start can be kept and come back to.
+#[test]
+fn hosts_own_the_memory() {
+    let law = || SlipWeakening { first: 0.5, residual: 0.2, distance: 1e-3 };
+    let operator = vec![1e-7, 0.0, 0.0, 1e-7];
+    let problem = ContactProblem::new(operator, vec![Box::new(law())]).unwrap();
+    let mut problem = problem.with_static_tractions(vec![1e4, 0.0]).unwrap();
+    let pressed = ContactState { pressure: 1e4, ..ContactState::default() };
+    let mut start = problem.start(&[StepStart::new(pressed, Mode::Stick, STEP)]).unwrap();
+    let mut slid = 0.0_f64;
+    for step in 1..=20 {
+        let jump = [0.0, -1e-3 * f64::from(step)];
+        let before = start.clone();
+        // A trial that is given up: elsewhere, and far.
+        problem.solve(&[0.0, 0.5], &start).unwrap();
+        assert_eq!(start, before);
+        let solution = problem.solve(&jump, &start).unwrap();
+        // Friction by the distance slid so far; what it does not hold back slides.
+        let shear = 1e4 * (0.2 + 0.3 * (-slid / 1e-3).exp());
+        assert!((solution.states[0].shear - shear).abs() < 1e-6);
+        slid = -jump[1] - 1e-7 * shear;
+        solution.commit(&mut start).unwrap();
+        assert!((start.get(0).unwrap().memory[0] - slid).abs() < 1e-12);
+        // Taken apart and put together again, it is the same.
+        let elements: Vec<StepStart> = start.iter().collect();
+        let again = problem.start(&elements).unwrap();
+        assert_eq!(again, start);
+        start = again;
+    }
+    assert!(slid > 0.01);
 }

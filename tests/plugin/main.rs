@@ -10,6 +10,7 @@ mod ground;
 mod history;
 mod kernel;
 mod law;
+mod law_memory;
 mod scheme;
 mod structure;
 #[path = "../support/mod.rs"]

@@ -9,6 +9,7 @@ pub(crate) mod curvature;
 pub(crate) mod dense;
 pub(crate) mod impedance;
 pub(crate) mod inverse;
+pub(crate) mod laws_with_memory;
 pub(crate) mod layout;
 pub(crate) mod passivity;
 pub(crate) mod profiles;

@@ -6,7 +6,7 @@ use super::Scene;
 use super::operators::{self, Operators};
 use crate::contact::ContactSolver;
 use crate::error::{Error, Result};
-use crate::interface::StepStart;
+use crate::interface::StepStarts;
 use crate::linalg::dense_condition;
 
 /// Conditions up to which the effective stiffness and the Delassus operator are accepted, by the
@@ -74,7 +74,7 @@ pub(crate) fn assess(
     scene: &Scene,
     operators: &mut Operators,
     contact: &mut ContactSolver,
-    start: &[StepStart],
+    start: &StepStarts,
 ) -> Result<Conditioning> {
     let size = 2 * scene.count();
     let c = &scene.coefficients;
@@ -85,7 +85,7 @@ pub(crate) fn assess(
         &scene.static_state.traction,
         start,
         &scene.laws,
-    );
+    )?;
     let (matrix, condition, limit, (quantity, ratio)) =
         if effective_stiffness.is_nan() || effective_stiffness > STIFFNESS_LIMIT {
             let cause = cause_of_stiffness(scene, operators, effective_stiffness);

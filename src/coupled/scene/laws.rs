@@ -1,13 +1,9 @@
-//! The interface laws of a scene.
+//! Interface laws against the scene that they are to act in.
 
+use super::Scene;
 use crate::contact::ContactSearch;
-use crate::error::{Error, Result};
-use crate::interface::{ContactScene, InterfaceLaw};
-
-/// Whether a law stores energy in any of its modes.
-pub(crate) fn is_compliant(law: &dyn InterfaceLaw) -> bool {
-    law.modes().iter().any(|&mode| law.compliance(mode) != [0.0; 2])
-}
+use crate::error::{Error, LawError, Result};
+use crate::interface::{ContactScene, InterfaceLaw, Mode, StepStarts};
 
 /// Whether the laws fit the ground's `count` elements, and laws and contact search the scene.
 pub(crate) fn check(
@@ -57,5 +53,34 @@ pub(crate) fn safety_friction(
             Err(Error::Input { quantity, value, needed })
         }
         None => Ok(coefficients),
+    }
+}
+
+impl Scene {
+    /// Whether any law stores energy in its elements, or may do so once it has something to
+    /// remember.
+    pub(crate) fn is_compliant(&self, start: &StepStarts) -> Result<bool> {
+        let mut compliant = false;
+        for element in 0..self.count() {
+            for &mode in self.law(element).modes() {
+                compliant |= self.compliance(element, mode, start)? != [0.0; 2];
+            }
+        }
+        Ok(compliant || !start.memory().is_empty())
+    }
+
+    /// Compliance of an element whose step ends in `mode`.
+    pub(crate) fn compliance(
+        &self,
+        element: usize,
+        mode: Mode,
+        start: &StepStarts,
+    ) -> std::result::Result<[f64; 2], LawError> {
+        let compliance = self.law(element).compliance(mode, &start.of(element));
+        let named = [("normal compliance", compliance[0]), ("shear compliance", compliance[1])];
+        match named.into_iter().find(|(_, value)| !value.is_finite()) {
+            None => Ok(compliance),
+            Some((quantity, value)) => Err(LawError { element, mode, quantity, value }),
+        }
     }
 }

@@ -5,8 +5,8 @@ use super::model::{Model, Tangent};
 use super::operators::condense;
 use crate::bem::Ground;
 use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
-use crate::error::{Error, Result};
-use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, law_of};
+use crate::error::{Error, Result, StepError};
+use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, StepStarts, law_of};
 use crate::linalg::{
     SparseFactor, SparseMatrix, dot, largest, sparse_condition, wide_transposed_multiply_add,
 };
@@ -58,11 +58,11 @@ impl StaticState {
     fn close_gaps(
         &mut self,
         laws: &[Box<dyn InterfaceLaw>],
-        start: &[StepStart],
+        start: &StepStarts,
         states: &[ContactState],
     ) {
         for (e, gap) in self.gap.iter_mut().enumerate() {
-            let conditions = law_of(laws, e).conditions(self.modes[e], &start[e]);
+            let conditions = law_of(laws, e).conditions(self.modes[e], &start.of(e));
             let pinned = conditions.iter().find_map(|c| c.gap_at(self.traction[e]));
             *gap = pinned.unwrap_or(states[e].gap);
         }
@@ -75,13 +75,14 @@ const EQUILIBRIUM: f64 = 1e-7;
 /// Condition beyond which rounding of K u is a larger force than that (`tests/coupled/conditioning.rs`).
 const STIFFEST_CONDITION: f64 = 1e10;
 /// Nothing has happened yet.
-const AT_REST: StepStart = StepStart {
+const AT_REST: StepStart<'static> = StepStart {
     state: ContactState { gap: 0.0, slip: 0.0, pressure: 0.0, shear: 0.0 },
     mode: Mode::Stick,
     has_opened: false,
     slip_rate: 0.0,
     static_pressure: 0.0,
     time_step: 1.0,
+    memory: &[],
 };
 
 /// Proximal iterations at most.
@@ -134,7 +135,7 @@ pub(crate) fn solve(
 
     let stiffest = epsilon;
 
-    let start = vec![AT_REST; count];
+    let start = StepStarts::new(laws, &vec![AT_REST; count])?;
     let mut solver = ContactSolver::new(count);
     let mut search = ModeSearch::new(count, ContactSearch::Robust);
     let mut state = StaticState::weightless(count, n);
@@ -179,9 +180,11 @@ pub(crate) fn solve(
             laws,
             length_scale: largest(&free_jump),
         };
-        search
-            .solve(&mut solver, &input, &mut state.modes)
-            .map_err(|_| Error::Preload { iterations, residual: change })?;
+        let found = search.solve(&mut solver, &input, &mut state.modes);
+        found.map_err(|error| match error {
+            StepError::Law(error) => Error::Law(error),
+            _ => Error::Preload { iterations, residual: change },
+        })?;
         let columns = &current.columns;
         wide_transposed_multiply_add(columns, -1.0, &solver.traction, &mut displacement);
         // What the fictitious springs still pull.

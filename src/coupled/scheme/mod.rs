@@ -125,6 +125,20 @@ impl SchemeCoefficients {
     ) -> f64 {
         coefficients[0] * increment + coefficients[1] * velocity + coefficients[2] * acceleration
     }
+
+    /// Overwrites `out` with the same of vectors as long as it is.
+    pub(crate) fn combine(
+        coefficients: [f64; 3],
+        increment: &[f64],
+        velocity: &[f64],
+        acceleration: &[f64],
+        out: &mut [f64],
+    ) {
+        let parts = increment.iter().zip(velocity).zip(acceleration);
+        for (out, ((du, v), a)) in out.iter_mut().zip(parts) {
+            *out = Self::apply(coefficients, *du, *v, *a);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,8 @@
 
 use crate::contact::SearchMethod;
 use crate::coupled::scene::Scene;
+use crate::coupled::state::State;
+use crate::error::LawError;
 use crate::interface::{ContactState, Mode};
 
 /// The answer to a [`Forcing`](super::forcing::Forcing); nothing of it is committed yet.
@@ -17,6 +19,10 @@ pub(crate) struct Increment {
     pub(crate) contact: Vec<ContactState>,
     /// Mode of each element.
     pub(crate) modes: Vec<Mode>,
+    /// Compliance of each element at the end; empty if all laws are hard or no ledger is kept.
+    pub(crate) compliance: Vec<[f64; 2]>,
+    /// What the laws remember at the end.
+    pub(crate) memory: Vec<f64>,
     /// Linear solves of the mode search, and how far it had to go.
     pub(crate) trials: usize,
     pub(crate) method: SearchMethod,
@@ -27,8 +33,9 @@ pub(crate) struct Increment {
 }
 
 impl Increment {
-    pub(crate) fn new(scene: &Scene) -> Self {
+    pub(crate) fn new(scene: &Scene, state: &State, ledger: bool) -> Self {
         let (n, count) = (scene.model.unknowns, scene.count());
+        let compliant = if scene.compliant && ledger { count } else { 0 };
         let nonlinear = if scene.model.linear { 0 } else { n };
         Self {
             displacement: vec![0.0; n],
@@ -37,10 +44,20 @@ impl Increment {
             traction: vec![0.0; 2 * count],
             contact: vec![ContactState::default(); count],
             modes: vec![Mode::Stick; count],
+            compliance: vec![[0.0; 2]; compliant],
+            memory: state.start.memory().to_vec(),
             trials: 0,
             method: SearchMethod::ActiveSet,
             force: vec![0.0; nonlinear],
             seen: vec![0.0; nonlinear],
         }
+    }
+    /// Asks the laws for the compliance that the step after `state` ends with and what they
+    /// remember of it.
+    pub(crate) fn ask_laws(&mut self, scene: &Scene, state: &State) -> Result<(), LawError> {
+        for (e, compliance) in self.compliance.iter_mut().enumerate() {
+            *compliance = scene.compliance(e, self.modes[e], &state.start)?;
+        }
+        state.start.remember(&scene.laws, &self.contact, &self.modes, &mut self.memory)
     }
 }

@@ -55,20 +55,16 @@ impl LinearStep {
         let carried = &forcing.carried;
         let Self { known, vector, means, .. } = self;
         known.copy_from_slice(&forcing.load);
-        for (i, x) in vector.iter_mut().enumerate() {
-            *x = SchemeCoefficients::apply(c.acceleration, carried[i], v[i], a[i]);
-        }
+        SchemeCoefficients::combine(c.acceleration, carried, v, a, vector);
         model.mass.multiply_add(-1.0, vector, known);
         if !model.damping.is_empty() {
-            for (i, x) in vector.iter_mut().enumerate() {
-                *x = SchemeCoefficients::apply(c.velocity, carried[i], v[i], a[i]);
-            }
+            SchemeCoefficients::combine(c.velocity, carried, v, a, vector);
             let velocities = forcing.translations.iter().map(|translation| translation.velocity);
             model.influence.translate(-1.0, velocities, vector);
             model.damping.multiply_add(-1.0, vector, known);
         }
-        for (i, x) in vector.iter_mut().enumerate() {
-            *x = u[i] + SchemeCoefficients::apply(c.displacement, 0.0, v[i], a[i]);
+        for (x, ((u, v), a)) in vector.iter_mut().zip(u.iter().zip(v).zip(a)) {
+            *x = u + SchemeCoefficients::apply(c.displacement, 0.0, *v, *a);
         }
         scene.subtract_base(vector, means);
         model.stiffness.multiply_add(-1.0, vector, known);

@@ -22,12 +22,15 @@ const RUNAWAY: f64 = 1e15;
 pub(crate) struct Solver {
     linear: LinearStep,
     newton: Option<Newton>,
+    /// Δu with the share R Δy of the free field's translation.
+    total: Vec<f64>,
 }
 
 impl Solver {
     pub(crate) fn new(scene: &Scene, operators: Operators, search: ModeSearch) -> Self {
         Self {
             linear: LinearStep::new(scene, operators, search),
+            total: vec![0.0; scene.model.unknowns],
             newton: (!scene.model.linear).then(|| Newton::new(scene.model.unknowns)),
         }
     }
@@ -51,7 +54,7 @@ impl Solver {
         forcing: &Forcing,
         increment: &mut Increment,
     ) -> Result<(), StepError> {
-        let Self { linear, newton } = self;
+        let Self { linear, newton, total } = self;
         linear.predict(scene, state, forcing);
         if let Some(newton) = newton {
             newton.solve(linear, scene, structure, state, forcing, increment)?;
@@ -69,11 +72,11 @@ impl Solver {
         }
         let c = &scene.coefficients;
         let Motion { velocity, acceleration, .. } = &state.motion;
-        for (i, (v, a)) in velocity.iter().zip(acceleration).enumerate() {
-            let du = increment.displacement[i] + forcing.carried[i];
-            increment.velocity[i] = SchemeCoefficients::apply(c.new_velocity, du, *v, *a);
-            increment.acceleration[i] = SchemeCoefficients::apply(c.new_acceleration, du, *v, *a);
-        }
+        let Increment { displacement, velocity: new_velocity, acceleration: new, .. } = increment;
+        total.copy_from_slice(displacement);
+        total.iter_mut().zip(&forcing.carried).for_each(|(du, carried)| *du += carried);
+        SchemeCoefficients::combine(c.new_velocity, total, velocity, acceleration, new_velocity);
+        SchemeCoefficients::combine(c.new_acceleration, total, velocity, acceleration, new);
         Ok(())
     }
 }

@@ -170,12 +170,13 @@ fn conditioning_of_the_contact_operator() {
         (top / bottom, bottom)
     };
     let (hard, bottom) = condition([0.0; 2]);
+    let start = StepStart::new(ContactState::default(), Mode::Stick, 1.0);
     println!("none: {hard:.4}");
     assert!(bottom > 0.0);
     for ratio in [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
         let law = ThinLayer::new(crate::support::scenes::soil(SI), 1.0, 0.3).unwrap();
         let law = law.with_thickness_ratio(ratio).unwrap();
-        let (soft, _) = condition(law.compliance(Mode::Stick));
+        let (soft, _) = condition(law.compliance(Mode::Stick, &start));
         println!("{ratio:e}: {soft:.4}");
         assert!(soft < 10.0 * hard);
         if ratio <= 1e-4 {

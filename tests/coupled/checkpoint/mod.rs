@@ -3,6 +3,7 @@
 //! REFERENCE: the uninterrupted run.
 
 mod histories;
+mod law_memory;
 mod refused;
 mod resumed;
 #[cfg(feature = "serde")]

@@ -22,7 +22,7 @@ pub(crate) fn refusal() -> Error {
     Error::part("double", "refuses")
 }
 
-pub(crate) fn start() -> StepStart {
+pub(crate) fn start() -> StepStart<'static> {
     StepStart::new(ContactState::default(), Mode::Stick, 0.01)
 }
 
@@ -80,9 +80,24 @@ impl InterfaceLaw for Double {
         Mode::SlipRight
     }
 
-    fn compliance(&self, _: Mode) -> [f64; 2] {
+    fn compliance(&self, _: Mode, _: &StepStart) -> [f64; 2] {
         self.0.asked("compliance");
         [CORRECT; 2]
+    }
+
+    fn memory(&self) -> usize {
+        self.0.asked("memory");
+        3
+    }
+
+    fn initial_memory(&self, _: &StepStart, memory: &mut [f64]) {
+        self.0.asked("initial_memory");
+        memory.fill(CORRECT);
+    }
+
+    fn commit(&self, _: &StepStart, _: &ContactState, _: Mode, memory: &mut [f64]) {
+        self.0.asked("commit");
+        memory.fill(2.0 * CORRECT);
     }
 
     fn friction_coefficient(&self) -> Option<f64> {

@@ -82,7 +82,13 @@ fn boxed_laws() {
         assert_eq!(part.conditions(Mode::Open, &start)[1].value, CORRECT);
         let next = part.next_mode(Mode::Open, &start, &ContactState::default(), tolerance);
         assert_eq!(next, Mode::SlipRight);
-        assert_eq!(part.compliance(Mode::Open), [CORRECT; 2]);
+        assert_eq!(part.compliance(Mode::Open, &start), [CORRECT; 2]);
+        let mut memory = [0.0; 3];
+        assert_eq!(part.memory(), memory.len());
+        part.initial_memory(&start, &mut memory);
+        assert_eq!(memory, [CORRECT; 3]);
+        part.commit(&start, &ContactState::default(), Mode::Open, &mut memory);
+        assert_eq!(memory, [2.0 * CORRECT; 3]);
         assert_eq!(part.friction_coefficient(), Some(CORRECT));
         assert_eq!(part.smooth().modes(), [Mode::SlipRight]);
     }

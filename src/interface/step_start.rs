@@ -1,0 +1,276 @@
+//! The start of a step: the past of each element, as its law sees it.
+
+use super::{ContactState, InterfaceLaw, Mode, law_of};
+use crate::error::{Error, LawError, Result, finite, positive, same_length};
+
+/// Most numbers that the laws of all elements may remember together.
+const MOST_NUMBERS: usize = 10_000_000;
+
+/// What a law may need of the beginning of a step.
+///
+/// In the signatures of a law of one's own it is `&StepStart`; the lifetime is that of `memory`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct StepStart<'a> {
+    /// Opening and traction at the end of the step before.
+    pub state: ContactState,
+    /// Mode of the step before.
+    pub mode: Mode,
+    /// Whether the element has been open at any time since the start of the run.
+    pub has_opened: bool,
+    /// Slip velocity of the step before, m/s: its change of slip over its length.
+    pub slip_rate: f64,
+    /// Pressure of the static state, Pa.
+    pub static_pressure: f64,
+    /// Time step, s.
+    pub time_step: f64,
+    /// The numbers that the law remembers of this element ([`InterfaceLaw::memory`]); empty for a
+    /// law without memory.
+    pub memory: &'a [f64],
+}
+
+impl StepStart<'_> {
+    /// Start of a step of `time_step` seconds from `state`, by which a law can be tried without a
+    /// simulation: it has opened if it is open, its slip rate is zero, its static pressure that
+    /// of `state`, and its memory empty. All fields can then be set.
+    ///
+    /// ```
+    /// use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance};
+    /// let law = Coulomb::new(0.5)?;
+    /// let pressed = ContactState { pressure: 10.0e3, ..ContactState::default() };
+    /// let mut start = StepStart::new(pressed, Mode::Stick, 0.01);
+    /// start.slip_rate = 0.2;
+    /// let trial = ContactState { shear: 6.0e3, ..pressed };
+    /// let next = law.next_mode(Mode::Stick, &start, &trial, Tolerance::new(1e-9, 1.0));
+    /// assert_eq!(next, Mode::SlipRight);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn new(state: ContactState, mode: Mode, time_step: f64) -> Self {
+        Self {
+            state,
+            mode,
+            has_opened: !mode.is_closed(),
+            slip_rate: 0.0,
+            static_pressure: state.pressure,
+            time_step,
+            memory: &[],
+        }
+    }
+
+    /// The same with another memory: for a law made of others, each of which owns a part of it.
+    #[must_use]
+    pub fn with_memory(self, memory: &[f64]) -> StepStart<'_> {
+        let Self { state, mode, has_opened, slip_rate, static_pressure, time_step, .. } = self;
+        StepStart { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
+    }
+}
+
+/// The start of a step for all elements, from left to right: the past of a run as the laws see it,
+/// with what they remember.
+///
+/// A [`Simulation`](crate::Simulation) keeps its own. A code with an integrator of its own gets one
+/// from [`ContactProblem::start`](crate::contact::ContactProblem::start), owns it, and may clone it
+/// to come back to it later; [`ContactSolution::commit`](crate::contact::ContactSolution::commit)
+/// moves it on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepStarts {
+    time_step: f64,
+    past: Vec<Past>,
+    /// The memories of all elements, one after the other.
+    memory: Vec<f64>,
+    /// Where that of each element ends; empty if no law has any.
+    ends: Vec<usize>,
+}
+
+/// A [`StepStart`] without the fields that elements share or seldom have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Past {
+    state: ContactState,
+    mode: Mode,
+    has_opened: bool,
+    slip_rate: f64,
+    static_pressure: f64,
+}
+
+/// Where the memory of each element ends; empty if no law has any.
+pub(crate) fn memory_ends(laws: &[Box<dyn InterfaceLaw>], count: usize) -> Result<Vec<usize>> {
+    if laws.iter().all(|law| law.memory() == 0) {
+        return Ok(Vec::new());
+    }
+    let mut end = 0_usize;
+    let mut ends = Vec::with_capacity(count);
+    for element in 0..count {
+        end = end.saturating_add(law_of(laws, element).memory());
+        ends.push(end);
+    }
+    if end > MOST_NUMBERS {
+        return Err(Error::Input {
+            quantity: "count of numbers that the interface laws remember",
+            value: end as f64,
+            needed: "ten million or fewer",
+        });
+    }
+    Ok(ends)
+}
+
+impl StepStarts {
+    /// From the start of each element. Where that has no memory, the law says what it begins with.
+    pub(crate) fn new(laws: &[Box<dyn InterfaceLaw>], elements: &[StepStart<'_>]) -> Result<Self> {
+        let ends = memory_ends(laws, elements.len())?;
+        let time_step = elements.first().map_or(1.0, |start| start.time_step);
+        let past = |start: &StepStart<'_>| {
+            let StepStart { state, mode, has_opened, slip_rate, static_pressure, .. } = *start;
+            Past { state, mode, has_opened, slip_rate, static_pressure }
+        };
+        let past = elements.iter().map(past).collect();
+        let memory = vec![0.0; ends.last().copied().unwrap_or(0)];
+        let mut starts = Self { time_step, past, memory, ends };
+        for (e, start) in elements.iter().enumerate() {
+            let range = starts.memory_range(e);
+            if start.memory.is_empty() && !range.is_empty() {
+                let mut memory = vec![0.0; range.len()];
+                law_of(laws, e).initial_memory(&starts.of(e), &mut memory);
+                check_memory(e, start.mode, &memory)?;
+                starts.memory[range].copy_from_slice(&memory);
+            } else {
+                let quantity = "memory of an interface law";
+                same_length(quantity, start.memory.len(), range.len())?;
+                start.memory.iter().try_for_each(|value| finite(quantity, *value).map(|_| ()))?;
+                starts.memory[range].copy_from_slice(start.memory);
+            }
+        }
+        Ok(starts)
+    }
+
+    /// Number of elements.
+    pub fn len(&self) -> usize {
+        self.past.len()
+    }
+
+    /// Whether there is no element.
+    pub fn is_empty(&self) -> bool {
+        self.past.is_empty()
+    }
+
+    /// The start as the law of `element` sees it; `None` beyond the last one.
+    pub fn get(&self, element: usize) -> Option<StepStart<'_>> {
+        (element < self.len()).then(|| self.of(element))
+    }
+
+    /// All of them. Collected, they are what
+    /// [`ContactProblem::start`](crate::contact::ContactProblem::start) takes.
+    pub fn iter(&self) -> impl Iterator<Item = StepStart<'_>> {
+        (0..self.len()).map(|e| self.of(e))
+    }
+
+    /// Length of the step to come, s.
+    pub fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// Another length (s) from the step to come on.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless finite and above zero; the length is then the one before.
+    pub fn set_time_step(&mut self, time_step: f64) -> Result<()> {
+        self.time_step = positive("time step", time_step)?;
+        Ok(())
+    }
+
+    /// The start of an element that is there.
+    #[inline]
+    pub(crate) fn of(&self, element: usize) -> StepStart<'_> {
+        let Past { state, mode, has_opened, slip_rate, static_pressure } = self.past[element];
+        let memory = self.memory_of(element);
+        let time_step = self.time_step;
+        StepStart { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
+    }
+
+    /// Opening and traction of an element at the end of the step before.
+    pub(crate) fn state(&self, element: usize) -> &ContactState {
+        &self.past[element].state
+    }
+
+    /// What the law of an element remembers.
+    pub(crate) fn memory_of(&self, element: usize) -> &[f64] {
+        if self.ends.is_empty() { &[] } else { &self.memory[self.memory_range(element)] }
+    }
+
+    fn memory_range(&self, element: usize) -> std::ops::Range<usize> {
+        let begin = if element == 0 { 0 } else { self.end(element - 1) };
+        begin..self.end(element)
+    }
+
+    fn end(&self, element: usize) -> usize {
+        self.ends.get(element).copied().unwrap_or(0)
+    }
+
+    /// Where the memory of each element ends; empty if no law has any.
+    pub(crate) fn memory_ends(&self) -> &[usize] {
+        &self.ends
+    }
+
+    /// The memories of all elements.
+    pub(crate) fn memory(&self) -> &[f64] {
+        &self.memory
+    }
+
+    /// The same, to be set.
+    pub(crate) fn memory_mut(&mut self) -> &mut [f64] {
+        &mut self.memory
+    }
+
+    /// Slip velocities of the step before.
+    pub(crate) fn slip_rates_mut(&mut self) -> impl Iterator<Item = &mut f64> {
+        self.past.iter_mut().map(|past| &mut past.slip_rate)
+    }
+
+    /// Sets where an element is, its mode, and whether it has been open.
+    pub(crate) fn restore(&mut self, e: usize, state: ContactState, mode: Mode, has_opened: bool) {
+        self.past[e] = Past { state, mode, has_opened, ..self.past[e] };
+    }
+
+    /// Has the laws commit the step that ends in `states` and `modes` to `memory`, which has the
+    /// length of [`StepStarts::memory`]; nothing here changes.
+    pub(crate) fn remember(
+        &self,
+        laws: &[Box<dyn InterfaceLaw>],
+        states: &[ContactState],
+        modes: &[Mode],
+        memory: &mut [f64],
+    ) -> std::result::Result<(), LawError> {
+        if memory.is_empty() {
+            return Ok(());
+        }
+        memory.copy_from_slice(&self.memory);
+        for (e, (state, &mode)) in states.iter().zip(modes).enumerate() {
+            let own = &mut memory[self.memory_range(e)];
+            if !own.is_empty() {
+                law_of(laws, e).commit(&self.of(e), state, mode, own);
+                check_memory(e, mode, own)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes on to the start of the next step, after this one has ended in `states` and `modes` and
+    /// left `memory`.
+    pub(crate) fn advance(&mut self, states: &[ContactState], modes: &[Mode], memory: &[f64]) {
+        for ((past, state), mode) in self.past.iter_mut().zip(states).zip(modes) {
+            past.slip_rate = (state.slip - past.state.slip) / self.time_step;
+            past.has_opened |= !mode.is_closed();
+            (past.state, past.mode) = (*state, *mode);
+        }
+        if !memory.is_empty() {
+            self.memory.copy_from_slice(memory);
+        }
+    }
+}
+
+fn check_memory(element: usize, mode: Mode, memory: &[f64]) -> std::result::Result<(), LawError> {
+    let quantity = "memory";
+    match memory.iter().find(|value| !value.is_finite()) {
+        Some(&value) => Err(LawError { element, mode, quantity, value }),
+        None => Ok(()),
+    }
+}
