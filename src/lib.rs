@@ -202,7 +202,9 @@ mod sweep;
 
 pub use complex::Complex;
 pub use coupled::Simulation;
-pub use error::{CheckpointError, Error, LawError, LayeredError, RecordError, Result, StepError};
+pub use error::{
+    CheckpointError, Error, KernelFileError, LawError, LayeredError, RecordError, Result, StepError,
+};
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};
 pub use soil::Soil;

@@ -62,7 +62,8 @@ pub enum LayeredError {
     },
     /// A time step, or a top layer, so short beside the patch that no computer would finish.
     #[error(
-        "the patch of {span} m needs wavenumbers up to {wavenumber:e} 1/m, more than 1e6 of its own (a          longer time step, a shorter patch or a thicker top layer helps)"
+        "the patch of {span} m needs wavenumbers up to {wavenumber:e} 1/m, more than 1e6 of its own (a \
+         longer time step, a shorter patch or a thicker top layer helps)"
     )]
     TooFine {
         /// Length of the patch, m.
@@ -96,4 +97,35 @@ pub enum LayeredError {
         /// Radius of the circle.
         radius: f64,
     },
+    /// A file of step coefficients that cannot be used.
+    #[error("{file} {reason}")]
+    File {
+        /// Name of the file.
+        file: String,
+        /// What is wrong with it.
+        reason: KernelFileError,
+    },
+}
+
+/// What is wrong with a file of step coefficients.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum KernelFileError {
+    /// The file could not be read.
+    #[error("cannot be read: {0}")]
+    Unreadable(std::io::ErrorKind),
+    /// The file does not begin as one of step coefficients does; it is left as it is.
+    #[error("is no file of step coefficients, and is not written over")]
+    NotAKernel,
+    /// The file is cut short, or longer than it says.
+    #[error("has a wrong length of {found} bytes (delete it to have it made anew)")]
+    Length {
+        /// Bytes found.
+        found: u64,
+        /// Bytes needed; `None` if the file does not say.
+        needed: Option<u64>,
+    },
+    /// The numbers are not those that were written.
+    #[error("is damaged: its checksum is wrong (delete it to have it made anew)")]
+    Damaged,
 }

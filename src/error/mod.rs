@@ -14,7 +14,7 @@ mod step;
 pub use checkpoint::CheckpointError;
 pub(crate) use checks::{finite, not_negative, positive, same_length, write_file};
 pub use law::LawError;
-pub use layered::LayeredError;
+pub use layered::{KernelFileError, LayeredError};
 #[cfg(feature = "io")]
 pub use matrix_file::MatrixFileError;
 #[cfg(feature = "io")]

@@ -5,6 +5,7 @@ mod history_exponentials;
 mod history_fft;
 mod kernels;
 mod layered_coefficients;
+mod layered_files;
 mod layered_impedances;
 mod layered_passivity;
 mod passivity;

@@ -34,7 +34,7 @@ const POINTS_PER_LAG: usize = 4;
 #[derive(Debug)]
 pub(crate) struct Block {
     /// Per class: zz, xx, zx, lag by lag.
-    values: Vec<[Vec<f64>; 3]>,
+    pub(crate) values: Vec<[Vec<f64>; 3]>,
 }
 
 impl Block {
@@ -46,6 +46,11 @@ impl Block {
         }
         let block = (index / FIRST).ilog2() as usize + 1;
         (block, index - (FIRST << (block - 1)))
+    }
+
+    /// Number of lags in block `number`.
+    pub(crate) fn lags(number: usize) -> usize {
+        FIRST << number.saturating_sub(1)
     }
 
     /// Coefficients of one class from `place` to the block's end.
@@ -91,10 +96,8 @@ impl Quadrature {
 
     /// The coefficients of block `number`, computed on `threads` threads.
     pub(crate) fn block(&self, number: usize, threads: usize) -> Result<Block> {
-        let (first, lags) = match number {
-            0 => (0, FIRST),
-            _ => (FIRST << (number - 1), FIRST << (number - 1)),
-        };
+        let lags = Block::lags(number);
+        let first = if number == 0 { 0 } else { lags };
         let length = POINTS_PER_LAG * lags.max(first) / if number == 0 { 2 } else { 1 };
         // Aliases ε and noise tol·ε^(−1/2) at the last lag are then about equal.
         let logarithm = 2.0 / 3.0 * self.tolerance.ln() / length as f64;

@@ -1,6 +1,7 @@
 //! Layered, damped ground under strips.
 
 use std::ops::Range;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::kernel::{TOLERANCE, check_tolerance};
@@ -71,6 +72,7 @@ struct Layered {
     profile: SoilProfile,
     stages: Option<Stages>,
     tolerance: f64,
+    file: Option<PathBuf>,
 }
 
 impl Layered {
@@ -92,7 +94,11 @@ impl KernelSource for Layered {
             (stages, _) => {
                 let kernel = LayeredKernel::new(profile, elements, time_step)?;
                 let kernel = kernel.with_stages(stages.unwrap_or_default());
-                Ok(Arc::new(kernel.with_tolerance(self.tolerance)?))
+                let kernel = kernel.with_tolerance(self.tolerance)?;
+                Ok(Arc::new(match &self.file {
+                    Some(file) => kernel.with_file(file),
+                    None => kernel,
+                }))
             }
         }
     }
@@ -113,6 +119,10 @@ impl KernelSource for Layered {
     fn identity(&self) -> Option<Vec<f64>> {
         let stages = self.stages.map_or(0.0, |stages| stages.count() as f64);
         let mut numbers = vec![stages, self.tolerance];
+        // Grounds with a file do not take their kernel from one without.
+        let file = self.file.as_ref().map(|file| file.as_os_str().as_encoded_bytes());
+        numbers.push(file.map_or(-1.0, |bytes| bytes.len() as f64));
+        numbers.extend(file.unwrap_or_default().iter().map(|byte| f64::from(*byte)));
         numbers.extend(self.profile.identity()?);
         Some(numbers)
     }
@@ -169,7 +179,7 @@ impl LayeredGround {
         check_order(&elements)?;
         profile.check()?;
         profile.check_causal()?;
-        let layered = Layered { profile, stages: None, tolerance: TOLERANCE };
+        let layered = Layered { profile, stages: None, tolerance: TOLERANCE, file: None };
         let ground = KernelGround::new(layered.clone(), elements)?;
         Ok(Self { layered, used: None, ground })
     }
@@ -216,8 +226,30 @@ impl LayeredGround {
         Self { ground: self.ground.with_shared_kernels(kernels), ..self }
     }
 
+    /// With step coefficients from the file `path`, which is made, or made anew, if it does not have
+    /// them: [`LayeredKernel::with_file`]. The closed form needs none.
+    #[must_use]
+    pub fn with_kernel_file(self, path: impl Into<PathBuf>) -> Self {
+        let layered = Layered { file: Some(path.into()), ..self.layered.clone() };
+        self.with(layered)
+    }
+
     /// Dynamic stiffness of all strips together, as one rigid body, at each of `frequencies` (Hz):
     /// [`rigid_strip_impedances`].
+    ///
+    /// ```
+    /// use basemat::bem::layered::{LayeredGround, StripContact};
+    /// use basemat::soil::SoilProfile;
+    /// use basemat::Soil;
+    /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
+    /// let profile = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
+    /// let found = LayeredGround::strip(profile, -3.0..3.0, 16)?
+    ///     .impedances(&[1.0, 9.0], StripContact::Bonded)?;
+    /// // Nothing radiates below the layer's first frequency, 6.25 Hz; above it does.
+    /// assert!(found[0].horizontal.im < 1e-6 * found[0].horizontal.re);
+    /// assert!(found[1].horizontal.im > 0.5 * found[1].horizontal.re);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
     ///
     /// # Errors
     /// As for [`rigid_strip_impedances`].

@@ -1,11 +1,12 @@
 //! Step coefficients of a layered ground under a patch of elements.
 
+use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use super::coefficients::{BLOCKS, Block, FIRST, Quadrature};
-use super::passivity;
 use super::runge_kutta::Stages;
 use super::wavenumber::Wavenumbers;
+use super::{file, passivity};
 use crate::contact_element::ContactElement;
 use crate::error::{Error, Result, positive, same_length};
 use crate::history::{LagKernel, PairClasses, SharedSpectra};
@@ -34,9 +35,11 @@ use crate::soil::SoilProfile;
 pub struct LayeredKernel {
     classes: PairClasses,
     quadrature: Quadrature,
-    checked: OnceLock<Result<()>>,
+    /// Fingerprint of what has passed the gate.
+    checked: OnceLock<Result<u64>>,
     blocks: [OnceLock<Result<Block>>; BLOCKS],
     spectra: SharedSpectra,
+    file: Option<PathBuf>,
 }
 
 /// Tolerance of the wavenumber integrals unless another one is asked for.
@@ -74,14 +77,15 @@ impl LayeredKernel {
             Quadrature { profile, integrals, classes: count, stages, time_step, tolerance };
         let blocks = std::array::from_fn(|_| OnceLock::new());
         let (checked, spectra) = (OnceLock::new(), SharedSpectra::default());
-        Self { classes, quadrature, checked, blocks, spectra }
+        Self { classes, quadrature, checked, blocks, spectra, file: None }
     }
 
     /// With another number of stages.
     #[must_use]
     pub fn with_stages(self, stages: Stages) -> Self {
         let Quadrature { profile, time_step, tolerance, .. } = self.quadrature;
-        Self::made(profile, self.classes, time_step, stages, tolerance)
+        let made = Self::made(profile, self.classes, time_step, stages, tolerance);
+        Self { file: self.file, ..made }
     }
 
     /// With the relative `tolerance` (1e-13 to 1e-4) of the element compliances in the Laplace
@@ -93,7 +97,38 @@ impl LayeredKernel {
     pub fn with_tolerance(self, tolerance: f64) -> Result<Self> {
         check_tolerance(tolerance)?;
         let Quadrature { profile, time_step, stages, .. } = self.quadrature;
-        Ok(Self::made(profile, self.classes, time_step, stages, tolerance))
+        let made = Self::made(profile, self.classes, time_step, stages, tolerance);
+        Ok(Self { file: self.file, ..made })
+    }
+
+    /// With coefficients from the file `path`, and those that it lacks written to it by
+    /// [`prepare`](LagKernel::prepare).
+    ///
+    /// They are the same to the last bit. A file of another profile, mesh, step, accuracy, machine or
+    /// format is made anew; one that is damaged, or no such file at all, is refused and left as it is.
+    ///
+    /// ```
+    /// use basemat::bem::layered::LayeredKernel;
+    /// use basemat::bem::Strip;
+    /// use basemat::history::LagKernel;
+    /// use basemat::soil::SoilProfile;
+    /// use basemat::Soil;
+    /// let path = std::env::temp_dir().join("basemat-doctest.kernel");
+    /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
+    /// let profile = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
+    /// let elements = Strip::uniform(-5.0..5.0, 4)?.elements();
+    /// LayeredKernel::new(profile, elements, 0.01)?.with_file(&path).prepare(100)?;
+    /// // Four distances, three components, 128 lags, and six words around them.
+    /// assert_eq!(std::fs::metadata(&path).unwrap().len(), 8 * (4 * 3 * 128 + 6));
+    /// # std::fs::remove_file(path).unwrap();
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// `prepare` and [`coefficients`](LagKernel::coefficients) then also return
+    /// [`LayeredError::File`](crate::LayeredError::File) and [`Error::Write`].
+    #[must_use]
+    pub fn with_file(self, path: impl Into<PathBuf>) -> Self {
+        Self { file: Some(path.into()), ..self }
     }
 
     /// The profile.
@@ -103,10 +138,21 @@ impl LayeredKernel {
 
     /// Block `number`, computed now if it has not been.
     fn block(&self, number: usize) -> Result<&Block> {
-        let check = || passivity::check(&self.quadrature, &self.classes);
-        self.checked.get_or_init(check).clone()?;
+        self.checked.get_or_init(|| self.check()).clone()?;
         let compute = || self.quadrature.block(number, threads());
         self.blocks[number].get_or_init(compute).as_ref().map_err(Clone::clone)
+    }
+
+    /// Whether it is passive; if so, its fingerprint, and the blocks of the file are in place.
+    fn check(&self) -> Result<u64> {
+        let fingerprint = passivity::check(&self.quadrature, &self.classes)?;
+        if let Some(path) = &self.file {
+            let blocks = file::read(path, fingerprint, self.classes.count())?;
+            for (place, block) in self.blocks.iter().zip(blocks) {
+                let _ = place.set(Ok(block));
+            }
+        }
+        Ok(fingerprint)
     }
 }
 
@@ -123,10 +169,15 @@ impl LagKernel for LayeredKernel {
     /// [`LayeredError::ActiveDamping`](crate::LayeredError::ActiveDamping) and
     /// [`LayeredError::Modulus`](crate::LayeredError::Modulus) for a damping law that is not passive.
     fn prepare(&self, lags: usize) -> Result<()> {
-        for number in 0..=last_block(lags.max(1))? {
+        let last = last_block(lags.max(1))?;
+        let fingerprint = self.checked.get_or_init(|| self.check()).clone()?;
+        let complete = self.blocks[..=last].iter().all(|block| block.get().is_some());
+        for number in 0..=last {
             self.block(number)?;
         }
-        Ok(())
+        let Some(path) = self.file.as_ref().filter(|_| !complete) else { return Ok(()) };
+        let blocks = self.blocks.iter().map_while(|block| block.get()?.as_ref().ok());
+        file::write(path, fingerprint, self.classes.count(), &blocks.collect::<Vec<_>>())
     }
 
     fn coefficients(

@@ -6,10 +6,12 @@
 //! | wavenumber, form_factors, tail | element compliances F(s): its integrals over k |
 //! | runge_kutta, coefficients, kernel | step coefficients Gⁿ by convolution quadrature |
 //! | passivity | the gate that they pass |
+//! | file | coefficients kept in a file |
 //! | static_compliance, impedance, ground | statics, rigid strips at one frequency, the ground |
 
 mod coefficients;
 mod compliance;
+mod file;
 mod form_factors;
 mod ground;
 mod impedance;

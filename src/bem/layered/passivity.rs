@@ -3,6 +3,7 @@
 use realfft::num_complex::Complex64;
 
 use super::coefficients::Quadrature;
+use super::file::Hash;
 use super::wavenumber::Workspace;
 use crate::complex::Complex;
 use crate::error::{LayeredError, Result};
@@ -14,16 +15,21 @@ pub(crate) const RADIUS: f64 = 0.99;
 /// Points on its upper half.
 const POINTS: usize = 40;
 
-/// Checks Herm[(1−z) Ĝ(z)] ≥ 0 at 40 points of |z| = 0.99, up to the tolerance of the quadrature
+/// Fingerprint of the coefficients, after a check of Herm[(1−z) Ĝ(z)] ≥ 0 at 40 points of |z| = 0.99, up to the tolerance of the quadrature
 /// times the number of unknowns, every pair relative to its elements' own mobilities.
 ///
-/// The theorem needs no check; errors of the quadrature and damping laws that are not passive show here.
-pub(crate) fn check(quadrature: &Quadrature, classes: &PairClasses) -> Result<()> {
+/// The theorem needs no check; errors of the quadrature and damping laws that are not passive show here. The fingerprint is that of all values at these points, of the
+/// elements and of what else a coefficient depends on.
+pub(crate) fn check(quadrature: &Quadrature, classes: &PairClasses) -> Result<u64> {
     let order = 2 * classes.elements().len();
     let allowed = -quadrature.tolerance * order as f64;
     let mut work = Workspace::default();
     let mut scratch = vec![[Complex::default(); 3]; classes.count()];
     let mut values = scratch.clone();
+    let mut hash = Hash::default();
+    let sizes = [quadrature.time_step, quadrature.tolerance, quadrature.stages.count() as f64];
+    let ends = classes.elements().iter().flat_map(|element| [element.left, element.right]);
+    sizes.into_iter().chain(ends).for_each(|number| hash.add_number(number));
     for point in 0..POINTS {
         let angle = std::f64::consts::PI * (point as f64 + 0.5) / POINTS as f64;
         quadrature.mobility([RADIUS.ln(), angle], &mut work, &mut scratch, &mut values)?;
@@ -31,8 +37,12 @@ pub(crate) fn check(quadrature: &Quadrature, classes: &PairClasses) -> Result<()
         if margin.is_nan() || margin < allowed {
             return Err(LayeredError::NotPassive { margin, allowed, angle, radius: RADIUS }.into());
         }
+        for value in values.iter().flatten() {
+            hash.add_number(value.re);
+            hash.add_number(value.im);
+        }
     }
-    Ok(())
+    Ok(hash.0)
 }
 
 /// Least eigenvalue of the Hermitian part of the matrix of all pairs, scaled by the absolute
