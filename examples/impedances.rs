@@ -11,13 +11,13 @@
 //! contain the soil's own damping, and hardly anything else below the first frequency of the layer, 6.25 Hz: a
 //! half-plane overestimates the damping of such a site.
 
-use std::path::PathBuf;
+use std::error::Error;
+use std::path::{Path, PathBuf};
 
 use basemat::bem::layered::{LayeredGround, StripContact, StripImpedance};
 use basemat::plot::{Curve, curves};
 use basemat::prelude::*;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
-use basemat::{Error, Result};
 use clap::Parser;
 
 /// Half the strip's width, m.
@@ -34,98 +34,104 @@ struct Options {
     out: PathBuf,
 }
 
-/// K over μ, μ, μ B² and μ B, as tables have it.
+/// A ground's name and its impedances.
+type Case = (&'static str, Vec<StripImpedance>);
+
+/// K over μ, μ, μ B² and μ B, as tables have it: real and imaginary parts.
 fn normalized(found: &StripImpedance, soil: Soil) -> [[f64; 2]; 4] {
     let scales = [1.0, 1.0, HALF * HALF, HALF].map(|scale| soil.shear_modulus() * scale);
     let values = [found.horizontal, found.vertical, found.rocking, found.coupling];
     std::array::from_fn(|i| [values[i].re / scales[i], values[i].im / scales[i]])
 }
 
-fn main() -> Result<()> {
+fn print(cases: &[Case], soil: Soil, unit: f64) {
+    println!("K over mu (hh, vv), mu B^2 (rr), mu B (hr); a0 = omega B/c");
+    for (name, found) in cases {
+        println!(
+            "\n{name}\n   f (Hz)   a0             hh              vv              rr              hr"
+        );
+        for found in found.iter().skip(4).step_by(5) {
+            print!("{:>9.2} {:>4.2}", found.frequency, found.frequency / unit);
+            for [re, im] in normalized(found, soil) {
+                print!("  {re:>6.3} {im:>+6.3}i");
+            }
+            println!();
+        }
+    }
+}
+
+/// Springs and dashpots in SI units, line by line.
+fn write_table(cases: &[Case], file: &Path) -> Result<(), Box<dyn Error>> {
+    let mut table = csv::Writer::from_path(file)?;
+    let names =
+        ["stiffness", "dashpot"].map(|kind| COMPONENTS.map(|name| format!("{kind}_{name}")));
+    let header = ["ground", "frequency_hz"].map(String::from);
+    table.write_record(header.iter().chain(names.as_flattened()))?;
+    for (name, found) in cases {
+        for found in found {
+            table.serialize((name, found.frequency, found.stiffnesses(), found.dashpots()))?;
+        }
+    }
+    Ok(table.flush()?)
+}
+
+fn draw(cases: &[Case], out: &Path) -> basemat::Result<()> {
+    for (i, (name, unit)) in
+        COMPONENTS.into_iter().zip(["MN/m²", "MN/m²", "MN", "MN/m"]).enumerate()
+    {
+        let lines = |value: &dyn Fn(&StripImpedance) -> [f64; 4]| -> Vec<Curve> {
+            let point = |found: &StripImpedance| (found.frequency, 1e-6 * value(found)[i]);
+            let curve = |(name, found): &Case| Curve {
+                name: (*name).to_owned(),
+                points: found.iter().map(point).collect(),
+            };
+            cases.iter().map(curve).collect()
+        };
+        let (springs, dashpots) =
+            (lines(&StripImpedance::stiffnesses), lines(&StripImpedance::dashpots));
+        curves(&format!("Spring Re K_{name}"), "frequency, Hz", unit, &springs)?
+            .save(out.join(format!("spring_{name}.svg")))?;
+        let unit = format!("{unit} · s");
+        curves(&format!("Dashpot Im K_{name}/ω"), "frequency, Hz", &unit, &dashpots)?
+            .save(out.join(format!("dashpot_{name}.svg")))?;
+    }
+    Ok(())
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
     let out = Options::parse().out;
     let soil = Soil::from_shear_wave_speed(150.0, 1.0 / 3.0, 1800.0)?;
     let rock = Soil::from_shear_wave_speed(450.0, 0.3, 2160.0)?;
     // Constant over the band; the soils' stiffness is that at 4 Hz.
     let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 4.0);
-    let layer = |profile: SoilProfile| -> Result<SoilProfile> {
+    let on_rock = SoilProfile::on_half_plane(rock).with_base_damping(damping(0.01)?);
+    let layer = |profile: SoilProfile| -> basemat::Result<SoilProfile> {
         Ok(profile.with_layer(soil, 2.0 * HALF)?.with_damping(damping(0.05)?))
     };
-    let rock = layer(SoilProfile::on_half_plane(rock).with_base_damping(damping(0.01)?))?;
-    let rigid = layer(SoilProfile::on_rigid_base())?;
-    println!("layer on rock:\n{rock}\n\nlayer on a rigid base:\n{rigid}\n");
+    let (on_rock, on_rigid_base) = (layer(on_rock)?, layer(SoilProfile::on_rigid_base())?);
+    println!("layer on rock:\n{on_rock}\n\nlayer on a rigid base:\n{on_rigid_base}\n");
 
     // a₀ = ωB/c from 0.05 to 2.5.
     let unit = soil.shear_wave_speed() / (std::f64::consts::TAU * HALF);
     let frequencies: Vec<f64> = (1..=50).map(|i| 0.05 * f64::from(i) * unit).collect();
-    let strip = -HALF..HALF;
+    let half_plane = HalfPlaneGround::strip(soil, -HALF..HALF, ELEMENTS)?;
+    let on_rock = LayeredGround::strip(on_rock, -HALF..HALF, ELEMENTS)?;
+    let on_rigid_base = LayeredGround::strip(on_rigid_base, -HALF..HALF, ELEMENTS)?;
     let contact = StripContact::Bonded;
     let cases = [
-        (
-            "half-plane",
-            HalfPlaneGround::strip(soil, strip.clone(), ELEMENTS)?
-                .impedances(&frequencies, contact)?,
-        ),
-        ("layer on rock, 5 %", impedances(rock, &frequencies)?),
-        ("layer on a rigid base, 5 %", impedances(rigid, &frequencies)?),
+        ("half-plane", half_plane.impedances(&frequencies, contact)?),
+        ("layer on rock, 5 %", on_rock.impedances(&frequencies, contact)?),
+        ("layer on a rigid base, 5 %", on_rigid_base.impedances(&frequencies, contact)?),
     ];
 
-    println!("K = Re K + i Im K over mu (hh, vv), mu B^2 (rr), mu B (hr); a0 = omega B/c");
-    let mut csv = "ground,frequency_hz,a0".to_owned();
-    for name in COMPONENTS {
-        csv += &format!(",stiffness_{name},dashpot_{name}");
-    }
-    csv.push('\n');
-    for (name, found) in &cases {
-        println!(
-            "\n{name}\n   f (Hz)    a0            hh              vv              rr              hr"
-        );
-        for (i, found) in found.iter().enumerate() {
-            let a0 = found.frequency / unit;
-            if i % 5 == 4 {
-                print!("{:>9.2} {a0:>5.2}", found.frequency);
-                for [re, im] in normalized(found, soil) {
-                    print!("  {re:>6.3} {im:>+6.3}i");
-                }
-                println!();
-            }
-            csv += &format!("\"{name}\",{},{a0}", found.frequency);
-            for (spring, dashpot) in found.stiffnesses().into_iter().zip(found.dashpots()) {
-                csv += &format!(",{spring},{dashpot}");
-            }
-            csv.push('\n');
-        }
-    }
-    for (i, name) in COMPONENTS.into_iter().enumerate() {
-        let lines = |value: &dyn Fn(&StripImpedance) -> f64| -> Vec<Curve> {
-            let points = |found: &[StripImpedance]| {
-                found.iter().map(|found| (found.frequency, value(found))).collect()
-            };
-            let curve = |(name, found): &(&str, Vec<_>)| Curve {
-                name: (*name).to_owned(),
-                points: points(found),
-            };
-            cases.iter().map(curve).collect()
-        };
-        let unit = ["MN/m²", "MN/m²", "MN", "MN/m"][i];
-        let springs = lines(&|found| 1e-6 * found.stiffnesses()[i]);
-        curves(&format!("Spring Re K_{name}"), "frequency, Hz", unit, &springs)?
-            .save(out.join(format!("spring_{name}.svg")))?;
-        let dashpots = lines(&|found| 1e-6 * found.dashpots()[i]);
-        curves(
-            &format!("Dashpot Im K_{name}/ω"),
-            "frequency, Hz",
-            &format!("{unit} · s"),
-            &dashpots,
-        )?
-        .save(out.join(format!("dashpot_{name}.svg")))?;
-    }
-    let file = out.join("impedances.csv");
-    std::fs::write(&file, csv)
-        .map_err(|error| Error::Write { file: file.display().to_string(), reason: error.kind() })?;
+    print(&cases, soil, unit);
+    draw(&cases, &out)?;
+    write_table(&cases, &out.join("impedances.csv"))?;
     println!("\ntable and pictures in {}", out.display());
 
     // Im K/μ of sway and heave at a₀ = 0.5 from tables of other programs.
-    for ((name, found), wanted) in cases.iter().zip([[1.32, 2.02], [0.602, 0.934], [0.256, 0.490]])
+    for ((name, found), wanted) in
+        cases.iter().zip([[1.315, 2.019], [0.602, 0.934], [0.256, 0.490]])
     {
         let [hh, vv, ..] = normalized(&found[9], soil);
         for ([_, found], wanted) in [hh, vv].into_iter().zip(wanted) {
@@ -133,9 +139,4 @@ fn main() -> Result<()> {
         }
     }
     Ok(())
-}
-
-fn impedances(profile: SoilProfile, frequencies: &[f64]) -> Result<Vec<StripImpedance>> {
-    LayeredGround::strip(profile, -HALF..HALF, ELEMENTS)?
-        .impedances(frequencies, StripContact::Bonded)
 }

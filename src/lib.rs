@@ -116,7 +116,9 @@
 //! | [`fem`] | meshes and elements |
 //! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
-//! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], grounds of any step coefficients |
+//! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::layered::LayeredGround`], [`bem::SpringGround`], grounds of any step coefficients |
+//! | [`soil`] | elastic soil, damping laws, profiles of layers |
+//! | [`site`] | site response: vertically travelling waves in a profile |
 //! | [`history`] | the convolution with all past tractions, its kinds and their choice |
 //! | [`fundamental`] | elastodynamic fundamental solutions |
 //! | [`motion`] | records and their files, spectra, baselines, free fields, El Centro 1940 |

@@ -99,8 +99,9 @@ fn contents(
         return Err(KernelFileError::Length { found, needed });
     };
     let mut hash = Hash::default();
-    header.iter().for_each(|word| hash.add(*word));
-    data.iter().for_each(|word| hash.add(u64::from_le_bytes(*word)));
+    for word in begin.as_chunks().0.iter().chain(data) {
+        hash.add(u64::from_le_bytes(*word));
+    }
     if hash.0 != u64::from_le_bytes(*checksum) {
         return Err(KernelFileError::Damaged);
     }
@@ -128,14 +129,11 @@ pub(crate) fn write(
     let count = lists().map(Vec::len).sum::<usize>() + HEADER + 1;
     let mut bytes: Vec<u8> = Vec::with_capacity(8 * count);
     let mut hash = Hash::default();
-    let mut add = |word: u64| {
+    let header = [MAGIC, FORMAT, fingerprint, classes as u64, blocks.len() as u64];
+    for word in header.into_iter().chain(lists().flatten().map(|number| number.to_bits())) {
         hash.add(word);
         bytes.extend(word.to_le_bytes());
-    };
-    [MAGIC, FORMAT, fingerprint, classes as u64, blocks.len() as u64]
-        .into_iter()
-        .for_each(&mut add);
-    lists().flatten().for_each(|number| add(number.to_bits()));
+    }
     bytes.extend(hash.0.to_le_bytes());
     let mut name = path.as_os_str().to_owned();
     let number = WRITTEN.fetch_add(1, Ordering::Relaxed);
