@@ -54,7 +54,7 @@ use crate::structure::Structure;
 ///     .build()?;
 /// let run = simulation.run(400, |_| {})?;
 /// assert!(run.ledger_residual < 1e-9);
-/// assert!(simulation.history_choice().unwrap().to_string().contains("2 stages"));
+/// assert!(simulation.history_choice().unwrap().to_string().contains("3 stages"));
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct LayeredGround {
