@@ -161,6 +161,8 @@ fn foreign_files_are_refused_and_kept() {
     // A file where a folder must be.
     let found = with(&file.0.join("below.kernel"));
     assert!(found.is_err(), "{found:?}");
+    // No file can have that name.
+    assert!(matches!(with(Path::new("")), Err(Error::Write { .. })));
     let text = with(&folder).unwrap_err().to_string();
     assert!(text.contains(&folder.display().to_string()), "{text}");
 }
