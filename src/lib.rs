@@ -1,10 +1,10 @@
 //! Earthquake response of flexible structures whose base can uplift and slide on elastic ground.
 //!
 //! A structure (finite elements, a rigid block, a shear building, or any model of your own) stands
-//! on elastic ground: the flat surface of a homogeneous half-plane, a bed of springs, or your own. The ground shakes. Element by element,
-//! the base may stick, open, close again and slide with friction. Wanted are displacements, contact
-//! tractions, base shear and moment, uplift and slip. Everything is two-dimensional, per metre of
-//! thickness, for small displacements.
+//! on elastic ground: the flat surface of a homogeneous half-plane, a bed of springs, or your own.
+//! The ground shakes. Element by element, the base may stick, open, close again and slide with
+//! friction. Wanted are displacements, contact tractions, base shear and moment, uplift and slip.
+//! Everything is two-dimensional, per metre of thickness, for small displacements.
 //!
 //! # One complete example
 //!
@@ -142,6 +142,7 @@
 //! | for a … of your own | implement | methods needed |
 //! |---|---|---|
 //! | structure | [`structure::Structure`] | 4 |
+//! | nonlinear force in it | [`structure::NonlinearForce`] | 2; 5 with a memory |
 //! | finite element | [`fem::Element`] | 4 |
 //! | spring with a memory | [`structure::Hysteresis`] | 5 |
 //! | law between base and soil | [`interface::InterfaceLaw`] | 3 |
@@ -160,8 +161,8 @@
 //! # Examples
 //!
 //! Short programs that print a table: `shear_building`, `base_isolated`, `two_buildings`,
-//! `rocking_block`, `floor_spectra`, `friction_sweep`, `travelling_wave`, `from_matrices`; `pictures`
-//! draws everything (feature `png`). What each prints is in `docs/examples.md`.
+//! `portal_frame`, `rocking_block`, `floor_spectra`, `friction_sweep`, `travelling_wave`,
+//! `from_matrices`; `pictures` draws everything (feature `png`). What each prints is in `docs/examples.md`.
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

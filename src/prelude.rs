@@ -1,4 +1,4 @@
-//! What most programs name: `use basemat::prelude::*;`.
+//! Names that most programs use: `use basemat::prelude::*;`.
 
 pub use crate::bem::{Ground, HalfPlaneGround, SpringGround};
 pub use crate::coupled::{Probe, Run, Simulation, State};

@@ -6,7 +6,8 @@
 
 use std::sync::{Mutex, PoisonError};
 
-/// A number of cases to run, each by the same closure.
+/// A number of cases to run, each by the same closure. Cases with several parameters are a list that
+/// the closure looks up.
 ///
 /// ```
 /// use basemat::Sweep;
@@ -15,6 +16,14 @@ use std::sync::{Mutex, PoisonError};
 ///     if case.index() == 2 { Err("no two") } else { Ok((case.index() as f64).sqrt()) }
 /// });
 /// assert_eq!(roots, [Ok(0.0), Ok(1.0), Err("no two"), Ok(3.0_f64.sqrt())]);
+///
+/// // Widths × frictions; the error type is what the closure's `?` needs to know.
+/// let cases: Vec<_> = [4.0, 6.0].iter().flat_map(|&b| [0.2, 0.4].map(|phi| (b, phi))).collect();
+/// let products = Sweep::new(cases.len()).collect(|case| {
+///     let (width, friction) = cases[case.index()];
+///     basemat::Result::Ok(width * friction)
+/// });
+/// assert_eq!(products[3], Ok(6.0 * 0.4));
 /// ```
 pub struct Sweep<'a> {
     count: usize,

@@ -6,7 +6,7 @@ use crate::contact_element::ContactElement;
 use crate::error::{Error, Result, finite, positive};
 use crate::structure::{Structure, foundation_nodes};
 
-/// How element lengths vary along a strip.
+/// Variation of element lengths along a strip.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum Grading {

@@ -70,7 +70,7 @@ pub struct ContactSolution<'a> {
     pub modes: &'a [Mode],
     /// Linear solves of the mode search.
     pub trials: usize,
-    /// How the modes were found.
+    /// Method that found the modes.
     pub method: SearchMethod,
     laws: &'a [Box<dyn InterfaceLaw>],
     memory_ends: &'a [usize],

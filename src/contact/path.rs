@@ -215,9 +215,9 @@ impl Path {
         true
     }
 
-    /// How far λ can go in `direction` until a law objects, and whose.
+    /// Largest step of λ in `direction` until a law objects, and whose.
     ///
-    /// What a law admits in one mode is convex (an intersection of half-spaces), so that bisection
+    /// The set that a law admits in one mode is convex (an intersection of half-spaces), so that bisection
     /// finds the end.
     fn reach(
         &self,
@@ -265,7 +265,7 @@ impl ContactState {
         }
     }
 
-    /// How far two states are apart, as a traction.
+    /// Distance of two states, as a traction.
     fn distance(&self, other: &Self, compliance: f64) -> f64 {
         (self.pressure - other.pressure).abs()
             + (self.shear - other.shear).abs()

@@ -15,7 +15,7 @@ use crate::interface::{
 };
 use crate::linalg::{DenseFactor, dense_condition, dense_multiply_add, largest};
 
-/// What a step gives to the contact problem.
+/// Data of a step for the contact problem.
 #[derive(Clone, Copy)]
 pub(crate) struct ContactInput<'a> {
     /// W, 2Q × 2Q, row-major.
@@ -38,7 +38,7 @@ impl ContactInput<'_> {
         law_of(self.laws, element)
     }
 
-    /// What its law imposes in `mode`, all of it finite.
+    /// Conditions of its law in `mode`, all finite.
     #[inline]
     pub(super) fn conditions(
         &self,
@@ -280,7 +280,7 @@ impl ContactSolver {
         }
     }
 
-    /// What counts as equal, from the rounding of the last trial.
+    /// Tolerance of comparisons, from the rounding of the last trial.
     pub(crate) fn tolerance(&self, input: &ContactInput<'_>) -> Tolerance {
         let traction = self
             .states

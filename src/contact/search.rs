@@ -19,7 +19,7 @@ const SWEEPS: usize = 400;
 /// Paths followed.
 const PATHS: usize = 8;
 
-/// How the contact modes of a step are searched for.
+/// Search for the contact modes of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 #[non_exhaustive]
 pub enum ContactSearch {
@@ -36,7 +36,7 @@ pub enum ContactSearch {
     },
 }
 
-/// How the modes of a step were found.
+/// Method that found the modes of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum SearchMethod {
@@ -123,7 +123,7 @@ impl ModeSearch {
         StepError::Contact { iterations, residual, modes: modes.to_vec() }
     }
 
-    /// How far the tractions of `modes` are from those of the modes that the laws ask for instead,
+    /// Distance of the tractions of `modes` from those of the modes that the laws ask for instead,
     /// relative to the largest; 1 if either set of modes is singular.
     fn disagreement(
         &mut self,

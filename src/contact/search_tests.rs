@@ -15,7 +15,7 @@ use crate::structure::{FemModel, RigidBlock, Structure};
 
 const FRICTION: [f64; 6] = [0.0, 0.2, 0.4, 1.0, 3.0, f64::INFINITY];
 
-/// What the law of a problem says.
+/// Parameters of a problem's law.
 #[derive(Debug, Clone, Copy)]
 struct Parameters {
     friction: f64,
@@ -52,7 +52,7 @@ impl Problem {
         }
     }
 
-    /// How far a change of traction is from Signorini's and Coulomb's conditions, written down
+    /// Distance of a change of traction from Signorini's and Coulomb's conditions, written down
     /// anew: tractions relative to the largest traction, lengths to the largest jump.
     fn violation(&self, traction: &[f64]) -> f64 {
         let count = self.start.len();

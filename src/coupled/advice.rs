@@ -22,7 +22,7 @@ const ELEMENTS: [usize; 2] = [4, 1000];
 /// a₀ up to which the errors of the stiffnesses were measured.
 const MEASURED: f64 = 4.0;
 
-/// What advice needs to know of a structure: the rectangle that it resembles.
+/// A structure as advice sees it: the rectangle that it resembles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outline {
     width: f64,

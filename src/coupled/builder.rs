@@ -138,7 +138,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// How the contact modes of a step are searched for.
+    /// Search for the contact modes of a step.
     #[must_use]
     pub fn contact_search(mut self, search: ContactSearch) -> Self {
         self.search = search;
@@ -154,7 +154,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// What friction does while the weight comes on.
+    /// Friction while the weight comes on.
     #[must_use]
     pub fn placement(mut self, placement: Placement) -> Self {
         self.placement = placement;

@@ -18,7 +18,7 @@ const MOST_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,
     None => usize::MAX >> 4,
 };
-/// How far numbers of the same scene may be apart (other processors round differently).
+/// Allowed difference of numbers of the same scene (other processors round differently).
 const SAME: f64 = 1e-9;
 
 /// A run between two steps: see [`Simulation::checkpoint`](crate::Simulation::checkpoint).
@@ -33,7 +33,7 @@ pub struct Checkpoint {
     steps: usize,
     /// Per element: which of its law's modes, and whether it has been open.
     modes: Vec<(usize, bool)>,
-    /// What the laws of all elements remember.
+    /// Memory of the laws of all elements.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     memory: Vec<f64>,
     #[cfg_attr(feature = "serde", serde(with = "bits"))]

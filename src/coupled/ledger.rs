@@ -22,20 +22,20 @@ pub struct Ledger {
     /// ½ u·K u, plus what the nonlinear internal force stores: its work, where the structure does
     /// not tell stored from dissipated energy.
     pub strain: f64,
-    /// What hysteretic parts of the structure have turned into heat
+    /// Heat of hysteretic parts of the structure
     /// ([`NonlinearForce::energy`](crate::structure::NonlinearForce::energy)); never less
     /// than before.
     pub hysteresis: f64,
     /// Work of the dashpots, on displacements relative to the free field's translation.
     pub damping: f64,
-    /// What the time scheme takes: of the structure (zero for the midpoint rule), and of compliant
+    /// Loss by the time scheme: in the structure (zero for the midpoint rule), and in compliant
     /// interfaces, whose traction is that of the end of the step all through it. With a nonlinear
     /// force of known energies, also its work in the discrete equation beyond them: the error of
     /// one point in a step, of either sign.
     pub numerical: f64,
     /// Work done on the soil by the changes of traction: radiated and stored.
     pub soil: f64,
-    /// What friction and impact take, and what is lost with the springs of a compliant interface
+    /// Loss by friction and impact, and with the springs of a compliant interface
     /// when its elements open and close: total tractions times minus the change of the jump, its
     /// elastic part left out. Never less from step to step, with any law of the crate.
     pub contact: f64,

@@ -85,7 +85,7 @@ impl Variation {
     }
 }
 
-/// What base shear, ground and foundations of a run ask of time step and elements.
+/// Time step and elements that base shear, ground and foundations of a run require.
 #[derive(Debug, Clone)]
 pub(crate) struct Resolution {
     time_step: f64,
@@ -114,7 +114,7 @@ pub(crate) struct Resolution {
     samples: GroundSamples,
 }
 
-/// What samples of the ground between the steps tell.
+/// Findings from samples of the ground between the steps.
 #[derive(Debug, Clone, Copy, Default)]
 struct GroundSamples {
     /// Frequency of its acceleration, Hz.

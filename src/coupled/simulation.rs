@@ -314,7 +314,7 @@ impl Simulation {
     /// [`crate::Error::Checkpoint`] for a checkpoint of another scene, another format, or with
     /// numbers missing or not finite. The simulation is then as it was.
     ///
-    /// [`save`]: crate::structure::Structure::save
+    /// [`save`]: crate::structure::NonlinearForce::save
     pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<()> {
         let Self { scene, structure, ground, solver, .. } = self;
         let (structure, ground) = (structure.as_mut(), ground.as_mut());

@@ -1,4 +1,4 @@
-//! What a step leaves behind.
+//! The state after a step.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -35,7 +35,7 @@ impl Transition {
     }
 }
 
-/// What stands on one foundation gives to the soil, and how its base moves.
+/// Forces of one foundation on the soil, and motion of its base.
 ///
 /// Most structures have one. See [`crate::structure::Structure::foundation_ends`].
 #[derive(Debug, Clone, PartialEq)]
@@ -135,11 +135,11 @@ pub struct State {
     pub ledger: Ledger,
     /// Linear solves that the mode search needed.
     pub trials: usize,
-    /// How the modes were found; in a nonlinear step, the farthest that any iteration had to go.
+    /// Method that found the modes; in a nonlinear step, the last resort of any iteration.
     pub method: SearchMethod,
     pub(crate) origin: Origin,
     pub(crate) motion: Motion,
-    /// What the laws see of it in the next step, per element.
+    /// Start of the next step as the laws see it, per element.
     pub(crate) start: StepStarts,
 }
 

@@ -23,13 +23,13 @@ pub enum CheckpointError {
     /// The checkpoint belongs to another scene.
     #[error("made in another scene: the {quantity} differs")]
     OtherScene {
-        /// What differs.
+        /// Quantity that differs.
         quantity: &'static str,
     },
     /// Numbers are missing, too many or not finite.
     #[error("{quantity}: wrong number of values, or not finite")]
     Corrupt {
-        /// What cannot be.
+        /// Quantity that is impossible.
         quantity: &'static str,
     },
 }

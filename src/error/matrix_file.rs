@@ -1,6 +1,6 @@
 //! Files of matrices.
 
-/// What is wrong with a Matrix Market file.
+/// Fault of a Matrix Market file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MatrixFileError {

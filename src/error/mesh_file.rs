@@ -1,6 +1,6 @@
 //! Files of meshes.
 
-/// What is wrong with a line of a mesh's file.
+/// Fault of a line of a mesh's file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshFileError {
@@ -10,29 +10,29 @@ pub enum MeshFileError {
     /// Something that is needed is not there.
     #[error("there is no {what}")]
     Missing {
-        /// What is missing.
+        /// Missing item.
         what: String,
     },
     /// Something is there twice.
     #[error("{what} is given twice")]
     Twice {
-        /// What is there twice.
+        /// Repeated item.
         what: String,
     },
     /// A section has more or fewer things than it says.
     #[error("{found} {what}, but {announced} are announced")]
     Count {
-        /// What is counted.
+        /// Counted items.
         what: &'static str,
-        /// How many there are.
+        /// Number found.
         found: usize,
-        /// How many the section says.
+        /// Number that the section states.
         announced: u64,
     },
     /// A field is not what it must be.
     #[error("'{text}' is no {what}")]
     NotA {
-        /// What it must be.
+        /// Required value.
         what: &'static str,
         /// The field, cut to 40 characters.
         text: String,
@@ -40,7 +40,7 @@ pub enum MeshFileError {
     /// Something that the crate does not read.
     #[error("cannot use {text}")]
     Unsupported {
-        /// What it is.
+        /// Value found.
         text: String,
     },
     /// A line is too long to be one of numbers.

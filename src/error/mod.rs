@@ -27,7 +27,7 @@ use crate::fem::Direction;
 /// Result of every fallible function of the crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// What can go wrong, with the quantity, its value and what was needed.
+/// Faults of this crate, with the quantity, its value and the requirement.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -38,7 +38,7 @@ pub enum Error {
         quantity: &'static str,
         /// The value that was given.
         value: f64,
-        /// What was needed.
+        /// Requirement.
         needed: &'static str,
     },
     /// A slice or list of the wrong length.
@@ -66,13 +66,13 @@ pub enum Error {
     Write {
         /// The file, or its folder.
         file: String,
-        /// What the system says.
+        /// The system's own message.
         reason: std::io::ErrorKind,
     },
     /// A name that nothing has.
     #[error("there is no {quantity} called '{name}'")]
     Name {
-        /// What was looked for.
+        /// Item looked for.
         quantity: &'static str,
         /// The name that was given.
         name: String,
@@ -80,7 +80,7 @@ pub enum Error {
     /// A name that must be given once only.
     #[error("more than one {quantity} is called '{name}'")]
     DuplicateName {
-        /// What has the name.
+        /// Item that has the name.
         quantity: &'static str,
         /// The name.
         name: String,
@@ -90,7 +90,7 @@ pub enum Error {
     Probe {
         /// Name of the probe.
         name: String,
-        /// What is wrong with it.
+        /// Reason.
         source: Box<Error>,
     },
     /// A point at which there is no node.
@@ -105,7 +105,7 @@ pub enum Error {
         y: f64,
         /// Coordinates of the nearest node, m.
         nearest: [f64; 2],
-        /// How far that is away, m.
+        /// Distance to it, m.
         distance: f64,
     },
     /// A node that no element moves in the direction that was asked for.
@@ -121,7 +121,7 @@ pub enum Error {
     Scene {
         /// Name of the part.
         quantity: &'static str,
-        /// What was needed.
+        /// Requirement.
         needed: &'static str,
     },
     /// A part of a user's own that refuses the scene, a file or a checkpoint: see [`Error::part`].
@@ -139,7 +139,7 @@ pub enum Error {
         file: String,
         /// Line number, from 1 (0: the file as a whole).
         line: usize,
-        /// What is wrong there.
+        /// Fault of the line.
         reason: RecordError,
     },
     /// A file of a mesh that cannot be used.
@@ -150,7 +150,7 @@ pub enum Error {
         file: String,
         /// Line number, from 1 (0: the file as a whole).
         line: usize,
-        /// What is wrong there.
+        /// Fault of the line.
         reason: MeshFileError,
     },
     /// A Matrix Market file that cannot be read or written.
@@ -161,7 +161,7 @@ pub enum Error {
         file: String,
         /// Line number, from 1 (0: the file as a whole).
         line: usize,
-        /// What is wrong there.
+        /// Fault of the line.
         reason: MatrixFileError,
     },
     /// A matrix that cannot be factored.
@@ -186,7 +186,7 @@ pub enum Error {
         force: f64,
         /// The unknown where the force is largest beside the stiffness around.
         unknown: usize,
-        /// How large it is beside that.
+        /// Its size beside that.
         share: f64,
     },
     /// A part of a structure that no stiffness joins to its contact nodes: it would neither weigh on
@@ -198,7 +198,7 @@ pub enum Error {
     Detached {
         /// The unknowns of all such parts, ascending.
         unknowns: Vec<usize>,
-        /// What the structure calls them: see
+        /// The structure's own names of them: see
         /// [`Structure::describe`](crate::structure::Structure::describe).
         place: String,
     },
@@ -246,9 +246,9 @@ pub enum Error {
         condition: f64,
         /// Largest that is accepted.
         limit: f64,
-        /// What makes it so.
+        /// Cause.
         quantity: &'static str,
-        /// How large that is.
+        /// Size of that.
         ratio: f64,
     },
     /// The static state under the structure's weight was not found.
@@ -277,7 +277,7 @@ pub enum Error {
     /// A history by exponentials of a kernel that does not allow it.
     #[error("history by exponentials needs {needed}")]
     NoExponentials {
-        /// What the kernel lacks.
+        /// Property that the kernel lacks.
         needed: &'static str,
     },
     /// A history by exponentials could give energy away, and runs with it could grow.
@@ -315,7 +315,7 @@ pub enum Error {
         step: usize,
         /// Time at its end, s.
         time: f64,
-        /// What failed.
+        /// Failure of the step.
         source: StepError,
     },
 }

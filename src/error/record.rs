@@ -2,7 +2,7 @@
 
 use super::Error;
 
-/// What is wrong with a line of a record.
+/// Fault of a line of a record.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordError {
@@ -64,7 +64,7 @@ pub enum RecordError {
     /// The header lacks something.
     #[error("the header has no {quantity}, or none that makes sense")]
     Missing {
-        /// What is missing.
+        /// Missing quantity.
         quantity: &'static str,
     },
     /// A quantity of the header is given, but not as a number and a unit that are known.
@@ -72,7 +72,7 @@ pub enum RecordError {
     Unclear {
         /// Which quantity.
         quantity: &'static str,
-        /// What the file says, cut to 40 characters.
+        /// The file's own words, cut to 40 characters.
         text: String,
     },
     /// A line does not keep to the columns of the file's Fortran format, which place the decimal
@@ -94,7 +94,7 @@ pub enum RecordError {
     /// The file holds something else than an acceleration, or in a unit that is not known.
     #[error("'{text}' is no acceleration in a known unit")]
     NotAcceleration {
-        /// What the file says of its numbers, cut to 60 characters.
+        /// The file's own description of its numbers, cut to 60 characters.
         text: String,
     },
     /// There is no channel of this number.

@@ -14,7 +14,7 @@ pub enum StepError {
     Contact {
         /// Trials made, fallbacks included.
         iterations: usize,
-        /// How far the tractions of these modes are from those of the modes that the laws ask for
+        /// Distance of the tractions of these modes from those of the modes that the laws ask for
         /// instead, relative to the largest; 1 if either set of modes is singular.
         residual: f64,
         /// Modes of the last trial, left to right.

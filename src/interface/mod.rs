@@ -19,7 +19,7 @@ pub use variable_friction::VariableFriction;
 
 use crate::error::Result;
 
-/// What a contact element does during a step.
+/// Contact mode of an element during a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Mode {
     /// Closed, no slip (and the only mode of a bonded element).
@@ -147,7 +147,7 @@ impl Tolerance {
     }
 }
 
-/// What a law can check of the scene it is to act in.
+/// The scene as a law can check it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct ContactScene {
@@ -162,7 +162,7 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
     laws[if laws.len() == 1 { 0 } else { element }].as_ref()
 }
 
-/// How base and soil touch: implement this for a law of your own.
+/// Contact law between base and soil: implement this for a law of your own.
 ///
 /// A law is a rule and keeps nothing itself. The end of the step before is in [`StepStart`]; what
 /// else it needs of the past it declares as a memory of a few numbers per element, which the
@@ -253,7 +253,7 @@ pub trait InterfaceLaw: Send {
         [0.0; 2]
     }
 
-    /// How many numbers the law remembers of each element, always the same; none by default.
+    /// Count of the numbers that the law remembers of each element, always the same; none by default.
     fn memory(&self) -> usize {
         0
     }

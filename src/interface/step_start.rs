@@ -6,7 +6,7 @@ use crate::error::{Error, LawError, Result, finite, positive, same_length};
 /// Most numbers that the laws of all elements may remember together.
 const MOST_NUMBERS: usize = 10_000_000;
 
-/// What a law may need of the beginning of a step.
+/// State of an element at the beginning of a step, as its law sees it.
 ///
 /// In the signatures of a law of one's own it is `&StepStart`; the lifetime is that of `memory`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -191,7 +191,7 @@ impl StepStarts {
         &self.past[element].state
     }
 
-    /// What the law of an element remembers.
+    /// Memory of an element's law.
     pub(crate) fn memory_of(&self, element: usize) -> &[f64] {
         if self.ends.is_empty() { &[] } else { &self.memory[self.memory_range(element)] }
     }

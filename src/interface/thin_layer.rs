@@ -30,7 +30,7 @@ pub enum FrictionLimit {
     Dynamic,
 }
 
-/// What tells the sense of slip, and whether it goes on.
+/// Quantity that tells the sense of slip, and whether it goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum SlipSense {
@@ -218,7 +218,7 @@ impl ThinLayer {
         }
     }
 
-    /// How far the structure slid in this step, as [`SlipSense`] sees it.
+    /// Slip of the structure in this step, as [`SlipSense`] sees it.
     fn advance(&self, start: &StepStart, trial: &ContactState) -> f64 {
         let moved = trial.slip - start.state.slip;
         match self.sense {

@@ -1,4 +1,4 @@
-//! What each contact element has seen.
+//! Extremes of each contact element.
 
 use crate::bem::ContactElement;
 use crate::coupled::{Peak, State};

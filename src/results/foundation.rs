@@ -1,4 +1,4 @@
-//! What each foundation of a run came to.
+//! Results of each foundation of a run.
 
 use std::ops::Range;
 

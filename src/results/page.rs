@@ -112,10 +112,10 @@ impl Run {
         writeln!(f, "\nUplift")?;
         writeln!(
             f,
-            "  up to {:.1} % of the base, at {:.3} s; largest gap {:.3} mm",
+            "  up to {:.1} % of the base, at {:.3} s; largest gap {} mm",
             100.0 * self.uplifted_fraction.value,
             self.uplifted_fraction.time,
-            1e3 * self.largest_gap().value
+            number(1e3 * self.largest_gap().value)
         )?;
         writeln!(
             f,
@@ -126,11 +126,11 @@ impl Run {
         writeln!(f, "Sliding")?;
         writeln!(
             f,
-            "  mean slip up to {:.3} mm at {:.3} s, {:.3} mm at the end; any element {:.3} mm",
-            1e3 * mean.value,
+            "  mean slip up to {} mm at {:.3} s, {} mm at the end; any element {} mm",
+            number(1e3 * mean.value),
             mean.time,
-            1e3 * self.residual_slip,
-            1e3 * self.largest_slip.value
+            number(1e3 * self.residual_slip),
+            number(1e3 * self.largest_slip.value)
         )?;
         write!(
             f,

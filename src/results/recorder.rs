@@ -1,6 +1,6 @@
-//! What to keep of a run.
+//! Selection of results to keep of a run.
 
-/// What to keep of a run beyond its [`Run`](super::Run): the scalar histories and the probes at every step, unless told otherwise.
+/// Selection of results to keep of a run beyond its [`Run`](super::Run): the scalar histories and the probes at every step, unless told otherwise.
 ///
 /// See the [module](super) for an example.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

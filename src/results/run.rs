@@ -68,9 +68,9 @@ pub struct Run {
     pub largest_slip: Peak,
     /// The probes, in the order they were given to the builder.
     pub probes: Vec<ProbeExtremes>,
-    /// How long the base was uplifted.
+    /// Duration of uplift.
     pub uplift: Uplift,
-    /// How far and how long the base slid.
+    /// Distance and duration of sliding.
     pub sliding: Sliding,
     /// Each foundation by itself, from left to right.
     pub foundations: Vec<FoundationSummary>,

@@ -1,4 +1,4 @@
-//! How far the base slid, and in how many events.
+//! Distance slid by the base, and in how many events.
 
 use crate::coupled::State;
 

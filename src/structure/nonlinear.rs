@@ -8,7 +8,9 @@ use crate::error::{CheckpointError, Error, Result};
 ///
 /// A [`Structure`] hands it out by [`Structure::nonlinear`] and [`Structure::nonlinear_mut`]. Force,
 /// tangent and energy belong to a trial `displacement` reached from the last **committed** one, and
-/// change nothing; [`commit`](NonlinearForce::commit) accepts the end of a step.
+/// change nothing; [`commit`](NonlinearForce::commit) accepts the end of a step. Force and tangent are
+/// asked where the time scheme writes its equations (the midpoint rule: halfway through the step), at
+/// every iterate of Newton's method.
 ///
 /// ```
 /// use basemat::structure::{ContactNode, NonlinearForce, RigidBlock, Structure, Triplets};
@@ -68,7 +70,10 @@ pub trait NonlinearForce {
     ///
     /// # Errors
     /// Any error, [`Error::part`](crate::Error::part) for one of your own, ends the step with
-    /// [`StepError::Structure`](crate::StepError::Structure), and nothing of it is committed.
+    /// [`StepError::Structure`](crate::StepError::Structure), and nothing of it is committed. So does
+    /// one at an iterate that Newton's method would have left again: a limit that the structure should
+    /// only be told to have passed belongs into the observer of
+    /// [`Simulation::run`](crate::Simulation::run), whose error ends the run after the step.
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()>;
 
     /// Adds the tangent ∂f/∂u (n × n) to `matrix`, with the same sparsity at every call or less.

@@ -1,6 +1,6 @@
 //! Weighted sums of unknowns.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 use super::Structure;
 use crate::error::{Error, Result, finite, positive};
@@ -16,7 +16,8 @@ use crate::error::{Error, Result, finite, positive};
 ///
 /// let roof = Row::from(7);
 /// assert_eq!(roof.terms(), [(7, 1.0)]);
-/// let drift = Row::from(7) - Row::from(6) + 3.0 * Row::from(2);
+/// let mut drift = Row::from(7) - Row::from(6);
+/// drift += 3.0 * Row::from(2);
 /// assert_eq!(drift, Row::from([(7, 1.0), (6, -1.0), (2, 3.0)]));
 /// let unknowns = [0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.1, 0.2];
 /// assert!((drift.value(&unknowns) - 0.13).abs() < 1e-15);
@@ -178,16 +179,28 @@ impl AsRef<[(usize, f64)]> for Row {
     }
 }
 
-impl Add for Row {
-    type Output = Self;
-
-    fn add(mut self, other: Self) -> Self {
+impl AddAssign for Row {
+    fn add_assign(&mut self, other: Self) {
         for (index, weight) in other.0 {
             match self.0.iter_mut().find(|term| term.0 == index) {
                 Some(term) => term.1 += weight,
                 None => self.0.push((index, weight)),
             }
         }
+    }
+}
+
+impl SubAssign for Row {
+    fn sub_assign(&mut self, other: Self) {
+        *self += -other;
+    }
+}
+
+impl Add for Row {
+    type Output = Self;
+
+    fn add(mut self, other: Self) -> Self {
+        self += other;
         self
     }
 }

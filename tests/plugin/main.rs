@@ -13,6 +13,7 @@ mod law;
 mod law_memory;
 mod scheme;
 mod structure;
+mod structure_with_memory;
 #[path = "../support/mod.rs"]
 mod support;
 mod threads_and_texts;

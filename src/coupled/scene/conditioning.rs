@@ -1,4 +1,4 @@
-//! How much of double precision a scene uses up.
+//! Condition numbers of a scene: the share of double precision that it uses up.
 
 use std::fmt;
 

@@ -27,7 +27,7 @@ mod cost {
 /// Springs that hold the base and constraints where they must not give way, relative to the largest
 /// stiffness.
 const HELD: f64 = 1e6;
-/// What assembly and factors leave of a zero, relative to the diagonal and to the largest stiffness.
+/// Remainder of a zero after assembly and factors, relative to the diagonal and to the largest stiffness.
 const ROUNDING: f64 = 1e-12;
 
 /// Assembled matrices of a structure and its influence vectors.

@@ -12,7 +12,7 @@ use crate::linalg::{
 };
 use crate::structure::{InternalEnergy, Structure, Triplets};
 
-/// What friction does while the structure is placed on the ground.
+/// Friction while the structure is placed on the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Placement {
@@ -231,7 +231,7 @@ pub(crate) fn solve(
     Err(failure(condition, iterations, change))
 }
 
-/// What to say of a search without end.
+/// Message for a search without end.
 fn failure(condition: f64, iterations: usize, change: f64) -> Error {
     if condition <= STIFFEST_CONDITION {
         return Error::Preload { iterations, residual: change };
@@ -274,7 +274,7 @@ fn out_of_balance(
     Ok(rest)
 }
 
-/// How large a force is, relative to the load: each component over the square root of its mass, so
+/// Size of a force relative to the load: each component over the square root of its mass, so
 /// that forces and moments compare in any units.
 struct Measure {
     weights: Vec<f64>,

@@ -30,7 +30,7 @@ pub struct SchemeCoefficients {
     pub load_fraction: f64,
 }
 
-/// How the structure's equation of motion is stepped in time.
+/// Time stepping of the structure's equation of motion.
 ///
 /// Contact and soil need nothing of it: they live on displacements at the ends of steps and
 /// tractions constant within them.

@@ -1,4 +1,4 @@
-//! What acts on structure and base during a step, known before it is solved.
+//! Actions on structure and base during a step, known before it is solved.
 //!
 //! | symbol | meaning |
 //! |---|---|

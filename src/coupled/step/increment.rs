@@ -1,4 +1,4 @@
-//! What one step changes.
+//! Changes of one step.
 
 use crate::contact::SearchMethod;
 use crate::coupled::scene::Scene;
@@ -21,7 +21,7 @@ pub(crate) struct Increment {
     pub(crate) modes: Vec<Mode>,
     /// Compliance of each element at the end; empty if all laws are hard or no ledger is kept.
     pub(crate) compliance: Vec<[f64; 2]>,
-    /// What the laws remember at the end.
+    /// Memory of the laws at the end.
     pub(crate) memory: Vec<f64>,
     /// Linear solves of the mode search, and how far it had to go.
     pub(crate) trials: usize,

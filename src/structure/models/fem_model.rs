@@ -11,12 +11,13 @@ use crate::structure::{ContactNode, RayleighDamping, Row, Structure, Triplets};
 
 /// Finite-element structure on a flat base.
 ///
-/// Unknowns: those of [`Numbering`], node by node. Mass consistent, no Rayleigh damping, unless
-/// set otherwise.
+/// Unknowns run node by node, within a node x, y, rotation, as far as some element there has them; ask
+/// [`row`](FemModel::row) for one. Mass consistent, no Rayleigh damping, unless set otherwise.
 ///
 /// Elements act on each other through common nodes. A part that has none in common with what stands
-/// on the ground must be tied to it by rigid links or [springs](super::WithSprings), or no simulation
-/// is built: [`Error::Detached`] names the nodes, and those at the same place that were not merged.
+/// on the ground must be tied to it by rigid links or [springs](crate::structure::WithSprings), or no
+/// simulation is built: [`Error::Detached`] names the nodes, and those at the same place that were not
+/// merged.
 ///
 /// ```
 /// use basemat::fem::{Direction, Layer, Material, Mesh};
@@ -108,7 +109,7 @@ impl FemModel {
     /// use basemat::fem::{Beam, Mesh};
     /// use basemat::structure::{FemModel, Structure};
     ///
-    /// // A portal frame on two strips 2 m wide.
+    /// // A portal frame on two strips 2 m wide (the example `portal_frame` shakes one).
     /// let mut mesh = Mesh::new();
     /// let mut lines = Vec::new();
     /// let mut tops = Vec::new();
@@ -179,7 +180,8 @@ impl FemModel {
     /// The same structure in which the nodes `followers` move with `leader` as one rigid body: stiff
     /// joints, offsets of beams, a rigid slab or basemat.
     ///
-    /// P–Δ by [`with_p_delta`](FemModel::with_p_delta) is found anew. Followers lose their unknowns, and the structure's are numbered anew, node by node:
+    /// P–Δ by [`with_p_delta`](FemModel::with_p_delta) is found anew. Followers lose their unknowns,
+    /// and the structure's are numbered anew, node by node:
     /// [`unknown`](FemModel::unknown) gives `None` for them and [`row`](FemModel::row) what
     /// they do. Their masses and stiffnesses stay where they are. Contact nodes may follow.
     ///

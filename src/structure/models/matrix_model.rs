@@ -11,9 +11,10 @@ const DAMPING: &str = "damping matrix";
 ///
 /// The unknowns are absolute displacements in m and rotations in rad, in any order; the structure
 /// is **free**, without supports: the ground holds it up, so a rigid translation must give no elastic
-/// force beyond rounding (entries of ten digits may leave too much, those of twelve do not). Matrices are per metre of thickness. They may come from Matrix Market files
+/// force beyond rounding (entries of ten digits may leave too much, those of twelve do not).
+/// Matrices are per metre of thickness. They may come from Matrix Market files
 /// (`Triplets::read_matrix_market`, feature `io`); large models march faster after a
-/// [`CraigBampton`](super::CraigBampton) reduction.
+/// [`CraigBampton`](crate::structure::CraigBampton) reduction.
 ///
 /// The mass matrix must be positive semi-definite up to rounding (see [`Structure::mass`]), which is
 /// checked here; a symmetric stiffness matrix must be so where the base is held, Lagrange

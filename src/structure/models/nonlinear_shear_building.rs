@@ -61,7 +61,7 @@ impl NonlinearShearBuilding {
     /// With [`ShearBuilding::with_p_delta`] the weight W on the isolators pushes them down the
     /// slope of a base that turns, with W θ, and turns it with W d by its drift d. The softening
     /// −W/h of columns is not theirs: a slider's weight is in its law already (W/R of a
-    /// [`FrictionPendulum`](super::FrictionPendulum)), and the stiffness of rubber bearings is to be
+    /// [`FrictionPendulum`](crate::structure::FrictionPendulum)), and the stiffness of rubber bearings is to be
     /// given as it is under their load.
     ///
     /// # Errors

@@ -119,7 +119,7 @@ impl ShearBuilding {
     ///
     /// In higher modes the ratio grows with the frequency: `ratio · f_n/f_1`. Five equal storeys with
     /// 5 % in the first mode have 15 %, 23 %, 30 % and 34 % in the others, which damps the upper
-    /// floors' accelerations heavily. [`ModalDamping`](super::ModalDamping) gives every mode its own.
+    /// floors' accelerations heavily. [`ModalDamping`](crate::structure::ModalDamping) gives every mode its own.
     ///
     /// # Errors
     /// [`Error::Input`] unless `ratio` is finite and not negative.
