@@ -376,7 +376,7 @@ fn ricker_transform(omega: f64) -> Complex {
 fn motions_in_time_are_integrals_over_frequency() {
     let profile = profile(damping(0.05), damping(0.02));
     let (dt, count) = (0.01, 1200);
-    let motion: Vec<f64> = (0..count).map(|i| ricker(dt * f64::from(i))).collect();
+    let motion: Vec<f64> = (0..count).map(|i| ricker(dt * i as f64)).collect();
     let cases = [
         (BOTH[0], 25.0_f64, InclinedControl::OutcropHorizontal),
         (BOTH[0], -20.0, InclinedControl::OutcropVertical),
@@ -396,13 +396,13 @@ fn motions_in_time_are_integrals_over_frequency() {
             })
             .collect();
         for i in (0..count).step_by(37) {
-            let t = dt * f64::from(i);
+            let t = dt * i as f64;
             for component in 0..2 {
                 let terms = spectrum
                     .iter()
                     .map(|(omega, values)| (values[component] * Complex::polar(1.0, omega * t)).re);
                 let wanted = terms.sum::<f64>() * step / std::f64::consts::PI;
-                worst = worst.max((found[component][i as usize] - wanted).abs());
+                worst = worst.max((found[component][i] - wanted).abs());
             }
         }
     }
