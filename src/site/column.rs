@@ -61,7 +61,7 @@ impl Column {
     /// Column of `profile` for one kind of wave.
     ///
     /// # Errors
-    /// [`Error::Size`] for a rigid base without layers.
+    /// [`Error::Size`](crate::Error::Size) for a rigid base without layers.
     pub fn new(profile: SoilProfile, wave: VerticalWave) -> Result<Self> {
         profile.check()?;
         Ok(Self { profile, wave })
@@ -70,7 +70,7 @@ impl Column {
     /// Motion of the surface by that of `control` for e^(iωt) at `frequency` (Hz).
     ///
     /// # Errors
-    /// [`Error::Input`] for a frequency that is negative or not finite; as for damping laws that are not
+    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; as for damping laws that are not
     /// passive; infinite at a resonance without damping.
     pub fn transfer(&self, control: ControlPoint, frequency: f64) -> Result<Complex> {
         not_negative("frequency of a transfer function", frequency)?;
@@ -91,7 +91,7 @@ impl Column {
     /// of displacement, velocity and acceleration. The column is at rest at first.
     ///
     /// # Errors
-    /// [`Error::Input`] for a bad time step or samples that are not finite, [`Error::Size`] for none,
+    /// [`Error::Input`](crate::Error::Input) for a bad time step or samples that are not finite, [`Error::Size`](crate::Error::Size) for none,
     /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for hysteretic damping.
     pub fn to_surface(
         &self,

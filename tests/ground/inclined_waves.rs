@@ -485,3 +485,37 @@ fn bad_waves_are_refused() {
     let found = InclinedWave::sv(stiffening, 0.4).unwrap();
     assert!(found.to_surface(control, 0.01, &[1.0, 0.0]).is_err());
 }
+
+/// Whatever the scales: finite numbers or a typed error.
+#[test]
+fn extreme_scales_give_finite_numbers_or_errors() {
+    let (mut finite, mut refused) = (0, 0);
+    for modulus in [1e-150, 1.0, 1e150] {
+        for thickness in [1e-200, 1.0, 1e200] {
+            for poisson in [-0.99, 0.0, 0.4999] {
+                let layer = Soil::new(modulus, poisson, 1.0).unwrap();
+                let profile = SoilProfile::on_half_plane(Soil::new(1.0, 0.3, 1.0).unwrap())
+                    .with_layer(layer, thickness)
+                    .unwrap();
+                for make in BOTH {
+                    for angle in [-1.570_796_326_794_896, -1e-300, 0.0, 0.3, 1.2] {
+                        let wave = make(profile.clone(), angle).unwrap();
+                        for frequency in [0.0, 1e-300, 1.0, 1e300, f64::MAX] {
+                            match wave.transfer(InclinedControl::Incident, frequency) {
+                                Ok(found) => {
+                                    assert!(found.iter().all(|x| x.is_finite()));
+                                    finite += 1;
+                                }
+                                Err(_) => refused += 1,
+                            }
+                        }
+                        let motion = wave.to_surface(InclinedControl::Incident, 0.01, &[0.0, 1.0]);
+                        assert!(motion.iter().flatten().flatten().all(|x| x.is_finite()));
+                    }
+                }
+            }
+        }
+    }
+    println!("{finite} finite, {refused} refused");
+    assert!(finite > 500 && refused > 0);
+}
