@@ -498,7 +498,7 @@ fn extreme_scales_give_finite_numbers_or_errors() {
                     .with_layer(layer, thickness)
                     .unwrap();
                 for make in BOTH {
-                    for angle in [-1.570_796_326_794_896, -1e-300, 0.0, 0.3, 1.2] {
+                    for angle in [1e-14 - std::f64::consts::FRAC_PI_2, -1e-300, 0.0, 0.3, 1.2] {
                         let wave = make(profile.clone(), angle).unwrap();
                         for frequency in [0.0, 1e-300, 1.0, 1e300, f64::MAX] {
                             match wave.transfer(InclinedControl::Incident, frequency) {
