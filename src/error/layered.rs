@@ -82,6 +82,26 @@ pub enum LayeredError {
         /// Largest deviation in the band, relative.
         worst: f64,
     },
+    /// Inclined waves over a rigid base, which sends none.
+    #[error(
+        "waves at an angle come from a half-plane below the layers, not from a rigid base \
+         (site::Column takes the motion of a rigid base to the surface)"
+    )]
+    InclinedOverRigidBase,
+    /// An inclined wave without a beginning in time.
+    #[error(
+        "wave is beyond the critical angle of layer {layer}: its horizontal slowness is {slowness} s/m, \
+         but must be below {limit} s/m, that of pressure waves there, to begin in time (its transfer \
+         functions exist)"
+    )]
+    BeyondCritical {
+        /// Layer, from 1 at the surface; the half-plane counts as the last.
+        layer: usize,
+        /// Horizontal slowness of the wave, absolute, s/m.
+        slowness: f64,
+        /// Slowness of pressure waves in the layer at the highest frequency of the motion, s/m.
+        limit: f64,
+    },
     /// Step coefficients that could give energy away.
     #[error(
         "step coefficients are not passive: least eigenvalue {margin:e} of the mobility, relative to \

@@ -5,15 +5,11 @@
 //!
 //! Aⱼ₊₁ = ½ Aⱼ(1+aⱼ) e^(κh) + ½ Bⱼ(1−aⱼ) e^(−κh),   Bⱼ₊₁ = ½ Aⱼ(1−aⱼ) e^(κh) + ½ Bⱼ(1+aⱼ) e^(−κh)
 //!
-//! the outcrop of the base moves by 2Aₙ, its top within by Aₙ + Bₙ, the surface by 2. In time,
-//! all runs at Re s = η > 0: a window e^(−ηt) that makes what wraps around the transform negligible and undamped
-//! profiles regular.
+//! the outcrop of the base moves by 2Aₙ, its top within by Aₙ + Bₙ, the surface by 2.
 
-use realfft::RealFftPlanner;
-use realfft::num_complex::Complex64;
-
+use super::transform::filtered;
 use crate::complex::Complex;
-use crate::error::{Error, Result, finite, not_negative, positive};
+use crate::error::{Result, not_negative};
 use crate::soil::SoilProfile;
 
 /// What travels.
@@ -61,16 +57,11 @@ pub struct Column {
     wave: VerticalWave,
 }
 
-/// ηT: what wraps around is e^(−24), rounding in the first half e^12 times that of the transform.
-const WINDOW: f64 = 24.0;
-/// Most samples of a motion.
-const MOST_SAMPLES: usize = 1 << 27;
-
 impl Column {
     /// Column of `profile` for one kind of wave.
     ///
     /// # Errors
-    /// [`Error::Size`] for a rigid base without layers.
+    /// [`Error::Size`](crate::Error::Size) for a rigid base without layers.
     pub fn new(profile: SoilProfile, wave: VerticalWave) -> Result<Self> {
         profile.check()?;
         Ok(Self { profile, wave })
@@ -79,7 +70,7 @@ impl Column {
     /// Motion of the surface by that of `control` for e^(iωt) at `frequency` (Hz).
     ///
     /// # Errors
-    /// [`Error::Input`] for a frequency that is negative or not finite; as for damping laws that are not
+    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; as for damping laws that are not
     /// passive; infinite at a resonance without damping.
     pub fn transfer(&self, control: ControlPoint, frequency: f64) -> Result<Complex> {
         not_negative("frequency of a transfer function", frequency)?;
@@ -100,7 +91,7 @@ impl Column {
     /// of displacement, velocity and acceleration. The column is at rest at first.
     ///
     /// # Errors
-    /// [`Error::Input`] for a bad time step or samples that are not finite, [`Error::Size`] for none,
+    /// [`Error::Input`](crate::Error::Input) for a bad time step or samples that are not finite, [`Error::Size`](crate::Error::Size) for none,
     /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for hysteretic damping.
     pub fn to_surface(
         &self,
@@ -184,41 +175,8 @@ impl Column {
         motion: &[f64],
         mut filter: impl FnMut(Complex) -> Result<Complex>,
     ) -> Result<Vec<f64>> {
-        positive("time step of a motion", time_step)?;
         self.profile.check_causal()?;
-        if motion.is_empty() || motion.len() > MOST_SAMPLES {
-            return Err(Error::Size {
-                quantity: "motion of a column",
-                found: motion.len(),
-                needed: motion.len().clamp(1, MOST_SAMPLES),
-            });
-        }
-        let length = (2 * motion.len()).next_power_of_two();
-        let duration = length as f64 * time_step;
-        let decay = positive("decay of the window", WINDOW / duration)?;
-        let mut planner = RealFftPlanner::<f64>::new();
-        let (forward, inverse) =
-            (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
-        let mut values = forward.make_input_vec();
-        let window = |i: usize| (-WINDOW * i as f64 / length as f64).exp();
-        for (i, (value, sample)) in values.iter_mut().zip(motion).enumerate() {
-            *value = finite("sample of a motion", *sample)? * window(i);
-        }
-        let mut spectrum = forward.make_output_vec();
-        let failed = |_| Error::Singular { matrix: "spectrum of a motion", order: length };
-        forward.process(&mut values, &mut spectrum).map_err(failed)?;
-        let last = spectrum.len() - 1;
-        for (l, value) in spectrum.iter_mut().enumerate() {
-            let s = Complex::new(decay, std::f64::consts::TAU * l as f64 / duration);
-            let product = Complex::new(value.re, value.im) * filter(s)?;
-            let imaginary = if l == 0 || l == last { 0.0 } else { product.im };
-            *value = Complex64::new(product.re, imaginary);
-        }
-        inverse.process(&mut spectrum, &mut values).map_err(failed)?;
-        values.truncate(motion.len());
-        for (i, value) in values.iter_mut().enumerate() {
-            *value = finite("motion through the column", *value / (window(i) * length as f64))?;
-        }
-        Ok(values)
+        let [motion] = filtered(time_step, motion, |s| Ok([filter(s)?]))?;
+        Ok(motion)
     }
 }

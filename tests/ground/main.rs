@@ -3,6 +3,7 @@
 mod history;
 mod history_exponentials;
 mod history_fft;
+mod inclined_waves;
 mod kernels;
 mod layered_coefficients;
 mod layered_files;
