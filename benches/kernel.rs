@@ -1,9 +1,11 @@
-//! Kernel evaluations: closed forms, step coefficients early and late, the full plane.
+//! Kernel evaluations: closed forms, step coefficients early and late, layered ground, the full plane.
 
 use basemat::Soil;
+use basemat::bem::layered::LayeredKernel;
 use basemat::bem::{ContactElement, InfluenceKernel, PatchKernel, Strip};
 use basemat::fundamental::{FullPlane, FundamentalSolution, HalfPlane, LoadHistory};
 use basemat::history::{ConvolutionHistory, LagKernel, RelaxedFftHistory};
+use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::sync::Arc;
@@ -69,6 +71,30 @@ fn patches(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// Setup of a layered ground: two damped layers on rock, 12 graded elements.
+fn layered(criterion: &mut Criterion) {
+    const STEPS: usize = 500;
+    let soil = |speed| Soil::from_shear_wave_speed(speed, 0.33, 1900.0).expect("valid soil");
+    let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).expect("a fit");
+    let profile = SoilProfile::on_half_plane(soil(500.0))
+        .with_base_damping(damping(0.01))
+        .with_layer(soil(150.0), 6.0)
+        .and_then(|profile| profile.with_damping(damping(0.05)).with_layer(soil(300.0), 8.0))
+        .expect("a valid profile")
+        .with_damping(damping(0.03));
+    let elements = Strip::graded(-3.0..3.0, 12).expect("a valid strip").elements();
+    let mut group = criterion.benchmark_group("setup of layered ground, 500 steps");
+    group.throughput(Throughput::Elements(STEPS as u64)).sample_size(10);
+    group.bench_function("two layers, 12 elements", |b| {
+        b.iter_batched(
+            || LayeredKernel::new(profile.clone(), elements.clone(), 0.005).expect("a kernel"),
+            |kernel| kernel.prepare(black_box(STEPS)),
+            BatchSize::LargeInput,
+        );
+    });
+    group.finish();
+}
+
 /// Steps of the relaxed history: by pairs, and by wavenumbers.
 fn relaxed_history(criterion: &mut Criterion) {
     const STEPS: usize = 2_048;
@@ -106,5 +132,5 @@ fn relaxed_history(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, kernels, patches, relaxed_history);
+criterion_group!(benches, kernels, patches, layered, relaxed_history);
 criterion_main!(benches);

@@ -20,7 +20,7 @@ const TOLERANCE: f64 = 1e-14;
 impl Rule {
     /// Closed forms of two and three points, then Newton's iteration on the Legendre polynomial
     /// (Davis & Rabinowitz 1984, § 2.7).
-    fn new(order: usize) -> Self {
+    pub(crate) fn new(order: usize) -> Self {
         let [third, far] = [1.0 / 3.0_f64.sqrt(), 0.6_f64.sqrt()];
         let (nodes, weights) = match order {
             2 => (vec![-third, third], vec![1.0, 1.0]),

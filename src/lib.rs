@@ -1,10 +1,11 @@
 //! Earthquake response of flexible structures whose base can uplift and slide on elastic ground.
 //!
 //! A structure (finite elements, a rigid block, a shear building, or any model of your own) stands
-//! on elastic ground: the flat surface of a homogeneous half-plane, a bed of springs, or your own.
-//! The ground shakes. Element by element, the base may stick, open, close again and slide with
-//! friction. Wanted are displacements, contact tractions, base shear and moment, uplift and slip.
-//! Everything is two-dimensional, per metre of thickness, for small displacements.
+//! on elastic ground: the flat surface of a homogeneous half-plane or of horizontal layers with
+//! damping, a bed of springs, or your own. The ground shakes. Element by element, the base may stick,
+//! open, close again and slide with friction. Wanted are displacements, contact tractions, base shear
+//! and moment, uplift and slip. Everything is two-dimensional, per metre of thickness, for small
+//! displacements.
 //!
 //! # One complete example
 //!
@@ -61,8 +62,8 @@
 //! s^N = s_{ff}^N + \sum_{m=1}^{N} G^{\,N-m+1}\, \tau^m
 //! ```
 //!
-//! with τᵐ constant over element and step, Gⁿ in closed form for the half-plane, and `s_ff` the free
-//! field. The structure obeys the midpoint rule (or another [`coupled::TimeScheme`]),
+//! with τᵐ constant over element and step, Gⁿ in closed form for the half-plane and by convolution
+//! quadrature for layers, and `s_ff` the free field. The structure obeys the midpoint rule (or another [`coupled::TimeScheme`]),
 //!
 //! ```math
 //! M \frac{v_1 - v_0}{\Delta t} + C \bar v + K \bar u + f(\bar u) = p(t_{1/2}) - B^T A\, \tau,
@@ -84,7 +85,7 @@
 //! kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input
 //! ```
 //!
-//! The soil's term is the energy that the tractions put into a real half-plane, so it is never
+//! The soil's term is the energy that the tractions put into a real ground, so it is never
 //! negative, and contact without tensile strength only takes energy away: nothing can blow up.
 //! [`coupled::Ledger`] computes each term from its own definition, and its residual comes with
 //! every run. `docs/theory.md` in the repository has derivations and sources.
@@ -116,7 +117,10 @@
 //! | [`fem`] | meshes and elements |
 //! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
+//! | [`soil`] | [`Soil`], damping laws, [`soil::SoilProfile`] of horizontal layers |
 //! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], grounds of any step coefficients |
+//! | [`bem::layered`] | [`bem::layered::LayeredGround`], impedances of strips on layers |
+//! | [`site`] | from the outcrop of the rock to the surface: [`site::Column`], [`site::InclinedWave`] |
 //! | [`history`] | the convolution with all past tractions, its kinds and their choice |
 //! | [`fundamental`] | elastodynamic fundamental solutions |
 //! | [`motion`] | records and their files, spectra, baselines, free fields, El Centro 1940 |
@@ -147,6 +151,7 @@
 //! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |
 //! | soil | [`bem::Ground`] | 6 |
 //! | soil that knows its step coefficients | [`bem::KernelSource`] and [`history::LagKernel`] | 2 each |
+//! | damping law of a soil | [`soil::Relaxation`] | 1 |
 //! | time scheme | [`coupled::TimeScheme`] | 1 |
 //! | convolution algorithm | [`history::ConvolutionHistory`] | 4 |
 //! | file of a record | [`motion::RecordFormat`] | 1 |
@@ -159,8 +164,9 @@
 //! # Examples
 //!
 //! Short programs that print a table: `shear_building`, `base_isolated`, `two_buildings`,
-//! `portal_frame`, `rocking_block`, `floor_spectra`, `friction_sweep`, `travelling_wave`,
-//! `from_matrices`; `pictures` draws everything (feature `png`). What each prints is in `docs/examples.md`.
+//! `portal_frame`, `rocking_block`, `floor_spectra`, `layered_site`, `impedances`, `friction_sweep`,
+//! `travelling_wave`, `from_matrices`; `pictures` draws everything (feature `png`). What each prints is
+//! in `docs/examples.md`.
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -171,6 +177,7 @@ mod short_debug;
 
 pub mod bem;
 mod bounded_line;
+mod complex;
 pub mod contact;
 mod contact_element;
 pub mod coupled;
@@ -195,12 +202,16 @@ mod random;
 #[cfg(feature = "reference")]
 pub mod reference;
 pub mod results;
-mod soil;
+pub mod site;
+pub mod soil;
 pub mod structure;
 mod sweep;
 
+pub use complex::Complex;
 pub use coupled::Simulation;
-pub use error::{CheckpointError, Error, LawError, RecordError, Result, StandingError, StepError};
+pub use error::{
+    CheckpointError, Error, LawError, LayeredError, RecordError, Result, StandingError, StepError,
+};
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};
 pub use soil::Soil;

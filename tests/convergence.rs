@@ -4,13 +4,16 @@
 
 mod support;
 
+use basemat::bem::layered::{LayeredGround, Stages};
 use basemat::bem::{Grading, HalfPlaneGround, Strip};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::RickerDisplacement;
+use basemat::soil::Elastic;
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
 
-use crate::support::sampled_block::{History, distance, sample};
+use crate::support::profiles::{gmb, p1, p3};
+use crate::support::sampled_block::{History, distance, sample, under_pulse};
 use crate::support::series::{Series, print_errors, whole};
 use crate::support::table;
 
@@ -137,5 +140,25 @@ fn element_size() {
         let scene = format!("{grading:?}, table");
         let errors = runs.map(|run| distance(&run, &exact));
         check(&scene, orders(&scene, &errors, 1), wanted);
+    }
+}
+
+/// GOAL: second order in the time step on layered ground, with two stages and with three.
+/// SCENE: bonded block on a layer, elastic on rock and damped on a rigid base.
+/// REFERENCE: each run against the next finer one.
+#[test]
+fn time_step_on_layers() {
+    let rigid_base = p3(gmb(5));
+    for (name, profile) in [("on rock", p1(Elastic, Elastic)), ("on a rigid base", rigid_base)] {
+        for stages in [Stages::Two, Stages::Three] {
+            let runs = [0.1, 0.05, 0.025, 0.0125].map(|step| {
+                let ground = LayeredGround::strip(profile.clone(), -1.0..1.0, 8).unwrap();
+                let block = RigidBlock::new(2.0, 2.0, 1.0).unwrap();
+                let mut simulation = under_pulse(block, ground.with_stages(stages), step);
+                sample(&mut simulation, whole(20.0 / step), whole(SAMPLE / step)).unwrap().0
+            });
+            let scene = format!("{name}, {stages:?}");
+            check(&scene, orders(&scene, &successive(&runs), 1), 1.8..2.3);
+        }
     }
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::layered::{StripContact, StripImpedance, rigid_strip_impedances};
 use super::strip::strips_under;
 use super::{
     Grading, Ground, KernelGround, KernelSource, PatchKernel, SharedKernels, StaticKernel, Strip,
@@ -11,7 +12,7 @@ use crate::contact_element::{ContactElement, check_order};
 use crate::error::Result;
 use crate::history::{ConvolutionHistory, History, HistoryChoice, LagKernel};
 use crate::motion::FreeField;
-use crate::soil::Soil;
+use crate::soil::{Soil, SoilProfile};
 use crate::structure::Structure;
 
 /// Homogeneous elastic half-plane with one or several strips on its surface.
@@ -119,10 +120,7 @@ impl HalfPlaneGround {
     pub fn new(soil: Soil, strips: &[Strip]) -> Result<Self> {
         let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
         check_order(&elements)?;
-        // The logarithm needs a length that fixes the datum; one well above the patch keeps the
-        // static matrix positive definite, and the settlement it stands for cancels in all results.
-        let span = elements[elements.len() - 1].right - elements[0].left;
-        let statics = StaticKernel::new(soil, 10.0 * span)?;
+        let statics = StaticKernel::under(soil, &elements)?;
         let ground = KernelGround::new(HalfPlane { soil, statics }, elements)?;
         Ok(Self { soil, ground })
     }
@@ -160,6 +158,32 @@ impl HalfPlaneGround {
     #[must_use]
     pub fn with_shared_kernels(self, kernels: &SharedKernels) -> Self {
         Self { ground: self.ground.with_shared_kernels(kernels), ..self }
+    }
+
+    /// Dynamic stiffness of all strips together, as one rigid body, at each of `frequencies` (Hz):
+    /// [`rigid_strip_impedances`].
+    ///
+    /// ```
+    /// use basemat::bem::HalfPlaneGround;
+    /// use basemat::bem::layered::StripContact;
+    /// use basemat::Soil;
+    /// let ground = HalfPlaneGround::strip(Soil::new(80.0e6, 0.33, 1900.0)?, -3.0..3.0, 16)?;
+    /// let found = ground.impedances(&[2.0, 8.0], StripContact::Bonded)?;
+    /// // Vertical dashpots come near that of plane waves, ρ c₁ per area.
+    /// let plane = 1900.0 * ground.soil().pressure_wave_speed() * 6.0;
+    /// assert!((found[1].dashpots()[1] / plane - 1.0).abs() < 0.1);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`rigid_strip_impedances`].
+    pub fn impedances(
+        &self,
+        frequencies: &[f64],
+        contact: StripContact,
+    ) -> Result<Vec<StripImpedance>> {
+        let profile = SoilProfile::on_half_plane(self.soil);
+        rigid_strip_impedances(&profile, self.ground.elements(), frequencies, contact)
     }
 
     /// The soil.

@@ -210,6 +210,11 @@ impl KernelGround {
         self
     }
 
+    /// With other coefficients.
+    pub(super) fn with_source(self, source: impl KernelSource) -> Self {
+        Self { source: Box::new(source), prepared: None, ..self }
+    }
+
     /// Before the first step, with a history where none is to be chosen.
     fn begin(&self, kernel: Arc<dyn LagKernel>) -> Result<Prepared> {
         let history = self.own_history.as_ref().map(|make| make(Arc::clone(&kernel)));

@@ -14,6 +14,7 @@ mod influence;
 mod kernel_ground;
 mod kernel_source;
 mod late_exponentials;
+pub mod layered;
 mod legendre;
 mod overlap;
 mod patch;

@@ -32,6 +32,14 @@ impl StaticKernel {
         })
     }
 
+    /// Kernel for grounds with `elements`, of which there must be some: the logarithm needs a length
+    /// that fixes the datum. One well above the patch keeps the static matrix positive definite, and
+    /// the settlement it stands for cancels in all results.
+    pub(super) fn under(soil: Soil, elements: &[ContactElement]) -> Result<Self> {
+        let span = elements[elements.len() - 1].right - elements[0].left;
+        Self::new(soil, 10.0 * span)
+    }
+
     /// Mean displacement of the receiver per unit traction on the source, m/Pa.
     ///
     /// # Errors

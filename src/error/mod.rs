@@ -3,6 +3,7 @@
 mod checkpoint;
 mod checks;
 mod law;
+mod layered;
 #[cfg(feature = "io")]
 mod matrix_file;
 #[cfg(feature = "io")]
@@ -14,6 +15,7 @@ mod step;
 pub use checkpoint::CheckpointError;
 pub(crate) use checks::{finite, not_negative, positive, same_length, write_file};
 pub use law::LawError;
+pub use layered::{KernelFileError, LayeredError};
 #[cfg(feature = "io")]
 pub use matrix_file::MatrixFileError;
 #[cfg(feature = "io")]
@@ -293,6 +295,9 @@ pub enum Error {
         /// Where it is on the unit circle, radians per step.
         frequency: f64,
     },
+    /// A layered ground that cannot be computed as asked.
+    #[error("layered ground: {0}")]
+    Layered(#[from] LayeredError),
     /// A run could not be saved or resumed.
     #[error("checkpoint: {0}")]
     Checkpoint(CheckpointError),

@@ -13,7 +13,7 @@
 //! | z | τ² − a² |
 //! | s | √(τ²−a²), √(τ²−1), √(1−τ²), or u in the tail |
 
-use crate::fundamental::complex::Complex;
+use crate::complex::Complex;
 use crate::fundamental::rayleigh::Rayleigh;
 use crate::gauss;
 

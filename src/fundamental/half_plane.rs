@@ -15,10 +15,10 @@
 //! | F, Q, W | ∫₀^τ f dη, ∫_τ^∞ f/η dη, ∫_τ^∞ f/η² dη |
 //! | J | x²F/2 + x t Q − t²W/2, the twice-integrated answer to H(t) |
 
+use crate::complex::Complex;
 use crate::contact_element::ContactElement;
 use crate::error::{Error, Result, finite};
 use crate::fundamental::branch::{Branches, Part, Power};
-use crate::fundamental::complex::Complex;
 use crate::fundamental::laurent::{TERMS, late_coefficients};
 use crate::fundamental::{FundamentalSolution, LoadHistory, Rayleigh};
 use crate::soil::Soil;

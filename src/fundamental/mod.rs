@@ -5,7 +5,6 @@
 //! and `u[i][j]` is component i due to a load in direction j.
 
 pub(crate) mod branch;
-pub(crate) mod complex;
 #[cfg(feature = "full-plane")]
 mod full_plane;
 mod half_plane;

@@ -17,7 +17,7 @@
 //! | `y_R`, `z_R` | `square`, `z` | the Rayleigh root, and `y_R` − a² |
 //! | σ, ϖ | `sum`, `product` | the other two roots in z are those of z² + σ z + ϖ |
 
-use crate::fundamental::complex::Complex;
+use crate::complex::Complex;
 use crate::soil::Soil;
 
 /// Roots of the Rayleigh polynomial of one soil.

@@ -101,6 +101,9 @@ pub struct HistoryChoice {
     pub estimated_cost: f64,
     /// Relative error of its coefficients, measured; zero if it is exact.
     pub error_bound: f64,
+    /// Runge–Kutta stages of the convolution quadrature that its coefficients come from; `None` for
+    /// closed forms.
+    pub stages: Option<usize>,
 }
 
 /// A choice as a checkpoint has it: with the same options, the same is chosen again.
@@ -164,6 +167,9 @@ impl fmt::Display for HistoryChoice {
             self.estimated_memory as f64 / 1e6,
             self.estimated_cost
         )?;
+        if let Some(stages) = self.stages {
+            write!(f, ", coefficients by Radau IIA of {stages} stages")?;
+        }
         if self.error_bound > 0.0 {
             write!(f, ", coefficients within {:.1e}", self.error_bound)?;
         }

@@ -64,6 +64,7 @@ impl HistoryOptions {
             estimated_memory: memory,
             estimated_cost: cost,
             error_bound: 0.0,
+            stages: None,
         };
         let own = Arc::clone(kernel);
         let history: Box<dyn ConvolutionHistory> = match kind {

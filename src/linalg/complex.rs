@@ -6,8 +6,10 @@ use faer::linalg::evd;
 use faer::{MatRef, Par, Spec};
 use realfft::num_complex::Complex64;
 
+#[cfg(feature = "full-plane")]
 use super::DenseFactor;
 
+#[cfg(feature = "full-plane")]
 impl DenseFactor<Complex64> {
     /// ln det A: its imaginary part up to multiples of 2π.
     pub(crate) fn log_determinant(&self) -> Complex64 {
@@ -55,6 +57,7 @@ pub(crate) fn hermitian_range(matrix: &[Complex64], order: usize) -> Option<[f64
 mod tests {
     use super::*;
 
+    #[cfg(feature = "full-plane")]
     #[test]
     fn complex_factor_solves_and_knows_its_determinant() {
         let c = Complex64::new;

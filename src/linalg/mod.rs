@@ -2,7 +2,6 @@
 //!
 //! Everything runs sequentially, and solves use workspace made when the factor was made.
 
-#[cfg(feature = "full-plane")]
 mod complex;
 mod condition;
 mod dense;
@@ -12,7 +11,6 @@ mod partition;
 mod product;
 mod sparse;
 
-#[cfg(feature = "full-plane")]
 pub(crate) use complex::hermitian_range;
 pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;

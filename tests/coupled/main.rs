@@ -4,6 +4,8 @@ mod checkpoint;
 mod conditioning;
 mod conveniences;
 mod coordinates;
+mod layered;
+mod layered_scenes;
 mod ledger;
 mod loads;
 mod preload_of_soft_structures;

@@ -7,6 +7,7 @@
 mod builder;
 mod law_numbers;
 mod laws_and_motions;
+mod layered;
 mod reasons;
 mod soils_and_grounds;
 mod spoilt;

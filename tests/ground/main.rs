@@ -1,9 +1,15 @@
-//! The half-plane: kernels, convolution histories and passivity.
+//! Half-plane and layered ground: kernels, convolution histories, passivity, site response.
 
 mod history;
 mod history_exponentials;
 mod history_fft;
+mod inclined_waves;
 mod kernels;
+mod layered_coefficients;
+mod layered_files;
+mod layered_impedances;
+mod layered_passivity;
 mod passivity;
+mod site_response;
 #[path = "../support/mod.rs"]
 mod support;

@@ -4,7 +4,7 @@
 //! this crate.
 
 use basemat::Soil;
-use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::bem::{Grading, Ground, HalfPlaneGround, Strip};
 use basemat::coupled::State;
 use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
 
@@ -63,15 +63,12 @@ type Check<'a> = (&'a str, &'a dyn Fn(&State) -> f64, bool);
 fn structure_errors<const N: usize>(
     file: &str,
     structure: impl Structure + 'static,
-    poisson: f64,
-    (grading, elements, time_step): (Grading, usize, f64),
+    ground: impl Ground + 'static,
+    time_step: f64,
     checks: [Check; N],
 ) -> [f64; N] {
     let table = table(file);
     let columns = checks.map(|check| Series::new(&table, check.0));
-    let soil = Soil::new(1.0, poisson, 1.0).unwrap();
-    let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
-    let ground = HalfPlaneGround::new(soil, &[strip]).unwrap();
     let mut simulation = under_pulse(structure, ground, time_step);
     let mut errors = [Error::default(); N];
     let steps = whole(columns[0].duration() / time_step);
@@ -92,6 +89,13 @@ fn structure_errors<const N: usize>(
     errors.map(Error::relative)
 }
 
+/// The half-plane of the tables, of unit shear modulus and density, under a strip of half width 1.
+fn half_plane(poisson: f64, (grading, elements, _): (Grading, usize, f64)) -> HalfPlaneGround {
+    let soil = Soil::new(1.0, poisson, 1.0).unwrap();
+    let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
+    HalfPlaneGround::new(soil, &[strip]).unwrap()
+}
+
 fn base_motion(state: &State) -> f64 {
     state.absolute_displacement()[0]
 }
@@ -109,21 +113,21 @@ fn moment(state: &State) -> f64 {
     -state.base_moment
 }
 
-fn block_errors(
-    name: &str,
-    poisson: f64,
+pub(super) fn block_errors(
+    file: &str,
+    ground: impl Ground + 'static,
     height: f64,
     density: f64,
-    mesh: (Grading, usize, f64),
+    time_step: f64,
 ) -> [f64; 5] {
     let roof = |state: &State| {
         state.absolute_displacement()[0] - height * state.absolute_displacement()[2]
     };
     structure_errors(
-        &format!("td_block_SV_{name}.csv"),
+        file,
         RigidBlock::new(2.0, height, density).unwrap(),
-        poisson,
-        mesh,
+        ground,
+        time_step,
         [
             ("u_base", &base_motion, false),
             ("theta", &rotation, false),
@@ -142,8 +146,8 @@ fn cantilever_errors(mesh: (Grading, usize, f64), beams: usize) -> [f64; 6] {
     structure_errors(
         "td_EBcantilever_SV_nu0333.csv",
         cantilever,
-        1.0 / 3.0,
-        mesh,
+        half_plane(1.0 / 3.0, mesh),
+        mesh.2,
         [
             ("u_base", &base_motion, false),
             ("theta", &rotation, false),
@@ -178,8 +182,8 @@ fn building_errors(mesh: (Grading, usize, f64)) -> [f64; 7] {
     structure_errors(
         "td_shearbuilding3_SV_nu0333_sig1.csv",
         building,
-        1.0 / 3.0,
-        mesh,
+        half_plane(1.0 / 3.0, mesh),
+        mesh.2,
         [
             ("u_base", &base_motion, false),
             ("theta", &rotation, false),
@@ -301,7 +305,8 @@ fn td_block_under_sv_pulse() {
         ("nu0333_h2_rho1", third, 2.0, 1.0, [4.2e-3, 5.1e-3, 8.3e-3, 2.4e-3, 1.5e-2]),
         ("nu0333_h4_rho0.5", third, 4.0, 0.5, [3.4e-3, 3.7e-3, 5e-3, 2.7e-3, 1.6e-2]),
     ] {
-        let errors = block_errors(name, poisson, height, density, C16);
+        let file = format!("td_block_SV_{name}.csv");
+        let errors = block_errors(&file, half_plane(poisson, C16), height, density, C16.2);
         within(&format!("block {name} cosine 16"), &names, &errors, &limits);
     }
     for (mesh, limits) in [
@@ -310,7 +315,8 @@ fn td_block_under_sv_pulse() {
         (U32, [1.2e-2, 1.4e-2, 2.4e-2, 7.3e-3, 4.2e-2]),
         (C8, [1.5e-2, 1.8e-2, 3.2e-2, 9.2e-3, 5.3e-2]),
     ] {
-        let errors = block_errors("nu0333_h2_rho1", third, 2.0, 1.0, mesh);
+        let ground = half_plane(third, mesh);
+        let errors = block_errors("td_block_SV_nu0333_h2_rho1.csv", ground, 2.0, 1.0, mesh.2);
         within(&format!("block nu0333_h2_rho1 {:?} {}", mesh.0, mesh.1), &names, &errors, &limits);
     }
 }

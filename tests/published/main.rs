@@ -2,6 +2,7 @@
 
 mod advice;
 mod analytic;
+mod layered;
 mod linear;
 mod reference;
 mod reference_tables;

@@ -12,6 +12,7 @@ pub(crate) mod inverse;
 pub(crate) mod laws_with_memory;
 pub(crate) mod layout;
 pub(crate) mod passivity;
+pub(crate) mod profiles;
 pub(crate) mod random;
 pub(crate) mod rigid_strip;
 pub(crate) mod rocking;
@@ -28,7 +29,8 @@ pub(crate) fn data_path(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(file)
 }
 
-/// Reference table: comment lines, then a line of column names, then the rows.
+/// Reference table: comment lines, then a line of column names (or the last comment has them), then
+/// the rows.
 #[derive(Debug)]
 pub(crate) struct Table {
     name: String,
@@ -41,14 +43,23 @@ pub(crate) struct Table {
 pub(crate) fn table(file: &str) -> Table {
     let text =
         std::fs::read_to_string(data_path(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
-    let comments = text
+    let comments: Vec<String> = text
         .lines()
         .filter_map(|line| line.strip_prefix('#'))
         .map(|line| line.trim().to_owned())
         .collect();
-    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+    let names = |line: &str| line.split(',').map(|name| name.trim().to_owned()).collect();
+    let numeric = |line: &str| line.split(',').next().is_some_and(|x| x.parse::<f64>().is_ok());
+    let first = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
+    let (columns, headed): (Vec<String>, bool) = match comments.last() {
+        Some(last) if numeric(first) => (names(last), false),
+        _ => (names(first), true),
+    };
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .has_headers(headed)
+        .from_reader(text.as_bytes());
     let fields = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
-    let columns = fields(reader.headers().unwrap_or_else(|error| panic!("{file}: {error}")));
     let rows = reader
         .records()
         .map(|record| fields(&record.unwrap_or_else(|error| panic!("{file}: {error}"))))

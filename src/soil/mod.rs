@@ -1,8 +1,17 @@
-//! The homogeneous, isotropic, linear elastic soil in plane strain.
+//! Soil: elastic constants, damping laws and profiles of horizontal layers, in plane strain.
+
+mod maxwell;
+mod nonnegative;
+mod profile;
+mod relaxation;
+
+pub use maxwell::GeneralizedMaxwell;
+pub use profile::{Base, SoilLayer, SoilProfile};
+pub use relaxation::{Elastic, Hysteretic, KelvinVoigt, Kjartansson, Relaxation};
 
 use crate::error::{Error, Result, finite, positive};
 
-/// Elastic half-plane: shear modulus, Poisson's ratio, density.
+/// Homogeneous, isotropic, linear elastic soil: shear modulus, Poisson's ratio, density.
 ///
 /// ```
 /// let soil = basemat::Soil::new(80.0e6, 0.25, 2000.0)?;

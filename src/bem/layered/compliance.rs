@@ -1,0 +1,256 @@
+//! Surface compliance of a layered ground in the wavenumber domain.
+//!
+//! Pressure p cos kx and shear τ sin kx on the surface give W cos kx (down) and U sin kx:
+//! [U; W] = C(k, s) [τ; p], C symmetric. The impedance Z (stresses by displacements on a horizontal
+//! plane) is carried upwards from the base, layer by layer, with decaying exponentials only (Kausel
+//! & Roësset 1981 for the impedance; Luco & Apsel 1983 for the reflected waves).
+//!
+//! Each layer has the waves P and D = (S − P)/(β − α) instead of P and S, which become parallel for
+//! |s|/(c k) → 0; all differences are formed as products.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | μ, a² | shear modulus at s, (`c_S`/`c_P`)² |
+//! | q₂, q₁ | ρs²/μ, a²q₂ |
+//! | α, β | √(k² + q₁), √(k² + q₂), principal |
+//! | U, T | columns: displacements (x, z) and stresses (xz, zz) of the waves P and D |
+//! | Λ | their change over the layer |
+//! | R | waves that go up by those that come down, at the layer's bottom |
+
+use crate::complex::Complex;
+use crate::error::Result;
+use crate::soil::{Base, SoilProfile};
+
+/// C at one wavenumber, m/Pa.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Surface {
+    /// To the right due to shear.
+    pub(crate) xx: Complex,
+    /// Down due to pressure.
+    pub(crate) zz: Complex,
+    /// To the right due to pressure, and down due to shear.
+    pub(crate) xz: Complex,
+}
+
+/// A layer at one Laplace variable.
+#[derive(Debug, Clone, Copy)]
+struct Layer {
+    modulus: Complex,
+    q1: Complex,
+    q2: Complex,
+    a2: f64,
+    thickness: f64,
+}
+
+/// C(k, s) of one profile at one s.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Compliance {
+    layers: Vec<Layer>,
+    rigid: bool,
+    moduli: Vec<Complex>,
+    /// α, β of the layers down to the last that the surface feels.
+    roots: Vec<[Complex; 2]>,
+}
+
+/// Depth in decay lengths below which nothing comes back to the surface: e^(−2·21) is 6e-19.
+const OPAQUE: f64 = 21.0;
+
+impl Compliance {
+    /// Moves on to the Laplace variable `s`.
+    ///
+    /// # Errors
+    /// As for [`SoilProfile::moduli`].
+    pub(crate) fn set(&mut self, profile: &SoilProfile, s: Complex) -> Result<()> {
+        profile.check()?;
+        profile.moduli(s, &mut self.moduli)?;
+        self.rigid = matches!(profile.base(), Base::Rigid);
+        self.layers.clear();
+        let thicknesses = profile.layers().iter().map(|layer| layer.thickness);
+        let thicknesses = thicknesses.chain(std::iter::once(f64::INFINITY));
+        for (((soil, _), modulus), thickness) in profile.soils().zip(&self.moduli).zip(thicknesses)
+        {
+            let a2 = soil.speed_ratio_squared();
+            // s twice: its square may leave the range where this does not.
+            let q2 = (s / *modulus) * s.scale(soil.density());
+            self.layers.push(Layer { modulus: *modulus, q1: q2.scale(a2), q2, a2, thickness });
+        }
+        Ok(())
+    }
+
+    /// μ(s), q₂ and a² of the top layer.
+    pub(crate) fn top(&self) -> (Complex, Complex, f64) {
+        let top = &self.layers[0];
+        (top.modulus, top.q2, top.a2)
+    }
+
+    /// μ(s), q₂ and a² of the half-plane below; `None` on a rigid base.
+    pub(crate) fn half_plane(&self) -> Option<(Complex, Complex, f64)> {
+        let last = self.layers.last().filter(|_| !self.rigid)?;
+        Some((last.modulus, last.q2, last.a2))
+    }
+
+    /// C at the wavenumber `k` > 0, 1/m.
+    pub(crate) fn at(&mut self, k: f64) -> Surface {
+        self.roots.clear();
+        let mut decay = 0.0;
+        for layer in &self.layers {
+            let square = Complex::real(k * k);
+            let (alpha, beta) = ((square + layer.q1).sqrt(), (square + layer.q2).sqrt());
+            self.roots.push([alpha, beta]);
+            decay += alpha.re.min(beta.re) * layer.thickness;
+            if decay > OPAQUE {
+                break;
+            }
+        }
+        let last = self.roots.len() - 1;
+        let waves = Waves::new(&self.layers[last], k, self.roots[last]);
+        // A layer that nothing comes back through is a half-plane.
+        let (mut u, mut t) = if self.layers[last].thickness.is_infinite() || decay > OPAQUE {
+            (waves.u, waves.t)
+        } else {
+            let up = waves.u.mirrored();
+            waves.above(&self.layers[last], up.solve(waves.u).negative())
+        };
+        for (layer, roots) in self.layers[..last].iter().zip(&self.roots).rev() {
+            let waves = Waves::new(layer, k, *roots);
+            let z = t.times_inverse(u);
+            let (u_up, t_up) = (waves.u.mirrored(), waves.t.mirrored().negative());
+            let reflected = t_up.minus(z.times(u_up)).solve(z.times(waves.u).minus(waves.t));
+            (u, t) = waves.above(layer, reflected);
+        }
+        let c = u.times_inverse(t);
+        Surface { xx: -c.0[0], zz: -c.0[3], xz: (c.0[1] + c.0[2]).scale(-0.5) }
+    }
+}
+
+/// Down-going waves of a layer.
+struct Waves {
+    alpha: Complex,
+    beta: Complex,
+    /// β − α.
+    gap: Complex,
+    u: Square,
+    t: Square,
+}
+
+impl Waves {
+    fn new(layer: &Layer, k: f64, [alpha, beta]: [Complex; 2]) -> Self {
+        let wave = Complex::real(k);
+        let sum = alpha + beta;
+        let rest = 1.0 / (1.0 - layer.a2);
+        // 1/(β + k) and 1/(k + α), with one division.
+        let (right, left) = (beta + wave, alpha + wave);
+        let both = (right * left).inverse();
+        let (over_right, over_left) = (both * left, both * right);
+        let u0 = (sum * over_right).scale(rest);
+        let u1 = (sum * over_left).scale(-layer.a2 * rest);
+        let minus = -layer.modulus;
+        let t0 = sum - layer.q1 * over_left * u1;
+        let t1 = -(layer.q2 * over_right * u0);
+        let square = Complex::real(2.0 * k * k) + layer.q2;
+        Self {
+            alpha,
+            beta,
+            gap: layer.q2.scale(1.0 - layer.a2) / sum,
+            u: Square([wave, u0, alpha, u1]),
+            t: Square([minus * alpha.scale(2.0 * k), minus * t0, minus * square, minus * t1]),
+        }
+    }
+
+    /// Displacements and stresses at the layer's top for the reflection R at its bottom.
+    fn above(&self, layer: &Layer, reflection: Square) -> (Square, Square) {
+        let x = self.transfer(layer.thickness).around(reflection);
+        let (u_up, t_up) = (self.u.mirrored(), self.t.mirrored().negative());
+        (self.u.plus(u_up.times(x)), self.t.plus(t_up.times(x)))
+    }
+
+    /// Λ = [[e^(−αh), −g], [0, e^(−βh)]], g = (e^(−αh) − e^(−βh))/(β − α).
+    fn transfer(&self, h: f64) -> Transfer {
+        let pressure = self.alpha.scale(-h).exp();
+        let x = self.gap.scale(-h);
+        if x.square() > 0.01 {
+            let shear = self.beta.scale(-h).exp();
+            return Transfer { pressure, shear, mixed: (pressure - shear) / self.gap };
+        }
+        // e^(−βh) by the product of e^(−αh) and e^x; φ₁(x) = (e^x − 1)/x by its series.
+        let mut phi = Complex::real(1.0);
+        for n in (2..=10).rev() {
+            phi = Complex::real(1.0) + (phi * x).scale(1.0 / f64::from(n));
+        }
+        let shear = pressure * (Complex::real(1.0) + x * phi);
+        Transfer { pressure, shear, mixed: (pressure * phi).scale(h) }
+    }
+}
+
+/// Λ of a layer.
+struct Transfer {
+    pressure: Complex,
+    shear: Complex,
+    /// g.
+    mixed: Complex,
+}
+
+impl Transfer {
+    /// Λ R Λ.
+    fn around(&self, r: Square) -> Square {
+        let Square([a, b, c, d]) = r;
+        let (first, second) =
+            (self.pressure * a - self.mixed * c, self.pressure * b - self.mixed * d);
+        let (third, fourth) = (self.shear * c, self.shear * d);
+        Square([
+            first * self.pressure,
+            second * self.shear - first * self.mixed,
+            third * self.pressure,
+            fourth * self.shear - third * self.mixed,
+        ])
+    }
+}
+
+/// A complex 2 × 2 matrix, row by row.
+#[derive(Clone, Copy)]
+struct Square([Complex; 4]);
+
+impl Square {
+    /// diag(1, −1) A: displacements of the mirrored waves.
+    fn mirrored(self) -> Self {
+        let Self([a, b, c, d]) = self;
+        Self([a, b, -c, -d])
+    }
+
+    fn negative(self) -> Self {
+        Self(self.0.map(|x| -x))
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i] + other.0[i]))
+    }
+
+    fn minus(self, other: Self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i] - other.0[i]))
+    }
+
+    fn times(self, other: Self) -> Self {
+        let (Self([a, b, c, d]), Self([e, f, g, h])) = (self, other);
+        Self([a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h])
+    }
+
+    /// A⁻¹ B.
+    fn solve(self, other: Self) -> Self {
+        let Self([a, b, c, d]) = self;
+        let scale = (a * d - b * c).inverse();
+        let Self([e, f, g, h]) = other;
+        Self([d * e - b * g, d * f - b * h, a * g - c * e, a * h - c * f].map(|x| x * scale))
+    }
+
+    /// A B⁻¹.
+    fn times_inverse(self, other: Self) -> Self {
+        let Self([e, f, g, h]) = other;
+        let scale = (e * h - f * g).inverse();
+        let Self([a, b, c, d]) = self;
+        Self([a * h - b * g, b * e - a * f, c * h - d * g, d * e - c * f].map(|x| x * scale))
+    }
+}
+
+#[cfg(test)]
+#[path = "compliance_tests.rs"]
+mod tests;

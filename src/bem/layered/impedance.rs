@@ -1,0 +1,229 @@
+//! Dynamic stiffness of a rigid strip on layered ground.
+//!
+//! With F(iω) the element compliances, A the resultants of unit tractions (the columns: horizontal,
+//! vertical, rocking) and rigid motions the same numbers, K = Aᵀ F⁻¹ A.
+//!
+//! Without damping poles lie on the path of the integrals at s = iω. K(s) is analytic there all the
+//! same (but for the frequencies at which guided waves begin), so it is evaluated at iω + η, 2η, … 8η
+//! and extrapolated.
+
+use realfft::num_complex::Complex64;
+
+use super::passivity::assembled;
+use super::static_compliance;
+use super::wavenumber::{Wavenumbers, Workspace};
+use crate::complex::Complex;
+use crate::contact_element::ContactElement;
+use crate::error::{Error, LayeredError, Result, not_negative};
+use crate::history::PairClasses;
+use crate::linalg::DenseFactor;
+use crate::soil::{Base, SoilProfile};
+
+/// Dynamic stiffness of a rigid, massless strip for motions e^(iωt), per metre of its length.
+///
+/// x to the right, y down, a positive rotation lowers the right end; forces act on the soil.
+/// Reference point is the middle of the patch. The real part is stiffness (and soil that moves along), the
+/// imaginary part damping, by radiation and in the soil.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct StripImpedance {
+    /// Frequency, Hz.
+    pub frequency: f64,
+    /// K_hh: horizontal force by horizontal translation, N/m².
+    pub horizontal: Complex,
+    /// K_vv: vertical force by vertical translation, N/m².
+    pub vertical: Complex,
+    /// K_rr: moment by rotation, N.
+    pub rocking: Complex,
+    /// K_hr: horizontal force by rotation, and moment by horizontal translation, N/m.
+    pub coupling: Complex,
+}
+
+impl StripImpedance {
+    fn all(&self) -> [Complex; 4] {
+        [self.horizontal, self.vertical, self.rocking, self.coupling]
+    }
+
+    /// Springs Re K, in the order of the fields.
+    pub fn stiffnesses(&self) -> [f64; 4] {
+        self.all().map(|k| k.re)
+    }
+
+    /// Dashpots Im K/ω beside these springs, in the same order, N s/m² and so on; at frequency zero
+    /// they are not defined (NaN).
+    pub fn dashpots(&self) -> [f64; 4] {
+        self.all().map(|k| k.im / (std::f64::consts::TAU * self.frequency))
+    }
+}
+
+/// Contact of a rigid strip with the soil below.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum StripContact {
+    /// Soil and strip move together.
+    #[default]
+    Bonded,
+    /// Vertical motions without shear, horizontal ones without pressure; no coupling.
+    Relaxed,
+}
+
+/// Accuracy of the element compliances; elements themselves leave far more.
+const TOLERANCE: f64 = 1e-9;
+/// Im μ/|μ| below which a layer counts as undamped.
+const LOSSLESS: f64 = 1e-6;
+/// Points of the extrapolation.
+const POINTS: usize = 8;
+/// Their distance over ω, and over the inverse of the time that waves take.
+const SPACING: [f64; 2] = [0.04, 0.1];
+/// Largest relative difference between 8 and 7 points.
+const SETTLED: f64 = 1e-3;
+
+/// Dynamic stiffness of a rigid strip on `profile` over `elements` (left to right, not
+/// overlapping; cosine-graded ones converge with second order) at each of `frequencies` (Hz).
+///
+/// Frequency 0 is the static stiffness on a rigid base. Layers may have any damping, hysteretic too.
+///
+/// ```
+/// use basemat::bem::layered::{StripContact, rigid_strip_impedances};
+/// use basemat::bem::Strip;
+/// use basemat::soil::{Hysteretic, SoilProfile};
+/// use basemat::Soil;
+/// let profile = SoilProfile::on_half_plane(Soil::new(1.0, 0.25, 1.0)?)
+///     .with_damping(Hysteretic::new(0.05)?);
+/// let elements = Strip::graded(-1.0..1.0, 32)?.elements();
+/// let frequencies = [1.0 / std::f64::consts::TAU];
+/// let found = rigid_strip_impedances(&profile, &elements, &frequencies, StripContact::Bonded)?;
+/// assert!((found[0].vertical.re - 1.301).abs() < 0.02);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Input`] for a frequency that is negative or not finite, or 0 on a half-plane, whose static
+/// stiffness is 0; [`LayeredError::Unresolved`] without damping at a frequency at which guided waves
+/// begin; [`Error::Singular`] if the elements cannot be told apart; as for [`PairClasses::new`].
+pub fn rigid_strip_impedances(
+    profile: &SoilProfile,
+    elements: &[ContactElement],
+    frequencies: &[f64],
+    contact: StripContact,
+) -> Result<Vec<StripImpedance>> {
+    let strip = RigidStrip::new(profile, elements, contact)?;
+    frequencies.iter().map(|frequency| strip.at(*frequency)).collect()
+}
+
+struct RigidStrip<'a> {
+    profile: &'a SoilProfile,
+    contact: StripContact,
+    classes: PairClasses,
+    integrals: Wavenumbers,
+    /// Resultants of unit tractions: 2Q rows, three columns.
+    motions: Vec<Complex64>,
+}
+
+impl<'a> RigidStrip<'a> {
+    fn new(
+        profile: &'a SoilProfile,
+        elements: &[ContactElement],
+        contact: StripContact,
+    ) -> Result<Self> {
+        let classes = PairClasses::new(elements.to_vec())?;
+        let integrals = Wavenumbers::new(&classes, TOLERANCE);
+        let count = elements.len();
+        let middle = 0.5 * (elements[0].left + elements[count - 1].right);
+        let mut motions = vec![Complex64::default(); 6 * count];
+        for (p, element) in elements.iter().enumerate() {
+            let length = element.length();
+            motions[3 * (count + p)].re = length;
+            motions[3 * p + 1].re = length;
+            motions[3 * p + 2].re = length * (element.center() - middle);
+        }
+        Ok(Self { profile, contact, classes, integrals, motions })
+    }
+
+    fn at(&self, frequency: f64) -> Result<StripImpedance> {
+        not_negative("frequency of an impedance", frequency)?;
+        self.profile.check()?;
+        let omega = std::f64::consts::TAU * frequency;
+        let values = if frequency == 0.0 {
+            if matches!(self.profile.base(), Base::HalfPlane { .. }) {
+                return Err(Error::Input {
+                    quantity: "frequency of an impedance on a half-plane",
+                    value: frequency,
+                    needed: "above zero",
+                });
+            }
+            self.stiffness(&static_compliance::pairs(self.profile, &self.classes)?)?
+        } else {
+            let s = Complex::new(0.0, omega);
+            let mut moduli = vec![];
+            self.profile.moduli(s, &mut moduli)?;
+            if moduli.iter().all(|modulus| modulus.im.abs() > LOSSLESS * modulus.abs()) {
+                self.dynamic(s)?
+            } else {
+                self.extrapolated(omega)?
+            }
+        };
+        let [horizontal, vertical, rocking, coupling] = values;
+        Ok(StripImpedance { frequency, horizontal, vertical, rocking, coupling })
+    }
+
+    /// K(iω) from K(iω + jη), j = 1 … 8.
+    fn extrapolated(&self, omega: f64) -> Result<[Complex; 4]> {
+        let slowest = self.profile.surface().map_or(f64::INFINITY, |soil| soil.shear_wave_speed());
+        let time = self.classes.span() / slowest + 2.0 * self.profile.travel_time();
+        let step = (SPACING[0] * omega).min(SPACING[1] / time);
+        let mut sums = [[Complex::default(); 4]; 2];
+        for j in 1..=POINTS {
+            let found = self.dynamic(Complex::new(step * j as f64, omega))?;
+            for (points, sums) in [POINTS, POINTS - 1].into_iter().zip(&mut sums) {
+                // Lagrange's polynomial at zero.
+                let others = (1..=points).filter(|m| *m != j);
+                let weight: f64 = others.map(|m| m as f64 / (m as f64 - j as f64)).product();
+                let weight = if j > points { 0.0 } else { weight };
+                for (sum, value) in sums.iter_mut().zip(found) {
+                    *sum += value.scale(weight);
+                }
+            }
+        }
+        let [found, coarse] = sums;
+        for (found, coarse) in found.iter().zip(&coarse).take(3) {
+            let change = (*found - *coarse).abs();
+            if change.is_nan() || change > SETTLED * found.abs() {
+                return Err(LayeredError::Unresolved { re: 0.0, im: omega, wavenumber: 0.0 }.into());
+            }
+        }
+        Ok(found)
+    }
+
+    fn dynamic(&self, s: Complex) -> Result<[Complex; 4]> {
+        let mut values = vec![[Complex::default(); 3]; self.classes.count()];
+        self.integrals.compliance(self.profile, s, &mut Workspace::default(), &mut values)?;
+        self.stiffness(&values)
+    }
+
+    /// hh, vv, rr and hr of Aᵀ F⁻¹ A.
+    fn stiffness(&self, compliances: &[[Complex; 3]]) -> Result<[Complex; 4]> {
+        let mut matrix = assembled(&self.classes, compliances);
+        let count = self.classes.elements().len();
+        let order = 2 * count;
+        if self.contact == StripContact::Relaxed {
+            for row in 0..count {
+                matrix[row * order + count..(row + 1) * order].fill(Complex64::default());
+                let below = (count + row) * order;
+                matrix[below..below + count].fill(Complex64::default());
+            }
+        }
+        let mut tractions = self.motions.clone();
+        let mut factor = DenseFactor::with_columns(order, 3);
+        if !factor.factor(&matrix, order) {
+            return Err(Error::Singular { matrix: "compliance of a strip", order });
+        }
+        factor.solve_columns(&mut tractions, 3);
+        let product = |i: usize, j: usize| {
+            let rows = self.motions.chunks_exact(3).zip(tractions.chunks_exact(3));
+            let sum: Complex64 = rows.map(|(a, t)| a[i] * t[j]).sum();
+            Complex::new(sum.re, sum.im)
+        };
+        let coupling = (product(0, 2) + product(2, 0)).scale(0.5);
+        Ok([product(0, 0), product(1, 1), product(2, 2), coupling])
+    }
+}

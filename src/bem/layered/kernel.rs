@@ -1,0 +1,249 @@
+//! Step coefficients of a layered ground under a patch of elements.
+
+use std::path::PathBuf;
+use std::sync::OnceLock;
+
+use super::coefficients::{BLOCKS, Block, FIRST, Quadrature};
+use super::runge_kutta::Stages;
+use super::wavenumber::Wavenumbers;
+use super::{file, passivity};
+use crate::contact_element::ContactElement;
+use crate::error::{Error, Result, positive, same_length};
+use crate::history::{LagKernel, PairClasses, SharedSpectra};
+use crate::soil::SoilProfile;
+
+/// The [`LagKernel`] of a layered ground: coefficients Gⁿ by Runge–Kutta convolution quadrature,
+/// in blocks of lags that are computed when they are needed first.
+///
+/// ```
+/// use basemat::bem::layered::LayeredKernel;
+/// use basemat::bem::Strip;
+/// use basemat::history::LagKernel;
+/// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+/// use basemat::Soil;
+/// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
+/// let profile = SoilProfile::on_rigid_base()
+///     .with_layer(soil, 6.0)?
+///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0)?);
+/// let kernel = LayeredKernel::new(profile, Strip::uniform(-5.0..5.0, 4)?.elements(), 0.01)?;
+/// let [mut normal, mut tangential, mut coupling] = [[0.0; 20]; 3];
+/// kernel.coefficients(0, 1, &mut normal, &mut tangential, &mut coupling)?;
+/// assert!(normal[0] > 0.0 && coupling[0].abs() < 1e-12 * normal[0]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct LayeredKernel {
+    classes: PairClasses,
+    quadrature: Quadrature,
+    /// Fingerprint of what has passed the gate.
+    checked: OnceLock<Result<u64>>,
+    blocks: [OnceLock<Result<Block>>; BLOCKS],
+    spectra: SharedSpectra,
+    file: Option<PathBuf>,
+}
+
+/// Tolerance of the wavenumber integrals unless another one is asked for.
+pub(crate) const TOLERANCE: f64 = 1e-10;
+
+impl LayeredKernel {
+    /// Kernel of `profile` under `elements` (left to right, not overlapping) for steps of `time_step`
+    /// seconds, with two stages.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a bad time step, [`LayeredError::NotCausal`](crate::LayeredError::NotCausal)
+    /// for damping that exists in the frequency domain only; as for [`PairClasses::new`].
+    pub fn new(
+        profile: SoilProfile,
+        elements: Vec<ContactElement>,
+        time_step: f64,
+    ) -> Result<Self> {
+        positive("time step", time_step)?;
+        profile.check()?;
+        profile.check_causal()?;
+        let classes = PairClasses::new(elements)?;
+        Ok(Self::made(profile, classes, time_step, Stages::default(), TOLERANCE))
+    }
+
+    fn made(
+        profile: SoilProfile,
+        classes: PairClasses,
+        time_step: f64,
+        stages: Stages,
+        tolerance: f64,
+    ) -> Self {
+        let integrals = Wavenumbers::new(&classes, tolerance);
+        let count = classes.count();
+        let quadrature =
+            Quadrature { profile, integrals, classes: count, stages, time_step, tolerance };
+        let blocks = std::array::from_fn(|_| OnceLock::new());
+        let (checked, spectra) = (OnceLock::new(), SharedSpectra::default());
+        Self { classes, quadrature, checked, blocks, spectra, file: None }
+    }
+
+    /// With another number of stages.
+    #[must_use]
+    pub fn with_stages(self, stages: Stages) -> Self {
+        let Quadrature { profile, time_step, tolerance, .. } = self.quadrature;
+        let made = Self::made(profile, self.classes, time_step, stages, tolerance);
+        Self { file: self.file, ..made }
+    }
+
+    /// With the relative `tolerance` (1e-13 to 1e-4) of the element compliances in the Laplace
+    /// domain; 1e-10 unless called. Coefficients are then good to about its power 2/3 at the last lag of a
+    /// block, and better before.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a tolerance outside this range.
+    pub fn with_tolerance(self, tolerance: f64) -> Result<Self> {
+        check_tolerance(tolerance)?;
+        let Quadrature { profile, time_step, stages, .. } = self.quadrature;
+        let made = Self::made(profile, self.classes, time_step, stages, tolerance);
+        Ok(Self { file: self.file, ..made })
+    }
+
+    /// With coefficients from the file `path`, and those that it lacks written to it by
+    /// [`prepare`](LagKernel::prepare).
+    ///
+    /// They are the same to the last bit. A file of another profile, mesh, step, accuracy, machine or
+    /// format is made anew; one that is damaged, or no such file at all, is refused and left as it is.
+    ///
+    /// ```
+    /// use basemat::bem::layered::LayeredKernel;
+    /// use basemat::bem::Strip;
+    /// use basemat::history::LagKernel;
+    /// use basemat::soil::SoilProfile;
+    /// use basemat::Soil;
+    /// let path = std::env::temp_dir().join("basemat-doctest.kernel");
+    /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
+    /// let profile = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
+    /// let elements = Strip::uniform(-5.0..5.0, 4)?.elements();
+    /// LayeredKernel::new(profile, elements, 0.01)?.with_file(&path).prepare(100)?;
+    /// // Four distances, three components, 128 lags, and six words around them.
+    /// assert_eq!(std::fs::metadata(&path).unwrap().len(), 8 * (4 * 3 * 128 + 6));
+    /// # std::fs::remove_file(path).unwrap();
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// `prepare` and [`coefficients`](LagKernel::coefficients) then also return
+    /// [`LayeredError::File`](crate::LayeredError::File) and [`Error::Write`].
+    #[must_use]
+    pub fn with_file(self, path: impl Into<PathBuf>) -> Self {
+        Self { file: Some(path.into()), ..self }
+    }
+
+    /// The profile.
+    pub fn profile(&self) -> &SoilProfile {
+        &self.quadrature.profile
+    }
+
+    /// Block `number`, computed now if it has not been.
+    fn block(&self, number: usize) -> Result<&Block> {
+        self.checked.get_or_init(|| self.check()).clone()?;
+        let compute = || self.quadrature.block(number, threads());
+        self.blocks[number].get_or_init(compute).as_ref().map_err(Clone::clone)
+    }
+
+    /// Whether it is passive; if so, its fingerprint, and the blocks of the file are in place.
+    fn check(&self) -> Result<u64> {
+        let fingerprint = passivity::check(&self.quadrature, &self.classes)?;
+        if let Some(path) = &self.file {
+            let blocks = file::read(path, fingerprint, self.classes.count())?;
+            for (place, block) in self.blocks.iter().zip(blocks) {
+                let _ = place.set(Ok(block));
+            }
+        }
+        Ok(fingerprint)
+    }
+}
+
+impl LagKernel for LayeredKernel {
+    fn classes(&self) -> &PairClasses {
+        &self.classes
+    }
+
+    /// Computes the blocks of lags up to `lags`, after a check of passivity: the least eigenvalue of
+    /// Herm[(1−z) Ĝ(z)] on |z| = 0.99.
+    ///
+    /// # Errors
+    /// [`LayeredError::NotPassive`](crate::LayeredError::NotPassive),
+    /// [`LayeredError::ActiveDamping`](crate::LayeredError::ActiveDamping) and
+    /// [`LayeredError::Modulus`](crate::LayeredError::Modulus) for a damping law that is not passive.
+    fn prepare(&self, lags: usize) -> Result<()> {
+        let last = last_block(lags.max(1))?;
+        let fingerprint = self.checked.get_or_init(|| self.check()).clone()?;
+        let complete = self.blocks[..=last].iter().all(|block| block.get().is_some());
+        for number in 0..=last {
+            self.block(number)?;
+        }
+        let Some(path) = self.file.as_ref().filter(|_| !complete) else { return Ok(()) };
+        let blocks = self.blocks.iter().map_while(|block| block.get()?.as_ref().ok());
+        file::write(path, fingerprint, self.classes.count(), &blocks.collect::<Vec<_>>())
+    }
+
+    fn coefficients(
+        &self,
+        class: usize,
+        first_lag: usize,
+        normal: &mut [f64],
+        tangential: &mut [f64],
+        coupling: &mut [f64],
+    ) -> Result<()> {
+        self.classes.representative(class)?;
+        same_length("tangential coefficients", tangential.len(), normal.len())?;
+        same_length("coupling coefficients", coupling.len(), normal.len())?;
+        if first_lag == 0 {
+            return Err(Error::Input { quantity: "lag", value: 0.0, needed: "at least 1" });
+        }
+        last_block(first_lag.saturating_add(normal.len()))?;
+        let mut done = 0;
+        while done < normal.len() {
+            let (number, place) = Block::place(first_lag + done);
+            let values = self.block(number)?.from(class, place);
+            let count = values[0].len().min(normal.len() - done);
+            for (target, values) in
+                [&mut *normal, &mut *tangential, &mut *coupling].into_iter().zip(values)
+            {
+                target[done..done + count].copy_from_slice(&values[..count]);
+            }
+            done += count;
+        }
+        Ok(())
+    }
+
+    fn spectra(&self) -> Option<&SharedSpectra> {
+        Some(&self.spectra)
+    }
+}
+
+/// Error unless `tolerance` can be reached and is worth the name.
+pub(super) fn check_tolerance(tolerance: f64) -> Result<f64> {
+    if (1e-13..=1e-4).contains(&tolerance) {
+        return Ok(tolerance);
+    }
+    Err(Error::Input {
+        quantity: "tolerance of a layered ground",
+        value: tolerance,
+        needed: "from 1e-13 to 1e-4",
+    })
+}
+
+/// Number of the block with lag `lag`.
+fn last_block(lag: usize) -> Result<usize> {
+    let most = FIRST << (BLOCKS - 1);
+    if lag > most {
+        return Err(Error::Input {
+            quantity: "lag of a layered ground",
+            value: lag as f64,
+            needed: "at most 2147483648",
+        });
+    }
+    Ok(Block::place(lag).0)
+}
+
+/// Threads for one block.
+fn threads() -> usize {
+    #[cfg(feature = "rayon")]
+    return rayon::current_num_threads();
+    #[cfg(not(feature = "rayon"))]
+    1
+}

@@ -1,0 +1,31 @@
+//! Layered, damped ground.
+//!
+//! | file | what is in it |
+//! |---|---|
+//! | compliance | surface compliance C(k, s) of a profile |
+//! | wavenumber, form_factors, tail | element compliances F(s): its integrals over k |
+//! | runge_kutta, coefficients, kernel | step coefficients Gⁿ by convolution quadrature |
+//! | passivity | the gate that they pass |
+//! | file | coefficients kept in a file |
+//! | static_compliance, impedance, ground | statics, rigid strips at one frequency, the ground |
+
+mod coefficients;
+mod compliance;
+mod file;
+mod form_factors;
+mod ground;
+mod impedance;
+mod kernel;
+mod passivity;
+mod runge_kutta;
+mod static_compliance;
+mod tail;
+#[cfg(test)]
+mod test_profiles;
+mod wavenumber;
+
+pub use ground::LayeredGround;
+pub use impedance::{StripContact, StripImpedance, rigid_strip_impedances};
+pub use kernel::LayeredKernel;
+pub use runge_kutta::Stages;
+pub use static_compliance::static_compliance;

@@ -1,0 +1,81 @@
+//! Whether the step coefficients of a layered ground can give energy away.
+
+use realfft::num_complex::Complex64;
+
+use super::coefficients::Quadrature;
+use super::file::Hash;
+use super::wavenumber::Workspace;
+use crate::complex::Complex;
+use crate::error::{LayeredError, Result};
+use crate::history::PairClasses;
+use crate::linalg::hermitian_range;
+
+/// Radius of the circle that is checked.
+pub(crate) const RADIUS: f64 = 0.99;
+/// Points on its upper half.
+const POINTS: usize = 40;
+
+/// Fingerprint of the coefficients, after a check of Herm[(1−z) Ĝ(z)] ≥ 0 at 40 points of |z| = 0.99, up to the tolerance of the quadrature
+/// times the number of unknowns, every pair relative to its elements' own mobilities.
+///
+/// The theorem needs no check; errors of the quadrature and damping laws that are not passive show here. The fingerprint is that of all values at these points, of the
+/// elements and of what else a coefficient depends on.
+pub(crate) fn check(quadrature: &Quadrature, classes: &PairClasses) -> Result<u64> {
+    let order = 2 * classes.elements().len();
+    let allowed = -quadrature.tolerance * order as f64;
+    let mut work = Workspace::default();
+    let mut scratch = vec![[Complex::default(); 3]; classes.count()];
+    let mut values = scratch.clone();
+    let mut hash = Hash::default();
+    let sizes = [quadrature.time_step, quadrature.tolerance, quadrature.stages.count() as f64];
+    let ends = classes.elements().iter().flat_map(|element| [element.left, element.right]);
+    sizes.into_iter().chain(ends).for_each(|number| hash.add_number(number));
+    for point in 0..POINTS {
+        let angle = std::f64::consts::PI * (point as f64 + 0.5) / POINTS as f64;
+        quadrature.mobility([RADIUS.ln(), angle], &mut work, &mut scratch, &mut values)?;
+        let margin = margin(classes, &values);
+        if margin.is_nan() || margin < allowed {
+            return Err(LayeredError::NotPassive { margin, allowed, angle, radius: RADIUS }.into());
+        }
+        for value in values.iter().flatten() {
+            hash.add_number(value.re);
+            hash.add_number(value.im);
+        }
+    }
+    Ok(hash.0)
+}
+
+/// Least eigenvalue of the Hermitian part of the matrix of all pairs, scaled by the absolute
+/// diagonal; NaN if it is not finite.
+pub(crate) fn margin(classes: &PairClasses, values: &[[Complex; 3]]) -> f64 {
+    let mut matrix = assembled(classes, values);
+    let order = 2 * classes.elements().len();
+    let scale: Vec<f64> =
+        (0..order).map(|i| matrix[i * (order + 1)].norm().max(f64::MIN_POSITIVE).sqrt()).collect();
+    for (row, line) in matrix.chunks_exact_mut(order).enumerate() {
+        for (value, column) in line.iter_mut().zip(&scale) {
+            *value /= scale[row] * column;
+        }
+    }
+    hermitian_range(&matrix, order).map_or(f64::NAN, |[least, _]| least)
+}
+
+/// All pairs in work form (2Q × 2Q, row-major): integrals over receiver and source.
+pub(crate) fn assembled(classes: &PairClasses, values: &[[Complex; 3]]) -> Vec<Complex64> {
+    let count = classes.elements().len();
+    let order = 2 * count;
+    let mut matrix = vec![Complex64::default(); order * order];
+    for (index, pair) in classes.pairs().iter().enumerate() {
+        let (p, q) = (index / count, index % count);
+        let [zz, xx, zx] = values[pair.class].map(Complex::inner);
+        matrix[p * order + q] = zz;
+        matrix[(count + p) * order + count + q] = xx;
+        matrix[p * order + count + q] = pair.sign * zx;
+        matrix[(count + p) * order + q] = -pair.sign * zx;
+    }
+    matrix
+}
+
+#[cfg(test)]
+#[path = "passivity_tests.rs"]
+mod tests;

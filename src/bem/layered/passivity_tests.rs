@@ -1,0 +1,145 @@
+//! The mobility of random grounds is accretive, and the check sees when it is not.
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::Error;
+use crate::bem::layered::runge_kutta::Stages;
+use crate::bem::layered::test_profiles::{gmb, p1, p3};
+use crate::bem::layered::wavenumber::Wavenumbers;
+use crate::bem::{Grading, Strip};
+use crate::soil::{
+    Elastic, GeneralizedMaxwell, KelvinVoigt, Kjartansson, Relaxation, Soil, SoilProfile,
+};
+
+fn quadrature(profile: SoilProfile, classes: &PairClasses, time_step: f64) -> Quadrature {
+    let (tolerance, stages) = (1e-10, Stages::Two);
+    let integrals = Wavenumbers::new(classes, tolerance);
+    Quadrature { profile, integrals, classes: classes.count(), stages, time_step, tolerance }
+}
+
+fn law(kind: u8, ratio: f64) -> std::sync::Arc<dyn Relaxation> {
+    match kind {
+        0 => std::sync::Arc::new(Elastic),
+        1 => std::sync::Arc::new(KelvinVoigt::new(0.1 * ratio).unwrap()),
+        2 => std::sync::Arc::new(Kjartansson::new(ratio, 1.0).unwrap()),
+        _ => std::sync::Arc::new(GeneralizedMaxwell::constant_q(ratio, [0.03, 3.0], 0.3).unwrap()),
+    }
+}
+
+prop_compose! {
+    fn layer()(
+        speed in -1.0..1.5_f64,
+        nu in -0.5..0.4999_f64,
+        density in 0.5..2.0_f64,
+        thickness in -2.0..1.5_f64,
+        kind in 0..4_u8,
+        ratio in 0.001..0.2_f64,
+    ) -> crate::soil::SoilLayer {
+        crate::soil::SoilLayer {
+            soil: Soil::from_shear_wave_speed(speed.exp2(), nu, density).unwrap(),
+            thickness: 10.0_f64.powf(thickness),
+            damping: law(kind, ratio),
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 150, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Least eigenvalue of Herm(sF), every pair relative to its elements' own mobilities.
+    #[test]
+    fn mobility_of_random_grounds_is_accretive(
+        layers in prop::collection::vec(layer(), 1..5),
+        rigid in any::<bool>(),
+        size in -2.0..1.5_f64,
+        damping in -3.0..0.0_f64,
+        elements in 1..7_usize,
+    ) {
+        let mut layers = layers;
+        let last = layers.pop().unwrap();
+        let base = if rigid && !layers.is_empty() {
+            crate::soil::Base::Rigid
+        } else {
+            crate::soil::Base::HalfPlane { soil: last.soil, damping: last.damping }
+        };
+        let profile = SoilProfile::new(layers, base).unwrap();
+        let strip = Strip::new(-1.0..1.0, elements, Grading::Cosine).unwrap();
+        let classes = PairClasses::new(strip.elements()).unwrap();
+        let size = 10.0_f64.powf(size);
+        let real = size * 10.0_f64.powf(damping);
+        let s = Complex::new(real, (size * size - real * real).max(0.0).sqrt());
+        let integrals = Wavenumbers::new(&classes, 1e-10);
+        let mut values = vec![[Complex::default(); 3]; classes.count()];
+        integrals.compliance(&profile, s, &mut Workspace::default(), &mut values).unwrap();
+        for value in values.iter_mut().flatten() {
+            *value = *value * s;
+        }
+        let margin = margin(&classes, &values);
+        prop_assert!(margin >= -1e-10, "{margin:e} at {s:?}\n{profile}");
+    }
+}
+
+#[test]
+fn tables_profiles_pass_for_all_steps() {
+    let strip = Strip::new(-1.0..1.0, 6, Grading::Cosine).unwrap();
+    let classes = PairClasses::new(strip.elements()).unwrap();
+    for profile in [p1(gmb(5), gmb(1)), p1(Elastic, Elastic), p3(gmb(5)), p3(Elastic)] {
+        for time_step in [0.02, 0.3, 5.0, 50.0] {
+            check(&quadrature(profile.clone(), &classes, time_step), &classes).unwrap();
+        }
+    }
+}
+
+/// A modulus that creeps the wrong way: stiffness falls with frequency.
+#[derive(Debug)]
+struct Active;
+
+impl Relaxation for Active {
+    fn modulus(&self, s: Complex) -> Complex {
+        Complex::real(1.0) - s.scale(0.3) / (s + Complex::real(2.0))
+    }
+}
+
+#[test]
+fn active_damping_is_refused() {
+    let strip = Strip::uniform(-1.0..1.0, 2).unwrap();
+    let classes = PairClasses::new(strip.elements()).unwrap();
+    let found = check(&quadrature(p1(Active, Elastic), &classes, 0.1), &classes);
+    assert!(
+        matches!(found, Err(Error::Layered(LayeredError::ActiveDamping { layer: 1, value, .. })) if value < 0.0),
+        "{found:?}"
+    );
+}
+
+/// The gate with a bar that no ground meets, and the eigenvalue that it reports.
+#[test]
+fn the_gate_reports_the_least_eigenvalue() {
+    let strip = Strip::uniform(-1.0..1.0, 2).unwrap();
+    let classes = PairClasses::new(strip.elements()).unwrap();
+    let quadrature = quadrature(p1(gmb(5), gmb(1)), &classes, 0.1);
+    let mut values = vec![[Complex::default(); 3]; classes.count()];
+    let mut scratch = values.clone();
+    let at = [RADIUS.ln(), 1.0];
+    quadrature.mobility(at, &mut Workspace::default(), &mut scratch, &mut values).unwrap();
+    let sound = margin(&classes, &values);
+    assert!(sound > 0.0);
+    // With the own mobilities scaled to one, the sign of the coupling between elements decides.
+    for class in 0..classes.count() {
+        let [source, receiver] = classes.representative(class).unwrap();
+        if source == receiver {
+            values[class] = values[class].map(|value| -value);
+        }
+    }
+    let broken = margin(&classes, &values);
+    assert!(broken < -0.5, "{broken}");
+    values[0][0] = Complex::real(f64::NAN);
+    assert!(margin(&classes, &values).is_nan());
+    let strict = Quadrature { tolerance: -0.25, ..quadrature };
+    let found = check(&strict, &classes);
+    let Err(Error::Layered(LayeredError::NotPassive { margin, allowed, radius, .. })) = found
+    else {
+        panic!("{found:?}");
+    };
+    assert!(margin > 0.0 && margin < allowed && allowed == 1.0 && radius == 0.99, "{margin}");
+}

@@ -1,0 +1,255 @@
+//! The wavenumber integral beyond the last panel, by a series.
+//!
+//! For k > K the surface sees the top layer alone (e^(−2kh) is rounding), whose compliance is a power
+//! series in x = q₂/k²,
+//!
+//! C = 1/(μk) Σ dⱼ xʲ,   `C_xx` = √(1+x)/(μkρ), `C_zz` = √(1+a²x)/(μkρ),
+//! `C_xz` = (2 + x − 2√(1+x)√(1+a²x))/(μkxρ),   xρ = (2+x)² − 4√(1+x)√(1+a²x)
+//!
+//! with a radius of convergence of (`c_R`/`c_S`)². With `S_p` `S_q` cos kX = −D²[cos ky]/k², D² the
+//! second difference over the elements' ends, what remains are
+//!
+//! `E_m` = ∫₁^∞ t^(−m) e^(iκt) dt,   κ = Ky,  m = 3, 5, …
+//!
+//! (generalised exponential integrals, Abramowitz & Stegun 5.1), which depend on K and the mesh only.
+
+use std::sync::OnceLock;
+
+use super::form_factors::{FormFactors, LANES, PairShape, Row};
+use crate::complex::Complex;
+
+/// Terms kept: for |x| ≤ 1/16 the last is below rounding.
+pub(crate) const TERMS: usize = 16;
+/// K over |√q₂|.
+pub(crate) const REACH: f64 = 4.0;
+
+/// Coefficients dⱼ of xx, zz and xz for one Poisson's ratio.
+pub(crate) fn surface_series(a2: f64) -> [[f64; TERMS]; 3] {
+    const COUNT: usize = TERMS + 2;
+    let root = |factor: f64| {
+        let mut series = [1.0; COUNT];
+        for j in 1..COUNT {
+            series[j] = series[j - 1] * factor * (1.5 - j as f64) / j as f64;
+        }
+        series
+    };
+    let (alpha, beta) = (root(a2), root(1.0));
+    let product: [f64; COUNT] =
+        std::array::from_fn(|j| (0..=j).map(|i| alpha[i] * beta[j - i]).sum());
+    // xρ and the numerator of xz begin with x.
+    let mut rho: [f64; COUNT] = product.map(|p| -4.0 * p);
+    rho[1] += 4.0;
+    rho[2] += 1.0;
+    let mut coupled = product.map(|p| -2.0 * p);
+    coupled[1] += 1.0;
+    let divided = |numerator: &dyn Fn(usize) -> f64| {
+        let mut series = [0.0; TERMS];
+        for j in 0..TERMS {
+            let known: f64 = (0..j).map(|i| series[i] * rho[j - i + 1]).sum();
+            series[j] = (numerator(j) - known) / rho[1];
+        }
+        series
+    };
+    [divided(&|j| beta[j]), divided(&|j| alpha[j]), divided(&|j| coupled[j + 1])]
+}
+
+/// Integrals beyond K for the pairs of a patch, made when a K is met first.
+#[derive(Debug)]
+pub(crate) struct Tails {
+    tables: Vec<OnceLock<Box<[Row]>>>,
+}
+
+impl Default for Tails {
+    fn default() -> Self {
+        Self { tables: (0..8 * 61).map(|_| OnceLock::new()).collect() }
+    }
+}
+
+/// The least number of the form m·2ᵉ with m ≤ 16 that is not below `panels`: few differ.
+pub(crate) fn on_grid(panels: usize) -> usize {
+    let step = grid(panels);
+    panels.div_ceil(step) * step
+}
+
+/// 2ᵉ so that `panels` is between 8 and 16 times it.
+fn grid(panels: usize) -> usize {
+    1 << (panels.max(8).ilog2() - 3)
+}
+
+impl Tails {
+    /// Rows j = 0, 1, … of K^(2j) ∫_K^∞ k^(−1−2j) `S_p` `S_q` (cos, sin) kX dk, block by block, for K
+    /// at the end of a [grid](on_grid) number of panels.
+    pub(crate) fn rows(&self, forms: &FormFactors, panels: usize) -> &[Row] {
+        let step = grid(panels);
+        let index = 8 * step.ilog2() as usize + panels / step;
+        let limit = panels as f64 * forms.width;
+        self.tables[index.min(self.tables.len() - 1)].get_or_init(|| table(forms, limit))
+    }
+}
+
+fn table(forms: &FormFactors, limit: f64) -> Box<[Row]> {
+    let mut rows = vec![Row::default(); forms.blocks() * TERMS];
+    for (class, shape) in forms.shapes.iter().enumerate() {
+        let PairShape { lengths: [q, p], offset } = *shape;
+        let (sum, difference) = (0.5 * (p + q), 0.5 * (p - q));
+        for (y, sign) in [
+            (offset + sum, -1.0),
+            (offset - difference, 1.0),
+            (offset + difference, 1.0),
+            (offset - sum, -1.0),
+        ] {
+            let integrals = oscillating(limit * y.abs());
+            for (j, integral) in integrals.iter().enumerate() {
+                let row = &mut rows[class / LANES * TERMS + j];
+                let factor = sign / (limit * limit);
+                row[0][class % LANES] += factor * integral.re;
+                row[1][class % LANES] += factor * integral.im * y.signum();
+            }
+        }
+        if offset == 0.0 {
+            for j in 0..TERMS {
+                rows[class / LANES * TERMS + j][1][class % LANES] = 0.0;
+            }
+        }
+    }
+    rows.into_boxed_slice()
+}
+
+/// Largest m, and the count of all m from 1.
+const LAST: usize = 2 * TERMS + 1;
+
+/// `E_m` for m = 3, 5, …, κ ≥ 0.
+fn oscillating(kappa: f64) -> [Complex; TERMS] {
+    let mut all = [Complex::default(); LAST + 1];
+    let wave = Complex::polar(1.0, kappa);
+    let z = Complex::new(0.0, -kappa);
+    // m E_{m+1} = e^(iκ) − z E_m is stable upwards for m > κ and downwards for m < κ.
+    let up = |all: &mut [Complex; LAST + 1], from: usize| {
+        for m in from..LAST {
+            all[m + 1] = (wave - z * all[m]).scale(1.0 / m as f64);
+        }
+    };
+    if kappa == 0.0 {
+        for m in 2..=LAST {
+            all[m] = Complex::real(1.0 / (m - 1) as f64);
+        }
+    } else if kappa < 1.0 {
+        // E₁ = −γ − ln z − Σ (−z)ⁿ/(n n!)
+        const EULER: f64 = 0.577_215_664_901_532_9;
+        let mut sum = Complex::new(-EULER - kappa.ln(), 0.5 * std::f64::consts::PI);
+        let mut power = Complex::real(1.0);
+        for n in 1..=20 {
+            power = (power * -z).scale(1.0 / f64::from(n));
+            sum = sum - power.scale(1.0 / f64::from(n));
+        }
+        all[1] = sum;
+        up(&mut all, 1);
+    } else {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+        let middle = kappa.clamp(2.0, LAST as f64) as usize;
+        all[middle] = wave * fraction(z, middle as f64);
+        up(&mut all, middle);
+        for m in (1..middle).rev() {
+            all[m] = (wave - all[m + 1].scale(m as f64)) / z;
+        }
+    }
+    std::array::from_fn(|j| all[2 * j + 3])
+}
+
+/// e^z `E_m`(z) by its continued fraction 1/(z + m − m/(z + m + 2 − …)) (Lentz's method).
+fn fraction(z: Complex, order: f64) -> Complex {
+    let mut b = z + Complex::real(order);
+    let mut c = Complex::real(1e300);
+    let mut d = b.inverse();
+    let mut value = d;
+    for i in 1..2000 {
+        let n = f64::from(i);
+        let a = -n * (order - 1.0 + n);
+        b += Complex::real(2.0);
+        d = (d.scale(a) + b).inverse();
+        c = b + c.inverse().scale(a);
+        let factor = c * d;
+        value = value * factor;
+        if (factor - Complex::real(1.0)).abs() < 1e-16 {
+            break;
+        }
+    }
+    value
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bem::layered::compliance::Compliance;
+    use crate::soil::{Soil, SoilProfile};
+
+    /// E_m by repeated integration by parts far out, and the series near 0, meet the recurrence.
+    #[test]
+    fn tail_integrals_match_quadrature() {
+        let rule = crate::gauss::largest();
+        for kappa in [0.0, 1e-6, 0.3, 0.999, 1.0, 2.5, 9.0, 30.0, 200.0] {
+            let found = oscillating(kappa);
+            for j in [0, 1, 5, TERMS - 1] {
+                let m = i32::try_from(2 * j + 3).unwrap();
+                // t = 1/v: ∫₀¹ v^(m−2) e^(iκ/v) dv oscillates; turn the path instead: t = 1 + iu.
+                let mut sum = Complex::default();
+                let pieces = 400;
+                for piece in 0..pieces {
+                    // u = (w/(1 − w))², w in 0..1: for κ = 0 it decays like a power only.
+                    for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
+                        let h = 1.0 / f64::from(pieces);
+                        let w = h * (f64::from(piece) + 0.5 * (1.0 + node));
+                        let (u, slope) = ((w / (1.0 - w)).powi(2), 2.0 * w / (1.0 - w).powi(3));
+                        let t = Complex::new(1.0, u);
+                        let mut power = Complex::real(1.0);
+                        for _ in 0..m {
+                            power = power / t;
+                        }
+                        let value = power.scale((-kappa * u).exp() * slope * 0.5 * h * weight);
+                        sum += value * Complex::new(0.0, 1.0);
+                    }
+                }
+                let wanted = sum * Complex::polar(1.0, kappa);
+                let error = (found[j] - wanted).abs() / wanted.abs();
+                assert!(error < 1e-11, "{kappa} {m} {error:e} {:?} {wanted:?}", found[j]);
+            }
+        }
+    }
+
+    #[test]
+    fn series_is_the_half_plane() {
+        for nu in [-0.9, 0.0, 0.25, 0.4999] {
+            let soil = Soil::new(2.0, nu, 1.5).unwrap();
+            let series = surface_series(soil.speed_ratio_squared());
+            assert!((series[0][0] - (1.0 - nu)).abs() < 1e-14);
+            assert!((series[2][0] + 0.5 * (1.0 - 2.0 * nu)).abs() < 1e-14);
+            let s = Complex::new(0.5, 1.0);
+            let mut compliance = Compliance::default();
+            compliance.set(&SoilProfile::on_half_plane(soil), s).unwrap();
+            let (modulus, q2, _) = compliance.top();
+            let k = REACH * q2.sqrt().abs();
+            let wanted = compliance.at(k);
+            for (series, wanted) in series.iter().zip([wanted.xx, wanted.zz, wanted.xz]) {
+                let x = q2.scale(1.0 / (k * k));
+                let mut sum = Complex::default();
+                for d in series.iter().rev() {
+                    sum = sum * x + Complex::real(*d);
+                }
+                let found = sum / modulus.scale(k);
+                assert!(
+                    (found - wanted).abs() < 2e-14 * wanted.abs().max(0.01),
+                    "{nu} {found:?} {wanted:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn grid_is_coarse_and_never_below() {
+        for n in 1..5000 {
+            let found = on_grid(n);
+            assert!(found >= n && found <= n + n / 8, "{n} {found}");
+            assert_eq!(on_grid(found), found);
+        }
+    }
+}

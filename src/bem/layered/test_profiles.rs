@@ -1,0 +1,34 @@
+//! Profiles of the tables: P1, a layer on rock; P3, the same layer on a rigid base.
+
+use crate::soil::{GeneralizedMaxwell, Relaxation, Soil, SoilProfile};
+
+/// The law of `gmb.json` for 5 % or 1 %.
+pub(crate) fn gmb(percent: u32) -> GeneralizedMaxwell {
+    let text = include_str!("../../../tests/data/layered/gmb.json");
+    let block = text.split(&format!("\"gmb{percent}\"")).nth(1).unwrap();
+    let list = |name: &str| -> Vec<f64> {
+        let list = block.split(&format!("\"{name}\": [")).nth(1).unwrap();
+        list.split(']').next().unwrap().split(',').map(|x| x.trim().parse().unwrap()).collect()
+    };
+    let long_term = block.split("\"mr\": ").nth(1).unwrap().split('\n').next().unwrap();
+    GeneralizedMaxwell::new(long_term.trim().parse().unwrap(), list("y"), list("w")).unwrap()
+}
+
+fn layer() -> Soil {
+    Soil::new(1.0, 0.333_333_333_3, 1.0).unwrap()
+}
+
+pub(crate) fn p1(
+    layer_damping: impl Relaxation + 'static,
+    rock_damping: impl Relaxation + 'static,
+) -> SoilProfile {
+    SoilProfile::on_half_plane(Soil::from_shear_wave_speed(3.0, 0.3, 1.2).unwrap())
+        .with_base_damping(rock_damping)
+        .with_layer(layer(), 2.0)
+        .unwrap()
+        .with_damping(layer_damping)
+}
+
+pub(crate) fn p3(damping: impl Relaxation + 'static) -> SoilProfile {
+    SoilProfile::on_rigid_base().with_layer(layer(), 2.0).unwrap().with_damping(damping)
+}

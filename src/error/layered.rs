@@ -1,0 +1,151 @@
+//! Errors of layered grounds.
+
+/// Reasons why a layered ground cannot be computed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LayeredError {
+    /// A damping law that exists at real frequencies only.
+    #[error(
+        "{law} damping of layer {layer} is not causal and cannot march in time (use \
+         GeneralizedMaxwell::constant_q with the same ratio over the band of the motion)"
+    )]
+    NotCausal {
+        /// Name of the law.
+        law: String,
+        /// Layer, from 1 at the surface.
+        layer: usize,
+    },
+    /// A damping law that gives energy away: Re(μ(s)/s) must not be negative where Re s > 0.
+    #[error(
+        "damping law of layer {layer} gives energy away: Re(mu(s)/s) is {value:e} of |mu/s| at \
+         s = {re} + {im}i 1/s, but must not be negative"
+    )]
+    ActiveDamping {
+        /// Layer, from 1 at the surface.
+        layer: usize,
+        /// Re(μ(s)/s)·|s/μ(s)|.
+        value: f64,
+        /// Re s, 1/s.
+        re: f64,
+        /// Im s, 1/s.
+        im: f64,
+    },
+    /// A modulus that is not finite or is zero.
+    #[error(
+        "shear modulus of layer {layer} is {value} Pa at s = {re} + {im}i 1/s, but must be {needed}"
+    )]
+    Modulus {
+        /// Layer, from 1 at the surface.
+        layer: usize,
+        /// Its real part, Pa.
+        value: f64,
+        /// Re s, 1/s.
+        re: f64,
+        /// Im s, 1/s.
+        im: f64,
+        /// What was needed.
+        needed: &'static str,
+    },
+    /// A wavenumber integral that bisection does not resolve: a pole lies on the path.
+    #[error(
+        "wavenumber integral at s = {re} + {im}i 1/s is not resolved near k = {wavenumber} 1/m \
+         (without damping the real frequency axis has poles on the path: give every layer some; \
+         stiffnesses may also differ by more than double precision carries)"
+    )]
+    Unresolved {
+        /// Re s, 1/s.
+        re: f64,
+        /// Im s, 1/s.
+        im: f64,
+        /// Wavenumber at which bisection stopped, 1/m.
+        wavenumber: f64,
+    },
+    /// A time step, or a top layer, so short beside the patch that no computer would finish.
+    #[error(
+        "the patch of {span} m needs wavenumbers up to {wavenumber:e} 1/m, more than 1e6 of its own (a \
+         longer time step, a shorter patch or a thicker top layer helps)"
+    )]
+    TooFine {
+        /// Length of the patch, m.
+        span: f64,
+        /// Wavenumber up to which C must be integrated, 1/m.
+        wavenumber: f64,
+    },
+    /// Damping that no mechanisms reproduce over the band.
+    #[error(
+        "no generalised Maxwell body has a damping ratio of {ratio} over the band: the best is {worst} \
+         off"
+    )]
+    Fit {
+        /// Damping ratio that was asked for.
+        ratio: f64,
+        /// Largest deviation in the band, relative.
+        worst: f64,
+    },
+    /// Inclined waves over a rigid base, which sends none.
+    #[error(
+        "waves at an angle come from a half-plane below the layers, not from a rigid base \
+         (site::Column takes the motion of a rigid base to the surface)"
+    )]
+    InclinedOverRigidBase,
+    /// An inclined wave without a beginning in time.
+    #[error(
+        "wave is beyond the critical angle of layer {layer}: its horizontal slowness is {slowness} s/m, \
+         but must be below {limit} s/m, that of pressure waves there, to begin in time (its transfer \
+         functions exist)"
+    )]
+    BeyondCritical {
+        /// Layer, from 1 at the surface; the half-plane counts as the last.
+        layer: usize,
+        /// Horizontal slowness of the wave, absolute, s/m.
+        slowness: f64,
+        /// Slowness of pressure waves in the layer at the highest frequency of the motion, s/m.
+        limit: f64,
+    },
+    /// Step coefficients that could give energy away.
+    #[error(
+        "step coefficients are not passive: least eigenvalue {margin:e} of the mobility, relative to \
+         the largest, at {angle} radians on the circle |z| = {radius}; at least {allowed:e} is needed"
+    )]
+    NotPassive {
+        /// Least eigenvalue of the Hermitian part over its trace.
+        margin: f64,
+        /// Least value that is accepted.
+        allowed: f64,
+        /// Angle on the circle, radians per step.
+        angle: f64,
+        /// Radius of the circle.
+        radius: f64,
+    },
+    /// A file of step coefficients that cannot be used.
+    #[error("{file} {reason}")]
+    File {
+        /// Name of the file.
+        file: String,
+        /// What is wrong with it.
+        reason: KernelFileError,
+    },
+}
+
+/// What is wrong with a file of step coefficients.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum KernelFileError {
+    /// The file could not be read.
+    #[error("cannot be read: {0}")]
+    Unreadable(std::io::ErrorKind),
+    /// The file does not begin as one of step coefficients does; it is left as it is.
+    #[error("is no file of step coefficients, and is not written over")]
+    NotAKernel,
+    /// The file is cut short, or longer than it says.
+    #[error("has a wrong length of {found} bytes (delete it to have it made anew)")]
+    Length {
+        /// Bytes found.
+        found: u64,
+        /// Bytes needed; `None` if the file does not say.
+        needed: Option<u64>,
+    },
+    /// The numbers are not those that were written.
+    #[error("is damaged: its checksum is wrong (delete it to have it made anew)")]
+    Damaged,
+}

@@ -1,0 +1,182 @@
+//! One-dimensional transfer functions of a soil profile, as in SHAKE (Schnabel, Lysmer & Seed 1972).
+//!
+//! Each layer carries Aⱼ e^(κz) up and Bⱼ e^(−κz) down, κ = s/c. With A₁ = B₁ = 1 at the free surface and
+//! the impedance ratio aⱼ = √(ρⱼMⱼ/(ρⱼ₊₁Mⱼ₊₁)),
+//!
+//! Aⱼ₊₁ = ½ Aⱼ(1+aⱼ) e^(κh) + ½ Bⱼ(1−aⱼ) e^(−κh),   Bⱼ₊₁ = ½ Aⱼ(1−aⱼ) e^(κh) + ½ Bⱼ(1+aⱼ) e^(−κh)
+//!
+//! the outcrop of the base moves by 2Aₙ, its top within by Aₙ + Bₙ, the surface by 2.
+
+use super::transform::filtered;
+use crate::complex::Complex;
+use crate::error::{Result, not_negative};
+use crate::soil::SoilProfile;
+
+/// What travels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum VerticalWave {
+    /// Shear waves: horizontal motion.
+    #[default]
+    Shear,
+    /// Pressure waves: vertical motion.
+    Pressure,
+}
+
+/// Where a motion at depth belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ControlPoint {
+    /// The surface of the base where no layers cover it: rock outcrop.
+    #[default]
+    Outcrop,
+    /// The base under the layers, with what they send back. The same as the outcrop if it is rigid.
+    Within,
+}
+
+/// A soil profile as a column that waves travel up and down.
+///
+/// Simulations take the motion of the free *surface*; a column makes it of a motion at depth, or goes
+/// the other way (deconvolution).
+///
+/// ```
+/// use basemat::Soil;
+/// use basemat::site::{Column, ControlPoint, VerticalWave};
+/// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+/// let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0)?;
+/// let profile = SoilProfile::on_rigid_base()
+///     .with_layer(soil, 10.0)?
+///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.5, 50.0], 5.0)?);
+/// let column = Column::new(profile, VerticalWave::Shear)?;
+/// // At the first frequency, 5 Hz, about 2/(πξ).
+/// let found = column.amplification(ControlPoint::Within, 5.0)?;
+/// assert!((found - 12.7).abs() < 0.2);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Column {
+    profile: SoilProfile,
+    wave: VerticalWave,
+}
+
+impl Column {
+    /// Column of `profile` for one kind of wave.
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size) for a rigid base without layers.
+    pub fn new(profile: SoilProfile, wave: VerticalWave) -> Result<Self> {
+        profile.check()?;
+        Ok(Self { profile, wave })
+    }
+
+    /// Motion of the surface by that of `control` for e^(iωt) at `frequency` (Hz).
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; as for damping laws that are not
+    /// passive; infinite at a resonance without damping.
+    pub fn transfer(&self, control: ControlPoint, frequency: f64) -> Result<Complex> {
+        not_negative("frequency of a transfer function", frequency)?;
+        let s = Complex::new(0.0, std::f64::consts::TAU * frequency);
+        let (value, decay) = self.inverse_transfer(control, s, &mut vec![])?;
+        Ok(value.inverse() * (-decay).exp())
+    }
+
+    /// Absolute value of [`transfer`](Column::transfer).
+    ///
+    /// # Errors
+    /// As for [`transfer`](Column::transfer).
+    pub fn amplification(&self, control: ControlPoint, frequency: f64) -> Result<f64> {
+        Ok(self.transfer(control, frequency)?.abs())
+    }
+
+    /// Motion of the surface from `motion` at `control`, samples `time_step` seconds apart; any
+    /// of displacement, velocity and acceleration. The column is at rest at first.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a bad time step or samples that are not finite, [`Error::Size`](crate::Error::Size) for none,
+    /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for hysteretic damping.
+    pub fn to_surface(
+        &self,
+        control: ControlPoint,
+        time_step: f64,
+        motion: &[f64],
+    ) -> Result<Vec<f64>> {
+        let mut moduli = vec![];
+        self.filtered(time_step, motion, |s| {
+            let (value, decay) = self.inverse_transfer(control, s, &mut moduli)?;
+            Ok(value.inverse() * (-decay).exp())
+        })
+    }
+
+    /// Motion at `control` from `motion` of the surface (deconvolution). It comes before that of the
+    /// surface, so the record should begin with rest for as long as waves take through the layers,
+    /// and end with it: the surface is taken to stand still before and after. Damped layers
+    /// amplify high frequencies on the way down, so the record should have none that are noise.
+    ///
+    /// # Errors
+    /// As for [`to_surface`](Column::to_surface).
+    pub fn from_surface(
+        &self,
+        control: ControlPoint,
+        time_step: f64,
+        motion: &[f64],
+    ) -> Result<Vec<f64>> {
+        let mut moduli = vec![];
+        self.filtered(time_step, motion, |s| {
+            let (value, decay) = self.inverse_transfer(control, s, &mut moduli)?;
+            Ok(value * decay.exp())
+        })
+    }
+
+    /// Control motion by surface motion, with a factor e^decay taken out: it may leave the range of
+    /// f64.
+    fn inverse_transfer(
+        &self,
+        control: ControlPoint,
+        s: Complex,
+        moduli: &mut Vec<Complex>,
+    ) -> Result<(Complex, Complex)> {
+        self.profile.moduli(s, moduli)?;
+        let mut waves = self.profile.soils().zip(moduli.iter()).map(|((soil, _), modulus)| {
+            let stiffness = match self.wave {
+                VerticalWave::Shear => *modulus,
+                VerticalWave::Pressure => modulus.scale(1.0 / soil.speed_ratio_squared()),
+            };
+            // Impedance ρc and slowness 1/c.
+            let speed = stiffness.scale(1.0 / soil.density()).sqrt();
+            (speed.scale(soil.density()), speed.inverse())
+        });
+        let (mut up, mut down) = (Complex::real(1.0), Complex::real(1.0));
+        let mut total = Complex::default();
+        let Some((mut impedance, mut slowness)) = waves.next() else {
+            return Ok((up, total));
+        };
+        for layer in self.profile.layers() {
+            let travel = (s * slowness).scale(layer.thickness);
+            down = down * travel.scale(-2.0).exp();
+            total += travel;
+            let Some((next, next_slowness)) = waves.next() else {
+                // A rigid base moves as the layer's bottom does.
+                return Ok(((up + down).scale(0.5), total));
+            };
+            let ratio = impedance / next;
+            let (sum, difference) = ((up + down).scale(0.5), (up - down) * ratio.scale(0.5));
+            (up, down) = (sum + difference, sum - difference);
+            (impedance, slowness) = (next, next_slowness);
+        }
+        Ok(match control {
+            ControlPoint::Outcrop => (up, total),
+            ControlPoint::Within => ((up + down).scale(0.5), total),
+        })
+    }
+
+    /// `motion` times a function of s.
+    fn filtered(
+        &self,
+        time_step: f64,
+        motion: &[f64],
+        mut filter: impl FnMut(Complex) -> Result<Complex>,
+    ) -> Result<Vec<f64>> {
+        self.profile.check_causal()?;
+        let [motion] = filtered(time_step, motion, |s| Ok([filter(s)?]))?;
+        Ok(motion)
+    }
+}

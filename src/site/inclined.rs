@@ -1,0 +1,230 @@
+//! Inclined SV and P waves over a soil profile.
+
+use std::f64::consts::{PI, TAU};
+
+use super::slowness::{Medium, surface_motion};
+use super::transform::filtered;
+use crate::complex::Complex;
+use crate::error::{Error, LayeredError, Result, finite, not_negative, positive};
+use crate::motion::{PlaneWave, Record, TravellingWave, VerticalIncidence};
+use crate::soil::{Base, Soil, SoilProfile};
+
+/// Motion that is given of an inclined wave. All are at the depth of the base's top.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum InclinedControl {
+    /// Horizontal motion of the base's free surface where no layers cover it: rock outcrop.
+    #[default]
+    OutcropHorizontal,
+    /// Vertical motion of the same, positive up.
+    OutcropVertical,
+    /// The incident wave itself: SV to the right (and down, if it runs to the right), P up (and to the
+    /// right).
+    Incident,
+}
+
+/// A plane SV or P wave that comes up at an angle through the half-plane below a soil profile.
+///
+/// With the horizontal slowness p = sin θ/c of the base's elastic constants, all layers move as f(t − px):
+/// each frequency is refracted and reflected in all of them, the surface moves horizontally and
+/// vertically. At vertical incidence it is [`Column`](super::Column), without layers
+/// [`PlaneWave`]. A damped base has a complex speed: p stays real, so the wave is as strong everywhere
+/// along the surface.
+///
+/// ```
+/// use basemat::Soil;
+/// use basemat::motion::{FreeField, el_centro_1940};
+/// use basemat::site::{InclinedControl, InclinedWave};
+/// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+/// let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0);
+/// let profile = SoilProfile::on_half_plane(Soil::from_shear_wave_speed(800.0, 0.25, 2300.0)?)
+///     .with_base_damping(damping(0.01)?)
+///     .with_layer(Soil::from_shear_wave_speed(200.0, 0.3, 1900.0)?, 12.0)?
+///     .with_damping(damping(0.05)?);
+/// // SV at 20° in the rock, whose outcrop moves as El Centro; x = −5 m is reached first.
+/// let wave = InclinedWave::sv(profile, 20.0_f64.to_radians())?;
+/// let field = wave.field(InclinedControl::OutcropHorizontal, &el_centro_1940(), -5.0)?;
+/// let [there, later] = [field.displacement(-5.0, 4.0), field.displacement(5.0, 4.0 + wave.delay(10.0))];
+/// assert!((there[0] - later[0]).abs() < 1e-12 && there[1] != 0.0);
+/// // Near the layer's first frequency the surface moves more than the outcrop.
+/// let [horizontal, _] = wave.transfer(InclinedControl::OutcropHorizontal, 200.0 / 48.0)?;
+/// assert!(horizontal.abs() > 2.0);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct InclinedWave {
+    profile: SoilProfile,
+    base: Soil,
+    shear: bool,
+    slowness: f64,
+    /// Elastic slowness of the wave, and the cosine of its angle.
+    own: [f64; 2],
+    /// Of the base without layers.
+    outcrop: PlaneWave,
+}
+
+/// Component of the outcrop below this share of the other cannot be prescribed.
+const SMALLEST: f64 = 0.01;
+
+impl InclinedWave {
+    /// SV wave below `profile`, its direction in the base at `angle` (rad) from the vertical, to the
+    /// right if positive.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless |`angle`| < π/2, and as for [`PlaneWave::sv`];
+    /// [`LayeredError::InclinedOverRigidBase`].
+    pub fn sv(profile: SoilProfile, angle: f64) -> Result<Self> {
+        Self::new(profile, angle, true)
+    }
+
+    /// P wave, as for [`InclinedWave::sv`].
+    ///
+    /// # Errors
+    /// As for [`InclinedWave::sv`].
+    pub fn p(profile: SoilProfile, angle: f64) -> Result<Self> {
+        Self::new(profile, angle, false)
+    }
+
+    fn new(profile: SoilProfile, angle: f64, shear: bool) -> Result<Self> {
+        let Base::HalfPlane { soil: base, .. } = *profile.base() else {
+            return Err(LayeredError::InclinedOverRigidBase.into());
+        };
+        let (outcrop, speed) = if shear {
+            (PlaneWave::sv(base, angle)?, base.shear_wave_speed())
+        } else {
+            (PlaneWave::p(base, angle)?, base.pressure_wave_speed())
+        };
+        let own = [1.0 / speed, angle.cos()];
+        Ok(Self { profile, base, shear, slowness: angle.sin() / speed, own, outcrop })
+    }
+
+    /// Velocity (m/s) with which the wave runs along the surface, positive to the right; infinite
+    /// at vertical incidence.
+    pub fn apparent_velocity(&self) -> f64 {
+        1.0 / self.slowness
+    }
+
+    /// Time (s) that the wave takes along `distance` (m) of the surface, positive to the right.
+    pub fn delay(&self, distance: f64) -> f64 {
+        self.slowness * distance
+    }
+
+    /// Motion of the surface, horizontal and up, by that of `control` for e^(iωt) at `frequency` (Hz).
+    /// Angles beyond the critical one and any damping are allowed.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a frequency that is negative or not finite, for a component of the outcrop
+    /// that is less than a hundredth of the other, and for a motion that is not finite (a free
+    /// surface wave of an undamped layer); as for damping laws that are not passive.
+    pub fn transfer(&self, control: InclinedControl, frequency: f64) -> Result<[Complex; 2]> {
+        not_negative("frequency of a transfer function", frequency)?;
+        self.check(control)?;
+        self.at(control, Complex::new(0.0, TAU * frequency), &mut vec![])
+    }
+
+    /// Motion of the surface, horizontal and up, from `motion` of `control` at the same x, samples
+    /// `time_step` seconds apart; any of displacement, velocity and acceleration. The ground is at
+    /// rest at first.
+    ///
+    /// # Errors
+    /// As for [`InclinedWave::transfer`] and [`Column::to_surface`](super::Column::to_surface);
+    /// [`LayeredError::BeyondCritical`] where waves are out of phase and so have no beginning.
+    pub fn to_surface(
+        &self,
+        control: InclinedControl,
+        time_step: f64,
+        motion: &[f64],
+    ) -> Result<[Vec<f64>; 2]> {
+        positive("time step of a motion", time_step)?;
+        self.check(control)?;
+        self.profile.check_causal()?;
+        let mut moduli = vec![];
+        self.check_beginning(PI / time_step, &mut moduli)?;
+        filtered(time_step, motion, |s| self.at(control, s, &mut moduli))
+    }
+
+    /// The free field in which `record` is the motion of `control` below `origin` (m), the edge of the
+    /// base that the wave reaches first. It is as long as the record: give it quiet time after
+    /// its end for what the layers still send ([`Record::padded`]).
+    ///
+    /// # Errors
+    /// As for [`InclinedWave::to_surface`]; [`Error::Input`] for an origin that is not finite.
+    pub fn field(
+        &self,
+        control: InclinedControl,
+        record: &Record,
+        origin: f64,
+    ) -> Result<TravellingWave> {
+        let step = record.time_step();
+        let [horizontal, vertical] = self.to_surface(control, step, record.accelerations())?;
+        let field = VerticalIncidence::new(Record::new(step, horizontal)?);
+        let field = field.with_vertical(Record::new(step, vertical)?);
+        TravellingWave::new(field, self.apparent_velocity(), origin)
+    }
+
+    /// Error for a component of the outcrop that is too small to be prescribed.
+    fn check(&self, control: InclinedControl) -> Result<()> {
+        let [x, up] = self.outcrop.amplification().map(|[re, im]| re.hypot(im));
+        let (quantity, share) = match control {
+            InclinedControl::OutcropHorizontal => {
+                ("horizontal motion of the outcrop over the largest", x / x.max(up))
+            }
+            InclinedControl::OutcropVertical => {
+                ("vertical motion of the outcrop over the largest", up / x.max(up))
+            }
+            InclinedControl::Incident => return Ok(()),
+        };
+        if share > SMALLEST {
+            return Ok(());
+        }
+        Err(Error::Input { quantity, value: share, needed: "above 0.01 to be prescribed" })
+    }
+
+    /// Error if pressure waves of a layer are evanescent: then motion precedes its cause. Layers
+    /// stiffen with frequency, so the highest decides.
+    fn check_beginning(&self, highest: f64, moduli: &mut Vec<Complex>) -> Result<()> {
+        let s = Complex::real(finite("highest frequency of a motion", highest)?);
+        self.profile.moduli(s, moduli)?;
+        for (index, ((soil, _), modulus)) in self.profile.soils().zip(&*moduli).enumerate() {
+            let limit = (soil.density() * soil.speed_ratio_squared() / modulus.re).sqrt();
+            let slowness = self.slowness.abs();
+            if slowness >= limit {
+                let layer = index + 1;
+                return Err(LayeredError::BeyondCritical { layer, slowness, limit }.into());
+            }
+        }
+        Ok(())
+    }
+
+    /// [`InclinedWave::transfer`] at the Laplace variable `s`.
+    fn at(
+        &self,
+        control: InclinedControl,
+        s: Complex,
+        moduli: &mut Vec<Complex>,
+    ) -> Result<[Complex; 2]> {
+        self.profile.moduli(s, moduli)?;
+        let p = self.slowness;
+        let modulus = moduli.last().copied().unwrap_or_default();
+        let base = Medium::base(self.base, modulus, s, p, self.own);
+        let layers =
+            self.profile.layers().iter().zip(&*moduli).map(|(layer, modulus)| {
+                (Medium::layer(layer.soil, *modulus, s, p), layer.thickness)
+            });
+        let [px, sx, pz, sz] = surface_motion(layers, &base, s);
+        let [px0, sx0, pz0, sz0] = base.free_surface();
+        let (motion, outcrop) =
+            if self.shear { ([sx, sz], [sx0, sz0]) } else { ([px, pz], [px0, pz0]) };
+        // Amplitudes are those of (b, p) or (p, a), whose length is 1/c.
+        let speed = || if self.shear { base.shear } else { base.pressure }.sqrt().inverse();
+        let scale = match control {
+            InclinedControl::OutcropHorizontal => outcrop[0].inverse(),
+            InclinedControl::OutcropVertical => outcrop[1].inverse(),
+            InclinedControl::Incident => speed(),
+        };
+        let found = motion.map(|x| x * scale);
+        for x in found {
+            finite("motion of the surface under an inclined wave", x.re + x.im)?;
+        }
+        Ok(found)
+    }
+}

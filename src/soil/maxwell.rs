@@ -1,0 +1,182 @@
+//! Nearly constant damping over a band of frequencies, causal and passive.
+
+use super::nonnegative::least_squares;
+use super::relaxation::Relaxation;
+use crate::complex::Complex;
+use crate::error::{Error, LayeredError, Result, not_negative, positive, same_length};
+
+/// A spring beside springs in series with dashpots (generalised Maxwell body):
+/// μ(s)/μ₀ = m (1 + Σ yᵢ s/(s + ωᵢ)), passive for yᵢ ≥ 0 (Emmerich & Korn 1987).
+///
+/// The usual choice for soil in time. The long-term modulus m is below 1: statics are softer
+/// than waves at the reference frequency.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GeneralizedMaxwell {
+    long_term: f64,
+    shares: Vec<f64>,
+    rates: Vec<f64>,
+    /// Damping ratio and band (Hz), if it was fitted.
+    fitted: Option<[f64; 3]>,
+}
+
+/// Frequencies of the fit.
+const SAMPLES: usize = 120;
+/// Mechanisms per factor of ten.
+const PER_DECADE: f64 = 2.0;
+/// Relaxation rates reach beyond the band by this factor at both ends.
+const MARGIN: f64 = 1.8;
+/// Largest deviation from the damping ratio in the band, relative.
+const WORST: f64 = 0.15;
+
+impl GeneralizedMaxwell {
+    /// Body with the long-term modulus ratio m, the shares yᵢ and the relaxation rates ωᵢ (1/s).
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless m and all ωᵢ are positive and no yᵢ is negative; [`Error::Size`] for
+    /// lists of different lengths.
+    pub fn new(long_term: f64, shares: Vec<f64>, rates: Vec<f64>) -> Result<Self> {
+        positive("long-term modulus ratio of a layer", long_term)?;
+        same_length("rates of a generalised Maxwell body", rates.len(), shares.len())?;
+        for (&share, &rate) in shares.iter().zip(&rates) {
+            not_negative("share of a Maxwell mechanism", share)?;
+            positive("rate of a Maxwell mechanism", rate)?;
+        }
+        Ok(Self { long_term, shares, rates, fitted: None })
+    }
+
+    /// Body with the damping `ratio` ξ over `band` (lowest and highest frequency, Hz) and
+    /// Re μ = μ₀ at the frequency `reference` (Hz): Im μ = 2ξ Re μ by nonnegative least squares,
+    /// two mechanisms per factor of ten and two more, within a few per cent of ξ.
+    ///
+    /// ```
+    /// use basemat::soil::GeneralizedMaxwell;
+    /// let law = GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0)?;
+    /// for frequency in [0.1, 0.5, 3.0, 30.0] {
+    ///     assert!((law.damping_ratio(frequency) - 0.05).abs() < 0.003);
+    /// }
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a ratio below 0, frequencies that are not positive or a band that does not
+    /// increase or spans more than a factor 1e6; [`LayeredError::Fit`] for a ratio that no body has.
+    pub fn constant_q(ratio: f64, band: [f64; 2], reference: f64) -> Result<Self> {
+        not_negative("damping ratio of a layer", ratio)?;
+        positive("lowest frequency of the damping band", band[0])?;
+        positive("reference frequency of a damping law", reference)?;
+        let width = band[1] / band[0];
+        if !(width > 1.0 && width <= 1e6) {
+            return Err(Error::Input {
+                quantity: "highest frequency of the damping band over the lowest",
+                value: width,
+                needed: "above 1 and at most 1e6",
+            });
+        }
+        if ratio == 0.0 {
+            return Ok(Self {
+                fitted: Some([0.0, band[0], band[1]]),
+                ..Self::new(1.0, vec![], vec![])?
+            });
+        }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 14")]
+        let count = (PER_DECADE * width.log10()).ceil() as usize + 2;
+        let lowest = std::f64::consts::TAU * band[0];
+        let at = |i: usize| lowest * width.powf(i as f64 / (SAMPLES - 1) as f64);
+        let rate = |i: usize| {
+            lowest / MARGIN * (width * MARGIN * MARGIN).powf(i as f64 / (count - 1) as f64)
+        };
+        let rates: Vec<f64> = (0..count).map(rate).collect();
+        let mut matrix = Vec::with_capacity(SAMPLES * count);
+        for sample in 0..SAMPLES {
+            let omega = at(sample);
+            for rate in &rates {
+                let size = omega * omega + rate * rate;
+                matrix.push(0.5 * omega * rate / (ratio * size) - omega * omega / size);
+            }
+        }
+        let shares = least_squares(&matrix, count, &[1.0; SAMPLES]);
+        let body = Self::new(1.0, shares, rates)?;
+        let size = body.modulus(Complex::new(0.0, std::f64::consts::TAU * reference)).re;
+        let body = Self { long_term: 1.0 / size, fitted: Some([ratio, band[0], band[1]]), ..body };
+        let worst = (0..SAMPLES)
+            .map(|i| (body.damping_ratio(at(i) / std::f64::consts::TAU) / ratio - 1.0).abs())
+            .fold(0.0, f64::max);
+        if worst <= WORST { Ok(body) } else { Err(LayeredError::Fit { ratio, worst }.into()) }
+    }
+
+    /// Damping ratio Im μ/(2 Re μ) at `frequency` (Hz).
+    pub fn damping_ratio(&self, frequency: f64) -> f64 {
+        let modulus = self.modulus(Complex::new(0.0, std::f64::consts::TAU * frequency));
+        0.5 * modulus.im / modulus.re
+    }
+}
+
+impl Relaxation for GeneralizedMaxwell {
+    fn modulus(&self, s: Complex) -> Complex {
+        let mut sum = Complex::real(1.0);
+        for (share, rate) in self.shares.iter().zip(&self.rates) {
+            sum += s.scale(*share) / (s + Complex::real(*rate));
+        }
+        sum.scale(self.long_term)
+    }
+
+    fn describe(&self) -> String {
+        match self.fitted {
+            Some([ratio, low, high]) => format!("{} % from {low} to {high} Hz", 100.0 * ratio),
+            None => format!("{} Maxwell mechanisms", self.rates.len()),
+        }
+    }
+
+    fn identity(&self) -> Option<Vec<f64>> {
+        let mut numbers = vec![4.0, self.long_term, self.rates.len() as f64];
+        numbers.extend(self.shares.iter().chain(&self.rates));
+        Some(numbers)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn damping_is_constant_over_the_band_and_waves_disperse_as_causality_wants() {
+        for (ratio, band) in
+            [(0.01, [0.1, 30.0]), (0.05, [0.1, 30.0]), (0.1, [0.05, 50.0]), (0.2, [0.5, 20.0])]
+        {
+            let body = GeneralizedMaxwell::constant_q(ratio, band, 1.0).unwrap();
+            let mut worst: f64 = 0.0;
+            for i in 0..=200 {
+                let frequency = band[0] * (band[1] / band[0]).powf(f64::from(i) / 200.0);
+                worst = worst.max((body.damping_ratio(frequency) / ratio - 1.0).abs());
+            }
+            println!("{ratio} {band:?}: {worst:.4}, long term {:.4}", body.long_term);
+            assert!(worst < 0.05, "{ratio} {worst}");
+            let omega = |f: f64| Complex::new(0.0, std::f64::consts::TAU * f);
+            assert!((body.modulus(omega(1.0)).re - 1.0).abs() < 1e-14);
+            assert!(body.shares.iter().all(|y| *y >= 0.0));
+            let speed = |f: f64| 1.0 / body.modulus(omega(f)).sqrt().inverse().re;
+            let grows = (speed(4.0) / speed(1.0) - 1.0)
+                / (2.0 * ratio / std::f64::consts::PI * 4.0_f64.ln());
+            assert!((grows - 1.0).abs() < 0.25, "{ratio} {grows}");
+        }
+    }
+
+    #[test]
+    fn bad_bands_and_bodies_are_refused() {
+        for (ratio, band, reference) in [
+            (-0.1, [0.1, 10.0], 1.0),
+            (f64::NAN, [0.1, 10.0], 1.0),
+            (0.05, [10.0, 0.1], 1.0),
+            (0.05, [0.0, 10.0], 1.0),
+            (0.05, [0.1, f64::INFINITY], 1.0),
+            (0.05, [0.1, 10.0], 0.0),
+        ] {
+            let found = GeneralizedMaxwell::constant_q(ratio, band, reference);
+            assert!(matches!(found, Err(Error::Input { .. })), "{found:?}");
+        }
+        let found = GeneralizedMaxwell::constant_q(5.0, [0.1, 10.0], 1.0);
+        assert!(matches!(found, Err(Error::Layered(LayeredError::Fit { .. }))), "{found:?}");
+        assert!(GeneralizedMaxwell::new(1.0, vec![-0.1], vec![1.0]).is_err());
+        assert!(GeneralizedMaxwell::new(1.0, vec![0.1], vec![]).is_err());
+    }
+}

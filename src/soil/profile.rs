@@ -1,0 +1,275 @@
+//! Horizontally layered ground.
+
+use std::fmt;
+use std::sync::Arc;
+
+use super::Soil;
+use super::relaxation::{Elastic, Relaxation};
+use crate::complex::Complex;
+use crate::error::{Error, LayeredError, Result, positive};
+
+/// One layer: an elastic soil, its thickness and its damping.
+#[derive(Debug, Clone)]
+pub struct SoilLayer {
+    /// Elastic constants; moduli are those at which the damping law is 1.
+    pub soil: Soil,
+    /// Thickness, m.
+    pub thickness: f64,
+    /// Damping law.
+    pub damping: Arc<dyn Relaxation>,
+}
+
+/// The ground under the last layer.
+#[derive(Debug, Clone)]
+pub enum Base {
+    /// A half-plane that waves leave through.
+    HalfPlane {
+        /// Its elastic constants.
+        soil: Soil,
+        /// Its damping law.
+        damping: Arc<dyn Relaxation>,
+    },
+    /// A base that does not move and reflects everything.
+    Rigid,
+}
+
+/// Horizontal layers, from the surface down, on a half-plane or a rigid base.
+///
+/// ```
+/// use basemat::Soil;
+/// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+/// let band = [0.1, 30.0];
+/// let profile = SoilProfile::on_half_plane(Soil::from_shear_wave_speed(500.0, 0.3, 2200.0)?)
+///     .with_base_damping(GeneralizedMaxwell::constant_q(0.01, band, 1.0)?)
+///     .with_layer(Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?, 6.0)?
+///     .with_damping(GeneralizedMaxwell::constant_q(0.05, band, 1.0)?);
+/// assert_eq!(profile.depth(), 6.0);
+/// assert_eq!(profile.first_frequency(), Some(150.0 / 24.0));
+/// println!("{profile}");
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct SoilProfile {
+    layers: Vec<SoilLayer>,
+    base: Base,
+}
+
+/// Re(μ/s)/|μ/s| that counts as zero.
+const ROUNDING: f64 = 1e-12;
+/// Most layers of a profile.
+const MOST_LAYERS: usize = 1000;
+
+impl SoilProfile {
+    /// A half-plane of an elastic soil, without layers so far.
+    pub fn on_half_plane(soil: Soil) -> Self {
+        Self { layers: vec![], base: Base::HalfPlane { soil, damping: Arc::new(Elastic) } }
+    }
+
+    /// A rigid base, without layers so far: at least one has to be put on it.
+    pub fn on_rigid_base() -> Self {
+        Self { layers: vec![], base: Base::Rigid }
+    }
+
+    /// Profile from its layers, from the surface down, and its base.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a thickness that is not finite and positive or more than 1000 layers,
+    /// [`Error::Size`] for a rigid base without layers.
+    pub fn new(layers: Vec<SoilLayer>, base: Base) -> Result<Self> {
+        for layer in &layers {
+            positive("thickness of a soil layer", layer.thickness)?;
+        }
+        let profile = Self { layers, base };
+        profile.check_depth()?;
+        profile.check()?;
+        Ok(profile)
+    }
+
+    /// With one more layer, below those that are there; elastic until
+    /// [`with_damping`](SoilProfile::with_damping) is called.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a thickness that is not finite and positive, or more than 1000 layers.
+    pub fn with_layer(mut self, soil: Soil, thickness: f64) -> Result<Self> {
+        positive("thickness of a soil layer", thickness)?;
+        self.layers.push(SoilLayer { soil, thickness, damping: Arc::new(Elastic) });
+        self.check_depth()?;
+        Ok(self)
+    }
+
+    /// With damping of the layer that was put on last; of the base if there is none.
+    #[must_use]
+    pub fn with_damping(mut self, damping: impl Relaxation + 'static) -> Self {
+        match self.layers.last_mut() {
+            Some(layer) => layer.damping = Arc::new(damping),
+            None => return self.with_base_damping(damping),
+        }
+        self
+    }
+
+    /// With damping of the half-plane below; a rigid base has none.
+    #[must_use]
+    pub fn with_base_damping(mut self, law: impl Relaxation + 'static) -> Self {
+        if let Base::HalfPlane { damping, .. } = &mut self.base {
+            *damping = Arc::new(law);
+        }
+        self
+    }
+
+    /// The layers, from the surface down.
+    pub fn layers(&self) -> &[SoilLayer] {
+        &self.layers
+    }
+
+    /// What is under them.
+    pub fn base(&self) -> &Base {
+        &self.base
+    }
+
+    /// Thickness of all layers, m.
+    pub fn depth(&self) -> f64 {
+        self.layers.iter().map(|layer| layer.thickness).sum()
+    }
+
+    /// The soil at the surface; `None` for a bare rigid base.
+    pub fn surface(&self) -> Option<Soil> {
+        self.soils().next().map(|(soil, _)| soil)
+    }
+
+    /// First natural frequency of the layers in shear if the base were rigid, Hz, by travel time:
+    /// 1/(4 Σ h/`c_S`); `None` without layers.
+    pub fn first_frequency(&self) -> Option<f64> {
+        (!self.layers.is_empty()).then(|| 0.25 / self.travel_time())
+    }
+
+    /// Time that shear waves take through all layers, s; damping left out.
+    pub fn travel_time(&self) -> f64 {
+        self.layers.iter().map(|layer| layer.thickness / layer.soil.shear_wave_speed()).sum()
+    }
+
+    /// Whether it is a half-plane without layers or damping, which has a closed form.
+    pub fn is_elastic_half_plane(&self) -> bool {
+        let elastic = |damping: &Arc<dyn Relaxation>| damping.identity() == Some(vec![0.0]);
+        self.layers.is_empty()
+            && matches!(&self.base, Base::HalfPlane { damping, .. } if elastic(damping))
+    }
+
+    /// Numbers that are equal only for equal profiles; `None` if a damping law has none.
+    pub fn identity(&self) -> Option<Vec<f64>> {
+        let mut numbers = vec![self.layers.len() as f64];
+        for layer in &self.layers {
+            numbers.push(layer.thickness);
+        }
+        for (soil, damping) in self.soils() {
+            numbers.extend([soil.shear_modulus(), soil.poisson(), soil.density()]);
+            let law = damping.identity()?;
+            numbers.push(law.len() as f64);
+            numbers.extend(law);
+        }
+        Some(numbers)
+    }
+
+    /// Soils and damping laws from the surface down, the half-plane last.
+    pub(crate) fn soils(&self) -> impl Iterator<Item = (Soil, &dyn Relaxation)> {
+        let base = match &self.base {
+            Base::HalfPlane { soil, damping } => Some((*soil, &**damping)),
+            Base::Rigid => None,
+        };
+        self.layers.iter().map(|layer| (layer.soil, &*layer.damping)).chain(base)
+    }
+
+    /// Error for a rigid base without layers.
+    pub(crate) fn check(&self) -> Result<()> {
+        if self.soils().next().is_none() {
+            return Err(Error::Size { quantity: "list of soil layers", found: 0, needed: 1 });
+        }
+        Ok(())
+    }
+
+    fn check_depth(&self) -> Result<()> {
+        if self.layers.len() > MOST_LAYERS {
+            return Err(Error::Input {
+                quantity: "number of soil layers",
+                value: self.layers.len() as f64,
+                needed: "at most 1000",
+            });
+        }
+        if !self.layers.is_empty() {
+            positive("depth of the soil layers", self.depth())?;
+        }
+        Ok(())
+    }
+
+    /// Error for a law that cannot march in time.
+    pub(crate) fn check_causal(&self) -> Result<()> {
+        for (index, (_, damping)) in self.soils().enumerate() {
+            if !damping.is_causal() {
+                let law = damping.describe();
+                return Err(LayeredError::NotCausal { law, layer: index + 1 }.into());
+            }
+        }
+        Ok(())
+    }
+
+    /// Overwrites `moduli` with the complex shear moduli μ(s) from the surface down, Pa.
+    pub(crate) fn moduli(&self, s: Complex, moduli: &mut Vec<Complex>) -> Result<()> {
+        moduli.clear();
+        for (index, (soil, damping)) in self.soils().enumerate() {
+            let modulus = damping.modulus(s).scale(soil.shear_modulus());
+            let layer = index + 1;
+            let at_rest = s == Complex::default();
+            if !(modulus.is_finite() && modulus.abs() > 0.0) || (at_rest && modulus.re <= 0.0) {
+                let needed = if at_rest { "finite and above zero" } else { "finite and not zero" };
+                let (value, re, im) = (modulus.re, s.re, s.im);
+                return Err(LayeredError::Modulus { layer, value, re, im, needed }.into());
+            }
+            let ratio = modulus / s;
+            let value = ratio.re / ratio.abs();
+            // On the imaginary axis an elastic law is zero to rounding: its modulus must be positive.
+            let passive = value >= ROUNDING || (value >= -ROUNDING && modulus.re > 0.0);
+            if !(at_rest || passive) {
+                let (re, im) = (s.re, s.im);
+                return Err(LayeredError::ActiveDamping { layer, value, re, im }.into());
+            }
+            moduli.push(modulus);
+        }
+        Ok(())
+    }
+}
+
+/// A table: one line per layer, then the base and the first frequency of the layers.
+impl fmt::Display for SoilProfile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "{:>10} {:>9} {:>9} {:>9} {:>7} {:>9}  damping",
+            "h (m)", "c_S (m/s)", "c_P (m/s)", "kg/m3", "nu", "c_S/4h Hz"
+        )?;
+        let constants = |soil: &Soil| {
+            let (shear, pressure) = (soil.shear_wave_speed(), soil.pressure_wave_speed());
+            format!("{shear:>9.1} {pressure:>9.1} {:>9.1} {:>7.4}", soil.density(), soil.poisson())
+        };
+        for SoilLayer { soil, thickness, damping } in &self.layers {
+            let frequency = 0.25 * soil.shear_wave_speed() / thickness;
+            let line = constants(soil);
+            writeln!(f, "{thickness:>10.3} {line} {frequency:>9.3}  {}", damping.describe())?;
+        }
+        match &self.base {
+            Base::HalfPlane { soil, damping } => {
+                write!(
+                    f,
+                    "{:>10} {} {:>9}  {}",
+                    "half-plane",
+                    constants(soil),
+                    "",
+                    damping.describe()
+                )?;
+            }
+            Base::Rigid => write!(f, "rigid base")?,
+        }
+        if let Some(frequency) = self.first_frequency() {
+            write!(f, "\nfirst frequency of the layers: {frequency:.3} Hz")?;
+        }
+        Ok(())
+    }
+}

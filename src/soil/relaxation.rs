@@ -1,0 +1,207 @@
+//! Damping of soil: shear moduli that depend on frequency.
+
+use std::fmt::Debug;
+
+use crate::complex::Complex;
+use crate::error::{Error, Result, not_negative, positive};
+
+/// How the shear modulus of a soil depends on frequency, as a function of the Laplace variable s.
+///
+/// `modulus` is μ(s)/μ₀ with μ₀ the modulus of the [`Soil`](crate::Soil); Poisson's ratio is real
+/// and constant, so that λ and K go with μ. The law is passive, and with it the ground for every
+/// time step, if it is analytic where Re s > 0, real for real s, and
+///
+/// Re(μ(s)/s) ≥ 0 where Re s > 0,
+///
+/// which says that the relaxation function is of positive type (Christensen 1982, § 3.3). Grounds check it
+/// at every s that they use. Causality makes damped waves disperse: with a damping ratio ξ over a
+/// band, c(f)/c(`f_ref`) = 1 + (2ξ/π) ln(f/`f_ref`) there (Aki & Richards 2002, eq. 5.81 for Q = 1/2ξ).
+///
+/// ```
+/// use basemat::Complex;
+/// use basemat::soil::Relaxation;
+///
+/// /// A standard linear solid.
+/// #[derive(Debug)]
+/// struct Zener {
+///     extra: f64,
+///     rate: f64,
+/// }
+///
+/// impl Relaxation for Zener {
+///     fn modulus(&self, s: Complex) -> Complex {
+///         Complex::real(1.0) + s.scale(self.extra) / (s + Complex::real(self.rate))
+///     }
+/// }
+///
+/// let law = Zener { extra: 0.2, rate: 6.0 };
+/// assert_eq!(law.modulus(Complex::real(6.0)), Complex::real(1.1));
+/// ```
+pub trait Relaxation: Debug + Send + Sync {
+    /// μ(s)/μ₀ at the Laplace variable `s`, 1/s; s = 0 asks for the long-term modulus.
+    fn modulus(&self, s: Complex) -> Complex;
+
+    /// A few words for tables.
+    fn describe(&self) -> String {
+        "own law".into()
+    }
+
+    /// Whether the law may march in time; frequency-domain results need no causality.
+    fn is_causal(&self) -> bool {
+        true
+    }
+
+    /// Numbers that say which law of its kind it is, so that grounds with equal ones can share kernels;
+    /// the first must tell kinds apart. `None` (the default) if they cannot.
+    fn identity(&self) -> Option<Vec<f64>> {
+        None
+    }
+}
+
+/// No damping: μ(s) = μ₀.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Elastic;
+
+impl Relaxation for Elastic {
+    fn modulus(&self, _s: Complex) -> Complex {
+        Complex::real(1.0)
+    }
+
+    fn describe(&self) -> String {
+        "elastic".into()
+    }
+
+    fn identity(&self) -> Option<Vec<f64>> {
+        Some(vec![0.0])
+    }
+}
+
+/// A spring beside a dashpot: μ(s)/μ₀ = 1 + η s. Damping ratio η ω/2, growing with frequency;
+/// fronts have no finite speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KelvinVoigt {
+    time: f64,
+}
+
+impl KelvinVoigt {
+    /// Law with the relaxation time η (s).
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless it is finite and not below zero.
+    pub fn new(time: f64) -> Result<Self> {
+        Ok(Self { time: not_negative("relaxation time of Kelvin–Voigt damping", time)? })
+    }
+
+    /// Law with the damping `ratio` at `frequency` (Hz).
+    ///
+    /// ```
+    /// use basemat::Complex;
+    /// use basemat::soil::{KelvinVoigt, Relaxation};
+    /// let law = KelvinVoigt::with_ratio(0.05, 2.0)?;
+    /// let s = Complex::new(0.0, 2.0 * std::f64::consts::TAU);
+    /// assert!((law.modulus(s).im - 0.1).abs() < 1e-15); // 2ξ
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a ratio below zero or a frequency that is not positive.
+    pub fn with_ratio(ratio: f64, frequency: f64) -> Result<Self> {
+        not_negative("damping ratio of a layer", ratio)?;
+        positive("frequency of the damping ratio", frequency)?;
+        Self::new(2.0 * ratio / (std::f64::consts::TAU * frequency))
+    }
+}
+
+impl Relaxation for KelvinVoigt {
+    fn modulus(&self, s: Complex) -> Complex {
+        Complex::real(1.0) + s.scale(self.time)
+    }
+
+    fn describe(&self) -> String {
+        format!("Kelvin–Voigt, {} s", self.time)
+    }
+
+    fn identity(&self) -> Option<Vec<f64>> {
+        Some(vec![1.0, self.time])
+    }
+}
+
+/// Exactly constant damping at all frequencies (Kjartansson 1979): μ(s)/μ₀ = (s/ω₀)^(2γ),
+/// γ = atan(2ξ)/π, |μ| = μ₀ at ω₀. The long-term modulus is zero, so it carries no static load: for
+/// comparisons.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Kjartansson {
+    exponent: f64,
+    reference: f64,
+}
+
+impl Kjartansson {
+    /// Law with the damping `ratio` ξ and |μ| = μ₀ at the frequency `reference` (Hz).
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a ratio below zero or a frequency that is not positive.
+    pub fn new(ratio: f64, reference: f64) -> Result<Self> {
+        not_negative("damping ratio of a layer", ratio)?;
+        positive("reference frequency of a damping law", reference)?;
+        let exponent = 2.0 * (2.0 * ratio).atan() / std::f64::consts::PI;
+        Ok(Self { exponent, reference: std::f64::consts::TAU * reference })
+    }
+}
+
+impl Relaxation for Kjartansson {
+    fn modulus(&self, s: Complex) -> Complex {
+        s.scale(1.0 / self.reference).powf(self.exponent)
+    }
+
+    fn describe(&self) -> String {
+        format!("Kjartansson, exponent {:.4}", self.exponent)
+    }
+
+    fn identity(&self) -> Option<Vec<f64>> {
+        Some(vec![2.0, self.exponent, self.reference])
+    }
+}
+
+/// μ₀(1 + 2iξ sgn ω): the frequency domain's usual damping. Not analytic in s, so not causal:
+/// grounds that march in time refuse it ([`GeneralizedMaxwell`](super::GeneralizedMaxwell) is
+/// close to it and causal); [impedances](crate::bem::layered::rigid_strip_impedances) take it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hysteretic {
+    ratio: f64,
+}
+
+impl Hysteretic {
+    /// Law with the damping `ratio` ξ.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless 0 ≤ ξ < 1.
+    pub fn new(ratio: f64) -> Result<Self> {
+        if (0.0..1.0).contains(&ratio) {
+            return Ok(Self { ratio });
+        }
+        Err(Error::Input {
+            quantity: "damping ratio of a layer",
+            value: ratio,
+            needed: "not below 0 and below 1",
+        })
+    }
+}
+
+impl Relaxation for Hysteretic {
+    fn modulus(&self, s: Complex) -> Complex {
+        let sign = if s.im == 0.0 { 0.0 } else { s.im.signum() };
+        Complex::new(1.0, 2.0 * self.ratio * sign)
+    }
+
+    fn describe(&self) -> String {
+        format!("hysteretic, {} %", 100.0 * self.ratio)
+    }
+
+    fn is_causal(&self) -> bool {
+        false
+    }
+
+    fn identity(&self) -> Option<Vec<f64>> {
+        Some(vec![3.0, self.ratio])
+    }
+}

@@ -1,0 +1,216 @@
+//! GOAL: profiles, damping laws and layered kernels refuse bad input with typed errors, at once.
+//! SCENE: bad numbers, laws that are not causal or passive, scales and contrasts out of reach.
+//! REFERENCE: the fields of the error, and the clock.
+
+use basemat::bem::layered::{
+    LayeredKernel, Stages, StripContact, rigid_strip_impedances, static_compliance,
+};
+use basemat::bem::{ContactElement, Grading, Strip};
+use basemat::history::LagKernel;
+use basemat::soil::{
+    Base, Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation, SoilLayer,
+    SoilProfile,
+};
+use basemat::{Complex, Error, LayeredError, Soil};
+
+use crate::support::profiles::{gmb, p1};
+
+fn soil() -> Soil {
+    Soil::from_shear_wave_speed(150.0, 0.33, 1800.0).unwrap()
+}
+
+fn elements() -> Vec<ContactElement> {
+    Strip::uniform(-3.0..3.0, 3).unwrap().elements()
+}
+
+#[test]
+fn hysteretic_damping_is_refused_in_time() {
+    let profile = SoilProfile::on_half_plane(soil())
+        .with_layer(soil(), 3.0)
+        .unwrap()
+        .with_base_damping(Hysteretic::new(0.05).unwrap());
+    let found = LayeredKernel::new(profile, elements(), 0.01).unwrap_err();
+    assert!(matches!(found, Error::Layered(LayeredError::NotCausal { layer: 2, .. })), "{found}");
+    assert!(
+        found.to_string().contains("hysteretic") && found.to_string().contains("constant_q"),
+        "{found}"
+    );
+}
+
+#[test]
+fn profiles_are_validated() {
+    for thickness in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(SoilProfile::on_rigid_base().with_layer(soil(), thickness).is_err());
+        let damping = std::sync::Arc::new(Elastic);
+        let layers = vec![SoilLayer { soil: soil(), thickness, damping }];
+        assert!(SoilProfile::new(layers, Base::Rigid).is_err());
+    }
+    assert!(SoilProfile::new(vec![], Base::Rigid).is_err());
+    let huge = SoilProfile::on_rigid_base().with_layer(soil(), 1e308).unwrap();
+    assert!(huge.with_layer(soil(), 1e308).is_err());
+    let bare = SoilProfile::on_rigid_base();
+    assert!(LayeredKernel::new(bare.clone(), elements(), 0.01).is_err());
+    assert!(static_compliance(&bare, &elements(), &mut [0.0; 36]).is_err());
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        assert!(KelvinVoigt::new(bad).is_err() && KelvinVoigt::with_ratio(bad, 1.0).is_err());
+        assert!(Kjartansson::new(bad, 1.0).is_err() && Kjartansson::new(0.05, bad).is_err());
+        assert!(Hysteretic::new(bad).is_err());
+        assert!(GeneralizedMaxwell::constant_q(bad, [0.1, 10.0], 1.0).is_err());
+    }
+}
+
+#[test]
+fn kernels_are_validated() {
+    let make = || LayeredKernel::new(p1(gmb(5), gmb(1)), elements(), 0.5).unwrap();
+    for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(LayeredKernel::new(p1(gmb(5), gmb(1)), elements(), step).is_err());
+    }
+    for tolerance in [0.0, 1.0, 1e-16, f64::NAN] {
+        assert!(make().with_tolerance(tolerance).is_err());
+    }
+    assert!(LayeredKernel::new(p1(gmb(5), gmb(1)), vec![], 0.5).is_err());
+    let kernel = make();
+    let mut list = [0.0; 2];
+    let (mut one, mut two) = ([0.0; 2], [0.0; 3]);
+    assert!(matches!(
+        kernel.coefficients(99, 1, &mut list, &mut one, &mut [0.0; 2]),
+        Err(Error::Index { .. })
+    ));
+    assert!(matches!(
+        kernel.coefficients(0, 0, &mut list, &mut one, &mut [0.0; 2]),
+        Err(Error::Input { .. })
+    ));
+    assert!(matches!(
+        kernel.coefficients(0, 1, &mut list, &mut one, &mut two),
+        Err(Error::Size { .. })
+    ));
+    assert!(kernel.coefficients(0, usize::MAX, &mut list, &mut one, &mut [0.0; 2]).is_err());
+    assert!(kernel.prepare(usize::MAX).is_err());
+    assert!(kernel.coefficients(0, usize::MAX, &mut [], &mut [], &mut []).is_err());
+    kernel.coefficients(0, 5, &mut [], &mut [], &mut []).unwrap();
+}
+
+/// Scales so far apart that integrals would take for ever are refused at once.
+#[test]
+fn hopeless_scales_are_refused() {
+    let begin = std::time::Instant::now();
+    for step in [1e-9, 1e-30, 1e-300] {
+        let profile = SoilProfile::on_half_plane(soil()).with_layer(soil(), 3.0).unwrap();
+        let kernel = LayeredKernel::new(profile, elements(), step).unwrap();
+        let found = kernel.prepare(1).unwrap_err();
+        let expected = matches!(
+            found,
+            Error::Layered(LayeredError::TooFine { .. } | LayeredError::Unresolved { .. })
+        );
+        assert!(expected, "{step} {found}");
+    }
+    let thin = SoilProfile::on_half_plane(soil()).with_layer(soil(), 1e-7).unwrap();
+    let found = static_compliance(&thin, &elements(), &mut [0.0; 36]).unwrap_err();
+    assert!(matches!(found, Error::Layered(LayeredError::TooFine { .. })), "{found}");
+    assert!(begin.elapsed().as_secs() < 5);
+}
+
+/// A slab on clay and clay on rock, thin and thick: contrasts of 1e4 are ordinary.
+#[test]
+fn strong_contrasts_are_resolved() {
+    let stiff = Soil::new(1e10, 0.2, 2400.0).unwrap();
+    let soft = Soil::new(1e6, 0.4999, 1500.0).unwrap();
+    for (top, base) in [(stiff, soft), (soft, stiff)] {
+        for thickness in [0.1, 1.0, 1e3] {
+            for step in [1e-2, 1.0] {
+                let profile = SoilProfile::on_half_plane(base).with_layer(top, thickness).unwrap();
+                let kernel = LayeredKernel::new(profile.clone(), elements(), step).unwrap();
+                kernel.prepare(1).unwrap();
+                static_compliance(&profile, &elements(), &mut [0.0; 36]).unwrap();
+            }
+        }
+    }
+}
+
+/// Contrasts of 1e12 in stiffness, 1e5 in thickness, steps of an hour: an answer, or an error soon.
+#[test]
+fn extreme_contrasts_end() {
+    let stiff = Soil::new(1e12, 0.1, 3000.0).unwrap();
+    let soft = Soil::new(1.0, 0.4999, 1000.0).unwrap();
+    let begin = std::time::Instant::now();
+    for (top, base) in [(stiff, soft), (soft, stiff)] {
+        for thickness in [1e-2, 1.0, 1e3] {
+            for step in [1.0, 3600.0] {
+                let profile = SoilProfile::on_half_plane(base).with_layer(top, thickness).unwrap();
+                let kernel = LayeredKernel::new(profile.clone(), elements(), step).unwrap();
+                let [mut zz, mut xx, mut zx] = [[f64::NAN; 4]; 3];
+                let outcome = kernel.coefficients(0, 1, &mut zz, &mut xx, &mut zx);
+                let statics = static_compliance(&profile, &elements(), &mut [0.0; 36]);
+                println!(
+                    "{:.0e} on {:.0e}, {thickness}, {step}: {outcome:?} {zz:?} {statics:?} {:?}",
+                    top.shear_modulus(),
+                    base.shear_modulus(),
+                    begin.elapsed()
+                );
+                assert!(outcome.is_err() || zz.iter().all(|g| g.is_finite()));
+            }
+        }
+    }
+    assert!(begin.elapsed().as_secs() < 120, "{:?}", begin.elapsed());
+}
+
+/// A law that is not finite somewhere.
+#[derive(Debug)]
+struct Broken(f64);
+
+impl Relaxation for Broken {
+    fn modulus(&self, _s: Complex) -> Complex {
+        Complex::real(self.0)
+    }
+}
+
+#[test]
+fn laws_that_are_not_finite_are_refused() {
+    for value in [f64::NAN, f64::INFINITY, 0.0, -1.0] {
+        let profile = p1(Broken(value), Elastic);
+        let kernel = LayeredKernel::new(profile.clone(), elements(), 0.5).unwrap();
+        let found = kernel.prepare(1).unwrap_err();
+        let expected = matches!(
+            found,
+            Error::Layered(
+                LayeredError::Modulus { layer: 1, .. }
+                    | LayeredError::ActiveDamping { layer: 1, .. }
+            )
+        );
+        assert!(expected, "{found}");
+        let contact = StripContact::Bonded;
+        assert!(rigid_strip_impedances(&profile, &elements(), &[1.0], contact).is_err());
+    }
+}
+
+/// The same bits on one thread and on several.
+#[cfg(feature = "rayon")]
+#[test]
+fn threads_do_not_change_bits() {
+    let values = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let kernel = LayeredKernel::new(p1(gmb(5), gmb(1)), elements(), 0.5).unwrap();
+            let [mut zz, mut xx, mut zx] = [[0.0; 300]; 3];
+            kernel.coefficients(1, 1, &mut zz, &mut xx, &mut zx).unwrap();
+            [zz, xx, zx].map(|list| list.map(f64::to_bits))
+        })
+    };
+    assert_eq!(values(1), values(3));
+}
+
+/// Equal and graded meshes, both methods, the same bits twice.
+#[test]
+fn two_kernels_have_the_same_bits() {
+    for (grading, stages) in [(Grading::Uniform, Stages::Two), (Grading::Cosine, Stages::Three)] {
+        let elements = Strip::new(-1.0..1.0, 4, grading).unwrap().elements();
+        let values = || {
+            let kernel = LayeredKernel::new(p1(gmb(5), gmb(1)), elements.clone(), 0.5).unwrap();
+            let [mut zz, mut xx, mut zx] = [[0.0; 100]; 3];
+            let kernel = kernel.with_stages(stages);
+            kernel.coefficients(2, 100, &mut zz, &mut xx, &mut zx).unwrap();
+            [zz, xx, zx]
+        };
+        assert_eq!(values(), values());
+    }
+}

@@ -1,0 +1,253 @@
+//! GOAL: coefficients from a file are those that were computed, or there is an error.
+//! SCENE: files of the kernel, of others, of an older format, foreign, cut, extended, every word damaged.
+//! REFERENCE: the kernel without a file, to the last bit; the file's own format.
+
+use std::path::{Path, PathBuf};
+
+use basemat::bem::layered::{LayeredGround, LayeredKernel, Stages};
+use basemat::bem::{ContactElement, Ground, SharedKernels, Strip};
+use basemat::history::LagKernel;
+use basemat::interface::Coulomb;
+use basemat::motion::el_centro_1940;
+use basemat::soil::{Relaxation, SoilProfile};
+use basemat::structure::RigidBlock;
+use basemat::{Complex, Error, KernelFileError, LayeredError, Simulation, Soil};
+
+use crate::support::profiles::{gmb, p1, p3};
+
+/// A file of this test's own, removed at the end.
+struct Temporary(PathBuf);
+
+impl Temporary {
+    fn new(name: &str) -> Self {
+        let name = format!("basemat-{}-{name}.kernel", std::process::id());
+        Self(std::env::temp_dir().join(name))
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(&self.0);
+    }
+}
+
+fn elements() -> Vec<ContactElement> {
+    Strip::uniform(-1.0..1.0, 2).unwrap().elements()
+}
+
+fn kernel() -> LayeredKernel {
+    LayeredKernel::new(p1(gmb(5), gmb(1)), elements(), 0.2).unwrap()
+}
+
+const LAGS: usize = 200;
+
+/// Bits of all coefficients after a preparation for them.
+fn bits(kernel: &LayeredKernel) -> Result<Vec<u64>, Error> {
+    kernel.prepare(LAGS)?;
+    let mut bits = vec![];
+    for class in 0..kernel.classes().count() {
+        let mut lists = [[0.0; LAGS]; 3];
+        let [zz, xx, zx] = &mut lists;
+        kernel.coefficients(class, 1, zz, xx, zx)?;
+        bits.extend(lists.iter().flatten().map(|value| value.to_bits()));
+    }
+    Ok(bits)
+}
+
+fn with(path: &Path) -> Result<Vec<u64>, Error> {
+    bits(&kernel().with_file(path))
+}
+
+fn reason(found: Result<Vec<u64>, Error>) -> KernelFileError {
+    match found {
+        Err(Error::Layered(LayeredError::File { reason, .. })) => reason,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// The words of a file after a change, and a checksum that fits if asked for.
+fn rewritten(original: &[u8], checksum: bool, change: impl Fn(&mut [u64])) -> Vec<u8> {
+    let mut words: Vec<u64> =
+        original.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect();
+    change(&mut words);
+    if checksum {
+        let last = words.len() - 1;
+        words[last] = words[..last].iter().fold(0xcbf2_9ce4_8422_2325, |hash: u64, word| {
+            (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(23)
+        });
+    }
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}
+
+#[test]
+fn a_file_gives_the_same_bits_and_is_used() {
+    let file = Temporary::new("same");
+    let wanted = bits(&kernel()).unwrap();
+    assert_eq!(with(&file.0).unwrap(), wanted);
+    let original = std::fs::read(&file.0).unwrap();
+    assert_eq!(original.len(), 8 * (kernel().classes().count() * 3 * 256 + 6));
+    assert_eq!(with(&file.0).unwrap(), wanted);
+    assert_eq!(std::fs::read(&file.0).unwrap(), original);
+    // A number changed with its checksum: it is the file that is read.
+    std::fs::write(&file.0, rewritten(&original, true, |words| words[5] = 2.5_f64.to_bits()))
+        .unwrap();
+    let found = with(&file.0).unwrap();
+    assert_eq!((found[0], &found[1..]), (2.5_f64.to_bits(), &wanted[1..]));
+    // A shorter file is extended, a longer one kept.
+    std::fs::remove_file(&file.0).unwrap();
+    kernel().with_file(&file.0).prepare(1).unwrap();
+    let short = std::fs::read(&file.0).unwrap();
+    assert_eq!(with(&file.0).unwrap(), wanted);
+    assert_eq!(std::fs::read(&file.0).unwrap(), original);
+    kernel().with_file(&file.0).prepare(1).unwrap();
+    assert_eq!(std::fs::read(&file.0).unwrap(), original);
+    assert!(short.len() < original.len());
+}
+
+/// A law that says nothing about itself.
+#[derive(Debug)]
+struct Own(f64);
+
+impl Relaxation for Own {
+    fn modulus(&self, s: Complex) -> Complex {
+        Complex::real(1.0) + s.scale(self.0) / (s + Complex::real(2.0))
+    }
+}
+
+/// Whatever changes a coefficient makes the file another kernel's: it is replaced.
+#[test]
+fn files_of_other_kernels_are_made_anew() {
+    let file = Temporary::new("other");
+    let make = |profile: SoilProfile| LayeredKernel::new(profile, elements(), 0.2).unwrap();
+    let longer = Strip::uniform(-1.0..1.1, 2).unwrap().elements();
+    let kernels: [&dyn Fn() -> LayeredKernel; 9] = [
+        &kernel,
+        &|| make(p1(gmb(5), gmb(5))),
+        &|| make(p3(gmb(5))),
+        &|| make(p3(Own(0.1))),
+        &|| make(p3(Own(0.100_000_000_001))),
+        &|| LayeredKernel::new(p1(gmb(5), gmb(1)), elements(), 0.200_000_01).unwrap(),
+        &|| LayeredKernel::new(p1(gmb(5), gmb(1)), longer.clone(), 0.2).unwrap(),
+        &|| kernel().with_stages(Stages::Three),
+        &|| kernel().with_tolerance(2e-10).unwrap(),
+    ];
+    let mut seen = std::collections::HashSet::new();
+    for make in kernels {
+        assert_eq!(bits(&make().with_file(&file.0)).unwrap(), bits(&make()).unwrap());
+        let written = std::fs::read(&file.0).unwrap();
+        assert_eq!(bits(&make().with_file(&file.0)).unwrap(), bits(&make()).unwrap());
+        assert_eq!(std::fs::read(&file.0).unwrap(), written);
+        assert!(seen.insert(written));
+    }
+    // An older or newer format.
+    let original = std::fs::read(&file.0).unwrap();
+    for format in [0, 2, u64::MAX] {
+        std::fs::write(&file.0, rewritten(&original, true, |words| words[1] = format)).unwrap();
+        kernels[8]().with_file(&file.0).prepare(LAGS).unwrap();
+        assert_eq!(std::fs::read(&file.0).unwrap(), original);
+    }
+}
+
+#[test]
+fn foreign_files_are_refused_and_kept() {
+    let file = Temporary::new("foreign");
+    for text in ["", "x", "BASEMAT", "basematk and more of it", &"0,1,2\n".repeat(1000)] {
+        std::fs::write(&file.0, text).unwrap();
+        assert_eq!(reason(with(&file.0)), KernelFileError::NotAKernel, "{text:.20}");
+        assert_eq!(std::fs::read_to_string(&file.0).unwrap(), *text);
+    }
+    let folder = std::env::temp_dir();
+    assert!(matches!(reason(with(&folder)), KernelFileError::Unreadable(_)));
+    // A file where a folder must be.
+    let found = with(&file.0.join("below.kernel"));
+    assert!(found.is_err(), "{found:?}");
+    // No file can have that name.
+    assert!(matches!(with(Path::new("")), Err(Error::Write { .. })));
+    let text = with(&folder).unwrap_err().to_string();
+    assert!(text.contains(&folder.display().to_string()), "{text}");
+}
+
+#[test]
+fn damaged_files_are_refused() {
+    let file = Temporary::new("damaged");
+    let wanted = with(&file.0).unwrap();
+    let original = std::fs::read(&file.0).unwrap();
+    let put = |content: &[u8]| std::fs::write(&file.0, content).unwrap();
+    for length in [8, 12, 16, 39, 40, 47, 48, 1000, original.len() - 8, original.len() - 1] {
+        put(&original[..length]);
+        assert!(matches!(reason(with(&file.0)), KernelFileError::Length { .. }), "{length}");
+        assert_eq!(std::fs::read(&file.0).unwrap(), &original[..length]);
+    }
+    put(&[&original[..], &[0; 8]].concat());
+    assert!(matches!(reason(with(&file.0)), KernelFileError::Length { .. }));
+    // More blocks than there can be, with the right checksum.
+    for blocks in [0, 1, 3, 25, 26, u64::MAX] {
+        put(&rewritten(&original, true, |words| words[4] = blocks));
+        assert!(matches!(reason(with(&file.0)), KernelFileError::Length { .. }), "{blocks}");
+    }
+    for value in [f64::NAN, f64::INFINITY] {
+        put(&rewritten(&original, true, |words| words[77] = value.to_bits()));
+        assert_eq!(reason(with(&file.0)), KernelFileError::Damaged);
+    }
+    // Two neighbours exchanged.
+    put(&rewritten(&original, false, |words| words.swap(20, 21)));
+    assert_eq!(reason(with(&file.0)), KernelFileError::Damaged);
+    // One bit anywhere: an error; in format, fingerprint or number of classes another kernel's file.
+    for place in (0..original.len()).step_by(311).chain(0..48) {
+        for bit in [0, 7] {
+            let mut bytes = original.clone();
+            bytes[place] ^= 1 << bit;
+            put(&bytes);
+            match with(&file.0) {
+                Err(Error::Layered(LayeredError::File { .. })) => {}
+                found => {
+                    assert!((8..32).contains(&place), "byte {place}");
+                    assert_eq!(found.unwrap(), wanted, "byte {place}");
+                }
+            }
+        }
+    }
+}
+
+/// A run with uplift and sliding, without a file, making it, and from it; and shared.
+#[test]
+fn runs_from_a_file_are_the_same_to_the_last_bit() {
+    let file = Temporary::new("run");
+    let shared = SharedKernels::default();
+    let run = |path: Option<&Path>| {
+        let soil = |speed| Soil::from_shear_wave_speed(speed, 0.33, 1900.0).unwrap();
+        let profile = SoilProfile::on_half_plane(soil(500.0)).with_layer(soil(150.0), 6.0).unwrap();
+        let block = RigidBlock::new(6.0, 9.0, 2000.0).unwrap();
+        let ground = LayeredGround::under(profile, &block, 4).unwrap().with_shared_kernels(&shared);
+        let ground = match path {
+            Some(path) => ground.with_kernel_file(path),
+            None => ground,
+        };
+        let mut simulation = Simulation::builder(0.01)
+            .ground(ground)
+            .structure(block)
+            .interface(Coulomb::new(0.3).unwrap())
+            .motion(el_centro_1940())
+            .build()
+            .unwrap();
+        let mut bits = vec![];
+        simulation
+            .run(300, |state| {
+                bits.extend([state.base_shear.to_bits(), state.base_rotation.to_bits()]);
+            })
+            .unwrap();
+        bits
+    };
+    let wanted = run(None);
+    assert_eq!(shared.len(), 1);
+    assert_eq!(run(Some(&file.0)), wanted);
+    assert!(file.0.exists() && shared.len() == 2);
+    // A damaged file stops a ground that has to read it, and no other.
+    std::fs::write(&file.0, "damaged").unwrap();
+    assert_eq!(run(Some(&file.0)), wanted);
+    let ground = LayeredGround::uniform_strip(p3(gmb(5)), -1.0..1.0, 2).unwrap();
+    let mut ground = ground.with_kernel_file(&file.0);
+    ground.prepare(0.2).unwrap();
+    let found = ground.instantaneous(&mut [0.0; 16]).unwrap_err();
+    assert!(matches!(found, Error::Layered(LayeredError::File { .. })), "{found}");
+}
