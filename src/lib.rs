@@ -210,7 +210,8 @@ mod sweep;
 pub use complex::Complex;
 pub use coupled::Simulation;
 pub use error::{
-    CheckpointError, Error, LawError, LayeredError, RecordError, Result, StandingError, StepError,
+    CheckpointError, Error, KernelFileError, LawError, LayeredError, RecordError, Result,
+    StandingError, StepError,
 };
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};

@@ -135,6 +135,7 @@ pub(crate) fn maps(short: bool) -> Vec<Map> {
     let base = Scene { steps: if short { 150 } else { 1000 }, ..Scene::default() };
     let mut list = soil_and_structure(short, base);
     list.extend(mesh_and_contact(short, base));
+    list.extend(loads_and_bearing(short, base));
     list.push(long_runs(short));
     list
 }
@@ -245,6 +246,37 @@ fn mesh_and_contact(short: bool, base: Scene) -> Vec<Map> {
             "Friction and ground motion",
             [Axis::friction(short), Axis::motions()],
             ALL,
+            base,
+        ),
+    ]
+}
+
+fn loads_and_bearing(short: bool, base: Scene) -> Vec<Map> {
+    let push = Axis::numbers(
+        "load / weight",
+        &thin(&[0.01, 0.1, 0.3, 1.0, 3.0, 10.0], short, 3),
+        |s, v| {
+            s.push = v;
+        },
+    );
+    let tilt = Axis::numbers(
+        "initial tilt / (b/h)",
+        &thin(&[1e-6, 1e-3, 0.01, 0.1, 0.3, 0.9], short, 3),
+        |s, v| s.tilt = v,
+    );
+    let bearing = Axis::numbers(
+        "bearing pressure / mean pressure",
+        &thin(&[1.02, 1.1, 1.5, 2.0, 3.0, 10.0, 100.0], short, 3),
+        |s, v| s.law = Law::Yielding(v),
+    );
+    vec![
+        map("beta_load", "Time step and load", [Axis::beta(short, 3), push], OWN, base),
+        map("beta_tilt", "Time step and initial tilt", [Axis::beta(short, 3), tilt], OWN, base),
+        map(
+            "beta_bearing",
+            "Time step and bearing pressure",
+            [Axis::beta(short, 3), bearing],
+            OWN,
             base,
         ),
     ]

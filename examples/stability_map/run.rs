@@ -7,14 +7,15 @@
 //! H = kinetic + strain + layer + preload + soil
 //! ```
 //!
-//! cannot rise: dashpots, friction and impacts only take. `rise` says by how much it does all the
+//! cannot rise but for the work of a weight that acts as a load, which is taken off: dashpots, friction and
+//! impacts only take. `rise` says by how much it does all the
 //! same, relative to the largest energy of the run. `least_soil` is the least work done on the soil,
 //! relative in the same way: below zero, the soil gave more than it had got.
 
 use basemat::coupled::{Ledger, SearchMethod, State};
 use basemat::{Error, StepError};
 
-use super::scene::{Foretold, Scene, Scheme};
+use super::scene::{Foretold, Law, Scene, Scheme};
 
 /// Rise of energy, energy out of the soil, and ledger residual that pass for rounding.
 pub(crate) const ROUNDING: f64 = 1e-9;
@@ -130,6 +131,10 @@ struct Watch {
     halves: [f64; 2],
     /// What there is to grow from when the shaking stops: H.
     stored: f64,
+    /// Work of loads and ground when the shaking stops.
+    fed: f64,
+    /// Whether the structure may sink, so that its weight moves it.
+    sinks: bool,
     least_total: f64,
     rise: f64,
     least_soil: f64,
@@ -154,11 +159,12 @@ impl Watch {
             let half = usize::from(2 * step > shaking);
             self.halves[half] = self.halves[half].max(own.abs());
             self.stored = own + ledger.soil;
+            self.fed = ledger.input;
             return;
         }
         let window = (WINDOWS * (step - shaking - 1) / rest).min(WINDOWS - 1);
         self.windows[window] = self.windows[window].max(own.abs());
-        let total = own + ledger.soil;
+        let total = own + ledger.soil - (ledger.input - self.fed);
         self.rise = self.rise.max(total - self.least_total);
         self.least_total = self.least_total.min(total);
     }
@@ -181,6 +187,8 @@ pub(crate) fn march(scene: &Scene, foretold: &Foretold, progress: &dyn Fn(f64)) 
         windows: [0.0; WINDOWS],
         halves: [0.0; 2],
         stored: 0.0,
+        fed: 0.0,
+        sinks: scene.tilt != 0.0 || matches!(scene.law, Law::Yielding(_)),
         least_total: f64::INFINITY,
         rise: 0.0,
         least_soil: 0.0,
@@ -250,6 +258,8 @@ impl Outcome {
             }) => true,
             // A march that fails in what its soil has blown up has not failed by itself.
             Some(_) => active && ratio > 1e3,
+            // Here `rise` tells.
+            None if watch.sinks => !last.is_finite(),
             // Soil and weight may give back to the structure what they hold.
             None => {
                 let more = last > GROWTH * watch.stored.max(floor);

@@ -1,14 +1,16 @@
 //! The scene of a cell: a block or a tower on a strip of soil.
 
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 use std::sync::{Mutex, PoisonError};
 
 use basemat::bem::full_plane::{ConvolutionQuadrature, CqMethod, FullPlaneGround};
 use basemat::bem::{HalfPlaneGround, Strip};
-use basemat::coupled::{ContactSearch, Newmark, SimulationBuilder};
+use basemat::coupled::{ContactSearch, Load, Newmark, Placement, SimulationBuilder};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::history::History;
-use basemat::interface::{Bonded, Coulomb, ThinLayer};
+use basemat::interface::{Bonded, Coulomb, ThinLayer, Yielding};
+use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{FemModel, RigidBlock};
 use basemat::{Result, Simulation, Soil};
 
@@ -49,6 +51,8 @@ pub(crate) enum Law {
     /// Thickness over height of the neighbouring element (1 m) and share of the stiffness that is
     /// left in debonding; friction 0.4.
     Layer(f64, f64),
+    /// Bearing pressure over the mean static one; friction 0.4.
+    Yielding(f64),
 }
 
 /// All parameters of a cell.
@@ -72,6 +76,11 @@ pub(crate) struct Scene {
     /// Steps of shaking; as many of rest follow (see [`Scene::rest`]).
     pub(crate) steps: usize,
     pub(crate) history: History,
+    /// Amplitude of a horizontal load at the top, over the weight.
+    pub(crate) push: f64,
+    /// Tilt over the one that statics would bear on rigid ground, b/h, from which the block is let go; zero: it
+    /// stands under its weight.
+    pub(crate) tilt: f64,
 }
 
 impl Default for Scene {
@@ -89,6 +98,8 @@ impl Default for Scene {
             motion: Motion::Sines,
             steps: 1000,
             history: History::Auto,
+            push: 0.0,
+            tilt: 0.0,
         }
     }
 }
@@ -103,6 +114,7 @@ impl Scene {
             .expected_steps(self.steps + self.rest());
         let builder = self.with_ground(builder, soil)?;
         let builder = self.with_law(builder, &soil)?;
+        let builder = self.with_load(builder, &soil, step)?;
         self.with_structure(builder, &soil)?.build()
     }
 
@@ -154,6 +166,10 @@ impl Scene {
         Ok(match self.law {
             Law::Bonded => builder.interface(Bonded),
             Law::Coulomb(friction) => builder.interface(Coulomb::new(friction)?),
+            Law::Yielding(ratio) => {
+                let pressure = self.weight(soil) / WIDTH;
+                builder.interface(Yielding::new(ratio * pressure, 0.4)?)
+            }
             Law::Layer(ratio, debonded) => {
                 let layer = ThinLayer::new(*soil, 1.0, 0.4)?
                     .with_thickness_ratio(ratio)?
@@ -166,6 +182,37 @@ impl Scene {
                 }
             }
         })
+    }
+
+    /// Weight of the structure, N/m.
+    fn weight(&self, soil: &Soil) -> f64 {
+        self.mass * soil.density() * WIDTH * WIDTH * STANDARD_GRAVITY
+    }
+
+    /// The push, while the ground shakes, and the tilt; of rigid blocks.
+    fn with_load(
+        &self,
+        mut builder: SimulationBuilder,
+        soil: &Soil,
+        step: f64,
+    ) -> Result<SimulationBuilder> {
+        let block = RigidBlock::new(WIDTH, self.slenderness * WIDTH, 1.0)?;
+        if self.push != 0.0 {
+            let (size, end) = (self.push * self.weight(soil), self.steps as f64 * step);
+            let force = move |t: f64| {
+                let sines = [7.0, 31.0, 113.0].map(|turns| (TAU * turns * t / end).sin());
+                if t < end { size * sines.iter().sum::<f64>() / 3.0 } else { 0.0 }
+            };
+            let top = block.horizontal_at(self.slenderness * WIDTH);
+            builder = builder.load(Load::new(top, force));
+        }
+        if self.tilt != 0.0 {
+            let tilt = self.tilt / self.slenderness;
+            let edge = 0.5 * WIDTH * tilt;
+            builder =
+                builder.placement(Placement::Unloaded).initial_displacement([0.0, edge, tilt]);
+        }
+        Ok(builder)
     }
 
     fn with_structure(&self, builder: SimulationBuilder, soil: &Soil) -> Result<SimulationBuilder> {
