@@ -79,7 +79,6 @@ impl<T: ComplexField + Copy> DenseFactor<T> {
         self.solve_in(MatMut::from_column_major_slice_mut(rhs, order, 1));
     }
 
-    #[cfg(any(test, feature = "full-plane"))]
     /// Overwrites the `columns` columns of the row-major `rhs` with A⁻¹ rhs.
     pub(crate) fn solve_columns(&mut self, rhs: &mut [T], columns: usize) {
         let order = self.order;
