@@ -2,6 +2,7 @@
 
 mod fem_model;
 mod group;
+mod line_loads;
 mod matrix_model;
 mod node_names;
 mod nonlinear_shear_building;

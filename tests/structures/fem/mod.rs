@@ -9,6 +9,7 @@ mod damping;
 mod detached;
 mod errors;
 mod frames;
+mod line_loads;
 mod meshes;
 mod modal_damping;
 mod own_element;
