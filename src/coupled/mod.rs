@@ -50,11 +50,13 @@
 //!
 //! # Preload
 //!
-//! With [`SimulationBuilder::gravity`] above zero, the run starts from the static state under weight
-//! and the load at t = 0: contact conditions included, with the static compliance of the ground.
+//! With [`SimulationBuilder::gravity`] above zero, the run starts from a static state in stages: the
+//! weight first, placed as [`Placement`] says, then the loads at t = 0 with the interface laws, in
+//! increments where elements slide or yield; contact conditions included, with the static compliance
+//! of the ground. What cannot stand is refused with its cause ([`crate::StandingError`]).
 //! The structure has no support of its own and the half-plane no static datum, so the search is a
 //! proximal point iteration: weak springs to the last iterate, which pull at nothing once it
-//! converges. [`Placement`] says what friction does meanwhile. An equilibrium need not be stable:
+//! converges. An equilibrium need not be stable:
 //! a block that P–Δ would topple is found standing, and falls when the ground shakes.
 //!
 //! # Ledger
