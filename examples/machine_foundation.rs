@@ -58,7 +58,9 @@ fn marched(frequency: f64) -> Result<f64> {
     let (mut cosine, mut sine, mut mean) = (0.0, 0.0, 0.0);
     let mut series = Vec::with_capacity(rest);
     simulation.run(rest, |state| series.push((state.time, state.probes[0])))?;
-    series.iter().for_each(|(_, u)| mean += u / rest as f64);
+    for (_, u) in &series {
+        mean += u / rest as f64;
+    }
     for (time, u) in &series {
         cosine += 2.0 * (u - mean) * (omega * time).cos() / rest as f64;
         sine += 2.0 * (u - mean) * (omega * time).sin() / rest as f64;

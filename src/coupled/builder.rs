@@ -13,7 +13,7 @@ use super::scene::laws;
 use super::scene::modal_basis::{Coordinates, ModalBasis};
 use super::scene::model::{Model, Tangent};
 use super::scene::operators::{Factor, Operators};
-use super::scene::static_state::Placement;
+use super::scene::stages::Placement;
 use super::scene::translation_check::joined_by_force;
 use super::scene::{ProbeRows, Scene};
 use super::scheme::{Midpoint, TimeScheme};

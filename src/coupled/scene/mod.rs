@@ -8,6 +8,7 @@ pub(crate) mod modal_basis;
 pub(crate) mod model;
 pub(crate) mod operators;
 mod proximal;
+pub(crate) mod stages;
 mod standing;
 pub(crate) mod static_state;
 pub(crate) mod stepped_row;
