@@ -55,11 +55,11 @@ impl InterfaceLaw for VelocityWeakening {
         };
         let closed = Condition::gap_is(0.0);
         match mode {
-            Mode::Stick => [closed, Condition::slip_is(start.state.slip)],
             // The structure slides to the right and drags the soil along: shear is positive.
             Mode::SlipRight => [closed, cone(1.0)],
             Mode::SlipLeft => [closed, cone(-1.0)],
             Mode::Open => [Condition::pressure_is(0.0), Condition::shear_is(0.0)],
+            _ => [closed, Condition::slip_is(start.state.slip)],
         }
     }
 

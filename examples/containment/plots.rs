@@ -71,11 +71,13 @@ enum Shown {
 impl Shown {
     fn of(mode: Mode, kind: Kind) -> Self {
         match mode {
-            Mode::Stick => Self::Stick,
             Mode::Open => Self::Open,
-            _ if kind == Kind::Coulomb(f64::INFINITY) => Self::Weightless,
+            Mode::SlipLeft | Mode::SlipRight if kind == Kind::Coulomb(f64::INFINITY) => {
+                Self::Weightless
+            }
             Mode::SlipLeft => Self::SlipLeft,
             Mode::SlipRight => Self::SlipRight,
+            _ => Self::Stick,
         }
     }
 
