@@ -10,9 +10,9 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use basemat::bem::{HalfPlaneGround, SpringGround};
-use basemat::coupled::{Coordinates, Probe, SimulationBuilder, Theta};
+use basemat::coupled::{Coordinates, Load, Probe, SimulationBuilder, Theta};
 use basemat::history::History;
-use basemat::interface::Bonded;
+use basemat::interface::{Bonded, Yielding};
 use basemat::results::Recorder;
 use basemat::structure::{NonlinearForce, RayleighDamping, RigidBlock, Structure, Triplets};
 
@@ -129,6 +129,18 @@ fn steps_do_not_allocate() {
         ("spring bed", base().ground(bed()).structure(block(SI)).interface(friction(0.3))),
         ("memory", base().ground(bed()).structure(block(SI)).interface(weakening)),
         ("bonded pads with memory", base().ground(bed()).structure(block(SI)).interface(pads)),
+        (
+            "loads, yielding",
+            base()
+                .structure(block(SI))
+                .interface(Yielding::new(2.5e5, 0.3).unwrap())
+                .load(Load::new(0, |t: f64| 3e4 * (40.0 * t).sin()))
+                .load(Load::table([(1, 2.0)], &[0.0, 0.5, 9.0], &[0.0, 1e4, 0.0]).unwrap()),
+        ),
+        ("loads, modes", {
+            let push = Load::new(3, |t: f64| 3e4 * (40.0 * t).sin());
+            base().structure(damped()).interface(friction(0.2)).coordinates(modes).load(push)
+        }),
         ("Newton", base().structure(Quadratic(block(SI))).interface(friction(0.3))),
     ];
     for (name, builder) in scenes {

@@ -163,7 +163,7 @@ impl SimulationBuilder {
     }
 
     /// Displacement of the unknowns at t = 0 against the static state. It may move the base only with
-    /// [`Placement::Unloaded`], and not into the ground.
+    /// [`Placement::Unloaded`], which shows one, and not into the ground.
     #[must_use]
     pub fn initial_displacement(mut self, displacement: impl Into<Vec<f64>>) -> Self {
         self.beginning.displacement = displacement.into();

@@ -24,8 +24,31 @@ pub enum Placement {
     /// The interface law acts while the weight comes on, in one step.
     WithInterfaceLaw,
     /// There is no static state: the base begins unpressed, and weight and loads act from t = 0 on.
-    /// For a structure that is dropped, or tilted and let go
-    /// ([`initial_displacement`](crate::coupled::SimulationBuilder::initial_displacement)).
+    /// For a structure that is dropped, or tilted and let go.
+    ///
+    /// ```
+    /// use basemat::Simulation;
+    /// use basemat::bem::SpringGround;
+    /// use basemat::coupled::Placement;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::structure::RigidBlock;
+    ///
+    /// // Tilted by 20 mrad about its left edge.
+    /// let tilt = 0.02;
+    /// let mut simulation = Simulation::builder(0.001)
+    ///     .structure(RigidBlock::new(1.0, 4.0, 2400.0)?.with_p_delta(9.81)?)
+    ///     .ground(SpringGround::new(-0.5..0.5, 8, 5e9, 2e9)?.with_dashpots(1e6, 1e6)?)
+    ///     .interface(Coulomb::new(0.8)?)
+    ///     .placement(Placement::Unloaded)
+    ///     .initial_displacement([0.0, 0.5 * tilt, tilt])
+    ///     .build()?;
+    /// assert_eq!(simulation.state().uplifted_fraction, 1.0);
+    /// let run = simulation.run(1000, |_| {})?;
+    /// // It rocks over to the other edge, and less far.
+    /// let other_side = -run.base_rotation.lowest.value;
+    /// assert!(other_side > 0.2 * tilt && other_side < tilt, "{other_side}");
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
     Unloaded,
 }
 
