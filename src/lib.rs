@@ -200,7 +200,9 @@ pub mod structure;
 mod sweep;
 
 pub use coupled::Simulation;
-pub use error::{CheckpointError, Error, LawError, RecordError, Result, StandingError, StepError};
+pub use error::{
+    CaseError, CheckpointError, Error, LawError, RecordError, Result, StandingError, StepError,
+};
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};
 pub use soil::Soil;

@@ -105,11 +105,11 @@ fn a_structure_that_slides_away_under_its_static_load_is_refused() {
         assert!((shear - 1e4).abs() < 1e-4, "{shear}");
     }
     let weight = pushed(0.0).interface(law).build().unwrap().state().normal_force;
-    let error = unbuilt("slides away", pushed(0.31 * weight).interface(law));
+    let error = unbuilt("pushes it off", pushed(0.31 * weight).interface(law));
     let Error::Standing(cause) = error else { panic!("{error:?}") };
     match *cause {
         StandingError::Slides { ratio, .. } => {
-            assert!((ratio - 0.31 / 0.3).abs() < 1e-6, "{ratio}")
+            assert!((ratio - 0.31 / 0.3).abs() < 1e-6, "{ratio}");
         }
         other => panic!("{other:?}"),
     }
