@@ -59,7 +59,8 @@ impl InterfaceLaw for VelocityWeakening {
             // The structure slides to the right and drags the soil along: shear is positive.
             Mode::SlipRight => [closed, cone(1.0)],
             Mode::SlipLeft => [closed, cone(-1.0)],
-            Mode::Open => [Condition::pressure_is(0.0), Condition::shear_is(0.0)],
+            // Open; other modes are not among those of this law.
+            _ => [Condition::pressure_is(0.0), Condition::shear_is(0.0)],
         }
     }
 

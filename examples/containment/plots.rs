@@ -75,7 +75,8 @@ impl Shown {
             Mode::Open => Self::Open,
             _ if kind == Kind::Coulomb(f64::INFINITY) => Self::Weightless,
             Mode::SlipLeft => Self::SlipLeft,
-            Mode::SlipRight => Self::SlipRight,
+            // The laws here know no other.
+            _ => Self::SlipRight,
         }
     }
 

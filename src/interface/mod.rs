@@ -60,6 +60,7 @@ impl Mode {
     }
 
     /// The same mode on soil that does not yield.
+    #[must_use]
     pub fn elastic(self) -> Self {
         match self {
             Mode::Yield => Mode::Stick,
@@ -70,6 +71,7 @@ impl Mode {
     }
 
     /// The same mode on soil that yields; an open element stays open.
+    #[must_use]
     pub fn yielding(self) -> Self {
         match self {
             Mode::Stick => Mode::Yield,

@@ -157,9 +157,10 @@ fn the_search_finds_a_solution_of_brute_force() {
     let (mut seen, mut several) = (std::collections::BTreeSet::new(), 0);
     for problem in (0..300).map(|_| Problem::random(&mut random)) {
         let mut solutions: Vec<Vec<ContactState>> = Vec::new();
-        for code in 0..MODES.len().pow(COUNT as u32) {
+        let power = |e: usize| (0..e).fold(1, |power, _| power * MODES.len());
+        for code in 0..power(COUNT) {
             let modes: Vec<Mode> =
-                (0..COUNT).map(|e| MODES[code / MODES.len().pow(e as u32) % MODES.len()]).collect();
+                (0..COUNT).map(|e| MODES[code / power(e) % MODES.len()]).collect();
             let Some(states) = problem.solve(&modes) else { continue };
             if problem.violation(&states) < 1e-9 {
                 solutions.push(states);

@@ -42,7 +42,9 @@ impl SteppedRow {
     pub(crate) fn add(&self, factor: f64, force: &mut [f64]) {
         match self {
             Self::Unknowns(terms) => {
-                terms.iter().for_each(|&(i, weight)| force[i] += factor * weight);
+                for &(i, weight) in terms {
+                    force[i] += factor * weight;
+                }
             }
             Self::Modes(weights) => {
                 force.iter_mut().zip(weights).for_each(|(f, weight)| *f += factor * weight);
