@@ -13,7 +13,7 @@ use super::scene::laws;
 use super::scene::modal_basis::{Coordinates, ModalBasis};
 use super::scene::model::{Model, Tangent};
 use super::scene::operators::{Factor, Operators};
-use super::scene::static_state::Placement;
+use super::scene::placement::Placement;
 use super::scene::translation_check::joined_by_force;
 use super::scene::{ProbeRows, Scene};
 use super::scheme::{Midpoint, TimeScheme};
@@ -342,6 +342,7 @@ impl SimulationBuilder {
         let books = books.then(|| Books::new(&scene, own, &state)).transpose()?;
         state.ledger = books.as_ref().map_or(Ledger::LEFT_OUT, |books| books.ledger);
         let conditioning = conditioning::assess(&scene, operators, contact, &state.start)?;
+        scene.model.refuse_mechanism()?;
         Ok(Simulation {
             forcing: Forcing::new(&scene),
             increment: Increment::new(&scene, &state, self.ledger),

@@ -4,7 +4,8 @@ use super::load::{Load, SteppedLoad};
 use super::scene::Scene;
 use super::scene::base::Base;
 use super::scene::model::Model;
-use super::scene::static_state::{self, Placement, StaticState};
+use super::scene::placement::{self, Placement};
+use super::scene::static_state::StaticState;
 use super::scene::stepped_row::SteppedRow;
 use super::state::State;
 use crate::bem::Ground;
@@ -84,7 +85,7 @@ impl Beginning {
                 finite("load at t = 0", *force)?;
             }
             let stage = (model, structure, base);
-            state = static_state::solve(stage, ground, laws, self.placement, [&weight, &load])?;
+            state = placement::solve(stage, ground, laws, self.placement, [&weight, &load])?;
             state.load = own;
         }
         (state.force, state.energy) = model.nonlinear_state(structure, &state.displacement)?;
@@ -165,15 +166,14 @@ impl Beginning {
         scene.base.means(&state.motion.displacement, &mut moved);
         scene.base.means(&state.motion.velocity, &mut rate);
         let closed = CLOSED * largest(&self.displacement);
-        if self.is_static() {
-            if let Some(bad) = moved.iter().find(|means| means.abs() > closed) {
-                return Err(Error::Input {
-                    quantity: "initial displacement of the base, m",
-                    value: *bad,
-                    needed: "zero where weight holds it on the ground (begin with \
-                             `Placement::Unloaded`, or with a load that is released)",
-                });
-            }
+        let held = if self.is_static() { moved.as_slice() } else { &[] };
+        if let Some(bad) = held.iter().find(|means| means.abs() > closed) {
+            return Err(Error::Input {
+                quantity: "initial displacement of the base, m",
+                value: *bad,
+                needed: "zero where weight holds it on the ground (begin with \
+                         `Placement::Unloaded`, or with a load that is released)",
+            });
         }
         let mut starts = Vec::with_capacity(count);
         for e in 0..count {

@@ -103,7 +103,7 @@ pub(crate) use resolution::Resolution;
 pub use response_estimate::StiffnessError;
 pub use scene::conditioning::Conditioning;
 pub use scene::modal_basis::Coordinates;
-pub use scene::static_state::Placement;
+pub use scene::placement::Placement;
 pub use scheme::{HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme};
 pub use simulation::Simulation;
 pub(crate) use state::Origin;
