@@ -210,8 +210,8 @@ mod sweep;
 pub use complex::Complex;
 pub use coupled::Simulation;
 pub use error::{
-    CheckpointError, Error, KernelFileError, LawError, LayeredError, RecordError, Result,
-    StandingError, StepError,
+    CaseError, CheckpointError, Error, KernelFileError, LawError, LayeredError, RecordError,
+    Result, StandingError, StepError,
 };
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};

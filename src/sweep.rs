@@ -4,7 +4,11 @@
 //! after the other. Results are the same bit for bit: a simulation is built, marched and dropped
 //! on one thread.
 
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::{Mutex, PoisonError};
+
+use crate::error::CaseError;
 
 /// A number of cases to run, each by the same closure. Cases with several parameters are a list that
 /// the closure looks up.
@@ -68,6 +72,10 @@ impl<'a> Sweep<'a> {
 
     /// Runs all cases and returns their results, in the order of the cases. A case that fails is a
     /// result like any other: the sweep goes on.
+    ///
+    /// # Panics
+    /// After the other cases, if one panics: their results are lost then, unlike those of
+    /// [`Sweep::run`] and [`Sweep::collect_caught`].
     pub fn collect<T: Send, E: Send>(
         &self,
         run: impl Fn(&SweepCase<'_>) -> Result<T, E> + Sync,
@@ -78,22 +86,66 @@ impl<'a> Sweep<'a> {
         results.into_iter().map(|(_, result)| result).collect()
     }
 
+    /// As [`Sweep::collect`], but a case that panics is an error like any other. Where panics abort
+    /// the program (`panic = "abort"`) nothing can be caught.
+    ///
+    /// ```
+    /// use basemat::{CaseError, Sweep};
+    ///
+    /// let floors = [3, 5];
+    /// let found = Sweep::new(3).collect_caught(|case| Ok::<_, basemat::Error>(floors[case.index()]));
+    /// assert_eq!(found[..2], [Ok(3), Ok(5)]);
+    /// assert!(matches!(&found[2], Err(CaseError::Panicked { message }) if message.contains("index")));
+    /// ```
+    pub fn collect_caught<T: Send, E: Send>(
+        &self,
+        run: impl Fn(&SweepCase<'_>) -> Result<T, E> + Sync,
+    ) -> Vec<Result<T, CaseError<E>>> {
+        self.collect(|case| match caught(&run, case) {
+            Ok(result) => result.map_err(CaseError::Failed),
+            Err(payload) => Err(CaseError::panicked(payload.as_ref())),
+        })
+    }
+
     /// Runs all cases, and hands every result to `sink` with the index of its case as soon as it
     /// is there, in whatever order cases end, one at a time. A case that fails is a result like
     /// any other: the sweep goes on.
+    ///
+    /// # Panics
+    /// If a case panics: after all others, whose results `sink` has got by then.
     pub fn run<T: Send, E: Send>(
         &self,
         run: impl Fn(&SweepCase<'_>) -> Result<T, E> + Sync,
         sink: impl FnMut(usize, Result<T, E>) + Send,
     ) {
         let sink = Mutex::new(sink);
+        let panic = Mutex::new(None);
         for_each(self.count, &|index| {
-            let result = run(&SweepCase { index, progress: &*self.progress });
+            let result = caught(&run, &SweepCase { index, progress: &*self.progress });
             (self.progress)(index, 1.0);
-            let mut sink = sink.lock().unwrap_or_else(PoisonError::into_inner);
-            (*sink)(index, result);
+            match result {
+                Ok(result) => {
+                    let mut sink = sink.lock().unwrap_or_else(PoisonError::into_inner);
+                    (*sink)(index, result);
+                }
+                Err(payload) => {
+                    panic.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(payload);
+                }
+            }
         });
+        if let Some(payload) = panic.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            resume_unwind(payload);
+        }
     }
+}
+
+/// The result of a case, or the panic in it. What it has built is dropped with it; what cases share
+/// is theirs to keep sound.
+fn caught<T, E>(
+    run: &impl Fn(&SweepCase<'_>) -> Result<T, E>,
+    case: &SweepCase<'_>,
+) -> Result<Result<T, E>, Box<dyn Any + Send>> {
+    catch_unwind(AssertUnwindSafe(|| run(case)))
 }
 
 #[cfg(feature = "rayon")]

@@ -342,6 +342,7 @@ impl SimulationBuilder {
         let books = books.then(|| Books::new(&scene, own, &state)).transpose()?;
         state.ledger = books.as_ref().map_or(Ledger::LEFT_OUT, |books| books.ledger);
         let conditioning = conditioning::assess(&scene, operators, contact, &state.start)?;
+        scene.model.refuse_mechanism()?;
         Ok(Simulation {
             forcing: Forcing::new(&scene),
             increment: Increment::new(&scene, &state, self.ledger),

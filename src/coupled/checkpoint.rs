@@ -7,6 +7,7 @@ use super::scene::operators::Operators;
 use super::state::State;
 use super::translation::Translation;
 use crate::bem::Ground;
+use crate::contact::SearchMethod;
 use crate::error::{CheckpointError, Result};
 use crate::interface::ContactState;
 use crate::structure::{Structure, restore_variables, save_variables};
@@ -188,6 +189,7 @@ pub(super) fn restore(
     }
     state.step = checkpoint.steps;
     state.time = state.step as f64 * scene.time_step;
+    (state.trials, state.method) = (0, SearchMethod::ActiveSet);
     state.transitions.clear();
     state.motion.changed();
     state.ledger = books.as_ref().map_or(Ledger::LEFT_OUT, |books| books.ledger);

@@ -92,7 +92,8 @@ impl Load {
             match (next.checked_sub(1), times.get(next)) {
                 (Some(k), Some(end)) => {
                     let share = (time - times[k]) / (end - times[k]);
-                    forces[k] + share * (forces[next] - forces[k])
+                    // Not by the difference, which may overflow.
+                    (1.0 - share) * forces[k] + share * forces[next]
                 }
                 (Some(k), None) if time <= times[k] => forces[k],
                 _ => 0.0,

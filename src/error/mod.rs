@@ -1,5 +1,10 @@
 //! Errors: every one names the quantity, its value and what was needed.
+//!
+//! The text of an error contains that of the error behind it, and `source()` is none: printed alone it
+//! is complete, and printed with its chain of sources it says nothing twice. A field called `source`
+//! is therefore written `r#source`, which `thiserror` does not take for one.
 
+mod case;
 mod checkpoint;
 mod checks;
 mod law;
@@ -12,6 +17,7 @@ mod record;
 mod standing;
 mod step;
 
+pub use case::CaseError;
 pub use checkpoint::CheckpointError;
 pub(crate) use checks::{finite, not_negative, positive, same_length, write_file};
 pub use law::LawError;
@@ -30,6 +36,9 @@ use crate::fem::Direction;
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// Faults of this crate, with the quantity, its value and the requirement.
+///
+/// Printed, an error is complete: its text contains that of the error behind it, which is in a field
+/// and not in [`source`](std::error::Error::source), so that chains of sources do not repeat it.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -93,7 +102,7 @@ pub enum Error {
         /// Name of the probe.
         name: String,
         /// Reason.
-        source: Box<Error>,
+        r#source: Box<Error>,
     },
     /// A point at which there is no node.
     #[error(
@@ -135,7 +144,7 @@ pub enum Error {
         reason: String,
     },
     /// A ground-motion record that cannot be read.
-    #[error("{file}, line {line}: {reason}")]
+    #[error("{}: {reason}", place(.file, *.line))]
     Record {
         /// File or source of the record.
         file: String,
@@ -146,7 +155,7 @@ pub enum Error {
     },
     /// A file of a mesh that cannot be used.
     #[cfg(feature = "io")]
-    #[error("{file}, line {line}: {reason}")]
+    #[error("{}: {reason}", place(.file, *.line))]
     MeshFile {
         /// File or source of the mesh.
         file: String,
@@ -157,7 +166,7 @@ pub enum Error {
     },
     /// A Matrix Market file that cannot be read or written.
     #[cfg(feature = "io")]
-    #[error("{file}, line {line}: {reason}")]
+    #[error("{}: {reason}", place(.file, *.line))]
     MatrixFile {
         /// File or source of the matrix.
         file: String,
@@ -320,8 +329,13 @@ pub enum Error {
         /// Time at its end, s.
         time: f64,
         /// Failure of the step.
-        source: StepError,
+        r#source: StepError,
     },
+}
+
+/// A line of a file, or the file as a whole.
+fn place(file: &str, line: usize) -> String {
+    if line == 0 { file.to_owned() } else { format!("{file}, line {line}") }
 }
 
 impl Error {

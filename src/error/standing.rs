@@ -5,17 +5,22 @@
 #[non_exhaustive]
 pub enum StandingError {
     /// The loads lift the structure off.
-    #[error("weight and loads at t = 0 lift it by {upward:.4e} N/m")]
+    #[error("weight and loads at t = 0 lift it by {upward:.4e} N/m{}", on(ends))]
     Lifted {
+        /// Left and right end of the base of the part that is lifted, m.
+        ends: [f64; 2],
         /// Resultant upwards, N/m; zero if nothing presses.
         upward: f64,
     },
     /// The horizontal load is beyond friction.
     #[error(
         "the load at t = 0 pushes it off: {horizontal:.4e} N/m along the base, {ratio:.3} times the \
-         friction {resistance:.4e} N/m under a normal force of {normal:.4e} N/m"
+         friction {resistance:.4e} N/m under a normal force of {normal:.4e} N/m{}",
+        on(ends)
     )]
     Slides {
+        /// Left and right end of the base of the part that slides, m.
+        ends: [f64; 2],
         /// Horizontal resultant, positive to the right, N/m.
         horizontal: f64,
         /// Normal force, N/m.
@@ -29,9 +34,12 @@ pub enum StandingError {
     #[error(
         "weight and loads at t = 0 overturn it: moment {moment:.4e} N·m/m about the middle of the base \
          under a normal force of {normal:.4e} N/m, whose resultant passes {eccentricity:.4} m from it, \
-         {ratio:.3} times half the width"
+         {ratio:.3} times half the width{}",
+        on(ends)
     )]
     Overturns {
+        /// Left and right end of the base of the part that overturns, m.
+        ends: [f64; 2],
         /// Moment of weight and loads about the middle of the base, counter-clockwise, N·m/m.
         moment: f64,
         /// Normal force, N/m.
@@ -39,6 +47,25 @@ pub enum StandingError {
         /// Distance of the resultant from the middle of the base, positive to the right, m.
         eccentricity: f64,
         /// That over half the width.
+        ratio: f64,
+    },
+    /// The bearing pressure of the interface does not carry the weight.
+    #[error(
+        "weight and loads at t = 0 press it into the soil: a normal force of {normal:.4e} N/m, {ratio:.3} \
+         times the {capacity:.4e} N/m that the bearing pressure gives on the {width:.4} m whose middle \
+         is under the resultant{}",
+        on(ends)
+    )]
+    Sinks {
+        /// Left and right end of the base of the part that sinks in, m.
+        ends: [f64; 2],
+        /// Normal force, N/m.
+        normal: f64,
+        /// Width less twice the eccentricity (Meyerhof 1953), m.
+        width: f64,
+        /// Bearing pressure times that, N/m.
+        capacity: f64,
+        /// Normal force over capacity.
         ratio: f64,
     },
     /// Part of the structure moves without resistance while the base is at rest.
@@ -51,4 +78,9 @@ pub enum StandingError {
         /// The structure's own names of them.
         place: String,
     },
+}
+
+/// The base that is meant.
+fn on([left, right]: &[f64; 2]) -> String {
+    format!(" (base from x = {left} to {right} m)")
 }

@@ -42,7 +42,7 @@ pub enum StepError {
         /// Name of the quantity.
         quantity: &'static str,
         /// The structure's reason.
-        source: Box<Error>,
+        r#source: Box<Error>,
     },
     /// An interface law returned a number that is not finite.
     #[error(transparent)]

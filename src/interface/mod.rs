@@ -163,6 +163,12 @@ impl Condition {
             .then(|| (self.value - self.pressure * pressure) / self.gap)
     }
 
+    /// The pressure that this condition gives, if it relates nothing else.
+    pub(crate) fn pressure_alone(&self) -> Option<f64> {
+        let alone = self.gap == 0.0 && self.slip == 0.0 && self.shear == 0.0;
+        (alone && self.pressure != 0.0).then(|| self.value / self.pressure)
+    }
+
     /// The slip is `value`.
     pub fn slip_is(value: f64) -> Self {
         Self { slip: 1.0, value, ..Self::default() }

@@ -45,7 +45,7 @@ const ROWS: [Line; 20] = [
     ("largest gap", "mm", "largest_gap_m", 1e3, |s| Some(s.largest_gap().value)),
     ("mean slip, peak", "mm", "mean_slip_m", 1e3, |s| Some(s.mean_slip.largest().value)),
     ("mean slip, residual", "mm", "residual_slip_m", 1e3, |s| Some(s.residual_slip)),
-    ("slip events", "", "slip_events", 1.0, |s| Some(s.sliding.events.len() as f64)),
+    ("slip events", "", "slip_events", 1.0, |s| Some(s.slip_events() as f64)),
     ("safety, sliding", "", "sliding_safety", 1.0, |s| s.least_sliding_safety().map(|p| p.value)),
     ("safety, overturning", "", "overturning_safety", 1.0, |s| {
         Some(s.least_overturning_safety().value)

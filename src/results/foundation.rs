@@ -2,10 +2,13 @@
 
 use std::ops::Range;
 
-use super::Extremes;
 use super::safety::{against_overturning, against_sliding};
+use super::{Extremes, Sliding};
 use crate::bem::ContactElement;
 use crate::coupled::{Foundation, Peak, State};
+
+/// Most slip events of a base that memory is reserved for.
+pub(super) const EVENTS: usize = 1000;
 
 /// One foundation of a run: what stands on it gave to the soil, and how its base moved.
 ///
@@ -33,6 +36,8 @@ pub struct FoundationSummary {
     pub mean_slip: Extremes,
     /// That slip at the end, m.
     pub residual_slip: f64,
+    /// Distance and duration of its sliding, and the events.
+    pub sliding: Sliding,
     /// Least factor of safety against sliding; `None` without a friction coefficient.
     pub least_sliding_safety: Option<Peak>,
     /// Least factor of safety against overturning.
@@ -63,6 +68,7 @@ impl FoundationSummary {
             uplifted_fraction: Peak { value: foundation.uplifted_fraction, time },
             mean_slip: at_start(foundation.mean_slip),
             residual_slip: foundation.mean_slip,
+            sliding: Sliding::with_capacity(EVENTS),
             least_sliding_safety: (!friction.is_empty()).then_some(sliding),
             least_overturning_safety: overturning,
         }
@@ -71,6 +77,7 @@ impl FoundationSummary {
     fn see(
         &mut self,
         state: &State,
+        begin: f64,
         foundation: &Foundation,
         friction: &[f64],
         elements: &[ContactElement],
@@ -81,6 +88,8 @@ impl FoundationSummary {
         self.normal_force.see(foundation.normal_force, time);
         self.base_rotation.see(foundation.rotation, time);
         self.uplifted_fraction.see(foundation.uplifted_fraction, time);
+        let (modes, slip) = (&state.modes[self.elements.clone()], foundation.mean_slip);
+        self.sliding.see(modes, slip - self.residual_slip, [begin, time]);
         self.mean_slip.see(foundation.mean_slip, time);
         self.residual_slip = foundation.mean_slip;
         let [sliding, overturning] = safety(state, foundation, friction, elements);
@@ -101,15 +110,16 @@ pub(super) fn start(
     own.map(|foundation| FoundationSummary::start(state, foundation, friction, elements)).collect()
 }
 
-/// Takes in a step.
+/// Takes in a step that began at `begin`.
 pub(super) fn see(
     summaries: &mut [FoundationSummary],
     state: &State,
+    begin: f64,
     friction: &[f64],
     elements: &[ContactElement],
 ) {
     for (summary, foundation) in summaries.iter_mut().zip(&state.foundations) {
-        summary.see(state, foundation, friction, elements);
+        summary.see(state, begin, foundation, friction, elements);
     }
 }
 

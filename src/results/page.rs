@@ -70,6 +70,8 @@ impl Run {
             "rotation mrad",
             "uplift %",
             "mean slip mm",
+            "slip events",
+            "way mm",
             "safety, sliding",
             "overturning",
         ];
@@ -82,6 +84,8 @@ impl Run {
                 number(1e3 * own.base_rotation.largest().value),
                 number(100.0 * own.uplifted_fraction.value),
                 number(1e3 * own.mean_slip.largest().value),
+                own.sliding.events.len().to_string(),
+                number(1e3 * own.sliding.path),
                 own.least_sliding_safety.map_or("–".to_owned(), |peak| factor(peak.value)),
                 factor(own.least_overturning_safety.value),
             ]
@@ -132,9 +136,11 @@ impl Run {
             number(1e3 * self.residual_slip),
             number(1e3 * self.largest_slip.value)
         )?;
+        let base =
+            if self.foundations.len() > 1 { "all foundations as one" } else { "the whole base" };
         write!(
             f,
-            "  slip events of the whole base: {}, in all {:.3} s and {:.3} mm of way",
+            "  slip events of {base}: {}, in all {:.3} s and {:.3} mm of way",
             sliding.events.len(),
             sliding.duration,
             1e3 * sliding.path

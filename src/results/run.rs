@@ -14,9 +14,6 @@ use crate::coupled::{
 use crate::error::Result;
 use crate::motion::FreeField;
 
-/// Most slip events that memory is reserved for.
-const EVENTS: usize = 1000;
-
 /// Steps whose contact modes the first search did not find, see
 /// [`SearchMethod`](crate::coupled::SearchMethod).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -70,7 +67,8 @@ pub struct Run {
     pub probes: Vec<ProbeExtremes>,
     /// Duration of uplift.
     pub uplift: Uplift,
-    /// Distance and duration of sliding.
+    /// Distance and duration of sliding of the whole base: of several foundations, while all of them
+    /// slide, by the mean slip of all. Each one's own is in [`Run::foundations`].
     pub sliding: Sliding,
     /// Each foundation by itself, from left to right.
     pub foundations: Vec<FoundationSummary>,
@@ -133,7 +131,7 @@ impl Run {
             largest_slip: Peak::default(),
             probes: probes.iter().zip(&state.probes).map(probe).collect(),
             uplift: Uplift::default(),
-            sliding: Sliding::with_capacity(EVENTS),
+            sliding: Sliding::with_capacity(foundation::EVENTS),
             foundations: foundation::start(state, friction, elements),
             envelope: envelope::start(elements, state),
             mode_changes: 0,
@@ -178,14 +176,14 @@ impl Run {
         self.base_rotation.see(state.base_rotation, time);
         self.uplifted_fraction.see(state.uplifted_fraction, time);
         self.uplift.see(state, begin);
-        self.sliding.see(state, begin, self.residual_slip);
+        self.sliding.see(&state.modes, state.mean_slip - self.residual_slip, [begin, time]);
         self.mean_slip.see(state.mean_slip, time);
         self.residual_slip = state.mean_slip;
         self.see_slips(state);
         for (probe, value) in self.probes.iter_mut().zip(&state.probes) {
             probe.extremes.see(*value, time);
         }
-        foundation::see(&mut self.foundations, state, &self.friction, &self.elements);
+        foundation::see(&mut self.foundations, state, begin, &self.friction, &self.elements);
         envelope::see(&mut self.envelope, state, time - begin);
         self.mode_changes += state.transitions.len();
         self.debondings += state.transitions.iter().filter(|t| t.is_debonding()).count();
@@ -229,6 +227,11 @@ impl Run {
     pub fn shear_coefficient(&self) -> Option<f64> {
         (self.static_normal_force > 0.0)
             .then(|| self.base_shear.magnitude() / self.static_normal_force)
+    }
+
+    /// Number of slip events, of several foundations those of each.
+    pub fn slip_events(&self) -> usize {
+        self.foundations.iter().map(|own| own.sliding.events.len()).sum()
     }
 
     /// Least factor of safety against sliding, of several foundations the least; `None` without a

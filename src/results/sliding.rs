@@ -1,8 +1,8 @@
-//! Distance slid by the base, and in how many events.
+//! Distance slid by a base, and in how many events.
 
-use crate::coupled::State;
+use crate::interface::Mode;
 
-/// A stretch of steps in which the whole base slid one way: some elements are closed, all closed
+/// A stretch of steps in which a whole base slid one way: some elements are closed, all closed
 /// ones slide, and the mean slip does not turn round.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -15,7 +15,7 @@ pub struct SlipEvent {
     pub slip: f64,
 }
 
-/// Sliding of a run, by its mean slip.
+/// Sliding of a base in a run, by its mean slip: of one foundation, or of all as one base.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sliding {
     /// Way slid, m: the sum of the events' |slip|.
@@ -33,11 +33,12 @@ impl Sliding {
         Self { events: Vec::with_capacity(events), ..Self::default() }
     }
 
-    /// A step that began at `begin` with the mean slip `before`.
-    pub(super) fn see(&mut self, state: &State, begin: f64, before: f64) {
-        let slides = state.modes.iter().any(|mode| mode.is_slip())
-            && state.modes.iter().all(|mode| mode.is_slip() || !mode.is_closed());
-        self.advance(slides, state.mean_slip - before, [begin, state.time]);
+    /// A step between two `times` that ended in these `modes` of the base's elements, and changed
+    /// the mean slip by `slip`.
+    pub(super) fn see(&mut self, modes: &[Mode], slip: f64, times: [f64; 2]) {
+        let slides = modes.iter().any(|mode| mode.is_slip())
+            && modes.iter().all(|mode| mode.is_slip() || !mode.is_closed());
+        self.advance(slides, slip, times);
     }
 
     /// The mean slip changed by `slip` from the first to the second of `times`.

@@ -11,6 +11,11 @@ pub(super) fn csv_cell(cell: &str) -> Cow<'_, str> {
     }
 }
 
+/// A cell on one line: line ends and other control characters become spaces.
+fn one_line(cell: &str) -> String {
+    cell.replace(|c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}'), " ")
+}
+
 /// A heading and rows of cells; the first column holds names.
 pub(super) struct Table {
     pub(super) heading: Vec<String>,
@@ -27,7 +32,8 @@ impl Table {
         };
         let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();
         let line = |row: &Vec<String>| {
-            let cells = row.iter().zip(&widths).enumerate().map(|(column, (cell, &width))| {
+            let cells = row.iter().map(|cell| one_line(cell)).zip(&widths).enumerate();
+            let cells = cells.map(|(column, (cell, &width))| {
                 if column == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
             });
             cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
@@ -38,10 +44,11 @@ impl Table {
         lines.join("\n")
     }
 
-    /// As Markdown; bars in cells are escaped.
+    /// As Markdown; bars and backslashes in cells are escaped.
     pub(super) fn markdown(&self) -> String {
+        let escaped = |cell: &str| one_line(cell).replace('\\', "\\\\").replace('|', "\\|");
         let line = |row: &Vec<String>| {
-            let cells: Vec<_> = row.iter().map(|cell| cell.replace('|', "\\|")).collect();
+            let cells: Vec<_> = row.iter().map(|cell| escaped(cell)).collect();
             format!("| {} |", cells.join(" | "))
         };
         let rule = vec!["---:"; self.heading.len().saturating_sub(1)];
@@ -64,6 +71,21 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn cells_stay_in_their_row() {
+        let cells = |row: &[&str]| row.iter().map(|&cell| cell.to_owned()).collect::<Vec<_>>();
+        let heading = cells(&["", "two\nlines", "a\\|b\r\u{2028}\u{85}\x1b"]);
+        let table = Table { heading, rows: vec![cells(&["x", "1", "2"])] };
+        assert_eq!(
+            table.text(),
+            "   two lines  a\\|b\n----------------------\nx          1         2"
+        );
+        assert_eq!(
+            table.markdown(),
+            "|  | two lines | a\\\\\\|b     |\n|---|---:|---:|\n| x | 1 | 2 |"
+        );
+    }
 
     #[test]
     fn three_ways_to_write_a_table() {

@@ -4,11 +4,12 @@
 
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::{Load, Placement, SimulationBuilder};
-use basemat::fem::{Beam, Mesh};
-use basemat::interface::{Bonded, Coulomb};
+use basemat::fem::{Beam, Material, Mesh, Quad4, QuadFormulation};
+use basemat::interface::{Bonded, Coulomb, Yielding};
 use basemat::reference::RockingBlock;
 use basemat::structure::{
-    ContactNode, FemModel, RigidBlock, Row, ShearBuilding, Storey, Structure, Triplets,
+    ContactNode, FemModel, RigidBlock, Row, ShearBuilding, Storey, Structure, StructureGroup,
+    Triplets,
 };
 use basemat::{Error, Result, Simulation, Soil, StandingError};
 
@@ -139,7 +140,7 @@ fn what_cannot_stand_is_refused_with_its_cause() {
         let load = Load::constant(block().horizontal_at(height), force);
         on_half_plane(block()).interface(law()).load(load)
     };
-    let StandingError::Slides { horizontal, normal, resistance, ratio } =
+    let StandingError::Slides { horizontal, normal, resistance, ratio, .. } =
         refused(pushed(0.0, -0.6 * WEIGHT))
     else {
         panic!()
@@ -156,12 +157,36 @@ fn what_cannot_stand_is_refused_with_its_cause() {
     assert!((eccentricity - 3.6).abs() < 1e-6 && (ratio - 1.2).abs() < 1e-6, "{eccentricity}");
 
     let up = Load::constant(block().vertical_at(0.0), 1.5 * WEIGHT);
-    let StandingError::Lifted { upward } =
+    let StandingError::Lifted { upward, .. } =
         refused(on_half_plane(block()).interface(law()).load(up))
     else {
         panic!()
     };
     assert!((upward / WEIGHT - 0.5).abs() < 1e-9);
+
+    // Of a group, the member is named by its base.
+    let group = StructureGroup::new().with(block(), 0.0).unwrap().with(block(), 20.0).unwrap();
+    let push = group.row(1, block().horizontal_at(0.0)).unwrap();
+    let load = Load::constant(push, 0.6 * WEIGHT);
+    let StandingError::Slides { ends, ratio, .. } =
+        refused(on_half_plane(group).interface(law()).load(load))
+    else {
+        panic!()
+    };
+    assert!(ends == [17.0, 23.0] && (ratio - 1.2).abs() < 1e-9, "{ends:?}");
+
+    // Soil that bears 80 % of the weight; and enough of it, but not a metre from the middle, where
+    // 6 − 2 m are left.
+    for (share, push, needed, left) in [(0.8, 0.0, 1.25, 6.0), (1.2, 1.0, 1.25, 4.0)] {
+        let soft = Yielding::new(share * WEIGHT / 6.0, 0.5).unwrap();
+        let load = Load::constant(block().horizontal_at(9.0), push * WEIGHT / 9.0);
+        let StandingError::Sinks { ratio, width, .. } =
+            refused(on_half_plane(block()).interface(soft).load(load))
+        else {
+            panic!()
+        };
+        assert!((ratio - needed).abs() < 1e-6 && (width - left).abs() < 1e-6, "{ratio} {width}");
+    }
 
     // A column hinged on a footing: two trusses in line.
     let mut mesh = Mesh::new();
@@ -183,6 +208,71 @@ fn what_cannot_stand_is_refused_with_its_cause() {
     };
     assert_eq!(unknowns, own, "{place}");
     assert!(place.contains("(0.5, 4)"), "{place}");
+}
+
+/// Solids have no rotations: a beam on a single node of theirs turns freely, also where it stands
+/// upright and nothing pushes it over. On two nodes it is clamped.
+#[test]
+fn a_beam_hinged_on_solids_is_a_mechanism() {
+    let built = |clamped: bool, lean: f64| {
+        let concrete = Material::new(30.0e9, 0.2, 2400.0).unwrap();
+        let mut mesh = Mesh::new();
+        let mut add = |x: f64, y: f64| mesh.add_node(x, y).unwrap();
+        let rows = [0.0, 1.0, 2.0].map(|y| [-1.0, 0.0, 1.0].map(|x| add(x, y)));
+        let (middle, top) = (add(0.5 * lean, 4.0), add(lean, 6.0));
+        for pair in rows.windows(2) {
+            for k in 0..2 {
+                let nodes = [pair[0][k], pair[0][k + 1], pair[1][k + 1], pair[1][k]];
+                let quad = Quad4::new(nodes, concrete, QuadFormulation::default());
+                mesh.add(quad).unwrap();
+            }
+        }
+        let mut beam = |a, b| {
+            mesh.add(Beam::new([a, b], 30.0e9, 0.5, 0.01, 2400.0).unwrap()).unwrap();
+        };
+        beam(rows[2][1], middle);
+        beam(middle, top);
+        if clamped {
+            beam(rows[1][1], rows[2][1]);
+        }
+        on_half_plane(FemModel::on_base(mesh).unwrap()).interface(Coulomb::new(0.5).unwrap())
+    };
+    for lean in [0.0, 1.0] {
+        let StandingError::Mechanism { place, .. } = refused(built(false, lean)) else { panic!() };
+        let top = format!("({lean}, 6)");
+        assert!(place.contains(&top) && !place.contains("(0, 0)"), "{place}");
+        built(true, lean).build().unwrap();
+    }
+}
+
+/// However slender it is, what stands is no mechanism.
+#[test]
+fn a_slender_column_of_many_beams_stands() {
+    for (beams, length) in [(200, 0.25), (1000, 0.05), (5000, 0.01)] {
+        let mut mesh = Mesh::new();
+        let beam = |mesh: &mut Mesh, nodes, area, second_moment| {
+            mesh.add(Beam::new(nodes, 30.0e9, area, second_moment, 2400.0).unwrap()).unwrap();
+        };
+        let foot = [-1.0, 0.0, 1.0].map(|x| mesh.add_node(x, 0.0).unwrap());
+        beam(&mut mesh, [foot[0], foot[1]], 0.5, 0.01);
+        beam(&mut mesh, [foot[1], foot[2]], 0.5, 0.01);
+        let mut last = foot[1];
+        for k in 1..=beams {
+            let next = mesh.add_node(0.0, length * f64::from(k)).unwrap();
+            beam(&mut mesh, [last, next], 0.05, 1e-5);
+            last = next;
+        }
+        let model = FemModel::on_base(mesh).unwrap();
+        on_half_plane(model).interface(Coulomb::new(0.5).unwrap()).build().unwrap();
+    }
+}
+
+/// Interpolation between numbers that double precision has, but not their difference.
+#[test]
+fn tables_of_huge_values_stay_finite() {
+    let load = Load::table(0, &[0.0, 1.0, 2.0], &[-1e308, 1e308, 0.0]).unwrap();
+    let values = [0.0, 0.25, 0.5, 1.0, 1.5, 2.0].map(|time| load.value(time) / 1e308);
+    assert_eq!(values, [-1.0, -0.5, 0.0, 1.0, 0.5, 0.0]);
 }
 
 /// Snap-back of a tower: what its spring stores is what it begins with.

@@ -2,12 +2,13 @@
 //! SCENE: five coefficients of friction, one of them negative; kernels shared by cases.
 //! REFERENCE: each case alone, to the last bit.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 
 use basemat::bem::{Grading, Ground, HalfPlaneGround, SharedKernels, Strip};
 use basemat::coupled::State;
 use basemat::interface::Coulomb;
-use basemat::{Error, Soil, Sweep};
+use basemat::{CaseError, Error, Soil, Sweep};
 
 use crate::support::scenes::{SI, block, scene, soil, states};
 
@@ -45,6 +46,42 @@ fn sweep_is_bitwise_sequential_and_outlives_errors() {
         }
     }
     assert_eq!(progress.into_inner().unwrap(), vec![vec![0.25, 1.0]; FRICTION.len()]);
+}
+
+/// A case that panics.
+fn spoilt(index: usize) -> Result<Vec<State>, Error> {
+    assert_ne!(index, 3, "three is too much");
+    case(index)
+}
+
+#[test]
+fn a_case_that_panics_leaves_the_others() {
+    let sweep = Sweep::new(FRICTION.len());
+    let found = sweep.collect_caught(|now| spoilt(now.index()));
+    assert_eq!(found.len(), FRICTION.len());
+    for (index, found) in found.into_iter().enumerate() {
+        match (index, found) {
+            (3, Err(CaseError::Panicked { message })) => {
+                assert!(message.contains("three is too much"), "{message}");
+            }
+            (2, Err(CaseError::Failed(error))) => assert!(matches!(error, Error::Input { .. })),
+            (_, Ok(found)) => assert!(found == case(index).unwrap(), "case {index} differs"),
+            (_, Err(error)) => panic!("case {index}: {error}"),
+        }
+    }
+    // Handed over one by one, the others are there before the panic goes on.
+    let mut there = Vec::new();
+    let progress = Mutex::new(0);
+    let panic = catch_unwind(AssertUnwindSafe(|| {
+        Sweep::new(FRICTION.len())
+            .on_progress(|_, _| *progress.lock().unwrap() += 1)
+            .run(|now| spoilt(now.index()), |index, _| there.push(index));
+    }));
+    let payload = panic.unwrap_err();
+    assert!(payload.downcast_ref::<String>().is_some_and(|text| text.contains("three")));
+    there.sort_unstable();
+    assert_eq!(there, [0, 1, 2, 4]);
+    assert_eq!(progress.into_inner().unwrap(), FRICTION.len());
 }
 
 #[test]

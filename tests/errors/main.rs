@@ -5,6 +5,7 @@
 //! own files.
 
 mod builder;
+mod chains;
 mod law_numbers;
 mod laws_and_motions;
 mod layered;

@@ -15,11 +15,19 @@ fn block() -> RigidBlock {
 
 /// On springs, where what stands on one foundation knows nothing of the other.
 fn march(structure: impl Structure + 'static) -> Run {
+    march_on(structure, &[0.35; 2])
+}
+
+/// The same with a friction coefficient for each foundation.
+fn march_on(structure: impl Structure + 'static, friction: &[f64]) -> Run {
     let ground = SpringGround::under(&structure, 8, 2e7, 1e7).unwrap();
+    let law =
+        |friction: f64| -> Box<dyn InterfaceLaw> { Box::new(Coulomb::new(friction).unwrap()) };
+    let laws = (0..ground.elements().len()).map(|e| law(friction[e / 8])).collect();
     let mut simulation = Simulation::builder(0.005)
         .structure(structure)
         .ground(ground.with_dashpots(2e5, 1e5).unwrap())
-        .interface(Coulomb::new(0.35).unwrap())
+        .interfaces(laws)
         .motion(el_centro_1940())
         .build()
         .unwrap();
@@ -83,4 +91,32 @@ fn each_foundation_is_summed_up_by_itself() {
         .lines()
         .find(|line| line.trim_start().starts_with(&format!("{:.3} ", element.element.center())));
     assert!(line.is_some_and(|line| line.contains(&format!("{:.3}", peak.time))), "{page}");
+}
+
+/// One slides and the other does not: the base as a whole never slides.
+#[test]
+fn each_foundation_has_its_own_slip_events() {
+    let group = StructureGroup::new().with(block(), 0.0).unwrap().with(block(), 10.0).unwrap();
+    let both = march_on(group, &[10.0, 0.15]);
+    let alone = march_on(block(), &[0.15]);
+    let [held, slid] = &both.foundations[..] else { panic!("two foundations") };
+    assert!(alone.sliding.events.len() > 5 && alone.sliding.path > 0.02, "{:?}", alone.sliding);
+    assert_eq!(slid.sliding.events.len(), alone.sliding.events.len());
+    assert!((slid.sliding.path - alone.sliding.path).abs() < 1e-9);
+    assert!((slid.sliding.duration - alone.sliding.duration).abs() < 1e-9);
+    for (own, alone) in slid.sliding.events.iter().zip(&alone.sliding.events) {
+        assert!((own.slip - alone.slip).abs() < 1e-9, "{own:?} {alone:?}");
+        assert!((own.start - alone.start).abs() < 1e-9 && (own.end - alone.end).abs() < 1e-9);
+    }
+    assert_eq!(alone.foundations[0].sliding, alone.sliding);
+    assert!(held.sliding.events.is_empty() && held.sliding.path == 0.0);
+    assert!(both.sliding.events.is_empty());
+    assert_eq!(both.slip_events(), alone.slip_events());
+    // Tables count them, too.
+    let table: basemat::results::Comparison =
+        [("both", both), ("alone", alone)].into_iter().collect();
+    let markdown = table.markdown();
+    let row = markdown.lines().find(|line| line.contains("slip events")).unwrap();
+    let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+    assert!(cells[3] == cells[4] && cells[3] != "0", "{row}");
 }

@@ -344,3 +344,23 @@ fn nothing_slides_with_infinite_friction() {
     assert_eq!(words(&svg).contains("touching without pressure"), occurs);
     assert!(occurs);
 }
+
+/// Signs that XML does not know come from names in files of others.
+#[test]
+fn control_characters_leave_a_picture_valid() {
+    let signs: String =
+        (0..32).chain([0x7f, 0x85, 0xfffe, 0xffff]).filter_map(char::from_u32).collect();
+    let (histories, shape, run) = ran(Recorder::new().motion(20));
+    let title = format!("a{signs}<b>");
+    for svg in [
+        plot::pressure_envelope(&title, &run).unwrap(),
+        plot::animation(&title, &shape, &histories, 10.0, 1.0).unwrap(),
+    ] {
+        let text = svg.as_str();
+        let unknown = text.chars().find(|&c| {
+            (c < ' ' && !['\t', '\n', '\r'].contains(&c)) || ['\u{fffe}', '\u{ffff}'].contains(&c)
+        });
+        assert_eq!(unknown, None);
+        assert!(text.contains("\u{fffd}") && text.contains("&lt;b&gt;"));
+    }
+}

@@ -4,6 +4,7 @@ pub(crate) mod base;
 pub(crate) mod conditioning;
 pub(crate) mod influence;
 pub(crate) mod laws;
+mod mechanism;
 pub(crate) mod modal_basis;
 pub(crate) mod model;
 pub(crate) mod operators;

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use super::base::Base;
 use super::influence::Influence;
+use super::mechanism::AtRest;
 use super::modal_basis::ModalBasis;
-use crate::error::{Error, Result, same_length};
+use crate::error::{Error, Result, StandingError, same_length};
 use crate::linalg::{SparseMatrix, indefinite_row};
 use crate::matrix::Matrix;
 use crate::structure::{
@@ -41,6 +42,8 @@ pub(crate) struct Model {
     pub(crate) influence: Arc<Influence>,
     /// The modes, if they are the coordinates.
     pub(crate) modes: Option<Arc<ModalBasis>>,
+    /// A motion of a linear structure that nothing resists while its base is at rest.
+    free_motion: Option<Box<StandingError>>,
 }
 
 impl Model {
@@ -67,6 +70,7 @@ impl Model {
             linear,
             influence: Arc::default(),
             modes: None,
+            free_motion: None,
         };
         let mut tangent = Tangent::new(unknowns);
         tangent.refill(structure, &vec![0.0; unknowns])?;
@@ -77,10 +81,24 @@ impl Model {
         if let Some([mass, damping, _]) = model.sparse() {
             check_attached(structure, &at_rest, mass, &base.unknowns())?;
             let check_sign = |tie| if linear { model.check_stiffness(base, tie) } else { Ok(()) };
-            let influence = Influence::new(base, &at_rest, [mass, damping], &check_sign)?;
+            let influence = Influence::new(base, &at_rest, [mass, damping], &check_sign);
+            let held = AtRest { structure, stiffness: &at_rest, mass: &model.mass, base };
+            let influence = influence.map_err(|error| match error {
+                Error::Singular { .. } => {
+                    held.mechanism().map_or(error, |cause| Error::Standing(Box::new(cause)))
+                }
+                error => error,
+            })?;
+            let free = if linear { held.free_motion() } else { None };
+            model.free_motion = free.map(Box::new);
             model.influence = Arc::new(influence);
         }
         Ok(model)
+    }
+
+    /// Refuses a mechanism. To be asked last: numbers too far apart for double precision look alike.
+    pub(crate) fn refuse_mechanism(&self) -> Result<()> {
+        self.free_motion.clone().map_or(Ok(()), |cause| Err(Error::Standing(cause)))
     }
 
     /// The three matrices, while they are sparse: mass, damping, stiffness.

@@ -167,3 +167,16 @@ fn a_structure_comes_back_as_it_was_left() {
     let whole: Box<dyn Any> = simulation.into_structure();
     assert_eq!(whole.downcast::<Sticky>().unwrap().anchor, last);
 }
+
+/// Back at the start, nothing is left of the steps made since: not their effort either.
+#[test]
+fn the_start_is_resumed_in_a_used_simulation() {
+    let built = || scene(SI, 0.6).structure(block(SI)).interface(friction(0.35)).build().unwrap();
+    let start = built();
+    let saved = start.checkpoint().unwrap();
+    let mut used = built();
+    used.run(20, |_| {}).unwrap();
+    assert!(used.state().trials > 0);
+    used.resume(&saved).unwrap();
+    assert!(used.state() == start.state());
+}
