@@ -28,6 +28,8 @@ const LOST: f64 = -1e4;
 /// about the same order; those after them differ by up to the factor `WIDEST`.
 const EVEN: usize = 8;
 const WIDEST: f64 = 1e3;
+/// The golden ratio less one.
+const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Shortest advances of λ that count: a change of mode is found within the laws' tolerances only,
 /// so that the next mode may become admissible a little later.
 const STEPS: [f64; 4] = [1e-13, 1e-11, 1e-9, 1e-7];
@@ -108,7 +110,6 @@ impl Path {
         let count = modes.len();
         // Multiples of the golden ratio, modulo one, never meet; multiples by squares
         // are spread without order.
-        const GOLDEN: f64 = 0.618_033_988_749_895;
         let number = |e: usize| (attempt * count + e + 1) as f64;
         let even = |e: usize| (GOLDEN * number(e)).fract();
         let uneven = |e: usize| WIDEST.powf((GOLDEN * number(e) * number(e)).fract());

@@ -23,8 +23,9 @@ const ENOUGH: f64 = 1e3 * TOLERANCE;
 /// Iterations without a smaller out-of-balance force, after which it counts as cycling.
 const CYCLE: usize = 15;
 
-/// Iterations of a stage of the continuation.
+/// Iterations of a stage of the continuation, and of all its stages.
 const STAGE_ITERATIONS: usize = 8;
+const MOST_ITERATIONS: usize = 2000;
 /// Shortest stage, as a share of the out-of-balance force that it began with.
 const SHORTEST_STAGE: f64 = 1e-6;
 
@@ -49,7 +50,8 @@ pub(super) struct Newton {
     reached: Vec<f64>,
     /// Out-of-balance force that the continuation began with.
     open: Vec<f64>,
-    /// Contact trials and most laborious method so far.
+    /// Iterations, contact trials and most laborious method so far.
+    iterations: usize,
     trials: usize,
     method: SearchMethod,
 }
@@ -64,6 +66,7 @@ impl Newton {
             seen: zero(),
             reached: zero(),
             open: zero(),
+            iterations: 0,
             trials: 0,
             method: SearchMethod::ActiveSet,
         }
@@ -85,6 +88,7 @@ impl Newton {
         }
         self.evaluate(linear, data, increment)?;
         let (mut residual, mut least, mut waited) = (f64::INFINITY, f64::INFINITY, 0);
+        self.iterations = 0;
         for iteration in 0..ITERATIONS {
             residual = self.iterate(linear, data, 0.0, increment)?;
             // The first solve only predicts: its tangent may belong to the step before.
@@ -131,13 +135,12 @@ impl Newton {
             *open = increment.force[i] - self.linearised[i];
         }
         self.reached.copy_from_slice(&self.guess);
-        let (mut left, mut stage, mut iterations) = (1.0, 0.5, 0);
+        let (mut left, mut stage) = (1.0, 0.5);
         while left > 0.0 {
             let aim = if stage < left { left - stage } else { 0.0 };
             let wanted = if aim > 0.0 { ENOUGH } else { TOLERANCE };
             let mut residual = f64::INFINITY;
             for _ in 0..STAGE_ITERATIONS {
-                iterations += 1;
                 residual = self.iterate(linear, data, aim, increment)?;
                 if residual <= wanted {
                     break;
@@ -149,8 +152,8 @@ impl Newton {
                 continue;
             }
             stage = 0.5 * stage.min(left);
-            if stage < SHORTEST_STAGE {
-                let (iterations, modes) = (iterations + ITERATIONS, increment.modes.clone());
+            if stage < SHORTEST_STAGE || self.iterations > MOST_ITERATIONS {
+                let (iterations, modes) = (self.iterations, increment.modes.clone());
                 return Err(StepError::Newton { iterations, residual: left * began, modes });
             }
             self.guess.copy_from_slice(&self.reached);
@@ -170,6 +173,7 @@ impl Newton {
         increment: &mut Increment,
     ) -> Result<f64, StepError> {
         let StepData { scene, structure, state, forcing } = data;
+        self.iterations += 1;
         let weight = scene.coefficients.displacement[0];
         self.tangent
             .refill(structure, &self.seen)
