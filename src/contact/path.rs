@@ -11,8 +11,10 @@
 //! there j = d + W r with p·g = 0 and τ·Δjₜ ≤ 0 would give r·A W r + p·A dₙ ≤ 0, hence r = 0, which
 //! is the beginning. This holds for any friction coefficient if r·A W r > 0 for r ≠ 0; A W need
 //! not be symmetric.
-//! With tensile strength the law is not monotone and the path may break; then it is begun
-//! elsewhere, also with all elements pressed shut.
+//! With tensile strength the law is not monotone and the path may break. So it may where the modes at
+//! a change are nearly singular, at infinite friction in long steps (c₁Δt/l > 13): λ then does not
+//! tell the points of the path apart. A lost path is begun elsewhere, also with all elements
+//! pressed shut.
 
 use super::problem::{ContactInput, ContactSolver};
 use crate::interface::{ContactState, Mode, Tolerance};
@@ -22,6 +24,12 @@ use crate::linalg::dot;
 const CHANGES: usize = 60;
 /// λ below which the path counts as lost.
 const LOST: f64 = -1e4;
+/// Attempts that begin with elements about equally far open, or equally pressed. They change in
+/// about the same order; those after them differ by up to the factor `WIDEST`.
+const EVEN: usize = 8;
+const WIDEST: f64 = 1e3;
+/// The golden ratio less one.
+const GOLDEN: f64 = 0.618_033_988_749_895;
 /// Shortest advances of λ that count: a change of mode is found within the laws' tolerances only,
 /// so that the next mode may become admissible a little later.
 const STEPS: [f64; 4] = [1e-13, 1e-11, 1e-9, 1e-7];
@@ -100,8 +108,12 @@ impl Path {
     /// pressed shut, by unequal amounts so that no two change at once.
     fn begin(&mut self, input: &ContactInput<'_>, attempt: usize, modes: &mut [Mode]) {
         let count = modes.len();
-        // Multiples of the golden ratio, modulo one, never meet.
-        let spread = |e: usize| (0.618_033_988_749_895 * (attempt * count + e + 1) as f64).fract();
+        // Multiples of the golden ratio, modulo one, never meet; multiples by squares
+        // are spread without order.
+        let number = |e: usize| (attempt * count + e + 1) as f64;
+        let even = |e: usize| (GOLDEN * number(e)).fract();
+        let uneven = |e: usize| WIDEST.powf((GOLDEN * number(e) * number(e)).fract());
+        let spread = |e: usize| if attempt < EVEN { even(e) } else { uneven(e) };
         if attempt.is_multiple_of(2) {
             self.begin_open(input, spread, modes);
         } else {

@@ -16,8 +16,9 @@ use crate::interface::{Condition, ContactState, Mode, Tolerance};
 const ACTIVE_SET_TRIALS: usize = 60;
 /// Sweeps of Gauss–Seidel.
 const SWEEPS: usize = 400;
-/// Paths followed.
-const PATHS: usize = 8;
+/// Paths followed. At infinite friction and c₁Δt/l from 13 to 60 one run in 5000 has a step that
+/// needs more than eight, one in 100 000 one that needs more than sixty.
+const PATHS: usize = 128;
 
 /// Search for the contact modes of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]

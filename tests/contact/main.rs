@@ -4,6 +4,7 @@ mod chatter;
 mod contact_problems;
 mod events;
 mod host;
+mod long_steps;
 mod paper_parts;
 mod spring_bed;
 #[path = "../support/mod.rs"]

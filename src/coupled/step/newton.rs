@@ -18,6 +18,25 @@ use crate::structure::Structure;
 const ITERATIONS: usize = 40;
 /// Out-of-balance force at which the iteration ends, relative to the largest force.
 const TOLERANCE: f64 = 1e-12;
+/// The same if the iteration gets no further.
+const ENOUGH: f64 = 1e3 * TOLERANCE;
+/// Iterations without a smaller out-of-balance force, after which it counts as cycling.
+const CYCLE: usize = 15;
+
+/// Iterations of a stage of the continuation, and of all its stages.
+const STAGE_ITERATIONS: usize = 8;
+const MOST_ITERATIONS: usize = 2000;
+/// Shortest stage, as a share of the out-of-balance force that it began with.
+const SHORTEST_STAGE: f64 = 1e-6;
+
+/// What a step is solved from.
+#[derive(Clone, Copy)]
+pub(super) struct StepData<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) structure: &'a dyn Structure,
+    pub(super) state: &'a State,
+    pub(super) forcing: &'a Forcing,
+}
 
 /// Scratch of the iteration.
 pub(super) struct Newton {
@@ -27,80 +46,65 @@ pub(super) struct Newton {
     linearised: Vec<f64>,
     /// Displacement at u* that the force sees.
     seen: Vec<f64>,
+    /// Increment that the last stage of the continuation ended with.
+    reached: Vec<f64>,
+    /// Out-of-balance force that the continuation began with.
+    open: Vec<f64>,
+    /// Iterations, contact trials and most laborious method so far.
+    iterations: usize,
+    trials: usize,
+    method: SearchMethod,
 }
 
 impl Newton {
     pub(super) fn new(unknowns: usize) -> Self {
         let zero = || vec![0.0; unknowns];
-        Self { tangent: Tangent::new(unknowns), guess: zero(), linearised: zero(), seen: zero() }
+        Self {
+            tangent: Tangent::new(unknowns),
+            guess: zero(),
+            linearised: zero(),
+            seen: zero(),
+            reached: zero(),
+            open: zero(),
+            iterations: 0,
+            trials: 0,
+            method: SearchMethod::ActiveSet,
+        }
     }
 
     /// Finds the increment from the right-hand side that `linear` knows.
     pub(super) fn solve(
         &mut self,
         linear: &mut LinearStep,
-        scene: &Scene,
-        structure: &dyn Structure,
-        state: &State,
-        forcing: &Forcing,
+        data: StepData<'_>,
         increment: &mut Increment,
     ) -> Result<(), StepError> {
-        let weight = scene.coefficients.displacement[0];
+        let StepData { scene, state, forcing, .. } = data;
+        (self.trials, self.method) = (0, SearchMethod::ActiveSet);
         // The increment that the last velocity suggests, as far as it is not the ground's.
         let velocity = state.motion.velocity.iter();
         for ((guess, v), carried) in self.guess.iter_mut().zip(velocity).zip(&forcing.carried) {
             *guess = v * scene.time_step - carried;
         }
-        let mut residual = f64::INFINITY;
-        let (mut trials, mut method) = (0, SearchMethod::ActiveSet);
-        self.evaluate(linear, scene, structure, state, forcing, increment)?;
+        self.evaluate(linear, data, increment)?;
+        let (mut residual, mut least, mut waited) = (f64::INFINITY, f64::INFINITY, 0);
+        self.iterations = 0;
         for iteration in 0..ITERATIONS {
-            self.tangent
-                .refill(structure, &self.seen)
-                .map_err(StepError::structure("tangent of the structure"))?;
-            let tangent = &self.tangent.matrix;
-            if !tangent.entries().eq(linear.operators.tangent.entries()) {
-                let (model, base) = (&scene.model, &scene.base);
-                let factor = Factor::new(model, &scene.coefficients, tangent)
-                    .map_err(|_| StepError::Singular { matrix: "effective stiffness matrix" })?;
-                let tangent = tangent.clone();
-                linear.operators = Operators::new(model, base, &scene.soil, factor, tangent);
-                linear.contact.invalidate();
-            }
-            // K_eff Δu + f(u*) linearised at the guess: f + D weight (Δu − guess).
-            self.linearised.copy_from_slice(&increment.force);
-            let tangent = &linear.operators.tangent;
-            tangent.multiply_add(-weight, &self.guess, &mut self.linearised);
-            for (i, du) in increment.displacement.iter_mut().enumerate() {
-                *du = linear.known[i] - self.linearised[i];
-            }
-            linear.solve_contact(scene, state, forcing, increment)?;
-            trials += increment.trials;
-            method = method.max(increment.method);
-            let tangent = &linear.operators.tangent;
-            tangent.multiply_add(weight, &increment.displacement, &mut self.linearised);
-            self.guess.copy_from_slice(&increment.displacement);
-            self.evaluate(linear, scene, structure, state, forcing, increment)?;
-            if increment.force.iter().any(|f| !f.is_finite()) {
-                return Err(StepError::NotFinite { quantity: "nonlinear force of the structure" });
-            }
-            let scale = largest(&linear.known).max(largest(&increment.force));
-            let open = self
-                .linearised
-                .iter()
-                .zip(&increment.force)
-                .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-            residual = if scale > 0.0 { open / scale } else { 0.0 };
+            residual = self.iterate(linear, data, 0.0, increment)?;
             // The first solve only predicts: its tangent may belong to the step before.
-            if residual <= TOLERANCE && (iteration > 0 || open == 0.0) {
+            if residual <= TOLERANCE && (iteration > 0 || residual == 0.0) {
+                break;
+            }
+            waited = if residual < least { 0 } else { waited + 1 };
+            least = least.min(residual);
+            if waited >= CYCLE && least > ENOUGH {
                 break;
             }
         }
-        if residual.is_nan() || residual > 1e3 * TOLERANCE {
-            let modes = increment.modes.clone();
-            return Err(StepError::Newton { iterations: ITERATIONS, residual, modes });
+        if residual.is_nan() || residual > ENOUGH {
+            self.continuation(linear, data, residual, increment)?;
         }
-        (increment.trials, increment.method) = (trials, method);
+        (increment.trials, increment.method) = (self.trials, self.method);
         let u = &state.motion.displacement;
         for (i, seen) in increment.seen.iter_mut().enumerate() {
             *seen = u[i] + increment.displacement[i];
@@ -113,16 +117,114 @@ impl Newton {
         Ok(())
     }
 
+    /// Follows the solution from the last iterate, which solves the step with an external force
+    /// that takes up its out-of-balance force, while that force is removed in stages.
+    ///
+    /// Newton's method comes back to iterates it has left where a law sticks in between two that
+    /// slide: tangents of sliding do not know the force that sticking bears. A stage that is short
+    /// enough crosses one kink at most, and there the method ends. For monotone forces the path is
+    /// continuous and does not turn back.
+    fn continuation(
+        &mut self,
+        linear: &mut LinearStep,
+        data: StepData<'_>,
+        began: f64,
+        increment: &mut Increment,
+    ) -> Result<(), StepError> {
+        for (i, open) in self.open.iter_mut().enumerate() {
+            *open = increment.force[i] - self.linearised[i];
+        }
+        self.reached.copy_from_slice(&self.guess);
+        let (mut left, mut stage) = (1.0, 0.5);
+        while left > 0.0 {
+            let aim = if stage < left { left - stage } else { 0.0 };
+            let wanted = if aim > 0.0 { ENOUGH } else { TOLERANCE };
+            let mut residual = f64::INFINITY;
+            for _ in 0..STAGE_ITERATIONS {
+                residual = self.iterate(linear, data, aim, increment)?;
+                if residual <= wanted {
+                    break;
+                }
+            }
+            if residual <= ENOUGH {
+                self.reached.copy_from_slice(&self.guess);
+                (left, stage) = (aim, 2.0 * stage);
+                continue;
+            }
+            stage = 0.5 * stage.min(left);
+            if stage < SHORTEST_STAGE || self.iterations > MOST_ITERATIONS {
+                let (iterations, modes) = (self.iterations, increment.modes.clone());
+                return Err(StepError::Newton { iterations, residual: left * began, modes });
+            }
+            self.guess.copy_from_slice(&self.reached);
+            self.evaluate(linear, data, increment)?;
+        }
+        Ok(())
+    }
+
+    /// Solves the step with the force linearised about the guess, and with the share `left` of the
+    /// open force as an external one; the increment becomes the next guess. Returns the
+    /// out-of-balance force relative to the largest force.
+    fn iterate(
+        &mut self,
+        linear: &mut LinearStep,
+        data: StepData<'_>,
+        left: f64,
+        increment: &mut Increment,
+    ) -> Result<f64, StepError> {
+        let StepData { scene, structure, state, forcing } = data;
+        self.iterations += 1;
+        let weight = scene.coefficients.displacement[0];
+        self.tangent
+            .refill(structure, &self.seen)
+            .map_err(StepError::structure("tangent of the structure"))?;
+        let tangent = &self.tangent.matrix;
+        if !tangent.entries().eq(linear.operators.tangent.entries()) {
+            let (model, base) = (&scene.model, &scene.base);
+            let factor = Factor::new(model, &scene.coefficients, tangent)
+                .map_err(|_| StepError::Singular { matrix: "effective stiffness matrix" })?;
+            let tangent = tangent.clone();
+            linear.operators = Operators::new(model, base, &scene.soil, factor, tangent);
+            linear.contact.invalidate();
+        }
+        // K_eff Δu + f(u*) linearised at the guess: f + D weight (Δu − guess).
+        self.linearised.copy_from_slice(&increment.force);
+        let tangent = &linear.operators.tangent;
+        tangent.multiply_add(-weight, &self.guess, &mut self.linearised);
+        for (i, du) in increment.displacement.iter_mut().enumerate() {
+            *du = linear.known[i] - self.linearised[i];
+        }
+        if left > 0.0 {
+            let open = self.open.iter();
+            increment.displacement.iter_mut().zip(open).for_each(|(du, open)| *du += left * open);
+        }
+        linear.solve_contact(scene, state, forcing, increment)?;
+        self.trials += increment.trials;
+        self.method = self.method.max(increment.method);
+        let tangent = &linear.operators.tangent;
+        tangent.multiply_add(weight, &increment.displacement, &mut self.linearised);
+        self.guess.copy_from_slice(&increment.displacement);
+        self.evaluate(linear, data, increment)?;
+        if increment.force.iter().any(|f| !f.is_finite()) {
+            return Err(StepError::NotFinite { quantity: "nonlinear force of the structure" });
+        }
+        let scale = largest(&linear.known).max(largest(&increment.force));
+        let open = self
+            .linearised
+            .iter()
+            .zip(&increment.force)
+            .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+        Ok(if scale > 0.0 { open / scale } else { 0.0 })
+    }
+
     /// f at u* for the guess, less f at the static state.
     fn evaluate(
         &mut self,
         linear: &mut LinearStep,
-        scene: &Scene,
-        structure: &dyn Structure,
-        state: &State,
-        forcing: &Forcing,
+        data: StepData<'_>,
         increment: &mut Increment,
     ) -> Result<(), StepError> {
+        let StepData { scene, structure, state, forcing } = data;
         let c = scene.coefficients.displacement;
         let Motion { displacement: u, velocity: v, acceleration: a, .. } = &state.motion;
         for (i, seen) in self.seen.iter_mut().enumerate() {

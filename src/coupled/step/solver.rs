@@ -3,7 +3,7 @@
 use super::forcing::Forcing;
 use super::increment::Increment;
 use super::linear::LinearStep;
-use super::newton::Newton;
+use super::newton::{Newton, StepData};
 use crate::contact::{ContactSolver, ModeSearch};
 use crate::coupled::motion::Motion;
 use crate::coupled::scene::Scene;
@@ -57,7 +57,8 @@ impl Solver {
         let Self { linear, newton, total } = self;
         linear.predict(scene, state, forcing);
         if let Some(newton) = newton {
-            newton.solve(linear, scene, structure, state, forcing, increment)?;
+            let data = StepData { scene, structure, state, forcing };
+            newton.solve(linear, data, increment)?;
         } else {
             increment.displacement.copy_from_slice(&linear.known);
             linear.solve_contact(scene, state, forcing, increment)?;

@@ -6,3 +6,4 @@ mod building;
 mod laws;
 mod p_delta;
 mod refused;
+mod stiff_sliders;

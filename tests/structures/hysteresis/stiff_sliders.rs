@@ -1,0 +1,156 @@
+//! GOAL: Newton's method on laws that stick and slide in turn.
+//! SCENE: random nonlinear buildings with long steps; friction pendulums that slide after 0.1 mm.
+//! REFERENCE: every run ends, and its ledger closes.
+//!
+//! `NONLINEAR_SCENES=300 cargo test --test structures stiff_sliders` asks for more scenes.
+
+use basemat::Simulation;
+use basemat::Soil;
+use basemat::bem::HalfPlaneGround;
+use basemat::interface::Coulomb;
+use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::structure::{
+    Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber,
+    NonlinearShearBuilding, ShearBuilding, Storey,
+};
+
+use crate::support::random::Random;
+
+const FLOOR: f64 = 20.0e3;
+const LEVEL: IsolationLevel =
+    IsolationLevel { height: 0.3, slab_mass: 30.0e3, slab_inertia: 2.5e5, damping: 0.0 };
+
+fn building(storeys: usize, stiffness: f64, damping: f64) -> ShearBuilding {
+    let storeys = vec![Storey::new(3.0, FLOOR, stiffness); storeys];
+    let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys).unwrap();
+    building.with_stiffness_damping(damping).unwrap()
+}
+
+/// Soil and interface under a building.
+#[derive(Debug, Clone, Copy)]
+struct Below {
+    modulus: f64,
+    friction: f64,
+    elements: usize,
+}
+
+/// El Centro for `duration`, s.
+fn shake(
+    structure: NonlinearShearBuilding,
+    below: Below,
+    strength: f64,
+    time_step: f64,
+    duration: f64,
+) -> basemat::Result<f64> {
+    let soil = Soil::new(below.modulus, 0.33, 1900.0)?;
+    let mut simulation = Simulation::builder(time_step)
+        .structure(structure)
+        .ground(HalfPlaneGround::uniform_strip(soil, -5.0..5.0, below.elements)?)
+        .interface(Coulomb::new(below.friction)?)
+        .motion(el_centro_1940().scaled(strength)?)
+        .build()?;
+    let steps = simulation.steps_for(duration);
+    let run = simulation.run(steps, |_| {})?;
+    Ok(run.ledger_residual)
+}
+
+/// A law that carries `weight`, yields at a displacement from 0.1 to 20 mm and never below 1 % of
+/// its force.
+fn random_law(weight: f64, random: &mut Random) -> Box<dyn Hysteresis> {
+    let yield_displacement = random.log_within(1e-4, 2e-2);
+    let force = random.within(0.03, 0.2) * weight;
+    let (stiffness, hardening) = (force / yield_displacement, random.pick(&[0.0, 0.02, 0.1]));
+    match random.pick(&[0, 1, 2, 3]) {
+        0 => Box::new(Bilinear::new(stiffness, force, hardening).unwrap()),
+        1 => {
+            let shape = (random.within(1.0, 6.0), random.within(0.5, 1.0));
+            let law = BoucWen::new(stiffness, force, hardening).unwrap();
+            Box::new(law.with_shape(shape.0, shape.1).unwrap())
+        }
+        2 => {
+            let law = FrictionPendulum::new(weight, random.within(1.0, 4.0), force / weight);
+            Box::new(law.unwrap().with_yield_displacement(yield_displacement).unwrap())
+        }
+        _ => {
+            let ratio = random.within(5.0, 20.0);
+            let law = LeadRubber::from_strength(stiffness / ratio, force).unwrap();
+            Box::new(law.with_stiffness_ratio(ratio).unwrap())
+        }
+    }
+}
+
+#[test]
+fn random_buildings_are_solved() {
+    let scenes = std::env::var("NONLINEAR_SCENES").ok().and_then(|text| text.parse().ok());
+    let scenes: usize = scenes.unwrap_or(30);
+    let mut random = Random(12);
+    let mut failed = Vec::new();
+    for scene in 0..scenes {
+        let storeys = random.pick(&[1, 2, 3, 4, 5]);
+        let own = building(storeys, random.log_within(5e6, 1e8), random.pick(&[0.0, 0.02]));
+        let above = |storey: usize| STANDARD_GRAVITY * FLOOR * (storeys - storey) as f64;
+        let isolated = random.chance(0.5);
+        let mut structure = if isolated {
+            let weight = above(0) + STANDARD_GRAVITY * LEVEL.slab_mass;
+            let law = random_law(weight, &mut random);
+            NonlinearShearBuilding::isolated(own, LEVEL, law).unwrap()
+        } else {
+            NonlinearShearBuilding::new(own)
+        };
+        for storey in 0..storeys {
+            if !isolated || random.chance(0.3) {
+                let level = storey + usize::from(isolated);
+                let law = random_law(above(storey), &mut random);
+                structure = structure.with_law(level, law).unwrap();
+            }
+        }
+        let below = Below {
+            modulus: random.log_within(20e6, 500e6),
+            friction: random.within(0.2, 1.0),
+            elements: random.pick(&[4, 8, 12]),
+        };
+        let strength = random.within(0.5, 2.0);
+        let time_step = random.log_within(0.002, 0.05);
+        match shake(structure, below, strength, time_step, 400.0 * time_step) {
+            Ok(residual) => assert!(residual < 1e-8, "{scene}: {residual:e}"),
+            Err(error) => {
+                println!("SCENE {scene} dt {time_step:.4} {below:?}: {error}");
+                failed.push(scene);
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{} of {scenes} failed: {failed:?}", failed.len());
+}
+
+#[test]
+fn pendulums_that_slide_after_a_tenth_of_a_millimetre_are_solved() {
+    let all = std::env::var_os("NONLINEAR_SCENES").is_some();
+    let (mut scenes, mut failed) = (0, Vec::new());
+    for storeys in [1, 2, 3, 5] {
+        for modulus in [20e6, 80e6, 300e6] {
+            for friction in [0.03, 0.06, 0.1] {
+                for radius in [1.0, 2.0, 4.0] {
+                    let published = modulus == 80e6 && friction == 0.06 && radius == 2.0;
+                    if !(all || published) {
+                        continue;
+                    }
+                    let weight = STANDARD_GRAVITY * (LEVEL.slab_mass + storeys as f64 * FLOOR);
+                    let law = FrictionPendulum::new(weight, radius, friction).unwrap();
+                    let law = law.with_yield_displacement(1e-4).unwrap();
+                    let own = building(storeys, 7.0e6 * storeys as f64, 0.02);
+                    let structure = NonlinearShearBuilding::isolated(own, LEVEL, law).unwrap();
+                    let below = Below { modulus, friction: 0.4, elements: 8 };
+                    scenes += 1;
+                    match shake(structure, below, 1.0, 0.02, 15.0) {
+                        Ok(residual) => assert!(residual < 1e-8, "{residual:e}"),
+                        Err(error) => {
+                            println!("SCENE {storeys} {modulus:e} {friction} {radius}: {error}");
+                            failed.push(error.to_string());
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(failed.is_empty(), "{} of {scenes} failed: {failed:?}", failed.len());
+}
