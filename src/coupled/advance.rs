@@ -31,12 +31,13 @@ impl State {
                 if stays_open { at.modes[e] } else { known[0] }
             })
             .collect();
-        let start: Vec<_> =
-            (0..count).map(|e| StepStart::new(contact[e], modes[e], scene.time_step)).collect();
-        let mut start = StepStarts::new(&scene.laws, &start)?;
-        if !at.memory.is_empty() {
-            start.memory_mut().copy_from_slice(&at.memory);
-        }
+        let start: Vec<_> = (0..count)
+            .map(|e| {
+                let start = StepStart::new(contact[e], modes[e], scene.time_step);
+                start.with_memory(at.memory.get(e).map_or(&[], Vec::as_slice))
+            })
+            .collect();
+        let start = StepStarts::new(&scene.laws, &start)?;
         let foundations = scene.base.foundations().map(|(_, elements)| Foundation::new(elements));
         let mut state = Self {
             step: 0,

@@ -259,7 +259,8 @@ impl SimulationBuilder {
     /// interface law that returns numbers which are not finite.
     pub fn build(mut self) -> Result<Simulation> {
         let time_step = positive("time step", self.time_step)?;
-        let gravity = not_negative("gravity", self.beginning.gravity)?;
+        not_negative("gravity", self.beginning.gravity)?;
+        let gravity = self.beginning.static_gravity();
         let missing = |quantity, needed| Error::Scene { quantity, needed };
         let structure = self.structure.take();
         let mut structure =
@@ -291,7 +292,7 @@ impl SimulationBuilder {
         if self.steps > 0 {
             ground.reserve(self.steps)?;
         }
-        let (laws, own, soil) = (&self.laws, structure.as_ref(), ground.as_ref());
+        let (laws, own, soil) = (&self.laws, structure.as_mut(), ground.as_ref());
         let static_state = self.beginning.static_state(laws, own, soil, &base, &model)?;
         let joined = joined_by_force(&model, structure.as_ref(), &static_state)?;
 

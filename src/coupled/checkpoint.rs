@@ -13,7 +13,7 @@ use crate::interface::ContactState;
 use crate::structure::{Structure, restore_variables, save_variables};
 
 /// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
-const FORMAT: u32 = 5;
+const FORMAT: u32 = 6;
 /// Most steps that a checkpoint may stand for: more would not fit into any run.
 const MOST_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,
@@ -236,7 +236,8 @@ fn identity(scene: &Scene, operators: &Operators, state: &State, ledger: bool) -
             signed,
         ],
         ground: vec![sum(&scene.soil)],
-        preload: vec![sum(&scene.static_state.traction)],
+        // The weight is none of the static state where it acts as a load.
+        preload: [&scene.static_state.traction, &scene.weight].map(|values| sum(values)).to_vec(),
     }
 }
 

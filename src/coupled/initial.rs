@@ -66,7 +66,7 @@ impl Beginning {
     pub(super) fn static_state(
         &self,
         laws: &[Box<dyn InterfaceLaw>],
-        structure: &dyn Structure,
+        structure: &mut dyn Structure,
         ground: &dyn Ground,
         base: &Base,
         model: &Model,
@@ -84,9 +84,12 @@ impl Beginning {
             for force in weight.iter().chain(&load) {
                 finite("load at t = 0", *force)?;
             }
-            let stage = (model, structure, base);
+            let stage = (model, &*structure, base);
             state = stages::solve(stage, ground, laws, self.placement, [&weight, &load])?;
             state.load = own;
+            if let Some(force) = structure.nonlinear_mut() {
+                force.commit(&state.displacement);
+            }
         }
         (state.force, state.energy) = model.nonlinear_state(structure, &state.displacement)?;
         Ok(state)
@@ -112,6 +115,11 @@ impl Beginning {
         loads.map(|load| SteppedLoad::new(load, model.modes.as_deref(), is_static)).collect()
     }
 
+    /// Gravity as the laws may count on it at the start: zero where nothing presses.
+    pub(super) fn static_gravity(&self) -> f64 {
+        if self.is_static() { self.gravity } else { 0.0 }
+    }
+
     /// Sets `state`, which is at rest, and the structure's internal variables in motion.
     pub(super) fn set_in_motion(
         &self,
@@ -119,7 +127,8 @@ impl Beginning {
         structure: &mut dyn Structure,
         state: &mut State,
     ) -> Result<()> {
-        if self.displacement.is_empty() && self.velocity.is_empty() {
+        let falls = !scene.weight.is_empty();
+        if self.displacement.is_empty() && self.velocity.is_empty() && !falls {
             return Ok(());
         }
         let mut mass = None;
@@ -227,7 +236,7 @@ fn assembled_mass(structure: &dyn Structure, unknowns: usize) -> Result<SparseMa
     SparseMatrix::assembled("mass matrix", unknowns, &|m| structure.mass(m))
 }
 
-/// a of M a + C v + K u + f(u) = p at t = 0.
+/// a of M a + C v + K u + f(u) = p at t = 0, before the soil has answered.
 fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Result<Vec<f64>> {
     let model = &scene.model;
     let n = model.unknowns;

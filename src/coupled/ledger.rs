@@ -19,8 +19,8 @@ use crate::results::unit::number;
 pub struct Ledger {
     /// ½ v·M v.
     pub kinetic: f64,
-    /// ½ u·K u, plus what the nonlinear internal force stores: its work, where the structure does
-    /// not tell stored from dissipated energy.
+    /// ½ u·K u, plus what the nonlinear internal force stores: its work since t = 0, where the structure
+    /// does not tell stored from dissipated energy.
     pub strain: f64,
     /// Heat of hysteretic parts of the structure
     /// ([`NonlinearForce::energy`](crate::structure::NonlinearForce::energy)); never less
@@ -44,7 +44,7 @@ pub struct Ledger {
     pub layer: f64,
     /// Potential of the static tractions against the change of the jump.
     pub preload: f64,
-    /// Work of external loads and of the free field.
+    /// Work of external loads and of the free field, and the energy of an initial motion.
     pub input: f64,
     /// Relative input energy (Uang & Bertero 1990): work of the loads, and of the inertia forces
     /// −M R ÿ of the free field's translation y, on displacements relative to it. It stands beside

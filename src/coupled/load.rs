@@ -56,7 +56,8 @@ impl Load {
         Self::new(row, move |_| force)
     }
 
-    /// A `force` of the static state that is gone from the first step on (snap-back).
+    /// A `force` of the static state that is gone from the first step on (snap-back). Without a static
+    /// state (no gravity, or [`Placement::Unloaded`](super::Placement::Unloaded)) it never acts.
     pub fn released(row: impl Into<Row>, force: f64) -> Self {
         Self::new(row, move |time| if time > 0.0 { 0.0 } else { force })
     }

@@ -169,7 +169,7 @@ impl Simulation {
         &self.scene.probes
     }
 
-    /// Static displacement of the structure's unknowns under weight, m and rad. Its rigid
+    /// Static displacement of the structure's unknowns under weight and loads at t = 0, m and rad. Its rigid
     /// settlement has no meaning on a half-plane, which has no datum in two dimensions.
     pub fn static_displacement(&self) -> &[f64] {
         &self.scene.static_state.displacement
@@ -306,7 +306,7 @@ impl Simulation {
     /// Goes to where `checkpoint` was made, in a simulation that was built in the same way, and
     /// wherever this one is; what follows is the same to the last bit on the same processor.
     ///
-    /// Sizes, time step, elements, probes, matrices and static state are compared. Loads, motion and laws
+    /// Sizes, time step, elements, probes, matrices and static state are compared. Loads, initial and ground motion, gravity and laws
     /// are not, nor what a user's structure leaves out of what it [saves][`save`]. The
     /// transitions, trials and method of the step before the checkpoint are not kept.
     ///

@@ -96,7 +96,7 @@ impl PartialEq for Origin {
 
 /// The simulation at the end of an accepted step.
 ///
-/// Displacements are changes against the static state under weight, relative to the free field's
+/// Displacements are changes against the static state, relative to the free field's
 /// translation unless they say otherwise. Forces are those of the
 /// structure **on the soil**, per metre of thickness; tractions of the step act at its middle.
 #[derive(Debug, Clone, PartialEq)]

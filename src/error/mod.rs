@@ -265,7 +265,8 @@ pub enum Error {
     /// The static state under the structure's weight was not found.
     #[error(
         "no static equilibrium after {iterations} iterations: residual {residual:e} of the load \
-         (no resultant of the loads is beyond what the base carries, and the structure is no mechanism)"
+         (the resultants of the loads do not tell why, nor is the structure at rest a mechanism: is a part of it, or of \
+         its soil, loaded beyond what it can carry?)"
     )]
     Preload {
         /// Iterations made.

@@ -10,7 +10,7 @@ use crate::results::Extremes;
 pub struct ElementEnvelope {
     /// Where it is.
     pub element: ContactElement,
-    /// Pressure at the start: under weight alone, Pa.
+    /// Pressure at the start, Pa.
     pub static_pressure: f64,
     /// Smallest and largest pressure, Pa.
     pub pressure: Extremes,

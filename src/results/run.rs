@@ -45,7 +45,7 @@ pub struct Run {
     pub start: f64,
     /// Time at its end, s.
     pub end: f64,
-    /// Normal force at the start: the weight, N/m.
+    /// Normal force at the start, of weight and loads, N/m.
     pub static_normal_force: f64,
     /// Base shear, N/m.
     pub base_shear: Extremes,

@@ -90,8 +90,8 @@ pub trait NonlinearForce {
         None
     }
 
-    /// Accepts a step that ended with `displacement`: internal variables may change here only.
-    /// Default: there are none.
+    /// Accepts a step that ended with `displacement`: internal variables may change here only. Called
+    /// for the static state and an initial motion, too. Default: there are none.
     fn commit(&mut self, _displacement: &[f64]) {}
 
     /// The internal variables that [`commit`](NonlinearForce::commit) changes, for a checkpoint. A

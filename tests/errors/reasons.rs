@@ -139,6 +139,8 @@ fn a_step_that_the_structure_refuses_commits_nothing() {
         let structure = Refusing::new(part, from);
         let commits = Arc::clone(&structure.commits);
         let mut simulation = build(structure).unwrap();
+        // The static state.
+        assert_eq!(commits.swap(0, Ordering::Relaxed), 1, "{part:?}");
         let mut accepted = 0;
         let error = loop {
             let before = simulation.state().clone();

@@ -88,7 +88,11 @@ fn own_structure_linear_and_nonlinear() {
     let (_, linear) = run(scene().structure(Bare(structure(0.0))));
     assert_eq!(commits.load(Ordering::Relaxed), 0, "a wrapper without `commit`");
     let (_, soft) = run(scene().structure(structure(0.0)));
-    assert_eq!(commits.load(Ordering::Relaxed), 600, "once per accepted step");
+    assert_eq!(
+        commits.load(Ordering::Relaxed),
+        601,
+        "for the static state, and once per accepted step"
+    );
     assert_same_motion(&linear, &soft, 1e-7);
     let (run, hard) = run(scene().structure(structure(1.0e4 * SPRING)));
     let drift =

@@ -161,7 +161,12 @@ impl Quadrature {
         let mut failed: Vec<(usize, Error)> = std::thread::scope(|scope| {
             let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
             let own = work().err();
-            let others = others.into_iter().filter_map(|thread| thread.join().ok()?.err());
+            let joined = others.into_iter().map(|thread| match thread.join() {
+                Ok(outcome) => outcome.err(),
+                // A law of the user's may panic: not in silence.
+                Err(panic) => std::panic::resume_unwind(panic),
+            });
+            let others = joined.collect::<Vec<_>>().into_iter().flatten();
             own.into_iter().chain(others).collect()
         });
         failed.sort_by_key(|(point, _)| *point);

@@ -213,7 +213,11 @@ impl Wavenumbers {
                 }
             }
         }
-        let error = (0..3).map(|c| last[0][c].abs() + last[1][c].abs()).fold(0.0, f64::max);
+        let errors = [0, 1, 2].map(|c| last[0][c].abs() + last[1][c].abs());
+        if errors.iter().sum::<f64>().is_nan() {
+            return false;
+        }
+        let error = errors.into_iter().fold(0.0, f64::max);
         let share = (2.0 / (left * self.shortest)).powi(2).min(1.0);
         error * width * share <= allowed || error <= FLOOR * largest
     }

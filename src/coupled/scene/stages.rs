@@ -7,9 +7,7 @@ use super::standing;
 use super::static_state::StaticState;
 use crate::bem::Ground;
 use crate::error::Result;
-use crate::interface::{
-    ContactState, InterfaceLaw, Mode, StepStart, StepStarts, law_of, memory_ends,
-};
+use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, StepStarts, law_of};
 use crate::structure::Structure;
 
 /// Friction while the structure is placed on the ground.
@@ -55,6 +53,9 @@ pub enum Placement {
 /// Increments of a load under which elements slide: friction makes their path matter.
 const INCREMENTS: usize = 10;
 
+/// Passes in which laws that remember settle.
+const PASSES: usize = 10;
+
 /// Nothing has happened yet.
 const AT_REST: StepStart<'static> = StepStart {
     state: ContactState { gap: 0.0, slip: 0.0, pressure: 0.0, shear: 0.0 },
@@ -88,14 +89,18 @@ pub(crate) fn solve(
     for (e, mode) in state.modes.iter_mut().enumerate() {
         *mode = law_of(placing, e).modes()[0];
     }
-    let found = stage.equilibrium(placing, &start, state, weight);
-    let (mut state, contact) = found.map_err(|e| standing::cause(&stage, placing, weight, e))?;
-    let mut memory = start.memory().to_vec();
-    start.remember(placing, &contact, &state.modes, &mut memory)?;
+    let found = settle(&stage, placing, start, state, weight);
+    let (mut state, start) = found.map_err(|e| standing::cause(&stage, placing, weight, e))?;
     // A law without friction that remembers as much is the same law; others begin anew.
-    if memory_ends(placing, count)? == memory_ends(laws, count)? {
-        state.memory = memory;
-    }
+    state.memory = (0..count)
+        .map(|e| start.memory_of(e))
+        .enumerate()
+        .map(
+            |(e, own)| {
+                if own.len() == law_of(laws, e).memory() { own.to_vec() } else { Vec::new() }
+            },
+        )
+        .collect();
     if load.iter().all(|force| *force == 0.0) {
         return Ok(state);
     }
@@ -104,26 +109,21 @@ pub(crate) fn solve(
         let known = law_of(laws, e).modes();
         *mode = known.iter().copied().find(|m| m == mode && !m.is_closed()).unwrap_or(known[0]);
     }
-    let begin: Vec<_> = (contact.iter().zip(&state.modes))
-        .map(|(contact, &mode)| StepStart::new(*contact, mode, AT_REST.time_step))
+    let placed: Vec<_> = (0..count)
+        .map(|e| {
+            let start = StepStart::new(*start.state(e), state.modes[e], AT_REST.time_step);
+            start.with_memory(&state.memory[e])
+        })
         .collect();
-    let mut begin = StepStarts::new(laws, &begin)?;
-    if !state.memory.is_empty() {
-        begin.memory_mut().copy_from_slice(&state.memory);
-    }
+    let begin = StepStarts::new(laws, &placed)?;
     let path = |increments: usize| -> Result<StaticState> {
         let (mut state, mut start) = (state.clone(), begin.clone());
         for k in 1..=increments {
             let share = k as f64 / increments as f64;
             let total: Vec<f64> = weight.iter().zip(load).map(|(w, f)| w + share * f).collect();
-            let (next, contact) = stage.equilibrium(laws, &start, state, &total)?;
-            let mut memory = start.memory().to_vec();
-            start.remember(laws, &contact, &next.modes, &mut memory)?;
-            start.advance(&contact, &next.modes, &memory);
-            start.slip_rates_mut().for_each(|rate| *rate = 0.0);
-            state = next;
+            (state, start) = settle(&stage, laws, start, state, &total)?;
         }
-        state.memory = start.memory().to_vec();
+        state.memory = (0..count).map(|e| start.memory_of(e).to_vec()).collect();
         Ok(state)
     };
     let sticks = |e: usize| law_of(laws, e).modes().contains(&Mode::Stick);
@@ -138,4 +138,28 @@ pub(crate) fn solve(
             standing::cause(&stage, laws, &total, error)
         }),
     }
+}
+
+/// Equilibrium under `load` from where `start` and `state` are, and where it leaves them: with laws
+/// that remember it is found again until they remember nothing new.
+fn settle(
+    stage: &Standing<'_>,
+    laws: &[Box<dyn InterfaceLaw>],
+    mut start: StepStarts,
+    mut state: StaticState,
+    load: &[f64],
+) -> Result<(StaticState, StepStarts)> {
+    let mut memory = start.memory().to_vec();
+    for _ in 0..PASSES {
+        let contact;
+        (state, contact) = stage.equilibrium(laws, &start, state, load)?;
+        start.remember(laws, &contact, &state.modes, &mut memory)?;
+        let is_settled = memory == start.memory();
+        start.advance(&contact, &state.modes, &memory);
+        start.slip_rates_mut().for_each(|rate| *rate = 0.0);
+        if is_settled {
+            break;
+        }
+    }
+    Ok((state, start))
 }

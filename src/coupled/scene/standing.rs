@@ -12,7 +12,7 @@ use super::mechanism::{AtRest, Held};
 use super::model::Tangent;
 use super::proximal::Standing;
 use crate::error::{Error, StandingError};
-use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, law_of};
+use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, Tolerance, law_of};
 use crate::linalg::dot;
 use crate::matrix::SparseMatrix;
 use crate::structure::{ContactNode, Triplets};
@@ -63,13 +63,20 @@ fn resultants(
         let nodes = nodes_under(stage.base, part);
         let (left, right) = (nodes.first()?.x, nodes.last()?.x);
         let ends = [left, right];
+        // What glue carries is not to be told from resultants.
+        let little = 1e-6 * normal.abs().max(1.0);
+        let glued = |trial| part.elements().iter().any(|&e| sticks_at(law_of(laws, e), trial));
+        if glued(ContactState { pressure: -little, ..ContactState::default() }) {
+            return None;
+        }
         if normal <= 0.0 {
             return Some(StandingError::Lifted { ends, upward });
         }
         let friction = part.elements().iter().map(|&e| law_of(laws, e).friction_coefficient());
         let friction = friction.map(|known| known.unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
         let resistance = friction * normal;
-        if horizontal.abs() > resistance {
+        let cohesive = glued(ContactState { shear: little, ..ContactState::default() });
+        if horizontal.abs() > resistance && !cohesive {
             let ratio = horizontal.abs() / resistance;
             return Some(StandingError::Slides { ends, horizontal, normal, resistance, ratio });
         }
@@ -90,6 +97,20 @@ fn resultants(
         let ratio = normal / capacity;
         (ratio > 1.0).then_some(StandingError::Sinks { ends, normal, width, capacity, ratio })
     })
+}
+
+/// Whether a law holds an element that nobody has moved so far at these tractions, without sliding
+/// or opening.
+fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
+    let mut memory = vec![0.0; law.memory()];
+    let start = StepStart::new(ContactState::default(), Mode::Stick, 1.0);
+    if !memory.is_empty() {
+        law.initial_memory(&start, &mut memory);
+    }
+    let start = start.with_memory(&memory);
+    let tolerance = Tolerance::new(0.0, 0.0);
+    // A bonded base has no other mode.
+    law.modes().len() > 1 && law.next_mode(Mode::Stick, &start, &trial, tolerance) == Mode::Stick
 }
 
 /// The largest pressure that a law carries; infinite if it has no mode of yielding.

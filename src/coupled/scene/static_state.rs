@@ -13,8 +13,8 @@ pub(crate) struct StaticState {
     pub(crate) modes: Vec<Mode>,
     /// The structure's own load at t = 0.
     pub(crate) load: Vec<f64>,
-    /// Memory of the laws that acted in it; empty if the laws begin anew.
-    pub(crate) memory: Vec<f64>,
+    /// Memory of each element's law where that acted in it; empty where the law begins anew.
+    pub(crate) memory: Vec<Vec<f64>>,
     /// f(u) of a nonlinear structure, and its energies where it knows them.
     pub(crate) force: Vec<f64>,
     pub(crate) energy: Option<InternalEnergy>,
