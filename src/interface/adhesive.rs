@@ -21,7 +21,7 @@ use crate::error::{Result, not_negative};
 /// let mut simulation = Simulation::builder(0.002)
 ///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
 ///     .ground(SpringGround::new(-2.0..2.0, 16, 8e7, 4e7)?.with_dashpots(7e5, 4e5)?)
-///     .interface(Adhesive::new(50.0e3, 30.0e3, 0.6)?)
+///     .interface(Adhesive::new(120.0e3, 80.0e3, 0.6)?)
 ///     .motion(el_centro_1940())
 ///     .build()?;
 /// let run = simulation.run(2500, |_| {})?;
