@@ -164,7 +164,8 @@
 //! # Examples
 //!
 //! Short programs that print a table: `shear_building`, `base_isolated`, `two_buildings`,
-//! `portal_frame`, `rocking_block`, `floor_spectra`, `layered_site`, `impedances`, `friction_sweep`,
+//! `portal_frame`, `rocking_block`, `tilted_block`, `snap_back`, `bearing_capacity`,
+//! `machine_foundation`, `floor_spectra`, `layered_site`, `impedances`, `friction_sweep`,
 //! `travelling_wave`, `from_matrices`; `pictures` draws everything (feature `png`). What each prints is
 //! in `docs/examples.md`.
 #![forbid(unsafe_code)]

@@ -1,0 +1,53 @@
+//! A snap-back test: the roof of a building is pulled by a cable, and the cable is cut.
+//!
+//! ```text
+//! cargo run --release --example snap_back
+//! ```
+//!
+//! The pull belongs to the static state and is gone from the first step on. What dies out is the
+//! building's lowest mode on its soil: longer than on a fixed base, and damped by radiation alone.
+
+use basemat::Result;
+use basemat::coupled::Load;
+use basemat::prelude::*;
+
+const TIME_STEP: f64 = 0.002;
+
+fn main() -> Result<()> {
+    let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 4];
+    let building = ShearBuilding::new(8.0, 40.0e3, 4.0e5, &storeys)?;
+    let (roof, fixed) = (building.roof(), building.fixed_base_frequency());
+    println!("Fixed base: {:.3} s\n", 1.0 / fixed);
+    println!("c_S, m/s   pulled, mm   period, s   damping, %   ledger");
+    for speed in [800.0, 400.0, 200.0, 100.0] {
+        let soil = Soil::from_shear_wave_speed(speed, 0.33, 1900.0)?;
+        let mut simulation = Simulation::builder(TIME_STEP)
+            .ground(HalfPlaneGround::under(soil, &building, 12)?)
+            .structure(building.clone())
+            .interface(Coulomb::new(0.7)?)
+            .load(Load::released(roof, 100.0e3))
+            .probe(Probe::displacement("roof", roof))
+            .build()?;
+        let pulled = simulation.static_displacement()[roof];
+        let mut sway = Vec::new();
+        let run = simulation.run(2000, |state| sway.push(state.probes[0]))?;
+        // Peaks on the side of the pull, about where it comes to rest.
+        let rest = sway[sway.len() - 1];
+        let peaks: Vec<(usize, f64)> = (1..sway.len() - 1)
+            .filter(|&k| sway[k] > sway[k - 1] && sway[k] >= sway[k + 1] && sway[k] > rest)
+            .map(|k| (k, sway[k] - rest))
+            .collect();
+        // Higher modes ring along in the first.
+        let (first, last) = (peaks[1], peaks[peaks.len().min(5) - 1]);
+        let cycles = (peaks.len().min(5) - 2) as f64;
+        let period = (last.0 - first.0) as f64 * TIME_STEP / cycles;
+        let damping = (first.1 / last.1).ln() / (std::f64::consts::TAU * cycles);
+        println!(
+            "{speed:8.0}{:13.2}{period:12.3}{:13.2}{:9.0e}",
+            1e3 * pulled,
+            1e2 * damping,
+            run.ledger_residual
+        );
+    }
+    Ok(())
+}
