@@ -89,6 +89,7 @@ mod state;
 mod step;
 mod translation;
 mod warning;
+mod workable_step;
 
 pub use crate::contact::{ContactSearch, SearchMethod};
 pub use crate::results::run::{Fallbacks, Run};
@@ -111,3 +112,4 @@ pub use simulation::Simulation;
 pub(crate) use state::Origin;
 pub use state::{Foundation, State, Transition};
 pub use warning::Warning;
+pub use workable_step::workable_step;

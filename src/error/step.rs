@@ -9,7 +9,8 @@ use crate::interface::Mode;
 pub enum StepError {
     /// No set of contact modes satisfied the interface laws.
     #[error(
-        "contact modes not found in {iterations} trials, residual {residual:e}, modes {modes:?}"
+        "contact modes not found in {iterations} trials, residual {residual:e}, modes {modes:?} \
+         (`coupled::workable_step` finds a time step that gets through)"
     )]
     Contact {
         /// Trials made, fallbacks included.
@@ -23,7 +24,7 @@ pub enum StepError {
     /// Newton's iteration for a nonlinear structure did not converge.
     #[error(
         "Newton's iteration not converged in {iterations} iterations, residual {residual:e}, \
-         modes {modes:?}"
+         modes {modes:?} (`coupled::workable_step` finds a time step that gets through)"
     )]
     Newton {
         /// Iterations made.

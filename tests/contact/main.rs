@@ -10,4 +10,5 @@ mod spring_bed;
 #[path = "../support/mod.rs"]
 mod support;
 mod variable_friction;
+mod workable_step;
 mod yielding;

@@ -1,0 +1,85 @@
+//! GOAL: where steps have no solution, the longest step is found that gets a scene through.
+//! SCENE: a block on a law that is never content with steps longer than some limit.
+//! REFERENCE: the limit.
+
+use basemat::bem::SpringGround;
+use basemat::coupled::workable_step;
+use basemat::interface::{
+    Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+};
+use basemat::motion::el_centro_1940;
+use basemat::structure::RigidBlock;
+use basemat::{Error, Result, Simulation, StepError};
+
+/// Coulomb's law in steps of this length (s) or shorter ones; in others always for another mode.
+struct ContentUpTo(f64);
+
+fn coulomb() -> Coulomb {
+    Coulomb::new(0.5).unwrap()
+}
+
+impl InterfaceLaw for ContentUpTo {
+    fn modes(&self) -> &[Mode] {
+        &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        coulomb().conditions(mode, start)
+    }
+
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &StepStart,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        if start.time_step <= self.0 {
+            return coulomb().next_mode(mode, start, trial, tolerance);
+        }
+        if mode == Mode::Open { Mode::Stick } else { Mode::Open }
+    }
+}
+
+fn scene(step: f64, limit: f64) -> Result<Simulation> {
+    Simulation::builder(step)
+        .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+        .ground(SpringGround::new(-2.0..2.0, 3, 8e7, 4e7)?)
+        .interface(ContentUpTo(limit))
+        .motion(el_centro_1940())
+        .build()
+}
+
+#[test]
+fn the_longest_step_that_gets_through_is_found() {
+    let error = scene(0.02, 0.003).unwrap().run(10, |_| {}).map(|_| ()).unwrap_err();
+    assert!(matches!(error, Error::Step { source: StepError::Contact { .. }, .. }), "{error}");
+    assert!(error.to_string().contains("`coupled::workable_step`"), "{error}");
+    for (limit, wanted) in [(0.02, Some(0.02)), (0.003, Some(0.0025)), (1e-6, None)] {
+        let mut tried = 0;
+        let found = workable_step(0.02, 0.1, |step| {
+            tried += 1;
+            scene(step, limit)
+        });
+        assert_eq!(found, Ok(wanted), "{limit}");
+        assert_eq!(
+            tried,
+            if wanted.is_none() {
+                11
+            } else if limit < 0.02 {
+                4
+            } else {
+                1
+            }
+        );
+    }
+}
+
+#[test]
+fn other_failures_are_handed_on() {
+    for (step, duration) in [(f64::NAN, 1.0), (0.0, 1.0), (0.01, -1.0), (0.01, f64::INFINITY)] {
+        assert!(workable_step(step, duration, |step| scene(step, 1.0)).is_err());
+    }
+    let reason = || Error::part("my scene", "no");
+    assert_eq!(workable_step(0.01, 1.0, |_| Err(reason())), Err(reason()));
+}
