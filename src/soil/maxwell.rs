@@ -1,7 +1,7 @@
 //! Nearly constant damping over a band of frequencies, causal and passive.
 
 use super::nonnegative::least_squares;
-use super::relaxation::Relaxation;
+use super::relaxation::{Relaxation, rounded};
 use crate::complex::Complex;
 use crate::error::{Error, LayeredError, Result, not_negative, positive, same_length};
 
@@ -122,7 +122,10 @@ impl Relaxation for GeneralizedMaxwell {
 
     fn describe(&self) -> String {
         match self.fitted {
-            Some([ratio, low, high]) => format!("{} % from {low} to {high} Hz", 100.0 * ratio),
+            Some([ratio, low, high]) => {
+                let [percent, low, high] = [100.0 * ratio, low, high].map(rounded);
+                format!("{percent} % from {low} to {high} Hz")
+            }
             None => format!("{} Maxwell mechanisms", self.rates.len()),
         }
     }

@@ -118,7 +118,7 @@ impl Relaxation for KelvinVoigt {
     }
 
     fn describe(&self) -> String {
-        format!("Kelvin–Voigt, {} s", self.time)
+        format!("Kelvin–Voigt, {} s", rounded(self.time))
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
@@ -194,7 +194,7 @@ impl Relaxation for Hysteretic {
     }
 
     fn describe(&self) -> String {
-        format!("hysteretic, {} %", 100.0 * self.ratio)
+        format!("hysteretic, {} %", rounded(100.0 * self.ratio))
     }
 
     fn is_causal(&self) -> bool {
@@ -204,4 +204,9 @@ impl Relaxation for Hysteretic {
     fn identity(&self) -> Option<Vec<f64>> {
         Some(vec![3.0, self.ratio])
     }
+}
+
+/// Four digits of a number, for people.
+pub(super) fn rounded(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -214,3 +214,21 @@ fn two_kernels_have_the_same_bits() {
         assert_eq!(values(), values());
     }
 }
+
+/// 100 · 0.07 is 7.000000000000001.
+#[test]
+fn profiles_print_numbers_for_people() {
+    let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap();
+    let damping = GeneralizedMaxwell::constant_q(0.07, [0.1, 30.0], 1.0).unwrap();
+    let voigt = KelvinVoigt::with_ratio(0.05, 3.0).unwrap();
+    let profile = SoilProfile::on_half_plane(soil)
+        .with_layer(soil, 6.0)
+        .unwrap()
+        .with_damping(damping)
+        .with_layer(soil, 6.0)
+        .unwrap()
+        .with_damping(voigt);
+    let text = profile.to_string();
+    assert!(text.contains(" 7 % from 0.1 to 30 Hz"), "{text}");
+    assert!(text.contains("Kelvin–Voigt, 0.005305 s"), "{text}");
+}
