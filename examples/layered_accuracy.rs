@@ -9,12 +9,12 @@
 //! Lengths are in half widths b of the block, times in b/c of the layer, which is 2 b thick. Times are
 //! those of one thread: coefficients and static state, then the march of 30 b/c.
 
-use basemat::Simulation;
 use basemat::bem::layered::{LayeredGround, Stages};
 use basemat::interface::Bonded;
 use basemat::motion::RickerDisplacement;
-use basemat::soil::{Elastic, Kjartansson, SoilProfile};
+use basemat::soil::{Elastic, GeneralizedMaxwell, Kjartansson, Relaxation, SoilProfile};
 use basemat::structure::RigidBlock;
+use basemat::{Simulation, Soil};
 use clap::Parser;
 use cpu_time::ThreadTime;
 

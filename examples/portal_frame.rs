@@ -28,7 +28,7 @@ const ROOF_MASS: f64 = 30.0e3;
 /// Thickness (m) and density (kg/m³) of the footings.
 const FOOTING: [f64; 2] = [0.6, 2400.0];
 
-/// The frame, and what is asked of it as weighted sums of its unknowns.
+/// The frame, and its results as weighted sums of its unknowns.
 struct Portal {
     model: FemModel,
     /// Mass of one footing, kg/m.

@@ -184,10 +184,9 @@ impl Beginning {
                          `Placement::Unloaded`, or with a load that is released)",
             });
         }
-        let mut starts = Vec::with_capacity(count);
-        for e in 0..count {
-            let contact = &mut state.contact[e];
-            if !self.is_static() {
+        if !self.is_static() {
+            let mut starts = Vec::with_capacity(count);
+            for (e, (contact, mode)) in state.contact.iter_mut().zip(&mut state.modes).enumerate() {
                 contact.gap = -moved[e];
                 contact.slip = moved[count + e];
                 if contact.gap < -closed {
@@ -205,15 +204,11 @@ impl Beginning {
                                      does not open",
                         });
                     }
-                    state.modes[e] = Mode::Open;
+                    *mode = Mode::Open;
                 }
+                starts.push(StepStart::new(*contact, *mode, scene.time_step));
             }
-            starts.push(StepStart::new(*contact, state.modes[e], scene.time_step));
-        }
-        let memory = state.start.memory().to_vec();
-        state.start = StepStarts::new(&scene.laws, &starts)?;
-        if self.is_static() {
-            state.start.memory_mut().copy_from_slice(&memory);
+            state.start = StepStarts::new(&scene.laws, &starts)?;
         }
         state.start.slip_rates_mut().zip(&rate[count..]).for_each(|(own, rate)| *own = *rate);
         Ok(())
@@ -226,9 +221,6 @@ pub(super) fn seen(scene: &Scene, state: &State) -> Vec<f64> {
     let mut means = vec![0.0; 2 * scene.count()];
     let translations = state.motion.translations.iter().map(|y| y.displacement);
     scene.seen_by_force(&mut seen, &mut means, translations);
-    for (seen, at_rest) in seen.iter_mut().zip(&scene.static_state.displacement) {
-        *seen += at_rest;
-    }
     seen
 }
 
@@ -242,10 +234,7 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
     let n = model.unknowns;
     let mut force = vec![0.0; n];
     model.load(structure, 0.0, &scene.static_state.load, &mut vec![0.0; n], &mut force)?;
-    force.iter_mut().zip(&scene.weight).for_each(|(force, weight)| *force += weight);
-    for load in &scene.loads {
-        load.add(0.0, &mut force);
-    }
+    scene.add_loads(0.0, &mut force);
     let mut displacement = state.motion.displacement.clone();
     scene.subtract_base(&mut displacement, &mut vec![0.0; 2 * scene.count()]);
     model.stiffness.multiply_add(-1.0, &displacement, &mut force);
@@ -258,7 +247,7 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
     }
     if model.modes.is_none() {
         let mut mass = Triplets::new(n);
-        structure.mass(&mut mass)?;
+        model.mass.add_to(1.0, &mut mass);
         SparseFactor::new("mass matrix, for the acceleration at t = 0", &mass)?.solve(&mut force);
     }
     Ok(force)

@@ -24,6 +24,9 @@ pub(crate) mod wrapped;
 
 use std::path::PathBuf;
 
+use basemat::Soil;
+use basemat::soil::{GeneralizedMaxwell, Relaxation, SoilProfile};
+
 /// Path of a file in `tests/data`.
 pub(crate) fn data_path(file: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(file)

@@ -1,7 +1,7 @@
-//! Profiles of the tables: P1, a layer on rock; P3, the same layer on a rigid base.
+//! Profiles of the tables: P1, a layer on rock; P3, the same layer on a rigid base. The library's own
+//! tests use them, too, so that names come from the module above.
 
-use basemat::Soil;
-use basemat::soil::{GeneralizedMaxwell, Relaxation, SoilProfile};
+use super::{GeneralizedMaxwell, Relaxation, Soil, SoilProfile};
 
 /// The law of `gmb.json` for 5 % or 1 %.
 pub(crate) fn gmb(percent: u32) -> GeneralizedMaxwell {

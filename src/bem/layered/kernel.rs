@@ -42,7 +42,7 @@ pub struct LayeredKernel {
     file: Option<PathBuf>,
 }
 
-/// Tolerance of the wavenumber integrals unless another one is asked for.
+/// Default tolerance of the wavenumber integrals.
 pub(crate) const TOLERANCE: f64 = 1e-10;
 
 impl LayeredKernel {

@@ -7,6 +7,7 @@ use super::stepped_row::{SteppedRow, Terms};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result};
 use crate::linalg::{dot, wide_multiply_add};
+use crate::matrix::SparseMatrix;
 use crate::structure::{
     ContactNode, Row, Structure, Triplets, check_contact_nodes, foundation_nodes,
 };
@@ -196,10 +197,12 @@ impl Base {
         components.enumerate().map(moved).filter(|(row, _)| !row.is_empty())
     }
 
-    /// Adds γ NᵀN to `matrix` and γ Nᵀ1 to the two right-hand sides (horizontal, vertical up),
-    /// N the displacements of the contact nodes.
-    pub(crate) fn tie_nodes(&self, factor: f64, matrix: &mut Triplets, rhs: [&mut [f64]; 2]) {
-        let [horizontal, vertical] = rhs;
+    /// K + γ NᵀN, N the displacements of the contact nodes, and γ Nᵀ1 for 1 m to the right and upwards.
+    pub(crate) fn held(&self, stiffness: &SparseMatrix, factor: f64) -> (Triplets, [Vec<f64>; 2]) {
+        let n = stiffness.order();
+        let mut matrix = Triplets::new(n);
+        stiffness.add_to(1.0, &mut matrix);
+        let [mut horizontal, mut vertical] = [vec![0.0; n], vec![0.0; n]];
         for node in &self.nodes {
             matrix.add_outer(&node.horizontal, factor);
             matrix.add_outer(&node.vertical, factor);
@@ -210,6 +213,7 @@ impl Base {
                 vertical[j] += factor * weight;
             }
         }
+        (matrix, [horizontal, vertical])
     }
 }
 

@@ -16,7 +16,7 @@ use super::supports;
 use crate::error::{Error, Result};
 use crate::linalg::{Partition, SparseFactor, largest};
 use crate::matrix::SparseMatrix;
-use crate::structure::{ContactNode, Triplets};
+use crate::structure::ContactNode;
 
 /// Largest error of a contact node's displacement under a rigid translation of 1 m.
 const EXACT: f64 = 1e-14;
@@ -53,16 +53,13 @@ impl Influence {
         let n = stiffness.order();
         let stiffest = largest(&stiffness.diagonal());
         let tie = if stiffest > 0.0 { stiffest } else { 1.0 };
-        let mut held = Triplets::new(n);
-        stiffness.add_to(1.0, &mut held);
-        let [mut horizontal, mut vertical] = [vec![0.0; n], vec![0.0; n]];
-        base.tie_nodes(tie, &mut held, [&mut horizontal, &mut vertical]);
+        let (held, pulls) = base.held(stiffness, tie);
         let mut factor = SparseFactor::new(NAME, &held)?;
         if !factor.is_positive_definite() {
             check_sign(tie)?;
         }
         let held = SparseMatrix::new(NAME, &held)?;
-        let mut translations = [horizontal, vertical].map(|pull| {
+        let mut translations = pulls.map(|pull| {
             let mut found = pull.clone();
             factor.solve(&mut found);
             for _ in 0..REFINEMENTS {

@@ -86,13 +86,9 @@ pub(super) struct Held {
 impl Held {
     pub(super) fn new(at_rest: &AtRest<'_>) -> Option<Self> {
         let AtRest { stiffness, mass, base, .. } = *at_rest;
-        let n = stiffness.order();
-        let mut matrix = Triplets::new(n);
-        stiffness.add_to(1.0, &mut matrix);
-        let stiffest = matrix.entries().iter().fold(0.0_f64, |m, (_, _, k)| m.max(k.abs()));
+        let stiffest = stiffness.entries().fold(0.0_f64, |m, (_, _, k)| m.max(k.abs()));
         let spring = HELD * if stiffest > 0.0 { stiffest } else { 1.0 };
-        let [mut right, mut up] = [(); 2].map(|()| vec![0.0; n]);
-        base.tie_nodes(spring, &mut matrix, [&mut right, &mut up]);
+        let (matrix, _) = base.held(stiffness, spring);
         let mut regular = matrix.clone();
         let heaviest = largest(&mass.diagonal());
         if heaviest > 0.0 {

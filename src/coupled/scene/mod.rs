@@ -112,8 +112,8 @@ impl Scene {
 
     /// Makes of a relative displacement the one that a nonlinear force sees: each part's measured
     /// from the mean translation of its base, so that it stays small. Parts that the force joins are
-    /// measured from that of the first of them, with the distances between them as they are.
-    /// `translations` are those of the parts' free fields.
+    /// measured from that of the first of them, with the distances between them as they are. The static
+    /// displacement is added. `translations` are those of the parts' free fields.
     pub(crate) fn seen_by_force(
         &self,
         displacement: &mut [f64],
@@ -131,5 +131,15 @@ impl Scene {
             _ => mean(part).map(|own| -own),
         });
         influence.translate(1.0, shifts, displacement);
+        for (seen, at_rest) in displacement.iter_mut().zip(&self.static_state.displacement) {
+            *seen += at_rest;
+        }
+    }
+
+    /// Adds the weight and the external loads at `time`, less those of the static state, to `force`;
+    /// false if one is not finite.
+    pub(crate) fn add_loads(&self, time: f64, force: &mut [f64]) -> bool {
+        force.iter_mut().zip(&self.weight).for_each(|(force, weight)| *force += weight);
+        self.loads.iter().all(|load| load.add(time, force))
     }
 }

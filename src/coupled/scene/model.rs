@@ -96,7 +96,8 @@ impl Model {
         Ok(model)
     }
 
-    /// Refuses a mechanism. To be asked last: numbers too far apart for double precision look alike.
+    /// Refuses a mechanism. Call it after the check of conditioning: stiffnesses too far apart for double
+    /// precision look like one.
     pub(crate) fn refuse_mechanism(&self) -> Result<()> {
         self.free_motion.clone().map_or(Ok(()), |cause| Err(Error::Standing(cause)))
     }
@@ -178,11 +179,8 @@ impl Model {
     /// Refuses a symmetric K that is not positive semi-definite where the base is held.
     fn check_stiffness(&self, base: &Base, tie: f64) -> Result<()> {
         const NAME: &str = "stiffness matrix with its base held";
-        let mut matrix = Triplets::new(self.unknowns);
-        self.stiffness.add_to(1.0, &mut matrix);
-        let [mut horizontal, mut vertical] = [(); 2].map(|()| vec![0.0; self.unknowns]);
-        base.tie_nodes(HELD * tie, &mut matrix, [&mut horizontal, &mut vertical]);
-        let matrix = SparseMatrix::new(NAME, &matrix)?;
+        let Some([_, _, stiffness]) = self.sparse() else { return Ok(()) };
+        let matrix = SparseMatrix::new(NAME, &base.held(stiffness, HELD * tie).0)?;
         if matrix.asymmetry() > ROUNDING {
             return Ok(());
         }

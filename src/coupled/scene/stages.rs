@@ -56,16 +56,8 @@ const INCREMENTS: usize = 10;
 /// Passes in which laws that remember settle.
 const PASSES: usize = 10;
 
-/// Nothing has happened yet.
-const AT_REST: StepStart<'static> = StepStart {
-    state: ContactState { gap: 0.0, slip: 0.0, pressure: 0.0, shear: 0.0 },
-    mode: Mode::Stick,
-    has_opened: false,
-    slip_rate: 0.0,
-    static_pressure: 0.0,
-    time_step: 1.0,
-    memory: &[],
-};
+/// Of the step that a stage is to the laws, s.
+const TIME_STEP: f64 = 1.0;
 
 /// The state under `weight`, placed as chosen, and then under `load`, with the interface laws.
 pub(crate) fn solve(
@@ -84,7 +76,8 @@ pub(crate) fn solve(
     // A base that never opens is bonded from the start.
     let is_smooth = placement == Placement::Frictionless && can_open;
     let placing = if is_smooth { &smooth } else { laws };
-    let start = StepStarts::new(placing, &vec![AT_REST; count])?;
+    let at_rest = StepStart::new(ContactState::default(), Mode::Stick, TIME_STEP);
+    let start = StepStarts::new(placing, &vec![at_rest; count])?;
     let mut state = StaticState::weightless(count, model.unknowns);
     for (e, mode) in state.modes.iter_mut().enumerate() {
         *mode = law_of(placing, e).modes()[0];
@@ -93,13 +86,10 @@ pub(crate) fn solve(
     let (mut state, start) = found.map_err(|e| standing::cause(&stage, placing, weight, e))?;
     // A law without friction that remembers as much is the same law; others begin anew.
     state.memory = (0..count)
-        .map(|e| start.memory_of(e))
-        .enumerate()
-        .map(
-            |(e, own)| {
-                if own.len() == law_of(laws, e).memory() { own.to_vec() } else { Vec::new() }
-            },
-        )
+        .map(|e| {
+            let own = start.memory_of(e);
+            if own.len() == law_of(laws, e).memory() { own.to_vec() } else { Vec::new() }
+        })
         .collect();
     if load.iter().all(|force| *force == 0.0) {
         return Ok(state);
@@ -111,17 +101,18 @@ pub(crate) fn solve(
     }
     let placed: Vec<_> = (0..count)
         .map(|e| {
-            let start = StepStart::new(*start.state(e), state.modes[e], AT_REST.time_step);
+            let start = StepStart::new(*start.state(e), state.modes[e], TIME_STEP);
             start.with_memory(&state.memory[e])
         })
         .collect();
     let begin = StepStarts::new(laws, &placed)?;
+    let total =
+        |share: f64| -> Vec<f64> { weight.iter().zip(load).map(|(w, f)| w + share * f).collect() };
     let path = |increments: usize| -> Result<StaticState> {
         let (mut state, mut start) = (state.clone(), begin.clone());
         for k in 1..=increments {
-            let share = k as f64 / increments as f64;
-            let total: Vec<f64> = weight.iter().zip(load).map(|(w, f)| w + share * f).collect();
-            (state, start) = settle(&stage, laws, start, state, &total)?;
+            let load = total(k as f64 / increments as f64);
+            (state, start) = settle(&stage, laws, start, state, &load)?;
         }
         state.memory = (0..count).map(|e| start.memory_of(e).to_vec()).collect();
         Ok(state)
@@ -133,10 +124,7 @@ pub(crate) fn solve(
     };
     match path(1) {
         Ok(state) if !takes_a_path(&state) => Ok(state),
-        _ => path(INCREMENTS).map_err(|error| {
-            let total: Vec<f64> = weight.iter().zip(load).map(|(w, f)| w + f).collect();
-            standing::cause(&stage, laws, &total, error)
-        }),
+        _ => path(INCREMENTS).map_err(|e| standing::cause(&stage, laws, &total(1.0), e)),
     }
 }
 

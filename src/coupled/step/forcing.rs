@@ -88,12 +88,7 @@ impl Forcing {
             .model
             .load(structure, within, at_start, &mut self.unknowns, &mut self.load)
             .map_err(StepError::structure("load of the structure"))?;
-        self.load.iter_mut().zip(&scene.weight).for_each(|(load, weight)| *load += weight);
-        for load in &scene.loads {
-            if !load.add(within, &mut self.load) {
-                return Err(StepError::NotFinite { quantity: "external load" });
-            }
-        }
-        Ok(())
+        let is_finite = scene.add_loads(within, &mut self.load);
+        if is_finite { Ok(()) } else { Err(StepError::NotFinite { quantity: "external load" }) }
     }
 }

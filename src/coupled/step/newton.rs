@@ -111,9 +111,6 @@ impl Newton {
         }
         let translations = forcing.translations.iter().map(|translation| translation.displacement);
         scene.seen_by_force(&mut increment.seen, &mut linear.means, translations);
-        for (seen, at_rest) in increment.seen.iter_mut().zip(&scene.static_state.displacement) {
-            *seen += at_rest;
-        }
         Ok(())
     }
 
@@ -235,9 +232,6 @@ impl Newton {
             .iter()
             .map(|y| [0, 1].map(|k| y.displacement[k] - (1.0 - c[0]) * y.increment[k]));
         scene.seen_by_force(&mut self.seen, &mut linear.means, translations);
-        for (seen, at_rest) in self.seen.iter_mut().zip(&scene.static_state.displacement) {
-            *seen += at_rest;
-        }
         increment.force.fill(0.0);
         if let Some(own) = structure.nonlinear() {
             own.force(&self.seen, &mut increment.force)
