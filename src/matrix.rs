@@ -1,6 +1,7 @@
 //! Matrices of a structure: sparse in its unknowns, diagonal in its modes.
 
 use crate::error::{Error, Result, same_length};
+use crate::linalg::weighted_dot;
 use crate::structure::Triplets;
 
 /// Most rows and columns: more are a mistake.
@@ -173,6 +174,15 @@ pub(crate) enum Matrix {
     Diagonal(Vec<f64>),
 }
 
+/// The matrices in modes.
+#[derive(Clone, Copy)]
+pub(crate) struct Diagonals<'a> {
+    pub(crate) mass: &'a [f64],
+    /// `None` without damping.
+    pub(crate) damping: Option<&'a [f64]>,
+    pub(crate) stiffness: &'a [f64],
+}
+
 impl Matrix {
     /// Whether there is nothing to multiply.
     pub(crate) fn is_empty(&self) -> bool {
@@ -224,24 +234,9 @@ impl Matrix {
     pub(crate) fn form(&self, x: &[f64], y: &[f64]) -> f64 {
         match self {
             Self::Sparse(matrix) => matrix.form(x, y),
-            Self::Diagonal(values) => dot_three(x, values, y),
+            Self::Diagonal(values) => weighted_dot(values, x, y),
         }
     }
-}
-
-/// Σ xᵢ dᵢ yᵢ, in four running sums so that the compiler can use vector registers.
-fn dot_three(x: &[f64], d: &[f64], y: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let chunks = |v: &[f64]| v.len() - v.len() % 4;
-    let whole = chunks(d).min(chunks(x)).min(chunks(y));
-    for k in (0..whole).step_by(4) {
-        let (x, d, y) = (&x[k..k + 4], &d[k..k + 4], &y[k..k + 4]);
-        for i in 0..4 {
-            sums[i] += x[i] * d[i] * y[i];
-        }
-    }
-    let rest = x[whole..].iter().zip(&d[whole..]).zip(&y[whole..]);
-    rest.map(|((x, d), y)| x * d * y).sum::<f64>() + ((sums[0] + sums[1]) + (sums[2] + sums[3]))
 }
 
 #[cfg(test)]

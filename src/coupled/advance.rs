@@ -65,15 +65,13 @@ impl State {
         Ok(state)
     }
 
-    /// Goes to the end of the step that `increment` solved; the buffers of its velocities are
-    /// swapped.
+    /// Goes to the end of the step that `increment` solved; its buffers of displacements,
+    /// velocities and accelerations are swapped.
     pub(super) fn advance(&mut self, scene: &Scene, forcing: &Forcing, increment: &mut Increment) {
         self.step += 1;
         self.time = self.step as f64 * scene.time_step;
         let motion = &mut self.motion;
-        for (u, du) in motion.displacement.iter_mut().zip(&increment.displacement) {
-            *u += du;
-        }
+        std::mem::swap(&mut motion.displacement, &mut increment.end);
         std::mem::swap(&mut motion.velocity, &mut increment.velocity);
         std::mem::swap(&mut motion.acceleration, &mut increment.acceleration);
         motion.translations.copy_from_slice(&forcing.translations);

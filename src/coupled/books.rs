@@ -45,11 +45,9 @@ pub(crate) struct Books {
 /// Nothing in it outlives a step.
 #[derive(Clone)]
 struct Scratch {
-    total: Vec<f64>,
     vector: Vec<f64>,
     product: Vec<f64>,
     means: Vec<f64>,
-    soil: Vec<f64>,
 }
 
 impl Books {
@@ -87,13 +85,7 @@ impl Books {
             momentum: vec![[0.0; 2]; parts.len()],
             translation: vec![[0.0; 2]; parts.len()],
             inertia: inertia.collect(),
-            scratch: Scratch {
-                total: vec![0.0; n],
-                vector: vec![0.0; n],
-                product: vec![0.0; n],
-                means,
-                soil: vec![0.0; size],
-            },
+            scratch: Scratch { vector: vec![0.0; n], product: vec![0.0; n], means },
         };
         books.begin(scene, structure, state);
         Ok(books)
@@ -152,13 +144,10 @@ impl Books {
         forcing: &Forcing,
         increment: &Increment,
     ) {
-        let total = &mut self.scratch.total;
-        for ((total, du), carried) in
-            total.iter_mut().zip(&increment.displacement).zip(&forcing.carried)
-        {
-            *total = du + carried;
+        if forcing.loaded {
+            self.ledger.input += dot(&forcing.load, &increment.total);
+            self.ledger.relative_input += dot(&forcing.load, &increment.displacement);
         }
-        self.ledger.input += dot(&forcing.load, total);
         if !scene.model.linear {
             self.book_nonlinear_force(scene, structure, increment);
         }
@@ -174,7 +163,7 @@ impl Books {
         structure: &dyn Structure,
         increment: &Increment,
     ) {
-        let done = dot(&increment.force, &self.scratch.total);
+        let done = dot(&increment.force, &increment.total);
         let Some((stored, dissipated)) = energies(scene, structure, &increment.seen) else {
             self.nonlinear_work += done;
             return;
@@ -194,14 +183,14 @@ impl Books {
         increment: &Increment,
     ) {
         let (c, model, dt) = (&scene.coefficients, &scene.model, scene.time_step);
-        let Motion { displacement: u0, velocity: v0, acceleration: a0, .. } = &state.motion;
+        let Motion { velocity: v0, acceleration: a0, .. } = &state.motion;
         let (v1, ledger) = (&increment.velocity, &mut self.ledger);
-        let Scratch { total: du, vector, product, means, soil } = &mut self.scratch;
+        let Scratch { vector, product, means } = &mut self.scratch;
+        let du = &increment.total;
         ledger.kinetic = 0.5 * model.mass.form(v1, v1);
-        if !model.damping.is_empty() {
+        if model.damped {
             SchemeCoefficients::combine(c.velocity, du, v0, a0, vector);
-            let velocities = forcing.translations.iter().map(|translation| translation.velocity);
-            model.influence.translate(-1.0, velocities, vector);
+            vector.iter_mut().zip(&forcing.dragged).for_each(|(v, dragged)| *v -= dragged);
             product.fill(0.0);
             model.damping.multiply_add(1.0, vector, product);
             let parts = model.influence.parts().iter().zip(&forcing.translations);
@@ -234,18 +223,14 @@ impl Books {
             }
             ledger.numerical += model.stiffness.form(du, rest);
         }
-        for ((x, u), du) in vector.iter_mut().zip(u0).zip(&increment.displacement) {
-            *x = u + du;
-        }
-        scene.base.means(vector, means);
-        scene.subtract_base(vector, soil);
+        vector.copy_from_slice(&increment.end);
+        scene.subtract_base(vector, means);
         ledger.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_work;
     }
 
     /// Work of −M R ÿ between the middles of the last two steps, with ÿ = (Δy₁ − Δy₀)/Δt² at the
     /// time between them, and of the loads.
     fn book_relative_input(&mut self, scene: &Scene, forcing: &Forcing, increment: &Increment) {
-        self.ledger.relative_input += dot(&forcing.load, &increment.displacement);
         let square = scene.time_step * scene.time_step;
         for (k, inertia) in self.inertia.iter().enumerate() {
             let next = forcing.translations[k].increment;
@@ -261,7 +246,8 @@ impl Books {
         }
     }
 
-    /// Soil, contact, compliant interfaces and preload; `scratch.means` holds B u at the end.
+    /// Soil, contact, compliant interfaces and preload. The jump is that of the contact problem: if
+    /// the structure went elsewhere, its energies would not balance the work of the tractions.
     fn book_contact(
         &mut self,
         scene: &Scene,
@@ -270,7 +256,7 @@ impl Books {
         forcing: &Forcing,
         increment: &Increment,
     ) {
-        let Scratch { means, soil, .. } = &mut self.scratch;
+        let soil = &mut self.scratch.means;
         let ledger = &mut self.ledger;
         soil.copy_from_slice(&forcing.history);
         dense_multiply_add(&scene.soil, 1.0, &increment.traction, soil);
@@ -280,8 +266,8 @@ impl Books {
             let area = scene.base.length(i);
             let change = increment.traction[i];
             let at_rest = scene.static_state.traction[i];
-            let gap = if i < count { scene.static_state.gap[i] } else { 0.0 };
-            let jump = gap + forcing.distortion[i] + soil[i] - means[i];
+            let end = &increment.contact[i % count];
+            let jump = if i < count { end.gap } else { -end.slip };
             let opening = jump - self.jump[i];
             self.jump[i] = jump;
             ledger.soil += area * change * (soil[i] - self.soil_displacement[i]);

@@ -10,7 +10,7 @@
 //! copies come. Modes of the same frequency are found up to the size of the block.
 
 use super::eigen::symmetric_modes;
-use super::product::{dot, wide_multiply_add, wide_transposed_multiply_add};
+use super::product::{dense_multiply_add, dot, transposed_multiply_add};
 use super::sparse::SparseFactor;
 use crate::matrix::SparseMatrix;
 
@@ -95,8 +95,8 @@ impl Space<'_> {
             self.mass.multiply_add(1.0, vector, &mut product);
             first.get_or_insert(dot(vector, &product).max(0.0).sqrt());
             correction.fill(0.0);
-            wide_multiply_add(&self.basis, 1.0, &product, &mut correction);
-            wide_transposed_multiply_add(&self.basis, -1.0, &correction, vector);
+            dense_multiply_add(&self.basis, 1.0, &product, &mut correction);
+            transposed_multiply_add(&self.basis, -1.0, &correction, vector);
             coefficients.iter_mut().zip(&correction).for_each(|(sum, c)| *sum += c);
         }
         product.fill(0.0);
@@ -168,7 +168,7 @@ impl Space<'_> {
         let (n, m) = (self.order(), self.columns.len());
         let mut modes = vec![0.0; found.theta.len() * n];
         for (mode, y) in modes.chunks_exact_mut(n).zip(&found.shares) {
-            wide_transposed_multiply_add(&self.basis[..m * n], 1.0, y, mode);
+            transposed_multiply_add(&self.basis[..m * n], 1.0, y, mode);
         }
         let finite = modes.iter().all(|x| x.is_finite());
         finite.then(|| (found.theta.iter().map(|theta| 1.0 / theta).collect(), modes))

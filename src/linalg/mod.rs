@@ -9,6 +9,7 @@ mod eigen;
 mod lanczos;
 mod partition;
 mod product;
+mod simd;
 mod sparse;
 
 pub(crate) use complex::hermitian_range;
@@ -18,8 +19,10 @@ pub(crate) use eigen::{generalised_modes, least_eigenvalue};
 pub(crate) use lanczos::lowest_modes;
 pub(crate) use partition::Partition;
 pub(crate) use product::{
-    dense_multiply_add, dot, largest, row_products, wide_multiply_add, wide_transposed_multiply_add,
+    dense_multiply_add, dot, largest, magnitude, row_products, transposed_multiply_add,
+    weighted_dot,
 };
+pub(crate) use simd::{Simd, WithSimd, vectorized};
 pub(crate) use sparse::{SparseFactor, indefinite_row};
 
 pub(crate) use crate::matrix::SparseMatrix;

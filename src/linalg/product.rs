@@ -1,45 +1,133 @@
 //! Products of vectors and dense matrices.
 
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 
-/// Columns below which the call of a library costs more than it saves.
-const NARROW: usize = 24;
+use super::simd::{Simd, WithSimd, vectorized};
 
-/// y ← y + factor · A x for a large dense row-major matrix with `x.len()` columns, with the widest
-/// vector registers found at run time.
-pub(crate) fn wide_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
-    let (rows, columns) = (y.len(), x.len());
-    if columns < NARROW {
-        return dense_multiply_add(matrix, factor, x, y);
+/// Rows that are read together.
+const ROWS: usize = 4;
+
+/// y ← y + factor · A x for a dense row-major matrix with `x.len()` columns.
+pub(crate) fn dense_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
+    if !x.is_empty() {
+        vectorized(MultiplyAdd { matrix, factor, x, y });
     }
-    matmul(
-        MatMut::from_column_major_slice_mut(y, rows, 1),
-        Accum::Add,
-        MatRef::from_row_major_slice(matrix, rows, columns),
-        MatRef::from_column_major_slice(x, columns, 1),
-        factor,
-        Par::Seq,
-    );
 }
 
 /// y ← y + factor · Aᵀ x, likewise, for a matrix with `y.len()` columns.
-pub(crate) fn wide_transposed_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
-    let (rows, columns) = (x.len(), y.len());
-    if columns < NARROW {
-        for (row, x) in matrix.chunks_exact(columns.max(1)).zip(x) {
+pub(crate) fn transposed_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
+    if !y.is_empty() {
+        vectorized(TransposedMultiplyAdd { matrix, factor, x, y });
+    }
+}
+
+struct MultiplyAdd<'a> {
+    matrix: &'a [f64],
+    factor: f64,
+    x: &'a [f64],
+    y: &'a mut [f64],
+}
+
+impl WithSimd for MultiplyAdd<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { matrix, factor, x, y } = self;
+        let columns = x.len();
+        let mut blocks = matrix.chunks_exact(ROWS * columns);
+        let mut outputs = y.chunks_exact_mut(ROWS);
+        for (block, y) in blocks.by_ref().zip(outputs.by_ref()) {
+            let rows: [&[f64]; ROWS] = std::array::from_fn(|k| &block[k * columns..][..columns]);
+            for (y, sum) in y.iter_mut().zip(dots(simd, rows, x)) {
+                *y += factor * sum;
+            }
+        }
+        let rest = blocks.remainder();
+        for (row, y) in rest.chunks_exact(columns).zip(outputs.into_remainder()) {
+            *y += factor * Dot { weights: None, x: row, y: x }.with_simd(simd);
+        }
+    }
+}
+
+struct TransposedMultiplyAdd<'a> {
+    matrix: &'a [f64],
+    factor: f64,
+    x: &'a [f64],
+    y: &'a mut [f64],
+}
+
+impl WithSimd for TransposedMultiplyAdd<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { matrix, factor, x, y } = self;
+        let columns = y.len();
+        let mut blocks = matrix.chunks_exact(ROWS * columns);
+        let mut inputs = x.chunks_exact(ROWS);
+        for (block, x) in blocks.by_ref().zip(inputs.by_ref()) {
+            let rows: [&[f64]; ROWS] = std::array::from_fn(|k| &block[k * columns..][..columns]);
+            add_rows(simd, std::array::from_fn(|k| factor * x[k]), rows, y);
+        }
+        let rest = blocks.remainder().chunks_exact(columns);
+        for (row, x) in rest.zip(inputs.remainder()) {
             y.iter_mut().zip(row).for_each(|(y, a)| *y += factor * x * a);
         }
-        return;
     }
-    matmul(
-        MatMut::from_column_major_slice_mut(y, columns, 1),
-        Accum::Add,
-        MatRef::from_column_major_slice(matrix, columns, rows),
-        MatRef::from_column_major_slice(x, rows, 1),
-        factor,
-        Par::Seq,
-    );
+}
+
+/// Σ aᵢ xᵢ for four rows of the length of x.
+#[inline(always)]
+fn dots<S: Simd>(simd: S, [a, b, c, d]: [&[f64]; ROWS], x: &[f64]) -> [f64; ROWS] {
+    // A sum waits for the one before it, so each row has two.
+    let mut sums = [simd.splat_f64s(0.0); 2 * ROWS];
+    let (x, x_tail) = S::as_simd_f64s(x);
+    let ((a, a_tail), (b, b_tail)) = (S::as_simd_f64s(a), S::as_simd_f64s(b));
+    let ((c, c_tail), (d, d_tail)) = (S::as_simd_f64s(c), S::as_simd_f64s(d));
+    let (pairs, n) = (x.chunks_exact(2), x.len());
+    let odd = pairs.remainder();
+    let rows = a.chunks_exact(2).zip(b.chunks_exact(2));
+    let rows = rows.zip(c.chunks_exact(2).zip(d.chunks_exact(2)));
+    for (x, ((a, b), (c, d))) in pairs.zip(rows) {
+        for k in 0..2 {
+            sums[k] = simd.mul_add_e_f64s(a[k], x[k], sums[k]);
+            sums[2 + k] = simd.mul_add_e_f64s(b[k], x[k], sums[2 + k]);
+            sums[4 + k] = simd.mul_add_e_f64s(c[k], x[k], sums[4 + k]);
+            sums[6 + k] = simd.mul_add_e_f64s(d[k], x[k], sums[6 + k]);
+        }
+    }
+    if let [x] = odd {
+        for (k, row) in [a, b, c, d].into_iter().enumerate() {
+            sums[2 * k] = simd.mul_add_e_f64s(row[n - 1], *x, sums[2 * k]);
+        }
+    }
+    let tails = [a_tail, b_tail, c_tail, d_tail];
+    std::array::from_fn(|k| {
+        let tail: f64 = tails[k].iter().zip(x_tail).map(|(a, x)| a * x).sum();
+        tail + simd.reduce_sum_f64s(simd.add_f64s(sums[2 * k], sums[2 * k + 1]))
+    })
+}
+
+/// y ← y + Σ factor · row for four rows.
+#[inline(always)]
+fn add_rows<S: Simd>(simd: S, factors: [f64; ROWS], rows: [&[f64]; ROWS], y: &mut [f64]) {
+    let [p, q, r, s] = factors.map(|factor| simd.splat_f64s(factor));
+    let [a, b, c, d] = rows.map(S::as_simd_f64s);
+    let (y, y_tail) = S::as_mut_simd_f64s(y);
+    let rows = a.0.iter().zip(b.0).zip(c.0.iter().zip(d.0));
+    for (y, ((a, b), (c, d))) in y.iter_mut().zip(rows) {
+        let first = simd.mul_add_e_f64s(*b, q, simd.mul_add_e_f64s(*a, p, *y));
+        *y = simd.mul_add_e_f64s(*d, s, simd.mul_add_e_f64s(*c, r, first));
+    }
+    for (i, y) in y_tail.iter_mut().enumerate() {
+        for (row, factor) in [a, b, c, d].iter().zip(factors) {
+            *y += row.1[i] * factor;
+        }
+    }
 }
 
 /// Row-major A Bᵀ for row-major A and B with `columns` columns.
@@ -57,31 +145,80 @@ pub(crate) fn row_products(a: &[f64], b: &[f64], columns: usize) -> Vec<f64> {
     products
 }
 
-/// y ← y + factor · A x for a dense row-major matrix with `x.len()` columns.
-pub(crate) fn dense_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
-    if x.is_empty() {
-        return;
-    }
-    for (row, y) in matrix.chunks_exact(x.len()).zip(y) {
-        *y += factor * dot(row, x);
-    }
-}
-
 /// Largest magnitude; 0 for an empty slice.
 pub(crate) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m, x| m.max(x.abs()))
 }
 
-/// Σ xᵢ yᵢ, in eight running sums so that the compiler can use vector registers.
-pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
-    let mut sums = [0.0; 8];
-    let (x_chunks, y_chunks) = (x.chunks_exact(8), y.chunks_exact(8));
-    let tail: f64 = x_chunks.remainder().iter().zip(y_chunks.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in x_chunks.zip(y_chunks) {
+/// Σ |xᵢ|.
+pub(crate) fn magnitude(x: &[f64]) -> f64 {
+    let (chunks, mut sums) = (x.chunks_exact(8), [0.0; 8]);
+    let tail: f64 = chunks.remainder().iter().map(|x| x.abs()).sum();
+    for x in chunks {
         for k in 0..8 {
-            sums[k] += a[k] * b[k];
+            sums[k] += x[k].abs();
         }
     }
-    let [a, b, c, d, e, f, g, h] = sums;
-    tail + (((a + b) + (c + d)) + ((e + f) + (g + h)))
+    tail + sums.iter().sum::<f64>()
+}
+
+/// Σ xᵢ yᵢ.
+pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
+    vectorized(Dot { weights: None, x, y })
+}
+
+/// Σ wᵢ xᵢ yᵢ.
+pub(crate) fn weighted_dot(weights: &[f64], x: &[f64], y: &[f64]) -> f64 {
+    vectorized(Dot { weights: Some(weights), x, y })
+}
+
+struct Dot<'a> {
+    weights: Option<&'a [f64]>,
+    x: &'a [f64],
+    y: &'a [f64],
+}
+
+impl WithSimd for Dot<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        let length = self.x.len().min(self.y.len());
+        let (x, x_tail) = S::as_simd_f64s(&self.x[..length]);
+        let (y, y_tail) = S::as_simd_f64s(&self.y[..length]);
+        // A sum waits for the one before it, so there are four.
+        let mut sums = [simd.splat_f64s(0.0); 4];
+        let (x, y) = (x.chunks_exact(4), y.chunks_exact(4));
+        let rest = x.remainder().iter().zip(y.remainder());
+        let tail = x_tail.iter().zip(y_tail);
+        let Some(weights) = self.weights else {
+            for (x, y) in x.zip(y) {
+                for k in 0..4 {
+                    sums[k] = simd.mul_add_e_f64s(x[k], y[k], sums[k]);
+                }
+            }
+            for (x, y) in rest {
+                sums[0] = simd.mul_add_e_f64s(*x, *y, sums[0]);
+            }
+            return tail.map(|(x, y)| x * y).sum::<f64>() + total(simd, sums);
+        };
+        let (w, w_tail) = S::as_simd_f64s(&weights[..length]);
+        let w = w.chunks_exact(4);
+        let rest = w.remainder().iter().zip(rest);
+        for (w, (x, y)) in w.zip(x.zip(y)) {
+            for k in 0..4 {
+                sums[k] = simd.mul_add_e_f64s(simd.mul_f64s(w[k], x[k]), y[k], sums[k]);
+            }
+        }
+        for (w, (x, y)) in rest {
+            sums[0] = simd.mul_add_e_f64s(simd.mul_f64s(*w, *x), *y, sums[0]);
+        }
+        let tail = w_tail.iter().zip(tail).map(|(w, (x, y))| w * x * y);
+        tail.sum::<f64>() + total(simd, sums)
+    }
+}
+
+#[inline(always)]
+fn total<S: Simd>(simd: S, [a, b, c, d]: [S::f64s; 4]) -> f64 {
+    simd.reduce_sum_f64s(simd.add_f64s(simd.add_f64s(a, b), simd.add_f64s(c, d)))
 }

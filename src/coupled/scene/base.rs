@@ -6,7 +6,7 @@ use super::modal_basis::ModalBasis;
 use super::stepped_row::{SteppedRow, Terms};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result};
-use crate::linalg::{dot, wide_multiply_add};
+use crate::linalg::{dense_multiply_add, dot, transposed_multiply_add};
 use crate::matrix::SparseMatrix;
 use crate::structure::{
     ContactNode, Row, Structure, Triplets, check_contact_nodes, foundation_nodes,
@@ -127,7 +127,7 @@ impl Base {
     pub(crate) fn means(&self, u: &[f64], out: &mut [f64]) {
         if !self.modal.is_empty() {
             out.fill(0.0);
-            return wide_multiply_add(&self.modal, 1.0, u, out);
+            return dense_multiply_add(&self.modal, 1.0, u, out);
         }
         for (row, out) in self.rows.iter().zip(out) {
             *out = row.iter().map(|&(j, weight)| weight * u[j]).sum();
@@ -143,17 +143,26 @@ impl Base {
 
     /// f ← f + factor · BᵀA τ.
     pub(crate) fn add_forces(&self, factor: f64, traction: &[f64], force: &mut [f64]) {
+        if !self.modal.is_empty() {
+            return self.add_modal_forces(factor, traction, force);
+        }
         for (i, (row, traction)) in self.rows.iter().zip(traction).enumerate() {
             let scaled = factor * self.length(i) * traction;
-            if !self.modal.is_empty() {
-                let n = force.len();
-                let row = &self.modal[i * n..(i + 1) * n];
-                force.iter_mut().zip(row).for_each(|(f, weight)| *f += weight * scaled);
-                continue;
-            }
             for &(j, weight) in row {
                 force[j] += weight * scaled;
             }
+        }
+    }
+
+    fn add_modal_forces(&self, factor: f64, traction: &[f64], force: &mut [f64]) {
+        const BLOCK: usize = 64;
+        let mut scaled = [0.0; BLOCK];
+        let rows = self.modal.chunks(BLOCK * force.len());
+        for (block, (rows, traction)) in rows.zip(traction.chunks(BLOCK)).enumerate() {
+            for (k, (scaled, traction)) in scaled.iter_mut().zip(traction).enumerate() {
+                *scaled = self.length(block * BLOCK + k) * traction;
+            }
+            transposed_multiply_add(rows, factor, &scaled[..traction.len()], force);
         }
     }
 

@@ -136,6 +136,11 @@ impl Scene {
         }
     }
 
+    /// Whether [`Scene::add_loads`] has anything to add.
+    pub(crate) fn has_loads(&self) -> bool {
+        !(self.weight.is_empty() && self.loads.is_empty())
+    }
+
     /// Adds the weight and the external loads at `time`, less those of the static state, to `force`;
     /// false if one is not finite.
     pub(crate) fn add_loads(&self, time: f64, force: &mut [f64]) -> bool {

@@ -8,7 +8,7 @@ use super::mechanism::AtRest;
 use super::modal_basis::ModalBasis;
 use crate::error::{Error, Result, StandingError, same_length};
 use crate::linalg::{SparseMatrix, indefinite_row};
-use crate::matrix::Matrix;
+use crate::matrix::{Diagonals, Matrix};
 use crate::structure::{
     InternalEnergy, Structure, Triplets, check_attached, check_damping, check_mass,
 };
@@ -38,6 +38,8 @@ pub(crate) struct Model {
     pub(crate) damping: Matrix,
     pub(crate) stiffness: Matrix,
     pub(crate) linear: bool,
+    /// Whether any damping coefficient is not zero.
+    pub(crate) damped: bool,
     /// Influence vectors in the coordinates that are stepped.
     pub(crate) influence: Arc<Influence>,
     /// The modes, if they are the coordinates.
@@ -68,10 +70,12 @@ impl Model {
             damping: Matrix::Sparse(damping),
             stiffness: Matrix::Sparse(stiffness),
             linear,
+            damped: false,
             influence: Arc::default(),
             modes: None,
             free_motion: None,
         };
+        model.damped = !model.damping.is_empty();
         let mut tangent = Tangent::new(unknowns);
         tangent.refill(structure, &vec![0.0; unknowns])?;
         let mut at_rest = Triplets::new(unknowns);
@@ -112,6 +116,17 @@ impl Model {
         }
     }
 
+    /// The three matrices, once they are diagonal.
+    pub(crate) fn diagonals(&self) -> Option<Diagonals<'_>> {
+        match (&self.mass, &self.damping, &self.stiffness) {
+            (Matrix::Diagonal(mass), Matrix::Diagonal(damping), Matrix::Diagonal(stiffness)) => {
+                let damping = self.damped.then_some(damping.as_slice());
+                Some(Diagonals { mass, damping, stiffness })
+            }
+            _ => None,
+        }
+    }
+
     /// Whether stepping in modes takes less time, their computation included. `factor` is the
     /// number of entries of the sparse factor, `contact` that of contact components.
     pub(crate) fn modes_save_time(&self, factor: usize, contact: usize, steps: usize) -> bool {
@@ -132,12 +147,13 @@ impl Model {
         self.influence = Arc::new(influence);
         self.mass = Matrix::Diagonal(vec![1.0; self.unknowns]);
         self.damping = Matrix::Diagonal(modes.damping.clone());
+        self.damped = !self.damping.is_empty();
         self.stiffness = Matrix::Diagonal(modes.stiffness.clone());
         self.modes = Some(modes);
     }
 
-    /// Adds the external load at `time`, weight excepted, minus `at_start`, to `load`; `scratch`
-    /// has an entry for every unknown. An error is the structure's.
+    /// Adds the external load at `time`, weight excepted, minus `at_start`, to `load`, and returns
+    /// whether there is any; `scratch` has an entry for every unknown. An error is the structure's.
     pub(crate) fn load(
         &self,
         structure: &dyn Structure,
@@ -145,7 +161,7 @@ impl Model {
         at_start: &[f64],
         scratch: &mut [f64],
         load: &mut [f64],
-    ) -> Result<()> {
+    ) -> Result<bool> {
         scratch.fill(0.0);
         structure.load(time, scratch)?;
         let mut differs = false;
@@ -155,13 +171,13 @@ impl Model {
             differs |= *now != 0.0;
         }
         if !differs {
-            return Ok(());
+            return Ok(false);
         }
         match &self.modes {
             Some(modes) => modes.project(scratch, load),
             None => load.iter_mut().zip(scratch).for_each(|(load, now)| *load += *now),
         }
-        Ok(())
+        Ok(true)
     }
 
     /// f and its energies at a displacement; zero and unknown for a linear structure.

@@ -42,6 +42,14 @@ impl Operators {
         Self { tangent, factor, columns, delassus }
     }
 
+    /// Reciprocals of K_eff in modes.
+    pub(crate) fn reciprocals(&self) -> Option<&[f64]> {
+        match &self.factor {
+            Factor::Diagonal(values) => Some(values),
+            Factor::Sparse(_) => None,
+        }
+    }
+
     /// Overwrites `rhs` with K_eff⁻¹ rhs.
     pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
         self.factor.solve(rhs);

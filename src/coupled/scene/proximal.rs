@@ -8,7 +8,7 @@ use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
 use crate::error::{Error, Result, StepError};
 use crate::interface::{ContactState, InterfaceLaw, StepStarts};
 use crate::linalg::{
-    SparseFactor, SparseMatrix, dot, largest, sparse_condition, wide_transposed_multiply_add,
+    SparseFactor, SparseMatrix, dot, largest, sparse_condition, transposed_multiply_add,
 };
 use crate::structure::{Structure, Triplets};
 
@@ -95,7 +95,7 @@ impl Standing<'_> {
             for (d, u) in displacement.iter_mut().zip(&state.displacement) {
                 *d += u;
             }
-            wide_transposed_multiply_add(&current.columns, 1.0, &state.traction, &mut displacement);
+            transposed_multiply_add(&current.columns, 1.0, &state.traction, &mut displacement);
             base.means(&displacement, &mut free_jump);
             for jump in &mut free_jump {
                 *jump = -*jump;
@@ -114,7 +114,7 @@ impl Standing<'_> {
                 _ => Error::Preload { iterations, residual: change },
             })?;
             let columns = &current.columns;
-            wide_transposed_multiply_add(columns, -1.0, &solver.traction, &mut displacement);
+            transposed_multiply_add(columns, -1.0, &solver.traction, &mut displacement);
             // What the fictitious springs still pull.
             let moved: Vec<f64> =
                 displacement.iter().zip(&state.displacement).map(|(a, b)| a - b).collect();

@@ -19,6 +19,8 @@ use crate::structure::Structure;
 pub(crate) struct Forcing {
     /// External load at t*, less that of the static state, in stepped coordinates.
     pub(crate) load: Vec<f64>,
+    /// Whether there is any.
+    pub(crate) loaded: bool,
     /// Free field at the end of the step, less that at t = 0, 2Q.
     pub(crate) free_field: Vec<f64>,
     /// The same less the translation y of the part above, 2Q.
@@ -29,6 +31,8 @@ pub(crate) struct Forcing {
     pub(crate) translations: Vec<Translation>,
     /// R Δy, in stepped coordinates.
     pub(crate) carried: Vec<f64>,
+    /// R ẏ at v*, likewise; zero without damping.
+    pub(crate) dragged: Vec<f64>,
     unknowns: Vec<f64>,
 }
 
@@ -38,11 +42,13 @@ impl Forcing {
         let structure = || vec![0.0; scene.model.unknowns];
         Self {
             load: structure(),
+            loaded: false,
             free_field: contact(),
             distortion: contact(),
             history: contact(),
             translations: vec![Translation::default(); scene.model.influence.parts().len()],
             carried: structure(),
+            dragged: structure(),
             unknowns: structure(),
         }
     }
@@ -81,13 +87,21 @@ impl Forcing {
         self.carried.fill(0.0);
         let increments = self.translations.iter().map(|translation| translation.increment);
         influence.translate(1.0, increments, &mut self.carried);
-        self.load.fill(0.0);
+        if scene.model.damped {
+            self.dragged.fill(0.0);
+            let velocities = self.translations.iter().map(|translation| translation.velocity);
+            influence.translate(1.0, velocities, &mut self.dragged);
+        }
+        if self.loaded {
+            self.load.fill(0.0);
+        }
         let within = state.time + scene.coefficients.load_fraction * scene.time_step;
         let at_start = &scene.static_state.load;
-        scene
+        let own = scene
             .model
             .load(structure, within, at_start, &mut self.unknowns, &mut self.load)
             .map_err(StepError::structure("load of the structure"))?;
+        self.loaded = own || scene.has_loads();
         let is_finite = scene.add_loads(within, &mut self.load);
         if is_finite { Ok(()) } else { Err(StepError::NotFinite { quantity: "external load" }) }
     }

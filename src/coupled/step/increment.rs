@@ -1,7 +1,10 @@
 //! Changes of one step.
 
+use super::forcing::Forcing;
 use crate::contact::SearchMethod;
+use crate::coupled::motion::Motion;
 use crate::coupled::scene::Scene;
+use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::state::State;
 use crate::error::LawError;
 use crate::interface::{ContactState, Mode};
@@ -10,6 +13,10 @@ use crate::interface::{ContactState, Mode};
 pub(crate) struct Increment {
     /// Δu relative to the free field's translation, in stepped coordinates.
     pub(crate) displacement: Vec<f64>,
+    /// Displacement at the end of the step, relative likewise.
+    pub(crate) end: Vec<f64>,
+    /// Total Δu, with the share R Δy of the free field's translation.
+    pub(crate) total: Vec<f64>,
     /// Total velocity and acceleration at the end of the step.
     pub(crate) velocity: Vec<f64>,
     pub(crate) acceleration: Vec<f64>,
@@ -39,6 +46,8 @@ impl Increment {
         let nonlinear = if scene.model.linear { 0 } else { n };
         Self {
             displacement: vec![0.0; n],
+            end: vec![0.0; n],
+            total: vec![0.0; n],
             velocity: vec![0.0; n],
             acceleration: vec![0.0; n],
             traction: vec![0.0; 2 * count],
@@ -52,6 +61,26 @@ impl Increment {
             seen: vec![0.0; nonlinear],
         }
     }
+
+    /// Where Δu leads.
+    pub(super) fn reach(&mut self, state: &State) {
+        let increments = state.motion.displacement.iter().zip(&self.displacement);
+        self.end.iter_mut().zip(increments).for_each(|(end, (u, du))| *end = u + du);
+    }
+
+    /// Displacement, velocity and acceleration at the end, and the total Δu.
+    pub(super) fn follow(&mut self, scene: &Scene, state: &State, forcing: &Forcing) {
+        self.reach(state);
+        let increments = self.displacement.iter().zip(&forcing.carried);
+        self.total.iter_mut().zip(increments).for_each(|(total, (du, y))| *total = du + y);
+        let Motion { velocity, acceleration, .. } = &state.motion;
+        let (c, total) = (&scene.coefficients, &self.total);
+        let [new_velocity, new_acceleration] = [&mut self.velocity, &mut self.acceleration];
+        SchemeCoefficients::combine(c.new_velocity, total, velocity, acceleration, new_velocity);
+        let coefficients = c.new_acceleration;
+        SchemeCoefficients::combine(coefficients, total, velocity, acceleration, new_acceleration);
+    }
+
     /// Asks the laws for the compliance that the step after `state` ends with and what they
     /// remember of it.
     pub(crate) fn ask_laws(&mut self, scene: &Scene, state: &State) -> Result<(), LawError> {

@@ -11,6 +11,7 @@
 
 use super::forcing::Forcing;
 use super::increment::Increment;
+use super::modal;
 use crate::contact::{ContactInput, ContactSolver, ModeSearch};
 use crate::coupled::motion::Motion;
 use crate::coupled::scene::Scene;
@@ -18,7 +19,7 @@ use crate::coupled::scene::operators::Operators;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::state::State;
 use crate::error::StepError;
-use crate::linalg::wide_transposed_multiply_add;
+use crate::linalg::transposed_multiply_add;
 
 /// Factored operators, the contact problem and the scratch of a step.
 pub(super) struct LinearStep {
@@ -57,10 +58,9 @@ impl LinearStep {
         known.copy_from_slice(&forcing.load);
         SchemeCoefficients::combine(c.acceleration, carried, v, a, vector);
         model.mass.multiply_add(-1.0, vector, known);
-        if !model.damping.is_empty() {
+        if model.damped {
             SchemeCoefficients::combine(c.velocity, carried, v, a, vector);
-            let velocities = forcing.translations.iter().map(|translation| translation.velocity);
-            model.influence.translate(-1.0, velocities, vector);
+            vector.iter_mut().zip(&forcing.dragged).for_each(|(v, dragged)| *v -= dragged);
             model.damping.multiply_add(-1.0, vector, known);
         }
         for (x, ((u, v), a)) in vector.iter_mut().zip(u.iter().zip(v).zip(a)) {
@@ -68,6 +68,32 @@ impl LinearStep {
         }
         scene.subtract_base(vector, means);
         model.stiffness.multiply_add(-1.0, vector, known);
+    }
+
+    /// The increment of a linear structure, with what follows from it.
+    pub(super) fn solve(
+        &mut self,
+        scene: &Scene,
+        state: &State,
+        forcing: &Forcing,
+        increment: &mut Increment,
+    ) -> Result<(), StepError> {
+        let (scheme, motion) = (&scene.coefficients, &state.motion);
+        let modes = scene.model.diagonals().zip(self.operators.reciprocals());
+        let Some((matrices, inverse)) = modes else {
+            self.predict(scene, state, forcing);
+            increment.displacement.copy_from_slice(&self.known);
+            self.solve_contact(scene, state, forcing, increment)?;
+            increment.follow(scene, state, forcing);
+            return Ok(());
+        };
+        modal::free(scheme, matrices, inverse, motion, forcing, increment);
+        self.touch(scene, state, forcing, increment)?;
+        self.vector.fill(0.0);
+        scene.base.add_forces(1.0, &self.contact.traction, &mut self.vector);
+        let Some(inverse) = self.operators.reciprocals() else { return Ok(()) };
+        modal::answer(scheme, inverse, &self.vector, motion, &forcing.carried, increment);
+        Ok(())
     }
 
     /// Takes the right-hand side in the increment's displacement and leaves the increment there.
@@ -78,13 +104,24 @@ impl LinearStep {
         forcing: &Forcing,
         increment: &mut Increment,
     ) -> Result<(), StepError> {
-        let Self { operators, contact, search, free_jump, means, vector, .. } = self;
-        operators.solve(&mut increment.displacement);
-        let displacement = &state.motion.displacement;
-        for ((x, u), du) in vector.iter_mut().zip(displacement).zip(&increment.displacement) {
-            *x = u + du;
-        }
-        scene.base.means(vector, means);
+        self.operators.solve(&mut increment.displacement);
+        increment.reach(state);
+        self.touch(scene, state, forcing, increment)?;
+        let (columns, traction) = (&self.operators.columns, &self.contact.traction);
+        transposed_multiply_add(columns, -1.0, traction, &mut increment.displacement);
+        Ok(())
+    }
+
+    /// Contact tractions for the displacement that the step would end with without their change.
+    fn touch(
+        &mut self,
+        scene: &Scene,
+        state: &State,
+        forcing: &Forcing,
+        increment: &mut Increment,
+    ) -> Result<(), StepError> {
+        let Self { operators, contact, search, free_jump, means, .. } = self;
+        scene.base.means(&increment.end, means);
         let mut length_scale = 0.0_f64;
         for (i, jump) in free_jump.iter_mut().enumerate() {
             let (ground, base) = (forcing.distortion[i] + forcing.history[i], means[i]);
@@ -111,8 +148,6 @@ impl LinearStep {
         (increment.trials, increment.method) = (trials, method);
         increment.traction.copy_from_slice(&contact.traction);
         increment.contact.copy_from_slice(&contact.states);
-        let answer = &mut increment.displacement;
-        wide_transposed_multiply_add(&operators.columns, -1.0, &contact.traction, answer);
         Ok(())
     }
 }

@@ -3,5 +3,6 @@
 pub(super) mod forcing;
 pub(super) mod increment;
 mod linear;
+mod modal;
 mod newton;
 pub(super) mod solver;

@@ -5,13 +5,11 @@ use super::increment::Increment;
 use super::linear::LinearStep;
 use super::newton::{Newton, StepData};
 use crate::contact::{ContactSolver, ModeSearch};
-use crate::coupled::motion::Motion;
 use crate::coupled::scene::Scene;
 use crate::coupled::scene::operators::Operators;
-use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::state::State;
 use crate::error::StepError;
-use crate::linalg::largest;
+use crate::linalg::{largest, magnitude};
 use crate::structure::Structure;
 
 /// Change of an unknown in a step, in any units that somebody may use, beyond which no structure is
@@ -22,15 +20,12 @@ const RUNAWAY: f64 = 1e15;
 pub(crate) struct Solver {
     linear: LinearStep,
     newton: Option<Newton>,
-    /// Δu with the share R Δy of the free field's translation.
-    total: Vec<f64>,
 }
 
 impl Solver {
     pub(crate) fn new(scene: &Scene, operators: Operators, search: ModeSearch) -> Self {
         Self {
             linear: LinearStep::new(scene, operators, search),
-            total: vec![0.0; scene.model.unknowns],
             newton: (!scene.model.linear).then(|| Newton::new(scene.model.unknowns)),
         }
     }
@@ -54,30 +49,28 @@ impl Solver {
         forcing: &Forcing,
         increment: &mut Increment,
     ) -> Result<(), StepError> {
-        let Self { linear, newton, total } = self;
-        linear.predict(scene, state, forcing);
+        let Self { linear, newton } = self;
         if let Some(newton) = newton {
+            linear.predict(scene, state, forcing);
             let data = StepData { scene, structure, state, forcing };
             newton.solve(linear, data, increment)?;
+            increment.follow(scene, state, forcing);
         } else {
-            increment.displacement.copy_from_slice(&linear.known);
-            linear.solve_contact(scene, state, forcing, increment)?;
+            linear.solve(scene, state, forcing, increment)?;
         }
-        if increment.displacement.iter().any(|x| !x.is_finite()) {
-            let quantity = "displacement of the structure";
-            return Err(StepError::NotFinite { quantity });
-        }
-        let change = largest(&increment.displacement);
-        if change > RUNAWAY {
-            return Err(StepError::Runaway { increment: change });
-        }
-        let c = &scene.coefficients;
-        let Motion { velocity, acceleration, .. } = &state.motion;
-        let Increment { displacement, velocity: new_velocity, acceleration: new, .. } = increment;
-        total.copy_from_slice(displacement);
-        total.iter_mut().zip(&forcing.carried).for_each(|(du, carried)| *du += carried);
-        SchemeCoefficients::combine(c.new_velocity, total, velocity, acceleration, new_velocity);
-        SchemeCoefficients::combine(c.new_acceleration, total, velocity, acceleration, new);
-        Ok(())
+        check(&increment.displacement)
     }
+}
+
+/// Refuses an increment that is not finite, or is that of no structure.
+fn check(increment: &[f64]) -> Result<(), StepError> {
+    // A sum of magnitudes is not finite if one of them is not.
+    if magnitude(increment) <= RUNAWAY {
+        return Ok(());
+    }
+    if increment.iter().any(|x| !x.is_finite()) {
+        return Err(StepError::NotFinite { quantity: "displacement of the structure" });
+    }
+    let change = largest(increment);
+    if change > RUNAWAY { Err(StepError::Runaway { increment: change }) } else { Ok(()) }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::coupled::Probe;
 use crate::error::{Result, same_length};
-use crate::linalg::{SparseMatrix, row_products, wide_transposed_multiply_add};
+use crate::linalg::{SparseMatrix, row_products, transposed_multiply_add};
 use crate::structure::Row;
 
 /// Columns of A T held at a time.
@@ -120,7 +120,7 @@ impl Recovery {
     pub fn full(&self, reduced: &[f64]) -> Result<Vec<f64>> {
         same_length("list of reduced unknowns", reduced.len(), self.basis.order())?;
         let mut full = vec![0.0; self.basis.full];
-        wide_transposed_multiply_add(&self.basis.transposed, 1.0, reduced, &mut full);
+        transposed_multiply_add(&self.basis.transposed, 1.0, reduced, &mut full);
         Ok(full)
     }
 }
