@@ -22,10 +22,9 @@
 
 use super::PatchKernel;
 use super::influence::LateSeries;
-use super::legendre::{Basis, legendre};
+use super::legendre::Basis;
 use crate::error::Result;
 use crate::fundamental::laurent::TERMS;
-use crate::gauss;
 use crate::history::{ExponentialTail, LagKernel, LateLags, TailProduct};
 
 /// Times that the Rayleigh wave has crossed the patch when exponentials take over. Behind three,
@@ -77,11 +76,12 @@ fn tail(
     let slowest = (DROPPED * tolerance / (horizon * step)).ln();
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
     let count = ((fastest - slowest) / h).ceil() as usize;
+    let differences = differences();
     let mut poles: Vec<Pole> = (0..count)
         .map(|k| {
             let s = (fastest - k as f64 * h).exp();
             let weight = -unit * h * (-s * step).exp_m1() * (-s * begin).exp();
-            let mut pole = Pole::new(terms, s, s * basis.half, weight);
+            let mut pole = Pole::new(terms, &differences, s, s * basis.half, weight);
             // Largest share of this pole in the coefficient at its own time.
             let share = if s * begin > 1.0 { s * begin * (1.0 - s * begin).exp() } else { 1.0 };
             let energy = h * (-s * begin).exp() / (s * step);
@@ -121,33 +121,21 @@ struct Pole {
 
 impl Pole {
     /// `reach` is s times half of the patch.
-    fn new(terms: &[[f64; TERMS]; 2], s: f64, reach: f64, weight: f64) -> Self {
-        let rule = gauss::largest();
-        let order = rule.nodes.len();
-        let mut values = vec![0.0; order * DEGREES];
-        for (node, values) in rule.nodes.iter().zip(values.chunks_exact_mut(DEGREES)) {
-            legendre(*node, values);
-        }
-        let project = |degree: usize, node: usize| {
-            (degree as f64 + 0.5) * rule.weights[node] * values[node * DEGREES + degree]
-        };
+    fn new(
+        terms: &[[f64; TERMS]; 2],
+        differences: &[f64],
+        s: f64,
+        reach: f64,
+        weight: f64,
+    ) -> Self {
         let table = [0, 1].map(|part| {
-            let mut rows = vec![0.0; DEGREES * order];
-            for a in 0..order {
-                for b in 0..order {
-                    let phi = phi(&terms[part], reach * (rule.nodes[a] - rule.nodes[b]));
-                    for i in 0..DEGREES {
-                        rows[i * order + b] += project(i, a) * phi;
-                    }
-                }
-            }
             let mut table = vec![0.0; DEGREES * DEGREES];
-            for i in 0..DEGREES {
-                // Φ is even: the degrees of a product are both even or both odd.
-                for j in (i % 2..DEGREES).step_by(2) {
-                    table[i * DEGREES + j] =
-                        (0..order).map(|b| rows[i * order + b] * project(j, b)).sum();
-                }
+            let mut power = 1.0;
+            for (k, differences) in differences.chunks_exact(DEGREES * DEGREES).enumerate() {
+                let factor = terms[part][k] * power;
+                table.iter_mut().zip(differences).for_each(|(sum, value)| *sum += factor * value);
+                let next = (2 * k + 2) as f64;
+                power *= reach * reach / (next * (next - 1.0));
             }
             // Higher degrees at slow poles are rounding.
             let noise = 1e-15 * table[0].abs();
@@ -165,34 +153,80 @@ impl Pole {
     /// Keeps as few degrees as the rest, over that of t⁻¹ alone, is within both limits.
     fn cut(&mut self, terms: &[[f64; TERMS]; 2], accuracy: f64, energy: f64) {
         let limit = accuracy.min(energy);
-        let rest = |degrees: usize| {
-            let mut largest = 0.0_f64;
-            for (table, terms) in self.table.iter().zip(terms) {
-                let mut sum = 0.0;
-                for i in 0..DEGREES {
-                    for j in 0..DEGREES {
-                        if i >= degrees || j >= degrees {
-                            sum += table[i * DEGREES + j].abs();
-                        }
-                    }
-                }
-                largest = largest.max(sum / terms[0].abs());
+        let mut rest = [0.0; 2];
+        while self.degrees > 1 {
+            let last = self.degrees - 1;
+            for ((rest, table), terms) in rest.iter_mut().zip(&self.table).zip(terms) {
+                let at = |i: usize, j: usize| table[i * DEGREES + j].abs();
+                let added: f64 = (0..last).map(|i| at(i, last) + at(last, i)).sum();
+                *rest += (added + at(last, last)) / terms[0].abs();
             }
-            largest
-        };
-        while self.degrees > 1 && rest(self.degrees - 1) <= limit {
-            self.degrees -= 1;
+            if rest[0].max(rest[1]) > limit {
+                return;
+            }
+            self.degrees = last;
         }
     }
 }
 
-/// Φ(y) = Σ `c_k` y^(2k)/(2k)!.
-fn phi(terms: &[f64; TERMS], y: f64) -> f64 {
-    let (mut power, mut sum) = (1.0, 0.0);
-    for (k, term) in terms.iter().enumerate() {
-        sum += term * power;
-        let next = (2 * k + 2) as f64;
-        power *= y * y / (next * (next - 1.0));
+/// Legendre coefficients of (x−y)^(2k) in x and y, `DEGREES` × `DEGREES` for each k. Of the
+/// binomial's terms those with a coefficient are all of one sign: nothing cancels.
+fn differences() -> Vec<f64> {
+    let powers = monomials(2 * TERMS - 1);
+    let mut tables = vec![0.0; TERMS * DEGREES * DEGREES];
+    for (k, table) in tables.chunks_exact_mut(DEGREES * DEGREES).enumerate() {
+        let mut binomial = 1.0;
+        for m in 0..=2 * k {
+            let sign = if m % 2 == 0 { 1.0 } else { -1.0 };
+            for (i, row) in table.chunks_exact_mut(DEGREES).enumerate() {
+                let factor = sign * binomial * powers[m][i];
+                if factor != 0.0 {
+                    let other = &powers[2 * k - m];
+                    row.iter_mut().zip(other).for_each(|(sum, value)| *sum += factor * value);
+                }
+            }
+            binomial *= (2 * k - m) as f64 / (m + 1) as f64;
+        }
     }
-    sum
+    tables
+}
+
+/// Legendre coefficients of 1, x, x², …, none of them negative: x Pᵢ = ((i+1) Pᵢ₊₁ + i Pᵢ₋₁)/(2i+1).
+fn monomials(count: usize) -> Vec<Vec<f64>> {
+    let mut powers = vec![vec![0.0; DEGREES.max(count + 1)]; count];
+    powers[0][0] = 1.0;
+    for m in 1..count {
+        for i in 0..m {
+            let share = powers[m - 1][i] / (2 * i + 1) as f64;
+            powers[m][i + 1] += (i + 1) as f64 * share;
+            if i > 0 {
+                powers[m][i - 1] += i as f64 * share;
+            }
+        }
+    }
+    powers
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::legendre::legendre;
+    use super::*;
+
+    #[test]
+    fn differences_are_powers_of_the_distance() {
+        let tables = differences();
+        for (k, table) in tables.chunks_exact(DEGREES * DEGREES).enumerate().take(DEGREES / 2) {
+            for (x, y) in [(0.3, -0.8), (-0.95, 0.9), (0.5, 0.5), (1.0, -1.0)] {
+                let [mut in_x, mut in_y] = [[0.0; DEGREES]; 2];
+                legendre(x, &mut in_x);
+                legendre(y, &mut in_y);
+                let sum: f64 = (0..DEGREES * DEGREES)
+                    .map(|place| table[place] * in_x[place / DEGREES] * in_y[place % DEGREES])
+                    .sum();
+                #[allow(clippy::cast_possible_truncation, clippy::cast_possible_wrap)]
+                let exact = (x - y as f64).powi(2 * k as i32);
+                assert!((sum - exact).abs() < 1e-13 * 4.0_f64.powi(k as i32), "{k} {x} {y}");
+            }
+        }
+    }
 }

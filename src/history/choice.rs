@@ -7,8 +7,8 @@ use crate::error::{CheckpointError, Result};
 /// Convolution history of a ground: the method by which it sums the effect of all past tractions.
 ///
 /// Q elements, N steps, C classes of pairs (Q on a uniform strip, about Q²/4 on a graded one), W
-/// the lags before the exponentials (on the half-plane, the steps in which the Rayleigh wave crosses
-/// the patch three times), b about 4√W, M the power of two at or above N; for a coupling that ends
+/// the lags before the exponentials (on the half-plane, the power of two at or above the steps in
+/// which the Rayleigh wave crosses the patch three times), M the power of two at or above N; for a coupling that ends
 /// after few lags, as on the half-plane:
 ///
 /// | | result | multiply–adds per step | bytes |
@@ -16,7 +16,7 @@ use crate::error::{CheckpointError, Result};
 /// | direct | exact to rounding | Q² N on average | 16 (C + Q) N |
 /// | relaxed transforms, pairs of elements | exact to rounding | 64 Q² + log₂(N/64) (16 Q² + 5 Q log₂ N) | (32 C + 24 Q + 16) M |
 /// | relaxed transforms, wavenumbers | exact to rounding | 128 Q + log₂(N/32) (8 Q + 5 Q log₂ 2N) | (64 Q + 32) M |
-/// | exponentials | within a tolerance | 2 Q² b + 16 Q² W/b + 20 Q log₂ 2b + about 3000 | 16 C b + 48 C W + 64 Q W |
+/// | exponentials | within a tolerance | as the transforms, with W for N, and about 3000 | as the transforms, with W for M, and 32 Q W |
 ///
 /// Wavenumbers take the place of pairs from eight equal elements on. A processor makes 4 to 7 of
 /// these multiply–adds in a nanosecond (`docs/performance.md`): the estimates tell factors of two
@@ -37,8 +37,9 @@ pub enum History {
     Exponentials,
     /// One of the above, chosen when the number of steps is known or the first step is made:
     ///
-    /// 1. the exponentials, if a tolerance was allowed (`with_history_tolerance`) and they are
-    ///    estimated to be cheaper than the transforms;
+    /// 1. the exponentials, if they are estimated to take less time over the run than the
+    ///    transforms, their making included: with the tolerance allowed (`with_history_tolerance`),
+    ///    or with 1e-12, which is rounding;
     /// 2. the relaxed transforms, if they fit into the memory that a history may take
     ///    (`with_history_memory`, 1 GiB unless given), or if the number of steps is not known;
     /// 3. otherwise the exponentials, with their own tolerance; or the transforms all the same,
@@ -46,10 +47,8 @@ pub enum History {
     ///
     /// It is made once: from the steps that a simulation was told to
     /// [expect](crate::coupled::SimulationBuilder::expected_steps), or else from those of the first
-    /// run. Runs that follow keep it. The transforms give the same bits
-    /// however a run is cut, so where they are chosen (always, within the memory allowed and without a
-    /// tolerance) nothing depends on that. Otherwise say what to expect: the choice is then the same for
-    /// every cut.
+    /// run. Runs that follow keep it. Both give the same bits however a run is cut, but they differ
+    /// from each other by their errors: say what to expect, and the choice is the same for every cut.
     #[default]
     Auto,
 }
@@ -66,6 +65,8 @@ pub enum ChoiceReason {
     UnknownLength,
     /// The tolerance allowed makes it the cheapest.
     ToleranceAllowed,
+    /// It is the cheapest, and its error at rounding.
+    Rounding,
     /// An exact history would take more memory than is allowed.
     MemoryLimit,
     /// An exact history takes more memory than is allowed, but the exponentials cannot be had.
@@ -79,6 +80,7 @@ impl fmt::Display for ChoiceReason {
             Self::Exact => "exact, and within the memory allowed",
             Self::UnknownLength => "exact, and the number of steps is not known",
             Self::ToleranceAllowed => "cheapest within the tolerance allowed",
+            Self::Rounding => "cheapest, with an error at rounding",
             Self::MemoryLimit => "an exact history would need more memory than allowed",
             Self::NoExponentials => "more memory than allowed, but exponentials cannot be had here",
         })

@@ -14,6 +14,9 @@ use crate::error::Result;
 /// Steps that are estimated for where nothing is known.
 const UNKNOWN_STEPS: usize = 100_000;
 
+/// Error of coefficients that is taken without being allowed: results then differ by rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Options of a ground's history.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HistoryOptions {
@@ -41,18 +44,21 @@ impl HistoryOptions {
         let expected = steps.unwrap_or(UNKNOWN_STEPS);
         let exact = Estimate::new(History::RelaxedFft, &**kernel, expected)?;
         let exponentials = Estimate::new(History::Exponentials, &**kernel, expected)?;
+        let shorter = exponentials.of_run(expected) < exact.of_run(expected);
         let (kind, reason) = if self.kind != History::Auto {
             (self.kind, ChoiceReason::Asked)
-        } else if self.tolerance.is_some() && exponentials.cost < exact.cost {
+        } else if self.tolerance.is_some() && shorter {
             (History::Exponentials, ChoiceReason::ToleranceAllowed)
         } else if steps.is_none() {
             (History::RelaxedFft, ChoiceReason::UnknownLength)
+        } else if shorter {
+            (History::Exponentials, ChoiceReason::Rounding)
         } else if exact.memory <= self.memory {
             (History::RelaxedFft, ChoiceReason::Exact)
         } else {
             (History::Exponentials, ChoiceReason::MemoryLimit)
         };
-        let Estimate { memory, cost } = match kind {
+        let Estimate { memory, cost, .. } = match kind {
             History::Direct => Estimate::new(kind, &**kernel, expected)?,
             History::Exponentials => exponentials,
             History::RelaxedFft | History::Auto => exact,
@@ -71,7 +77,11 @@ impl HistoryOptions {
             History::Direct => Box::new(DirectHistory::new(own)),
             History::RelaxedFft | History::Auto => Box::new(RelaxedFftHistory::new(own)),
             History::Exponentials => {
-                let tolerance = self.tolerance.unwrap_or(ExponentialHistory::TOLERANCE);
+                let unasked = match reason {
+                    ChoiceReason::Rounding => ROUNDING,
+                    _ => ExponentialHistory::TOLERANCE,
+                };
+                let tolerance = self.tolerance.unwrap_or(unasked);
                 let horizon = expected.max(ExponentialHistory::HORIZON);
                 match ExponentialHistory::with_horizon(own, tolerance, horizon) {
                     Ok(history) => {
@@ -81,9 +91,13 @@ impl HistoryOptions {
                     }
                     Err(error) if self.kind == History::Exponentials => return Err(error),
                     Err(_) => {
+                        let reason = match reason {
+                            ChoiceReason::MemoryLimit => ChoiceReason::NoExponentials,
+                            _ => ChoiceReason::Exact,
+                        };
                         choice = HistoryChoice {
                             kind: History::RelaxedFft,
-                            reason: ChoiceReason::NoExponentials,
+                            reason,
                             estimated_memory: exact.memory,
                             estimated_cost: exact.cost,
                             ..choice

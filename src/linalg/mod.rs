@@ -19,7 +19,7 @@ pub(crate) use eigen::{generalised_modes, least_eigenvalue};
 pub(crate) use lanczos::lowest_modes;
 pub(crate) use partition::Partition;
 pub(crate) use product::{
-    dense_multiply_add, dot, largest, magnitude, row_products, transposed_multiply_add,
+    Dot, dense_multiply_add, dot, largest, magnitude, row_products, transposed_multiply_add,
     weighted_dot,
 };
 pub(crate) use simd::{Simd, WithSimd, vectorized};

@@ -172,10 +172,11 @@ pub(crate) fn weighted_dot(weights: &[f64], x: &[f64], y: &[f64]) -> f64 {
     vectorized(Dot { weights: Some(weights), x, y })
 }
 
-struct Dot<'a> {
-    weights: Option<&'a [f64]>,
-    x: &'a [f64],
-    y: &'a [f64],
+/// Σ xᵢ yᵢ, or with weights Σ wᵢ xᵢ yᵢ, as far as the shortest goes.
+pub(crate) struct Dot<'a> {
+    pub(crate) weights: Option<&'a [f64]>,
+    pub(crate) x: &'a [f64],
+    pub(crate) y: &'a [f64],
 }
 
 impl WithSimd for Dot<'_> {

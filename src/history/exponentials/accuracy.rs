@@ -1,5 +1,6 @@
 //! Error of the exponentials against the coefficients that they stand for, over the whole horizon.
 
+use super::fit::Measured;
 use super::tail::Tail;
 use crate::error::Result;
 use crate::history::lag_kernel::LagKernel;
@@ -10,17 +11,6 @@ const PER_OCTAVE: f64 = 7.3;
 /// Classes of pairs looked at; more are sampled evenly. The error is a polynomial in space.
 const CLASSES: usize = 150;
 
-/// Measured errors.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Accuracy {
-    /// Largest error of any coefficient over the largest coefficient of the same lag.
-    pub(super) relative: f64,
-    /// Σ over lags of the largest change of an error from lag to lag, m/Pa.
-    pub(super) increments: f64,
-    /// Largest coefficient at the end of the horizon, m/Pa.
-    pub(super) last: f64,
-}
-
 /// Errors at one lag and the next, and the largest coefficient, per component.
 struct Sample {
     error: f64,
@@ -29,9 +19,9 @@ struct Sample {
     largest: f64,
 }
 
-impl Accuracy {
+impl Measured {
     /// Lags from `window` + 1 to `horizon`.
-    pub(super) fn measure(
+    pub(super) fn over(
         kernel: &dyn LagKernel,
         tail: &Tail,
         window: usize,

@@ -1,27 +1,28 @@
 //! The history as a window of exact lags and a sum of exponentials: memory that does not grow.
 
 mod accuracy;
+pub(crate) mod fit;
 mod passivity;
 mod tail;
 mod window;
 
 use std::sync::Arc;
 
-use self::accuracy::Accuracy;
+use self::fit::{Fit, Measured, Request};
 use self::passivity::Margin;
 use self::tail::Tail;
-use self::window::{Lags, Window};
+use self::window::{Cut, Lags};
 use super::convolution::ConvolutionHistory;
 use super::lag_kernel::LagKernel;
 use super::late_lags::LateLags;
+use super::relaxed_fft::spectra::Windowed;
+use super::relaxed_fft::{Blocks, LEAF, SharedSpectra, bounded};
 use crate::error::{CheckpointError, Error, Result, same_length};
 
 /// Tolerances that can be reached.
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
 /// Longest window: the step is so short that all of a run may lie in it.
 const LONGEST_WINDOW: usize = 1_000_000;
-/// Largest block of the window, and smallest.
-const BLOCKS: [usize; 2] = [16, 512];
 /// Error aimed at in the next attempt over that of the one before.
 const CLOSER: f64 = 0.2;
 /// Longest horizon, steps: what 64 bits allow with ease, or all that fits where a word is shorter.
@@ -64,18 +65,14 @@ const ATTEMPTS: usize = 10;
 /// incompressible soil, very short steps) need the additional poles.
 pub struct ExponentialHistory {
     kernel: Arc<dyn LagKernel>,
-    window: Window,
+    fit: Arc<Fit>,
+    window: Box<dyn Blocks>,
     tail: Tail,
-    /// W, and steps of a block.
-    lags: usize,
-    block: usize,
-    horizon: usize,
-    tolerance: f64,
-    accuracy: Accuracy,
-    margin: f64,
-    /// The last W + b inputs, input m in slot m mod (W + b).
+    /// The last 2W inputs, input m in slot m mod 2W.
     recent: Vec<f64>,
     steps: usize,
+    /// Whether the last input still has to be worked in.
+    pending: bool,
     /// Largest Σ|τ| of any step so far, Pa.
     largest: f64,
 }
@@ -85,9 +82,9 @@ short_debug! {
     self;
     elements: self.kernel.classes().elements().len(),
     steps: self.steps,
-    lags: self.lags,
-    horizon: self.horizon,
-    tolerance: self.tolerance,
+    lags: self.window(),
+    horizon: self.fit.request.horizon,
+    tolerance: self.tolerance(),
 }
 
 impl ExponentialHistory {
@@ -120,66 +117,57 @@ impl ExponentialHistory {
         Self::check_tolerance(tolerance)?;
         let Some(late) = kernel.late_lags() else { return Err(NO_LATE_LAGS) };
         let elements = kernel.classes().elements();
-        let [block, parts] = blocks(late)?;
-        let lags = block * parts;
+        let lags = window(late)?;
         let horizon = horizon.clamp(2 * lags, LONGEST);
-        let exact = Lags::new(&*kernel, lags)?;
-        let (mut aim, mut refusal) = (tolerance, None);
-        for _ in 0..ATTEMPTS {
-            let tail = Tail::new(late.exponentials(lags, horizon, aim)?, elements)?;
-            let accuracy = Accuracy::measure(&*kernel, &tail, lags, horizon)?;
-            aim *= CLOSER;
-            if accuracy.relative > tolerance {
-                let reached = accuracy.relative;
-                refusal.get_or_insert(Error::Accuracy { tolerance, reached });
-                continue;
+        let request = Request { lags, horizon, tolerance };
+        let store = kernel.spectra().filter(|spectra| spectra.are_of(elements));
+        let made = |made: &&Windowed| made.fit.request == request;
+        let known = store.and_then(|store| store.tails().iter().find(made).cloned());
+        let Windowed { fit, spectra } = if let Some(known) = known {
+            known
+        } else {
+            let new = Windowed {
+                fit: Arc::new(Fit::new(&*kernel, late, request)?),
+                spectra: SharedSpectra::default(),
+            };
+            if let Some(store) = store {
+                store.tails().push(new.clone());
             }
-            let Margin { least, frequency } =
-                passivity::margin(&*kernel, &exact, &tail, horizon as f64);
-            // A NaN is refused as well.
-            if least.is_nan() || least < 0.0 {
-                refusal = Some(Error::NotPassive { margin: least, frequency });
-                continue;
-            }
-            let recent = vec![0.0; (lags + block) * 2 * elements.len()];
-            return Ok(Self {
-                window: Window::new(&*kernel, &exact, block, parts),
-                recent,
-                tail,
-                lags,
-                block,
-                horizon,
-                tolerance,
-                accuracy,
-                margin: least,
-                steps: 0,
-                largest: 0.0,
-                kernel,
-            });
-        }
-        Err(refusal.unwrap_or(Error::Accuracy { tolerance, reached: f64::INFINITY }))
+            new
+        };
+        let window = bounded(&Cut { kernel: &*kernel, lags, spectra: &spectra }, lags)?;
+        Ok(Self {
+            window,
+            recent: vec![0.0; 4 * lags * elements.len()],
+            tail: fit.tail.clone(),
+            fit,
+            steps: 0,
+            pending: false,
+            largest: 0.0,
+            kernel,
+        })
     }
 
     /// Largest error of any coefficient up to the horizon over the largest coefficient of its
     /// lag, measured when the history was made; at most the tolerance that was asked for.
     pub fn error_bound(&self) -> f64 {
-        self.accuracy.relative
+        self.fit.accuracy.relative
     }
 
     /// The tolerance that was asked for.
     pub fn tolerance(&self) -> f64 {
-        self.tolerance
+        self.fit.request.tolerance
     }
 
     /// Least eigenvalue of the Hermitian part of (1−ζ)Ĝ(ζ) on |ζ| = 1, over that of a
     /// displacement that comes at once (G¹ alone, element by element): not negative.
     pub fn passivity_margin(&self) -> f64 {
-        self.margin
+        self.fit.margin
     }
 
     /// Lags that are exact.
     pub fn window(&self) -> usize {
-        self.lags
+        self.fit.request.lags
     }
 
     /// Exponentials that carry the rest.
@@ -194,7 +182,7 @@ impl ExponentialHistory {
 
     /// Bytes held in coefficients, state and scratch.
     pub fn memory(&self) -> usize {
-        self.window.memory() + self.tail.memory() + self.recent.len() * size_of::<f64>()
+        self.tail.memory() + (self.window.numbers() + self.recent.len()) * size_of::<f64>()
     }
 
     /// `tolerance` if it can be reached.
@@ -216,19 +204,26 @@ impl ExponentialHistory {
     /// Where input `m` is kept.
     fn slot(&self, m: usize) -> std::ops::Range<usize> {
         let size = self.size();
-        let slot = m % (self.lags + self.block);
+        let slot = m % (2 * self.window());
         slot * size..(slot + 1) * size
     }
 
-    /// Inputs kept after `steps`: those that the window needs, from the beginning of a block on.
+    /// Inputs that outputs from `steps` on see through the window: from the beginning of a block on.
     fn kept(&self, steps: usize) -> std::ops::Range<usize> {
-        let block = steps / self.block * self.block;
-        block.saturating_sub(self.lags)..steps
+        let lags = self.window();
+        (steps / lags * lags).saturating_sub(lags)..steps
+    }
+
+    /// Works the last input in, so that the next output is complete.
+    fn settle(&mut self) {
+        if std::mem::take(&mut self.pending) {
+            self.window.work_in(self.steps);
+        }
     }
 }
 
-/// Steps of a block and blocks of the window.
-fn blocks(late: &dyn LateLags) -> Result<[usize; 2]> {
+/// Lags of the window: a block of the transforms, since these take the time of all of it.
+fn window(late: &dyn LateLags) -> Result<usize> {
     let lags = late.window();
     if lags > LONGEST_WINDOW {
         return Err(Error::Input {
@@ -237,9 +232,36 @@ fn blocks(late: &dyn LateLags) -> Result<[usize; 2]> {
             needed: "a million or fewer for a history by exponentials",
         });
     }
-    // Direct sums of b lags on average, and 16 W/b for the products of spectra.
-    let block = (16 * lags).isqrt().next_power_of_two().clamp(BLOCKS[0], BLOCKS[1]);
-    Ok([block, lags.div_ceil(block).max(1)])
+    Ok(lags.next_power_of_two().max(LEAF))
+}
+
+impl Fit {
+    /// The fewest exponentials that fit and are passive.
+    fn new(kernel: &dyn LagKernel, late: &dyn LateLags, request: Request) -> Result<Self> {
+        let Request { lags, horizon, tolerance } = request;
+        let exact = Lags::new(kernel, lags)?;
+        let (mut aim, mut refusal) = (tolerance, None);
+        for _ in 0..ATTEMPTS {
+            let elements = kernel.classes().elements();
+            let tail = Tail::new(late.exponentials(lags, horizon, aim)?, elements)?;
+            let accuracy = Measured::over(kernel, &tail, lags, horizon)?;
+            aim *= CLOSER;
+            if accuracy.relative > tolerance {
+                let reached = accuracy.relative;
+                refusal.get_or_insert(Error::Accuracy { tolerance, reached });
+                continue;
+            }
+            let Margin { least, frequency } =
+                passivity::margin(kernel, &exact, &tail, horizon as f64);
+            // A NaN is refused as well.
+            if least.is_nan() || least < 0.0 {
+                refusal = Some(Error::NotPassive { margin: least, frequency });
+                continue;
+            }
+            return Ok(Self { request, tail, accuracy, margin: least });
+        }
+        Err(refusal.unwrap_or(Error::Accuracy { tolerance, reached: f64::INFINITY }))
+    }
 }
 
 const NO_LATE_LAGS: Error =
@@ -257,28 +279,31 @@ impl ConvolutionHistory for ExponentialHistory {
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
         same_length("displacement of the history", displacement.len(), self.size())?;
-        self.window.evaluate(displacement);
+        self.settle();
+        self.window.read(self.steps, displacement);
         self.tail.add(displacement);
         Ok(())
     }
 
     fn push(&mut self, traction: &[f64]) {
+        self.settle();
         let slot = self.slot(self.steps);
         let kept = &mut self.recent[slot.clone()];
         for (i, kept) in kept.iter_mut().enumerate() {
             *kept = traction.get(i).copied().unwrap_or(0.0);
         }
         self.largest = self.largest.max(kept.iter().map(|t| t.abs()).sum());
-        self.window.push(kept);
-        self.steps += 1;
-        let leaving = self.steps.checked_sub(self.lags).map(|m| self.slot(m));
+        self.window.write(self.steps, kept);
+        (self.steps, self.pending) = (self.steps + 1, true);
+        let leaving = self.steps.checked_sub(self.window()).map(|m| self.slot(m));
         self.tail.advance(leaving.map(|slot| &self.recent[slot]));
     }
 
     fn increment_error_bound(&self) -> f64 {
         // Beyond the horizon the error may be as large as what is left of the coefficients.
-        let beyond = if self.steps > self.horizon { 2.0 * self.accuracy.last } else { 0.0 };
-        (self.accuracy.increments + beyond) * self.largest
+        let Fit { request, accuracy, .. } = &*self.fit;
+        let beyond = if self.steps > request.horizon { 2.0 * accuracy.last } else { 0.0 };
+        (accuracy.increments + beyond) * self.largest
     }
 
     /// Largest traction, the exponentials' state, and the last inputs.
@@ -300,13 +325,17 @@ impl ConvolutionHistory for ExponentialHistory {
         self.steps = steps;
         self.largest = values[0];
         self.tail.set_state(&values[1..=state]);
-        self.window.clear(kept.start / self.block);
-        let size = self.size();
+        self.window.clear();
+        let (size, first) = (self.size(), kept.start);
         for (m, input) in kept.zip(values[state + 1..].chunks_exact(size)) {
+            if m > first {
+                self.window.work_in(m);
+            }
             let slot = self.slot(m);
             self.recent[slot].copy_from_slice(input);
-            self.window.push(input);
+            self.window.write(m, input);
         }
+        self.pending = steps > 0;
         Ok(())
     }
 }

@@ -1,9 +1,11 @@
 //! Tractions from before the window, carried from step to step by decaying exponentials.
 
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+
 use crate::contact_element::ContactElement;
 use crate::error::{Result, same_length};
 use crate::history::late_lags::{ExponentialTail, TailProduct};
-use crate::linalg::dot;
+use crate::linalg::{Dot, Simd, WithSimd, dot, vectorized};
 
 /// An [`ExponentialTail`] and the state that it carries.
 #[derive(Debug, Clone)]
@@ -91,11 +93,7 @@ impl Tail {
                     }
                 }
             }
-            for (state, moment) in states.iter_mut().zip(&self.moments) {
-                for (state, decay) in state.iter_mut().zip(&self.decay) {
-                    *state = decay * *state + moment;
-                }
-            }
+            vectorized(Decay { states, decay: &self.decay, moments: &self.moments });
         }
     }
 
@@ -103,14 +101,8 @@ impl Tail {
     pub(super) fn add(&mut self, displacement: &mut [f64]) {
         let count = self.lengths.len();
         for (part, states) in self.states.iter().enumerate() {
-            self.amplitudes.fill(0.0);
-            for product in self.data.products() {
-                let (weights, [i, j]) = (weights(product, part), product.functions);
-                self.amplitudes[i] += dot(weights, &states[j][..weights.len()]);
-                if i != j {
-                    self.amplitudes[j] += dot(weights, &states[i][..weights.len()]);
-                }
-            }
+            let amplitudes = self.amplitudes.as_mut_slice();
+            vectorized(Amplitudes { states, products: self.data.products(), part, amplitudes });
             let displacement = &mut displacement[part * count..(part + 1) * count];
             for (amplitude, means) in self.amplitudes.iter().zip(self.data.functions()) {
                 for (displacement, mean) in displacement.iter_mut().zip(means) {
@@ -174,6 +166,57 @@ impl Tail {
             })
             .sum();
         area * mean
+    }
+}
+
+/// All that is held decays, and moments come in.
+struct Decay<'a> {
+    states: &'a mut [Vec<f64>],
+    decay: &'a [f64],
+    moments: &'a [f64],
+}
+
+impl WithSimd for Decay<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        for (state, moment) in self.states.iter_mut().zip(self.moments) {
+            let wide = simd.splat_f64s(*moment);
+            let (decay, decay_tail) = S::as_simd_f64s(&self.decay[..state.len()]);
+            let (state, state_tail) = S::as_mut_simd_f64s(state);
+            for (state, decay) in state.iter_mut().zip(decay) {
+                *state = simd.mul_add_e_f64s(*state, *decay, wide);
+            }
+            for (state, decay) in state_tail.iter_mut().zip(decay_tail) {
+                *state = *state * decay + moment;
+            }
+        }
+    }
+}
+
+/// Amplitudes of the functions at the end of the next step.
+struct Amplitudes<'a> {
+    states: &'a [Vec<f64>],
+    products: &'a [TailProduct],
+    part: usize,
+    amplitudes: &'a mut [f64],
+}
+
+impl WithSimd for Amplitudes<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { states, products, part, amplitudes } = self;
+        amplitudes.fill(0.0);
+        for product in products {
+            let (x, [i, j]) = (weights(product, part), product.functions);
+            amplitudes[i] += Dot { weights: None, x, y: &states[j] }.with_simd(simd);
+            if i != j {
+                amplitudes[j] += Dot { weights: None, x, y: &states[i] }.with_simd(simd);
+            }
+        }
     }
 }
 

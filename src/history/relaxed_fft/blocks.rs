@@ -5,10 +5,10 @@ use crate::history::lag_kernel::LagKernel;
 
 /// Steps that are summed directly before the smallest block is transformed. Measured with 10 and
 /// 14 elements: 16 takes as long, 64 a fifth longer by pairs; by wavenumbers it hardly matters.
-pub(super) const LEAF: usize = 32;
+pub(crate) const LEAF: usize = 32;
 
 /// Inputs and outputs so far, and how blocks of one give blocks of the other.
-pub(super) trait Blocks: Send {
+pub(crate) trait Blocks: Send {
     /// Steps for which there is room and for which all levels are ready. Where it is no power of
     /// two, the outputs of the last blocks end with it, and are missing when it grows.
     fn capacity(&self) -> usize;
@@ -18,6 +18,11 @@ pub(super) trait Blocks: Send {
 
     /// Makes ready for at least `steps` steps. Inputs and outputs stay as they are on an error.
     fn grow(&mut self, kernel: &dyn LagKernel, steps: usize) -> Result<()>;
+
+    /// Makes ready for any number of steps, in memory that does not grow: no coefficient is other
+    /// than zero beyond d = `reach`, a leaf times a power of two. To be called before the first step,
+    /// in the place of [`Blocks::grow`].
+    fn bound(&mut self, kernel: &dyn LagKernel, reach: usize) -> Result<()>;
 
     /// Works the input of step `now` − 1 in, so that the output of `now` is complete.
     fn work_in(&mut self, now: usize);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
+use super::ring::Ring;
 use crate::history::pair_classes::{Pair, PairClasses};
 
 /// Frequencies that are multiplied together, so that all inputs and outputs stay in cache.
@@ -70,10 +71,11 @@ pub(super) enum Part {
 
 /// Places of inputs and outputs, and the coupling between elements.
 pub(super) struct Block<'a> {
-    /// 2Q rows: inputs before `now`, outputs from there on.
+    /// 2Q rows of inputs and outputs.
     pub(super) rows: &'a mut [f64],
     /// Length of a row.
     pub(super) stride: usize,
+    pub(super) ring: Ring,
     /// Inputs so far.
     pub(super) now: usize,
     pub(super) classes: &'a PairClasses,
@@ -131,9 +133,9 @@ impl Level {
         };
         let (size, bins) = (self.size, self.size + 1);
         for component in 0..components {
-            let row = &block.rows[(first + component) * block.stride..][..block.now];
+            let row = &block.rows[(first + component) * block.stride..][..block.stride];
             let real = &mut work.real[..2 * size];
-            real[..size].copy_from_slice(&row[block.now - size..]);
+            real[..size].copy_from_slice(&row[block.ring.before(block.now, size)]);
             real[size..].fill(0.0);
             let spectrum = &mut work.spectra[component * bins..][..bins];
             transform(&*self.forward, real, spectrum, &mut work.scratch);
@@ -149,7 +151,8 @@ impl Level {
             let scratch = &mut work.scratch[..self.inverse.get_scratch_len()];
             let done = self.inverse.process_with_scratch(spectrum, real, scratch);
             debug_assert!(done.is_ok());
-            let row = &mut block.rows[(first + component) * block.stride + block.now..][..size];
+            let begin = (first + component) * block.stride + block.ring.place(block.now);
+            let row = &mut block.rows[begin..begin + size];
             for (output, value) in row.iter_mut().zip(&real[size..]) {
                 *output += scale * value;
             }

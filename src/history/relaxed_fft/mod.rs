@@ -5,6 +5,7 @@ mod coefficients;
 mod lattice;
 mod level;
 mod pairs;
+mod ring;
 pub(super) mod spectra;
 mod tables;
 mod wave_level;
@@ -12,7 +13,7 @@ mod waves;
 
 use std::sync::Arc;
 
-use self::blocks::{Blocks, LEAF};
+pub(crate) use self::blocks::{Blocks, LEAF};
 use self::lattice::Lattice;
 use self::pairs::Pairs;
 pub use self::spectra::SharedSpectra;
@@ -241,6 +242,19 @@ impl ConvolutionHistory for RelaxedFftHistory {
         (self.steps, self.pending, self.failed) = (steps, steps > 0, None);
         Ok(())
     }
+}
+
+/// Empty blocks for any number of steps, of a kernel with no coefficient beyond lag `reach`, a leaf
+/// times a power of two.
+pub(super) fn bounded(kernel: &dyn LagKernel, reach: usize) -> Result<Box<dyn Blocks>> {
+    let classes = kernel.classes();
+    let lattice = Lattice::of(classes).filter(|_| classes.elements().len() >= WAVES_FROM);
+    let mut blocks: Box<dyn Blocks> = match lattice {
+        Some(lattice) => Box::new(Waves::new(lattice, kernel, LEAF)?),
+        None => Box::new(Pairs::bounded(kernel, LEAF)?),
+    };
+    blocks.bound(kernel, reach)?;
+    Ok(blocks)
 }
 
 /// Goes through all steps again, from nothing to where the last of `inputs` is still pending.

@@ -7,6 +7,7 @@ use realfft::RealFftPlanner;
 use super::blocks::{Blocks, LEAF};
 use super::coefficients::{Class, Coefficients};
 use super::level::{Block, Level, Part, Work};
+use super::ring::Ring;
 use super::tables::Tables;
 use crate::error::Result;
 use crate::history::lag_kernel::LagKernel;
@@ -30,6 +31,7 @@ pub(super) struct Pairs {
     /// 2Q rows of `stride`: inputs before the present step, outputs as far as known from there on.
     rows: Vec<f64>,
     stride: usize,
+    ring: Ring,
     /// Steps for which there are rows and levels: the leaf times a power of two.
     capacity: usize,
 }
@@ -37,14 +39,24 @@ pub(super) struct Pairs {
 impl Pairs {
     /// Blocks of `kernel`, empty.
     pub(super) fn new(kernel: &dyn LagKernel, leaf: usize) -> Result<Self> {
+        Self::with_coupling(kernel, leaf, DIRECT_COUPLING)
+    }
+
+    /// The same for rows of which places are used again: nothing may reach beyond a leaf but blocks.
+    pub(super) fn bounded(kernel: &dyn LagKernel, leaf: usize) -> Result<Self> {
+        Self::with_coupling(kernel, leaf, leaf - 1)
+    }
+
+    fn with_coupling(kernel: &dyn LagKernel, leaf: usize, direct: usize) -> Result<Self> {
         Ok(Self {
-            coefficients: Coefficients::new(kernel, leaf, DIRECT_COUPLING)?,
+            coefficients: Coefficients::new(kernel, leaf, direct)?,
             leaf,
             levels: Vec::new(),
             planner: RealFftPlanner::new(),
             work: Work::default(),
             rows: Vec::new(),
             stride: 0,
+            ring: Ring::ENDLESS,
             capacity: 0,
         })
     }
@@ -98,6 +110,37 @@ impl Pairs {
         }
         Ok(levels.into_iter().map(|(level, _)| Arc::new(level)).collect())
     }
+
+    /// The `wanted` smallest levels and the coefficients of a leaf, from the kernel's store as far as
+    /// they are there, with scratch for their blocks.
+    fn take_levels(&mut self, kernel: &dyn LagKernel, wanted: usize, lags: usize) -> Result<()> {
+        let count = self.elements();
+        // Before the spectra are locked: a kernel may work on several threads, which must not wait.
+        kernel.prepare(lags.max(self.coefficients.length()))?;
+        let spectra = kernel.spectra().filter(|_| self.leaf == LEAF);
+        let classes = &self.coefficients.classes;
+        let (levels, near) = if let Some(spectra) = spectra.filter(|s| s.are_of(classes.elements()))
+        {
+            let mut shared = spectra.pairs();
+            let mut near = shared.near.take();
+            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near);
+            shared.near.clone_from(&near);
+            shared.levels.extend(more?);
+            (shared.levels[..wanted].to_vec(), near)
+        } else {
+            let mut near = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.near));
+            let mut levels = self.levels.clone();
+            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near)?);
+            (levels, near)
+        };
+        for level in &levels {
+            let components = if self.couples(level.size) { 2 * count } else { count };
+            self.work.grow(level, components);
+        }
+        self.levels = levels;
+        self.coefficients.near = near.unwrap_or_default();
+        Ok(())
+    }
 }
 
 impl Blocks for Pairs {
@@ -119,28 +162,7 @@ impl Blocks for Pairs {
         }
         let count = self.elements();
         let wanted = (capacity / self.leaf).ilog2() as usize;
-        // Before the spectra are locked: a kernel may work on several threads, which must not wait.
-        kernel.prepare(capacity.max(self.coefficients.length()))?;
-        let spectra = kernel.spectra().filter(|_| self.leaf == LEAF);
-        let classes = &self.coefficients.classes;
-        let (levels, near) = if let Some(spectra) = spectra.filter(|s| s.are_of(classes.elements()))
-        {
-            let mut shared = spectra.pairs();
-            let mut near = shared.near.take();
-            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near);
-            shared.near.clone_from(&near);
-            shared.levels.extend(more?);
-            (shared.levels[..wanted].to_vec(), near)
-        } else {
-            let mut near = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.near));
-            let mut levels = self.levels.clone();
-            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near)?);
-            (levels, near)
-        };
-        for level in &levels {
-            let components = if self.couples(level.size) { 2 * count } else { count };
-            self.work.grow(level, components);
-        }
+        self.take_levels(kernel, wanted, capacity)?;
         // Inputs reach past the end of the capacity only by a coupling that is summed directly.
         let needed = capacity + self.coefficients.coupling_direct;
         let stride = needed.next_multiple_of(PAGE_OF_NUMBERS) + LINE_OF_NUMBERS;
@@ -151,9 +173,16 @@ impl Blocks for Pairs {
                 new[..self.stride].copy_from_slice(old);
             }
         }
-        self.levels = levels;
-        self.coefficients.near = near.unwrap_or_default();
         (self.rows, self.stride, self.capacity) = (rows, stride, capacity);
+        Ok(())
+    }
+
+    fn bound(&mut self, kernel: &dyn LagKernel, reach: usize) -> Result<()> {
+        self.take_levels(kernel, (reach / self.leaf).ilog2() as usize + 1, 2 * reach)?;
+        self.ring = Ring(2 * reach);
+        self.stride = (2 * reach).next_multiple_of(PAGE_OF_NUMBERS) + LINE_OF_NUMBERS;
+        self.rows = vec![0.0; 2 * self.elements() * self.stride];
+        self.capacity = usize::MAX;
         Ok(())
     }
 
@@ -162,16 +191,21 @@ impl Blocks for Pairs {
         let coefficients = &self.coefficients;
         let ahead = self.leaf - 1 - last % self.leaf;
         let coupled = if coefficients.couples_far() { ahead } else { coefficients.coupling_direct };
-        coefficients.scatter(&mut self.rows, self.stride, last, ahead, coupled);
+        let ring = self.ring;
+        coefficients.scatter(&mut self.rows, self.stride, ring.place(last), ahead, coupled);
         if !now.is_multiple_of(self.leaf) {
             return;
         }
-        let number = (now / self.leaf).trailing_zeros() as usize;
+        if let Some(stale) = ring.stale(now) {
+            let rows = self.rows.chunks_exact_mut(self.stride);
+            rows.for_each(|row| row[stale.clone()].fill(0.0));
+        }
+        let number = ring.level(now, self.leaf, self.levels.len());
         let Some(level) = self.levels.get(number) else { return };
         let couples = self.couples(level.size);
         let far = self.levels.iter().rfind(|level| self.couples(level.size));
         let (rows, stride) = (&mut self.rows[..], self.stride);
-        let mut block = Block { rows, stride, now, classes: &coefficients.classes };
+        let mut block = Block { rows, stride, ring, now, classes: &coefficients.classes };
         if couples {
             level.apply(&mut block, Part::All, &mut self.work);
         } else {
@@ -184,8 +218,9 @@ impl Blocks for Pairs {
     }
 
     fn write(&mut self, now: usize, traction: &[f64]) {
+        let place = self.ring.place(now);
         for (row, value) in self.rows.chunks_exact_mut(self.stride).zip(traction) {
-            row[now] = *value;
+            row[place] = *value;
         }
     }
 
@@ -206,8 +241,9 @@ impl Blocks for Pairs {
     }
 
     fn read(&mut self, now: usize, displacement: &mut [f64]) {
+        let place = self.ring.place(now);
         for (value, row) in displacement.iter_mut().zip(self.rows.chunks_exact(self.stride)) {
-            *value = row[now];
+            *value = row[place];
         }
     }
 }

@@ -8,6 +8,7 @@ use super::level::Level;
 use super::tables::Tables;
 use super::wave_level::{Near, WaveLevel};
 use crate::contact_element::ContactElement;
+use crate::history::exponentials::fit::Fit;
 
 /// Levels of blocks, from the smallest on, for leaves of one length.
 pub(crate) struct Levels<L, N> {
@@ -38,16 +39,24 @@ struct Stores {
     elements: OnceLock<Vec<ContactElement>>,
     pairs: Mutex<Levels<Level, Tables>>,
     waves: Mutex<Levels<WaveLevel, Near>>,
+    tails: Mutex<Vec<Windowed>>,
+}
+
+/// Tail behind a window, and the spectra of the window alone.
+#[derive(Clone)]
+pub(crate) struct Windowed {
+    pub(crate) fit: Arc<Fit>,
+    pub(crate) spectra: SharedSpectra,
 }
 
 /// Others wait while one makes what it lacks. A panic leaves levels complete or not there at all.
-fn lock<L, N>(levels: &Mutex<Levels<L, N>>) -> MutexGuard<'_, Levels<L, N>> {
-    levels.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock<T>(made: &Mutex<T>) -> MutexGuard<'_, T> {
+    made.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl SharedSpectra {
     /// Whether these are spectra of this patch, or can become so.
-    pub(super) fn are_of(&self, elements: &[ContactElement]) -> bool {
+    pub(crate) fn are_of(&self, elements: &[ContactElement]) -> bool {
         self.stores.elements.get_or_init(|| elements.to_vec()) == elements
     }
 
@@ -57,6 +66,11 @@ impl SharedSpectra {
 
     pub(super) fn waves(&self) -> MutexGuard<'_, Levels<WaveLevel, Near>> {
         lock(&self.stores.waves)
+    }
+
+    /// The tails made so far.
+    pub(crate) fn tails(&self) -> MutexGuard<'_, Vec<Windowed>> {
+        lock(&self.stores.tails)
     }
 }
 

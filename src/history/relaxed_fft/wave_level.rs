@@ -6,6 +6,8 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
+use super::ring::Ring;
+
 /// Normal, tangential, coupling.
 pub(super) const KINDS: usize = 3;
 
@@ -113,21 +115,22 @@ impl WaveLevel {
         &self,
         rows: &mut [Complex<f64>],
         stride: usize,
-        now: usize,
+        (ring, now): (Ring, usize),
         part: Part,
         blocks: &mut [Complex<f64>],
         scratch: &mut [Complex<f64>],
     ) {
         let (size, bins) = (self.size, self.size + 1);
         // Rows may end before the block does.
-        let ahead = now..stride.min(now + size);
+        let (before, begin) = (ring.before(now, size), ring.place(now));
+        let ahead = begin..stride.min(begin + size);
         let (normal, tangential) = rows.split_at_mut(rows.len() / 2);
         if part == Part::Even {
             // One component at a time: the largest blocks are the coupling's, or half as many.
             let block = &mut blocks[..2 * size];
             for (kind, rows) in [normal, tangential].into_iter().enumerate() {
                 for (wave, row) in rows.chunks_exact_mut(stride).enumerate() {
-                    self.take(&row[now - size..now], block, scratch);
+                    self.take(&row[before.clone()], block, scratch);
                     multiply(block, &self.spectra[kind][wave * bins..][..bins]);
                     self.give(block, &mut row[ahead.clone()], scratch);
                 }
@@ -138,8 +141,8 @@ impl WaveLevel {
         let rows = normal.chunks_exact_mut(stride).zip(tangential.chunks_exact_mut(stride));
         for (wave, (normal, tangential)) in rows.enumerate() {
             let spectrum = |kind: usize| &self.spectra[kind][wave * bins..][..bins];
-            self.take(&normal[now - size..now], one, scratch);
-            self.take(&tangential[now - size..now], two, scratch);
+            self.take(&normal[before.clone()], one, scratch);
+            self.take(&tangential[before.clone()], two, scratch);
             if part == Part::All {
                 multiply_all(one, two, [spectrum(0), spectrum(1), spectrum(2)]);
             } else {

@@ -9,6 +9,7 @@ use rustfft::FftPlanner;
 
 use super::blocks::{Blocks, LEAF};
 use super::lattice::Lattice;
+use super::ring::Ring;
 use super::wave_level::{KINDS, Near, Part, WaveLevel};
 use crate::error::Result;
 use crate::history::lag_kernel::LagKernel;
@@ -32,6 +33,7 @@ pub(super) struct Waves {
     /// 2B rows of `stride`: inputs before the present leaf, outputs as far as known from there on.
     rows: Vec<Complex<f64>>,
     stride: usize,
+    ring: Ring,
     capacity: usize,
     /// Inputs of this leaf, and what all earlier leaves give at its outputs.
     inputs: Vec<f64>,
@@ -55,6 +57,7 @@ impl Waves {
             planner: FftPlanner::new(),
             rows: Vec::new(),
             stride: 0,
+            ring: Ring::ENDLESS,
             capacity: 0,
             inputs: vec![0.0; leaf * size],
             far: vec![0.0; leaf * size],
@@ -135,30 +138,69 @@ impl Waves {
 
     /// Moves the leaf that ends before `now` to the rows, works it in, and takes up the next one.
     fn turn(&mut self, now: usize) {
-        let waves = self.lattice.waves();
+        let (waves, ring) = (self.lattice.waves(), self.ring);
+        let before = ring.before(now, self.leaf);
+        let stale = ring.stale(now);
         for (row, values) in self.rows.chunks_exact_mut(self.stride).enumerate() {
+            if let Some(stale) = &stale {
+                values[stale.clone()].fill(Complex::default());
+            }
             let re = 2 * waves * (row / waves) + row % waves;
             let inputs = self.inputs.chunks_exact(4 * waves);
-            for (value, input) in values[now - self.leaf..now].iter_mut().zip(inputs) {
+            for (value, input) in values[before.clone()].iter_mut().zip(inputs) {
                 *value = Complex::new(input[re], input[re + waves]);
             }
         }
-        let number = (now / self.leaf).trailing_zeros() as usize;
+        let number = ring.level(now, self.leaf, self.levels.len());
         let part = if self.levels[number].has(2) { Part::All } else { Part::Even };
         let Self { levels, rows, blocks, scratch, stride, .. } = self;
-        levels[number].apply(rows, *stride, now, part, blocks, scratch);
+        levels[number].apply(rows, *stride, (ring, now), part, blocks, scratch);
         if part == Part::Even
             && let Some(level) = levels.iter().rfind(|level| level.has(2))
         {
-            level.apply(rows, *stride, now, Part::Coupling, blocks, scratch);
+            level.apply(rows, *stride, (ring, now), Part::Coupling, blocks, scratch);
         }
+        let begin = ring.place(now);
         for (row, values) in self.rows.chunks_exact(self.stride).enumerate() {
             let re = 2 * waves * (row / waves) + row % waves;
             let far = self.far.chunks_exact_mut(4 * waves);
-            for (value, far) in values[now..now + self.leaf].iter().zip(far) {
+            for (value, far) in values[begin..begin + self.leaf].iter().zip(far) {
                 (far[re], far[re + waves]) = (value.re, value.im);
             }
         }
+    }
+
+    /// The `wanted` smallest levels and the coefficients of a leaf, from the kernel's store as far as
+    /// they are there, with scratch for their blocks.
+    fn take_levels(&mut self, kernel: &dyn LagKernel, wanted: usize) -> Result<()> {
+        // Before the spectra are locked: a kernel may work on several threads, which must not wait.
+        kernel.prepare(self.leaf << wanted)?;
+        let spectra = kernel.spectra().filter(|_| self.leaf == LEAF);
+        let elements = kernel.classes().elements();
+        let (levels, near) = if let Some(spectra) = spectra.filter(|s| s.are_of(elements)) {
+            let mut shared = spectra.waves();
+            let mut near = shared.near.take();
+            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near);
+            shared.near.clone_from(&near);
+            shared.levels.extend(more?);
+            (shared.levels[..wanted].to_vec(), near)
+        } else {
+            let mut near = (self.capacity > 0).then(|| Arc::clone(&self.near));
+            let mut levels = self.levels.clone();
+            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near)?);
+            (levels, near)
+        };
+        let zero = Complex::default();
+        if let Some(level) = levels.last() {
+            // Where components couple, both are transformed before they are multiplied.
+            let coupled = levels.iter().rfind(|level| level.has(2)).map_or(0, |l| 4 * l.size);
+            let length = self.blocks.len().max(coupled).max(2 * level.size);
+            self.blocks.resize(length, zero);
+            self.scratch.resize(self.scratch.len().max(level.scratch()), zero);
+        }
+        self.levels = levels;
+        self.near = near.unwrap_or_default();
+        Ok(())
     }
 }
 
@@ -187,36 +229,10 @@ impl Blocks for Waves {
         let capacity = self.leaf * if self.capacity == 0 { leaves } else { largest };
         let waves = self.lattice.waves();
         let wanted = largest.ilog2() as usize;
-        // Before the spectra are locked: a kernel may work on several threads, which must not wait.
-        kernel.prepare(largest * self.leaf)?;
-        let spectra = kernel.spectra().filter(|_| self.leaf == LEAF);
-        let elements = kernel.classes().elements();
-        let (levels, near) = if let Some(spectra) = spectra.filter(|s| s.are_of(elements)) {
-            let mut shared = spectra.waves();
-            let mut near = shared.near.take();
-            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near);
-            shared.near.clone_from(&near);
-            shared.levels.extend(more?);
-            (shared.levels[..wanted].to_vec(), near)
-        } else {
-            let mut near = (self.capacity > 0).then(|| Arc::clone(&self.near));
-            let mut levels = self.levels.clone();
-            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near)?);
-            (levels, near)
-        };
-        let zero = Complex::default();
-        if let Some(level) = levels.last() {
-            // Where components couple, both are transformed before they are multiplied.
-            let coupled = levels.iter().rfind(|level| level.has(2)).map_or(0, |l| 4 * l.size);
-            let length = self.blocks.len().max(coupled).max(2 * level.size);
-            self.blocks.resize(length, zero);
-            self.scratch.resize(self.scratch.len().max(level.scratch()), zero);
-        }
-        self.levels = levels;
-        self.near = near.unwrap_or_default();
+        self.take_levels(kernel, wanted)?;
         if capacity > self.leaf {
             let stride = capacity + PADDING;
-            let mut rows = vec![zero; 2 * waves * stride];
+            let mut rows = vec![Complex::default(); 2 * waves * stride];
             if self.stride > 0 {
                 let old = self.rows.chunks_exact(self.stride);
                 for (new, old) in rows.chunks_exact_mut(stride).zip(old) {
@@ -226,6 +242,14 @@ impl Blocks for Waves {
             (self.rows, self.stride) = (rows, stride);
         }
         self.capacity = capacity;
+        Ok(())
+    }
+
+    fn bound(&mut self, kernel: &dyn LagKernel, reach: usize) -> Result<()> {
+        self.take_levels(kernel, (reach / self.leaf).ilog2() as usize + 1)?;
+        (self.ring, self.stride) = (Ring(2 * reach), 2 * reach + PADDING);
+        self.rows = vec![Complex::default(); 2 * self.lattice.waves() * self.stride];
+        self.capacity = usize::MAX;
         Ok(())
     }
 
