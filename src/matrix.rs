@@ -1,7 +1,9 @@
 //! Matrices of a structure: sparse in its unknowns, diagonal in its modes.
 
+use std::ops::Deref;
+
 use crate::error::{Error, Result, same_length};
-use crate::linalg::weighted_dot;
+use crate::linalg::{dense_multiply_add, weighted_dot};
 use crate::structure::Triplets;
 
 /// Most rows and columns: more are a mistake.
@@ -162,6 +164,51 @@ impl SparseMatrix {
             difference = difference.max((value - twin).abs());
         }
         if largest > 0.0 { difference / largest } else { 0.0 }
+    }
+}
+
+/// A dense square matrix, row-major, with its entries alone where most are zero.
+#[derive(Debug, Clone)]
+pub(crate) struct Thinned {
+    values: Vec<f64>,
+    entries: Option<SparseMatrix>,
+}
+
+impl Thinned {
+    pub(crate) fn new(values: Vec<f64>, order: usize) -> Self {
+        let filled = values.iter().filter(|value| **value != 0.0).count();
+        // An entry by its place costs about as much as four in a row.
+        let entries = (filled <= values.len() / 8)
+            .then(|| {
+                let mut entries = Triplets::new(order);
+                for (place, &value) in values.iter().enumerate().filter(|(_, v)| **v != 0.0) {
+                    entries.add(place / order, place % order, value);
+                }
+                SparseMatrix::new("instantaneous operator of the ground", &entries).ok()
+            })
+            .flatten();
+        Self { values, entries }
+    }
+
+    /// Numbers that a product reads.
+    pub(crate) fn stored(&self) -> usize {
+        self.entries.as_ref().map_or(self.values.len(), SparseMatrix::stored)
+    }
+
+    /// y ← y + A x.
+    pub(crate) fn multiply_add(&self, x: &[f64], y: &mut [f64]) {
+        match &self.entries {
+            Some(entries) => entries.multiply_add(1.0, x, y),
+            None => dense_multiply_add(&self.values, 1.0, x, y),
+        }
+    }
+}
+
+impl Deref for Thinned {
+    type Target = [f64];
+
+    fn deref(&self) -> &[f64] {
+        &self.values
     }
 }
 

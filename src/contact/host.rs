@@ -1,5 +1,6 @@
 //! The contact problem for codes with a time integrator of their own.
 
+use super::delassus::Delassus;
 use super::problem::{ContactInput, ContactSolver};
 use super::search::{ContactSearch, ModeSearch, SearchMethod};
 use crate::error::{Error, Result, StepError, finite, positive, same_length};
@@ -42,7 +43,7 @@ use crate::linalg::largest;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct ContactProblem {
-    delassus: Vec<f64>,
+    delassus: Delassus,
     laws: Vec<Box<dyn InterfaceLaw>>,
     static_traction: Vec<f64>,
     solver: ContactSolver,
@@ -135,7 +136,7 @@ impl ContactProblem {
         Ok(Self {
             memory: vec![0.0; memory_ends.last().copied().unwrap_or(0)],
             memory_ends,
-            delassus,
+            delassus: delassus.into(),
             laws,
             static_traction: vec![0.0; 2 * count],
             solver: ContactSolver::new(count),
@@ -163,7 +164,7 @@ impl ContactProblem {
     pub fn set_delassus(&mut self, delassus: &[f64]) -> Result<()> {
         same_length("Delassus operator", delassus.len(), self.delassus.len())?;
         check_finite("Delassus operator", delassus)?;
-        self.delassus.copy_from_slice(delassus);
+        self.delassus = delassus.to_vec().into();
         self.solver.invalidate();
         Ok(())
     }

@@ -9,17 +9,18 @@
 //! jump = j₀ + W τ. Its normal components are gaps; slip of the structure is minus the tangential
 //! ones.
 
+use super::delassus::Delassus;
 use crate::error::LawError;
 use crate::interface::{
     Condition, ContactState, InterfaceLaw, Mode, StepStarts, Tolerance, law_of,
 };
-use crate::linalg::{DenseFactor, dense_condition, dense_multiply_add, largest};
+use crate::linalg::{DenseFactor, dense_condition, largest};
 
 /// Data of a step for the contact problem.
 #[derive(Clone, Copy)]
 pub(crate) struct ContactInput<'a> {
     /// W, 2Q × 2Q, row-major.
-    pub(crate) delassus: &'a [f64],
+    pub(crate) delassus: &'a Delassus,
     /// j₀, 2Q.
     pub(crate) free_jump: &'a [f64],
     /// Static tractions, 2Q.
@@ -122,7 +123,7 @@ impl ContactSolver {
     /// Condition of the system with every element in its law's mode of rest; infinite if singular.
     pub(crate) fn condition_at_rest(
         &mut self,
-        delassus: &[f64],
+        delassus: &Delassus,
         static_traction: &[f64],
         start: &StepStarts,
         laws: &[Box<dyn InterfaceLaw>],
@@ -249,7 +250,7 @@ impl ContactSolver {
         // What the fixed tractions do to the gaps and slips of the others.
         self.jump.copy_from_slice(input.free_jump);
         if self.unknowns.len() < size {
-            dense_multiply_add(input.delassus, 1.0, &self.traction, &mut self.jump);
+            input.delassus.multiply_add(&self.traction, &mut self.jump);
         }
         self.rhs.clear();
         for &(e, which, scale) in &self.rows {
@@ -269,7 +270,7 @@ impl ContactSolver {
     pub(crate) fn evaluate(&mut self, input: &ContactInput<'_>) {
         let count = self.count;
         self.jump.copy_from_slice(input.free_jump);
-        dense_multiply_add(input.delassus, 1.0, &self.traction, &mut self.jump);
+        input.delassus.multiply_add(&self.traction, &mut self.jump);
         for (e, state) in self.states.iter_mut().enumerate() {
             *state = ContactState {
                 gap: self.jump[e],

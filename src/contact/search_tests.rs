@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::bem::{Ground, HalfPlaneGround};
+use crate::contact::Delassus;
 use crate::coupled::scene::base::Base;
 use crate::coupled::scene::model::{Model, Tangent};
 use crate::coupled::scene::operators::{Factor, Operators};
@@ -9,6 +10,7 @@ use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
 use crate::interface::{Activation, Coulomb, InterfaceLaw, StepStart, StepStarts};
 use crate::linalg::dense_multiply_add;
+use crate::matrix::Thinned;
 use crate::random::Random;
 use crate::soil::Soil;
 use crate::structure::{FemModel, RigidBlock, Structure};
@@ -33,7 +35,7 @@ impl Parameters {
 struct Problem {
     parameters: Parameters,
     laws: Vec<Box<dyn InterfaceLaw>>,
-    delassus: Vec<f64>,
+    delassus: Delassus,
     free_jump: Vec<f64>,
     static_traction: Vec<f64>,
     start: StepStarts,
@@ -121,8 +123,9 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     tangent.refill(structure.as_ref(), &vec![0.0; unknowns]).unwrap();
     let coefficients = Midpoint.coefficients(time_step);
     let factor = Factor::new(&model, &coefficients, &tangent.matrix).unwrap();
+    let operator = Thinned::new(operator, 2 * count);
     let operators = Operators::new(&model, &base, &operator, factor, tangent.matrix);
-    (operators.delassus, base.lengths().to_vec())
+    (operators.delassus.to_vec(), base.lengths().to_vec())
 }
 
 /// A W with A W symmetric and positive definite, of any condition and any coupling.
@@ -182,6 +185,7 @@ fn begin(delassus: Vec<f64>, count: usize, random: &mut Random) -> Problem {
     let modes = start.iter().map(|s| s.mode).collect();
     let start = StepStarts::new(&laws, &start).unwrap();
     let free_jump = vec![0.0; size];
+    let delassus = delassus.into();
     Problem { parameters, laws, delassus, free_jump, static_traction, start, modes }
 }
 

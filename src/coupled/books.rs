@@ -19,7 +19,7 @@ use super::step::increment::Increment;
 use crate::bem::Ground;
 use crate::error::LawError;
 use crate::interface::Mode;
-use crate::linalg::{dense_multiply_add, dot};
+use crate::linalg::dot;
 use crate::structure::Structure;
 
 /// The ledger so far, and what booking a step needs of the one before.
@@ -259,7 +259,7 @@ impl Books {
         let soil = &mut self.scratch.means;
         let ledger = &mut self.ledger;
         soil.copy_from_slice(&forcing.history);
-        dense_multiply_add(&scene.soil, 1.0, &increment.traction, soil);
+        scene.soil.multiply_add(&increment.traction, soil);
         let count = scene.count();
         let doubt = ground.increment_error_bound();
         for i in 0..2 * count {

@@ -26,6 +26,7 @@ use crate::bem::{ContactElement, Ground};
 use crate::contact::{ContactSearch, ModeSearch};
 use crate::error::{Error, Result, finite, not_negative, positive};
 use crate::interface::{ContactScene, InterfaceLaw};
+use crate::matrix::Thinned;
 use crate::motion::{AtRest, FreeField};
 use crate::structure::{Structure, is_nonlinear};
 
@@ -303,6 +304,7 @@ impl SimulationBuilder {
         if let Some(bad) = soil.iter().find(|g| !g.is_finite()) {
             finite("instantaneous operator of the ground", *bad)?;
         }
+        let soil = Thinned::new(soil, 2 * count);
         let mut tangent = Tangent::new(unknowns);
         tangent.refill(structure.as_ref(), &static_state.displacement)?;
         let mut factor = Factor::new(&model, &coefficients, &tangent.matrix)?;

@@ -89,6 +89,7 @@ fn stays_within_its_tolerance_of_the_direct_sum() {
     for (name, elements) in [
         ("one element", strip(1, Grading::Uniform)),
         ("uniform", strip(6, Grading::Uniform)),
+        ("by wavenumbers", strip(9, Grading::Uniform)),
         ("graded", strip(7, Grading::Cosine)),
         ("two strips", two_strips()),
     ] {
@@ -233,7 +234,9 @@ fn bad_input_is_an_error() {
 
 #[test]
 fn the_choice_is_made_and_explained() {
-    use ChoiceReason::{Exact, MemoryLimit, NoExponentials, ToleranceAllowed, UnknownLength};
+    use ChoiceReason::{
+        Exact, MemoryLimit, NoExponentials, Rounding, ToleranceAllowed, UnknownLength,
+    };
     use History::{Exponentials, RelaxedFft};
 
     let soil = Soil::new(80.0e6, 0.3, 1900.0).unwrap();
@@ -258,20 +261,21 @@ fn the_choice_is_made_and_explained() {
     };
     // Of whatever number of steps: a longer run may follow.
     assert_eq!(choose(None, None, Some(40), 1e-3), (RelaxedFft, Exact));
-    assert_eq!(choose(None, None, Some(20_000), 1e-3), (RelaxedFft, Exact));
+    assert_eq!(choose(None, None, Some(20_000), 1e-3), (Exponentials, Rounding));
     assert_eq!(choose(None, None, None, 1e-3), (RelaxedFft, UnknownLength));
     assert_eq!(choose(Some(1e-8), None, Some(20_000), 1e-3), (Exponentials, ToleranceAllowed));
     assert_eq!(choose(Some(1e-8), None, None, 1e-3), (Exponentials, ToleranceAllowed));
-    assert_eq!(choose(None, Some(1_000_000), Some(20_000), 1e-3), (Exponentials, MemoryLimit));
+    assert_eq!(choose(None, Some(1_000), Some(200), 1e-3), (Exponentials, MemoryLimit));
     assert_eq!(choose(None, Some(1_000), Some(200), 1e-9), (RelaxedFft, NoExponentials));
-    // Equal elements on a lattice: transforms along the surface are cheaper than exponentials.
-    for (grading, wanted) in [(Grading::Uniform, RelaxedFft), (Grading::Cosine, Exponentials)] {
-        let strip = Strip::new(-4.0..4.0, 12, grading).unwrap();
-        let ground = HalfPlaneGround::new(soil, &[strip]).unwrap();
+    // Exponentials pay from a number of steps on, which grows with the elements.
+    for (elements, steps, wanted) in
+        [(12, 1_000, RelaxedFft), (12, 40_000, Exponentials), (100, 1_500, RelaxedFft)]
+    {
+        let ground = HalfPlaneGround::uniform_strip(soil, -4.0..4.0, elements).unwrap();
         let mut ground = ground.with_history_tolerance(1e-8).unwrap();
         ground.prepare(1e-3).unwrap();
-        ground.reserve(20_000).unwrap();
-        assert_eq!(ground.history_choice().unwrap().kind, wanted);
+        ground.reserve(steps).unwrap();
+        assert_eq!(ground.history_choice().unwrap().kind, wanted, "{elements}, {steps}");
     }
     let mut asked =
         HalfPlaneGround::uniform_strip(soil, -2.0..2.0, 6).unwrap().with_history_kind(Exponentials);

@@ -487,12 +487,12 @@ fn a_tail_that_does_not_fit_is_refused() {
     assert!(matches!(new(0.1, &ones, nan), Err(Error::Input { .. })));
 }
 
-/// An observer may stop long before the steps announced; the memory limit holds for them.
+/// An observer may stop long before the steps announced; the choice goes by them.
 #[test]
 fn the_steps_of_a_run_are_announced_however_many() {
     for (steps, kind, reason) in [
-        (2_000_000, History::Exponentials, ChoiceReason::MemoryLimit),
-        (200_000, History::RelaxedFft, ChoiceReason::Exact),
+        (2_000_000, History::Exponentials, ChoiceReason::Rounding),
+        (500, History::RelaxedFft, ChoiceReason::Exact),
         (usize::MAX, History::RelaxedFft, ChoiceReason::UnknownLength),
     ] {
         let mut simulation = Simulation::builder(5e-3)

@@ -18,6 +18,7 @@ pub(crate) mod translation_check;
 
 use crate::bem::ContactElement;
 use crate::interface::{InterfaceLaw, law_of};
+use crate::matrix::Thinned;
 use base::Base;
 use influence::Part;
 use model::Model;
@@ -52,7 +53,7 @@ pub(crate) struct Scene {
     /// Parts that the nonlinear force joins with others.
     pub(crate) joined: Vec<bool>,
     /// Instantaneous operator of the ground, 2Q × 2Q.
-    pub(crate) soil: Vec<f64>,
+    pub(crate) soil: Thinned,
     /// Free field at t = 0, from which it is measured, 2Q.
     pub(crate) start_motion: Vec<f64>,
     pub(crate) probes: Vec<Probe>,

@@ -2,10 +2,11 @@
 
 use super::base::Base;
 use super::model::Model;
+use crate::contact::Delassus;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
 use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
-use crate::matrix::Matrix;
+use crate::matrix::{Matrix, Thinned};
 use crate::structure::Triplets;
 
 /// The effective stiffness K_eff, factored, and the Delassus operator.
@@ -16,7 +17,7 @@ pub(crate) struct Operators {
     /// Columns of K_eff⁻¹BᵀA, one after the other.
     pub(crate) columns: Vec<f64>,
     /// W = G¹ + B K_eff⁻¹ BᵀA, row-major.
-    pub(crate) delassus: Vec<f64>,
+    pub(crate) delassus: Delassus,
 }
 
 /// K_eff⁻¹.
@@ -33,12 +34,14 @@ impl Operators {
     pub(crate) fn new(
         model: &Model,
         base: &Base,
-        soil: &[f64],
+        soil: &Thinned,
         mut factor: Factor,
         tangent: SparseMatrix,
     ) -> Self {
         let solve = |rhs: &mut [f64]| factor.solve(rhs);
         let (columns, delassus) = condense(solve, base, soil, model.unknowns);
+        let means = |u: &[f64], out: &mut [f64]| base.means(u, out);
+        let delassus = Delassus::new(delassus, soil, &columns, means);
         Self { tangent, factor, columns, delassus }
     }
 

@@ -4,7 +4,7 @@ use super::base::Base;
 use super::model::{Model, Tangent};
 use super::operators::condense;
 use super::static_state::StaticState;
-use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
+use crate::contact::{ContactInput, ContactSearch, ContactSolver, Delassus, ModeSearch};
 use crate::error::{Error, Result, StepError};
 use crate::interface::{ContactState, InterfaceLaw, StepStarts};
 use crate::linalg::{
@@ -241,7 +241,7 @@ struct Compliance {
     /// Condition of K + D + εM, once it is known.
     condition: Option<f64>,
     columns: Vec<f64>,
-    delassus: Vec<f64>,
+    delassus: Delassus,
 }
 
 impl Compliance {
@@ -255,7 +255,7 @@ impl Compliance {
         let matrix = Self::matrix(model, tangent, epsilon);
         let mut factor = SparseFactor::new(NAME, &matrix)?;
         let (columns, delassus) = condense(|rhs| factor.solve(rhs), base, soil, model.unknowns);
-        Ok(Self { factor, condition: None, columns, delassus })
+        Ok(Self { factor, condition: None, columns, delassus: delassus.into() })
     }
 
     fn matrix(model: &Model, tangent: &SparseMatrix, epsilon: f64) -> Triplets {

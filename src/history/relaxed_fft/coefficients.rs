@@ -14,6 +14,8 @@ pub(super) struct Coefficients {
     reaches: Vec<usize>,
     /// The largest of them.
     pub(super) coupling_reach: usize,
+    /// Whether blocks have to look after the coupling.
+    pub(super) couples_far: bool,
     /// Number of lags over which the coupling is summed directly.
     pub(super) coupling_direct: usize,
     /// Steps of a leaf.
@@ -53,9 +55,10 @@ impl Coefficients {
             .map(|class| Ok(reach(kernel.last_coupling_lag(class)?)))
             .collect::<Result<Vec<_>>>()?;
         let coupling_reach = reaches.iter().copied().max().unwrap_or(0);
-        let coupling_direct = if coupling_reach <= direct { coupling_reach } else { leaf - 1 };
+        let couples_far = coupling_reach > direct;
+        let coupling_direct = if couples_far { leaf - 1 } else { coupling_reach };
         let near = Arc::default();
-        Ok(Self { classes, reaches, coupling_reach, coupling_direct, leaf, near })
+        Ok(Self { classes, reaches, coupling_reach, couples_far, coupling_direct, leaf, near })
     }
 
     /// Values of d that the tables are made of.
@@ -69,11 +72,6 @@ impl Coefficients {
         tables.normal.push(values.normal[..self.leaf].to_vec());
         tables.tangential.push(values.tangential[..self.leaf].to_vec());
         tables.coupling.push(values.coupling[..=reach].to_vec());
-    }
-
-    /// Whether blocks have to look after the coupling.
-    pub(super) fn couples_far(&self) -> bool {
-        self.coupling_reach > self.coupling_direct
     }
 
     /// Adds what input `now` gives to the rest of its leaf, `ahead` outputs, and its coupling to

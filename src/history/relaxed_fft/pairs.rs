@@ -44,7 +44,7 @@ impl Pairs {
 
     /// The same for rows of which places are used again: nothing may reach beyond a leaf but blocks.
     pub(super) fn bounded(kernel: &dyn LagKernel, leaf: usize) -> Result<Self> {
-        Self::with_coupling(kernel, leaf, leaf - 1)
+        Self::with_coupling(kernel, leaf, 0)
     }
 
     fn with_coupling(kernel: &dyn LagKernel, leaf: usize, direct: usize) -> Result<Self> {
@@ -69,7 +69,7 @@ impl Pairs {
     /// Whether blocks of `size` have spectra of the coupling: up to the first that covers its reach.
     fn couples(&self, size: usize) -> bool {
         let coefficients = &self.coefficients;
-        coefficients.couples_far() && (size == self.leaf || size / 2 < coefficients.coupling_reach)
+        coefficients.couples_far && (size == self.leaf || size / 2 < coefficients.coupling_reach)
     }
 
     /// The levels from the `first`-th to the one before `end`, and the coefficients of a leaf unless
@@ -190,7 +190,7 @@ impl Blocks for Pairs {
         let Some(last) = now.checked_sub(1) else { return };
         let coefficients = &self.coefficients;
         let ahead = self.leaf - 1 - last % self.leaf;
-        let coupled = if coefficients.couples_far() { ahead } else { coefficients.coupling_direct };
+        let coupled = if coefficients.couples_far { ahead } else { coefficients.coupling_direct };
         let ring = self.ring;
         coefficients.scatter(&mut self.rows, self.stride, ring.place(last), ahead, coupled);
         if !now.is_multiple_of(self.leaf) {

@@ -1,0 +1,116 @@
+//! The Delassus operator, with the quickest way to its product.
+
+use std::ops::Deref;
+
+use crate::linalg::{dense_multiply_add, transposed_multiply_add};
+use crate::matrix::Thinned;
+
+/// Largest rank of a structure's share that is multiplied apart from the soil's.
+const RANK: usize = 64;
+
+/// W, row-major: that of the soil, G¹, and the compliance of the structure's base.
+#[derive(Debug, Clone)]
+pub(crate) struct Delassus {
+    values: Vec<f64>,
+    split: Option<Split>,
+}
+
+/// G¹, mostly zeros, and a structure with few unknowns: W = G¹ + B C.
+#[derive(Debug, Clone)]
+struct Split {
+    soil: Thinned,
+    /// B, row-major with a row per contact component, and C, with a column after the other.
+    means: Vec<f64>,
+    columns: Vec<f64>,
+}
+
+impl From<Vec<f64>> for Delassus {
+    fn from(values: Vec<f64>) -> Self {
+        Self { values, split: None }
+    }
+}
+
+impl Deref for Delassus {
+    type Target = [f64];
+
+    fn deref(&self) -> &[f64] {
+        &self.values
+    }
+}
+
+impl Delassus {
+    /// Of `values`, which are `soil` + B C with C given by its `columns`; `means` is B times a vector.
+    pub(crate) fn new(
+        values: Vec<f64>,
+        soil: &Thinned,
+        columns: &[f64],
+        means: impl Fn(&[f64], &mut [f64]),
+    ) -> Self {
+        let size = values.len().isqrt();
+        let rank = columns.len() / size.max(1);
+        // Two thin products and the soil's against one: worth it only if far less is read.
+        if rank > RANK || soil.stored() + 2 * columns.len() > values.len() / 4 {
+            return values.into();
+        }
+        let mut rows = vec![0.0; columns.len()];
+        let (mut unit, mut column) = (vec![0.0; rank], vec![0.0; size]);
+        for j in 0..rank {
+            unit[j] = 1.0;
+            means(&unit, &mut column);
+            unit[j] = 0.0;
+            rows.chunks_exact_mut(rank).zip(&column).for_each(|(row, mean)| row[j] = *mean);
+        }
+        let split = Split { soil: soil.clone(), means: rows, columns: columns.to_vec() };
+        Self { values, split: Some(split) }
+    }
+
+    /// jump ← jump + W τ.
+    pub(crate) fn multiply_add(&self, traction: &[f64], jump: &mut [f64]) {
+        let Some(Split { soil, means, columns }) = &self.split else {
+            return dense_multiply_add(&self.values, 1.0, traction, jump);
+        };
+        let mut answer = [0.0; RANK];
+        let answer = &mut answer[..columns.len() / traction.len().max(1)];
+        soil.multiply_add(traction, jump);
+        transposed_multiply_add(columns, 1.0, traction, answer);
+        dense_multiply_add(means, 1.0, answer, jump);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ways_are_one_product() {
+        let (size, rank) = (40, 3);
+        let mut soil = vec![0.0; size * size];
+        for i in 0..size {
+            for j in i.saturating_sub(1)..(i + 2).min(size) {
+                soil[i * size + j] = (1 + i + 2 * j) as f64;
+            }
+        }
+        let means: Vec<f64> = (0..size * rank).map(|k| (k as f64).sin()).collect();
+        let columns: Vec<f64> = (0..size * rank).map(|k| (2.0 * k as f64).cos()).collect();
+        let mut values = soil.clone();
+        for i in 0..size {
+            for j in 0..size {
+                values[i * size + j] +=
+                    (0..rank).map(|k| means[i * rank + k] * columns[j * rank + k]).sum::<f64>();
+            }
+        }
+        let whole = Delassus::from(values.clone());
+        let split = Delassus::new(values, &Thinned::new(soil, size), &columns, |x, out| {
+            out.fill(0.0);
+            dense_multiply_add(&means, 1.0, x, out);
+        });
+        assert!(split.split.is_some());
+        let traction: Vec<f64> = (0..size).map(|k| (3.0 * k as f64).sin()).collect();
+        let [mut a, mut b] = [(); 2].map(|()| vec![1.0; size]);
+        whole.multiply_add(&traction, &mut a);
+        split.multiply_add(&traction, &mut b);
+        for (a, b) in a.iter().zip(&b) {
+            assert!((a - b).abs() < 1e-12 * a.abs().max(1.0), "{a} {b}");
+        }
+    }
+}
