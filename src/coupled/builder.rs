@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::books::Books;
+use super::coordinates::{Chooser, Coordinates};
 use super::initial::Beginning;
 use super::ledger::Ledger;
 use super::load::Load;
@@ -10,7 +11,6 @@ use super::probe::Probe;
 use super::scene::base::Base;
 use super::scene::conditioning;
 use super::scene::laws;
-use super::scene::modal_basis::{Coordinates, ModalBasis};
 use super::scene::model::{Model, Tangent};
 use super::scene::operators::{Factor, Operators};
 use super::scene::stages::Placement;
@@ -28,9 +28,6 @@ use crate::error::{Error, Result, finite, not_negative, positive};
 use crate::interface::{ContactScene, InterfaceLaw};
 use crate::motion::{AtRest, FreeField};
 use crate::structure::{Structure, is_nonlinear};
-
-/// Steps that modes have to pay for themselves in, if not told otherwise.
-const STEPS: usize = 10_000;
 
 /// More unknowns than this are a mistake, or would not fit in memory.
 const MOST_UNKNOWNS: usize = 10_000_000;
@@ -306,7 +303,18 @@ impl SimulationBuilder {
         let mut tangent = Tangent::new(unknowns);
         tangent.refill(structure.as_ref(), &static_state.displacement)?;
         let mut factor = Factor::new(&model, &coefficients, &tangent.matrix)?;
-        if let Some(modes) = self.choose_modes(&model, factor.stored(), 2 * count)? {
+        let chooser = Chooser {
+            coordinates: self.coordinates,
+            steps: self.steps,
+            time_step,
+            coefficients: &coefficients,
+            structure: structure.as_ref(),
+            model: &model,
+            base: &base,
+            beginning: &self.beginning,
+            probes: &self.probes,
+        };
+        if let Some(modes) = chooser.basis(factor.stored())? {
             base.decouple(&modes);
             model.decouple(Arc::new(modes));
             factor = Factor::new(&model, &coefficients, &tangent.matrix)?;
@@ -356,33 +364,6 @@ impl SimulationBuilder {
             state,
             conditioning,
         })
-    }
-
-    /// The modes, if the structure is to be stepped in them; `factor` is the number of entries of
-    /// the sparse factor, `contact` that of contact components.
-    fn choose_modes(
-        &self,
-        model: &Model,
-        factor: usize,
-        contact: usize,
-    ) -> Result<Option<ModalBasis>> {
-        let steps = if self.steps > 0 { self.steps } else { STEPS };
-        let modes = || {
-            let matrices = model.sparse().filter(|_| model.linear)?;
-            let parts = model.influence.parts().iter();
-            let translations: Vec<_> =
-                parts.flat_map(|part| &part.vectors).map(Vec::as_slice).collect();
-            ModalBasis::new(matrices, &translations)
-        };
-        match self.coordinates {
-            Coordinates::Auto if model.modes_save_time(factor, contact, steps) => Ok(modes()),
-            Coordinates::Auto | Coordinates::Unknowns => Ok(None),
-            Coordinates::Modes => modes().map(Some).ok_or(Error::Scene {
-                quantity: "modal coordinates",
-                needed: "a linear structure with symmetric matrices, a positive definite mass \
-                         and a damping that the modes decouple",
-            }),
-        }
     }
 }
 

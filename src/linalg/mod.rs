@@ -14,11 +14,12 @@ mod sparse;
 pub(crate) use complex::hermitian_range;
 pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
-pub(crate) use eigen::{generalised_modes, least_eigenvalue};
+pub(crate) use eigen::{generalised_modes, least_eigenvalue, symmetric_modes};
 pub(crate) use lanczos::lowest_modes;
 pub(crate) use partition::Partition;
 pub(crate) use product::{
-    dense_multiply_add, dot, largest, row_products, wide_multiply_add, wide_transposed_multiply_add,
+    add_combined_rows, dense_multiply_add, dot, largest, row_products, wide_multiply_add,
+    wide_transposed_multiply_add,
 };
 pub(crate) use sparse::{SparseFactor, indefinite_row};
 

@@ -57,6 +57,25 @@ pub(crate) fn row_products(a: &[f64], b: &[f64], columns: usize) -> Vec<f64> {
     products
 }
 
+/// C ← C + factor · Wᵀ V for row-major C, W and V with `columns` columns of V.
+pub(crate) fn add_combined_rows(
+    weights: &[f64],
+    vectors: &[f64],
+    columns: usize,
+    factor: f64,
+    sum: &mut [f64],
+) {
+    let (m, k) = (vectors.len() / columns.max(1), sum.len() / columns.max(1));
+    matmul(
+        MatMut::from_row_major_slice_mut(sum, k, columns),
+        Accum::Add,
+        MatRef::from_column_major_slice(weights, k, m),
+        MatRef::from_row_major_slice(vectors, m, columns),
+        factor,
+        Par::Seq,
+    );
+}
+
 /// y ← y + factor · A x for a dense row-major matrix with `x.len()` columns.
 pub(crate) fn dense_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
     if x.is_empty() {

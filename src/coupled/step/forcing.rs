@@ -35,7 +35,7 @@ pub(crate) struct Forcing {
 impl Forcing {
     pub(crate) fn new(scene: &Scene) -> Self {
         let contact = || vec![0.0; 2 * scene.count()];
-        let structure = || vec![0.0; scene.model.unknowns];
+        let structure = || vec![0.0; scene.model.coordinates];
         Self {
             load: structure(),
             free_field: contact(),
@@ -43,7 +43,7 @@ impl Forcing {
             history: contact(),
             translations: vec![Translation::default(); scene.model.influence.parts().len()],
             carried: structure(),
-            unknowns: structure(),
+            unknowns: vec![0.0; scene.model.unknowns],
         }
     }
 

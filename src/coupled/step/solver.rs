@@ -30,8 +30,8 @@ impl Solver {
     pub(crate) fn new(scene: &Scene, operators: Operators, search: ModeSearch) -> Self {
         Self {
             linear: LinearStep::new(scene, operators, search),
-            total: vec![0.0; scene.model.unknowns],
-            newton: (!scene.model.linear).then(|| Newton::new(scene.model.unknowns)),
+            total: vec![0.0; scene.model.coordinates],
+            newton: (!scene.model.linear).then(|| Newton::new(scene.model.coordinates)),
         }
     }
 
