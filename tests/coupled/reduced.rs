@@ -68,7 +68,7 @@ fn errors(make: &dyn Fn() -> SimulationBuilder, tolerance: f64) -> [f64; 3] {
         apart(&few, &full, |s| s.probes.clone()),
         apart(&few, &full, |s| s.absolute_displacement().to_vec()),
     ];
-    println!("{tolerance:e}: {errors:.1e?}, {} uplifted", full[STEPS].uplifted_fraction);
+    println!("{tolerance:e}: {errors:?}, {} uplifted", full[STEPS].uplifted_fraction);
     errors
 }
 
@@ -76,12 +76,9 @@ fn errors(make: &dyn Fn() -> SimulationBuilder, tolerance: f64) -> [f64; 3] {
 fn bonded_towers_keep_the_tolerance() {
     let probe = || Probe::displacement("roof", roof());
     let make = || scene(SI, 0.6).structure(tower()).interface(Bonded).probe(probe());
-    let mut last = f64::INFINITY;
     for tolerance in [1e-3, 1e-5, 1e-8] {
-        let [shear, roof, all] = errors(&make, tolerance);
-        assert!(shear < 10.0 * tolerance && shear < last, "{shear:e}");
-        assert!(roof < tolerance.max(1e-10) && all < 10.0 * tolerance, "{roof:e}, {all:e}");
-        last = 0.3 * shear;
+        let errors = errors(&make, tolerance);
+        assert!(errors.iter().all(|error| *error < tolerance), "{tolerance:e}: {errors:?}");
     }
 }
 
@@ -98,7 +95,7 @@ fn contact_amplifies_but_the_ledger_closes() {
         let most = |of: &dyn Fn(&State) -> f64| states.iter().map(of).fold(0.0, f64::max);
         assert!(most(&uplift) > 0.2 || most(&slip) > 1e-3);
         let errors = errors(&make, 1e-6);
-        assert!(errors.iter().all(|error| *error < 1e-3), "{errors:?}");
+        assert!(errors.iter().all(|error| *error < 1e-5), "{errors:?}");
     }
 }
 
@@ -117,7 +114,7 @@ fn loads_motions_and_probes_are_in_the_basis() {
         builder.probe(Probe::displacement("drift", drift.clone()))
     };
     let [shear, drift, all] = errors(&make, 1e-6);
-    assert!(shear < 1e-5 && drift < 1e-5 && all < 1e-4, "{shear:e}, {drift:e}, {all:e}");
+    assert!(shear < 1e-6 && drift < 1e-6 && all < 1e-5, "{shear:e}, {drift:e}, {all:e}");
     let few = make().coordinates(reduced(1e-6)).build().unwrap();
     for (x, given) in few.state().displacement().iter().zip(small(1e-4)) {
         assert!((x - given).abs() < 1e-12);
@@ -132,8 +129,8 @@ fn groups_are_reduced_together() {
         let softer = RayleighDamping::from_ratios([1.0, 10.0], [0.05; 2]).unwrap();
         let left = bare(-7.0..-3.0, 10, 20).with_rayleigh(damping());
         StructureGroup::new()
-            .with(left)
-            .and_then(|group| group.with(bare(3.0..8.0, 12, 20).with_rayleigh(softer)))
+            .with(left, 0.0)
+            .and_then(|group| group.with(bare(3.0..8.0, 12, 20).with_rayleigh(softer), 0.0))
             .unwrap()
     };
     let make = || {
@@ -143,7 +140,7 @@ fn groups_are_reduced_together() {
         builder.motion(shake(SI, 0.3)).interface(Bonded)
     };
     let [shear, _, all] = errors(&make, 1e-5);
-    assert!(shear < 1e-4 && all < 1e-4, "{shear:e}, {all:e}");
+    assert!(shear < 1e-5 && all < 1e-5, "{shear:e}, {all:e}");
 }
 
 #[test]

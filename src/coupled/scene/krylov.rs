@@ -14,6 +14,9 @@
 //! choice where the error is largest). A step of the midpoint rule is s = 2/Δt (1 − 1/z)/(1 + 1/z) in
 //! its z-transform: shifts below 2/Δt are z > 0, shifts above it z < 0, where what alternates from
 //! step to step is seen, such as the answer to a change of contact.
+//!
+//! Real shifts see little of what rings on. So the compliance of the Ritz modes is then compared at
+//! frequencies, where they are diagonal, with that of a space with more shifts and all answers.
 
 use super::base::Base;
 use super::modal_basis::ModalBasis;
@@ -26,9 +29,7 @@ use crate::linalg::{
 };
 use crate::structure::Triplets;
 
-/// Error of the compliance at real shifts over that of a bonded response, which meets frequencies;
-/// measured on towers with a damping ratio of `LEAST_RATIO` at 2/Δt: base shears err by five times the
-/// tolerance then, and by 100 times with half the damping.
+/// Error of the compliance at real shifts, where it is smallest, over that at frequencies.
 const MARGIN: f64 = 0.01;
 /// Least damping ratio of modes above the frequency of the time step.
 const LEAST_RATIO: f64 = 0.1;
@@ -36,6 +37,12 @@ const LEAST_RATIO: f64 = 0.1;
 const SHARE: f64 = 0.1;
 /// The lowest shift over the lowest frequency with the base held.
 const LOWEST: f64 = 0.25;
+/// Times that intervals between shifts are halved, every third one at a time, before the tolerance is
+/// given up.
+const LEVELS: usize = 9;
+const STRIDE: usize = 3;
+/// Frequencies at which compliances are compared.
+const FREQUENCIES: u32 = 64;
 /// Least and most decades of shifts below that of the time step.
 const DECADES: [i32; 2] = [2, 6];
 /// The highest shift over that of the time step, at most.
@@ -43,8 +50,8 @@ const HIGHEST: f64 = 64.0;
 /// Shifts closer than this ratio show nothing new.
 const CLOSEST: f64 = 1.05;
 
-/// The Ritz modes whose compliance, as the `inputs` (rows of unknowns) see it, errs by less than a
-/// hundredth of `tolerance` at real shifts; `motions` are displacements that they must contain. `of_step` is the shift of the time step.
+/// The Ritz modes whose compliance, as the `inputs` (rows of unknowns) see it, errs by less than
+/// `tolerance` at frequencies up to `of_step`; `motions` are displacements that they must contain. `of_step` is the shift of the time step.
 pub(crate) fn reduce(
     model: &Model,
     base: &Base,
@@ -85,9 +92,10 @@ pub(crate) fn reduce(
     let highest = stiffest_unknown(matrices).clamp(of_step, HIGHEST * of_step);
     let mut shifts = vec![lowest, of_step, highest];
     shifts.truncate(if highest > CLOSEST * of_step { 3 } else { 2 });
-    let mut search = Search { matrices, space, inputs, tolerance: MARGIN * tolerance };
+    let used = Vec::new();
+    let mut search = Search { matrices, space, inputs, tolerance: MARGIN * tolerance, used };
     search.refine(&shifts)?;
-    let modes = search.space.modes()?;
+    let modes = search.confirm([lowest, of_step], tolerance)?;
     let ratios = modes.stiffness.iter().zip(&modes.damping).map(|(k, c)| (k.max(0.0).sqrt(), c));
     let beyond = ratios.filter(|(frequency, _)| *frequency > of_step);
     let ratio = beyond.fold(f64::INFINITY, |least, (frequency, c)| least.min(0.5 * c / frequency));
@@ -139,6 +147,8 @@ struct Search<'a> {
     space: Subspace<'a>,
     inputs: Vec<f64>,
     tolerance: f64,
+    /// Shifts looked at.
+    used: Vec<f64>,
 }
 
 impl Search<'_> {
@@ -146,12 +156,12 @@ impl Search<'_> {
     /// accurate there, until none is left.
     fn refine(&mut self, shifts: &[f64]) -> Result<()> {
         for shift in shifts.iter().rev() {
-            self.visit(*shift)?;
+            self.visit(*shift, false)?;
         }
         let mut intervals: Vec<_> = shifts.windows(2).map(|pair| [pair[0], pair[1]]).collect();
         while let Some([low, high]) = intervals.pop() {
             let middle = (low * high).sqrt();
-            let reached = self.visit(middle)?;
+            let reached = self.visit(middle, false)?;
             if reached <= self.tolerance {
                 continue;
             }
@@ -165,9 +175,66 @@ impl Search<'_> {
         Ok(())
     }
 
+    /// The Ritz modes whose compliance at the frequencies of `band` changes by less than `tolerance`
+    /// when the space is given all answers halfway between some of the shifts it knows.
+    fn confirm(&mut self, band: [f64; 2], tolerance: f64) -> Result<ModalBasis> {
+        let mut modes = self.space.modes()?;
+        let mut reached = 0.0;
+        for level in 0..LEVELS {
+            if self.space.count() == self.matrices[0].order() {
+                return Ok(modes);
+            }
+            let mut known = self.used.clone();
+            known.sort_by(f64::total_cmp);
+            for pair in known.windows(2).skip(level % STRIDE).step_by(STRIDE) {
+                self.visit((pair[0] * pair[1]).sqrt(), true)?;
+            }
+            let richer = self.space.modes()?;
+            reached = self.difference(&modes, &richer, band);
+            if reached <= tolerance {
+                return Ok(modes);
+            }
+            modes = richer;
+        }
+        let vectors = self.space.count();
+        Err(ReducedError::Accuracy { tolerance, reached, vectors }.into())
+    }
+
+    /// Largest difference of two compliances at frequencies of `band`, relative to the diagonal.
+    fn difference(&self, one: &ModalBasis, two: &ModalBasis, band: [f64; 2]) -> f64 {
+        let count = self.inputs.len() / self.matrices[0].order();
+        let shares = [one, two].map(|modes| self.shares(modes));
+        let mut worst = 0.0_f64;
+        for k in 0..=FREQUENCIES {
+            let fraction = f64::from(k) / f64::from(FREQUENCIES);
+            let frequency = band[0] * (band[1] / band[0]).powf(fraction);
+            let first = compliance(one, &shares[0], frequency);
+            let second = compliance(two, &shares[1], frequency);
+            let size = |k: usize| first[0][k].hypot(first[1][k]);
+            for k in 0..count * count {
+                let apart = (first[0][k] - second[0][k]).hypot(first[1][k] - second[1][k]);
+                let scale = [k / count, k % count].map(|i| size(i * (count + 1)));
+                worst = worst.max(apart / (scale[0] * scale[1]).sqrt());
+            }
+        }
+        worst
+    }
+
+    /// F Φ.
+    fn shares(&self, modes: &ModalBasis) -> Vec<f64> {
+        let mut shares = Vec::new();
+        for input in self.inputs.chunks_exact(self.matrices[0].order()) {
+            let start = shares.len();
+            shares.resize(start + modes.count(), 0.0);
+            modes.project(input, &mut shares[start..]);
+        }
+        shares
+    }
+
     /// The relative error of the compliance at a shift; answers that the tolerance needs are then
     /// part of the space.
-    fn visit(&mut self, shift: f64) -> Result<f64> {
+    /// `all` of them if so wanted.
+    fn visit(&mut self, shift: f64, all: bool) -> Result<f64> {
         const NAME: &str = "dynamic stiffness matrix";
         let [mass, damping, stiffness] = self.matrices;
         let n = mass.order();
@@ -178,6 +245,11 @@ impl Search<'_> {
         stiffness.add_to(1.0, &mut matrix);
         let mut answers = self.inputs.clone();
         SparseFactor::new(NAME, &matrix)?.solve_many(&mut answers);
+        self.used.push(shift);
+        if all {
+            self.space.extend(answers);
+            return Ok(0.0);
+        }
         let mut error = row_products(&self.inputs, &answers, n);
         let singular = || Error::Singular { matrix: NAME, order: self.space.count() };
         let reduced = self.space.compliance(shift, &self.inputs).ok_or_else(singular)?;
@@ -205,4 +277,19 @@ impl Search<'_> {
         self.space.extend(block);
         Ok(reached)
     }
+}
+
+/// Real and imaginary part of F Φ (λ − ω² + i ω c)⁻¹ (F Φ)ᵀ.
+fn compliance(modes: &ModalBasis, shares: &[f64], frequency: f64) -> [Vec<f64>; 2] {
+    let parts = modes.stiffness.iter().zip(&modes.damping).map(|(k, c)| {
+        let (real, imaginary) = (k - frequency * frequency, frequency * c);
+        let square = real * real + imaginary * imaginary;
+        [real / square, -imaginary / square]
+    });
+    let parts: Vec<_> = parts.collect();
+    [0, 1].map(|part| {
+        let weights = parts.iter().map(|both| both[part]).cycle();
+        let weighted: Vec<f64> = shares.iter().zip(weights).map(|(f, w)| f * w).collect();
+        row_products(shares, &weighted, modes.count())
+    })
 }
