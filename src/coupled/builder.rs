@@ -274,13 +274,7 @@ impl SimulationBuilder {
         let safety_friction =
             laws::safety_friction(&self.laws, std::mem::take(&mut self.safety_friction), count)?;
         let unknowns = structure.unknowns();
-        if unknowns > MOST_UNKNOWNS {
-            return Err(Error::Input {
-                quantity: "number of unknowns of the structure",
-                value: unknowns as f64,
-                needed: "ten million or fewer",
-            });
-        }
+        check_unknowns(unknowns)?;
         let mut base = Base::of(structure.as_ref(), &elements)?;
         let mut model = Model::new(structure.as_ref(), linear, &base)?;
         super::probe::check(&self.probes, unknowns)?;
@@ -365,6 +359,18 @@ impl SimulationBuilder {
             conditioning,
         })
     }
+}
+
+/// Refuses more unknowns than anything can hold.
+fn check_unknowns(unknowns: usize) -> Result<()> {
+    if unknowns <= MOST_UNKNOWNS {
+        return Ok(());
+    }
+    Err(Error::Input {
+        quantity: "number of unknowns of the structure",
+        value: unknowns as f64,
+        needed: "ten million or fewer",
+    })
 }
 
 /// The free field at t = 0, from which it is measured.

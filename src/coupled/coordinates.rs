@@ -1,6 +1,7 @@
 //! In which coordinates a linear structure is stepped, and their basis.
 
 use super::initial::Beginning;
+use super::load::Load;
 use super::probe::Probe;
 use super::scene::base::Base;
 use super::scene::krylov;
@@ -109,7 +110,7 @@ impl Chooser<'_> {
             self.base.add_forces(1.0, &unit, row);
             unit[i] = 0.0;
         }
-        let loads = self.beginning.loads.iter().map(|load| load.row());
+        let loads = self.beginning.loads.iter().map(Load::row);
         for terms in loads.chain(self.probes.iter().flat_map(Probe::rows)) {
             let start = inputs.len();
             inputs.resize(start + n, 0.0);
@@ -134,6 +135,6 @@ impl Chooser<'_> {
         }
         let c = self.coefficients;
         let highest = (c.acceleration[0] / c.displacement[0]).sqrt();
-        krylov::reduce(self.model, self.base, inputs, motions, highest, tolerance)
+        krylov::reduce(self.model, self.base, &inputs, motions, highest, tolerance)
     }
 }

@@ -55,7 +55,7 @@ const CLOSEST: f64 = 1.05;
 pub(crate) fn reduce(
     model: &Model,
     base: &Base,
-    inputs: Vec<f64>,
+    inputs: &[f64],
     motions: Vec<f64>,
     of_step: f64,
     tolerance: f64,
@@ -79,7 +79,9 @@ pub(crate) fn reduce(
     for vector in model.influence.parts().iter().flat_map(|part| &part.vectors) {
         let start = translations.len();
         translations.resize(start + n, 0.0);
-        vector.iter().for_each(|&(i, r)| translations[start + i] = r);
+        for &(i, r) in vector {
+            translations[start + i] = r;
+        }
     }
     let mut space = Subspace::new(matrices, translations);
     let (rotations, frequency) = held(model, base, matrices)?;

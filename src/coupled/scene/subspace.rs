@@ -188,7 +188,9 @@ impl<'a> Subspace<'a> {
 }
 
 fn scale(row: &mut [f64], factor: f64) {
-    row.iter_mut().for_each(|x| *x *= factor);
+    for x in row {
+        *x *= factor;
+    }
 }
 
 fn transpose(rows: &[f64], columns: usize) -> Vec<f64> {
