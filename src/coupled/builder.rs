@@ -308,7 +308,7 @@ impl SimulationBuilder {
             beginning: &self.beginning,
             probes: &self.probes,
         };
-        if let Some(modes) = chooser.basis(factor.stored())? {
+        if let Some(modes) = chooser.basis(&factor)? {
             base.decouple(&modes);
             model.decouple(Arc::new(modes));
             factor = Factor::new(&model, &coefficients, &tangent.matrix)?;

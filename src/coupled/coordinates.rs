@@ -4,12 +4,13 @@ use super::initial::Beginning;
 use super::load::Load;
 use super::probe::Probe;
 use super::scene::base::Base;
-use super::scene::krylov;
+use super::scene::krylov::Reduction;
 use super::scene::modal_basis::ModalBasis;
 use super::scene::model::Model;
+use super::scene::operators::Factor;
 use super::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
-use crate::structure::Structure;
+use crate::structure::{Row, Structure};
 
 /// Steps that modes have to pay for themselves in, if not told otherwise.
 const STEPS: usize = 10_000;
@@ -71,12 +72,11 @@ pub(super) struct Chooser<'a> {
 }
 
 impl Chooser<'_> {
-    /// The modes, if the structure is to be stepped in them; `factor` is the number of entries of
-    /// the sparse factor.
-    pub(super) fn basis(&self, factor: usize) -> Result<Option<ModalBasis>> {
+    /// The modes, if the structure is to be stepped in them; `factor` is that of K_eff.
+    pub(super) fn basis(&self, factor: &Factor) -> Result<Option<ModalBasis>> {
         let contact = 2 * self.base.lengths().len();
         match self.coordinates {
-            Coordinates::Auto if self.model.modes_save_time(factor, contact, self.steps()) => {
+            Coordinates::Auto if self.model.modes_save_time(factor.stored(), contact, self.steps()) => {
                 Ok(self.modes())
             }
             Coordinates::Auto | Coordinates::Unknowns => Ok(None),
@@ -85,7 +85,7 @@ impl Chooser<'_> {
                 needed: "a linear structure with symmetric matrices, a positive definite mass \
                          and a damping that the modes decouple",
             }),
-            Coordinates::Reduced { tolerance } => self.reduced(tolerance).map(Some),
+            Coordinates::Reduced { tolerance } => self.reduced(tolerance, factor).map(Some),
         }
     }
 
@@ -101,40 +101,57 @@ impl Chooser<'_> {
         ModalBasis::new(matrices, &translations)
     }
 
-    fn reduced(&self, tolerance: f64) -> Result<ModalBasis> {
+    fn reduced(&self, tolerance: f64, factor: &Factor) -> Result<ModalBasis> {
         let (n, size) = (self.model.unknowns, 2 * self.base.lengths().len());
-        let mut inputs = vec![0.0; size * n];
+        let mut forces = vec![0.0; size * n];
         let mut unit = vec![0.0; size];
-        for (i, row) in inputs.chunks_exact_mut(n).enumerate() {
+        for (i, row) in forces.chunks_exact_mut(n).enumerate() {
             unit[i] = 1.0;
             self.base.add_forces(1.0, &unit, row);
             unit[i] = 0.0;
         }
-        let loads = self.beginning.loads.iter().map(Load::row);
-        for terms in loads.chain(self.probes.iter().flat_map(Probe::rows)) {
-            let start = inputs.len();
-            inputs.resize(start + n, 0.0);
-            for &(i, weight) in terms {
-                inputs[start + i] += weight;
-            }
-        }
+        forces.extend(self.rows(self.beginning.loads.iter().map(Load::row)));
         let duration = self.steps() as f64 * self.time_step;
         for k in 0..=SAMPLES {
             let mut load = vec![0.0; n];
             self.structure.load(duration * f64::from(k) / f64::from(SAMPLES), &mut load)?;
             if load.iter().all(|force| force.is_finite()) {
-                inputs.extend(load);
+                forces.extend(load);
             }
         }
         let mut motions = Vec::new();
         for motion in [&self.beginning.displacement, &self.beginning.velocity] {
-            let start = inputs.len();
-            inputs.resize(start + motion.len(), 0.0);
-            self.model.mass.multiply_add(1.0, motion, &mut inputs[start..]);
+            let start = forces.len();
+            forces.resize(start + motion.len(), 0.0);
+            self.model.mass.multiply_add(1.0, motion, &mut forces[start..]);
             motions.extend_from_slice(motion);
         }
-        let c = self.coefficients;
-        let highest = (c.acceleration[0] / c.displacement[0]).sqrt();
-        krylov::reduce(self.model, self.base, &inputs, motions, highest, tolerance)
+        let reduction = Reduction {
+            model: self.model,
+            base: self.base,
+            coefficients: self.coefficients,
+            factor,
+            steps: self.steps(),
+            rows: [
+                forces,
+                self.rows(self.probes.iter().flat_map(|probe| [&probe.displacement, &probe.velocity])),
+                self.rows(self.probes.iter().map(|probe| &probe.acceleration)),
+            ],
+            motions,
+        };
+        reduction.modes(tolerance)
+    }
+
+    /// Rows of all unknowns.
+    fn rows<'r>(&self, terms: impl Iterator<Item = &'r Row>) -> Vec<f64> {
+        let mut rows = Vec::new();
+        for terms in terms {
+            let start = rows.len();
+            rows.resize(start + self.model.unknowns, 0.0);
+            for &(i, weight) in terms {
+                rows[start + i] += weight;
+            }
+        }
+        rows
     }
 }

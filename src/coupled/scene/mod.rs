@@ -14,6 +14,7 @@ pub(crate) mod stages;
 mod standing;
 pub(crate) mod static_state;
 pub(crate) mod stepped_row;
+mod step_response;
 mod subspace;
 mod supports;
 pub(crate) mod translation_check;

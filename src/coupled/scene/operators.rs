@@ -117,6 +117,14 @@ impl Factor {
         Ok(Self::Sparse(Box::new(SparseFactor::new(NAME, &matrix)?)))
     }
 
+    /// The factor of a sparse matrix, if it is one.
+    pub(crate) fn sparse(&self) -> Option<&SparseFactor> {
+        match self {
+            Self::Sparse(factor) => Some(factor),
+            Self::Diagonal(_) => None,
+        }
+    }
+
     /// Numbers that one solve reads.
     pub(crate) fn stored(&self) -> usize {
         match self {

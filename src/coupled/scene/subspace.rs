@@ -3,24 +3,22 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | V | vectors, V M Vᵀ = 1 |
-//! | F | inputs, a row of unknowns each |
-//! | Z | dynamic stiffness σ² M + σ C + K at a real shift σ |
+//! | F | rows of unknowns: where forces act and displacements are looked at |
 //!
-//! Vectors and inputs are rows. The first vectors are rigid translations, of which K knows nothing:
-//! their products with K are zero, not rounding.
+//! All are rows. The first vectors are rigid translations, of which K knows nothing: their products
+//! with K are zero, not rounding.
 
 use super::modal_basis::{DECOUPLED, ModalBasis};
 use crate::error::{ReducedError, Result};
-use crate::linalg::{
-    DenseFactor, SparseMatrix, add_combined_rows, dot, largest, row_products, symmetric_modes,
-};
+use crate::linalg::{SparseMatrix, add_combined_rows, largest, row_products, symmetric_modes};
 
-/// A vector that orthogonalisation shortens to this lay in the space of the others.
-const DEPENDENT: f64 = 1e-11;
 /// Eigenvalues below this, relative to the largest, are zeros with the error of their computation.
 const ZERO: f64 = 1e-13;
 /// Least eigenvalue besides zero, relative to the largest: between the two nothing is certain.
 const LEAST: f64 = 1e-10;
+
+/// Least part of a translation that others do not have.
+const INDEPENDENT: f64 = 1e-7;
 
 /// V and the matrices in it.
 pub(super) struct Subspace<'a> {
@@ -34,15 +32,24 @@ pub(super) struct Subspace<'a> {
     translations: usize,
 }
 
+/// Vibration modes of a subspace, the translations first.
+pub(super) struct Ritz {
+    /// λ and c.
+    pub(super) stiffness: Vec<f64>,
+    pub(super) damping: Vec<f64>,
+    /// Modes in terms of V, columns of a row-major matrix.
+    combinations: Vec<f64>,
+}
+
 impl<'a> Subspace<'a> {
     /// The space of these rigid translations.
-    pub(super) fn new(matrices: [&'a SparseMatrix; 3], translations: Vec<f64>) -> Self {
+    pub(super) fn new(matrices: [&'a SparseMatrix; 3], translations: Vec<f64>) -> Result<Self> {
         let projected = [Vec::new(), Vec::new()];
         let (vectors, momenta) = (Vec::new(), Vec::new());
         let mut space = Self { matrices, vectors, momenta, projected, translations: usize::MAX };
-        space.extend(translations);
+        space.extend(translations, INDEPENDENT)?;
         space.translations = space.count();
-        space
+        Ok(space)
     }
 
     /// Number of vectors.
@@ -54,40 +61,61 @@ impl<'a> Subspace<'a> {
         self.matrices[0].order().max(1)
     }
 
-    /// Adds the vectors of `block`, as far as they are independent.
-    pub(super) fn extend(&mut self, mut block: Vec<f64>) {
+    /// V M of the vectors from number `first` on.
+    pub(super) fn momenta(&self, first: usize) -> &[f64] {
+        &self.momenta[first * self.order()..]
+    }
+
+    /// Adds the directions of `block` of which, with rows scaled to a length of one, more than `least`
+    /// is outside.
+    pub(super) fn extend(&mut self, mut block: Vec<f64>, least: f64) -> Result<()> {
         let (n, before) = (self.order(), self.count());
-        let norms = self.norms(&block);
-        for (row, norm) in block.chunks_exact_mut(n).zip(norms) {
-            scale(row, norm.recip());
-        }
+        let mut momenta = Vec::new();
         // Twice is enough.
-        for _ in 0..2 {
+        for pass in 0..2 {
+            let count = block.len() / n;
             let shares = row_products(&self.momenta, &block, n);
             if before > 0 {
                 add_combined_rows(&shares, &self.vectors, n, -1.0, &mut block);
             }
-            let mut kept: Vec<f64> = Vec::with_capacity(block.len());
-            let mut momenta: Vec<f64> = Vec::with_capacity(block.len());
-            for row in block.chunks_exact_mut(n) {
-                for (own, momentum) in kept.chunks_exact(n).zip(momenta.chunks_exact(n)) {
-                    let share = dot(momentum, row);
-                    row.iter_mut().zip(own).for_each(|(x, v)| *x -= share * v);
-                }
-                let norm = self.norms(row)[0];
-                // Vectors come with a norm of one; what is not a number is left out as well.
-                if norm > DEPENDENT {
-                    scale(row, norm.recip());
-                    kept.extend_from_slice(row);
-                    momenta.extend(self.images(0, row));
-                }
+            let images = self.images(0, &block);
+            let mut products = row_products(&images, &block, n);
+            let scales: Vec<f64> = (0..count)
+                .map(|i| match pass {
+                    0 => {
+                        let inside: f64 = (0..before).map(|j| shares[j * count + i].powi(2)).sum();
+                        let length = (inside + products[i * (count + 1)]).sqrt();
+                        if length > 0.0 { length.recip() } else { 0.0 }
+                    }
+                    _ => 1.0,
+                })
+                .collect();
+            for (k, product) in products.iter_mut().enumerate() {
+                *product *= scales[k / count] * scales[k % count];
             }
-            block = kept;
+            let infinite =
+                ReducedError::Matrix { matrix: "mass matrix", needed: "finite in the subspace" };
+            let (values, directions) = symmetric_modes(&products, count).ok_or(infinite)?;
+            let least = if pass == 0 { least } else { 0.5 };
+            let kept: Vec<usize> = (0..count).filter(|&j| values[j] > least * least).collect();
+            let weights: Vec<f64> = (0..count)
+                .flat_map(|i| kept.iter().map(move |&j| (i, j)))
+                .map(|(i, j)| scales[i] * directions[i * count + j] / values[j].sqrt())
+                .collect();
+            let combine = |rows: &[f64]| {
+                let mut combined = vec![0.0; kept.len() * n];
+                add_combined_rows(&weights, rows, n, 1.0, &mut combined);
+                combined
+            };
+            block = combine(&block);
+            if pass == 1 {
+                momenta = combine(&images);
+            }
         }
-        let momenta = self.images(0, &block);
         self.vectors.extend_from_slice(&block);
         self.momenta.extend(momenta);
         self.project(&block, before);
+        Ok(())
     }
 
     /// Adds the rows and columns of the `new` vectors to C and K.
@@ -122,31 +150,8 @@ impl<'a> Subspace<'a> {
         images
     }
 
-    fn norms(&self, rows: &[f64]) -> Vec<f64> {
-        let norm = |row: &[f64]| self.matrices[0].form(row, row).sqrt();
-        rows.chunks_exact(self.order()).map(norm).collect()
-    }
-
-    /// F Vᵀ (V Z Vᵀ)⁻¹ V Fᵀ: the compliance of the inputs as the subspace has it; `None` if it is
-    /// singular there.
-    pub(super) fn compliance(&self, shift: f64, inputs: &[f64]) -> Option<Vec<f64>> {
-        let count = self.count();
-        let [damping, stiffness] = &self.projected;
-        let mut matrix: Vec<f64> =
-            damping.iter().zip(stiffness).map(|(c, k)| shift * c + k).collect();
-        (0..count).for_each(|i| matrix[i * (count + 1)] += shift * shift);
-        let mut factor = DenseFactor::with_capacity(count);
-        if !factor.factor(&matrix, count) {
-            return None;
-        }
-        let forces = row_products(inputs, &self.vectors, self.order());
-        let mut answers = forces.clone();
-        answers.chunks_exact_mut(count.max(1)).for_each(|row| factor.solve(row));
-        Some(row_products(&forces, &answers, count))
-    }
-
-    /// The Ritz modes.
-    pub(super) fn modes(&self) -> Result<ModalBasis> {
+    /// The modes of the subspace.
+    pub(super) fn ritz(&self) -> Result<Ritz> {
         let (count, fixed) = (self.count(), self.translations);
         let free = count - fixed;
         let [damping, stiffness] = &self.projected;
@@ -162,7 +167,6 @@ impl<'a> Subspace<'a> {
         if ratio < LEAST {
             return Err(ReducedError::Spectrum { ratio, least: LEAST }.into());
         }
-        // Q, columns: the translations, then the Ritz vectors.
         let mut combinations = vec![0.0; count * count];
         (0..fixed).for_each(|i| combinations[i * (count + 1)] = 1.0);
         for (i, row) in own.chunks_exact(free.max(1)).enumerate() {
@@ -170,9 +174,7 @@ impl<'a> Subspace<'a> {
         }
         let mut products = vec![0.0; count * count];
         add_combined_rows(&combinations, damping, count, 1.0, &mut products);
-        let mut modal = vec![0.0; count * count];
-        let transposed: Vec<f64> = transpose(&products, count);
-        add_combined_rows(&combinations, &transposed, count, 1.0, &mut modal);
+        let mut modal = row_products(&products, &transpose(&combinations, count), count);
         let damping: Vec<f64> = (0..count).map(|j| modal[j * (count + 1)]).collect();
         (0..count).for_each(|j| modal[j * (count + 1)] = 0.0);
         let coupling = largest(&modal) / largest(&damping);
@@ -181,15 +183,24 @@ impl<'a> Subspace<'a> {
         }
         let mut stiffness = vec![0.0; fixed];
         stiffness.extend(values);
-        let mut modes = vec![0.0; self.vectors.len()];
-        add_combined_rows(&combinations, &self.vectors, self.order(), 1.0, &mut modes);
-        Ok(ModalBasis::of(stiffness, damping, transpose(&modes, self.order())))
+        Ok(Ritz { stiffness, damping, combinations })
     }
-}
 
-fn scale(row: &mut [f64], factor: f64) {
-    for x in row {
-        *x *= factor;
+    /// F Φᵀ: the rows of F in terms of the modes.
+    pub(super) fn shares(&self, modes: &Ritz, rows: &[f64]) -> Vec<f64> {
+        let count = modes.stiffness.len();
+        let vectors = &self.vectors[..count * self.order()];
+        let mut shares = vec![0.0; rows.len() / self.order() * count];
+        let products = row_products(vectors, rows, self.order());
+        add_combined_rows(&products, &modes.combinations, count, 1.0, &mut shares);
+        shares
+    }
+
+    /// The modes in unknowns.
+    pub(super) fn basis(&self, modes: &Ritz) -> ModalBasis {
+        let mut vectors = vec![0.0; self.vectors.len()];
+        add_combined_rows(&modes.combinations, &self.vectors, self.order(), 1.0, &mut vectors);
+        ModalBasis::of(modes.stiffness.clone(), modes.damping.clone(), transpose(&vectors, self.order()))
     }
 }
 
