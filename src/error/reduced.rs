@@ -24,21 +24,12 @@ pub enum ReducedError {
         /// Largest coefficient between two modes over the largest of one.
         coupling: f64,
     },
-    /// Too little damping of what a step cannot follow: no tolerance would hold.
+    /// Responses are not as accurate as was asked for: of structures with too little damping of the
+    /// frequencies that a step cannot follow, and where rounding gets in the way.
     #[error(
-        "modes above the rate of the time steps have a damping ratio of {ratio:.1e}, and the \
-         tolerance holds only above {least} (stiffness-proportional damping gives it)"
-    )]
-    Undamped {
-        /// Least damping ratio of the modes above the frequency 2/Δt.
-        ratio: f64,
-        /// Least that is accepted.
-        least: f64,
-    },
-    /// The compliance is not as accurate as was asked for.
-    #[error(
-        "relative error {reached:.1e} of the compliance with {vectors} vectors, but {tolerance:.1e} \
-         was asked for"
+        "responses to sudden tractions still err by {reached:.1e} with {vectors} vectors, but \
+         {tolerance:.1e} was asked for (undamped structures cannot be reduced: damping in proportion \
+         to stiffness helps)"
     )]
     Accuracy {
         /// Error that was asked for.

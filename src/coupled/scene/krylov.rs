@@ -30,12 +30,12 @@ const NEW: f64 = 1e-2;
 const NEW_BY_ROOT: f64 = 10.0;
 /// The same, in the end.
 const LEAST_NEW: f64 = 1e-7;
-/// Contact amplifies: share of the tolerance that the responses to given tractions may err by.
-const SHARE: f64 = 0.2;
 /// The next round changes this much less than the last, at best.
-const FASTEST: f64 = 0.01;
-/// Rounds after which the tolerance is given up.
+const FASTEST: f64 = 0.05;
+/// Rounds after which the tolerance is given up, after half of them if it cannot be expected.
 const ROUNDS: usize = 16;
+/// The lowest shift over the scheme's, at least.
+const LOWEST: f64 = 1e-6;
 /// Steps over which responses are compared, at most.
 const LONGEST: usize = 10_000;
 
@@ -65,9 +65,9 @@ impl Reduction<'_> {
         let matrices = self.matrices()?;
         let translations = self.translations();
         let (rotations, lowest) = self.held(&translations, matrices)?;
-        let mut space = Subspace::new(matrices, translations)?;
-        space.extend(rotations, LEAST_NEW)?;
-        space.extend(self.motions.clone(), LEAST_NEW)?;
+        let mut space = Subspace::new(matrices, translations);
+        space.extend(rotations, LEAST_NEW);
+        space.extend(self.motions.clone(), LEAST_NEW);
         let (rows, counts) = self.rows();
         let factors = self.shifts(lowest, matrices).collect::<Result<Vec<_>>>()?;
         let k_eff = self.factor.sparse().ok_or(ReducedError::Nonlinear)?;
@@ -76,35 +76,42 @@ impl Reduction<'_> {
         let mut least = NEW.min(NEW_BY_ROOT * tolerance.sqrt());
         let mut last: Option<StepResponses> = None;
         let [mut change, mut reached] = [f64::INFINITY; 2];
-        for _ in 0..ROUNDS {
+        for round in 1..=ROUNDS {
             let before = space.count();
             for (factor, block) in factors.iter().zip(&mut blocks) {
                 let before = space.count();
                 factor.solve_many(block);
-                space.extend(std::mem::take(block), least)?;
+                space.extend(std::mem::take(block), least);
                 block.extend_from_slice(space.momenta(before));
             }
             if space.count() == before {
-                // Again, for the little that was left out.
-                blocks.fill(rows.clone());
-                least *= NEW;
-                if least < LEAST_NEW {
-                    break;
+                if least <= LEAST_NEW {
+                    return Ok(space.basis(&space.ritz()?));
                 }
+                // Again, for the little that was left out.
+                least = LEAST_NEW.max(NEW * least);
+                blocks.fill(rows.clone());
+                continue;
             }
             let modes = space.ritz()?;
             let shares = space.shares(&modes, &rows);
             let steps = self.steps.clamp(1, LONGEST);
             let responses = StepResponses::new(&modes, shares, counts, self.coefficients, steps);
+            let mut rate = 1.0;
             if let Some(last) = &last {
-                // What the next round would change, if it were to do as much as this one.
                 let by = responses.difference(last, tolerance);
-                let rate = if change.is_finite() { (by / change).clamp(FASTEST, 1.0) } else { 1.0 };
-                (change, reached) = (by, by * rate / SHARE);
+                if change.is_finite() {
+                    rate = (by / change).clamp(FASTEST, 1.0);
+                }
+                // The next round would change so much, if it were to do as much as this one.
+                (change, reached) = (by, by * rate);
             }
-            if std::env::var_os("DBG").is_some() { eprintln!("      vectors {} change {change:.1e} reached {reached:.1e}", space.count()); }
             if reached <= tolerance || space.count() == self.model.unknowns {
                 return Ok(space.basis(&modes));
+            }
+            let left = i32::try_from(ROUNDS - round).unwrap_or(0);
+            if 2 * round >= ROUNDS && reached * rate.powi(left) > tolerance {
+                break;
             }
             last = Some(responses);
         }
@@ -151,7 +158,8 @@ impl Reduction<'_> {
         let pairs = stiffness.diagonal().into_iter().zip(mass.diagonal());
         let stiffest = pairs.fold(0.0, |most: f64, (k, m)| most.max(k / m)).sqrt();
         let c = self.coefficients;
-        let own = (c.acceleration[0] / c.displacement[0]).sqrt();
+        let own = (c.acceleration[0] / c.displacement[0]).sqrt().min(RATIO * stiffest);
+        let lowest = lowest.max(LOWEST * own);
         let below = std::iter::successors(Some(own / RATIO), |shift| Some(shift / RATIO));
         let shifts = std::iter::once(RATIO * own).chain(below.take_while(move |s| *s > lowest));
         shifts.filter(move |shift| *shift < stiffest).map(|shift| {

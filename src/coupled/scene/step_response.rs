@@ -37,9 +37,8 @@ impl StepResponses {
     ) -> Self {
         let (count, c) = (modes.stiffness.len().max(1), coefficients);
         let parts = modes.stiffness.iter().zip(&modes.damping);
-        let effective = |(k, d): (&f64, &f64)| {
-            c.acceleration[0] + c.velocity[0] * d + c.displacement[0] * k
-        };
+        let effective =
+            |(k, d): (&f64, &f64)| c.acceleration[0] + c.velocity[0] * d + c.displacement[0] * k;
         let effective: Vec<f64> = parts.map(effective).collect();
         for row in shares.chunks_exact_mut(count) {
             let energy: f64 = row.iter().zip(&effective).map(|(f, k)| f * f / k).sum();

@@ -43,13 +43,13 @@ pub(super) struct Ritz {
 
 impl<'a> Subspace<'a> {
     /// The space of these rigid translations.
-    pub(super) fn new(matrices: [&'a SparseMatrix; 3], translations: Vec<f64>) -> Result<Self> {
+    pub(super) fn new(matrices: [&'a SparseMatrix; 3], translations: Vec<f64>) -> Self {
         let projected = [Vec::new(), Vec::new()];
         let (vectors, momenta) = (Vec::new(), Vec::new());
         let mut space = Self { matrices, vectors, momenta, projected, translations: usize::MAX };
-        space.extend(translations, INDEPENDENT)?;
+        space.extend(translations, INDEPENDENT);
         space.translations = space.count();
-        Ok(space)
+        space
     }
 
     /// Number of vectors.
@@ -68,7 +68,7 @@ impl<'a> Subspace<'a> {
 
     /// Adds the directions of `block` of which, with rows scaled to a length of one, more than `least`
     /// is outside.
-    pub(super) fn extend(&mut self, mut block: Vec<f64>, least: f64) -> Result<()> {
+    pub(super) fn extend(&mut self, mut block: Vec<f64>, least: f64) {
         let (n, before) = (self.order(), self.count());
         let mut momenta = Vec::new();
         // Twice is enough.
@@ -93,18 +93,15 @@ impl<'a> Subspace<'a> {
             for (k, product) in products.iter_mut().enumerate() {
                 *product *= scales[k / count] * scales[k % count];
             }
-            let infinite =
-                ReducedError::Matrix { matrix: "mass matrix", needed: "finite in the subspace" };
-            let (values, directions) = symmetric_modes(&products, count).ok_or(infinite)?;
             let least = if pass == 0 { least } else { 0.5 };
-            let kept: Vec<usize> = (0..count).filter(|&j| values[j] > least * least).collect();
-            let weights: Vec<f64> = (0..count)
-                .flat_map(|i| kept.iter().map(move |&j| (i, j)))
-                .map(|(i, j)| scales[i] * directions[i * count + j] / values[j].sqrt())
-                .collect();
+            let mut weights = independent(products, count, least * least);
+            let kept = weights.len() / count.max(1);
+            for row in weights.chunks_exact_mut(count.max(1)) {
+                row.iter_mut().zip(&scales).for_each(|(weight, scale)| *weight *= scale);
+            }
             let combine = |rows: &[f64]| {
-                let mut combined = vec![0.0; kept.len() * n];
-                add_combined_rows(&weights, rows, n, 1.0, &mut combined);
+                let mut combined = vec![0.0; kept * n];
+                add_combined_rows(&transpose(&weights, count), rows, n, 1.0, &mut combined);
                 combined
             };
             block = combine(&block);
@@ -115,7 +112,6 @@ impl<'a> Subspace<'a> {
         self.vectors.extend_from_slice(&block);
         self.momenta.extend(momenta);
         self.project(&block, before);
-        Ok(())
     }
 
     /// Adds the rows and columns of the `new` vectors to C and K.
@@ -172,9 +168,9 @@ impl<'a> Subspace<'a> {
         for (i, row) in own.chunks_exact(free.max(1)).enumerate() {
             combinations[(fixed + i) * count + fixed..(fixed + i + 1) * count].copy_from_slice(row);
         }
-        let mut products = vec![0.0; count * count];
-        add_combined_rows(&combinations, damping, count, 1.0, &mut products);
-        let mut modal = row_products(&products, &transpose(&combinations, count), count);
+        let [mut products, mut modal] = [(); 2].map(|()| vec![0.0; count * count]);
+        add_combined_rows(damping, &combinations, count, 1.0, &mut products);
+        add_combined_rows(&combinations, &products, count, 1.0, &mut modal);
         let damping: Vec<f64> = (0..count).map(|j| modal[j * (count + 1)]).collect();
         (0..count).for_each(|j| modal[j * (count + 1)] = 0.0);
         let coupling = largest(&modal) / largest(&damping);
@@ -199,9 +195,37 @@ impl<'a> Subspace<'a> {
     /// The modes in unknowns.
     pub(super) fn basis(&self, modes: &Ritz) -> ModalBasis {
         let mut vectors = vec![0.0; self.vectors.len()];
-        add_combined_rows(&modes.combinations, &self.vectors, self.order(), 1.0, &mut vectors);
-        ModalBasis::of(modes.stiffness.clone(), modes.damping.clone(), transpose(&vectors, self.order()))
+        let count = modes.stiffness.len();
+        add_combined_rows(&self.vectors, &modes.combinations, count, 1.0, &mut vectors);
+        ModalBasis::of(modes.stiffness.clone(), modes.damping.clone(), vectors)
     }
+}
+
+/// Weights, a row each, of orthonormal combinations of vectors with these scalar products: Gram and
+/// Schmidt's, the longest remainder first, while its square exceeds `least`. Vectors of separate parts
+/// stay separate.
+fn independent(mut products: Vec<f64>, count: usize, least: f64) -> Vec<f64> {
+    let mut rest: Vec<Vec<f64>> =
+        (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect();
+    let mut weights = Vec::new();
+    let mut left: Vec<usize> = (0..count).collect();
+    let length = |products: &[f64], i: usize| products[i * (count + 1)];
+    while let Some(at) = (0..left.len())
+        .max_by(|a, b| length(&products, left[*a]).total_cmp(&length(&products, left[*b])))
+        .filter(|at| length(&products, left[*at]) > least)
+    {
+        let chosen = left.swap_remove(at);
+        let scale = length(&products, chosen).sqrt().recip();
+        let own: Vec<f64> = rest[chosen].iter().map(|weight| scale * weight).collect();
+        let shares: Vec<f64> = (0..count).map(|j| scale * products[chosen * count + j]).collect();
+        for &i in &left {
+            rest[i].iter_mut().zip(&own).for_each(|(weight, own)| *weight -= shares[i] * own);
+            let row = &mut products[i * count..(i + 1) * count];
+            row.iter_mut().zip(&shares).for_each(|(product, share)| *product -= shares[i] * share);
+        }
+        weights.extend(own);
+    }
+    weights
 }
 
 fn transpose(rows: &[f64], columns: usize) -> Vec<f64> {
