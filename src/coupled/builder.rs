@@ -16,7 +16,7 @@ use super::scene::operators::{Factor, Operators};
 use super::scene::stages::Placement;
 use super::scene::translation_check::joined_by_force;
 use super::scene::{ProbeRows, Scene};
-use super::scheme::{Midpoint, TimeScheme};
+use super::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
 use super::simulation::Simulation;
 use super::state::State;
 use super::step::forcing::Forcing;
@@ -297,17 +297,7 @@ impl SimulationBuilder {
         let mut tangent = Tangent::new(unknowns);
         tangent.refill(structure.as_ref(), &static_state.displacement)?;
         let mut factor = Factor::new(&model, &coefficients, &tangent.matrix)?;
-        let chooser = Chooser {
-            coordinates: self.coordinates,
-            steps: self.steps,
-            time_step,
-            coefficients: &coefficients,
-            structure: structure.as_ref(),
-            model: &model,
-            base: &base,
-            beginning: &self.beginning,
-            probes: &self.probes,
-        };
+        let chooser = self.chooser(&coefficients, structure.as_ref(), &model, &base);
         if let Some(modes) = chooser.basis(&factor)? {
             base.decouple(&modes);
             model.decouple(Arc::new(modes));
@@ -358,6 +348,26 @@ impl SimulationBuilder {
             state,
             conditioning,
         })
+    }
+
+    fn chooser<'a>(
+        &'a self,
+        coefficients: &'a SchemeCoefficients,
+        structure: &'a dyn Structure,
+        model: &'a Model,
+        base: &'a Base,
+    ) -> Chooser<'a> {
+        Chooser {
+            coordinates: self.coordinates,
+            steps: self.steps,
+            time_step: self.time_step,
+            coefficients,
+            structure,
+            model,
+            base,
+            beginning: &self.beginning,
+            probes: &self.probes,
+        }
     }
 }
 

@@ -178,7 +178,9 @@ impl Reduction<'_> {
             if !vector.is_empty() {
                 let start = translations.len();
                 translations.resize(start + n, 0.0);
-                vector.iter().for_each(|&(i, r)| translations[start + i] = r);
+                for &(i, r) in vector {
+                    translations[start + i] = r;
+                }
             }
         }
         translations

@@ -42,7 +42,9 @@ impl StepResponses {
         let effective: Vec<f64> = parts.map(effective).collect();
         for row in shares.chunks_exact_mut(count) {
             let energy: f64 = row.iter().zip(&effective).map(|(f, k)| f * f / k).sum();
-            row.iter_mut().for_each(|f| *f /= energy.sqrt());
+            for share in row {
+                *share /= energy.sqrt();
+            }
         }
         let apply = SchemeCoefficients::apply;
         let mut state = vec![[0.0_f64; 3]; count];
