@@ -212,7 +212,7 @@ pub use complex::Complex;
 pub use coupled::Simulation;
 pub use error::{
     CaseError, CheckpointError, Error, KernelFileError, LawError, LayeredError, RecordError,
-    Result, StandingError, StepError,
+    ReducedError, Result, StandingError, StepError,
 };
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};

@@ -115,6 +115,7 @@ fn steps_do_not_allocate() {
     };
     let bed = || SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap();
     let modes = Coordinates::Modes;
+    let few = Coordinates::Reduced { tolerance: 1e-3 };
     let weakening = SlipWeakening { first: 0.3, residual: 0.1, distance: 0.1 };
     let pads = SofteningPads { stiffness: [5e7, 4e7], softening: 1e5 };
     let theta = Theta::new(0.6).unwrap();
@@ -123,6 +124,7 @@ fn steps_do_not_allocate() {
         ("bonded, modes", base().structure(tower(SI, None)).interface(Bonded).coordinates(modes)),
         ("sliding", base().structure(damped()).interface(friction(0.2)).scheme(theta)),
         ("sliding, modes", base().structure(damped()).interface(friction(0.2)).coordinates(modes)),
+        ("sliding, reduced", base().structure(damped()).interface(friction(0.2)).coordinates(few)),
         ("uplift", base().structure(block(SI)).interface(friction(f64::INFINITY))),
         ("smooth", base().structure(block(SI)).interface(friction(0.0))),
         ("direct history", direct().structure(block(SI)).interface(friction(0.3))),

@@ -1,5 +1,5 @@
 //! The crate's performance targets, measured: histories, coefficients, whole runs, growth, memory,
-//! scenes, sweeps.
+//! scenes, reduced coordinates, sweeps.
 //!
 //! ```text
 //! cargo run --release --features rayon --example performance                # a minute or two
@@ -13,6 +13,7 @@
 
 mod child;
 mod histories;
+mod reduced;
 mod report;
 mod scenes;
 mod targets;
@@ -58,6 +59,7 @@ fn main() -> Result<(), AnyError> {
     targets::runs(&mut report, options.short)?;
     targets::histories(&mut report, options.short)?;
     targets::scenes(&mut report, options.short)?;
+    reduced::table(&mut report, options.short)?;
     targets::sweep(&mut report, options.short)?;
     let text = report.text();
     println!("{text}");

@@ -43,7 +43,7 @@ impl State {
             step: 0,
             time: 0.0,
             origin: Origin::new(),
-            motion: Motion::new(model.unknowns, model.influence.clone(), model.modes.clone()),
+            motion: Motion::new(model.coordinates, model.influence.clone(), model.modes.clone()),
             contact,
             modes,
             transitions: Vec::with_capacity(count),

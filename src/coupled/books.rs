@@ -57,7 +57,7 @@ impl Books {
         structure: &dyn Structure,
         state: &State,
     ) -> Result<Self, LawError> {
-        let (n, size) = (scene.model.unknowns, 2 * scene.count());
+        let (n, size) = (scene.model.coordinates, 2 * scene.count());
         let mut jump = scene.static_state.gap.clone();
         jump.resize(size, 0.0);
         let mut means = vec![0.0; size];

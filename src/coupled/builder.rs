@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::books::Books;
+use super::coordinates::{Chooser, Coordinates};
 use super::initial::Beginning;
 use super::ledger::Ledger;
 use super::load::Load;
@@ -10,13 +11,12 @@ use super::probe::Probe;
 use super::scene::base::Base;
 use super::scene::conditioning;
 use super::scene::laws;
-use super::scene::modal_basis::{Coordinates, ModalBasis};
 use super::scene::model::{Model, Tangent};
 use super::scene::operators::{Factor, Operators};
 use super::scene::stages::Placement;
 use super::scene::translation_check::joined_by_force;
 use super::scene::{ProbeRows, Scene};
-use super::scheme::{Midpoint, TimeScheme};
+use super::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
 use super::simulation::Simulation;
 use super::state::State;
 use super::step::forcing::Forcing;
@@ -29,9 +29,6 @@ use crate::interface::{ContactScene, InterfaceLaw};
 use crate::matrix::Thinned;
 use crate::motion::{AtRest, FreeField};
 use crate::structure::{Structure, is_nonlinear};
-
-/// Steps that modes have to pay for themselves in, if not told otherwise.
-const STEPS: usize = 10_000;
 
 /// More unknowns than this are a mistake, or would not fit in memory.
 const MOST_UNKNOWNS: usize = 10_000_000;
@@ -278,13 +275,7 @@ impl SimulationBuilder {
         let safety_friction =
             laws::safety_friction(&self.laws, std::mem::take(&mut self.safety_friction), count)?;
         let unknowns = structure.unknowns();
-        if unknowns > MOST_UNKNOWNS {
-            return Err(Error::Input {
-                quantity: "number of unknowns of the structure",
-                value: unknowns as f64,
-                needed: "ten million or fewer",
-            });
-        }
+        check_unknowns(unknowns)?;
         let mut base = Base::of(structure.as_ref(), &elements)?;
         let mut model = Model::new(structure.as_ref(), linear, &base)?;
         super::probe::check(&self.probes, unknowns)?;
@@ -308,7 +299,8 @@ impl SimulationBuilder {
         let mut tangent = Tangent::new(unknowns);
         tangent.refill(structure.as_ref(), &static_state.displacement)?;
         let mut factor = Factor::new(&model, &coefficients, &tangent.matrix)?;
-        if let Some(modes) = self.choose_modes(&model, factor.stored(), 2 * count)? {
+        let chooser = self.chooser(&coefficients, structure.as_ref(), &model, &base);
+        if let Some(modes) = chooser.basis(&factor)? {
             base.decouple(&modes);
             model.decouple(Arc::new(modes));
             factor = Factor::new(&model, &coefficients, &tangent.matrix)?;
@@ -360,32 +352,37 @@ impl SimulationBuilder {
         })
     }
 
-    /// The modes, if the structure is to be stepped in them; `factor` is the number of entries of
-    /// the sparse factor, `contact` that of contact components.
-    fn choose_modes(
-        &self,
-        model: &Model,
-        factor: usize,
-        contact: usize,
-    ) -> Result<Option<ModalBasis>> {
-        let steps = if self.steps > 0 { self.steps } else { STEPS };
-        let modes = || {
-            let matrices = model.sparse().filter(|_| model.linear)?;
-            let parts = model.influence.parts().iter();
-            let translations: Vec<_> =
-                parts.flat_map(|part| &part.vectors).map(Vec::as_slice).collect();
-            ModalBasis::new(matrices, &translations)
-        };
-        match self.coordinates {
-            Coordinates::Auto if model.modes_save_time(factor, contact, steps) => Ok(modes()),
-            Coordinates::Auto | Coordinates::Unknowns => Ok(None),
-            Coordinates::Modes => modes().map(Some).ok_or(Error::Scene {
-                quantity: "modal coordinates",
-                needed: "a linear structure with symmetric matrices, a positive definite mass \
-                         and a damping that the modes decouple",
-            }),
+    fn chooser<'a>(
+        &'a self,
+        coefficients: &'a SchemeCoefficients,
+        structure: &'a dyn Structure,
+        model: &'a Model,
+        base: &'a Base,
+    ) -> Chooser<'a> {
+        Chooser {
+            coordinates: self.coordinates,
+            steps: self.steps,
+            time_step: self.time_step,
+            coefficients,
+            structure,
+            model,
+            base,
+            beginning: &self.beginning,
+            probes: &self.probes,
         }
     }
+}
+
+/// Refuses more unknowns than anything can hold.
+fn check_unknowns(unknowns: usize) -> Result<()> {
+    if unknowns <= MOST_UNKNOWNS {
+        return Ok(());
+    }
+    Err(Error::Input {
+        quantity: "number of unknowns of the structure",
+        value: unknowns as f64,
+        needed: "ten million or fewer",
+    })
 }
 
 /// The free field at t = 0, from which it is measured.

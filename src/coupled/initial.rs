@@ -96,8 +96,8 @@ impl Beginning {
     }
 
     fn weight(&self, model: &Model) -> Vec<f64> {
-        let mut weight = vec![0.0; model.unknowns];
-        let [_, up] = model.influence.of_all(model.unknowns);
+        let mut weight = vec![0.0; model.coordinates];
+        let [_, up] = model.influence.of_all(model.coordinates);
         model.mass.multiply_add(-self.gravity, &up, &mut weight);
         weight
     }
@@ -231,9 +231,9 @@ fn assembled_mass(structure: &dyn Structure, unknowns: usize) -> Result<SparseMa
 /// a of M a + C v + K u + f(u) = p at t = 0, before the soil has answered.
 fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Result<Vec<f64>> {
     let model = &scene.model;
-    let n = model.unknowns;
-    let mut force = vec![0.0; n];
-    model.load(structure, 0.0, &scene.static_state.load, &mut vec![0.0; n], &mut force)?;
+    let mut force = vec![0.0; model.coordinates];
+    let mut scratch = vec![0.0; model.unknowns];
+    model.load(structure, 0.0, &scene.static_state.load, &mut scratch, &mut force)?;
     scene.add_loads(0.0, &mut force);
     let mut displacement = state.motion.displacement.clone();
     scene.subtract_base(&mut displacement, &mut vec![0.0; 2 * scene.count()]);
@@ -246,7 +246,7 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
         *force -= now - at_rest;
     }
     if model.modes.is_none() {
-        let mut mass = Triplets::new(n);
+        let mut mass = Triplets::new(model.unknowns);
         model.mass.add_to(1.0, &mut mass);
         SparseFactor::new("mass matrix, for the acceleration at t = 0", &mass)?.solve(&mut force);
     }

@@ -14,6 +14,7 @@ mod matrix_file;
 #[cfg(feature = "io")]
 mod mesh_file;
 mod record;
+mod reduced;
 mod standing;
 mod step;
 
@@ -27,6 +28,7 @@ pub use matrix_file::MatrixFileError;
 #[cfg(feature = "io")]
 pub use mesh_file::MeshFileError;
 pub use record::RecordError;
+pub use reduced::ReducedError;
 pub use standing::StandingError;
 pub use step::StepError;
 
@@ -280,6 +282,9 @@ pub enum Error {
     /// An interface law returned a number that is not finite before the first step.
     #[error(transparent)]
     Law(#[from] LawError),
+    /// A structure that cannot be stepped in reduced coordinates, or not as accurately as asked.
+    #[error("reduced coordinates: {0}")]
+    Reduced(#[from] ReducedError),
     /// A history by exponentials is not as accurate as was asked for.
     #[error("history by exponentials: relative error {reached:e}, but {tolerance:e} was asked for")]
     Accuracy {

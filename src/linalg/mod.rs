@@ -15,12 +15,12 @@ mod sparse;
 pub(crate) use complex::hermitian_range;
 pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
-pub(crate) use eigen::{generalised_modes, least_eigenvalue};
+pub(crate) use eigen::{generalised_modes, least_eigenvalue, symmetric_modes};
 pub(crate) use lanczos::lowest_modes;
 pub(crate) use partition::Partition;
 pub(crate) use product::{
-    Dot, dense_multiply_add, dot, largest, magnitude, row_products, transposed_multiply_add,
-    weighted_dot,
+    Dot, add_combined_rows, dense_multiply_add, dot, largest, magnitude, row_products,
+    transposed_multiply_add, weighted_dot,
 };
 pub(crate) use simd::{Simd, WithSimd, vectorized};
 pub(crate) use sparse::{SparseFactor, indefinite_row};

@@ -145,6 +145,25 @@ pub(crate) fn row_products(a: &[f64], b: &[f64], columns: usize) -> Vec<f64> {
     products
 }
 
+/// C ← C + factor · Wᵀ V for row-major C, W and V with `columns` columns of V.
+pub(crate) fn add_combined_rows(
+    weights: &[f64],
+    vectors: &[f64],
+    columns: usize,
+    factor: f64,
+    sum: &mut [f64],
+) {
+    let (m, k) = (vectors.len() / columns.max(1), sum.len() / columns.max(1));
+    matmul(
+        MatMut::from_row_major_slice_mut(sum, k, columns),
+        Accum::Add,
+        MatRef::from_column_major_slice(weights, k, m),
+        MatRef::from_row_major_slice(vectors, m, columns),
+        factor,
+        Par::Seq,
+    );
+}
+
 /// Largest magnitude; 0 for an empty slice.
 pub(crate) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m, x| m.max(x.abs()))

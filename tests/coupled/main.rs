@@ -9,6 +9,7 @@ mod layered_scenes;
 mod ledger;
 mod loads;
 mod preload_of_soft_structures;
+mod reduced;
 mod runs;
 #[path = "../support/mod.rs"]
 mod support;

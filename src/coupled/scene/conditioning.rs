@@ -109,7 +109,8 @@ fn cause_of_stiffness(scene: &Scene, operators: &Operators, condition: f64) -> (
         let held: f64 = stiffness.iter().zip(&vector).map(|(k, r)| k * r * r).sum();
         held / inertia(&vector)
     };
-    let ratio = model.influence.of_all(model.unknowns).map(against).into_iter().fold(0.0, f64::max);
+    let ratio =
+        model.influence.of_all(model.coordinates).map(against).into_iter().fold(0.0, f64::max);
     if ratio >= EXPLAINED * condition.min(SINGULAR) {
         return ("stiffness of the structure over its inertia in a time step", ratio);
     }

@@ -3,6 +3,7 @@
 pub(crate) mod base;
 pub(crate) mod conditioning;
 pub(crate) mod influence;
+pub(crate) mod krylov;
 pub(crate) mod laws;
 mod mechanism;
 pub(crate) mod modal_basis;
@@ -12,7 +13,9 @@ mod proximal;
 pub(crate) mod stages;
 mod standing;
 pub(crate) mod static_state;
+mod step_response;
 pub(crate) mod stepped_row;
+mod subspace;
 mod supports;
 pub(crate) mod translation_check;
 
@@ -76,7 +79,7 @@ impl ProbeRows {
         let parts = model.influence.parts().iter().filter(|_| probe.absolute);
         let carried = parts.map(|part| {
             [0, 1].map(|k| {
-                let mut vector = vec![0.0; model.unknowns];
+                let mut vector = vec![0.0; model.coordinates];
                 part.vectors[k].iter().for_each(|&(i, r)| vector[i] = r);
                 rows[0].of(&vector)
             })

@@ -17,23 +17,7 @@
 use crate::linalg::{Partition, dot, generalised_modes, largest};
 use crate::matrix::SparseMatrix;
 
-/// In which coordinates a linear structure is stepped. Results are the same to rounding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-#[non_exhaustive]
-pub enum Coordinates {
-    /// Whichever is expected to take less time, with the modes' own computation counted against
-    /// them; see [`SimulationBuilder::expected_steps`](crate::coupled::SimulationBuilder::expected_steps). Nonlinear structures, and those that
-    /// modes do not decouple, keep their unknowns.
-    #[default]
-    Auto,
-    /// The structure's unknowns: sparse matrices, one back-substitution per step.
-    Unknowns,
-    /// The modes of the structure without ground and damping. Needs a linear structure with
-    /// symmetric matrices, a positive definite mass and damping that the modes decouple.
-    Modes,
-}
-
-/// Vibration modes of a structure.
+/// Vibration modes of a structure: all of them, or fewer Ritz modes.
 #[derive(Debug)]
 pub(crate) struct ModalBasis {
     /// λ.
@@ -45,7 +29,7 @@ pub(crate) struct ModalBasis {
 }
 
 /// Residual of the eigenproblem, and of damping taken for diagonal, relative to its terms.
-const DECOUPLED: f64 = 1e-10;
+pub(super) const DECOUPLED: f64 = 1e-10;
 /// Eigenvalues below this, relative to the largest, are zeros with the error of their computation.
 const ZERO: f64 = 1e-11;
 /// Smallest eigenvalue besides zero, relative to the largest: between the two nothing is certain.
@@ -54,6 +38,12 @@ const SMALLEST: f64 = 1e-8;
 const RIGID_MOTIONS: usize = 3;
 
 impl ModalBasis {
+    /// The modes with these λ, c and Φ (row-major, a row per unknown), rigid translations of λ = 0
+    /// among them.
+    pub(super) fn of(stiffness: Vec<f64>, damping: Vec<f64>, vectors: Vec<f64>) -> Self {
+        Self { stiffness, damping, vectors }
+    }
+
     /// Modes that diagonalise mass, damping and stiffness, the rigid `translations` among them, as
     /// (unknown, displacement) terms; `None` if there are none, or not well
     /// enough.
@@ -219,8 +209,8 @@ impl ModalBasis {
         mass: &SparseMatrix,
     ) -> Vec<(usize, f64)> {
         // u = Φ q and Φᵀ M Φ = 1: q = Φᵀ M u.
-        let n = self.count();
-        let [mut full, mut momentum, mut shares] = [(); 3].map(|()| vec![0.0; n]);
+        let [mut full, mut momentum] = [(); 2].map(|()| vec![0.0; mass.order()]);
+        let mut shares = vec![0.0; self.count()];
         for &(i, r) in vector {
             full[i] = r;
         }

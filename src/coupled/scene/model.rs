@@ -33,7 +33,9 @@ const ROUNDING: f64 = 1e-12;
 
 /// Assembled matrices of a structure and its influence vectors.
 pub(crate) struct Model {
+    /// Unknowns of the structure, and the number of coordinates that are stepped.
     pub(crate) unknowns: usize,
+    pub(crate) coordinates: usize,
     pub(crate) mass: Matrix,
     pub(crate) damping: Matrix,
     pub(crate) stiffness: Matrix,
@@ -66,6 +68,7 @@ impl Model {
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
         let mut model = Self {
             unknowns,
+            coordinates: unknowns,
             mass: Matrix::Sparse(mass),
             damping: Matrix::Sparse(damping),
             stiffness: Matrix::Sparse(stiffness),
@@ -145,7 +148,8 @@ impl Model {
             influence.map(|vector| modes.coordinates(vector, mass));
         }
         self.influence = Arc::new(influence);
-        self.mass = Matrix::Diagonal(vec![1.0; self.unknowns]);
+        self.mass = Matrix::Diagonal(vec![1.0; modes.count()]);
+        self.coordinates = modes.count();
         self.damping = Matrix::Diagonal(modes.damping.clone());
         self.damped = !self.damping.is_empty();
         self.stiffness = Matrix::Diagonal(modes.stiffness.clone());

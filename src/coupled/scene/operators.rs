@@ -39,7 +39,7 @@ impl Operators {
         tangent: SparseMatrix,
     ) -> Self {
         let solve = |rhs: &mut [f64]| factor.solve(rhs);
-        let (columns, delassus) = condense(solve, base, soil, model.unknowns);
+        let (columns, delassus) = condense(solve, base, soil, model.coordinates);
         let means = |u: &[f64], out: &mut [f64]| base.means(u, out);
         let delassus = Delassus::new(delassus, soil, &columns, means);
         Self { tangent, factor, columns, delassus }
@@ -82,7 +82,7 @@ impl Operators {
         let [c, k] = [coefficients.velocity[0], coefficients.displacement[0]];
         let (damping, stiffness) = (model.damping.diagonal(), model.stiffness.diagonal());
         let tangent = self.tangent.diagonal();
-        (0..model.unknowns)
+        (0..model.coordinates)
             .map(|i| c * damping[i] + k * (stiffness[i] + tangent.get(i).copied().unwrap_or(0.0)))
             .collect()
     }
@@ -96,7 +96,7 @@ fn effective_stiffness(
 ) -> Triplets {
     let [a, c, k] =
         [coefficients.acceleration[0], coefficients.velocity[0], coefficients.displacement[0]];
-    let mut matrix = Triplets::new(model.unknowns);
+    let mut matrix = Triplets::new(model.coordinates);
     model.mass.add_to(a, &mut matrix);
     model.damping.add_to(c, &mut matrix);
     model.stiffness.add_to(k, &mut matrix);
@@ -111,7 +111,7 @@ impl Factor {
         coefficients: &SchemeCoefficients,
         tangent: &SparseMatrix,
     ) -> Result<Self> {
-        let n = model.unknowns;
+        let n = model.coordinates;
         let [a, c, k] =
             [coefficients.acceleration[0], coefficients.velocity[0], coefficients.displacement[0]];
         if let (Matrix::Diagonal(m), Matrix::Diagonal(d), Matrix::Diagonal(s)) =
@@ -126,6 +126,14 @@ impl Factor {
         }
         let matrix = effective_stiffness(model, coefficients, tangent);
         Ok(Self::Sparse(Box::new(SparseFactor::new(NAME, &matrix)?)))
+    }
+
+    /// The factor of a sparse matrix, if it is one.
+    pub(crate) fn sparse(&self) -> Option<&SparseFactor> {
+        match self {
+            Self::Sparse(factor) => Some(factor),
+            Self::Diagonal(_) => None,
+        }
     }
 
     /// Numbers that one solve reads.

@@ -39,7 +39,7 @@ pub(crate) struct Forcing {
 impl Forcing {
     pub(crate) fn new(scene: &Scene) -> Self {
         let contact = || vec![0.0; 2 * scene.count()];
-        let structure = || vec![0.0; scene.model.unknowns];
+        let structure = || vec![0.0; scene.model.coordinates];
         Self {
             load: structure(),
             loaded: false,
@@ -49,7 +49,7 @@ impl Forcing {
             translations: vec![Translation::default(); scene.model.influence.parts().len()],
             carried: structure(),
             dragged: structure(),
-            unknowns: structure(),
+            unknowns: vec![0.0; scene.model.unknowns],
         }
     }
 

@@ -41,7 +41,7 @@ pub(crate) struct Increment {
 
 impl Increment {
     pub(crate) fn new(scene: &Scene, state: &State, ledger: bool) -> Self {
-        let (n, count) = (scene.model.unknowns, scene.count());
+        let (n, count) = (scene.model.coordinates, scene.count());
         let compliant = if scene.compliant && ledger { count } else { 0 };
         let nonlinear = if scene.model.linear { 0 } else { n };
         Self {

@@ -36,7 +36,7 @@ pub(super) struct LinearStep {
 
 impl LinearStep {
     pub(super) fn new(scene: &Scene, operators: Operators, search: ModeSearch) -> Self {
-        let (n, count) = (scene.model.unknowns, scene.count());
+        let (n, count) = (scene.model.coordinates, scene.count());
         Self {
             operators,
             contact: ContactSolver::new(count),

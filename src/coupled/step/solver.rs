@@ -26,7 +26,7 @@ impl Solver {
     pub(crate) fn new(scene: &Scene, operators: Operators, search: ModeSearch) -> Self {
         Self {
             linear: LinearStep::new(scene, operators, search),
-            newton: (!scene.model.linear).then(|| Newton::new(scene.model.unknowns)),
+            newton: (!scene.model.linear).then(|| Newton::new(scene.model.coordinates)),
         }
     }
 

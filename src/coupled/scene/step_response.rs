@@ -1,0 +1,99 @@
+//! Responses of a structure in its modes to unit forces that are suddenly applied, as the time scheme
+//! steps them: by these, two sets of Ritz modes are compared.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | f | row in terms of the modes, with f K_eff⁻¹ fᵀ = 1 |
+//! | u, v, a | displacement, velocity, acceleration of the modes under a unit force on each |
+//!
+//! Tractions begin to grow suddenly where contact opens or slides. Under a force that grows steadily,
+//! accelerations are the velocities v, and velocities the displacements u, of a constant one.
+
+use super::subspace::Ritz;
+use crate::coupled::scheme::SchemeCoefficients;
+use crate::linalg::{largest, row_products};
+
+/// Rounding of a response, relative to the largest of all.
+const ROUNDING: f64 = 1e-13;
+
+/// Responses of all outputs to all forces.
+pub(super) struct StepResponses {
+    /// Displacements and velocities at some steps: forces × outputs each.
+    values: [Vec<f64>; 2],
+    outputs: usize,
+    /// Outputs from this one on are accelerations.
+    accelerations: usize,
+}
+
+impl StepResponses {
+    /// Responses over `steps` steps of the rows whose `shares` in the modes these are: the first
+    /// `forces` of them are forces, those from `accelerations` on accelerations.
+    pub(super) fn new(
+        modes: &Ritz,
+        mut shares: Vec<f64>,
+        [forces, accelerations]: [usize; 2],
+        coefficients: &SchemeCoefficients,
+        steps: usize,
+    ) -> Self {
+        let (count, c) = (modes.stiffness.len().max(1), coefficients);
+        let parts = modes.stiffness.iter().zip(&modes.damping);
+        let effective =
+            |(k, d): (&f64, &f64)| c.acceleration[0] + c.velocity[0] * d + c.displacement[0] * k;
+        let effective: Vec<f64> = parts.map(effective).collect();
+        for row in shares.chunks_exact_mut(count) {
+            let energy: f64 = row.iter().zip(&effective).map(|(f, k)| f * f / k).sum();
+            for share in row {
+                *share /= energy.sqrt();
+            }
+        }
+        let apply = SchemeCoefficients::apply;
+        let mut state = vec![[0.0_f64; 3]; count];
+        let mut values = [Vec::new(), Vec::new()];
+        let mut next = 1;
+        for step in 1..=steps {
+            for (j, [u, v, a]) in state.iter_mut().enumerate() {
+                let (k, d) = (modes.stiffness[j], modes.damping[j]);
+                // Rigid motions are in every set.
+                if k == 0.0 {
+                    continue;
+                }
+                let known = apply(c.acceleration, 0.0, *v, *a)
+                    + d * apply(c.velocity, 0.0, *v, *a)
+                    + k * (*u + apply(c.displacement, 0.0, *v, *a));
+                let increment = (1.0 - known) / effective[j];
+                let velocity = apply(c.new_velocity, increment, *v, *a);
+                *a = apply(c.new_acceleration, increment, *v, *a);
+                *v = velocity;
+                *u += increment;
+            }
+            if step == next {
+                next += 1 + step / 3;
+                for (kind, values) in values.iter_mut().enumerate() {
+                    let rows = shares.chunks_exact(count).take(forces);
+                    let rows = rows.flat_map(|row| row.iter().zip(&state));
+                    let weighted: Vec<f64> = rows.map(|(f, state)| f * state[kind]).collect();
+                    values.extend(row_products(&weighted, &shares, count));
+                }
+            }
+        }
+        Self { values, outputs: shares.len() / count, accelerations }
+    }
+
+    /// Largest difference to `other` of any output, relative to the largest value of that output.
+    pub(super) fn difference(&self, other: &Self, tolerance: f64) -> f64 {
+        let mut worst = 0.0_f64;
+        for (kind, (own, others)) in self.values.iter().zip(&other.values).enumerate() {
+            let rounding = ROUNDING / tolerance * largest(own);
+            let outputs = [0..self.accelerations, self.accelerations..self.outputs];
+            for output in outputs[kind].clone() {
+                let pairs = own.iter().zip(others).skip(output).step_by(self.outputs);
+                let (top, apart) = pairs.fold((rounding, 0.0_f64), |(top, apart), (a, b)| {
+                    (top.max(a.abs()), apart.max((a - b).abs()))
+                });
+                worst = if apart.is_nan() { f64::INFINITY } else { worst };
+                worst = worst.max(if apart > 0.0 { apart / top } else { 0.0 });
+            }
+        }
+        worst
+    }
+}

@@ -1,0 +1,246 @@
+//! GOAL: reduced coordinates keep their tolerance, the ledger and all that is read off a run.
+//! SCENE: damped towers of 1 092 unknowns, bonded, uplifting and sliding, by all schemes; two towers; loads; a
+//! start in motion; structures that cannot be reduced.
+//! REFERENCE: the run in unknowns; the ledger; a run without interruption.
+
+use basemat::bem::HalfPlaneGround;
+use basemat::coupled::{
+    Coordinates, HhtAlpha, Load, Midpoint, Newmark, Placement, Probe, SimulationBuilder, State,
+    Theta,
+};
+use basemat::fem::{Layer, Material, Mesh};
+use basemat::interface::Bonded;
+use basemat::motion::el_centro_1940;
+use basemat::structure::{
+    FemModel, RayleighDamping, Row, ShearBuilding, Storey, Structure, StructureGroup, Triplets,
+};
+use basemat::{Error, ReducedError, Simulation, Soil};
+
+use crate::support::scenes::{Rider, SI, block, friction, scene, shake, states};
+use crate::support::wrapped::needed_from;
+
+const STEPS: usize = 300;
+
+fn damping() -> RayleighDamping {
+    RayleighDamping::from_ratios([2.0, 20.0], [0.05; 2]).unwrap()
+}
+
+/// Tower over x of `columns` × `rows` elements without damping.
+fn bare(x: std::ops::Range<f64>, columns: usize, rows: usize) -> FemModel {
+    let material = Material::new(2e8, 0.2, 1500.0).unwrap();
+    let mesh = Mesh::layered_block(x, columns, &[Layer::new(8.0, rows, material)]).unwrap();
+    FemModel::on_base(mesh).unwrap()
+}
+
+fn tower() -> FemModel {
+    bare(-2.0..2.0, 20, 25).with_rayleigh(damping())
+}
+
+fn reduced(tolerance: f64) -> Coordinates {
+    Coordinates::Reduced { tolerance }
+}
+
+fn roof() -> Row {
+    Row::from(tower().unknowns() - 2)
+}
+
+fn march(builder: SimulationBuilder, coordinates: Coordinates) -> Vec<State> {
+    states(&mut builder.coordinates(coordinates).build().unwrap(), STEPS)
+}
+
+/// Largest difference of a quantity over a run, relative to its largest value.
+fn apart<'a>(one: &'a [State], two: &'a [State], quantity: impl Fn(&'a State) -> Vec<f64>) -> f64 {
+    let (mut scale, mut apart) = (f64::MIN_POSITIVE, 0.0_f64);
+    for (a, b) in one.iter().zip(two) {
+        for (a, b) in quantity(a).into_iter().zip(quantity(b)) {
+            scale = scale.max(b.abs());
+            apart = apart.max((a - b).abs());
+        }
+    }
+    apart / scale
+}
+
+/// Errors of base shear, of all displacements and of each probe; all ledgers close.
+fn errors(make: &dyn Fn() -> SimulationBuilder, tolerance: f64) -> Vec<f64> {
+    let full = march(make(), Coordinates::Unknowns);
+    let few = march(make(), reduced(tolerance));
+    assert_eq!(few[0].displacement().len(), full[0].displacement().len());
+    assert!(few.iter().all(|state| state.ledger.residual() < 1e-9));
+    let mut errors = vec![
+        apart(&few, &full, |s| vec![s.base_shear]),
+        apart(&few, &full, |s| s.absolute_displacement().to_vec()),
+    ];
+    let probes = 0..full[0].probes.len();
+    errors.extend(probes.map(|k| apart(&few, &full, |s| vec![s.probes[k]])));
+    println!("{tolerance:e}: {errors:?}, {} uplifted", full[STEPS].uplifted_fraction);
+    errors
+}
+
+fn within(errors: &[f64], tolerance: f64) {
+    assert!(errors.iter().all(|error| *error < tolerance), "{tolerance:e}: {errors:?}");
+}
+
+fn probed(builder: SimulationBuilder) -> SimulationBuilder {
+    let builder = builder.probe(Probe::displacement("roof", roof()));
+    builder.probe(Probe::acceleration("acceleration", roof()))
+}
+
+#[test]
+fn bonded_towers_keep_the_tolerance() {
+    let make = || probed(scene(SI, 0.6).structure(tower()).interface(Bonded));
+    let mut last = f64::INFINITY;
+    for tolerance in [1e-3, 1e-5, 1e-8] {
+        let errors = errors(&make, tolerance);
+        within(&errors, tolerance);
+        assert!(errors[3] < last, "{errors:?}");
+        last = 0.3 * errors[3];
+    }
+    assert_eq!(march(make(), Coordinates::Auto), march(make(), Coordinates::Unknowns));
+}
+
+#[test]
+fn towers_that_uplift_and_slide_keep_it() {
+    for coefficient in [0.3, f64::INFINITY] {
+        let law = || friction(coefficient);
+        let make = || probed(scene(SI, 1.0).structure(tower()).interface(law()));
+        let states = march(make(), reduced(1e-6));
+        let (uplift, slip) = (|s: &State| s.uplifted_fraction, |s: &State| s.largest_slip());
+        let most = |of: &dyn Fn(&State) -> f64| states.iter().map(of).fold(0.0, f64::max);
+        assert!(most(&uplift) > 0.2 || most(&slip) > 1e-3);
+        within(&errors(&make, 1e-6), 1e-6);
+    }
+}
+
+#[test]
+fn all_schemes_are_reduced() {
+    let schemes: [fn(SimulationBuilder) -> SimulationBuilder; 4] = [
+        |builder| builder.scheme(Midpoint),
+        |builder| builder.scheme(Theta::new(0.7).unwrap()),
+        |builder| builder.scheme(Newmark::new(0.6, 0.3025).unwrap()),
+        |builder| builder.scheme(HhtAlpha::new(-0.1).unwrap()),
+    ];
+    for scheme in schemes {
+        let make = || {
+            let builder = scene(SI, 0.8).structure(tower()).interface(friction(0.4));
+            scheme(probed(builder).without_ledger())
+        };
+        let full = march(make(), Coordinates::Unknowns);
+        let few = march(make(), reduced(1e-5));
+        within(&[apart(&few, &full, |s| vec![s.base_shear])], 1e-5);
+        within(&[apart(&few, &full, |s| vec![s.probes[1]])], 1e-5);
+    }
+}
+
+#[test]
+fn loads_motions_and_probes_are_in_the_basis() {
+    let n = tower().unknowns();
+    let push = |t: f64| 2e4 * (20.0 * t).sin();
+    let drift = Row::from(n - 2) - Row::from(n - 802);
+    let start: Vec<f64> = (0..n).map(|i| if i > 500 { (i as f64).sin() } else { 0.0 }).collect();
+    let small = |scale: f64| start.iter().map(|x| scale * x).collect::<Vec<_>>();
+    let make = || {
+        let gradual = Load::new(Row::from(n - 301), push);
+        let builder = scene(SI, 0.1).structure(tower()).interface(Bonded);
+        let builder = builder.load(gradual).load(Load::released(Row::from(n - 2), 1e4));
+        let builder = builder.initial_displacement(small(1e-4)).initial_velocity(small(1e-2));
+        builder.probe(Probe::displacement("drift", drift.clone()))
+    };
+    within(&errors(&make, 1e-6), 1e-6);
+    let few = make().coordinates(reduced(1e-6)).build().unwrap();
+    for (x, given) in few.state().displacement().iter().zip(small(1e-4)) {
+        assert!((x - given).abs() < 1e-12);
+    }
+    let drop = || make().placement(Placement::Unloaded);
+    within(&errors(&drop, 1e-6), 1e-6);
+}
+
+#[test]
+fn groups_are_reduced_together() {
+    let towers = || {
+        let softer = RayleighDamping::from_ratios([1.0, 10.0], [0.05; 2]).unwrap();
+        let left = bare(-7.0..-3.0, 10, 20).with_rayleigh(damping());
+        StructureGroup::new()
+            .with(left, 0.0)
+            .and_then(|group| group.with(bare(3.0..8.0, 12, 20).with_rayleigh(softer), 0.0))
+            .unwrap()
+    };
+    let make = || {
+        let ground = Soil::new(6e7, 0.3, 1900.0).unwrap();
+        let ground = HalfPlaneGround::under(ground, &towers(), 6).unwrap();
+        let builder = Simulation::builder(2.5e-3).ground(ground).structure(towers());
+        builder.motion(shake(SI, 0.3)).interface(Bonded)
+    };
+    within(&errors(&make, 1e-5), 1e-5);
+}
+
+#[test]
+fn runs_resume_to_the_bit() {
+    let make = |tolerance| {
+        let builder = scene(SI, 0.8).structure(tower()).interface(friction(0.3));
+        builder.coordinates(reduced(tolerance)).build().unwrap()
+    };
+    let mut whole = make(1e-5);
+    whole.run(100, |_| {}).unwrap();
+    let saved = whole.checkpoint().unwrap();
+    whole.run(100, |_| {}).unwrap();
+    let mut other = make(1e-5);
+    other.resume(&saved).unwrap();
+    other.run(100, |_| {}).unwrap();
+    assert_eq!(other.state(), whole.state());
+    assert!(matches!(make(1e-8).resume(&saved), Err(Error::Checkpoint(_))));
+}
+
+/// A small structure is reduced to itself, undamped or not.
+#[test]
+fn small_structures_lose_nothing() {
+    let storeys = [Storey::new(1.5, 3.0e3, 2.0e6); 4];
+    let building = || ShearBuilding::new(4.0, 5e3, 1e4, &storeys).unwrap();
+    let make = || scene(SI, 0.6).structure(building()).interface(friction(0.5));
+    within(&errors(&make, 1e-6), 1e-8);
+    let leaning = || building().with_p_delta(9.81).unwrap();
+    let make = || scene(SI, 0.6).structure(leaning()).interface(friction(0.5));
+    within(&errors(&make, 1e-6), 1e-8);
+    let make = || scene(SI, 0.6).structure(block(SI)).interface(friction(0.3));
+    within(&errors(&make, 1e-6), 1e-8);
+}
+
+#[test]
+fn others_are_refused_by_name() {
+    struct Dashpot(FemModel);
+    impl Structure for Dashpot {
+        needed_from!(0);
+        fn damping(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+            self.0.damping(matrix)?;
+            matrix.add_spring(0, 400, 1e4);
+            Ok(())
+        }
+    }
+    let refused = |builder: SimulationBuilder, tolerance: f64| {
+        let builder = builder.interface(Bonded).motion(el_centro_1940());
+        match builder.coordinates(reduced(tolerance)).build().map(|_| ()) {
+            Err(Error::Reduced(cause)) => cause,
+            other => panic!("{other:?}"),
+        }
+    };
+    let small = || scene(SI, 0.1);
+    let cause = refused(small().structure(Rider { block: block(SI) }), 1e-6);
+    assert_eq!(cause, ReducedError::Nonlinear);
+    let cause = refused(small().structure(Dashpot(tower())), 1e-6);
+    assert!(matches!(cause, ReducedError::Damping { coupling } if coupling > 1e-10), "{cause}");
+    let undamped = || bare(-2.0..2.0, 20, 25);
+    let probe = Probe::acceleration("roof", roof());
+    let cause = refused(small().structure(undamped()).probe(probe), 1e-3);
+    assert!(matches!(cause, ReducedError::Accuracy { reached, .. } if reached > 1e-3), "{cause}");
+    let cause = refused(small().structure(tower()), 1e-15);
+    let asked = |tolerance: f64| (tolerance / 1e-15 - 1.0).abs() < 1e-9;
+    assert!(
+        matches!(cause, ReducedError::Accuracy { tolerance, reached, vectors }
+            if asked(tolerance) && reached > tolerance && vectors > 20),
+        "{cause}"
+    );
+    for tolerance in [0.0, -1.0, 1.0, f64::NAN, f64::INFINITY] {
+        let builder = small().structure(tower()).interface(Bonded);
+        let error = builder.coordinates(reduced(tolerance)).build().map(|_| ()).unwrap_err();
+        assert!(matches!(error, Error::Input { .. }), "{error}");
+    }
+}
