@@ -13,6 +13,7 @@ use std::error::Error;
 use std::io::{BufWriter, Write};
 
 use basemat::coupled::Placement;
+use basemat::interface::ContactState;
 use basemat::motion::RickerDisplacement;
 use basemat::prelude::*;
 use clap::Parser;
@@ -69,7 +70,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // The acceleration of a step is its mean: it belongs to the middle of the step.
     writeln!(out, "time,roof,acceleration,rotation,vertical,slip,left_gap,right_gap")?;
     let write = |out: &mut dyn Write, state: &State| {
-        let gap = |k: Option<&basemat::interface::ContactState>| k.map_or(0.0, |c| c.gap);
+        let gap = |contact: Option<&ContactState>| contact.map_or(0.0, |contact| contact.gap);
         writeln!(
             out,
             "{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e}",
@@ -87,5 +88,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let steps = simulation.steps_for(number("duration")?);
     let told = |error: std::io::Error| basemat::Error::part("output", error.to_string());
     simulation.run(steps, |state| write(&mut out, state).map_err(told))?;
-    Ok(out.flush()?)
+    out.flush()?;
+    // The system's own figure for a child would start from that of the program that made it.
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = peak.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
+    if let Some(kilobytes) = kilobytes {
+        eprintln!("{{\"megabytes\": {}}}", 1.024e-3 * kilobytes);
+    }
+    Ok(())
 }

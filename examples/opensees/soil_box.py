@@ -267,8 +267,11 @@ def main():
         row[1] = a[0] - 0.5 * height * a[2]
         if time > -0.5 * dt:
             print(",".join(f"{value:.9e}" for value in [time, *row]))
-    print(json.dumps({"unknowns": 2 * columns * rows, "steps": steps, "solves": iterations}),
-          file=sys.stderr)
+    status = Path("/proc/self/status").read_text()
+    kilobytes = next(int(line.split()[1]) for line in status.splitlines() if "VmHWM" in line)
+    report = {"megabytes": 1.024e-3 * kilobytes, "unknowns": 2 * columns * rows, "steps": steps,
+              "solves": iterations}
+    print(json.dumps(report), file=sys.stderr)
 
 
 main()
