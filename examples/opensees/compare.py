@@ -122,17 +122,21 @@ def extrapolated(runs):
     return limit, ratios
 
 
+def digits(value, sign=""):
+    """Two digits, never as a power of ten."""
+    return f"{value:{sign}.0f}" if abs(value) >= 10.0 else f"{value:{sign}.2g}"
+
+
 def row(label, unknowns, step, run, reference, case):
     cells = [label, unknowns, f"{1e3 * step:g}" if step else "",
-             f"{distance(run, reference, 'roof'):.2g}", f"{peak(run, reference, 'roof'):+.2g}",
-             f"{distance(run, reference, 'rotation'):.2g}",
-             f"{peak(run, reference, 'rotation'):+.2g}",
-             f"{distance(run, reference, 'acceleration'):.2g}"]
+             digits(distance(run, reference, "roof")), digits(peak(run, reference, "roof"), "+"),
+             digits(distance(run, reference, "rotation")),
+             digits(peak(run, reference, "rotation"), "+"),
+             digits(distance(run, reference, "acceleration"))]
     if case == "friction":
         cells += [f"{1e3 * run['left_gap'].max():.1f}", f"{1e3 * run['slip'][-1]:.2f}"]
     if "seconds" in run:
-        cells += [f"{run['seconds']:.2g}" if run["seconds"] < 10 else f"{run['seconds']:.0f}",
-                  f"{run['megabytes']:.0f}"]
+        cells += [digits(run["seconds"]), f"{run['megabytes']:.0f}"]
     else:
         cells += ["", ""]
     return "| " + " | ".join(cells) + " |\n"
@@ -151,20 +155,21 @@ def table(case, boxes, meshes, extra, reference, finer):
         size, step = SHORT_STEP
         text += row(f"OpenSees, {size:g} m, short steps", str(extra["unknowns"]), step, extra,
                     reference, case)
-    limit, ratios = extrapolated(boxes)
-    text += row("OpenSees, extrapolated", "", 0.0, limit, reference, case)
+    else:
+        limit, ratios = extrapolated(boxes)
+        text += row("OpenSees, extrapolated", "", 0.0, limit, reference, case)
     for (elements, step), run in zip(MESHES, meshes):
         text += row(f"basemat, {elements} elements", str(2 * elements + 3), step, run, reference, case)
     text += row(f"basemat, {FINEST[0][0]} elements", str(2 * FINEST[0][0] + 3), FINEST[0][1],
                 finer, reference, case)
-    text += (f"\nOpenSees' second halving changes the roof {ratios['roof']:.2f} times less than its "
-             f"first, the rotation {ratios['rotation']:.2f} times.")
     if case == "friction":
-        text += (f" Reference: largest gap {1e3 * reference['left_gap'].max():.1f} mm, slip left "
+        text += (f"\nReference: largest gap {1e3 * reference['left_gap'].max():.1f} mm, slip left "
                  f"{1e3 * reference['slip'][-1]:.2f} mm.")
     else:
         middle = boxes[1]
-        text += (f" A box twice as wide and deep changes the second mesh by "
+        text += (f"\nOpenSees' second halving changes the roof {ratios['roof']:.2f} times less than "
+                 f"its first, the rotation {ratios['rotation']:.2f} times. A box twice as wide "
+                 f"and deep changes the second mesh by "
                  f"{distance(middle, extra, 'roof'):.2g} % (roof) and "
                  f"{distance(middle, extra, 'rotation'):.2g} % (rotation).")
     return text + "\n"
