@@ -231,7 +231,7 @@ def main():
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     options.add_argument("--docs", type=Path, help="folder of the documentation, written to")
     options.add_argument("--out", type=Path, default=ROOT / "target" / "opensees")
-    options.add_argument("--reuse", action="store_true", help="runs that are in --out already")
+    options.add_argument("--reuse", action="store_true", help="take runs that are in --out already")
     options.add_argument("--only", choices=CASES, help="run this case and stop")
     options = options.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
