@@ -206,7 +206,7 @@ def picture(path, results):
         for axis in line:
             axis.grid(True, color="#e0e0e0", linewidth=0.6)
             axis.spines[["top", "right"]].set_visible(False)
-    axes[0, 0].legend(frameon=False, ncols=2, fontsize=9, loc="upper right")
+    axes[0, 0].legend(frameon=False, ncols=2, fontsize=9, loc="lower right")
     axes[0, 1].legend(frameon=False, fontsize=9)
     axes[1, 0].set_xlabel("time, s")
     axes[1, 1].set_xlabel("processor time, s")
