@@ -3,13 +3,13 @@
 use std::process::Command;
 use std::time::Instant;
 
-use basemat::bem::SharedKernels;
+use basemat::bem::{Grading, HalfPlaneGround, SharedKernels, Strip};
 use basemat::history::History;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::RigidBlock;
 use basemat::{Result, Sweep};
 
-use super::scenes::{COUNT, ELEMENT, headline, time_step, without_end};
+use super::scenes::{COUNT, ELEMENT, headline, soil, time_step, without_end};
 use super::{AnyError, timed};
 
 /// Cases of the sweep.
@@ -24,6 +24,10 @@ pub(crate) enum Scene {
     Long,
     /// Friction, with the history by exponentials, under a record that goes on as long as the run.
     Exponentials,
+    /// Friction, ten graded elements.
+    Graded,
+    /// Friction, whatever history the number of steps suggests.
+    Auto,
     /// 200 elements under a rigid block, bonded.
     Wide,
     /// Eight coefficients of friction, on as many threads as there are.
@@ -74,6 +78,16 @@ fn march(scene: Scene, steps: usize) -> Result<[f64; 2]> {
             let exponentials = scene == Scene::Exponentials;
             let kind = if exponentials { History::Exponentials } else { History::RelaxedFft };
             let ground = ground.with_history_kind(kind);
+            builder.ground(ground).interface(Coulomb::new(0.4)?).motion(record)
+        }
+        Scene::Graded => {
+            let half = 0.5 * ELEMENT * COUNT as f64;
+            let strip = Strip::new(-half..half, COUNT, Grading::Cosine)?;
+            let ground = HalfPlaneGround::new(soil()?, &[strip])?;
+            builder.ground(ground).interface(Coulomb::new(0.4)?)
+        }
+        Scene::Auto => {
+            let record = without_end(steps as f64 * time_step())?;
             builder.ground(ground).interface(Coulomb::new(0.4)?).motion(record)
         }
         Scene::Friction | Scene::Sweep => builder.ground(ground).interface(Coulomb::new(0.4)?),

@@ -19,8 +19,8 @@ pub(crate) use eigen::{generalised_modes, least_eigenvalue, symmetric_modes};
 pub(crate) use lanczos::lowest_modes;
 pub(crate) use partition::Partition;
 pub(crate) use product::{
-    Dot, add_combined_rows, dense_multiply_add, dot, largest, magnitude, row_products,
-    transposed_multiply_add, weighted_dot,
+    Dot, add_combined_rows, add_row, add_rows, dense_multiply_add, dot, largest, magnitude,
+    row_products, transposed_multiply_add, weighted_dot,
 };
 pub(crate) use simd::{Simd, WithSimd, vectorized};
 pub(crate) use sparse::{SparseFactor, indefinite_row};

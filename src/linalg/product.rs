@@ -75,7 +75,7 @@ impl WithSimd for TransposedMultiplyAdd<'_> {
         }
         let rest = blocks.remainder().chunks_exact(columns);
         for (row, x) in rest.zip(inputs.remainder()) {
-            y.iter_mut().zip(row).for_each(|(y, a)| *y += factor * x * a);
+            add_row(simd, factor * x, row, y);
         }
     }
 }
@@ -114,7 +114,12 @@ fn dots<S: Simd>(simd: S, [a, b, c, d]: [&[f64]; ROWS], x: &[f64]) -> [f64; ROWS
 
 /// y ← y + Σ factor · row for four rows.
 #[inline(always)]
-fn add_rows<S: Simd>(simd: S, factors: [f64; ROWS], rows: [&[f64]; ROWS], y: &mut [f64]) {
+pub(crate) fn add_rows<S: Simd>(
+    simd: S,
+    factors: [f64; ROWS],
+    rows: [&[f64]; ROWS],
+    y: &mut [f64],
+) {
     let [p, q, r, s] = factors.map(|factor| simd.splat_f64s(factor));
     let [a, b, c, d] = rows.map(S::as_simd_f64s);
     let (y, y_tail) = S::as_mut_simd_f64s(y);
@@ -128,6 +133,17 @@ fn add_rows<S: Simd>(simd: S, factors: [f64; ROWS], rows: [&[f64]; ROWS], y: &mu
             *y += row.1[i] * factor;
         }
     }
+}
+
+/// y ← y + factor · row.
+#[inline(always)]
+pub(crate) fn add_row<S: Simd>(simd: S, factor: f64, row: &[f64], y: &mut [f64]) {
+    let wide = simd.splat_f64s(factor);
+    let ((row, row_tail), (y, y_tail)) = (S::as_simd_f64s(row), S::as_mut_simd_f64s(y));
+    for (y, value) in y.iter_mut().zip(row) {
+        *y = simd.mul_add_e_f64s(*value, wide, *y);
+    }
+    y_tail.iter_mut().zip(row_tail).for_each(|(y, value)| *y += factor * value);
 }
 
 /// Row-major A Bᵀ for row-major A and B with `columns` columns.

@@ -1,11 +1,14 @@
 //! Coupling coefficients between elements, and those of short lags.
 
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+
 use std::sync::Arc;
 
 use super::tables::Tables;
 use crate::error::Result;
 use crate::history::lag_kernel::LagKernel;
 use crate::history::pair_classes::{Pair, PairClasses};
+use crate::linalg::{Simd, WithSimd, add_row, add_rows, vectorized};
 
 /// Pairs of a patch and its coefficients over short delays.
 pub(super) struct Coefficients {
@@ -84,11 +87,30 @@ impl Coefficients {
         ahead: usize,
         coupled: usize,
     ) {
-        let count = self.classes.elements().len();
-        for (p, pairs) in self.classes.pairs().chunks_exact(count).enumerate() {
+        vectorized(Scatter { coefficients: self, rows, stride, now, ahead, coupled });
+    }
+}
+
+/// [`Coefficients::scatter`].
+struct Scatter<'a> {
+    coefficients: &'a Coefficients,
+    rows: &'a mut [f64],
+    stride: usize,
+    now: usize,
+    ahead: usize,
+    coupled: usize,
+}
+
+impl WithSimd for Scatter<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { coefficients: Coefficients { classes, near, .. }, rows, stride, now, .. } = self;
+        let (ahead, count) = (self.ahead, classes.elements().len());
+        for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
             let scale = pairs[p].scale;
-            for (row, table, other) in
-                [(p, &self.near.normal, 0), (count + p, &self.near.tangential, count)]
+            for (row, table, other) in [(p, &near.normal, 0), (count + p, &near.tangential, count)]
             {
                 let (mut q, mut four) = (0, pairs.chunks_exact(4));
                 for pairs in four.by_ref() {
@@ -97,43 +119,28 @@ impl Coefficients {
                     let from: [&[f64]; 4] =
                         std::array::from_fn(|k| &table[pairs[k].class][1..=ahead]);
                     let output = &mut rows[row * stride + now + 1..][..ahead];
-                    add_four(output, from, values);
+                    add_rows(simd, values, from, output);
                     q += 4;
                 }
                 for pair in four.remainder() {
                     let value = scale * rows[(other + q) * stride + now];
                     let output = &mut rows[row * stride + now + 1..][..ahead];
-                    add(output, &table[pair.class][1..=ahead], value);
+                    add_row(simd, value, &table[pair.class][1..=ahead], output);
                     q += 1;
                 }
             }
             for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
-                let coupling = &self.near.coupling[class];
-                let reach = coupled.min(coupling.len() - 1);
+                let coupling = &near.coupling[class];
+                let reach = self.coupled.min(coupling.len() - 1);
                 if sign == 0.0 || reach == 0 {
                     continue;
                 }
                 for (row, source, sign) in [(p, count + q, sign), (count + p, q, -sign)] {
                     let value = sign * scale * rows[source * stride + now];
                     let output = &mut rows[row * stride + now + 1..][..reach];
-                    add(output, &coupling[1..=reach], value);
+                    add_row(simd, value, &coupling[1..=reach], output);
                 }
             }
         }
-    }
-}
-
-fn add(output: &mut [f64], coefficients: &[f64], value: f64) {
-    for (output, coefficient) in output.iter_mut().zip(coefficients) {
-        *output += coefficient * value;
-    }
-}
-
-fn add_four(output: &mut [f64], coefficients: [&[f64]; 4], values: [f64; 4]) {
-    let length = output.len();
-    let [a, b, c, d] = coefficients.map(|from| &from[..length]);
-    let [x, y, z, w] = values;
-    for k in 0..length {
-        output[k] += (a[k] * x + b[k] * y) + (c[k] * z + d[k] * w);
     }
 }

@@ -7,6 +7,7 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use super::ring::Ring;
 use crate::history::pair_classes::{Pair, PairClasses};
+use crate::linalg::{Simd, WithSimd, vectorized};
 
 /// Frequencies that are multiplied together, so that all inputs and outputs stay in cache.
 const TILE: usize = 64;
@@ -229,20 +230,41 @@ fn transform(
 
 /// Adds (or takes away) the product of two spectra, all as real parts before imaginary ones.
 fn multiply_add<const PLUS: bool>(output: &mut [f64], factor: [&[f64]; 2], input: &[f64]) {
-    let width = output.len() / 2;
-    let (out_re, out_im) = output.split_at_mut(width);
-    let (in_re, in_im) = input.split_at(width);
-    let (re, im) = (&factor[0][..width], &factor[1][..width]);
-    let (in_re, in_im, out_im) = (&in_re[..width], &in_im[..width], &mut out_im[..width]);
-    for k in 0..width {
-        let real = re[k] * in_re[k] - im[k] * in_im[k];
-        let imaginary = re[k] * in_im[k] + im[k] * in_re[k];
-        if PLUS {
-            out_re[k] += real;
-            out_im[k] += imaginary;
-        } else {
-            out_re[k] -= real;
-            out_im[k] -= imaginary;
+    vectorized(Product::<PLUS> { output, factor, input });
+}
+
+struct Product<'a, const PLUS: bool> {
+    output: &'a mut [f64],
+    factor: [&'a [f64]; 2],
+    input: &'a [f64],
+}
+
+impl<const PLUS: bool> WithSimd for Product<'_, PLUS> {
+    type Output = ();
+
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let width = self.output.len() / 2;
+        let (out_re, out_im) = self.output.split_at_mut(width);
+        let (in_re, in_im) = self.input.split_at(width);
+        let [re, im] = self.factor.map(|values| &values[..width]);
+        let (wide_re, tail_re) = S::as_mut_simd_f64s(out_re);
+        let (wide_im, tail_im) = S::as_mut_simd_f64s(out_im);
+        let [(a_re, a_re_tail), (a_im, a_im_tail)] = [re, im].map(S::as_simd_f64s);
+        let [(b_re, b_re_tail), (b_im, b_im_tail)] = [in_re, &in_im[..width]].map(S::as_simd_f64s);
+        let factors = a_re.iter().zip(a_im).zip(b_re.iter().zip(b_im));
+        for ((x, y), ((a, b), (c, d))) in wide_re.iter_mut().zip(wide_im).zip(factors) {
+            let minus = |value: S::f64s| simd.neg_f64s(value);
+            let (a, b) = if PLUS { (*a, *b) } else { (minus(*a), minus(*b)) };
+            *x = simd.mul_add_e_f64s(a, *c, simd.mul_add_e_f64s(minus(b), *d, *x));
+            *y = simd.mul_add_e_f64s(a, *d, simd.mul_add_e_f64s(b, *c, *y));
+        }
+        let sign = if PLUS { 1.0 } else { -1.0 };
+        for k in 0..tail_re.len() {
+            let (a, b) = (sign * a_re_tail[k], sign * a_im_tail[k]);
+            tail_re[k] += a * b_re_tail[k] - b * b_im_tail[k];
+            tail_im[k] += a * b_im_tail[k] + b * b_re_tail[k];
         }
     }
 }

@@ -1,6 +1,8 @@
 //! Blocks over the wavenumbers of a lattice: no pairs of elements are left, only one convolution in
 //! time per wavenumber and kind.
 
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+
 use std::sync::Arc;
 
 use realfft::RealFftPlanner;
@@ -13,6 +15,7 @@ use super::ring::Ring;
 use super::wave_level::{KINDS, Near, Part, WaveLevel};
 use crate::error::Result;
 use crate::history::lag_kernel::LagKernel;
+use crate::linalg::{Simd, WithSimd, vectorized};
 
 /// Between the ends of rows, so that equal places of all rows do not fall into one cache set.
 const PADDING: usize = 4;
@@ -303,16 +306,9 @@ impl Blocks for Waves {
         let size = 4 * waves;
         let place = now % self.leaf;
         self.sum.copy_from_slice(&self.far[place * size..(place + 1) * size]);
-        for (m, input) in self.inputs.chunks_exact(size).take(place).enumerate() {
-            let d = place - m;
-            let [normal, tangential, coupling] =
-                self.near.each_ref().map(|values| &values[d * waves..(d + 1) * waves]);
-            if d <= self.reach {
-                add_coupled(&mut self.sum, input, [normal, tangential, coupling]);
-            } else {
-                add(&mut self.sum, input, [normal, tangential]);
-            }
-        }
+        let near = self.near.each_ref().map(Vec::as_slice);
+        let (sum, inputs) = (&mut self.sum[..], &self.inputs[..place * size]);
+        vectorized(Leaf { sum, inputs, near, waves, reach: self.reach });
         let (down, along) = displacement.split_at_mut(displacement.len() / 2);
         for (values, sum) in [down, along].into_iter().zip(self.sum.chunks_exact(2 * waves)) {
             self.lattice.inverse(sum.split_at(waves).into(), values);
@@ -320,7 +316,37 @@ impl Blocks for Waves {
     }
 }
 
+/// What the inputs of a leaf so far give at its next output.
+struct Leaf<'a> {
+    sum: &'a mut [f64],
+    inputs: &'a [f64],
+    near: [&'a [f64]; KINDS],
+    waves: usize,
+    reach: usize,
+}
+
+impl WithSimd for Leaf<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { sum, inputs, near, waves, reach } = self;
+        let place = inputs.len() / sum.len();
+        for (m, input) in inputs.chunks_exact(sum.len()).enumerate() {
+            let d = place - m;
+            let [normal, tangential, coupling] =
+                near.map(|values| &values[d * waves..(d + 1) * waves]);
+            if d <= reach {
+                add_coupled(sum, input, [normal, tangential, coupling]);
+            } else {
+                add(sum, input, [normal, tangential]);
+            }
+        }
+    }
+}
+
 /// sum ← sum + ĝ · input.
+#[inline(always)]
 fn add(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 2]) {
     let waves = coefficients[0].len();
     let parts = sum.chunks_exact_mut(waves).zip(input.chunks_exact(waves));
@@ -332,6 +358,7 @@ fn add(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 2]) {
 }
 
 /// The same with coupling, which is i times a real number and of either sign.
+#[inline(always)]
 fn add_coupled(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 3]) {
     let waves = coefficients[0].len();
     let [normal, tangential, coupling] = coefficients.map(|values| &values[..waves]);
