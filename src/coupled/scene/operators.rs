@@ -35,10 +35,10 @@ impl Operators {
         model: &Model,
         base: &Base,
         soil: &Thinned,
-        mut factor: Factor,
+        factor: Factor,
         tangent: SparseMatrix,
     ) -> Self {
-        let solve = |rhs: &mut [f64]| factor.solve(rhs);
+        let solve = |rhs: &mut [f64]| factor.solve_many(rhs);
         let (columns, delassus) = condense(solve, base, soil, model.coordinates);
         let means = |u: &[f64], out: &mut [f64]| base.means(u, out);
         let delassus = Delassus::new(delassus, soil, &columns, means);
@@ -144,6 +144,18 @@ impl Factor {
         }
     }
 
+    /// Overwrites many right-hand sides, one after the other.
+    fn solve_many(&self, rhs: &mut [f64]) {
+        match self {
+            Self::Sparse(factor) => factor.solve_many(rhs),
+            Self::Diagonal(inverse) => {
+                for rhs in rhs.chunks_exact_mut(inverse.len()) {
+                    rhs.iter_mut().zip(inverse).for_each(|(x, d)| *x *= *d);
+                }
+            }
+        }
+    }
+
     fn solve(&mut self, rhs: &mut [f64]) {
         match self {
             Self::Sparse(factor) => factor.solve(rhs),
@@ -152,9 +164,10 @@ impl Factor {
     }
 }
 
-/// Columns of K⁻¹BᵀA and the Delassus operator `soil` + B K⁻¹BᵀA.
+/// Columns of K⁻¹BᵀA and the Delassus operator `soil` + B K⁻¹BᵀA; `solve` overwrites many right-hand
+/// sides, one after the other.
 pub(crate) fn condense(
-    mut solve: impl FnMut(&mut [f64]),
+    solve: impl FnOnce(&mut [f64]),
     base: &Base,
     soil: &[f64],
     unknowns: usize,
@@ -168,7 +181,9 @@ pub(crate) fn condense(
         unit[i] = 1.0;
         base.add_forces(1.0, &unit, column);
         unit[i] = 0.0;
-        solve(column);
+    }
+    solve(&mut columns);
+    for (i, column) in columns.chunks_exact(unknowns.max(1)).enumerate() {
         base.means(column, &mut means);
         for (row, mean) in means.iter().enumerate() {
             delassus[row * size + i] += mean;

@@ -253,8 +253,8 @@ impl Compliance {
         epsilon: f64,
     ) -> Result<Self> {
         let matrix = Self::matrix(model, tangent, epsilon);
-        let mut factor = SparseFactor::new(NAME, &matrix)?;
-        let (columns, delassus) = condense(|rhs| factor.solve(rhs), base, soil, model.unknowns);
+        let factor = SparseFactor::new(NAME, &matrix)?;
+        let (columns, delassus) = condense(|rhs| factor.solve_many(rhs), base, soil, model.unknowns);
         Ok(Self { factor, condition: None, columns, delassus: delassus.into() })
     }
 
