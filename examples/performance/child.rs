@@ -4,7 +4,6 @@ use std::process::Command;
 use std::time::Instant;
 
 use basemat::bem::{Grading, HalfPlaneGround, SharedKernels, Strip};
-use basemat::history::History;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::RigidBlock;
 use basemat::{Result, Sweep};
@@ -20,14 +19,10 @@ const CASES: usize = 8;
 pub(crate) enum Scene {
     Bonded,
     Friction,
-    /// Friction, under a record that goes on as long as the run.
-    Long,
-    /// Friction, with the history by exponentials, under a record that goes on as long as the run.
-    Exponentials,
     /// Friction, ten graded elements.
     Graded,
-    /// Friction, whatever history the number of steps suggests.
-    Auto,
+    /// Friction, under a record that goes on as long as the run.
+    Long,
     /// 200 elements under a rigid block, bonded.
     Wide,
     /// Eight coefficients of friction, on as many threads as there are.
@@ -73,20 +68,13 @@ fn march(scene: Scene, steps: usize) -> Result<[f64; 2]> {
             builder.ground(ground).structure(block).interface(Bonded)
         }
         Scene::Bonded => builder.ground(ground).interface(Bonded),
-        Scene::Exponentials | Scene::Long => {
-            let record = without_end(steps as f64 * time_step())?;
-            let exponentials = scene == Scene::Exponentials;
-            let kind = if exponentials { History::Exponentials } else { History::RelaxedFft };
-            let ground = ground.with_history_kind(kind);
-            builder.ground(ground).interface(Coulomb::new(0.4)?).motion(record)
-        }
         Scene::Graded => {
             let half = 0.5 * ELEMENT * COUNT as f64;
             let strip = Strip::new(-half..half, COUNT, Grading::Cosine)?;
             let ground = HalfPlaneGround::new(soil()?, &[strip])?;
             builder.ground(ground).interface(Coulomb::new(0.4)?)
         }
-        Scene::Auto => {
+        Scene::Long => {
             let record = without_end(steps as f64 * time_step())?;
             builder.ground(ground).interface(Coulomb::new(0.4)?).motion(record)
         }

@@ -254,7 +254,8 @@ impl Compliance {
     ) -> Result<Self> {
         let matrix = Self::matrix(model, tangent, epsilon);
         let factor = SparseFactor::new(NAME, &matrix)?;
-        let (columns, delassus) = condense(|rhs| factor.solve_many(rhs), base, soil, model.unknowns);
+        let (columns, delassus) =
+            condense(|rhs| factor.solve_many(rhs), base, soil, model.unknowns);
         Ok(Self { factor, condition: None, columns, delassus: delassus.into() })
     }
 

@@ -93,7 +93,7 @@ impl Tail {
                     }
                 }
             }
-            vectorized(Decay { states, decay: &self.decay, moments: &self.moments });
+            vectorized(Advance { states, decay: &self.decay, moments: &self.moments });
         }
     }
 
@@ -102,7 +102,7 @@ impl Tail {
         let count = self.lengths.len();
         for (part, states) in self.states.iter().enumerate() {
             let amplitudes = self.amplitudes.as_mut_slice();
-            vectorized(Amplitudes { states, products: self.data.products(), part, amplitudes });
+            vectorized(Answer { states, products: self.data.products(), part, amplitudes });
             let displacement = &mut displacement[part * count..(part + 1) * count];
             for (amplitude, means) in self.amplitudes.iter().zip(self.data.functions()) {
                 for (displacement, mean) in displacement.iter_mut().zip(means) {
@@ -170,13 +170,13 @@ impl Tail {
 }
 
 /// All that is held decays, and moments come in.
-struct Decay<'a> {
+struct Advance<'a> {
     states: &'a mut [Vec<f64>],
     decay: &'a [f64],
     moments: &'a [f64],
 }
 
-impl WithSimd for Decay<'_> {
+impl WithSimd for Advance<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -196,14 +196,14 @@ impl WithSimd for Decay<'_> {
 }
 
 /// Amplitudes of the functions at the end of the next step.
-struct Amplitudes<'a> {
+struct Answer<'a> {
     states: &'a [Vec<f64>],
     products: &'a [TailProduct],
     part: usize,
     amplitudes: &'a mut [f64],
 }
 
-impl WithSimd for Amplitudes<'_> {
+impl WithSimd for Answer<'_> {
     type Output = ();
 
     #[inline(always)]

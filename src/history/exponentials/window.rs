@@ -36,7 +36,9 @@ impl LagKernel for Cut<'_> {
         let left = (self.lags + 1).saturating_sub(first_lag).min(normal.len());
         let [(normal, zz), (tangential, xx), (coupling, zx)] =
             [normal, tangential, coupling].map(|values| values.split_at_mut(left));
-        [zz, xx, zx].into_iter().for_each(|cut| cut.fill(0.0));
+        for cut in [zz, xx, zx] {
+            cut.fill(0.0);
+        }
         self.kernel.coefficients(class, first_lag, normal, tangential, coupling)
     }
 
