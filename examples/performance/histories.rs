@@ -5,7 +5,9 @@ use std::time::Instant;
 
 use basemat::Result;
 use basemat::bem::PatchKernel;
-use basemat::history::{ConvolutionHistory, DirectHistory, LagKernel, RelaxedFftHistory};
+use basemat::history::{
+    ConvolutionHistory, DirectHistory, ExponentialHistory, LagKernel, RelaxedFftHistory,
+};
 
 use super::scenes::{soil, strip, time_step};
 use super::timed;
@@ -41,15 +43,35 @@ pub(crate) fn direct(count: usize, steps: usize) -> Result<f64> {
     Ok(seconds)
 }
 
-/// Setup, march and slowest step of the relaxed history, s: the least of `repeats`.
-pub(crate) fn relaxed(count: usize, steps: usize, repeats: usize) -> Result<[f64; 3]> {
+/// Transforms of all past steps.
+pub(crate) fn relaxed(
+    kernel: Arc<dyn LagKernel>,
+    steps: usize,
+) -> Result<Box<dyn ConvolutionHistory>> {
+    let mut history = RelaxedFftHistory::new(kernel);
+    history.reserve(steps)?;
+    Ok(Box::new(history))
+}
+
+/// A window and exponentials with an error at rounding.
+pub(crate) fn bounded(
+    kernel: Arc<dyn LagKernel>,
+    _steps: usize,
+) -> Result<Box<dyn ConvolutionHistory>> {
+    Ok(Box::new(ExponentialHistory::new(kernel, 1e-12)?))
+}
+
+/// Makes a history for so many steps.
+pub(crate) type Make = fn(Arc<dyn LagKernel>, usize) -> Result<Box<dyn ConvolutionHistory>>;
+
+/// Setup, march and slowest step of a history, s: the least of `repeats`.
+pub(crate) fn alone(make: Make, count: usize, steps: usize, repeats: usize) -> Result<[f64; 3]> {
     let mut least = [f64::INFINITY; 3];
     for _ in 0..repeats {
         // Of one kernel, only the first would make spectra.
-        let mut history = RelaxedFftHistory::new(patch(count)?);
-        let (ready, setup) = timed(|| history.reserve(steps));
-        ready?;
-        let [total, slowest] = march(&mut history, 2 * count, steps)?;
+        let kernel = patch(count)?;
+        let (history, setup) = timed(|| make(kernel, steps));
+        let [total, slowest] = march(&mut *history?, 2 * count, steps)?;
         for (least, found) in least.iter_mut().zip([setup, total, slowest]) {
             *least = least.min(found);
         }
@@ -77,12 +99,12 @@ pub(crate) struct Growth {
     pub(crate) exponent: f64,
 }
 
-/// The growth of the relaxed history's marching time from 10³ steps to `longest`.
-pub(crate) fn growth(longest: usize) -> Result<Growth> {
+/// The growth of a history's marching time from 10³ steps to `longest`.
+pub(crate) fn growth(make: Make, longest: usize) -> Result<Growth> {
     let mut points = Vec::new();
     for steps in [1_000, 3_000, 10_000, 30_000, 100_000, 300_000, 1_000_000] {
         if steps <= longest {
-            let [_, total, slowest] = relaxed(10, steps, (300_000 / steps).clamp(3, 100))?;
+            let [_, total, slowest] = alone(make, 10, steps, (300_000 / steps).clamp(3, 100))?;
             points.push((steps, total, slowest));
         }
     }
