@@ -171,8 +171,8 @@ impl KernelGround {
     }
 
     /// Allows a history whose coefficients are within `tolerance` (relative, 1e-12 to 1e-2) of the
-    /// exact ones: [`History::Auto`] may then take the exponentials, and [`History::Exponentials`]
-    /// takes this tolerance instead of its own.
+    /// exact ones: exponentials take it instead of 1e-12 ([`History::Auto`]) or 1e-10
+    /// ([`History::Exponentials`]).
     ///
     /// # Errors
     /// [`Error::Input`] for a tolerance outside this range.
