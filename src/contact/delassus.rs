@@ -1,6 +1,7 @@
 //! The Delassus operator, with the quickest way to its product.
 
 use std::ops::Deref;
+use std::sync::Arc;
 
 use crate::linalg::{dense_multiply_add, transposed_multiply_add};
 use crate::matrix::Thinned;
@@ -18,7 +19,7 @@ pub(crate) struct Delassus {
 /// G¹, mostly zeros, and a structure with few unknowns: W = G¹ + B C.
 #[derive(Debug, Clone)]
 struct Split {
-    soil: Thinned,
+    soil: Arc<Thinned>,
     /// B, row-major with a row per contact component, and C, with a column after the other.
     means: Vec<f64>,
     columns: Vec<f64>,
@@ -42,7 +43,7 @@ impl Delassus {
     /// Of `values`, which are `soil` + B C with C given by its `columns`; `means` is B times a vector.
     pub(crate) fn new(
         values: Vec<f64>,
-        soil: &Thinned,
+        soil: &Arc<Thinned>,
         columns: &[f64],
         means: impl Fn(&[f64], &mut [f64]),
     ) -> Self {
@@ -60,8 +61,14 @@ impl Delassus {
             unit[j] = 0.0;
             rows.chunks_exact_mut(rank).zip(&column).for_each(|(row, mean)| row[j] = *mean);
         }
-        let split = Split { soil: soil.clone(), means: rows, columns: columns.to_vec() };
+        let split = Split { soil: Arc::clone(soil), means: rows, columns: columns.to_vec() };
         Self { values, split: Some(split) }
+    }
+
+    /// Takes other values, as many, without allocating.
+    pub(crate) fn set(&mut self, values: &[f64]) {
+        self.values.copy_from_slice(values);
+        self.split = None;
     }
 
     /// jump ← jump + W τ.
@@ -100,10 +107,11 @@ mod tests {
             }
         }
         let whole = Delassus::from(values.clone());
-        let split = Delassus::new(values, &Thinned::new(soil, size), &columns, |x, out| {
-            out.fill(0.0);
-            dense_multiply_add(&means, 1.0, x, out);
-        });
+        let split =
+            Delassus::new(values, &Arc::new(Thinned::new(soil, size)), &columns, |x, out| {
+                out.fill(0.0);
+                dense_multiply_add(&means, 1.0, x, out);
+            });
         assert!(split.split.is_some());
         let traction: Vec<f64> = (0..size).map(|k| (3.0 * k as f64).sin()).collect();
         let [mut a, mut b] = [(); 2].map(|()| vec![1.0; size]);

@@ -164,7 +164,7 @@ impl ContactProblem {
     pub fn set_delassus(&mut self, delassus: &[f64]) -> Result<()> {
         same_length("Delassus operator", delassus.len(), self.delassus.len())?;
         check_finite("Delassus operator", delassus)?;
-        self.delassus = delassus.to_vec().into();
+        self.delassus.set(delassus);
         self.solver.invalidate();
         Ok(())
     }

@@ -1,5 +1,7 @@
 //! The mode search against brute force: every mode vector of up to six elements is tried.
 
+use std::sync::Arc;
+
 use super::*;
 use crate::bem::{Ground, HalfPlaneGround};
 use crate::contact::Delassus;
@@ -123,7 +125,7 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     tangent.refill(structure.as_ref(), &vec![0.0; unknowns]).unwrap();
     let coefficients = Midpoint.coefficients(time_step);
     let factor = Factor::new(&model, &coefficients, &tangent.matrix).unwrap();
-    let operator = Thinned::new(operator, 2 * count);
+    let operator = Arc::new(Thinned::new(operator, 2 * count));
     let operators = Operators::new(&model, &base, &operator, factor, tangent.matrix);
     (operators.delassus.to_vec(), base.lengths().to_vec())
 }

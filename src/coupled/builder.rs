@@ -295,7 +295,7 @@ impl SimulationBuilder {
         if let Some(bad) = soil.iter().find(|g| !g.is_finite()) {
             finite("instantaneous operator of the ground", *bad)?;
         }
-        let soil = Thinned::new(soil, 2 * count);
+        let soil = Arc::new(Thinned::new(soil, 2 * count));
         let mut tangent = Tangent::new(unknowns);
         tangent.refill(structure.as_ref(), &static_state.displacement)?;
         let mut factor = Factor::new(&model, &coefficients, &tangent.matrix)?;

@@ -261,8 +261,8 @@ impl Simulation {
 
     /// All that the steps so far have left behind, to be taken up by [`Simulation::resume`].
     ///
-    /// Its size is that of the history: all tractions for exact histories, a few ten kilobytes for
-    /// the exponentials.
+    /// Its size is that of the history: all tractions for exact histories, those of two windows at
+    /// most for the exponentials.
     ///
     /// # Errors
     /// [`CheckpointError::Unsupported`](crate::CheckpointError::Unsupported) if the ground, its history or the structure cannot save its

@@ -39,7 +39,8 @@ pub enum History {
     ///
     /// 1. the exponentials, if they are estimated to take less time over the run than the
     ///    transforms, their making included: with the tolerance allowed (`with_history_tolerance`),
-    ///    or with 1e-12, which is rounding;
+    ///    or with 1e-12, which is rounding, if the number of steps is known. Memory is not asked for
+    ///    then;
     /// 2. the relaxed transforms, if they fit into the memory that a history may take
     ///    (`with_history_memory`, 1 GiB unless given), or if the number of steps is not known;
     /// 3. otherwise the exponentials, with their own tolerance; or the transforms all the same,
@@ -65,11 +66,12 @@ pub enum ChoiceReason {
     UnknownLength,
     /// The tolerance allowed makes it the cheapest.
     ToleranceAllowed,
-    /// It is the cheapest, and its error at rounding.
+    /// It takes least time, and its coefficients err by rounding: 1e-12 at most.
     Rounding,
     /// An exact history would take more memory than is allowed.
     MemoryLimit,
-    /// An exact history takes more memory than is allowed, but the exponentials cannot be had.
+    /// An exact history takes more memory than is allowed, but the exponentials cannot be had, or
+    /// would take more still.
     NoExponentials,
 }
 
@@ -82,7 +84,9 @@ impl fmt::Display for ChoiceReason {
             Self::ToleranceAllowed => "cheapest within the tolerance allowed",
             Self::Rounding => "cheapest, with an error at rounding",
             Self::MemoryLimit => "an exact history would need more memory than allowed",
-            Self::NoExponentials => "more memory than allowed, but exponentials cannot be had here",
+            Self::NoExponentials => {
+                "more memory than allowed, but exponentials cannot be had or take more"
+            }
         })
     }
 }

@@ -1,8 +1,10 @@
 //! Cost model of the histories: the table of [`History`].
 
 use super::choice::History;
+use super::exponentials::LONGEST_WINDOW;
 use super::lag_kernel::LagKernel;
-use super::relaxed_fft::RelaxedFftHistory;
+use super::late_lags::LateLags;
+use super::relaxed_fft::{LEAF, RelaxedFftHistory};
 use crate::error::Result;
 
 /// Memory in bytes, and multiply–adds.
@@ -26,7 +28,7 @@ const PASSIVITY: f64 = 1200.0;
 const TAIL: f64 = 3000.0;
 
 impl Estimate {
-    /// Of a history over `steps` steps; without bound for exponentials of a kernel without late lags.
+    /// Of a history over `steps` steps; without bound for exponentials that cannot be had.
     pub(super) fn new(kind: History, kernel: &dyn LagKernel, steps: usize) -> Result<Self> {
         let classes = kernel.classes();
         let (q, classes) = (classes.elements().len() as f64, classes.count() as f64);
@@ -41,10 +43,11 @@ impl Estimate {
             }
             History::RelaxedFft | History::Auto => Ok(Self::transforms(kernel, steps, lasts)),
             History::Exponentials => {
-                let Some(late) = kernel.late_lags() else {
+                let late = kernel.late_lags().map(LateLags::window);
+                let Some(late) = late.filter(|late| *late <= LONGEST_WINDOW && lasts == 0.0) else {
                     return Ok(Self::of(f64::INFINITY, f64::INFINITY, f64::INFINITY));
                 };
-                let window = late.window().checked_next_power_of_two().unwrap_or(usize::MAX);
+                let window = late.next_power_of_two().max(LEAF);
                 let block = Self::transforms(kernel, window, lasts);
                 let memory = block.memory as f64 + 32.0 * q * window as f64;
                 let making = block.making + EXPONENTIALS + PASSIVITY * q.powi(3);

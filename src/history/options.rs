@@ -42,28 +42,10 @@ impl HistoryOptions {
         // No run lasts so long: an observer is meant to stop it, nobody knows when.
         let steps = steps.filter(|steps| *steps < LONGEST);
         let expected = steps.unwrap_or(UNKNOWN_STEPS);
-        let exact = Estimate::new(History::RelaxedFft, &**kernel, expected)?;
-        let exponentials = Estimate::new(History::Exponentials, &**kernel, expected)?;
-        let shorter = exponentials.of_run(expected) < exact.of_run(expected);
-        let (kind, reason) = if self.kind != History::Auto {
-            (self.kind, ChoiceReason::Asked)
-        } else if self.tolerance.is_some() && shorter {
-            (History::Exponentials, ChoiceReason::ToleranceAllowed)
-        } else if steps.is_none() {
-            (History::RelaxedFft, ChoiceReason::UnknownLength)
-        } else if shorter {
-            (History::Exponentials, ChoiceReason::Rounding)
-        } else if exact.memory <= self.memory {
-            (History::RelaxedFft, ChoiceReason::Exact)
-        } else {
-            (History::Exponentials, ChoiceReason::MemoryLimit)
-        };
-        let Estimate { memory, cost, .. } = match kind {
-            History::Direct => Estimate::new(kind, &**kernel, expected)?,
-            History::Exponentials => exponentials,
-            History::RelaxedFft | History::Auto => exact,
-        };
-        let mut choice = HistoryChoice {
+        let estimate = |kind| Estimate::new(kind, &**kernel, expected);
+        let (exact, exponentials) =
+            (estimate(History::RelaxedFft)?, estimate(History::Exponentials)?);
+        let choice = |kind, reason, Estimate { memory, cost, .. }| HistoryChoice {
             kind,
             reason,
             steps,
@@ -72,41 +54,49 @@ impl HistoryOptions {
             error_bound: 0.0,
             stages: None,
         };
-        let own = Arc::clone(kernel);
-        let history: Box<dyn ConvolutionHistory> = match kind {
-            History::Direct => Box::new(DirectHistory::new(own)),
-            History::RelaxedFft | History::Auto => Box::new(RelaxedFftHistory::new(own)),
-            History::Exponentials => {
-                let unasked = match reason {
-                    ChoiceReason::Rounding => ROUNDING,
-                    _ => ExponentialHistory::TOLERANCE,
-                };
-                let tolerance = self.tolerance.unwrap_or(unasked);
-                let horizon = expected.max(ExponentialHistory::HORIZON);
-                match ExponentialHistory::with_horizon(own, tolerance, horizon) {
-                    Ok(history) => {
-                        choice.estimated_memory = history.memory();
-                        choice.error_bound = history.error_bound();
-                        Box::new(history)
+        let own = || Arc::clone(kernel);
+        let fit = |tolerance, reason| {
+            let horizon = expected.max(ExponentialHistory::HORIZON);
+            let history = ExponentialHistory::with_horizon(own(), tolerance, horizon)?;
+            let choice = HistoryChoice {
+                estimated_memory: history.memory(),
+                error_bound: history.error_bound(),
+                ..choice(History::Exponentials, reason, exponentials)
+            };
+            Ok((Box::new(history) as Box<dyn ConvolutionHistory>, choice))
+        };
+        let asked = ChoiceReason::Asked;
+        let tolerance = self.tolerance.unwrap_or(ExponentialHistory::TOLERANCE);
+        let reason = match self.kind {
+            History::Direct => {
+                let choice = choice(History::Direct, asked, estimate(History::Direct)?);
+                return Ok((Box::new(DirectHistory::new(own())), choice));
+            }
+            History::Exponentials => return fit(tolerance, asked),
+            History::RelaxedFft => asked,
+            History::Auto => {
+                let known = steps.map(|_| (ROUNDING, ChoiceReason::Rounding));
+                let allowed = self.tolerance.map(|it| (it, ChoiceReason::ToleranceAllowed));
+                let shorter = exponentials.of_run(expected) < exact.of_run(expected);
+                let fits = exact.memory <= self.memory;
+                let smaller = steps.is_some() && !fits && exponentials.memory < exact.memory;
+                let attempts = [
+                    allowed.or(known).filter(|_| shorter),
+                    smaller.then_some((tolerance, ChoiceReason::MemoryLimit)),
+                ];
+                for (tolerance, reason) in attempts.into_iter().flatten() {
+                    if let Ok(made) = fit(tolerance, reason) {
+                        return Ok(made);
                     }
-                    Err(error) if self.kind == History::Exponentials => return Err(error),
-                    Err(_) => {
-                        let reason = match reason {
-                            ChoiceReason::MemoryLimit => ChoiceReason::NoExponentials,
-                            _ => ChoiceReason::Exact,
-                        };
-                        choice = HistoryChoice {
-                            kind: History::RelaxedFft,
-                            reason,
-                            estimated_memory: exact.memory,
-                            estimated_cost: exact.cost,
-                            ..choice
-                        };
-                        Box::new(RelaxedFftHistory::new(Arc::clone(kernel)))
-                    }
+                }
+                match (steps, fits) {
+                    (None, _) => ChoiceReason::UnknownLength,
+                    (_, true) => ChoiceReason::Exact,
+                    (_, false) => ChoiceReason::NoExponentials,
                 }
             }
         };
-        Ok((history, choice))
+        let history = Box::new(RelaxedFftHistory::new(own()));
+        Ok((history, choice(History::RelaxedFft, reason, exact)))
     }
 }

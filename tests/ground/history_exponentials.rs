@@ -265,7 +265,9 @@ fn the_choice_is_made_and_explained() {
     assert_eq!(choose(None, None, None, 1e-3), (RelaxedFft, UnknownLength));
     assert_eq!(choose(Some(1e-8), None, Some(20_000), 1e-3), (Exponentials, ToleranceAllowed));
     assert_eq!(choose(Some(1e-8), None, None, 1e-3), (Exponentials, ToleranceAllowed));
-    assert_eq!(choose(None, Some(1_000), Some(200), 1e-3), (Exponentials, MemoryLimit));
+    // Exponentials are no way out where they take more memory themselves.
+    assert_eq!(choose(None, Some(1_000), Some(500), 1e-4), (RelaxedFft, NoExponentials));
+    assert_eq!(choose(None, Some(100_000), Some(1_500), 1e-3), (Exponentials, MemoryLimit));
     assert_eq!(choose(None, Some(1_000), Some(200), 1e-9), (RelaxedFft, NoExponentials));
     // Exponentials pay from a number of steps on, which grows with the elements.
     for (elements, steps, wanted) in

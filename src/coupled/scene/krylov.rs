@@ -103,7 +103,7 @@ impl Reduction<'_> {
                 if change.is_finite() {
                     rate = (by / change).clamp(FASTEST, 1.0);
                 }
-                // The next round would change so much, if it were to do as much as this one.
+                // Estimated change by the next round, at the rate of this one.
                 (change, reached) = (by, by * rate);
             }
             if reached <= tolerance || space.count() == self.model.unknowns {

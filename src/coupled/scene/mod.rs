@@ -26,6 +26,7 @@ use base::Base;
 use influence::Part;
 use model::Model;
 use static_state::StaticState;
+use std::sync::Arc;
 use stepped_row::SteppedRow;
 
 use super::load::SteppedLoad;
@@ -56,7 +57,7 @@ pub(crate) struct Scene {
     /// Parts that the nonlinear force joins with others.
     pub(crate) joined: Vec<bool>,
     /// Instantaneous operator of the ground, 2Q × 2Q.
-    pub(crate) soil: Thinned,
+    pub(crate) soil: Arc<Thinned>,
     /// Free field at t = 0, from which it is measured, 2Q.
     pub(crate) start_motion: Vec<f64>,
     pub(crate) probes: Vec<Probe>,

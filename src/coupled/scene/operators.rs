@@ -1,5 +1,7 @@
 //! Precomputed operators of a step, valid while the structure's tangent is unchanged.
 
+use std::sync::Arc;
+
 use super::base::Base;
 use super::model::Model;
 use crate::contact::Delassus;
@@ -34,7 +36,7 @@ impl Operators {
     pub(crate) fn new(
         model: &Model,
         base: &Base,
-        soil: &Thinned,
+        soil: &Arc<Thinned>,
         factor: Factor,
         tangent: SparseMatrix,
     ) -> Self {
@@ -45,11 +47,11 @@ impl Operators {
         Self { tangent, factor, columns, delassus }
     }
 
-    /// Reciprocals of K_eff in modes.
-    pub(crate) fn reciprocals(&self) -> Option<&[f64]> {
+    /// Reciprocals of K_eff in modes; empty in unknowns.
+    pub(crate) fn reciprocals(&self) -> &[f64] {
         match &self.factor {
-            Factor::Diagonal(values) => Some(values),
-            Factor::Sparse(_) => None,
+            Factor::Diagonal(values) => values,
+            Factor::Sparse(_) => &[],
         }
     }
 

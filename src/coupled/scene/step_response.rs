@@ -42,8 +42,10 @@ impl StepResponses {
         let effective: Vec<f64> = parts.map(effective).collect();
         for row in shares.chunks_exact_mut(count) {
             let energy: f64 = row.iter().zip(&effective).map(|(f, k)| f * f / k).sum();
-            for share in row {
-                *share /= energy.sqrt();
+            if energy > 0.0 {
+                for share in row {
+                    *share /= energy.sqrt();
+                }
             }
         }
         let apply = SchemeCoefficients::apply;
@@ -88,12 +90,35 @@ impl StepResponses {
             for output in outputs[kind].clone() {
                 let pairs = own.iter().zip(others).skip(output).step_by(self.outputs);
                 let (top, apart) = pairs.fold((rounding, 0.0_f64), |(top, apart), (a, b)| {
+                    // `max` ignores NaN.
+                    let apart = if (a - b).is_finite() { apart } else { f64::INFINITY };
                     (top.max(a.abs()), apart.max((a - b).abs()))
                 });
-                worst = if apart.is_nan() { f64::INFINITY } else { worst };
+                if apart.is_infinite() {
+                    return f64::INFINITY;
+                }
                 worst = worst.max(if apart > 0.0 { apart / top } else { 0.0 });
             }
         }
         worst
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn responses_that_overflow_are_not_equal() {
+        let of = |value: f64| StepResponses {
+            values: [vec![value; 2], Vec::new()],
+            outputs: 1,
+            accelerations: 1,
+        };
+        for value in [f64::INFINITY, f64::NAN] {
+            assert_eq!(of(value).difference(&of(value), 1e-6), f64::INFINITY);
+        }
+        assert_eq!(of(1.0).difference(&of(1.0), 1e-6), 0.0);
+        assert!((of(1.0).difference(&of(2.0), 1e-6) - 1.0).abs() < 1e-12);
     }
 }

@@ -62,7 +62,7 @@ impl Increment {
         }
     }
 
-    /// Where Δu leads.
+    /// Displacement at the end of the step, from Δu.
     pub(super) fn reach(&mut self, state: &State) {
         let increments = state.motion.displacement.iter().zip(&self.displacement);
         self.end.iter_mut().zip(increments).for_each(|(end, (u, du))| *end = u + du);

@@ -79,20 +79,20 @@ impl LinearStep {
         increment: &mut Increment,
     ) -> Result<(), StepError> {
         let (scheme, motion) = (&scene.coefficients, &state.motion);
-        let modes = scene.model.diagonals().zip(self.operators.reciprocals());
-        let Some((matrices, inverse)) = modes else {
+        let Some(matrices) = scene.model.diagonals() else {
             self.predict(scene, state, forcing);
             increment.displacement.copy_from_slice(&self.known);
             self.solve_contact(scene, state, forcing, increment)?;
             increment.follow(scene, state, forcing);
             return Ok(());
         };
-        modal::free(scheme, matrices, inverse, motion, forcing, increment);
-        self.touch(scene, state, forcing, increment)?;
-        self.vector.fill(0.0);
-        scene.base.add_forces(1.0, &self.contact.traction, &mut self.vector);
-        let Some(inverse) = self.operators.reciprocals() else { return Ok(()) };
-        modal::answer(scheme, inverse, &self.vector, motion, &forcing.carried, increment);
+        modal::free(scheme, matrices, self.operators.reciprocals(), motion, forcing, increment);
+        self.solve_tractions(scene, state, forcing, increment)?;
+        let Self { operators, contact, vector, .. } = self;
+        vector.fill(0.0);
+        scene.base.add_forces(1.0, &contact.traction, vector);
+        let inverse = operators.reciprocals();
+        modal::answer(scheme, inverse, vector, motion, &forcing.carried, increment);
         Ok(())
     }
 
@@ -106,14 +106,14 @@ impl LinearStep {
     ) -> Result<(), StepError> {
         self.operators.solve(&mut increment.displacement);
         increment.reach(state);
-        self.touch(scene, state, forcing, increment)?;
+        self.solve_tractions(scene, state, forcing, increment)?;
         let (columns, traction) = (&self.operators.columns, &self.contact.traction);
         transposed_multiply_add(columns, -1.0, traction, &mut increment.displacement);
         Ok(())
     }
 
     /// Contact tractions for the displacement that the step would end with without their change.
-    fn touch(
+    fn solve_tractions(
         &mut self,
         scene: &Scene,
         state: &State,

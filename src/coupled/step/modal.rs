@@ -66,7 +66,7 @@ impl WithSimd for Free<'_> {
     }
 }
 
-/// Right-hand side of the equation of motion.
+/// Right-hand side of the equation of motion, as `LinearStep::predict` has it in unknowns.
 #[inline(always)]
 fn balance(
     scheme: &SchemeCoefficients,
@@ -121,14 +121,14 @@ impl WithSimd for Answer<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { scheme, inverse, force, motion, carried, increment } = self;
         let Increment { displacement, end, total, velocity, acceleration, .. } = increment;
-        yield_to(inverse, force, displacement, end);
+        apply_force(inverse, force, displacement, end);
         follow(scheme, motion, carried, displacement, total, [velocity, acceleration]);
     }
 }
 
-/// What the force takes of Δu and u₁.
+/// Takes the answer to the tractions' force out of Δu and u₁.
 #[inline(always)]
-fn yield_to(inverse: &[f64], force: &[f64], out: &mut [f64], end: &mut [f64]) {
+fn apply_force(inverse: &[f64], force: &[f64], out: &mut [f64], end: &mut [f64]) {
     let n = out.len();
     let (inverse, force, end) = (&inverse[..n], &force[..n], &mut end[..n]);
     for j in 0..n {
@@ -138,7 +138,7 @@ fn yield_to(inverse: &[f64], force: &[f64], out: &mut [f64], end: &mut [f64]) {
     }
 }
 
-/// Total increment, and velocity and acceleration at the end.
+/// Total increment, and velocity and acceleration at the end, as `Increment::follow` has them.
 #[inline(always)]
 fn follow(
     scheme: &SchemeCoefficients,

@@ -12,8 +12,7 @@ use crate::error::StepError;
 use crate::linalg::{largest, magnitude};
 use crate::structure::Structure;
 
-/// Change of an unknown in a step, in any units that somebody may use, beyond which no structure is
-/// left.
+/// Change of an unknown in a step beyond which a run counts as lost, whatever the units.
 const RUNAWAY: f64 = 1e15;
 
 /// The linear step, and Newton's method around it for a nonlinear structure.
@@ -62,7 +61,7 @@ impl Solver {
     }
 }
 
-/// Refuses an increment that is not finite, or is that of no structure.
+/// Refuses an increment that is not finite or too large.
 fn check(increment: &[f64]) -> Result<(), StepError> {
     // A sum of magnitudes is not finite if one of them is not.
     if magnitude(increment) <= RUNAWAY {

@@ -2,11 +2,11 @@
 
 use super::tail::Tail;
 
-/// What is asked of a fit.
+/// A fit as it was asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Request {
     /// Lags of the window.
-    pub(super) lags: usize,
+    pub(crate) lags: usize,
     pub(super) horizon: usize,
     pub(super) tolerance: f64,
 }
@@ -14,7 +14,7 @@ pub(crate) struct Request {
 /// Exponentials behind a window, empty, and what was measured of them.
 #[derive(Debug)]
 pub(crate) struct Fit {
-    pub(super) request: Request,
+    pub(crate) request: Request,
     pub(super) tail: Tail,
     pub(super) accuracy: Measured,
     /// Least eigenvalue of the operator's Hermitian part.

@@ -22,7 +22,7 @@ use crate::error::{CheckpointError, Error, Result, same_length};
 /// Tolerances that can be reached.
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
 /// Longest window: the step is so short that all of a run may lie in it.
-const LONGEST_WINDOW: usize = 1_000_000;
+pub(super) const LONGEST_WINDOW: usize = 1_000_000;
 /// Error aimed at in the next attempt over that of the one before.
 const CLOSER: f64 = 0.2;
 /// Longest horizon, steps: what 64 bits allow with ease, or all that fits where a word is shorter.
@@ -37,8 +37,8 @@ const ATTEMPTS: usize = 10;
 ///
 /// The step coefficients of the lags 2 to W are used as they are, by the blocks of
 /// [`RelaxedFftHistory`](super::RelaxedFftHistory) up to length W; later ones are sums of decaying
-/// exponentials with a common set of poles, carried by a few functions over the patch. So what is
-/// kept of all earlier tractions are a few hundred numbers, however many steps there were.
+/// exponentials with a common set of poles, carried by a few functions over the patch. What is
+/// kept of all tractions before the last 2W are a few hundred numbers, however many steps there were.
 ///
 /// The kernel has to know its [late lags](LagKernel::late_lags). On the half-plane they begin when
 /// the Rayleigh wave has crossed the patch three times: only normal and tangential components are
@@ -127,14 +127,12 @@ impl ExponentialHistory {
         let Windowed { fit, spectra } = if let Some(known) = known {
             known
         } else {
-            let new = Windowed {
-                fit: Arc::new(Fit::new(&*kernel, late, request)?),
-                spectra: SharedSpectra::default(),
-            };
-            if let Some(store) = store {
-                store.tails().push(new.clone());
+            // Not while the store is locked: a kernel may work on several threads, which must not wait.
+            let fit = Arc::new(Fit::new(&*kernel, late, request)?);
+            match store {
+                Some(store) => store.keep(fit),
+                None => Windowed { fit, spectra: SharedSpectra::default() },
             }
-            new
         };
         let window = bounded(&Cut { kernel: &*kernel, lags, spectra: &spectra }, lags)?;
         Ok(Self {
@@ -338,5 +336,30 @@ impl ConvolutionHistory for ExponentialHistory {
         }
         self.pending = steps > 0;
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bem::{PatchKernel, Strip};
+    use crate::soil::Soil;
+
+    /// Two threads that find nothing and make the same fit end up with one.
+    #[test]
+    fn the_first_fit_is_everybodys() {
+        let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
+        let elements = Strip::uniform(-1.0..1.0, 3).unwrap().elements();
+        let kernel = PatchKernel::new(soil, elements, 0.2).unwrap();
+        let store = kernel.spectra().unwrap();
+        let fit = |tolerance| {
+            let request = Request { lags: 64, horizon: 1000, tolerance };
+            Arc::new(Fit::new(&kernel, &kernel, request).unwrap())
+        };
+        let [one, two, coarse] = [fit(1e-9), fit(1e-9), fit(1e-4)];
+        let made = [one, two, coarse].map(|fit| store.keep(fit));
+        assert!(Arc::ptr_eq(&made[0].fit, &made[1].fit));
+        assert!(!Arc::ptr_eq(&made[0].fit, &made[2].fit));
+        assert_eq!(store.tails().len(), 2);
     }
 }

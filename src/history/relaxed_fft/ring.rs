@@ -30,7 +30,7 @@ impl Ring {
         if self.is_bounded() { number.min(levels - 1) } else { number }
     }
 
-    /// Places that outputs enter for the first time at `now`, where inputs of long ago still are.
+    /// Places whose old inputs have to make room for outputs at `now`.
     pub(super) fn stale(self, now: usize) -> Option<std::ops::Range<usize>> {
         let half = self.0 / 2;
         let begins = self.is_bounded() && now.is_multiple_of(half);

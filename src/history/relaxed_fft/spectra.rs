@@ -23,7 +23,8 @@ impl<L, N> Default for Levels<L, N> {
     }
 }
 
-/// Spectra of a kernel's coefficients, for all histories of this kernel and of its clones.
+/// Spectra of a kernel's coefficients, and exponentials for its late lags, for all histories of this
+/// kernel and of its clones.
 ///
 /// Clones are one and the same store. A [`LagKernel`](crate::history::LagKernel) keeps one beside
 /// its coefficients and shows it in [`spectra`](crate::history::LagKernel::spectra).
@@ -71,6 +72,20 @@ impl SharedSpectra {
     /// The tails made so far.
     pub(crate) fn tails(&self) -> MutexGuard<'_, Vec<Windowed>> {
         lock(&self.stores.tails)
+    }
+
+    /// Keeps a tail, unless another thread was first: then that one's is taken. Windows of one
+    /// length share their spectra.
+    pub(crate) fn keep(&self, fit: Arc<Fit>) -> Windowed {
+        let mut tails = self.tails();
+        if let Some(known) = tails.iter().find(|known| known.fit.request == fit.request) {
+            return known.clone();
+        }
+        let same = tails.iter().find(|known| known.fit.request.lags == fit.request.lags);
+        let spectra = same.map_or_else(Self::default, |known| known.spectra.clone());
+        let new = Windowed { fit, spectra };
+        tails.push(new.clone());
+        new
     }
 }
 

@@ -316,7 +316,7 @@ impl Blocks for Waves {
     }
 }
 
-/// What the inputs of a leaf so far give at its next output.
+/// Sum over the inputs of a leaf so far, for its next output.
 struct Leaf<'a> {
     sum: &'a mut [f64],
     inputs: &'a [f64],
