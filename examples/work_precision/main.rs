@@ -9,6 +9,7 @@
 //! ```
 
 mod advice;
+mod advice_sweep;
 mod catalogue;
 mod force;
 #[path = "../common/key.rs"]
@@ -31,6 +32,9 @@ type AnyError = Box<dyn std::error::Error + Send + Sync>;
 fn main() -> Result<(), AnyError> {
     let options = Options::parse();
     std::fs::create_dir_all(&options.out)?;
+    if options.advice {
+        return advice_sweep::run(&options.out, true);
+    }
     let sweeps = Sweep::list(options.short)?;
     let runs = sweeps.iter().map(|sweep| sweep.settings.len() as u64).sum();
     let bar = ProgressBar::new(runs);
