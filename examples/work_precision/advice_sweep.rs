@@ -91,7 +91,8 @@ impl Drawn {
             record,
             tolerances: TOLERANCES[(number / 3 % 3) as usize],
         };
-        let sway = scene.sway.map_or("rigid".into(), |[f, d]| format!("{f:.2} Hz {:.1} %", 100.0 * d));
+        let sway =
+            scene.sway.map_or("rigid".into(), |[f, d]| format!("{f:.2} Hz {:.1} %", 100.0 * d));
         let label = format!(
             "{number:3} ν {poisson} c_S {speed:.0} h/b {slenderness:.2} {density:.0} kg/m³ {sway} {motion}"
         );
@@ -126,7 +127,8 @@ impl Drawn {
                         // 70 % of the mass at 70 % of the height, the rest what a block has.
                         let (swaying, arm) = (0.7 * mass, 0.7 * height);
                         let block = mass * (HALF * HALF + height * height) / 3.0;
-                        let rotary = 0.5 * (block - swaying * arm * arm).max(mass * HALF * HALF / 3.0);
+                        let rotary =
+                            0.5 * (block - swaying * arm * arm).max(mass * HALF * HALF / 3.0);
                         let natural = TAU * frequency;
                         let storey = Storey {
                             height: arm,
@@ -135,7 +137,8 @@ impl Drawn {
                             stiffness: swaying * natural * natural,
                             damping: 2.0 * ratio * swaying * natural,
                         };
-                        let building = ShearBuilding::new(2.0 * HALF, 0.3 * mass, rotary, &[storey])?;
+                        let building =
+                            ShearBuilding::new(2.0 * HALF, 0.3 * mass, rotary, &[storey])?;
                         builder.structure(building)
                     }
                 })
@@ -183,8 +186,18 @@ fn near_fault(period: f64, cycles: f64, phase: f64) -> basemat::Result<Record> {
 pub(crate) fn run(out: &Path, diagnose: bool) -> Result<(), AnyError> {
     let mut writer = csv::Writer::from_path(out.join("advice_sweep.csv"))?;
     writer.write_record([
-        "scene", "tolerance", "elements", "time_step", "expected_mesh", "expected_step",
-        "expected_peak", "history", "peak", "step_history", "step_peak", "seconds",
+        "scene",
+        "tolerance",
+        "elements",
+        "time_step",
+        "expected_mesh",
+        "expected_step",
+        "expected_peak",
+        "history",
+        "peak",
+        "step_history",
+        "step_peak",
+        "seconds",
     ])?;
     let bar = ProgressBar::new(SCENES);
     let mut ratios = Vec::new();
@@ -220,16 +233,35 @@ pub(crate) fn run(out: &Path, diagnose: bool) -> Result<(), AnyError> {
             ratios.push(ratio);
             println!(
                 "{ratio:5.2} {} tol {} Q {} Δt {:.2e} f {:.2}: mesh {:.1e} step {:.1e} peak {:.1e}; met {history:.1e} {peak:.1e}, step {:.1e} {:.1e}",
-                drawn.label, advice.tolerance, advice.elements, advice.time_step, advice.frequency,
-                advice.mesh_error, advice.step_error, advice.peak_error, step_only.history, step_only.peak,
+                drawn.label,
+                advice.tolerance,
+                advice.elements,
+                advice.time_step,
+                advice.frequency,
+                advice.mesh_error,
+                advice.step_error,
+                advice.peak_error,
+                step_only.history,
+                step_only.peak,
             );
             let mut row = vec![
-                drawn.label.clone(), advice.tolerance.to_string(), advice.elements.to_string(),
+                drawn.label.clone(),
+                advice.tolerance.to_string(),
+                advice.elements.to_string(),
                 advice.time_step.to_string(),
             ];
             row.extend(
-                [advice.mesh_error, advice.step_error, advice.peak_error, history, peak,
-                 step_only.history, step_only.peak, seconds].map(|x| format!("{x:.3e}")),
+                [
+                    advice.mesh_error,
+                    advice.step_error,
+                    advice.peak_error,
+                    history,
+                    peak,
+                    step_only.history,
+                    step_only.peak,
+                    seconds,
+                ]
+                .map(|x| format!("{x:.3e}")),
             );
             writer.write_record(row)?;
         }
@@ -241,7 +273,13 @@ pub(crate) fn run(out: &Path, diagnose: bool) -> Result<(), AnyError> {
     let at = |share: f64| ratios[(share * (ratios.len() - 1) as f64) as usize];
     println!(
         "{} runs: above tolerance {}, above 2 x {}; quantiles 5, 50, 95, 100 %: {:.2} {:.2} {:.2} {:.2}",
-        ratios.len(), above(1.0), above(2.0), at(0.05), at(0.5), at(0.95), at(1.0)
+        ratios.len(),
+        above(1.0),
+        above(2.0),
+        at(0.05),
+        at(0.5),
+        at(0.95),
+        at(1.0)
     );
     Ok(())
 }
