@@ -138,9 +138,8 @@ struct Line {
 /// `4 c_S/B` (see [`Advice::beyond_measured`]); soil as deep as the half-plane; a structure that is
 /// itself well meshed. The tolerance is that of the **base shear**: rotations come out about twice,
 /// a slender structure's base moment up to six times as far off. With uplift and sliding errors
-/// are erratic, and came out at 1.5 to 2.2 times the tolerance in the scene that was measured; there
-/// the advice is where to begin, and a second run with half of Δt and twice the elements is what
-/// tells. `docs/accuracy.md` has the measurements.
+/// are erratic, and were measured in one scene only; there the advice is where to begin, and a second
+/// run with half of Δt and twice the elements is what tells. `docs/accuracy.md` has the measurements.
 ///
 /// ```
 /// use basemat::Soil;
