@@ -41,7 +41,7 @@ macro_rules! table {
     };
 }
 
-/// The scenes with tables; the first two are swept.
+/// The scenes with tables; the first is swept.
 pub(crate) const TABLES: [Table; 7] = [
     table!("block, ν = 1/3", "block_SV_nu0333_h2_rho1", 1.0 / 3.0, Structure::Block(2.0, 1.0)),
     table!("block, ν = 1/4", "block_SV_nu025_h2_rho1", 0.25, Structure::Block(2.0, 1.0)),

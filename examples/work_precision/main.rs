@@ -1,16 +1,20 @@
-//! Error of the base shear against processor time: rigid blocks with reference tables, and the
-//! containment of the example of that name cut to five seconds, bonded and sliding.
+//! Error of the base shear against processor time: a rigid block with a reference table, the
+//! containment of the example of that name cut to five seconds, and towers of 300 to 30 000 unknowns.
 //!
-//! Swept are elements, grading, time step, history and time scheme. Then the library's advice is
-//! put to the test. What is in `docs/accuracy.md` comes from
+//! Swept are elements, grading, time step, history and time scheme, and coordinates of the towers. Then
+//! the library's advice is put to the test. What is in `docs/accuracy.md` comes from
 //!
 //! ```text
 //! cargo run --release --example work_precision -- --docs docs
+//! cargo run --release --example work_precision -- --advice
 //! ```
 
 mod advice;
+mod advice_sweep;
 mod catalogue;
 mod force;
+mod front;
+mod front_picture;
 #[path = "../common/key.rs"]
 mod key;
 mod options;
@@ -31,6 +35,16 @@ type AnyError = Box<dyn std::error::Error + Send + Sync>;
 fn main() -> Result<(), AnyError> {
     let options = Options::parse();
     std::fs::create_dir_all(&options.out)?;
+    if options.advice {
+        return advice_sweep::run(&options.out, options.short);
+    }
+    if options.front {
+        let bar = ProgressBar::new(0);
+        let lines = front::run(options.short, options.repeats, &bar)?;
+        println!("{}", front_picture::table(&lines)?);
+        front_picture::draw(&options.out.join("work_precision.svg"), &lines)?;
+        return front::write(&options.out.join("front.csv"), &lines);
+    }
     let sweeps = Sweep::list(options.short)?;
     let runs = sweeps.iter().map(|sweep| sweep.settings.len() as u64).sum();
     let bar = ProgressBar::new(runs);
@@ -42,6 +56,8 @@ fn main() -> Result<(), AnyError> {
         bar.set_prefix(sweep.scene.name);
         outcomes.push(sweep.run(options.repeats, &bar)?);
     }
+    bar.set_prefix("300 to 30 000 unknowns");
+    let lines = front::run(options.short, options.repeats, &bar)?;
     bar.set_prefix("advice");
     let advice = advice::check(options.short, &bar)?;
     bar.finish_and_clear();
@@ -50,13 +66,20 @@ fn main() -> Result<(), AnyError> {
     println!("{tables}");
     report::write_points(&options.out.join("points.csv"), &outcomes)?;
     report::write_advice(&options.out.join("advice.csv"), &advice)?;
+    front::write(&options.out.join("front.csv"), &lines)?;
+    let settings = front_picture::table(&lines)?;
+    println!("{settings}");
     std::fs::write(options.out.join("tables.md"), &tables)?;
     let mut folders = vec![options.out.clone()];
     if let Some(docs) = &options.docs {
-        report::splice(&docs.join("accuracy.md"), &report::summary(&outcomes, &advice)?)?;
+        report::splice(
+            &docs.join("accuracy.md"),
+            &report::summary(&settings, &outcomes, &advice)?,
+        )?;
         folders.push(docs.join("images"));
     }
     for folder in folders {
+        front_picture::draw(&folder.join("work_precision.svg"), &lines)?;
         for outcome in &outcomes {
             plots::draw(&folder.join(format!("{}.svg", file_stem(outcome.scene))), outcome)?;
         }

@@ -19,6 +19,12 @@ pub(crate) struct Options {
     /// Small sweeps, in seconds: to see that all works, not to be quoted.
     #[arg(long)]
     pub(crate) short: bool,
+    /// Only the advice, on many bonded scenes drawn at random: writes advice_sweep.csv.
+    #[arg(long)]
+    pub(crate) advice: bool,
+    /// Only the lines of error against time of structures of 300 to 30 000 unknowns.
+    #[arg(long)]
+    pub(crate) front: bool,
     /// Runs of each setting, of which the fastest counts; one only where a run takes over a second.
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
     pub(crate) repeats: u8,

@@ -126,15 +126,21 @@ pub(crate) fn tables(sweeps: &[Outcome], advice: &[Checked]) -> Result<String, A
     Ok(text)
 }
 
-/// The share of [`tables`] that the document shows: fastest settings, and advice scene by scene.
-pub(crate) fn summary(sweeps: &[Outcome], advice: &[Checked]) -> Result<String, AnyError> {
+/// What the document shows: settings to read, how good the containment's references are, and advice
+/// scene by scene.
+pub(crate) fn summary(
+    settings: &str,
+    sweeps: &[Outcome],
+    advice: &[Checked],
+) -> Result<String, AnyError> {
     let mut tolerances: Vec<f64> = advice.iter().map(|checked| checked.advice.tolerance).collect();
     tolerances.sort_by(|a, b| b.total_cmp(a));
     tolerances.dedup();
     let mut scenes: Vec<&str> = advice.iter().map(|checked| checked.scene).collect();
     scenes.dedup();
 
-    let mut text = fastest(sweeps)?;
+    let mut text = format!("Machine: {}; {}.\n\n{settings}", processor(), compiler());
+    doubts(&mut text, sweeps)?;
     text.push_str(
         "\nAdvice put to the test, larger of both errors over the tolerance:\n\n| scene |",
     );
@@ -177,6 +183,11 @@ fn fastest(sweeps: &[Outcome]) -> Result<String, AnyError> {
             }
         }
     }
+    doubts(&mut text, sweeps)?;
+    Ok(text)
+}
+
+fn doubts(text: &mut String, sweeps: &[Outcome]) -> Result<(), AnyError> {
     for sweep in sweeps {
         if let Some(doubt) = sweep.doubt {
             writeln!(
@@ -189,7 +200,7 @@ fn fastest(sweeps: &[Outcome]) -> Result<String, AnyError> {
             )?;
         }
     }
-    Ok(text)
+    Ok(())
 }
 
 /// The larger error that a proposal met, over its tolerance.

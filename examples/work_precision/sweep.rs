@@ -56,22 +56,16 @@ impl Sweep {
     /// All sweeps.
     pub(crate) fn list(short: bool) -> Result<Vec<Self>, AnyError> {
         let mut sweeps = Vec::new();
-        for table in &TABLES[..if short { 1 } else { 2 }] {
-            let (scene, force) = table.open()?;
-            sweeps.push(Self::new(scene, Reference::Table(force), block_settings(short)));
-        }
+        let (scene, force) = TABLES[0].open()?;
+        sweeps.push(Self::new(scene, Reference::Table(force), block_settings(short)));
         let duration = if short { 0.5 } else { 5.0 };
-        for (name, friction) in
-            [("containment, bonded", None), ("containment, friction 0.4", Some(0.4))]
-        {
-            let (elements, factor) = if short { (16, 1.0) } else { (40, 0.25) };
-            let reference = Settings::new(elements, Grading::Cosine, factor * CONTAINMENT_STEP);
-            sweeps.push(Self::new(
-                containment(name, friction, duration)?,
-                Reference::Run(reference),
-                containment_settings(short),
-            ));
-        }
+        let (elements, factor) = if short { (16, 1.0) } else { (40, 0.25) };
+        let reference = Settings::new(elements, Grading::Cosine, factor * CONTAINMENT_STEP);
+        sweeps.push(Self::new(
+            containment("containment, friction 0.4", Some(0.4), duration)?,
+            Reference::Run(reference),
+            containment_settings(short),
+        ));
         Ok(sweeps)
     }
 

@@ -1,9 +1,9 @@
 //! Advice on mesh and time step for a wanted accuracy.
 
-use std::f64::consts::{SQRT_2, TAU};
+use std::f64::consts::{PI, TAU};
 use std::fmt;
 
-use super::response_estimate::{Sketch, StiffnessError};
+use super::response_estimate::{Sketch, Steps, StiffnessError};
 use crate::Soil;
 use crate::bem::{Grading, HalfPlaneGround, Strip};
 use crate::error::{Error, Result, not_negative, positive};
@@ -15,6 +15,10 @@ use crate::motion::FrequencyContent;
 /// elements (`docs/accuracy.md`; on Q uniform elements it is 0.22/Q and 0.77/Q).
 const HORIZONTAL: f64 = 0.65;
 const ROCKING: f64 = 1.85;
+
+/// Share of the tolerance that mesh, step and peak have each. Errors of mesh and step add up to more than
+/// the root of their squares, and estimates are off by a fifth, one standard deviation.
+const SHARE: f64 = 0.6;
 
 /// Fewest elements advised, and most.
 const ELEMENTS: [usize; 2] = [4, 1000];
@@ -116,16 +120,17 @@ struct Line {
 ///
 /// Nothing is computed in time. The base shear of the outline on a rigid strip under a motion of
 /// this `content` is estimated in the frequency domain, once as it is, once with the strip's
-/// stiffnesses in error as much as Q elements make them, once with frequency warped and forces
-/// averaged as steps of Δt do. Q is the smallest and Δt the largest with which
+/// stiffnesses in error as much as Q elements make them, once as steps of Δt make it: frequency warped,
+/// forces averaged, and the soil damped by tractions that are constant over a step. Q is the smallest
+/// and Δt the largest with which
 ///
-/// * the change by the mesh, in the root-mean-square sense over the whole history,
+/// * the change by the mesh, in the root-mean-square sense over the record's duration,
 /// * the change by the step, in the same sense,
 /// * the loss of a peak that is averaged over a step and falls anywhere in it, (ωΔt)²/12 with
-///   the root-mean-square frequency of the base shear,
+///   ω² = ∫ω⁴|V|²/∫ω²|V|², the frequency of the peaks of the base shear V,
 ///
-/// each stay within tolerance/√2. The first includes how a lightly damped response amplifies an
-/// error of stiffness; the last is what usually decides on Δt.
+/// each stay within 0.6 of the tolerance. The first two include how a lightly damped response amplifies
+/// errors; they grow until it has decayed, or the record ends. A flat content has no end.
 ///
 /// # What is assumed
 ///
@@ -133,9 +138,8 @@ struct Line {
 /// `4 c_S/B` (see [`Advice::beyond_measured`]); soil as deep as the half-plane; a structure that is
 /// itself well meshed. The tolerance is that of the **base shear**: rotations come out about twice,
 /// a slender structure's base moment up to six times as far off. With uplift and sliding errors
-/// are erratic, and came out at 1.5 to 2.2 times the tolerance in the scene that was measured; there
-/// the advice is where to begin, and a second run with half of Δt and twice the elements is what
-/// tells. `docs/accuracy.md` has the measurements.
+/// are erratic, and were measured in one scene only; there the advice is where to begin, and a second
+/// run with half of Δt and twice the elements is what tells. `docs/accuracy.md` has the measurements.
 ///
 /// ```
 /// use basemat::Soil;
@@ -174,8 +178,9 @@ pub fn advise(
     let mass = positive("mass of the outline", outline.mass / (soil.density() * half * half))?;
     let height = positive("height of the outline", outline.height / half)?;
     let sway = outline.sway.map(|[frequency, damping]| [TAU * frequency * unit, damping]);
+    let duration = content.duration().map(|duration| duration / unit);
     let estimate = Estimate {
-        sketch: Sketch::new(soil, mass, height, sway),
+        sketch: Sketch::new(soil, mass, height, sway, duration),
         lines: content
             .lines()
             .map(|(frequency, energy)| {
@@ -184,10 +189,11 @@ pub fn advise(
             })
             .collect(),
     };
-    let [norm, square, beyond] = estimate.moments();
+    let Moments { norm, square, fourth, beyond } = estimate.moments();
     let norm = positive("estimated energy of the base shear", norm)?;
     let rate = positive("estimated frequency of the base shear", (square / norm).sqrt())?;
-    let allowed = tolerance / SQRT_2;
+    let sharp = positive("estimated frequency of its peaks", (fourth / square).sqrt())?;
+    let allowed = SHARE * tolerance;
 
     let mesh = |elements: usize| estimate.mesh_error(elements, norm);
     let [mut few, mut enough] = ELEMENTS;
@@ -200,11 +206,12 @@ pub fn advise(
         if mesh(middle) <= allowed { enough = middle } else { few = middle + 1 }
     }
 
-    let peak = |step: f64| (rate * step).powi(2) / 12.0;
+    let peak = |step: f64| (sharp * step).powi(2) / 12.0;
     // The largest step by its peaks; then down by what two digits resolve.
-    let mut step = largest_step(unit * (12.0 * allowed).sqrt() / rate)? / unit;
+    let mut step = largest_step(unit * (12.0 * allowed).sqrt() / sharp)? / unit;
+    let step_error = |step: f64| estimate.step_error(step, enough, norm);
     loop {
-        let error = not_negative("expected error", estimate.step_error(step, norm))?;
+        let error = not_negative("expected error", step_error(step))?;
         if error <= allowed {
             break;
         }
@@ -212,8 +219,7 @@ pub fn advise(
         let factor = (allowed / error).sqrt().clamp(0.7, 1.0);
         step = largest_step(0.98 * factor * step * unit)? / unit;
     }
-    let crossing =
-        half * (1.0 - (std::f64::consts::PI / enough as f64).cos()) / soil.pressure_wave_speed();
+    let crossing = half * edge(enough) / soil.pressure_wave_speed();
     Ok(Advice {
         elements: enough,
         grading: Grading::Cosine,
@@ -222,7 +228,7 @@ pub fn advise(
         history: History::Auto,
         tolerance,
         mesh_error: mesh(enough),
-        step_error: estimate.step_error(step, norm),
+        step_error: step_error(step),
         peak_error: peak(step),
         frequency: rate / (TAU * unit),
         beyond_measured: beyond / norm,
@@ -242,21 +248,40 @@ fn stiffness_error(elements: usize) -> StiffnessError {
     StiffnessError { horizontal, rocking }
 }
 
+/// Length of the shortest of so many graded elements, which is at the edge, over half the width.
+fn edge(elements: usize) -> f64 {
+    1.0 - (PI / elements as f64).cos()
+}
+
+/// Sums over the lines.
+#[derive(Default)]
+struct Moments {
+    /// Of |V|².
+    norm: f64,
+    /// Of a₀² |V|².
+    square: f64,
+    /// Of a₀⁴ |V|².
+    fourth: f64,
+    /// Of |V|² where a₀ is beyond what was measured.
+    beyond: f64,
+}
+
 struct Estimate {
     sketch: Sketch,
     lines: Vec<Line>,
 }
 
 impl Estimate {
-    /// Sums over the lines of |V|², a₀² |V|², and of |V|² where a₀ is beyond what was measured.
-    fn moments(&self) -> [f64; 3] {
-        let mut sums = [0.0; 3];
+    fn moments(&self) -> Moments {
+        let mut sums = Moments::default();
         for line in &self.lines {
             let energy =
                 line.motion * self.sketch.shear(line.a, StiffnessError::default()).norm_sqr();
-            sums[0] += energy;
-            sums[1] += line.a * line.a * energy;
-            sums[2] += if line.a > MEASURED { energy } else { 0.0 };
+            let square = line.a * line.a;
+            sums.norm += energy;
+            sums.square += square * energy;
+            sums.fourth += square * square * energy;
+            sums.beyond += if line.a > MEASURED { energy } else { 0.0 };
         }
         sums
     }
@@ -269,16 +294,14 @@ impl Estimate {
         })
     }
 
-    /// Relative change of V by steps (in units of B/c_S). The midpoint rule, and a traction constant
-    /// over the step on the soil, see (2/Δt) tan(ωΔt/2) for ω and the mean of the displacements at
-    /// both ends for the displacement; what they are compared with is the mean force of the step.
-    fn step_error(&self, step: f64, norm: f64) -> f64 {
-        let exact = StiffnessError::default();
+    /// Relative change of V by steps (in units of B/c_S) on so many elements, compared with its mean
+    /// over each step.
+    fn step_error(&self, step: f64, elements: usize, norm: f64) -> f64 {
+        let steps = Steps { step, edge: edge(elements) };
         self.change(norm, |a| {
-            // Beyond the step's Nyquist frequency all is lost: the warped one ends there.
             let phase = (0.5 * a * step).min(1.5);
-            let warped = self.sketch.shear(2.0 / step * phase.tan(), exact) * phase.cos();
-            warped - self.sketch.shear(a, exact) * (phase.sin() / phase)
+            let exact = self.sketch.shear(a, StiffnessError::default());
+            self.sketch.stepped_shear(a, steps) - exact * (phase.sin() / phase)
         })
     }
 

@@ -31,6 +31,8 @@ pub struct FrequencyContent {
     spacing: f64,
     /// Energies of the lines, m²/s³.
     energy: Vec<f64>,
+    /// Of the record, s.
+    duration: Option<f64>,
 }
 
 impl FrequencyContent {
@@ -57,7 +59,8 @@ impl FrequencyContent {
             .skip(1)
             .map(|(k, line)| (if k == last { 1.0 } else { 2.0 }) * scale * line.norm_sqr());
         let spacing = 1.0 / (length as f64 * record.time_step());
-        Self { spacing, energy: energy.collect() }.checked()
+        let duration = Some(record.len() as f64 * record.time_step());
+        Self { spacing, energy: energy.collect(), duration }.checked()
     }
 
     /// The same energy at every frequency up to `highest` (Hz), and none above: for when no more is
@@ -68,7 +71,7 @@ impl FrequencyContent {
     pub fn flat(highest: f64) -> Result<Self> {
         positive("highest frequency", highest)?;
         let spacing = positive("highest frequency", highest / LINES as f64)?;
-        Self { spacing, energy: vec![1.0; LINES] }.checked()
+        Self { spacing, energy: vec![1.0; LINES], duration: None }.checked()
     }
 
     fn checked(self) -> Result<Self> {
@@ -94,6 +97,11 @@ impl FrequencyContent {
             }
         }
         Ok(self.energy.len() as f64 * self.spacing)
+    }
+
+    /// Duration of the record, s, if it is that of one.
+    pub(crate) fn duration(&self) -> Option<f64> {
+        self.duration
     }
 
     /// Frequency (Hz) and energy of each line.

@@ -228,6 +228,109 @@ fn a_record_comes_out_as_asked() {
     }
 }
 
+/// A bonded scene on a base 10 m wide and soil of 1900 kg/m³.
+struct Scene {
+    name: &'static str,
+    poisson: f64,
+    shear_wave_speed: f64,
+    /// Height over half the width, and density of the outline.
+    slenderness: f64,
+    density: f64,
+    /// Frequency on a fixed base and damping ratio.
+    sway: Option<[f64; 2]>,
+    record: Record,
+    tolerance: f64,
+}
+
+impl Scene {
+    fn outline(&self) -> Outline {
+        let height = 5.0 * self.slenderness;
+        let outline = Outline::new(10.0, height, 10.0 * height * self.density).unwrap();
+        self.sway.map_or(outline, |[f, damping]| outline.with_frequency(f, damping).unwrap())
+    }
+
+    fn run(&self, time_step: f64, ground: HalfPlaneGround) -> Vec<f64> {
+        let builder = Simulation::builder(time_step)
+            .ground(ground)
+            .interface(Bonded)
+            .gravity(0.0)
+            .motion(self.record.clone());
+        let height = 5.0 * self.slenderness;
+        let mass = 10.0 * height * self.density;
+        let builder = match self.sway {
+            None => builder.structure(RigidBlock::new(10.0, height, self.density).unwrap()),
+            Some([frequency, damping]) => {
+                let (swaying, omega) = (0.7 * mass, std::f64::consts::TAU * frequency);
+                let storey = Storey {
+                    damping: 2.0 * damping * swaying * omega,
+                    rotary_inertia: mass * 25.0 / 6.0,
+                    ..Storey::new(0.7 * height, swaying, swaying * omega * omega)
+                };
+                let base = [0.3 * mass, mass * 25.0 / 6.0];
+                builder.structure(ShearBuilding::new(10.0, base[0], base[1], &[storey]).unwrap())
+            }
+        };
+        let (mut simulation, mut forces) = (builder.build().unwrap(), Vec::new());
+        let steps = whole((self.record.duration() / time_step).floor());
+        simulation.run(steps, |state| forces.push(state.base_shear)).unwrap();
+        forces
+    }
+
+    /// The larger error, history or peak, over the tolerance.
+    fn ratio(&self) -> f64 {
+        let shear_modulus = 1900.0 * self.shear_wave_speed.powi(2);
+        let soil = Soil::new(shear_modulus, self.poisson, 1900.0).unwrap();
+        let content = FrequencyContent::of(&self.record).unwrap();
+        let advice = advise(soil, &self.outline(), &content, self.tolerance).unwrap();
+        let forces = self.run(advice.time_step, advice.ground(soil, -5.0..5.0).unwrap());
+        let strip = Strip::new(-5.0..5.0, 3 * advice.elements, Grading::Cosine).unwrap();
+        let fine = self.run(advice.time_step / 3.0, HalfPlaneGround::new(soil, &[strip]).unwrap());
+        let mut history = Difference::default();
+        for (force, parts) in forces.iter().zip(fine.chunks_exact(3)) {
+            history.add(*force, parts.iter().sum::<f64>() / 3.0);
+        }
+        let peak = |forces: &[f64]| forces.iter().fold(0.0_f64, |m, f| m.max(f.abs()));
+        let peak = (peak(&forces) / peak(&fine) - 1.0).abs();
+        // All are of the second order: the finer run has a ninth of the error itself.
+        report(self.name, &advice, [history.relative(), peak].map(|error| 9.0 / 8.0 * error))
+    }
+}
+
+/// Ricker pulse of displacement e^(−(t−5σ)²/σ²), and rest.
+fn ricker(sigma: f64) -> Record {
+    let pulse = |k: i32| {
+        let q = (0.02 * f64::from(k) - 5.0).powi(2);
+        (-8.0 * q * q + 24.0 * q - 6.0) * (-q).exp()
+    };
+    Record::new(0.02 * sigma, (0..=800).map(pulse).collect()).unwrap()
+}
+
+/// GOAL: the same where steps add damping to a slender structure's rocking, and where a slow response
+/// has a sharp peak.
+/// SCENE: the worst of 170 scenes drawn at random (`work_precision --advice`), bonded.
+/// REFERENCE: runs three times finer in both.
+#[test]
+fn slender_structures_and_sharp_peaks_come_out_as_asked() {
+    let rigid = |name, poisson, shear_wave_speed, slenderness, density, record, tolerance| {
+        let sway = None;
+        Scene { name, poisson, shear_wave_speed, slenderness, density, sway, record, tolerance }
+    };
+    let scenes = [
+        rigid("tower, El Centro", 0.33, 200.0, 5.0, 2000.0, el_centro(10.0), 0.1),
+        rigid("tower, short pulse", 0.25, 401.0, 3.74, 1229.0, ricker(0.1), 0.01),
+        rigid("block, pulse", 0.0, 316.0, 2.87, 1744.0, ricker(0.15), 0.01),
+        Scene {
+            sway: Some([0.57, 0.031]),
+            ..rigid("slow sway", 0.33, 295.0, 1.19, 1052.0, el_centro(8.0), 0.01)
+        },
+    ];
+    for scene in scenes {
+        let ratio = scene.ratio();
+        // The peak of the last is expected to fall where it loses most, and may fall elsewhere.
+        assert!((0.1..1.35).contains(&ratio), "{}: {ratio:.2} of the tolerance", scene.name);
+    }
+}
+
 /// A stricter tolerance never costs less, and what is expected is within it.
 #[test]
 fn advice_follows_its_tolerance() {
@@ -238,7 +341,7 @@ fn advice_follows_its_tolerance() {
     for tolerance in [0.5, 0.2, 0.05, 0.01, 2e-3, 3e-4] {
         let advice = advise(soil, &outline, &content, tolerance).unwrap();
         let worst = advice.mesh_error.max(advice.step_error).max(advice.peak_error);
-        assert!(worst <= tolerance / std::f64::consts::SQRT_2 * (1.0 + 1e-9), "{advice}");
+        assert!(worst <= 0.6 * tolerance * (1.0 + 1e-9), "{advice}");
         if let Some(last) = last {
             assert!(advice.elements >= last.elements && advice.time_step < last.time_step);
         }
