@@ -79,7 +79,7 @@ pub(crate) fn draw(path: &Path, lines: &[Line]) -> Result<(), AnyError> {
 /// The fastest settings of each scene within 5, 1 and 0.3 %.
 pub(crate) fn table(lines: &[Line]) -> Result<String, AnyError> {
     let tolerances = [0.05, 0.01, 0.003];
-    let mut text = "| structure, scene | 5 % | 1 % | 0.3 % |\n|---|---|---|---|\n".to_owned();
+    let mut text = "| scene: graded elements, Δt, coordinates: time | 5 % | 1 % | 0.3 % |\n|---|---|---|---|\n".to_owned();
     let mut groups: Vec<&str> = lines.iter().map(|line| line.family.group).collect();
     groups.dedup();
     for group in groups {
@@ -102,8 +102,8 @@ pub(crate) fn table(lines: &[Line]) -> Result<String, AnyError> {
 
 fn cell(family: &Family, point: &Point) -> String {
     let grading = match family.grading {
-        Grading::Uniform => "equal",
-        _ => "graded",
+        Grading::Uniform => " equal",
+        _ => "",
     };
     let coordinates = match family.coordinates {
         Coordinates::Unknowns => "unknowns".to_owned(),
@@ -112,5 +112,5 @@ fn cell(family: &Family, point: &Point) -> String {
         _ => "automatic".to_owned(),
     };
     let (elements, step, seconds) = (point.elements, 1e3 * point.time_step, point.seconds);
-    format!("{elements} {grading}, {step} ms, {coordinates}: {seconds:.2} s")
+    format!("{elements}{grading}, {step} ms, {coordinates}: {seconds:.2} s")
 }
