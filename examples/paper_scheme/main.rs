@@ -67,6 +67,9 @@ struct Options {
     /// integrals.
     #[arg(long)]
     subelements: Option<usize>,
+    /// Gauss points in each of these sub-elements; one is the midpoint rule.
+    #[arg(long, default_value_t = 1)]
+    gauss: usize,
     /// Thickness of the layer over the height of the elements beside it.
     #[arg(long, default_value_t = 0.1)]
     ratio: f64,
@@ -106,7 +109,7 @@ fn main() -> Result<(), AnyError> {
         containment,
         record,
         free: options.free,
-        subelements: options.subelements,
+        subelements: options.subelements.map(|count| [count, options.gauss]),
         ratio: options.ratio,
         search: if options.robust {
             ContactSearch::Robust
