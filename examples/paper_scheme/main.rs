@@ -5,6 +5,7 @@
 //! ```text
 //! cargo run --release --example paper_scheme               # tables of docs/paper.md, CSV, plots
 //! cargo run --release --example paper_scheme -- --stability
+//! cargo run --release --example paper_scheme -- --limits       # steps and dampings that last
 //! cargo run --release --example paper_scheme -- --help
 //! ```
 //!
@@ -26,6 +27,7 @@ mod chart;
 mod containment;
 #[path = "../common/glue.rs"]
 mod glue;
+mod limits;
 mod report;
 mod scheme;
 mod stability;
@@ -76,6 +78,9 @@ struct Options {
     /// Look for contact beyond the flow chart in the paper's scheme too.
     #[arg(long)]
     robust: bool,
+    /// Only the table of steps and dampings with which the paper's scheme lasts.
+    #[arg(long)]
+    limits: bool,
     /// Only the table of growth and passivity of boundary equations over β.
     #[arg(long)]
     stability: bool,
@@ -111,6 +116,7 @@ fn main() -> Result<(), AnyError> {
         free: options.free,
         subelements: options.subelements.map(|count| [count, options.gauss]),
         ratio: options.ratio,
+        gamma: 0.5,
         search: if options.robust {
             ContactSearch::Robust
         } else {
@@ -120,6 +126,9 @@ fn main() -> Result<(), AnyError> {
     let duration = if options.short { 3.0 } else { options.duration.unwrap_or(whole) };
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "zero if not")]
     let steps = (duration / scene.time_step).round() as usize;
+    if options.limits {
+        return limits::print(&scene, duration, options.short);
+    }
     println!("{steps} steps of {:.4} ms, β = {}", 1e3 * scene.time_step, options.beta);
 
     report::print_assessments(&scene, steps)?;

@@ -48,6 +48,8 @@ pub(crate) struct Scene {
     pub(crate) subelements: Option<[usize; 2]>,
     /// Thickness of the layer over the height of the elements beside it.
     pub(crate) ratio: f64,
+    /// Newmark's γ, with β = (γ + ½)²/4.
+    pub(crate) gamma: f64,
     /// How the paper's scheme looks for contact modes.
     pub(crate) search: ContactSearch,
 }
@@ -85,7 +87,8 @@ impl Scheme {
         if self == Self::Own {
             own_interface(builder, friction)?.build()
         } else {
-            paper_interface(builder.scheme(Newmark::default()), scene, friction)?.build()
+            let newmark = Newmark::new(scene.gamma, 0.25 * (scene.gamma + 0.5).powi(2))?;
+            paper_interface(builder.scheme(newmark), scene, friction)?.build()
         }
     }
 
