@@ -10,10 +10,12 @@ use super::chart::key::{self, Sample};
 use super::chart::{self, SIZE};
 use super::containment::{PAPER_SHEARS, POUND_FORCE_PER_FOOT};
 
+/// A quantity of a case at a step, as drawn.
+type Value = fn(&Outcome, usize) -> f64;
+
 /// Uplift only and friction 0.4 in one picture each.
 pub(crate) fn draw(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
     let kinds = [Kind::Coulomb(f64::INFINITY), Kind::Coulomb(0.4)];
-    type Value = fn(&Outcome, usize) -> f64;
     let figures: [(&str, &str, &str, Value); 4] = [
         (
             "figure_4",

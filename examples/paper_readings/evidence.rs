@@ -115,7 +115,7 @@ pub(crate) fn print_search(reading: &Reading, short: bool) {
     for length_left_out in [false, true] {
         for rows in [&[0, 1, 2, 3, 4][..], &[2, 3, 4]] {
             let at = |[width, height]: [f64; 2]| {
-                misfit(&Reading { width, height, length_left_out, ..own.clone() }, rows)
+                misfit(&Reading { length_left_out, width, height, ..own.clone() }, rows)
             };
             let count = if short { 2 } else { 7 };
             let sizes = Sizes {

@@ -7,6 +7,7 @@ use super::containment::{Containment, FOOT};
 
 /// One reading.
 #[derive(Debug, Clone, Args)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub(crate) struct Reading {
     /// Interface.
     #[arg(long, value_enum, default_value = "layer")]

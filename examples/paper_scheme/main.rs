@@ -46,6 +46,7 @@ type AnyError = Box<dyn std::error::Error + Send + Sync>;
 
 /// The paper's scheme, its soil by convolution quadrature, and this crate's, side by side.
 #[derive(Debug, Clone, Parser)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 struct Options {
     /// Folder for summary.csv and plots.
     #[arg(long, default_value = "target/paper_scheme")]
