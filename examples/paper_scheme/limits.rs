@@ -85,10 +85,10 @@ pub(crate) fn print(scene: &Scene, duration: f64, short: bool) -> Result<(), Any
     let mut changes: Vec<Change> = if short {
         [0.5, 2.0].map(Change::Step).to_vec()
     } else {
-        [0.25, 0.5, 0.6, 0.75, 0.9, 1.0, 1.25, 1.5, 2.0, 3.0].map(Change::Step).to_vec()
+        [0.25, 0.5, 0.6, 0.75, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0].map(Change::Step).to_vec()
     };
     if !short {
-        changes.extend([0.02, 0.05, 0.1, 0.2, 0.5, 1.0].map(Change::Damping));
+        changes.extend([0.02, 0.05, 0.1, 0.2, 0.5, 0.6, 0.7, 0.8, 1.0].map(Change::Damping));
         changes.extend([0.6, 0.8, 1.0, 1.5].map(Change::Gamma));
     }
     println!(
