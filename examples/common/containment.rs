@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use basemat::Soil;
 use basemat::coupled::Probe;
-use basemat::fem::{Layer, Material, Mesh, QuadFormulation};
+use basemat::fem::{Direction, Layer, Material, Mesh, QuadFormulation};
 use basemat::structure::{FemModel, RayleighDamping};
 
 pub(crate) const FOOT: f64 = 0.3048;
@@ -117,6 +117,25 @@ impl Containment {
         let above = (self.layers - 1) as f64 * SUPERSTRUCTURE_DENSITY;
         let density = (self.foundation_density + above) * SLUG_PER_CUBIC_FOOT;
         self.width * FOOT * self.layer_height() * density
+    }
+
+    /// Mass of the superstructure per metre of thickness, kg/m.
+    pub(crate) fn superstructure_mass(&self) -> f64 {
+        let height = self.superstructure_height();
+        self.width * FOOT * height * SUPERSTRUCTURE_DENSITY * SLUG_PER_CUBIC_FOOT
+    }
+
+    /// Mean horizontal motion of the nodes at the foundation's top, as terms of a probe.
+    pub(crate) fn foundation_top(&self, model: &FemModel) -> basemat::Result<Vec<(usize, f64)>> {
+        let share = 1.0 / (self.elements + 1) as f64;
+        let Range { start, end } = self.base();
+        let mut terms = Vec::new();
+        for k in 0..=self.elements {
+            let x = start + (end - start) * k as f64 / self.elements as f64;
+            let row = model.row(model.node_at(x, self.layer_height())?, Direction::X)?;
+            terms.extend(row.terms().iter().map(|(unknown, weight)| (*unknown, share * weight)));
+        }
+        Ok(terms)
     }
 
     /// A roof corner: its place, m.

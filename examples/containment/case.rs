@@ -4,6 +4,7 @@ use basemat::bem::HalfPlaneGround;
 use basemat::coupled::{Probe, Run};
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::Record;
+use basemat::structure::Structure;
 use basemat::{Simulation, SweepCase};
 
 use super::AnyError;
@@ -48,6 +49,8 @@ pub(crate) struct Histories {
     pub(crate) roof: Vec<[f64; 2]>,
     /// Horizontal force of the superstructure on the foundation, N/m.
     pub(crate) shear: Vec<f64>,
+    /// The same if the superstructure moved as the foundation's top does, N/m.
+    pub(crate) rigid_shear: Vec<f64>,
     /// Horizontal force of the base on the soil, N/m.
     pub(crate) contact_shear: Vec<f64>,
     pub(crate) base_moment: Vec<f64>,
@@ -66,6 +69,10 @@ pub(crate) struct Outcome {
     pub(crate) peak_shear: f64,
     /// Largest displacement of the roof corner relative to the free field's start, m.
     pub(crate) peak_roof: f64,
+    /// Largest rise of the roof corner, m.
+    pub(crate) peak_lift: f64,
+    /// Largest horizontal displacement of the roof corner against the base, m.
+    pub(crate) peak_sway: f64,
     /// Contact length, m.
     pub(crate) width: f64,
 }
@@ -86,6 +93,14 @@ pub(crate) fn run(
     let roof_x = model.row(corner, basemat::fem::Direction::X)?;
     let roof_y = model.row(corner, basemat::fem::Direction::Y)?;
 
+    let top = scene.foundation_top(&model)?;
+    let base_nodes: Vec<_> =
+        model.contact_nodes().iter().flat_map(|node| node.horizontal.terms().to_vec()).collect();
+    let share = 1.0 / base_nodes.len() as f64;
+    let base: Vec<_> = base_nodes.into_iter().map(|(unknown, w)| (unknown, -share * w)).collect();
+    let mut sway = roof_x.terms().to_vec();
+    sway.extend(base);
+
     let builder = Simulation::builder(options.time_step_s())
         .structure(model)
         // Equal elements, as in the paper.
@@ -94,7 +109,10 @@ pub(crate) fn run(
         .expected_steps(steps)
         .probe(Probe::absolute_displacement("roof x", roof_x))
         .probe(Probe::absolute_displacement("roof y", roof_y))
-        .probe(base_shear);
+        .probe(base_shear)
+        .probe(Probe::acceleration("foundation", top))
+        .probe(Probe::displacement("sway", sway))
+        .serviceability(options.limits()?);
     let mut simulation = match case.kind {
         Kind::Bonded => builder.interface(Bonded),
         Kind::Coulomb(friction) => builder.interface(Coulomb::new(friction)?),
@@ -106,6 +124,7 @@ pub(crate) fn run(
         kept.time.push(state.time);
         kept.roof.push([state.probes[0], state.probes[1]]);
         kept.shear.push(state.probes[2]);
+        kept.rigid_shear.push(-scene.superstructure_mass() * state.probes[3]);
         kept.contact_shear.push(state.base_shear);
         kept.base_moment.push(state.base_moment);
         kept.normal_force.push(state.normal_force);
@@ -120,6 +139,8 @@ pub(crate) fn run(
         case: case.clone(),
         peak_shear: run.probe("base shear")?.magnitude(),
         peak_roof: run.probe("roof x")?.magnitude(),
+        peak_lift: run.probe("roof y")?.highest.value,
+        peak_sway: run.probe("sway")?.magnitude(),
         run,
         histories: kept,
         width: scene.width * FOOT,

@@ -12,13 +12,16 @@
 mod case;
 #[path = "../common/chart.rs"]
 mod chart;
+mod conclusions;
 #[path = "../common/containment.rs"]
 mod containment;
+mod figures;
 mod options;
 mod plots;
 mod report;
 
 use basemat::Sweep;
+use basemat::motion::Record;
 use clap::Parser;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
@@ -77,6 +80,37 @@ fn main() -> Result<(), AnyError> {
     report::write_summary(&options.out, &results)?;
     report::write_histories(&options.out, &results)?;
     plots::draw_all(&options.out, &results)?;
+    conclusions::print(&results);
+    figures::draw(&options.out, &results)?;
+    let peaks = sweep(&options, &record, steps)?;
+    figures::draw_sweep(&options.out, &peaks, results[1].peak_shear)?;
+    if options.meshes {
+        let fine = options.on_elements(15);
+        let fine = Sweep::new(cases.len()).collect(|now| {
+            case::run(&cases[now.index()], &fine, &record, fine.steps(&record), now)
+        });
+        let fine: Vec<Outcome> = fine.into_iter().collect::<Result<_, _>>()?;
+        conclusions::print_meshes(&results, &fine);
+    }
     println!("\nfiles in {}", options.out.display());
     Ok(())
+}
+
+/// Peak base shear (N/m) over friction; writes friction_sweep.csv.
+fn sweep(options: &Options, record: &Record, steps: usize) -> Result<Vec<(f64, f64)>, AnyError> {
+    let frictions: Vec<f64> = (1..=16).map(|k| 0.05 * f64::from(k)).collect();
+    let cases = Case::list(&frictions).split_off(2);
+    let runs = Sweep::new(cases.len())
+        .collect(|now| case::run(&cases[now.index()], options, record, steps, now));
+    let mut writer = csv::Writer::from_path(options.out.join("friction_sweep.csv"))?;
+    writer.write_record(["friction", "peak_base_shear_n_per_m", "max_slip_m"])?;
+    let mut peaks = Vec::new();
+    for (friction, outcome) in frictions.into_iter().zip(runs) {
+        let outcome = outcome?;
+        let slip = outcome.run.mean_slip.magnitude();
+        writer.write_record([friction, outcome.peak_shear, slip].map(|v| v.to_string()))?;
+        peaks.push((friction, outcome.peak_shear));
+    }
+    writer.flush()?;
+    Ok(peaks)
 }

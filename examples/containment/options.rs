@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use basemat::fem::QuadFormulation;
 use basemat::motion::{AccelerationUnit, Baseline, ColumnFormat, Record, el_centro_1940};
+use basemat::results::Serviceability;
 use clap::{Parser, ValueEnum};
 
 use super::AnyError;
@@ -49,6 +50,24 @@ pub(crate) struct Options {
     /// How the rectangles are integrated.
     #[arg(long, value_enum, default_value = "full")]
     quadrilateral: Quadrilateral,
+    /// Hourglass stiffness in percent of full integration's, with --quadrilateral hourglass.
+    #[arg(long, default_value_t = 5)]
+    hourglass: u8,
+    /// Also compare the time series with those of 15 elements along the base.
+    #[arg(long)]
+    pub(crate) meshes: bool,
+    /// Allowable slip of the base, mm.
+    #[arg(long, default_value_t = 25.0, value_parser = positive)]
+    allowable_slip: f64,
+    /// Allowable gap under the base, mm.
+    #[arg(long, default_value_t = 10.0, value_parser = positive)]
+    allowable_gap: f64,
+    /// Allowable uplifted part of the base, percent.
+    #[arg(long, default_value_t = 75.0, value_parser = positive)]
+    allowable_uplift: f64,
+    /// Allowable rotation of the base, mrad.
+    #[arg(long, default_value_t = 2.0, value_parser = positive)]
+    allowable_rotation: f64,
     /// Shear wave speed of the soil, ft/s.
     #[arg(long = "shear-speed", default_value_t = 650.0, value_parser = positive)]
     pub(crate) shear_speed_fts: f64,
@@ -92,6 +111,10 @@ enum Quadrilateral {
     Full,
     /// With incompatible modes, good in bending.
     Incompatible,
+    /// One point, constant strain, as the paper's: without resistance to hourglass patterns.
+    OnePoint,
+    /// One point and some hourglass stiffness, see --hourglass.
+    Hourglass,
 }
 
 impl Options {
@@ -125,12 +148,28 @@ impl Options {
             formulation: match self.quadrilateral {
                 Quadrilateral::Full => QuadFormulation::Full,
                 Quadrilateral::Incompatible => QuadFormulation::IncompatibleModes,
+                Quadrilateral::OnePoint => QuadFormulation::OnePoint,
+                Quadrilateral::Hourglass => QuadFormulation::Hourglass { percent: self.hourglass },
             },
             damping: self.damping,
             wave_speeds: [self.shear_speed_fts, self.pressure_speed_fts],
             soil_density: self.soil_density,
             ..Containment::default()
         }
+    }
+
+    /// Limits of service.
+    pub(crate) fn limits(&self) -> basemat::Result<Serviceability> {
+        Serviceability::new()
+            .with_slip(1e-3 * self.allowable_slip)?
+            .with_gap(1e-3 * self.allowable_gap)?
+            .with_uplifted_fraction(0.01 * self.allowable_uplift)?
+            .with_rotation(1e-3 * self.allowable_rotation)
+    }
+
+    /// The same on so many elements along the base.
+    pub(crate) fn on_elements(&self, elements: u16) -> Self {
+        Self { elements, ..self.clone() }
     }
 
     /// The paper's step, unless another is given: a P wave crosses half an element.

@@ -18,7 +18,14 @@ impl Reading {
         mean_pressure: f64,
     ) -> basemat::Result<Box<dyn InterfaceLaw>> {
         if self.law == Law::Hard {
-            return Ok(Box::new(Coulomb::new(friction)?));
+            let still = Coulomb::new(friction)?;
+            if self.kinetic != 1.0 && friction.is_finite() {
+                return Ok(Box::new(Kinetic {
+                    still,
+                    moving: Coulomb::new(self.kinetic * friction)?,
+                }));
+            }
+            return Ok(Box::new(still));
         }
         let limit = match self.limit {
             Limit::Total => FrictionLimit::Total,
@@ -51,6 +58,37 @@ impl Reading {
     pub(crate) fn glue(&self, soil: &Soil) -> basemat::Result<Box<dyn InterfaceLaw>> {
         let layer = ThinLayer::new(*soil, self.neighbour_height(), f64::INFINITY)?;
         Ok(Box::new(Glue(layer.with_thickness_ratio(self.ratio)?)))
+    }
+}
+
+/// Hard contact with another friction in slip than that which slip must overcome.
+struct Kinetic {
+    still: Coulomb,
+    moving: Coulomb,
+}
+
+impl InterfaceLaw for Kinetic {
+    fn modes(&self) -> &[Mode] {
+        self.still.modes()
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        if mode.is_slip() {
+            return self.moving.conditions(mode, start);
+        }
+        self.still.conditions(mode, start)
+    }
+
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &StepStart,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        // What slides already need not overcome more than it meets.
+        let law = if start.mode.is_slip() && !mode.is_slip() { &self.moving } else { &self.still };
+        law.next_mode(mode, start, trial, tolerance)
     }
 }
 

@@ -1,12 +1,13 @@
 //! The choices of a reading, as command line.
 
 use basemat::fem::QuadFormulation;
-use clap::{Parser, ValueEnum};
+use clap::{Args, ValueEnum};
 
 use super::containment::{Containment, FOOT};
 
-/// One reading; without options, the table of all that were tried.
-#[derive(Debug, Clone, Parser)]
+/// One reading.
+#[derive(Debug, Clone, Args)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub(crate) struct Reading {
     /// Interface.
     #[arg(long, value_enum, default_value = "layer")]
@@ -47,6 +48,18 @@ pub(crate) struct Reading {
     /// Factor on all friction coefficients.
     #[arg(long, default_value_t = 1.0)]
     pub(crate) friction_factor: f64,
+    /// Read μσ of eq. 12 as the force at a node, without the element's length in ft.
+    #[arg(long)]
+    pub(crate) length_left_out: bool,
+    /// Friction in slip over that which slip must overcome.
+    #[arg(long, default_value_t = 1.0)]
+    pub(crate) kinetic: f64,
+    /// Add the free field's [K]{δ} to the forces, as eq. 21 is printed.
+    #[arg(long)]
+    pub(crate) printed_forcing: bool,
+    /// Elements along the base.
+    #[arg(long, default_value_t = 10)]
+    pub(crate) elements: usize,
     /// Contact length, ft.
     #[arg(long, default_value_t = 34.0)]
     pub(crate) width: f64,
@@ -124,6 +137,7 @@ impl Reading {
         Containment {
             width: self.width,
             height: self.height,
+            elements: self.elements,
             formulation: if self.one_point {
                 QuadFormulation::OnePoint
             } else {
@@ -134,6 +148,12 @@ impl Reading {
             soil_density: self.soil_density,
             ..paper
         }
+    }
+
+    /// Factor on the coefficients of friction.
+    pub(crate) fn friction_share(&self) -> f64 {
+        let length = if self.length_left_out { self.width / self.elements as f64 } else { 1.0 };
+        self.friction_factor / length
     }
 
     /// Height of the element beside the thin layer, m.

@@ -5,6 +5,7 @@
 //! ```text
 //! cargo run --release --example paper_scheme               # tables of docs/paper.md, CSV, plots
 //! cargo run --release --example paper_scheme -- --stability
+//! cargo run --release --example paper_scheme -- --limits       # steps and dampings that last
 //! cargo run --release --example paper_scheme -- --help
 //! ```
 //!
@@ -26,6 +27,7 @@ mod chart;
 mod containment;
 #[path = "../common/glue.rs"]
 mod glue;
+mod limits;
 mod report;
 mod scheme;
 mod stability;
@@ -44,6 +46,7 @@ type AnyError = Box<dyn std::error::Error + Send + Sync>;
 
 /// The paper's scheme, its soil by convolution quadrature, and this crate's, side by side.
 #[derive(Debug, Clone, Parser)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 struct Options {
     /// Folder for summary.csv and plots.
     #[arg(long, default_value = "target/paper_scheme")]
@@ -67,12 +70,18 @@ struct Options {
     /// integrals.
     #[arg(long)]
     subelements: Option<usize>,
+    /// Gauss points in each of these sub-elements; one is the midpoint rule.
+    #[arg(long, default_value_t = 1)]
+    gauss: usize,
     /// Thickness of the layer over the height of the elements beside it.
     #[arg(long, default_value_t = 0.1)]
     ratio: f64,
     /// Look for contact beyond the flow chart in the paper's scheme too.
     #[arg(long)]
     robust: bool,
+    /// Only the table of steps and dampings with which the paper's scheme lasts.
+    #[arg(long)]
+    limits: bool,
     /// Only the table of growth and passivity of boundary equations over β.
     #[arg(long)]
     stability: bool,
@@ -106,8 +115,9 @@ fn main() -> Result<(), AnyError> {
         containment,
         record,
         free: options.free,
-        subelements: options.subelements,
+        subelements: options.subelements.map(|count| [count, options.gauss]),
         ratio: options.ratio,
+        gamma: 0.5,
         search: if options.robust {
             ContactSearch::Robust
         } else {
@@ -117,6 +127,9 @@ fn main() -> Result<(), AnyError> {
     let duration = if options.short { 3.0 } else { options.duration.unwrap_or(whole) };
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "zero if not")]
     let steps = (duration / scene.time_step).round() as usize;
+    if options.limits {
+        return limits::print(&scene, duration, options.short);
+    }
     println!("{steps} steps of {:.4} ms, β = {}", 1e3 * scene.time_step, options.beta);
 
     report::print_assessments(&scene, steps)?;

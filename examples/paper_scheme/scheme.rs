@@ -44,10 +44,12 @@ pub(crate) struct Scene {
     pub(crate) time_step: f64,
     /// Traction-free elements on either side of the full plane's base.
     pub(crate) free: usize,
-    /// Midpoint rules over so many sub-elements in the paper's kernel, or exact integrals.
-    pub(crate) subelements: Option<usize>,
+    /// Sub-elements and Gauss points in each in the paper's kernel, or exact integrals.
+    pub(crate) subelements: Option<[usize; 2]>,
     /// Thickness of the layer over the height of the elements beside it.
     pub(crate) ratio: f64,
+    /// Newmark's γ, with β = (γ + ½)²/4.
+    pub(crate) gamma: f64,
     /// How the paper's scheme looks for contact modes.
     pub(crate) search: ContactSearch,
 }
@@ -85,7 +87,8 @@ impl Scheme {
         if self == Self::Own {
             own_interface(builder, friction)?.build()
         } else {
-            paper_interface(builder.scheme(Newmark::default()), scene, friction)?.build()
+            let newmark = Newmark::new(scene.gamma, 0.25 * (scene.gamma + 0.5).powi(2))?;
+            paper_interface(builder.scheme(newmark), scene, friction)?.build()
         }
     }
 
@@ -102,7 +105,7 @@ impl Scheme {
             }
             let kernel = TimeKernel::new(soil, segments, time_step)?;
             Ok(match subelements {
-                Some(count) => Box::new(kernel.with_subelements(count)?),
+                Some([count, points]) => Box::new(kernel.with_gauss_subelements(count, points)?),
                 None => Box::new(kernel),
             })
         }))

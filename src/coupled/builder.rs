@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::books::Books;
+use super::builder_checks::{check_unknowns, motion_at_start};
 use super::coordinates::{Chooser, Coordinates};
 use super::initial::Beginning;
 use super::ledger::Ledger;
@@ -28,10 +29,8 @@ use crate::error::{Error, Result, finite, not_negative, positive};
 use crate::interface::{ContactScene, InterfaceLaw};
 use crate::matrix::Thinned;
 use crate::motion::{AtRest, FreeField};
+use crate::results::Serviceability;
 use crate::structure::{Structure, is_nonlinear};
-
-/// More unknowns than this are a mistake, or would not fit in memory.
-const MOST_UNKNOWNS: usize = 10_000_000;
 
 /// Parts of a [`Simulation`]: a structure, a ground and an interface law are needed, the rest has
 /// defaults (no motion, standard gravity, midpoint rule, no probes).
@@ -50,6 +49,7 @@ pub struct SimulationBuilder {
     coordinates: Coordinates,
     ledger: bool,
     safety_friction: Vec<f64>,
+    serviceability: Serviceability,
 }
 
 short_debug! {
@@ -89,6 +89,7 @@ impl SimulationBuilder {
             coordinates: Coordinates::default(),
             ledger: true,
             safety_friction: Vec::new(),
+            serviceability: Serviceability::new(),
         }
     }
 
@@ -242,6 +243,14 @@ impl SimulationBuilder {
         self
     }
 
+    /// Limits of slip, gap, uplifted part and rotation that each [`Run`](crate::results::Run) is
+    /// held against; none unless given. They change nothing else.
+    #[must_use]
+    pub fn serviceability(mut self, limits: Serviceability) -> Self {
+        self.serviceability = limits;
+        self
+    }
+
     /// Checks the parts against each other, finds the static state and factors what stays constant.
     ///
     /// # Errors
@@ -315,6 +324,7 @@ impl SimulationBuilder {
             compliant: false,
             laws: self.laws,
             safety_friction,
+            serviceability: self.serviceability,
             static_state,
             loads: self.beginning.stepped_loads(&model),
             weight: self.beginning.stepped_weight(&model),
@@ -370,27 +380,5 @@ impl SimulationBuilder {
             beginning: &self.beginning,
             probes: &self.probes,
         }
-    }
-}
-
-/// Refuses more unknowns than anything can hold.
-fn check_unknowns(unknowns: usize) -> Result<()> {
-    if unknowns <= MOST_UNKNOWNS {
-        return Ok(());
-    }
-    Err(Error::Input {
-        quantity: "number of unknowns of the structure",
-        value: unknowns as f64,
-        needed: "ten million or fewer",
-    })
-}
-
-/// The free field at t = 0, from which it is measured.
-fn motion_at_start(ground: &dyn Ground, motion: &dyn FreeField, count: usize) -> Result<Vec<f64>> {
-    let mut start = vec![0.0; 2 * count];
-    ground.free_field(motion, 0.0, &mut start);
-    match start.iter().find(|u| !u.is_finite()) {
-        Some(bad) => finite("free field at t = 0", *bad).map(|_| start),
-        None => Ok(start),
     }
 }

@@ -72,6 +72,7 @@ mod advance;
 mod advice;
 mod books;
 mod builder;
+mod builder_checks;
 mod checkpoint;
 mod coordinates;
 mod initial;

@@ -242,10 +242,12 @@ impl Simulation {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn begin_run(&self) -> Run {
-        let Scene { time_step, elements, probes, safety_friction, .. } = &self.scene;
+        let Scene { time_step, elements, probes, safety_friction, serviceability, .. } =
+            &self.scene;
         let speed = self.ground.shear_wave_speed();
         let resolution = Resolution::new(*time_step, elements, speed, &self.state);
-        Run::start(probes, elements, safety_friction, &self.state, resolution)
+        let run = Run::start(probes, elements, safety_friction, &self.state, resolution);
+        run.with_limits(serviceability, &self.state)
     }
 
     /// Closes a run of this simulation: its warnings and wall time.

@@ -38,14 +38,15 @@ pub enum SlipSense {
     /// and goes on while it grows.
     #[default]
     Inelastic,
-    /// The relative velocity of this step, elastic part included [PS eq. 10].
+    /// The relative velocity of this step, elastic part included [PS, eq. 12].
     Velocity,
     /// The relative velocity of the step before.
     LastVelocity,
 }
 
-/// Thin-layer interface elements [PS, eqs. 6–13]: elastic in stick and debonding, Coulomb friction
-/// in slip, rebonding when the gap has closed.
+/// Thin-layer interface elements: elastic in stick and in debonding [PS, eqs. 6–9], Coulomb friction
+/// in slip [PS, eqs. 10–12], rebonding when the gap has closed; a tenth as thick as the elements
+/// beside it [PS, eq. 13].
 ///
 /// | mode | pressure | shear traction |
 /// |---|---|---|

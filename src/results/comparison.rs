@@ -6,7 +6,7 @@ use std::path::Path;
 use super::page::factor;
 use super::table::Table;
 use super::unit::{labelled, number, printed};
-use super::{ProbeExtremes, Run};
+use super::{ProbeExtremes, Run, ServiceCheck};
 use crate::error::{Result, write_file};
 
 /// Runs side by side; prints as a table with a row per quantity and a column per case.
@@ -28,7 +28,7 @@ pub struct Comparison {
 /// Name, unit and heading of a row, the factor from SI to the unit, and its value.
 type Line = (&'static str, &'static str, &'static str, f64, fn(&Run) -> Option<f64>);
 
-const ROWS: [Line; 20] = [
+const ROWS: [Line; 22] = [
     ("base shear", "kN/m", "base_shear_n_per_m", 1e-3, |s| Some(s.base_shear.largest().value)),
     ("  at", "s", "base_shear_time_s", 1.0, |s| Some(s.base_shear.largest().time)),
     ("  over weight", "", "base_shear_over_weight", 1.0, Run::shear_coefficient),
@@ -49,6 +49,12 @@ const ROWS: [Line; 20] = [
     ("safety, sliding", "", "sliding_safety", 1.0, |s| s.least_sliding_safety().map(|p| p.value)),
     ("safety, overturning", "", "overturning_safety", 1.0, |s| {
         Some(s.least_overturning_safety().value)
+    }),
+    ("serviceability, margin", "%", "serviceability_margin", 100.0, |s| {
+        s.least_serviceable().map(ServiceCheck::margin)
+    }),
+    ("  first excess at", "s", "serviceability_first_excess_s", 1.0, |s| {
+        s.serviceability.iter().filter_map(|check| check.first_excess).reduce(f64::min)
     }),
     ("energy input", "kJ/m", "energy_input_j_per_m", 1e-3, |s| Some(s.ledger.input)),
     ("  to the soil", "%", "energy_share_soil", 100.0, |s| s.energy().map(|e| e.soil)),

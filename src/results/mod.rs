@@ -66,6 +66,7 @@ mod recorder;
 pub(crate) mod run;
 mod safety;
 mod sequence;
+mod serviceability;
 mod sliding;
 mod table;
 pub(crate) mod unit;
@@ -84,6 +85,7 @@ pub use histories::Histories;
 pub use quantity::Quantity;
 pub use recorder::Recorder;
 pub use run::Run;
+pub use serviceability::{Criterion, ServiceCheck, Serviceability};
 pub use sliding::{Sliding, SlipEvent};
 pub use uplift::Uplift;
 #[cfg(any(feature = "io", feature = "plot"))]

@@ -25,6 +25,12 @@ impl fmt::Display for Run {
             writeln!(f, "Largest base shear: {coefficient:.3} of the weight")?;
         }
         self.safety(f)?;
+        if let Some(met) = self.is_serviceable() {
+            writeln!(f, "\nServiceability: {}", if met { "met" } else { "not met" })?;
+            for check in &self.serviceability {
+                writeln!(f, "  {check}")?;
+            }
+        }
         self.uplift_and_sliding(f)?;
         let shown = self.pressures();
         let (all, some) = (self.envelope.len(), shown.rows.len());

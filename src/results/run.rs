@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::envelope::{self, ElementEnvelope};
 use super::foundation::{self, FoundationSummary};
 use super::sequence::Sequence;
-use super::{EnergyShares, Sliding, Uplift};
+use super::{EnergyShares, ServiceCheck, Serviceability, Sliding, Uplift};
 use crate::bem::{ContactElement, Ground};
 use crate::contact::SearchMethod;
 use crate::coupled::{
@@ -72,6 +72,9 @@ pub struct Run {
     pub sliding: Sliding,
     /// Each foundation by itself, from left to right.
     pub foundations: Vec<FoundationSummary>,
+    /// A check for each limit that the builder was given
+    /// ([`SimulationBuilder::serviceability`](crate::coupled::SimulationBuilder::serviceability)).
+    pub serviceability: Vec<ServiceCheck>,
     /// Envelopes of the contact elements, from left to right.
     pub envelope: Vec<ElementEnvelope>,
     /// Changes of contact mode; each is in [`State::transitions`] of its step.
@@ -133,6 +136,7 @@ impl Run {
             uplift: Uplift::default(),
             sliding: Sliding::with_capacity(foundation::EVENTS),
             foundations: foundation::start(state, friction, elements),
+            serviceability: Vec::new(),
             envelope: envelope::start(elements, state),
             mode_changes: 0,
             debondings: 0,
@@ -152,6 +156,12 @@ impl Run {
         };
         run.see_slips(state);
         run
+    }
+
+    /// Held against `limits`, from `state` on.
+    pub(crate) fn with_limits(mut self, limits: &Serviceability, state: &State) -> Self {
+        self.serviceability = limits.start(state);
+        self
     }
 
     fn see_slips(&mut self, state: &State) {
@@ -184,6 +194,7 @@ impl Run {
             probe.extremes.see(*value, time);
         }
         foundation::see(&mut self.foundations, state, begin, &self.friction, &self.elements);
+        self.serviceability.iter_mut().for_each(|check| check.see(state));
         envelope::see(&mut self.envelope, state, time - begin);
         self.mode_changes += state.transitions.len();
         self.debondings += state.transitions.iter().filter(|t| t.is_debonding()).count();
@@ -245,6 +256,17 @@ impl Run {
     pub fn least_overturning_safety(&self) -> Peak {
         let all = self.foundations.iter().map(|own| own.least_overturning_safety);
         least(all).unwrap_or(Peak { value: f64::NAN, time: self.start })
+    }
+
+    /// Whether all limits of serviceability were kept; `None` without limits.
+    pub fn is_serviceable(&self) -> Option<bool> {
+        let checks = &self.serviceability;
+        (!checks.is_empty()).then(|| checks.iter().all(ServiceCheck::is_met))
+    }
+
+    /// The criterion with the least margin; `None` without limits.
+    pub fn least_serviceable(&self) -> Option<&ServiceCheck> {
+        self.serviceability.iter().min_by(|a, b| a.margin().total_cmp(&b.margin()))
     }
 
     /// The element with the largest pressure, and that pressure, Pa.

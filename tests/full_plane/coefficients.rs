@@ -64,7 +64,21 @@ fn subelements_tend_to_the_exact_integrals() {
         println!("lag {lag}: {errors:?}");
         assert!(errors[1] < errors[0] / 1000.0_f64.powf(order));
     }
+    // No front inside: three Gauss points see the last digits that one point does not.
+    let error = |points: usize| {
+        let rough = coefficients(&make().with_gauss_subelements(5, points).unwrap(), 12);
+        let exact = coefficients(&make(), 12);
+        let size = exact[1].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        exact[1].iter().zip(&rough[1]).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / size
+    };
+    let errors = [1, 2, 3].map(error);
+    println!("Gauss: {errors:?}");
+    assert!(errors[1] < 1e-2 * errors[0] && errors[2] < 1e-4 * errors[0]);
     assert!(matches!(make().with_subelements(0), Err(Error::Input { .. })));
+    for (count, points) in [(0, 2), (5, 0), (5, 9)] {
+        let refused = make().with_gauss_subelements(count, points);
+        assert!(matches!(refused, Err(Error::Input { .. })), "{count} {points}");
+    }
 }
 
 /// GOAL: rigid translations: Σ H over lags and a closed polygon is 1 outside and 0 inside.

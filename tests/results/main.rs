@@ -9,6 +9,7 @@ mod plot;
 mod refused;
 mod resolution;
 mod safety;
+mod serviceability;
 mod spectra;
 #[path = "../support/mod.rs"]
 mod support;

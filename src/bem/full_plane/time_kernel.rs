@@ -7,6 +7,7 @@ use super::step_integrals::{Integrals, Medium, step_integrals};
 use super::{BoundaryKernel, Segment};
 use crate::error::{Error, Result, positive, same_length};
 use crate::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
+use crate::gauss;
 use crate::soil::Soil;
 
 /// Boundary coefficients of Patel & Spyrakos (eqs. 2–4): displacements and tractions constant over
@@ -38,7 +39,8 @@ pub struct TimeKernel {
     soil: Soil,
     medium: Medium,
     time_step: f64,
-    subelements: Option<usize>,
+    /// Number of sub-elements, and points in each.
+    subelements: Option<[usize; 2]>,
 }
 
 impl TimeKernel {
@@ -60,13 +62,29 @@ impl TimeKernel {
         Ok(Self { segments: segments.to_vec(), pairs, soil, medium, time_step, subelements: None })
     }
 
-    /// With midpoint rules over `count` sub-elements in place of exact integrals in space, as
-    /// printed in the paper (which takes five); sub-elements next to the load remain exact. For
-    /// comparison only: it is slower and less accurate.
+    /// With midpoint rules over `count` sub-elements in place of exact integrals in space (the
+    /// paper takes five and does not name the rule); sub-elements next to the load remain exact.
+    /// For comparison only: it is slower and less accurate.
     ///
     /// # Errors
     /// [`Error::Input`] for 0.
-    pub fn with_subelements(mut self, count: usize) -> Result<Self> {
+    pub fn with_subelements(self, count: usize) -> Result<Self> {
+        self.with_gauss_subelements(count, 1)
+    }
+
+    /// The same with Gauss rules of `points` points in each sub-element, one (the midpoint) to
+    /// eight.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for no sub-elements, or a number of points outside 1 to 8.
+    pub fn with_gauss_subelements(mut self, count: usize, points: usize) -> Result<Self> {
+        if !(1..=8).contains(&points) {
+            return Err(Error::Input {
+                quantity: "number of Gauss points of a sub-element",
+                value: points as f64,
+                needed: "from 1 to 8",
+            });
+        }
         if count == 0 {
             return Err(Error::Input {
                 quantity: "number of sub-elements",
@@ -74,7 +92,7 @@ impl TimeKernel {
                 needed: "at least 1",
             });
         }
-        self.subelements = Some(count);
+        self.subelements = Some([count, points]);
         Ok(self)
     }
 
@@ -91,8 +109,8 @@ impl TimeKernel {
     /// Integrals of one element over one step, in its axes.
     fn local(&self, ends: [f64; 2], h: f64, lag: usize) -> Integrals {
         let (begin, end) = (lag as f64 * self.time_step, (lag as f64 + 1.0) * self.time_step);
-        if let Some(count) = self.subelements {
-            return self.by_subelements(ends, h, [begin, end], count);
+        if let Some(rule) = self.subelements {
+            return self.by_subelements(ends, h, [begin, end], rule);
         }
         self.exact(ends, h, [begin, end])
     }
@@ -113,11 +131,16 @@ impl TimeKernel {
         ends: [f64; 2],
         h: f64,
         [begin, end]: [f64; 2],
-        count: usize,
+        [count, points]: [usize; 2],
     ) -> Integrals {
-        let plane = FullPlane::new(self.soil);
         let length = (ends[1] - ends[0]) / count as f64;
-        let unit = 2.0 * std::f64::consts::PI * self.soil.density() * length;
+        // Places and weights on a sub-element from −½ to ½.
+        let rule: Vec<[f64; 2]> = if points == 1 {
+            vec![[0.0, 1.0]]
+        } else {
+            let gauss = gauss::rule(points);
+            gauss.nodes.iter().zip(&gauss.weights).map(|(x, w)| [0.5 * x, 0.5 * w]).collect()
+        };
         let mut sum = Integrals::default();
         for k in 0..count {
             let first = ends[0] + k as f64 * length;
@@ -126,21 +149,30 @@ impl TimeKernel {
                 sum.add(1.0, &self.exact([first, first + length], h, [begin, end]));
                 continue;
             }
-            for (sign, time) in [(1.0, end), (-1.0, begin)] {
-                let (offset, step) = ([middle, h], LoadHistory::Step);
-                let (Ok(u), Ok(t)) = (
-                    plane.displacement(offset, time, step),
-                    plane.traction(offset, [0.0, 1.0], time, step),
-                ) else {
-                    continue;
-                };
-                let scale = sign * unit;
-                let t = t.map(|row| row.map(|t| t / self.soil.shear_modulus()));
-                let value = Integrals { displacement: [u[0][0], u[0][1], u[1][1]], traction: t };
-                sum.add(scale, &value);
+            for [place, weight] in &rule {
+                let offset = [middle + place * length, h];
+                self.add_point(&mut sum, weight * length, offset, [begin, end]);
             }
         }
         sum
+    }
+
+    /// Adds `length` times the integrands at a point.
+    fn add_point(&self, sum: &mut Integrals, length: f64, offset: [f64; 2], times: [f64; 2]) {
+        let plane = FullPlane::new(self.soil);
+        let unit = 2.0 * std::f64::consts::PI * self.soil.density() * length;
+        for (sign, time) in [(1.0, times[1]), (-1.0, times[0])] {
+            let step = LoadHistory::Step;
+            let (Ok(u), Ok(t)) = (
+                plane.displacement(offset, time, step),
+                plane.traction(offset, [0.0, 1.0], time, step),
+            ) else {
+                continue;
+            };
+            let t = t.map(|row| row.map(|t| t / self.soil.shear_modulus()));
+            let value = Integrals { displacement: [u[0][0], u[0][1], u[1][1]], traction: t };
+            sum.add(sign * unit, &value);
+        }
     }
 }
 

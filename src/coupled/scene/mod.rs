@@ -22,6 +22,7 @@ pub(crate) mod translation_check;
 use crate::bem::ContactElement;
 use crate::interface::{InterfaceLaw, law_of};
 use crate::matrix::Thinned;
+use crate::results::Serviceability;
 use base::Base;
 use influence::Part;
 use model::Model;
@@ -47,6 +48,8 @@ pub(crate) struct Scene {
     pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
     /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
     pub(crate) safety_friction: Vec<f64>,
+    /// Limits that runs are held against.
+    pub(crate) serviceability: Serviceability,
     /// Whether any law stores energy in its elements.
     pub(crate) compliant: bool,
     pub(crate) static_state: StaticState,

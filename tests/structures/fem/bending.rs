@@ -115,6 +115,11 @@ fn locking_of_one_rectangle_is_that_of_its_closed_form() {
     assert!((form(&HOURGLASS, &cured, &HOURGLASS) / exact - 1.0).abs() < 1e-12);
     let one = element_matrix(QuadFormulation::OnePoint, [a, b], nu);
     assert!(form(&HOURGLASS, &one, &HOURGLASS).abs() < 1e-9 * exact, "no resistance");
+    for percent in [1, 5, 100] {
+        let some = element_matrix(QuadFormulation::Hourglass { percent }, [a, b], nu);
+        let wanted = 0.01 * f64::from(percent) * locked;
+        assert!((form(&HOURGLASS, &some, &HOURGLASS) / wanted - 1.0).abs() < 1e-9, "{percent}");
+    }
 }
 
 /// On a rectangle, incompatible modes add only hourglass stiffness to the one-point element.

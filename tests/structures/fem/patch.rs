@@ -45,9 +45,12 @@ fn exact(model: &FemModel) -> Vec<f64> {
 #[test]
 fn constant_strain_is_reproduced_on_distorted_quads() {
     for poisson in [0.0, 0.25, 0.4999, -0.5] {
-        for formulation in
-            [QuadFormulation::Full, QuadFormulation::IncompatibleModes, QuadFormulation::OnePoint]
-        {
+        for formulation in [
+            QuadFormulation::Full,
+            QuadFormulation::IncompatibleModes,
+            QuadFormulation::OnePoint,
+            QuadFormulation::Hourglass { percent: 5 },
+        ] {
             let model = patch(formulation, poisson);
             let stiffness = collect(&model, |k| model.stiffness(k));
             let exact = exact(&model);
@@ -62,9 +65,12 @@ fn constant_strain_is_reproduced_on_distorted_quads() {
 /// The energy of the patch is ½ ε D ε times its area: the level of the stress is right too.
 #[test]
 fn strain_energy_is_that_of_the_uniform_strain() {
-    for formulation in
-        [QuadFormulation::Full, QuadFormulation::IncompatibleModes, QuadFormulation::OnePoint]
-    {
+    for formulation in [
+        QuadFormulation::Full,
+        QuadFormulation::IncompatibleModes,
+        QuadFormulation::OnePoint,
+        QuadFormulation::Hourglass { percent: 5 },
+    ] {
         let model = patch(formulation, 0.25);
         let exact = exact(&model);
         // E = 1e6, ν = 1/4: λ = G = 4e5; ε = 1e-3 [1, 1, 1], so σ = [1600, 1600, 400].

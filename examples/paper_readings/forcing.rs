@@ -1,0 +1,58 @@
+//! The forcing of eq. 21 as printed: [K]{δᶠ} of the contact nodes beside the soil's part.
+
+use basemat::motion::Record;
+use basemat::structure::{ContactNode, FemModel, Structure, Triplets};
+
+/// A model on which the free field also acts through the structure's own stiffness.
+pub(crate) struct PrintedForcing {
+    model: FemModel,
+    record: Record,
+    /// Sum of K's columns of the horizontal unknowns of the contact nodes, N/m per metre.
+    column: Vec<f64>,
+}
+
+impl PrintedForcing {
+    pub(crate) fn new(model: FemModel, record: Record) -> basemat::Result<Self> {
+        let mut stiffness = Triplets::new(model.unknowns());
+        model.stiffness(&mut stiffness)?;
+        let mut contact = vec![0.0; model.unknowns()];
+        for node in model.contact_nodes() {
+            for &(unknown, weight) in node.horizontal.terms() {
+                contact[unknown] += weight;
+            }
+        }
+        let mut column = vec![0.0; model.unknowns()];
+        for &(row, unknown, value) in stiffness.entries() {
+            column[row] += value * contact[unknown];
+        }
+        Ok(Self { model, record, column })
+    }
+}
+
+impl Structure for PrintedForcing {
+    fn unknowns(&self) -> usize {
+        self.model.unknowns()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.model.contact_nodes()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.model.mass(matrix)
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.model.stiffness(matrix)
+    }
+
+    fn damping(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.model.damping(matrix)
+    }
+
+    fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
+        let moved = self.record.displacement_at(time);
+        load.iter_mut().zip(&self.column).for_each(|(load, column)| *load += column * moved);
+        Ok(())
+    }
+}

@@ -1,0 +1,242 @@
+//! Serviceability: allowable slip, gap, uplifted part and rotation of a base.
+
+use std::fmt;
+
+use super::unit::{number, printed};
+use crate::coupled::{Peak, State};
+use crate::error::{Error, Result, positive};
+
+/// Response of a base that a service requirement limits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Criterion {
+    /// Slip averaged over a foundation, m, either way; tangential motion of open elements counts.
+    Slip,
+    /// Gap of an element, m.
+    Gap,
+    /// Uplifted fraction of a foundation.
+    UpliftedFraction,
+    /// Rotation of a foundation's chord, rad, either way, static part included.
+    Rotation,
+}
+
+impl Criterion {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Slip => "slip",
+            Self::Gap => "gap",
+            Self::UpliftedFraction => "uplifted fraction",
+            Self::Rotation => "rotation",
+        }
+    }
+
+    /// Its SI unit; none of a fraction.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Slip | Self::Gap => "m",
+            Self::UpliftedFraction => "",
+            Self::Rotation => "rad",
+        }
+    }
+
+    /// The value of a state that is furthest from zero, of several foundations or elements.
+    fn of(self, state: &State) -> f64 {
+        let furthest = |far: f64, value: f64| if value.abs() > far.abs() { value } else { far };
+        let foundations = state.foundations.iter();
+        match self {
+            Self::Slip => foundations.map(|own| own.mean_slip).fold(0.0, furthest),
+            Self::Gap => state.contact.iter().fold(0.0, |far, own| own.gap.max(far)),
+            Self::UpliftedFraction => foundations.map(|f| f.uplifted_fraction).fold(0.0, furthest),
+            Self::Rotation => foundations.map(|own| own.rotation).fold(0.0, furthest),
+        }
+    }
+}
+
+/// Limits that service sets to the motion of a base: give them to
+/// [`SimulationBuilder::serviceability`](crate::coupled::SimulationBuilder::serviceability), and
+/// each [`Run`](super::Run) says whether they were kept.
+///
+/// ```
+/// use basemat::bem::SpringGround;
+/// use basemat::interface::Coulomb;
+/// use basemat::motion::el_centro_1940;
+/// use basemat::results::{Criterion, Serviceability};
+/// use basemat::structure::RigidBlock;
+/// use basemat::{Error, Simulation};
+///
+/// let limits = Serviceability::new().with_slip(5e-3)?.with_rotation(0.05)?;
+/// let mut simulation = Simulation::builder(0.01)
+///     .structure(RigidBlock::new(4.0, 2.0, 2000.0)?)
+///     .ground(SpringGround::new(-2.0..2.0, 8, 2e8, 1e8)?)
+///     .interface(Coulomb::new(0.1)?)
+///     .motion(el_centro_1940())
+///     .serviceability(limits)
+///     .build()?;
+/// let run = simulation.run(1000, |_| {})?;
+///
+/// // It slides too far, and turns little.
+/// let [slip, rotation] = &run.serviceability[..] else { panic!("two criteria") };
+/// assert_eq!(slip.criterion, Criterion::Slip);
+/// assert!(!slip.is_met() && slip.margin() < 0.0);
+/// assert!(slip.first_excess.is_some_and(|time| time > 1.0 && time <= slip.largest.time));
+/// assert!(rotation.is_met() && rotation.margin() > 0.9 && rotation.first_excess.is_none());
+/// assert_eq!(run.is_serviceable(), Some(false));
+///
+/// assert!(matches!(Serviceability::new().with_slip(-1.0), Err(Error::Input { .. })));
+/// # Ok::<(), Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Serviceability {
+    slip: Option<f64>,
+    gap: Option<f64>,
+    uplifted_fraction: Option<f64>,
+    rotation: Option<f64>,
+}
+
+impl Serviceability {
+    /// No limits.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// With an allowable slip (m), see [`Criterion::Slip`].
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless finite and above zero.
+    pub fn with_slip(mut self, limit: f64) -> Result<Self> {
+        self.slip = Some(positive("allowable slip", limit)?);
+        Ok(self)
+    }
+
+    /// With an allowable gap (m), see [`Criterion::Gap`].
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless finite and above zero.
+    pub fn with_gap(mut self, limit: f64) -> Result<Self> {
+        self.gap = Some(positive("allowable gap", limit)?);
+        Ok(self)
+    }
+
+    /// With an allowable uplifted fraction, see [`Criterion::UpliftedFraction`].
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless above zero and not above one.
+    pub fn with_uplifted_fraction(mut self, limit: f64) -> Result<Self> {
+        let quantity = "allowable uplifted fraction";
+        if !(limit > 0.0 && limit <= 1.0) {
+            return Err(Error::Input { quantity, value: limit, needed: "above zero, at most one" });
+        }
+        self.uplifted_fraction = Some(limit);
+        Ok(self)
+    }
+
+    /// With an allowable rotation (rad), see [`Criterion::Rotation`].
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless finite and above zero.
+    pub fn with_rotation(mut self, limit: f64) -> Result<Self> {
+        self.rotation = Some(positive("allowable rotation", limit)?);
+        Ok(self)
+    }
+
+    /// One check per limit, at the state from which a run starts.
+    pub(super) fn start(&self, state: &State) -> Vec<ServiceCheck> {
+        let limits = [
+            (Criterion::Slip, self.slip),
+            (Criterion::Gap, self.gap),
+            (Criterion::UpliftedFraction, self.uplifted_fraction),
+            (Criterion::Rotation, self.rotation),
+        ];
+        let given = limits.into_iter().filter_map(|(criterion, limit)| Some((criterion, limit?)));
+        given.map(|(criterion, limit)| ServiceCheck::start(criterion, limit, state)).collect()
+    }
+}
+
+/// A criterion of [`Serviceability`] after a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct ServiceCheck {
+    /// The limited response.
+    pub criterion: Criterion,
+    /// Its limit, in the criterion's unit.
+    pub limit: f64,
+    /// The value of the run furthest from zero, with its sign.
+    pub largest: Peak,
+    /// End of the first step that was beyond the limit, s; `None` if none was.
+    pub first_excess: Option<f64>,
+}
+
+impl ServiceCheck {
+    fn start(criterion: Criterion, limit: f64, state: &State) -> Self {
+        let largest = Peak { value: 0.0, time: state.time };
+        let mut check = Self { criterion, limit, largest, first_excess: None };
+        check.see(state);
+        check
+    }
+
+    pub(super) fn see(&mut self, state: &State) {
+        self.take(self.criterion.of(state), state.time);
+    }
+
+    fn take(&mut self, value: f64, time: f64) {
+        self.largest.see(value, time);
+        if self.first_excess.is_none() && value.abs() > self.limit {
+            self.first_excess = Some(time);
+        }
+    }
+
+    /// Whether the response stayed within its limit, or reached it exactly.
+    pub fn is_met(&self) -> bool {
+        self.first_excess.is_none()
+    }
+
+    /// 1 − |largest|/limit: the unused share of the limit; below zero where it is exceeded.
+    pub fn margin(&self) -> f64 {
+        1.0 - self.largest.magnitude() / self.limit
+    }
+}
+
+/// One line: value, limit, verdict, margin and the time of the first excess.
+impl fmt::Display for ServiceCheck {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (factor, unit) = match self.criterion {
+            Criterion::UpliftedFraction => (100.0, "%"),
+            other => printed(other.unit()),
+        };
+        write!(
+            f,
+            "{}: {} {unit} at {:.3} s, {} {unit} allowed, ",
+            self.criterion.name(),
+            number(factor * self.largest.magnitude()),
+            self.largest.time,
+            number(factor * self.limit)
+        )?;
+        match self.first_excess {
+            None => write!(f, "met, margin {:.1} %", 100.0 * self.margin()),
+            Some(time) => {
+                let margin = 100.0 * self.margin();
+                write!(f, "exceeded from {time:.3} s, margin {margin:.1} %")
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn first_excess_and_margin_by_hand() {
+        let largest = Peak::default();
+        let mut check =
+            ServiceCheck { criterion: Criterion::Slip, limit: 2.0, largest, first_excess: None };
+        for (k, value) in [0.5, -2.0, -3.0, 2.5, -5.0, 1.0].into_iter().enumerate() {
+            assert_eq!(check.is_met(), k <= 2, "{k}");
+            check.take(value, k as f64);
+        }
+        assert_eq!(check.first_excess, Some(2.0));
+        assert_eq!(check.largest, Peak { value: -5.0, time: 4.0 });
+        assert_eq!(check.margin(), -1.5);
+    }
+}
