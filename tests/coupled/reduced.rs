@@ -96,7 +96,7 @@ fn bonded_towers_keep_the_tolerance() {
         last = 0.3 * errors[3];
     }
     // Without a tolerance nothing is reduced.
-    assert_eq!(march(make(), Coordinates::Auto), march(make(), Coordinates::Modes));
+    assert_eq!(march(make(), Coordinates::Auto), march(make(), Coordinates::Unknowns));
 }
 
 #[test]

@@ -20,9 +20,9 @@ mod cost {
     /// Per mode and step, more than an unknown costs.
     pub(super) const MODE: f64 = 1.0;
     /// Per mode, contact component and step, more than unknowns cost.
-    pub(super) const MODE_AND_CONTACT: f64 = 0.35;
+    pub(super) const MODE_AND_CONTACT: f64 = 0.2;
     /// Per cubed number of modes, once.
-    pub(super) const MODES: f64 = 0.6;
+    pub(super) const MODES: f64 = 3.0;
 }
 
 /// Springs that hold the base and constraints where they must not give way, relative to the largest
