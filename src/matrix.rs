@@ -9,6 +9,15 @@ use crate::structure::Triplets;
 /// Most rows and columns: more are a mistake.
 pub(crate) const MOST_ROWS: usize = 100_000_000;
 
+/// Weights by unknown, zero where there is no (unknown, weight) term.
+pub(crate) fn spread(terms: &[(usize, f64)], length: usize) -> Vec<f64> {
+    let mut weights = vec![0.0; length];
+    for &(i, weight) in terms {
+        weights[i] += weight;
+    }
+    weights
+}
+
 /// Square sparse matrix, compressed by rows.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct SparseMatrix {

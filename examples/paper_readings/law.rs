@@ -86,7 +86,7 @@ impl InterfaceLaw for Kinetic {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
-        // What slides already need not overcome more than it meets.
+        // Once sliding, friction is that of slip.
         let law = if start.mode.is_slip() && !mode.is_slip() { &self.moving } else { &self.still };
         law.next_mode(mode, start, trial, tolerance)
     }

@@ -1,4 +1,4 @@
-//! How large a step, or how much damping, the paper's scheme needs to last the record with contact,
+//! Largest step and least damping with which the paper's scheme lasts the record with contact,
 //! and what that costs.
 
 use basemat::coupled::ContactSearch;

@@ -13,6 +13,7 @@ use indicatif::ProgressBar;
 
 use super::AnyError;
 use super::force::Errors;
+use super::report::ADVICE_COLUMNS;
 use super::scene::Scene;
 use super::settings::{Past, Settings};
 
@@ -238,19 +239,7 @@ impl Drawn {
 /// Runs it, and writes a row for each tolerance.
 pub(crate) fn run(out: &Path, short: bool) -> Result<(), AnyError> {
     let mut writer = csv::Writer::from_path(out.join("advice_sweep.csv"))?;
-    writer.write_record([
-        "scene",
-        "tolerance",
-        "elements",
-        "time_step_s",
-        "expected_by_mesh",
-        "expected_by_step",
-        "expected_of_peak",
-        "error_of_history",
-        "error_of_peak",
-        "processor_s",
-        "least_processor_s",
-    ])?;
+    writer.write_record(ADVICE_COLUMNS.iter().chain(&["least_processor_s"]))?;
     let scenes = if short { 12 } else { SCENES };
     let bar = ProgressBar::new(scenes);
     let (mut ratios, mut excess) = (Vec::new(), Vec::new());

@@ -48,21 +48,24 @@ pub(crate) fn write_points(path: &Path, sweeps: &[Outcome]) -> Result<(), AnyErr
     Ok(writer.flush()?)
 }
 
-/// Writes what came of the advice.
+/// Columns of a scene that was run as advised.
+pub(crate) const ADVICE_COLUMNS: [&str; 10] = [
+    "scene",
+    "tolerance",
+    "elements",
+    "time_step_s",
+    "expected_by_mesh",
+    "expected_by_step",
+    "expected_of_peak",
+    "error_of_history",
+    "error_of_peak",
+    "processor_s",
+];
+
+/// Writes the runs as advised, and their errors.
 pub(crate) fn write_advice(path: &Path, list: &[Checked]) -> Result<(), AnyError> {
     let mut writer = csv::Writer::from_path(path)?;
-    writer.write_record([
-        "scene",
-        "tolerance",
-        "elements",
-        "time_step_s",
-        "expected_by_mesh",
-        "expected_by_step",
-        "expected_of_peak",
-        "error_of_history",
-        "error_of_peak",
-        "processor_s",
-    ])?;
+    writer.write_record(ADVICE_COLUMNS)?;
     for checked in list {
         let a = &checked.advice;
         let numbers = [

@@ -20,6 +20,7 @@ use crate::bem::Ground;
 use crate::error::LawError;
 use crate::interface::Mode;
 use crate::linalg::dot;
+use crate::matrix::spread;
 use crate::structure::Structure;
 
 /// The ledger so far, and what booking a step needs of the one before.
@@ -69,9 +70,8 @@ impl Books {
         let parts = scene.model.influence.parts();
         let inertia = parts.iter().map(|part| {
             [0, 1].map(|k| {
-                let [mut vector, mut product] = [(); 2].map(|()| vec![0.0; n]);
-                part.vectors[k].iter().for_each(|&(i, r)| vector[i] = r);
-                scene.model.mass.multiply_add(1.0, &vector, &mut product);
+                let mut product = vec![0.0; n];
+                scene.model.mass.multiply_add(1.0, &spread(&part.vectors[k], n), &mut product);
                 product.into_iter().enumerate().filter(|(_, m)| *m != 0.0).collect()
             })
         });

@@ -10,6 +10,7 @@ use super::scene::model::Model;
 use super::scene::operators::Factor;
 use super::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
+use crate::matrix::spread;
 use crate::structure::{Row, Structure};
 
 /// Steps that modes have to pay for themselves in, if not told otherwise.
@@ -159,14 +160,6 @@ impl Chooser<'_> {
 
     /// Rows of all unknowns.
     fn rows<'r>(&self, terms: impl Iterator<Item = &'r Row>) -> Vec<f64> {
-        let mut rows = Vec::new();
-        for terms in terms {
-            let start = rows.len();
-            rows.resize(start + self.model.unknowns, 0.0);
-            for &(i, weight) in terms {
-                rows[start + i] += weight;
-            }
-        }
-        rows
+        terms.flat_map(|row| spread(row.terms(), self.model.unknowns)).collect()
     }
 }

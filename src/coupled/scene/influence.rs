@@ -15,7 +15,7 @@ use super::stepped_row::Terms;
 use super::supports;
 use crate::error::{Error, Result};
 use crate::linalg::{Partition, SparseFactor, largest};
-use crate::matrix::SparseMatrix;
+use crate::matrix::{SparseMatrix, spread};
 use crate::structure::ContactNode;
 
 /// Largest error of a contact node's displacement under a rigid translation of 1 m.
@@ -107,11 +107,7 @@ impl Influence {
         let mut means = vec![0.0; 2 * count];
         for part in &self.parts {
             for (direction, vector) in part.vectors.iter().enumerate() {
-                let mut full = vec![0.0; unknowns];
-                for &(i, r) in vector {
-                    full[i] = r;
-                }
-                base.means(&full, &mut means);
+                base.means(&spread(vector, unknowns), &mut means);
                 for &e in part.elements.iter().filter(|_| !vector.is_empty()) {
                     let moved = if direction == 0 { means[count + e] } else { -means[e] };
                     if (moved - 1.0).abs() > 10.0 * EXACT {

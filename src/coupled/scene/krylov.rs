@@ -20,6 +20,7 @@ use super::subspace::Subspace;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, ReducedError, Result, finite};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, largest};
+use crate::matrix::spread;
 use crate::structure::Triplets;
 
 /// From one shift to the next.
@@ -172,18 +173,9 @@ impl Reduction<'_> {
 
     /// Rigid translations of the parts.
     fn translations(&self) -> Vec<f64> {
-        let n = self.model.unknowns;
-        let mut translations = Vec::new();
-        for vector in self.model.influence.parts().iter().flat_map(|part| &part.vectors) {
-            if !vector.is_empty() {
-                let start = translations.len();
-                translations.resize(start + n, 0.0);
-                for &(i, r) in vector {
-                    translations[start + i] = r;
-                }
-            }
-        }
-        translations
+        let vectors = self.model.influence.parts().iter().flat_map(|part| &part.vectors);
+        let vectors = vectors.filter(|vector| !vector.is_empty());
+        vectors.flat_map(|vector| spread(vector, self.model.unknowns)).collect()
     }
 
     /// Answers to a rotation of each part's base, which are rigid rotations of the parts that stand on

@@ -19,15 +19,16 @@ mod subspace;
 mod supports;
 pub(crate) mod translation_check;
 
+use std::sync::Arc;
+
 use crate::bem::ContactElement;
 use crate::interface::{InterfaceLaw, law_of};
-use crate::matrix::Thinned;
+use crate::matrix::{Thinned, spread};
 use crate::results::Serviceability;
 use base::Base;
 use influence::Part;
 use model::Model;
 use static_state::StaticState;
-use std::sync::Arc;
 use stepped_row::SteppedRow;
 
 use super::load::SteppedLoad;
@@ -81,13 +82,8 @@ impl ProbeRows {
     pub(crate) fn new(probe: &Probe, model: &Model) -> Self {
         let rows = probe.rows().map(|row| SteppedRow::new(row.terms(), model.modes.as_deref()));
         let parts = model.influence.parts().iter().filter(|_| probe.absolute);
-        let carried = parts.map(|part| {
-            [0, 1].map(|k| {
-                let mut vector = vec![0.0; model.coordinates];
-                part.vectors[k].iter().for_each(|&(i, r)| vector[i] = r);
-                rows[0].of(&vector)
-            })
-        });
+        let carried = parts
+            .map(|part| [0, 1].map(|k| rows[0].of(&spread(&part.vectors[k], model.coordinates))));
         Self { carried: carried.collect(), rows }
     }
 }

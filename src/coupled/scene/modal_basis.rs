@@ -15,7 +15,7 @@
 //! mode has a share of it.
 
 use crate::linalg::{Partition, dot, generalised_modes, largest};
-use crate::matrix::SparseMatrix;
+use crate::matrix::{SparseMatrix, spread};
 
 /// Vibration modes of a structure: all of them, or fewer Ritz modes.
 #[derive(Debug)]
@@ -115,8 +115,7 @@ impl ModalBasis {
         };
         for vector in translations {
             if !vector.is_empty() {
-                let mut own = vec![0.0; n];
-                vector.iter().for_each(|&(i, r)| own[i] = r);
+                let mut own = spread(vector, n);
                 project(&mut own, &basis);
                 basis.push(normalise(own)?);
             }
