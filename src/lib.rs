@@ -88,7 +88,9 @@
 //! The soil's term is the energy that the tractions put into a real ground, so it is never
 //! negative, and contact without tensile strength only takes energy away: nothing can blow up.
 //! [`coupled::Ledger`] computes each term from its own definition, and its residual comes with
-//! every run. `docs/theory.md` in the repository has derivations and sources.
+//! every run. The [theory] has derivations and sources.
+//!
+//! [theory]: https://github.com/basemat/basemat/blob/main/docs/theory.md
 //!
 //! # Conventions
 //!
@@ -167,7 +169,7 @@
 //! `portal_frame`, `rocking_block`, `tilted_block`, `snap_back`, `bearing_capacity`,
 //! `machine_foundation`, `floor_spectra`, `layered_site`, `impedances`, `friction_sweep`,
 //! `travelling_wave`, `from_matrices`; `pictures` draws everything (feature `png`). What each prints is
-//! in `docs/examples.md`.
+//! in [the document of examples](https://github.com/basemat/basemat/blob/main/docs/examples.md).
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

@@ -139,7 +139,8 @@ struct Line {
 /// itself well meshed. The tolerance is that of the **base shear**: rotations come out about twice,
 /// a slender structure's base moment up to six times as far off. With uplift and sliding errors
 /// are erratic, and were measured in one scene only; there the advice is where to begin, and a second
-/// run with half of Δt and twice the elements is what tells. `docs/accuracy.md` has the measurements.
+/// run with half of Δt and twice the elements is what tells
+/// ([measurements](https://github.com/basemat/basemat/blob/main/docs/accuracy.md)).
 ///
 /// ```
 /// use basemat::Soil;

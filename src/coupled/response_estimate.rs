@@ -192,7 +192,7 @@ impl Sketch {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "reference"))]
 mod tests {
     use super::*;
     use crate::reference::RigidStrip;

@@ -1,0 +1,133 @@
+//! Wall times of what users wait for, as lines of seconds and name: the least of a few repetitions.
+//!
+//! `.ci/bench_gate` runs this program of two commits in turns and compares them. Arguments are the
+//! names to time; all without any. Statistics of single kernels are in the other benches.
+
+#[path = "../examples/performance/scenes.rs"]
+#[allow(dead_code, reason = "shared with the example, which uses all of it")]
+mod scenes;
+
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::Instant;
+
+use basemat::bem::layered::LayeredGround;
+use basemat::bem::{Ground, HalfPlaneGround, PatchKernel, Strip};
+use basemat::history::{ConvolutionHistory, DirectHistory, LagKernel, RelaxedFftHistory};
+use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
+use basemat::motion::el_centro_1940;
+use basemat::results::Recorder;
+use basemat::soil::SoilProfile;
+use basemat::structure::RigidBlock;
+use basemat::{Result, Simulation, Soil};
+
+const REPETITIONS: usize = 3;
+
+/// What is timed, with all it needs.
+type Timed = Box<dyn FnOnce() -> Result<()>>;
+
+/// Prepares what is not timed.
+type Prepare = fn() -> Result<Timed>;
+
+const JOBS: [(&str, Prepare); 8] = [
+    ("4000 steps, bonded", || headline_steps(Bonded)),
+    ("4000 steps, friction", || headline_steps(Coulomb::new(0.2)?)),
+    ("1000 steps, friction, 40 graded elements", many_elements),
+    ("2000 steps, time series and contact", time_series),
+    ("build of the headline", build),
+    ("coefficients of the half-plane", half_plane),
+    ("coefficients of layers", layers),
+    ("convolution of 10 000 steps", convolution),
+];
+
+fn headline_steps(law: impl InterfaceLaw + 'static) -> Result<Timed> {
+    let (builder, ground) = scenes::headline(scenes::COUNT)?;
+    // Told of fewer steps, it would make them in unknowns instead of modes.
+    let builder = builder.ground(ground).interface(law).expected_steps(scenes::STEPS);
+    let mut simulation = builder.build()?;
+    Ok(Box::new(move || simulation.run(4_000, |_| ()).map(drop)))
+}
+
+fn block(graded_elements: usize) -> Result<Simulation> {
+    Simulation::builder(2.0e-3)
+        .ground(HalfPlaneGround::strip(scenes::soil()?, -5.0..5.0, graded_elements)?)
+        .structure(RigidBlock::new(10.0, 12.0, 1_000.0)?)
+        .interface(Coulomb::new(0.4)?)
+        .motion(el_centro_1940())
+        .build()
+}
+
+fn many_elements() -> Result<Timed> {
+    let mut simulation = block(40)?;
+    Ok(Box::new(move || simulation.run(1_000, |_| ()).map(drop)))
+}
+
+fn time_series() -> Result<Timed> {
+    let mut simulation = block(10)?;
+    Ok(Box::new(move || {
+        let mut histories = Recorder::new().contact(1).start(&simulation)?;
+        simulation.run(2_000, |state| histories.record(state))?;
+        black_box(histories.bytes());
+        Ok(())
+    }))
+}
+
+fn build() -> Result<Timed> {
+    let (builder, ground) = scenes::headline(scenes::COUNT)?;
+    let builder = builder.ground(ground).interface(Bonded).expected_steps(scenes::STEPS);
+    Ok(Box::new(move || builder.build().map(|simulation| drop(black_box(simulation)))))
+}
+
+fn half_plane() -> Result<Timed> {
+    let elements = Strip::graded(-5.0..5.0, 16)?.elements();
+    Ok(Box::new(move || {
+        let kernel = PatchKernel::new(scenes::soil()?, elements, 2.0e-3)?;
+        DirectHistory::new(Arc::new(kernel)).reserve(400)
+    }))
+}
+
+fn layers() -> Result<Timed> {
+    let rock = Soil::new(1.0e9, 0.25, 2200.0)?;
+    let profile = SoilProfile::on_half_plane(rock).with_layer(scenes::soil()?, 8.0)?;
+    let mut ground = LayeredGround::strip(profile, -5.0..5.0, 8)?;
+    Ok(Box::new(move || {
+        ground.prepare(5.0e-3)?;
+        ground.reserve(200)
+    }))
+}
+
+fn convolution() -> Result<Timed> {
+    let elements = Strip::uniform(-5.0..5.0, 10)?.elements();
+    let kernel: Arc<dyn LagKernel> = Arc::new(PatchKernel::new(scenes::soil()?, elements, 2.0e-3)?);
+    let mut history = RelaxedFftHistory::new(kernel);
+    history.reserve(10_000)?;
+    Ok(Box::new(move || {
+        let mut displacement = vec![0.0; 20];
+        let traction: Vec<f64> = (0..20).map(|i| f64::from(i).sin()).collect();
+        for _ in 0..10_000 {
+            history.evaluate(&mut displacement)?;
+            history.push(&traction);
+        }
+        black_box(displacement);
+        Ok(())
+    }))
+}
+
+fn main() -> Result<()> {
+    // Cargo adds an argument of its own.
+    let wanted: Vec<String> = std::env::args().skip(1).filter(|name| name != "--bench").collect();
+    for (name, prepare) in JOBS {
+        if !wanted.is_empty() && !wanted.iter().any(|one| one == name) {
+            continue;
+        }
+        let mut least = f64::INFINITY;
+        for _ in 0..REPETITIONS {
+            let timed = prepare()?;
+            let begin = Instant::now();
+            timed()?;
+            least = least.min(begin.elapsed().as_secs_f64());
+        }
+        println!("{least:.6}\t{name}");
+    }
+    Ok(())
+}
