@@ -4,6 +4,7 @@
 
 mod case_tables;
 mod foundations;
+mod fragility;
 mod histories;
 mod pages;
 mod plot;
