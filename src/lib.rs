@@ -224,7 +224,12 @@ pub use sweep::Sweep;
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-/// The snippets of the architecture guide are, too.
+/// The snippets of the guide to sweeps are, too.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/sweeps.md")]
+struct Sweeps;
+
+/// And those of the architecture guide.
 #[cfg(doctest)]
 #[doc = include_str!("../docs/architecture.md")]
 struct Architecture;

@@ -22,6 +22,7 @@ mod picture;
 mod scene;
 
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
@@ -51,8 +52,18 @@ pub(crate) struct Group {
     pub(crate) samples: Vec<Curve>,
 }
 
-fn main() -> Result<(), AnyError> {
-    let options = Options::parse();
+fn main() -> ExitCode {
+    match study(&Options::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        // In words: which shards are missing, say.
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn study(options: &Options) -> Result<(), AnyError> {
     threads(options.threads)?;
     let motions = motions::list(scene::STEP, options.short)?;
     let (frictions, widths, levels): (&[f64], &[f64], &[f64]) = if options.short {
@@ -90,12 +101,12 @@ fn main() -> Result<(), AnyError> {
     let mut groups = Vec::new();
     for &friction in frictions {
         for &width in widths {
-            groups.push(group(&table, friction, width, levels, motions.len(), &options)?);
+            groups.push(group(&table, friction, width, levels, motions.len(), options)?);
         }
     }
-    report(&groups, &options);
+    report(&groups, options);
     write(&options.out.join("curves.csv"), &groups)?;
-    picture::draw(&options.out.join("fragility.svg"), &groups, widths, &options)?;
+    picture::draw(&options.out.join("fragility.svg"), &groups, widths, options)?;
     println!("files in {}", options.out.display());
     Ok(())
 }
@@ -204,7 +215,7 @@ impl Group {
 
 fn report(groups: &[Group], options: &Options) {
     println!(
-        "\nPeak ground velocity at which {} exceeds {}, m/s: median and dispersion of the lognormal \n\
+        "\nPeak ground velocity at which {} exceeds {}, m/s: median and dispersion of the lognormal\n\
          curve, 90 % of a bootstrap over the motions, standard errors if all runs were independent\n",
         options.demand, options.limit
     );

@@ -167,6 +167,9 @@ impl<'a> Sweep<'a> {
 
     /// As [`Sweep::collect`], but hands every result to `sink` with the number of its case as soon as
     /// it is there, in whatever order cases end, one at a time.
+    ///
+    /// # Panics
+    /// If `sink` or the progress callback does.
     pub fn run<T: Send, E: Send>(
         &self,
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,

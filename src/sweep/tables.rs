@@ -100,11 +100,13 @@ impl Sweep<'_> {
                 }
                 Ok(file)
             };
-            let mut file = open().map_err(unwritten(&part))?;
+            let mut file = Some(open().map_err(unwritten(&part))?);
             self.run_some(&left, run, |case, result| {
                 let row = row(case, result);
-                // A row that finds no room is computed again after a crash; the table has it anyway.
-                let _ = file.write_all(row.csv(&self.grid, N).as_bytes());
+                // After a row that found no room no other is written: a line that was cut is the last. The
+                // table has them all, unless the process is killed, too.
+                let line = row.csv(&self.grid, N);
+                file = file.take().filter(|mut file| file.write_all(line.as_bytes()).is_ok());
                 rows.push(row);
             });
         }
