@@ -63,13 +63,19 @@ fn main() -> Result<()> {
     let motions = motions()?;
     let (kinds, peaks) = (motions.len(), PEAKS.len());
 
-    // One number for each case: friction is the slowest index, the motion the fastest. A case that
-    // fails is told of below and does not stop the others.
-    let slips = Sweep::new(FRICTIONS.len() * peaks * kinds).collect(|case| {
-        let (motion, rest) = (case.index() % kinds, case.index() / kinds);
-        let peak = PEAKS[rest % peaks] * STANDARD_GRAVITY;
-        slide(FRICTIONS[rest / peaks], motions[motion].1.scaled_to_peak(peak)?)
-    });
+    // Every combination is a case, the last parameter fastest. A case that fails is a row that says
+    // why, and does not stop the others.
+    let sweep = Sweep::grid([
+        Parameter::numbers("friction", FRICTIONS),
+        Parameter::numbers("peak_g", PEAKS),
+        Parameter::texts("motion", motions.iter().map(|(name, _)| *name)),
+    ])?;
+    let table = sweep.table(["peak_slip_m"], |case| {
+        let peak = case.value("peak_g")? * STANDARD_GRAVITY;
+        let motion = motions[case.place("motion")?].1.scaled_to_peak(peak)?;
+        Result::Ok([slide(case.value("friction")?, motion)?])
+    })?;
+    let slips: Vec<_> = table.rows().map(|row| row.value("peak_slip_m")).collect();
     let slip = |f: usize, p: usize, m: usize| &slips[(f * peaks + p) * kinds + m];
 
     println!("Largest mean slip of the base in mm, motions scaled to {} g\n", PEAKS[2]);

@@ -11,10 +11,10 @@
 //! and friction coefficients shows how far. The frame by itself is checked against its closed form,
 //! every run against statics.
 
-use basemat::Result;
 use basemat::fem::{Beam, Direction, LumpedMass, Mesh};
 use basemat::prelude::*;
 use basemat::structure::{CraigBampton, Row};
+use basemat::{CaseError, Result};
 
 /// Of the columns, m; the beam is as long as the columns are apart.
 const HEIGHT: f64 = 5.0;
@@ -172,14 +172,16 @@ fn main() -> Result<()> {
 
     // Nothing ties the footings together.
     let (widths, frictions) = ([1.6, 2.0, 2.4, 3.0], [0.2, 0.3, 0.4, 0.5, 0.6]);
-    let cases: Vec<_> =
-        widths.iter().flat_map(|&width| frictions.map(|friction| (width, friction))).collect();
-    let closer = Sweep::new(cases.len()).collect(|case| {
-        let (width, friction) = cases[case.index()];
-        let (run, _) = Portal::new(width, 1.0)?.shake(Coulomb::new(friction)?)?;
+    let sweep = Sweep::grid([
+        Parameter::numbers("width_m", widths),
+        Parameter::numbers("friction", frictions),
+    ])?;
+    let closer = sweep.collect(|case| {
+        let law = Coulomb::new(case.value("friction")?)?;
+        let (run, _) = Portal::new(case.value("width_m")?, 1.0)?.shake(law)?;
         Ok(run.foundations[0].residual_slip - run.foundations[1].residual_slip)
     });
-    let closer = closer.into_iter().collect::<Result<Vec<_>>>()?;
+    let closer = closer.into_iter().collect::<std::result::Result<Vec<_>, CaseError<_>>>()?;
     println!("By how much the footings end closer to each other, mm\n");
     println!("| width, m | friction {} |", frictions.map(|f| f.to_string()).join(" | "));
     println!("|---|{}", "---|".repeat(frictions.len()));

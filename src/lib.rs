@@ -114,7 +114,7 @@
 //! | [`prelude`] | what most programs name, in one `use` |
 //! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy ledger |
 //! | [`results`] | histories, peaks, envelopes, factors of safety, tables for reports |
-//! | [`Sweep`] | many simulations, on all processors with the feature `rayon` |
+//! | [`sweep`] | [`Sweep`]: many simulations over parameters, on all processors with the feature `rayon`; their table, shards |
 //! | [`structure`] | finite-element model, shear building, rigid block, given matrices, reduction, hysteretic springs, and the trait for your own |
 //! | [`fem`] | meshes and elements |
 //! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
@@ -168,8 +168,8 @@
 //! Short programs that print a table: `shear_building`, `base_isolated`, `two_buildings`,
 //! `portal_frame`, `rocking_block`, `tilted_block`, `snap_back`, `bearing_capacity`,
 //! `machine_foundation`, `floor_spectra`, `layered_site`, `impedances`, `friction_sweep`,
-//! `travelling_wave`, `from_matrices`; `pictures` draws everything (feature `png`). What each prints is
-//! in [the document of examples](https://github.com/basemat/basemat/blob/main/docs/examples.md).
+//! `fragility`, `travelling_wave`, `from_matrices`; `pictures` draws everything (feature `png`). What
+//! each prints is in [the document of examples](https://github.com/basemat/basemat/blob/main/docs/examples.md).
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -208,25 +208,30 @@ pub mod results;
 pub mod site;
 pub mod soil;
 pub mod structure;
-mod sweep;
+pub mod sweep;
 
 pub use complex::Complex;
 pub use coupled::Simulation;
 pub use error::{
-    CaseError, CheckpointError, Error, KernelFileError, LawError, LayeredError, RecordError,
-    ReducedError, Result, StandingError, StepError,
+    CaseError, CaseFileError, CheckpointError, Error, KernelFileError, LawError, LayeredError,
+    RecordError, ReducedError, Result, StandingError, StepError, SweepError,
 };
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};
 pub use soil::Soil;
-pub use sweep::{Sweep, SweepCase};
+pub use sweep::Sweep;
 
 /// The README's program is compiled and run.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-/// The snippets of the architecture guide are, too.
+/// The snippets of the guide to sweeps are, too.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/sweeps.md")]
+struct Sweeps;
+
+/// And those of the architecture guide.
 #[cfg(doctest)]
 #[doc = include_str!("../docs/architecture.md")]
 struct Architecture;

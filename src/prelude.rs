@@ -10,4 +10,4 @@ pub use crate::structure::{
     ContactNode, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, Structure,
     StructureGroup, Triplets,
 };
-pub use crate::sweep::Sweep;
+pub use crate::sweep::{Parameter, Sweep};

@@ -1,11 +1,12 @@
 //! One case: the scene, its run, and what is kept of it.
 
+use basemat::Simulation;
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::{Probe, Run};
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::Record;
 use basemat::structure::Structure;
-use basemat::{Simulation, SweepCase};
+use basemat::sweep::SweepCase;
 
 use super::AnyError;
 use super::containment::FOOT;

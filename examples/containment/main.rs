@@ -20,8 +20,8 @@ mod options;
 mod plots;
 mod report;
 
-use basemat::Sweep;
 use basemat::motion::Record;
+use basemat::{CaseError, Sweep};
 use clap::Parser;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
@@ -60,7 +60,8 @@ fn main() -> Result<(), AnyError> {
         .collect();
 
     // Cases are independent: with the feature `rayon`, as many at a time as there are processors.
-    let mut outcomes: Vec<Option<Result<Outcome, AnyError>>> = cases.iter().map(|_| None).collect();
+    let mut outcomes: Vec<Option<Result<Outcome, CaseError<AnyError>>>> =
+        cases.iter().map(|_| None).collect();
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to the steps")]
     let set_bar = |k: usize, fraction: f64| bars[k].set_position((fraction * steps as f64) as u64);
     Sweep::new(cases.len()).on_progress(set_bar).run(

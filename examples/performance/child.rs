@@ -107,7 +107,7 @@ fn sweep(steps: usize) -> Result<[f64; 2]> {
         },
         |_, result| {
             if let Err(error) = result {
-                outcome = Err(error);
+                outcome = Err(error.into());
             }
         },
     );

@@ -25,7 +25,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     let record = options.record()?;
     let steps = options.steps(&record);
     let cases = Case::list(&options.friction);
-    let mut results: Vec<Option<Result<Computed, AnyError>>> = cases.iter().map(|_| None).collect();
+    let mut results: Vec<_> = cases.iter().map(|_| None).collect();
     Sweep::new(cases.len()).run(
         |now| case::run(&cases[now.index()], &options, &record, steps, now),
         |k, outcome| results[k] = Some(outcome),

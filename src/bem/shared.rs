@@ -31,7 +31,7 @@ const KEPT: usize = 8;
 ///         ground.prepare(2.0e-3)?;
 ///         ground.reserve(100 * case.index())
 ///     },
-///     |_, result: Result<(), Error>| assert!(result.is_ok()),
+///     |_, result| assert_eq!(result, Ok(())),
 /// );
 /// assert_eq!(kernels.len(), 1);
 /// # Ok::<(), Error>(())

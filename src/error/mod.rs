@@ -18,7 +18,7 @@ mod reduced;
 mod standing;
 mod step;
 
-pub use case::CaseError;
+pub use case::{CaseError, CaseFileError, SweepError};
 pub use checkpoint::CheckpointError;
 pub(crate) use checks::{finite, not_negative, positive, same_length, write_file};
 pub use law::LawError;
@@ -313,6 +313,9 @@ pub enum Error {
     /// A layered ground that cannot be computed as asked.
     #[error("layered ground: {0}")]
     Layered(#[from] LayeredError),
+    /// Parameters, a table or files of a sweep that cannot be used.
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
     /// A run could not be saved or resumed.
     #[error("checkpoint: {0}")]
     Checkpoint(CheckpointError),

@@ -9,7 +9,8 @@ use super::unit::{labelled, number, printed};
 use super::{ProbeExtremes, Run, ServiceCheck};
 use crate::error::{Result, write_file};
 
-/// Runs side by side; prints as a table with a row per quantity and a column per case.
+/// Runs side by side; prints as a table with a row per quantity and a column per case, in blocks of
+/// as many cases as lines below 100 characters hold.
 ///
 /// ```no_run
 /// # fn runs() -> Vec<(f64, basemat::results::Run)> { vec![] }
@@ -110,7 +111,7 @@ impl Comparison {
             cells.extend(self.cases.iter().map(|(_, run)| value(run)));
             rows.push(cells);
         }
-        Table { heading, rows }
+        Table { heading, repeated: 2, rows }
     }
 
     /// Probes of the first case, if all cases have the same ones.
@@ -150,7 +151,7 @@ impl Comparison {
             let cells = values.chain(peaks).map(|v| v.map_or(String::new(), |v| v.to_string()));
             std::iter::once(name.clone()).chain(cells).collect()
         };
-        Table { heading, rows: self.cases.iter().map(line).collect() }.csv()
+        Table { heading, repeated: 1, rows: self.cases.iter().map(line).collect() }.csv()
     }
 }
 

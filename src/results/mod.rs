@@ -68,7 +68,7 @@ mod safety;
 mod sequence;
 mod serviceability;
 mod sliding;
-mod table;
+pub(crate) mod table;
 pub(crate) mod unit;
 mod uplift;
 #[cfg(any(feature = "io", feature = "plot"))]

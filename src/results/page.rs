@@ -64,7 +64,7 @@ impl Run {
             let (factor, unit) = printed(&probe.unit);
             row(&probe.name, unit, factor, &probe.extremes)
         }));
-        Table { heading: heading.map(str::to_owned).to_vec(), rows }
+        Table { heading: heading.map(str::to_owned).to_vec(), repeated: 1, rows }
     }
 
     /// Largest magnitudes, a line for each foundation.
@@ -98,6 +98,7 @@ impl Run {
         };
         Table {
             heading: heading.map(str::to_owned).to_vec(),
+            repeated: 1,
             rows: self.foundations.iter().map(row).collect(),
         }
     }
@@ -187,6 +188,7 @@ impl Run {
         let shown = self.envelope.iter().enumerate().filter(|(k, _)| kept(k));
         Table {
             heading: heading.map(str::to_owned).to_vec(),
+            repeated: 1,
             rows: shown.map(|(_, envelope)| row(envelope)).collect(),
         }
     }

@@ -4,7 +4,7 @@
 
 use basemat::bem::{Grading, Strip};
 use basemat::prelude::*;
-use basemat::{Error, Result};
+use basemat::{CaseError, Error, Result};
 
 const BAD: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
 
@@ -130,7 +130,8 @@ fn a_sweep_collects_in_order() {
         7 => Err("seven"),
         index => Ok(3 * index),
     });
-    let wanted: Vec<_> = (0..20).map(|k| if k == 7 { Err("seven") } else { Ok(3 * k) }).collect();
+    let seven = Err(CaseError::Failed("seven"));
+    let wanted: Vec<_> = (0..20).map(|k| if k == 7 { seven.clone() } else { Ok(3 * k) }).collect();
     assert_eq!(found, wanted);
 }
 

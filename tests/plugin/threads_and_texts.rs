@@ -10,6 +10,7 @@ use basemat::history::DirectHistory;
 use basemat::interface::Bonded;
 use basemat::motion::TravellingWave;
 use basemat::structure::{StructureGroup, WithSprings};
+use basemat::sweep::{Parameter, Sweep};
 use basemat::{Error, Simulation};
 
 use super::{STEP, push, shaken, soil};
@@ -38,7 +39,16 @@ fn all_parts_can_be_shown() {
     shown(&WithSprings::new(block()), &["unknowns: 3", "springs: 0"]);
     shown(&StructureGroup::new(), &["structures: 0"]);
     shown(&TravellingWave::new(push(), 500.0, 1.0).unwrap(), &["500.0", "origin: 1.0"]);
-    shown(&basemat::Sweep::new(3), &["count: 3"]);
+    shown(&Sweep::new(3), &["count: 3"]);
+    let sweep = Sweep::grid([Parameter::texts("record", ["El Centro"])]).unwrap();
+    shown(&sweep, &["count: 1", "El Centro"]);
+    let table = sweep.table(["slip_m"], |case| {
+        shown(case, &["index: 0"]);
+        Ok::<_, Error>([0.25])
+    });
+    let table = table.unwrap();
+    shown(&table, &["slip_m", "0.25"]);
+    shown(&table.rows().next().unwrap(), &["case: 0"]);
 }
 
 #[test]

@@ -2,7 +2,9 @@
 //! SCENE: a block on the half-plane that rocks and slides.
 //! REFERENCE: the states they were made of, and statics.
 
+mod case_tables;
 mod foundations;
+mod fragility;
 mod histories;
 mod pages;
 mod plot;

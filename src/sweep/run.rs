@@ -1,0 +1,213 @@
+//! Cases run by one closure, on all processors or one after the other.
+
+use std::num::NonZeroUsize;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::grid::{Grid, no_name};
+use super::parameter::Parameter;
+use crate::error::{CaseError, Error, Result};
+
+/// A number of cases to run, each by the same closure.
+///
+/// ```
+/// use basemat::sweep::Parameter;
+/// use basemat::{CaseError, Sweep};
+///
+/// let roots = Sweep::new(4).collect(|case| match case.index() {
+///     1 => Err("no one"),
+///     2 => panic!("no two"),
+///     index => Ok((index as f64).sqrt()),
+/// });
+/// assert_eq!(roots[0], Ok(0.0));
+/// assert_eq!(roots[1], Err(CaseError::Failed("no one")));
+/// assert!(matches!(&roots[2], Err(CaseError::Panicked { message }) if message == "no two"));
+/// assert_eq!(roots[3], Ok(3.0_f64.sqrt()));
+///
+/// // Widths × frictions.
+/// let sweep = Sweep::grid([
+///     Parameter::numbers("width_m", [4.0, 6.0]),
+///     Parameter::numbers("friction", [0.2, 0.4]),
+/// ])?;
+/// let products = sweep
+///     .collect(|case| basemat::Result::Ok(case.value("width_m")? * case.value("friction")?));
+/// assert_eq!(products, [Ok(4.0 * 0.2), Ok(4.0 * 0.4), Ok(6.0 * 0.2), Ok(6.0 * 0.4)]);
+///
+/// // The second of three processes runs cases 1, 4, 7, …
+/// assert_eq!(Sweep::new(9).shard(1, 3)?.cases().collect::<Vec<_>>(), [1, 4, 7]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub struct Sweep<'a> {
+    pub(super) grid: Arc<Grid>,
+    /// Cases `first`, `first + stride`, … of the grid.
+    first: usize,
+    stride: NonZeroUsize,
+    pub(super) progress: Box<dyn Fn(usize, f64) + Sync + 'a>,
+}
+
+short_debug! {
+    Sweep<'_>; self;
+    count: self.cases().len(), parameters: self.grid.parameters, first: self.first,
+    stride: self.stride
+}
+
+/// One case of a [`Sweep`], while it runs.
+pub struct SweepCase<'a> {
+    index: usize,
+    grid: &'a Grid,
+    progress: &'a (dyn Fn(usize, f64) + Sync),
+}
+
+short_debug! { SweepCase<'_>; self; index: self.index }
+
+impl SweepCase<'_> {
+    /// Number of the case in the whole sweep, from 0.
+    pub fn index(&self) -> usize {
+        self.index
+    }
+
+    /// Value of a parameter with numbers.
+    ///
+    /// # Errors
+    /// [`Error::Name`] if there is none of this name.
+    pub fn value(&self, parameter: &str) -> Result<f64> {
+        let number = self.grid.number(self.index, parameter);
+        number.ok_or_else(|| no_name("parameter with numbers", parameter))
+    }
+
+    /// Value of a parameter with texts.
+    ///
+    /// # Errors
+    /// [`Error::Name`] if there is none of this name.
+    pub fn text(&self, parameter: &str) -> Result<&str> {
+        self.grid.text(self.index, parameter)
+    }
+
+    /// Place of the case's value among all of a parameter, from 0: the index into a list of records,
+    /// say.
+    ///
+    /// # Errors
+    /// [`Error::Name`] if there is no parameter of this name.
+    pub fn place(&self, parameter: &str) -> Result<usize> {
+        self.grid.place(self.index, parameter)
+    }
+
+    /// Tells the sweep's progress callback which `fraction` of this case is done.
+    pub fn report(&self, fraction: f64) {
+        (self.progress)(self.index, fraction);
+    }
+}
+
+impl<'a> Sweep<'a> {
+    /// A sweep over the cases 0 … `count` − 1.
+    pub fn new(count: usize) -> Self {
+        Self::over(Grid { parameters: Vec::new(), count })
+    }
+
+    /// A sweep over all combinations of the parameters' values. Cases are numbered in the order of
+    /// the values, the last parameter fastest; without parameters there is one case.
+    ///
+    /// # Errors
+    /// [`Error::DuplicateName`] if two parameters have one name, or one is called `case` or `error`;
+    /// [`Error::Sweep`] for a parameter without a name or values, for a value that is there twice,
+    /// is not finite or an empty text, and for more cases than can be counted.
+    pub fn grid(parameters: impl IntoIterator<Item = Parameter>) -> Result<Self> {
+        Ok(Self::over(Grid::new(parameters.into_iter().collect())?))
+    }
+
+    fn over(grid: Grid) -> Self {
+        let progress = Box::new(|_, _| ());
+        Self { grid: Arc::new(grid), first: 0, stride: NonZeroUsize::MIN, progress }
+    }
+
+    /// Only every `of`-th case, from case `index` on: share `index` of `of` equal ones, from 0. Cases keep their
+    /// numbers. A shard may be cut into shards again.
+    ///
+    /// # Errors
+    /// [`Error::Index`] unless `index` is below `of`.
+    pub fn shard(self, index: usize, of: usize) -> Result<Self> {
+        let outside = Error::Index { quantity: "shard", index, bound: of };
+        let of = NonZeroUsize::new(of).filter(|of| index < of.get()).ok_or(outside)?;
+        // What is too large to be counted is beyond the last case as well.
+        let first = self.first.saturating_add(self.stride.get().saturating_mul(index));
+        Ok(Self { first, stride: self.stride.saturating_mul(of), ..self })
+    }
+
+    /// Numbers of the cases that are run: all, or those of the shard.
+    pub fn cases(&self) -> impl ExactSizeIterator<Item = usize> + use<> {
+        (self.first.min(self.grid.count)..self.grid.count).step_by(self.stride.get())
+    }
+
+    /// Place of a case among those that are run, if it is one.
+    pub(super) fn place(&self, case: usize) -> Option<usize> {
+        let behind = case.checked_sub(self.first).filter(|_| case < self.grid.count)?;
+        (behind % self.stride == 0).then(|| behind / self.stride)
+    }
+
+    /// Calls `progress` with a case's number and the fraction of it that is done: whenever the case
+    /// says so with [`SweepCase::report`], and with 1 when it ends, well or not.
+    #[must_use]
+    pub fn on_progress(mut self, progress: impl Fn(usize, f64) + Sync + 'a) -> Self {
+        self.progress = Box::new(progress);
+        self
+    }
+
+    /// Runs the cases and returns their results, in the order of the cases. A case that fails or
+    /// panics is a result like any other: the sweep goes on. Where panics abort the program
+    /// (`panic = "abort"`) they cannot be caught.
+    pub fn collect<T: Send, E: Send>(
+        &self,
+        run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
+    ) -> Vec<std::result::Result<T, CaseError<E>>> {
+        let mut results = Vec::new();
+        self.run(run, |index, result| results.push((index, result)));
+        results.sort_unstable_by_key(|(index, _)| *index);
+        results.into_iter().map(|(_, result)| result).collect()
+    }
+
+    /// As [`Sweep::collect`], but hands every result to `sink` with the number of its case as soon as
+    /// it is there, in whatever order cases end, one at a time.
+    ///
+    /// # Panics
+    /// If `sink` or the progress callback does.
+    pub fn run<T: Send, E: Send>(
+        &self,
+        run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
+        sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) + Send,
+    ) {
+        self.run_some(&self.cases().collect::<Vec<_>>(), run, sink);
+    }
+
+    /// [`Sweep::run`] for `cases` alone.
+    pub(super) fn run_some<T: Send, E: Send>(
+        &self,
+        cases: &[usize],
+        run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
+        sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) + Send,
+    ) {
+        let sink = Mutex::new(sink);
+        for_each(cases, &|index| {
+            let case = SweepCase { index, grid: &self.grid, progress: &*self.progress };
+            // What a case has built is dropped with it; what cases share is theirs to keep sound.
+            let result = match catch_unwind(AssertUnwindSafe(|| run(&case))) {
+                Ok(result) => result.map_err(CaseError::Failed),
+                Err(payload) => Err(CaseError::panicked(payload.as_ref())),
+            };
+            (self.progress)(index, 1.0);
+            let mut sink = sink.lock().unwrap_or_else(PoisonError::into_inner);
+            (*sink)(index, result);
+        });
+    }
+}
+
+#[cfg(feature = "rayon")]
+fn for_each(cases: &[usize], run: &(dyn Fn(usize) + Sync)) {
+    use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+    // Cases are long and few: each is a task of its own.
+    cases.par_iter().with_max_len(1).for_each(|&case| run(case));
+}
+
+#[cfg(not(feature = "rayon"))]
+fn for_each(cases: &[usize], run: &(dyn Fn(usize) + Sync)) {
+    cases.iter().copied().for_each(run);
+}

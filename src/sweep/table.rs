@@ -1,0 +1,187 @@
+//! Parameters and results of cases, a row each.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::csv::number;
+use super::grid::{Grid, no_name};
+use super::replace::replace;
+use crate::error::{Result, SweepError};
+use crate::results::table::csv_cell;
+
+/// The cases of a [`Sweep`](super::Sweep), a row each: the case's number, its parameters, its results, and why it has none if it
+/// failed. Prints as a table of five figures no line of which is longer than 99 characters: a wide
+/// one breaks into blocks.
+///
+/// Tables are equal if all their bits are; every NaN is the same.
+#[derive(Debug, Clone)]
+pub struct CaseTable {
+    pub(super) grid: Arc<Grid>,
+    pub(super) columns: Vec<String>,
+    /// Ascending by case.
+    pub(super) rows: Vec<Row>,
+}
+
+/// A case, its results or its error.
+#[derive(Debug, Clone)]
+pub(super) struct Row {
+    pub(super) case: usize,
+    pub(super) outcome: std::result::Result<Vec<f64>, String>,
+}
+
+impl Row {
+    /// A row; a NaN loses its sign and payload, and an error without words gets one.
+    pub(super) fn new(case: usize, outcome: std::result::Result<Vec<f64>, String>) -> Self {
+        let clean = |value: f64| if value.is_nan() { f64::NAN } else { value };
+        let outcome = match outcome {
+            Ok(results) => Ok(results.into_iter().map(clean).collect()),
+            Err(reason) if reason.is_empty() => Err("failed".to_owned()),
+            Err(reason) => Err(reason),
+        };
+        Self { case, outcome }
+    }
+
+    /// As a line of CSV, with its end.
+    pub(super) fn csv(&self, grid: &Grid, columns: usize) -> String {
+        let mut cells = vec![self.case.to_string()];
+        cells.extend(parameter_cells(grid, self.case));
+        match &self.outcome {
+            Ok(results) => {
+                cells.extend(results.iter().map(|&value| number(value)));
+                cells.push(String::new());
+            }
+            Err(reason) => {
+                cells.extend(std::iter::repeat_n(String::new(), columns));
+                cells.push(reason.clone());
+            }
+        }
+        csv_line(&cells)
+    }
+}
+
+impl PartialEq for Row {
+    fn eq(&self, other: &Self) -> bool {
+        let bits = |row: &Self| match &row.outcome {
+            Ok(results) => Ok(results.iter().map(|value| value.to_bits()).collect::<Vec<_>>()),
+            Err(reason) => Err(reason.clone()),
+        };
+        self.case == other.case && bits(self) == bits(other)
+    }
+}
+
+impl PartialEq for CaseTable {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.grid, &self.columns, &self.rows) == (&other.grid, &other.columns, &other.rows)
+    }
+}
+
+/// Values of a case's parameters, printed.
+pub(super) fn parameter_cells(grid: &Grid, case: usize) -> impl Iterator<Item = String> {
+    grid.parameters.iter().enumerate().map(move |(index, parameter)| {
+        let place = grid.place_of(case, index);
+        let text = || parameter.text(place).unwrap_or_default().to_owned();
+        parameter.number(place).map_or_else(text, number)
+    })
+}
+
+/// Headings of all columns.
+pub(super) fn heading(grid: &Grid, columns: &[String]) -> Vec<String> {
+    let mut cells = vec!["case".to_owned()];
+    cells.extend(grid.parameters.iter().map(|parameter| parameter.name().to_owned()));
+    cells.extend_from_slice(columns);
+    cells.push("error".to_owned());
+    cells
+}
+
+/// Cells as a line of CSV, with its end.
+pub(super) fn csv_line(cells: &[String]) -> String {
+    cells.iter().map(|cell| csv_cell(cell)).collect::<Vec<_>>().join(",") + "\n"
+}
+
+/// A row of a [`CaseTable`].
+#[derive(Debug, Clone, Copy)]
+pub struct CaseRow<'a> {
+    table: &'a CaseTable,
+    row: &'a Row,
+}
+
+impl<'a> CaseRow<'a> {
+    /// Number of the case in the whole sweep, from 0.
+    pub fn index(&self) -> usize {
+        self.row.case
+    }
+
+    /// The results in the order of [`CaseTable::columns`], or the text of the error.
+    ///
+    /// # Errors
+    /// The text of the error, if the case failed or panicked.
+    pub fn results(&self) -> std::result::Result<&'a [f64], &'a str> {
+        self.row.outcome.as_deref().map_err(String::as_str)
+    }
+
+    /// A result, or the value of a parameter with numbers.
+    ///
+    /// # Errors
+    /// [`Error::Name`](crate::Error::Name) if no column of numbers is called so;
+    /// [`SweepError::Failed`] for a result of a case that failed.
+    pub fn value(&self, column: &str) -> Result<f64> {
+        if let Some(number) = self.table.grid.number(self.row.case, column) {
+            return Ok(number);
+        }
+        let index = self.table.columns.iter().position(|name| name == column);
+        let index = index.ok_or_else(|| no_name("column of numbers", column))?;
+        match self.results() {
+            Ok(results) => Ok(results[index]),
+            Err(reason) => {
+                Err(SweepError::Failed { case: self.row.case, reason: reason.to_owned() }.into())
+            }
+        }
+    }
+
+    /// Value of a parameter with texts.
+    ///
+    /// # Errors
+    /// [`Error::Name`](crate::Error::Name) if there is none of this name.
+    pub fn text(&self, parameter: &str) -> Result<&'a str> {
+        self.table.grid.text(self.row.case, parameter)
+    }
+
+    /// Place of the case's value among all of a parameter, from 0.
+    ///
+    /// # Errors
+    /// [`Error::Name`](crate::Error::Name) if there is no parameter of this name.
+    pub fn place(&self, parameter: &str) -> Result<usize> {
+        self.table.grid.place(self.row.case, parameter)
+    }
+}
+
+impl CaseTable {
+    /// The rows, ascending by case.
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = CaseRow<'_>> {
+        self.rows.iter().map(|row| CaseRow { table: self, row })
+    }
+
+    /// Names of the results.
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// As CSV (RFC 4180), a heading and a line for every case: `case`, the parameters, the results and
+    /// `error`. Numbers have as many digits as read back to the last bit, in the caller's units; NaN
+    /// is an empty cell, infinities are `inf` and `-inf`. Of a case that failed the results are empty
+    /// and `error` is not.
+    pub fn csv(&self) -> String {
+        let mut text = csv_line(&heading(&self.grid, &self.columns));
+        text.extend(self.rows.iter().map(|row| row.csv(&self.grid, self.columns.len())));
+        text
+    }
+
+    /// Writes [`CaseTable::csv`] to a file, in a folder that is made if it is not there. The file is
+    /// there with all its lines or as it was before: it is written under another name and renamed.
+    ///
+    /// # Errors
+    /// [`Error::Write`](crate::Error::Write) if that fails.
+    pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
+        replace(path.as_ref(), &self.csv())
+    }
+}

@@ -1,0 +1,237 @@
+//! Tables of a sweep: computed, kept in a file while they are computed, merged from shards.
+
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::fmt::Display;
+use std::fs::{OpenOptions, remove_file};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::file::{Content, Ending, read};
+use super::grid::check_names;
+use super::parameter::Parameter;
+use super::replace::{name, replace, unwritten};
+use super::run::{Sweep, SweepCase};
+use super::table::{CaseTable, Row, csv_line, heading};
+use crate::error::{CaseError, Result, SweepError};
+
+/// Rows by their cases, each with the file that it is from.
+type Rows = BTreeMap<usize, (Row, PathBuf)>;
+
+/// A case's row.
+fn row<const N: usize, E: Display>(
+    case: usize,
+    result: std::result::Result<[f64; N], CaseError<E>>,
+) -> Row {
+    Row::new(case, result.map(Vec::from).map_err(|error| error.to_string()))
+}
+
+impl Sweep<'_> {
+    /// Runs the cases and puts their parameters and `columns` of results into a table. A case that
+    /// fails or panics is a row that says why. Units belong into the columns' names: `residual_slip_m`.
+    ///
+    /// ```
+    /// use basemat::sweep::{Parameter, Sweep};
+    ///
+    /// let sweep = Sweep::grid([Parameter::numbers("width_m", [4.0, 6.0])])?;
+    /// let table = sweep.table(["area_m2"], |case| match case.value("width_m")? {
+    ///     6.0 => Err(basemat::Error::part("width", "too wide")),
+    ///     width => Ok([width * width]),
+    /// })?;
+    /// assert_eq!(table.csv(), "case,width_m,area_m2,error\n0,4,16,\n1,6,,width: too wide\n");
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Not those of cases. [`Error::DuplicateName`](crate::Error::DuplicateName) if two columns
+    /// (parameters, `case` and `error` among them) have one name, [`SweepError::Unnamed`] if one has none.
+    pub fn table<const N: usize, E: Display + Send>(
+        &self,
+        columns: [&str; N],
+        run: impl Fn(&SweepCase<'_>) -> std::result::Result<[f64; N], E> + Sync,
+    ) -> Result<CaseTable> {
+        let columns = self.named(columns)?;
+        let mut rows = Vec::new();
+        self.run(run, |case, result| rows.push(row(case, result)));
+        Ok(self.tabled(columns, rows))
+    }
+
+    /// As [`Sweep::table`], kept in a file: a process that is killed and started again goes on where
+    /// it was, and one that was done reads its table back.
+    ///
+    /// While cases run, their rows are in the file `path` with `.part` at its end; when all are
+    /// there, `path` itself is written in one piece and the other file removed. Cases with a row in either
+    /// file are not run again, failed ones included: delete the row to have a case run once more, the
+    /// files after a change of what a case computes. Two processes must not keep the same file.
+    ///
+    /// # Errors
+    /// As for [`Sweep::table`]; [`Error::Write`](crate::Error::Write) if a file cannot be written, and
+    /// [`Error::Sweep`](crate::Error::Sweep) if one that is there has not these columns, these values of
+    /// parameters and cases of this shard only.
+    pub fn table_in<const N: usize, E: Display + Send>(
+        &self,
+        path: impl AsRef<Path>,
+        columns: [&str; N],
+        run: impl Fn(&SweepCase<'_>) -> std::result::Result<[f64; N], E> + Sync,
+    ) -> Result<CaseTable> {
+        let (path, columns) = (path.as_ref(), self.named(columns)?);
+        let part = PathBuf::from([path.as_os_str(), ".part".as_ref()].join("".as_ref()));
+        let mut there = Rows::new();
+        if path.exists() {
+            self.gather(&mut there, path, Some(&columns), Ending::Whole)?;
+        }
+        let mut begun = 0;
+        if part.exists() {
+            begun = self.gather(&mut there, &part, Some(&columns), Ending::Anywhere)?.end;
+        }
+        for &case in there.keys() {
+            (self.progress)(case, 1.0);
+        }
+        let left: Vec<_> = self.cases().filter(|case| !there.contains_key(case)).collect();
+        let mut rows: Vec<_> = there.into_values().map(|(row, _)| row).collect();
+        if !left.is_empty() {
+            path.parent().map_or(Ok(()), std::fs::create_dir_all).map_err(unwritten(path))?;
+            let open = || {
+                let mut file = OpenOptions::new().create(true).append(true).open(&part)?;
+                // The line within which a process was killed goes.
+                file.set_len(begun)?;
+                if begun == 0 {
+                    file.write_all(csv_line(&heading(&self.grid, &columns)).as_bytes())?;
+                }
+                Ok(file)
+            };
+            let mut file = Some(open().map_err(unwritten(&part))?);
+            self.run_some(&left, run, |case, result| {
+                let row = row(case, result);
+                // After a row that found no room no other is written: a line that was cut is the last. The
+                // table has them all, unless the process is killed, too.
+                let line = row.csv(&self.grid, N);
+                file = file.take().filter(|mut file| file.write_all(line.as_bytes()).is_ok());
+                rows.push(row);
+            });
+        }
+        let table = self.tabled(columns, rows);
+        if !left.is_empty() || part.exists() || !path.exists() {
+            replace(path, &table.csv())?;
+            // If it stays, its rows are those of `path`.
+            let _ = remove_file(&part);
+        }
+        Ok(table)
+    }
+
+    /// The table of all cases from the files of its shards, to the last bit the one that
+    /// [`Sweep::table`] would have made. The sweep is the one that was cut into shards.
+    ///
+    /// # Errors
+    /// [`Error::Sweep`](crate::Error::Sweep): [`SweepError::File`] for a file that was cut off, has
+    /// other columns than the first one, or values of parameters that are not this sweep's, bit for bit;
+    /// [`SweepError::Twice`] and [`SweepError::Missing`] for cases that are there twice or not at
+    /// all; [`SweepError::Unreadable`].
+    pub fn merge(&self, paths: impl IntoIterator<Item = impl AsRef<Path>>) -> Result<CaseTable> {
+        let (mut rows, mut columns, mut files) = (Rows::new(), None, 0);
+        for path in paths {
+            let content =
+                self.gather(&mut rows, path.as_ref(), columns.as_deref(), Ending::Whole)?;
+            columns.get_or_insert(content.columns);
+            files += 1;
+        }
+        let cases: Vec<_> = self.cases().filter(|case| !rows.contains_key(case)).collect();
+        if !cases.is_empty() {
+            let places: Vec<_> = cases.iter().filter_map(|&case| self.place(case)).collect();
+            let shards = missing_shards(&places, self.cases().len(), files);
+            return Err(SweepError::Missing { cases, shards }.into());
+        }
+        let columns = columns.unwrap_or_default();
+        check_names(self.grid.parameters.iter().map(Parameter::name).chain(each(&columns)))?;
+        Ok(self.tabled(columns, rows.into_values().map(|(row, _)| row).collect()))
+    }
+
+    /// The columns' names, if they may stand beside the parameters'.
+    fn named<const N: usize>(&self, columns: [&str; N]) -> Result<Vec<String>> {
+        check_names(self.grid.parameters.iter().map(Parameter::name).chain(columns))?;
+        Ok(columns.map(str::to_owned).to_vec())
+    }
+
+    fn tabled(&self, columns: Vec<String>, mut rows: Vec<Row>) -> CaseTable {
+        rows.sort_unstable_by_key(|row| row.case);
+        CaseTable { grid: self.grid.clone(), columns, rows }
+    }
+
+    /// Adds the rows of a file. One that is there already may come again in a file that was left
+    /// behind, [`Ending::Anywhere`].
+    fn gather(
+        &self,
+        rows: &mut Rows,
+        path: &Path,
+        columns: Option<&[String]>,
+        ending: Ending,
+    ) -> Result<Content> {
+        let wanted = |case| self.place(case).is_some();
+        let mut content = read(path, &self.grid, &wanted, columns, ending)?;
+        for row in content.rows.drain(..) {
+            match rows.entry(row.case) {
+                Entry::Vacant(entry) => {
+                    entry.insert((row, path.to_owned()));
+                }
+                Entry::Occupied(entry) => {
+                    let (before, first) = entry.get();
+                    if ending == Ending::Whole || *before != row {
+                        let (case, first) = (row.case, name(first));
+                        return Err(SweepError::Twice { case, first, second: name(path) }.into());
+                    }
+                }
+            }
+        }
+        Ok(content)
+    }
+}
+
+fn each(names: &[String]) -> impl Iterator<Item = &str> {
+    names.iter().map(String::as_str)
+}
+
+/// The shards `[index, of]` whose cases are exactly the missing ones of `count`, if `files` others are
+/// there.
+fn missing_shards(missing: &[usize], count: usize, files: usize) -> Vec<[usize; 2]> {
+    if files == 0 {
+        return Vec::new();
+    }
+    for of in files + 1..=(files + missing.len()).min(count) {
+        // Cases of a shard: count / of, or one more.
+        let (shards, least) = (of - files, count / of);
+        if !(shards * least..=shards * (least + 1)).contains(&missing.len()) {
+            continue;
+        }
+        let mut found = vec![0; of];
+        for place in missing {
+            found[place % of] += 1;
+        }
+        let whole = |index: usize| count / of + usize::from(index < count % of);
+        if (0..of).all(|index| found[index] == 0 || found[index] == whole(index)) {
+            let lost = (0..of).filter(|&index| found[index] > 0);
+            let lost: Vec<_> = lost.map(|index| [index, of]).collect();
+            if lost.len() == shards {
+                return lost;
+            }
+        }
+    }
+    Vec::new()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_that_are_missing() {
+        let shard = |index: usize, of: usize| (index..10).step_by(of).collect::<Vec<_>>();
+        assert_eq!(missing_shards(&shard(1, 4), 10, 3), [[1, 4]]);
+        let mut two = [shard(0, 4), shard(3, 4)].concat();
+        two.sort_unstable();
+        assert_eq!(missing_shards(&two, 10, 2), [[0, 4], [3, 4]]);
+        // A case more, a case less, and none there.
+        assert!(missing_shards(&[1, 2, 5, 9], 10, 3).is_empty());
+        assert!(missing_shards(&[1, 5], 10, 3).is_empty());
+        assert!(missing_shards(&(0..10).collect::<Vec<_>>(), 10, 0).is_empty());
+    }
+}
