@@ -175,6 +175,8 @@
 mod forward;
 #[macro_use]
 mod short_debug;
+#[macro_use]
+mod words;
 
 pub mod bem;
 mod bounded_line;

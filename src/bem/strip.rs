@@ -17,6 +17,11 @@ pub enum Grading {
     Cosine,
 }
 
+words! { Grading, "grading", {
+    Uniform = "uniform",
+    Cosine = "cosine",
+} }
+
 /// Most elements of a strip: their dense operator alone takes 3.2 GB.
 const MOST_ELEMENTS: usize = 10_000;
 

@@ -49,6 +49,12 @@ pub enum SearchMethod {
     Path,
 }
 
+words! { SearchMethod, "search method", {
+    ActiveSet = "active_set",
+    GaussSeidel = "gauss_seidel",
+    Path = "path",
+} }
+
 /// Memory of the mode search.
 pub(crate) struct ModeSearch {
     visited: Vec<Mode>,

@@ -1,6 +1,7 @@
 //! Quantities that are read off at every step.
 
 use crate::error::{Error, Result};
+use crate::results::column::column;
 use crate::structure::{Row, SectionRows};
 
 /// A quantity read off at every step: a weighted sum of displacements, velocities, accelerations.
@@ -82,6 +83,16 @@ impl Probe {
     #[must_use]
     pub fn in_unit(self, unit: impl Into<String>) -> Self {
         Self { unit: unit.into(), ..self }
+    }
+
+    /// Its column in files: name and unit by [the rule](crate::results#columns-and-numbers-in-files).
+    ///
+    /// ```
+    /// use basemat::coupled::Probe;
+    /// assert_eq!(Probe::acceleration("Roof, left", 7).column(), "roof_left_m_per_s2");
+    /// ```
+    pub fn column(&self) -> String {
+        column(&self.name, &self.unit)
     }
 
     fn new(name: impl Into<String>, unit: &str) -> Self {

@@ -14,6 +14,11 @@ pub enum MassKind {
     Lumped,
 }
 
+words! { MassKind, "kind of mass", {
+    Consistent = "consistent",
+    Lumped = "lumped",
+} }
+
 /// A finite element: implement this to bring your own.
 ///
 /// Its matrices are dense, row-major and square, of order [`order`](Element::order); the unknowns

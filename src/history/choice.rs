@@ -54,6 +54,13 @@ pub enum History {
     Auto,
 }
 
+words! { History, "history", {
+    Direct = "direct",
+    RelaxedFft = "relaxed_fft",
+    Exponentials = "exponentials",
+    Auto = "auto",
+} }
+
 /// Why a history was chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]

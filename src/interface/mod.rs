@@ -43,6 +43,16 @@ pub enum Mode {
     YieldRight,
 }
 
+words! { Mode, "contact mode", {
+    Stick = "stick",
+    SlipLeft = "slip_left",
+    SlipRight = "slip_right",
+    Open = "open",
+    Yield = "yield",
+    YieldLeft = "yield_left",
+    YieldRight = "yield_right",
+} }
+
 impl Mode {
     /// Whether the element is closed.
     pub fn is_closed(self) -> bool {

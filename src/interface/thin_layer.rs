@@ -30,6 +30,13 @@ pub enum FrictionLimit {
     Dynamic,
 }
 
+words! { FrictionLimit, "friction limit", {
+    Total = "total",
+    Lagged = "lagged",
+    Static = "static",
+    Dynamic = "dynamic",
+} }
+
 /// Quantity that tells the sense of slip, and whether it goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
@@ -43,6 +50,12 @@ pub enum SlipSense {
     /// The relative velocity of the step before.
     LastVelocity,
 }
+
+words! { SlipSense, "sense of slip", {
+    Inelastic = "inelastic",
+    Velocity = "velocity",
+    LastVelocity = "last_velocity",
+} }
 
 /// Thin-layer interface elements: elastic in stick and in debonding [PS, eqs. 6–9], Coulomb friction
 /// in slip [PS, eqs. 10–12], rebonding when the gap has closed; a tenth as thick as the elements

@@ -20,6 +20,13 @@ pub enum Criterion {
     Rotation,
 }
 
+words! { Criterion, "criterion", {
+    Slip = "slip",
+    Gap = "gap",
+    UpliftedFraction = "uplifted_fraction",
+    Rotation = "rotation",
+} }
+
 impl Criterion {
     /// Its name.
     pub fn name(self) -> &'static str {

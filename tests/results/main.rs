@@ -2,6 +2,7 @@
 //! SCENE: a block on the half-plane that rocks and slides.
 //! REFERENCE: the states they were made of, and statics.
 
+mod files;
 mod foundations;
 mod histories;
 mod pages;

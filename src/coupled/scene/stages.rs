@@ -50,6 +50,12 @@ pub enum Placement {
     Unloaded,
 }
 
+words! { Placement, "placement", {
+    Frictionless = "frictionless",
+    WithInterfaceLaw = "with_interface_law",
+    Unloaded = "unloaded",
+} }
+
 /// Increments of a load under which elements slide: friction makes their path matter.
 const INCREMENTS: usize = 10;
 
