@@ -53,7 +53,8 @@ pub(crate) fn with_number(text: &str) -> Option<(String, Option<f64>)> {
 
 /// `value` as a count, if it is one.
 pub(crate) fn count(value: f64) -> Option<usize> {
-    let counts = value >= 0.0 && value <= 9.0e15 && value.fract() == 0.0;
+    let most = 9.0e15_f64.min(usize::MAX as f64);
+    let counts = (0.0..=most).contains(&value) && value.fract() == 0.0;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
     counts.then_some(value as usize)
 }

@@ -22,6 +22,8 @@ const PATHS: usize = 128;
 
 /// Search for the contact modes of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ContactSearch {
     /// Active set, then Gauss–Seidel, then path following: finds what there is to find.
@@ -39,6 +41,8 @@ pub enum ContactSearch {
 
 /// Method that found the modes of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SearchMethod {
     /// The active set converged.

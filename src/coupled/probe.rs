@@ -1,7 +1,7 @@
 //! Quantities that are read off at every step.
 
+use crate::column::column;
 use crate::error::{Error, Result};
-use crate::results::column::column;
 use crate::structure::{Row, SectionRows};
 
 /// A quantity read off at every step: a weighted sum of displacements, velocities, accelerations.
@@ -28,6 +28,8 @@ use crate::structure::{Row, SectionRows};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Probe {
     /// Name, for tables; no two probes of a simulation have the same.

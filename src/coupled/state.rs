@@ -11,6 +11,7 @@ use crate::interface::{ContactState, Mode, StepStarts};
 
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Transition {
     /// Step in which it happened, from 1.
@@ -41,6 +42,7 @@ impl Transition {
 ///
 /// Most structures have one. See [`crate::structure::Structure::foundation_ends`].
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Foundation {
     /// Its elements, as indices of [`State::contact`].
@@ -102,6 +104,7 @@ impl PartialEq for Origin {
 /// translation unless they say otherwise. Forces are those of the
 /// structure **on the soil**, per metre of thickness; tractions of the step act at its middle.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct State {
     /// Steps made.
@@ -139,11 +142,15 @@ pub struct State {
     pub trials: usize,
     /// Method that found the modes; in a nonlinear step, the last resort of any iteration.
     pub method: SearchMethod,
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) origin: Origin,
     /// Names of the probes, shared by all states of a simulation.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) probe_names: Arc<[String]>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) motion: Motion,
     /// Start of the next step as the laws see it, per element.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) start: StepStarts,
 }
 

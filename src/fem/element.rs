@@ -5,6 +5,8 @@ use crate::error::Result;
 
 /// Distribution of an element's mass over its unknowns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum MassKind {
     /// With the same shape functions as the stiffness: a full matrix.

@@ -38,6 +38,7 @@ const STEP_TOLERANCE: f64 = 0.01;
 /// assert_eq!(error.to_string(), "my.txt, line 3: time advances by 0.02 s, but by 0.01 s before");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ColumnFormat {
     time: Time,
     /// None: the only one.
@@ -48,6 +49,8 @@ pub struct ColumnFormat {
 
 /// Where the time step comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 enum Time {
     /// The column of times, s.
     Column(usize),

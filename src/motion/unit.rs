@@ -16,19 +16,25 @@ pub const STANDARD_GRAVITY: f64 = 9.806_65;
 /// assert_eq!(AccelerationUnit::Gal.in_metres_per_second_squared(), 0.01);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum AccelerationUnit {
     /// m/s².
+    #[cfg_attr(feature = "serde", serde(rename = "m/s²"))]
     MetrePerSecondSquared,
     /// mm/s².
+    #[cfg_attr(feature = "serde", serde(rename = "mm/s²"))]
     MillimetrePerSecondSquared,
     /// g, 9.80665 m/s².
+    #[cfg_attr(feature = "serde", serde(rename = "g"))]
     StandardGravity,
     /// Gal, cm/s².
     Gal,
     /// ft/s², 0.3048 m/s².
+    #[cfg_attr(feature = "serde", serde(rename = "ft/s²"))]
     FootPerSecondSquared,
     /// in/s², 0.0254 m/s².
+    #[cfg_attr(feature = "serde", serde(rename = "in/s²"))]
     InchPerSecondSquared,
 }
 

@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::column::{Cell, column, distinct, line};
-use super::{Histories, Quantity, Run};
-use crate::coupled::Probe;
+use super::columns::INPUT;
+use super::{Histories, Run};
+use crate::column::{Cell, line};
 use crate::error::{Result, write_file};
 use crate::motion::SpectralOrdinate;
 
@@ -18,18 +18,6 @@ fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Re
 }
 
 impl Histories {
-    /// Names of time, scalars and probes in files: see [the rule](super#columns-and-numbers-in-files).
-    pub(super) fn columns(&self) -> Vec<String> {
-        let mut columns = vec![column("time", "s")];
-        columns.extend(Quantity::ALL.map(Quantity::column));
-        columns.push(INPUT.to_owned());
-        let probes = self.probes.iter().map(Probe::column);
-        let probes = distinct(&columns, probes);
-        columns.pop();
-        columns.extend(probes);
-        columns
-    }
-
     /// Writes the CSV of [`Histories::write_csv`] to a file; its folder is made if it is not there.
     ///
     /// # Errors
@@ -47,10 +35,8 @@ impl Histories {
         let mut columns = self.columns();
         columns.push(INPUT.to_owned());
         out.write_all(line(columns).as_bytes())?;
-        for (k, (time, ledger)) in self.times().iter().zip(self.ledgers()).enumerate() {
-            let scalars = Quantity::ALL.iter().map(|&quantity| self.series(quantity)[k]);
-            let probes = self.probe_values.iter().map(|values| values[k]);
-            let numbers = [*time].into_iter().chain(scalars).chain(probes).chain([ledger.input]);
+        for (k, ledger) in self.ledgers().iter().enumerate() {
+            let numbers = self.column_values().map(|values| values[k]).chain([ledger.input]);
             out.write_all(line(numbers.map(Cell)).as_bytes())?;
         }
         Ok(())
@@ -108,9 +94,6 @@ impl Histories {
         Ok(())
     }
 }
-
-/// Column of the ledger's input.
-pub(super) const INPUT: &str = "input_energy_j_per_m";
 
 impl Run {
     /// Writes the CSV of [`Run::write_envelope_csv`] to a file; its folder is made if it is not there.

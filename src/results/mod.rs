@@ -62,7 +62,7 @@
 //! Forces act on the soil, per metre of thickness, as in [`crate::coupled::State`]. A value belongs
 //! to the end of its step. The base moment is the total one, static part included.
 
-pub(crate) mod column;
+mod columns;
 mod comparison;
 mod csv;
 mod energy;
@@ -71,6 +71,8 @@ mod floor;
 mod foundation;
 mod frames;
 mod histories;
+#[cfg(feature = "npz")]
+mod npz;
 mod page;
 mod quantity;
 mod recorder;

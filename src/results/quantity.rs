@@ -3,12 +3,14 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::column::column;
+use crate::column::column;
 use crate::error::{Error, Result};
 use crate::words::{plain, unknown};
 
 /// A scalar of [`crate::coupled::State`], or one derived from it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Quantity {
     /// Horizontal force on the soil, positive to the right, N/m.
@@ -26,8 +28,10 @@ pub enum Quantity {
     /// Rotation of the base, counter-clockwise, rad.
     BaseRotation,
     /// Mean horizontal displacement of the free field under the base, m.
+    #[cfg_attr(feature = "serde", serde(rename = "free_field_x"))]
     FreeFieldHorizontal,
     /// Mean vertical displacement (up) of the free field under the base, m.
+    #[cfg_attr(feature = "serde", serde(rename = "free_field_y"))]
     FreeFieldVertical,
     /// Resistance of the interface over the base shear: φN/|H|. Infinite without shear, NaN in
     /// flight, and throughout if an element's law has no friction coefficient and the builder was

@@ -5,6 +5,8 @@
 mod files;
 mod foundations;
 mod histories;
+#[cfg(feature = "npz")]
+mod npz;
 mod pages;
 mod plot;
 mod refused;

@@ -20,7 +20,7 @@ pub(crate) fn column(name: &str, unit: &str) -> String {
 
 /// `columns` made different from each other and from `taken`: of equal ones the second ends in `_2`,
 /// the third in `_3`.
-pub(super) fn distinct(taken: &[String], columns: impl Iterator<Item = String>) -> Vec<String> {
+pub(crate) fn distinct(taken: &[String], columns: impl Iterator<Item = String>) -> Vec<String> {
     let mut known: BTreeSet<String> = taken.iter().cloned().collect();
     let mut rename = |column: String| {
         let numbered = (2_usize..).map(|k| format!("{column}_{k}"));
