@@ -47,6 +47,7 @@ validated! {
     }
     => {
         positive("distance of the lines", spacing)?;
+        positive("highest frequency", spacing * energy.len() as f64)?;
         energy.iter().try_for_each(|&line| not_negative("energy of a line", line).map(drop))?;
         duration.map_or(Ok(0.0), |duration| positive("duration of the record", duration))?;
         FrequencyContent { spacing, energy, duration }.checked()

@@ -45,15 +45,16 @@ fn kept<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) -> Value
 
 /// As [`kept`], and written as `form`.
 #[track_caller]
-fn written<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T, form: Value) {
-    assert_eq!(kept(value), form);
+fn written<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T, form: impl Into<Value>) {
+    assert_eq!(kept(value), form.into());
 }
 
 /// The form is not read: the error contains `reason`.
 #[track_caller]
 fn refused<T: DeserializeOwned + Debug>(form: Value, reason: &str) {
-    let error = serde_json::from_value::<T>(form.clone()).unwrap_err().to_string();
-    assert!(error.contains(reason), "{form}: {error}");
+    let text = form.to_string();
+    let error = serde_json::from_value::<T>(form).unwrap_err().to_string();
+    assert!(error.contains(reason), "{text}: {error}");
 }
 
 #[test]
@@ -88,6 +89,19 @@ fn soils_materials_and_their_damping() {
     refused::<GeneralizedMaxwell>(bad, "rates of a generalised Maxwell body");
 }
 
+/// One with the first number of a law of the crate.
+#[derive(Debug)]
+struct Own(Option<Vec<f64>>);
+
+impl Relaxation for Own {
+    fn modulus(&self, _: Complex) -> Complex {
+        Complex::real(1.0)
+    }
+    fn identity(&self) -> Option<Vec<f64>> {
+        self.0.clone()
+    }
+}
+
 #[test]
 fn profiles_with_every_law_of_the_crate() {
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
@@ -112,17 +126,6 @@ fn profiles_with_every_law_of_the_crate() {
     let layer = json!({"soil": constants, "thickness": -1.0, "damping": "elastic"});
     refused::<SoilProfile>(json!({"layers": [layer], "base": "rigid"}), "thickness");
 
-    /// One with the first number of a law of the crate.
-    #[derive(Debug)]
-    struct Own(Option<Vec<f64>>);
-    impl Relaxation for Own {
-        fn modulus(&self, _: Complex) -> Complex {
-            Complex::real(1.0)
-        }
-        fn identity(&self) -> Option<Vec<f64>> {
-            self.0.clone()
-        }
-    }
     for numbers in [None, Some(vec![]), Some(vec![17.0]), Some(vec![4.0, 1.0, 3.0, 0.1, 0.2, 0.3])]
     {
         let own = SoilProfile::on_half_plane(soil).with_base_damping(Own(numbers));
@@ -205,6 +208,8 @@ fn schemes_dampings_strips_and_limits() {
     kept(&FrequencyContent::flat(20.0).unwrap());
     for (spacing, energy, duration, reason) in [
         (0.0, json!([1.0]), json!(1.0), "distance of the lines"),
+        (1.5e308, json!([1.0, 1.0]), json!(1.0), "highest frequency"),
+        (1.0, json!([]), json!(1.0), "highest frequency"),
         (1.0, json!([-1.0, 2.0]), json!(1.0), "energy of a line"),
         (1.0, json!([0.0]), json!(1.0), "energy of the ground acceleration"),
         (1.0, json!([1.0]), json!(0.0), "duration of the record"),
@@ -218,12 +223,13 @@ fn schemes_dampings_strips_and_limits() {
 
 #[test]
 fn choices_are_their_words() {
+    use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight};
+
     fn words<T: Serialize + DeserializeOwned + PartialEq + Debug + ToString>(all: &[T]) {
         for choice in all {
             written(choice, json!(choice.to_string()));
         }
     }
-    use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight};
     words(&[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight]);
     words(&[History::Direct, History::RelaxedFft, History::Exponentials, History::Auto]);
     words(&[Grading::Uniform, Grading::Cosine]);
@@ -234,9 +240,16 @@ fn choices_are_their_words() {
     words(&[MassKind::Consistent, MassKind::Lumped]);
     words(&[Direction::X, Direction::Y, Direction::Rotation]);
     words(&Quantity::ALL);
-    use AccelerationUnit as Unit;
-    words(&[Unit::MetrePerSecondSquared, Unit::MillimetrePerSecondSquared, Unit::StandardGravity]);
-    words(&[Unit::Gal, Unit::FootPerSecondSquared, Unit::InchPerSecondSquared]);
+    words(&[
+        AccelerationUnit::MetrePerSecondSquared,
+        AccelerationUnit::MillimetrePerSecondSquared,
+        AccelerationUnit::StandardGravity,
+    ]);
+    words(&[
+        AccelerationUnit::Gal,
+        AccelerationUnit::FootPerSecondSquared,
+        AccelerationUnit::InchPerSecondSquared,
+    ]);
     words(&[Coordinates::Auto, Coordinates::Unknowns, Coordinates::Modes]);
     words(&[Baseline::None, Baseline::RemoveMean, Baseline::NewmarkParabola]);
     written(&Coordinates::Reduced { tolerance: 1e-6 }, json!({"reduced": {"tolerance": 1e-6}}));

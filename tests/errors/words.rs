@@ -47,21 +47,25 @@ where
 
 #[test]
 fn choices_are_read_as_they_are_shown() {
+    use Baseline::{
+        DisplacementPolynomial, NewmarkParabola, RemoveMean, RestToRest, VelocityPolynomial,
+    };
+    use Criterion::{Gap, Rotation, Slip, UpliftedFraction};
+    use FrictionLimit::{Dynamic, Lagged, Static, Total};
     use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight};
+    use Placement::{Frictionless, Unloaded, WithInterfaceLaw};
+    use SearchMethod::{ActiveSet, GaussSeidel, Path};
+    use SlipSense::{Inelastic, LastVelocity, Velocity};
+
     check("contact mode", &[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight]);
     let histories =
         [History::Direct, History::RelaxedFft, History::Exponentials, History::default()];
     check("history", &histories);
     check("grading", &[Grading::Uniform, Grading::Cosine]);
-    use Placement::{Frictionless, Unloaded, WithInterfaceLaw};
     check("placement", &[Frictionless, WithInterfaceLaw, Unloaded]);
-    use SearchMethod::{ActiveSet, GaussSeidel, Path};
     check("search method", &[ActiveSet, GaussSeidel, Path]);
-    use Criterion::{Gap, Rotation, Slip, UpliftedFraction};
     check("criterion", &[Slip, Gap, UpliftedFraction, Rotation]);
-    use FrictionLimit::{Dynamic, Lagged, Static, Total};
     check("friction limit", &[Total, Lagged, Static, Dynamic]);
-    use SlipSense::{Inelastic, LastVelocity, Velocity};
     check("sense of slip", &[Inelastic, Velocity, LastVelocity]);
     check("kind of mass", &[MassKind::Consistent, MassKind::Lumped]);
     check("direction", &[Direction::X, Direction::Y, Direction::Rotation]);
@@ -76,9 +80,6 @@ fn choices_are_read_as_they_are_shown() {
         [1, 50, 9_000_000_000_000_000].map(|n| ContactSearch::FlowChart { iterations: n });
     check("contact search", &[ContactSearch::Robust]);
     check("contact search", &searches);
-    use Baseline::{
-        DisplacementPolynomial, NewmarkParabola, RemoveMean, RestToRest, VelocityPolynomial,
-    };
     let degree = 4;
     check(
         "baseline treatment",
