@@ -137,7 +137,7 @@ pub fn save_spectrum_csv(path: impl AsRef<Path>, spectrum: &[SpectralOrdinate]) 
 }
 
 /// Writes a response spectrum, of a record or of a floor, as CSV: a heading and a line for every
-/// period, by [the rule](self#columns-and-numbers-in-files).
+/// period, by [the rule](crate::results#columns-and-numbers-in-files).
 ///
 /// ```
 /// use basemat::results::write_spectrum_csv;
