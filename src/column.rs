@@ -47,7 +47,7 @@ fn spelled(unit: &str) -> String {
             '/' => text += " per ",
             '%' => text += " percent ",
             '°' => text += " deg ",
-            '⁻' => text += "minus",
+            '⁻' => text += " minus",
             '^' => {}
             '¹' => text.push('1'),
             '²' => text.push('2'),
