@@ -14,6 +14,7 @@ use realfft::num_complex::Complex64;
 /// assert_eq!(s * s.conj(), Complex::real(25.0));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Complex {
     /// Real part.
     pub re: f64,

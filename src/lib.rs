@@ -139,7 +139,17 @@
 //! | `plot` | `plot`: pictures of histories, contact, spectra and shapes, as SVG; `results::Wireframe` |
 //! | `png` | `plot`, and the same pictures as PNG |
 //! | `rayon` | [`Sweep`] on all processors |
-//! | `serde` | `Serialize` and `Deserialize` of a [`Checkpoint`](coupled::Checkpoint) |
+//! | `serde` | `Serialize` and `Deserialize` of settings, results, records and [`Checkpoint`](coupled::Checkpoint)s |
+//! | `npz` | [`results::Histories`] as an archive of NumPy's arrays |
+//!
+//! ## Settings and results in serde's formats
+//!
+//! With the feature `serde` plain data derive `Serialize` and `Deserialize`: soils, profiles, materials, laws that
+//! are numbers, schemes, options, probes, records, spectra, a [`coupled::Run`] with all in it. What a
+//! constructor checks is checked when it is read. Choices are the words of their `Display` (`"slip_left"`).
+//! In formats that people read, a number that is NaN is null and infinities are `"inf"` and `"-inf"`, where
+//! they can occur (peaks, ledgers, conditions, friction); elsewhere numbers are finite. Floating-point
+//! numbers read back as they were, with serde_json if its feature `float_roundtrip` is on.
 //!
 //! # Bring your own
 //!
@@ -174,12 +184,17 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[macro_use]
+mod forms;
+#[macro_use]
 mod forward;
 #[macro_use]
 mod short_debug;
+#[macro_use]
+mod words;
 
 pub mod bem;
 mod bounded_line;
+mod column;
 mod complex;
 pub mod contact;
 mod contact_element;

@@ -95,7 +95,9 @@ fn allocations(builder: SimulationBuilder) -> (usize, usize) {
     }
     let (before, mut changes) = (COUNT.get(), 0);
     for _ in 0..STEPS {
-        changes += simulation.step().unwrap().transitions.len();
+        let state = simulation.step().unwrap();
+        assert_eq!(state.probe("u"), Ok(state.probes[0]));
+        changes += state.transitions.len();
     }
     (COUNT.get() - before, changes)
 }

@@ -8,6 +8,8 @@ use crate::structure::{Structure, foundation_nodes};
 
 /// Variation of element lengths along a strip.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Grading {
     /// Equal lengths: cheapest history, first order.
@@ -16,6 +18,11 @@ pub enum Grading {
     #[default]
     Cosine,
 }
+
+words! { Grading, "grading", {
+    Uniform = "uniform",
+    Cosine = "cosine",
+} }
 
 /// Most elements of a strip: their dense operator alone takes 3.2 GB.
 const MOST_ELEMENTS: usize = 10_000;
@@ -30,8 +37,15 @@ const MOST_ELEMENTS: usize = 10_000;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "StripForm"))]
 pub struct Strip {
     nodes: Vec<f64>,
+}
+
+validated! {
+    Strip as StripForm { nodes: Vec<f64> }
+    => Strip::from_nodes(nodes)
 }
 
 impl Strip {

@@ -22,6 +22,8 @@ const PATHS: usize = 128;
 
 /// Search for the contact modes of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ContactSearch {
     /// Active set, then Gauss–Seidel, then path following: finds what there is to find.
@@ -39,6 +41,8 @@ pub enum ContactSearch {
 
 /// Method that found the modes of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SearchMethod {
     /// The active set converged.
@@ -48,6 +52,12 @@ pub enum SearchMethod {
     /// The solution was followed from a known one.
     Path,
 }
+
+words! { SearchMethod, "search method", {
+    ActiveSet = "active_set",
+    GaussSeidel = "gauss_seidel",
+    Path = "path",
+} }
 
 /// Memory of the mode search.
 pub(crate) struct ModeSearch {

@@ -43,6 +43,7 @@ impl State {
             step: 0,
             time: 0.0,
             origin: Origin::new(),
+            probe_names: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
             motion: Motion::new(model.coordinates, model.influence.clone(), model.modes.clone()),
             contact,
             modes,

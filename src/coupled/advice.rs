@@ -28,11 +28,27 @@ const MEASURED: f64 = 4.0;
 
 /// A structure as advice sees it: the rectangle that it resembles.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "OutlineForm"))]
 pub struct Outline {
     width: f64,
     height: f64,
     mass: f64,
     sway: Option<[f64; 2]>,
+}
+
+validated! {
+    Outline as OutlineForm {
+        width: f64,
+        height: f64,
+        mass: f64,
+        #[serde(default)]
+        sway: Option<[f64; 2]>,
+    }
+    => {
+        let outline = Outline::new(width, height, mass)?;
+        sway.map_or(Ok(outline), |[frequency, ratio]| outline.with_frequency(frequency, ratio))
+    }
 }
 
 impl Outline {
@@ -65,6 +81,7 @@ impl Outline {
 
 /// Mesh and time step for a wanted accuracy of the base shear, see [`advise`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Advice {
     /// Elements under the base.

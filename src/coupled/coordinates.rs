@@ -21,6 +21,8 @@ const SAMPLES: u32 = 16;
 /// In which coordinates a linear structure is stepped. Results are the same to rounding but for
 /// [`Coordinates::Reduced`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Coordinates {
     /// Whichever is expected to take less time, with the modes' own computation counted against

@@ -15,44 +15,57 @@ use crate::results::unit::number;
 /// check: energies that a nonlinear structure says it stores and dissipates. The difference between
 /// them and the work of its force is in `numerical`, and falls with the square of the step.
 #[derive(Debug, Clone, Copy, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Ledger {
     /// ½ v·M v.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub kinetic: f64,
     /// ½ u·K u, plus what the nonlinear internal force stores: its work since t = 0, where the structure
     /// does not tell stored from dissipated energy.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub strain: f64,
     /// Heat of hysteretic parts of the structure
     /// ([`NonlinearForce::energy`](crate::structure::NonlinearForce::energy)); never less
     /// than before.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub hysteresis: f64,
     /// Work of the dashpots, on displacements relative to the free field's translation.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub damping: f64,
     /// Loss by the time scheme: in the structure (zero for the midpoint rule), and in compliant
     /// interfaces, whose traction is that of the end of the step all through it. With a nonlinear
     /// force of known energies, also its work in the discrete equation beyond them: the error of
     /// one point in a step, of either sign.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub numerical: f64,
     /// Work done on the soil by the changes of traction: radiated and stored.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub soil: f64,
     /// Loss by friction and impact, and with the springs of a compliant interface
     /// when its elements open and close: total tractions times minus the change of the jump, its
     /// elastic part left out. Never less from step to step, with any law of the crate.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub contact: f64,
     /// Elastic energy stored in compliant interfaces ([`crate::interface::InterfaceLaw::compliance`]),
     /// as a change against the static state; zero for hard contact.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub layer: f64,
     /// Potential of the static tractions against the change of the jump.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub preload: f64,
     /// Work of external loads and of the free field, and the energy of an initial motion.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub input: f64,
     /// Relative input energy (Uang & Bertero 1990): work of the loads, and of the inertia forces
     /// −M R ÿ of the free field's translation y, on displacements relative to it. It stands beside
     /// the balance, to be compared with that of a structure on a fixed base.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub relative_input: f64,
     /// Error bound of `soil`, Σ A |τ| |error of Δs|: zero unless the ground's history is
     /// approximate. The terms above balance with the history as it is, so nothing of the residual
     /// is due to it; but the soil of the equations may have taken this much more or less than it did here.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub soil_error_bound: f64,
 }
 

@@ -74,6 +74,7 @@ mod books;
 mod builder;
 mod builder_checks;
 mod checkpoint;
+mod choice_words;
 mod coordinates;
 mod initial;
 mod ledger;

@@ -4,10 +4,13 @@ use crate::error::{Error, Result};
 
 /// A value of largest magnitude, with its sign, and when it occurred.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Peak {
     /// The value, with its sign.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub value: f64,
     /// When, s.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub time: f64,
 }
 
@@ -27,6 +30,7 @@ impl Peak {
 /// Smallest and largest value, and when they occurred; of equal ones the first. NaN does not count
 /// unless there is nothing else.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extremes {
     /// The smallest value.
     pub lowest: Peak,
@@ -63,6 +67,7 @@ impl Extremes {
 
 /// Smallest and largest value of a probe.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ProbeExtremes {
     /// Name of the probe.

@@ -1,5 +1,6 @@
 //! Quantities that are read off at every step.
 
+use crate::column::column;
 use crate::error::{Error, Result};
 use crate::structure::{Row, SectionRows};
 
@@ -27,6 +28,8 @@ use crate::structure::{Row, SectionRows};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Probe {
     /// Name, for tables; no two probes of a simulation have the same.
@@ -82,6 +85,16 @@ impl Probe {
     #[must_use]
     pub fn in_unit(self, unit: impl Into<String>) -> Self {
         Self { unit: unit.into(), ..self }
+    }
+
+    /// Its column in files: name and unit by [the rule](crate::results#columns-and-numbers-in-files).
+    ///
+    /// ```
+    /// use basemat::coupled::Probe;
+    /// assert_eq!(Probe::acceleration("Roof, left", 7).column(), "roof_left_m_per_s2");
+    /// ```
+    pub fn column(&self) -> String {
+        column(&self.name, &self.unit)
     }
 
     fn new(name: impl Into<String>, unit: &str) -> Self {

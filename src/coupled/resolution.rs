@@ -87,6 +87,7 @@ impl Variation {
 
 /// Time step and elements that base shear, ground and foundations of a run require.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(Default))]
 pub(crate) struct Resolution {
     time_step: f64,
     /// Longest element, m.

@@ -1,14 +1,17 @@
 //! The state after a step.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::ledger::Ledger;
 use super::motion::{Motion, Quantity};
 use crate::contact::SearchMethod;
+use crate::error::{Error, Result};
 use crate::interface::{ContactState, Mode, StepStarts};
 
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Transition {
     /// Step in which it happened, from 1.
@@ -39,6 +42,7 @@ impl Transition {
 ///
 /// Most structures have one. See [`crate::structure::Structure::foundation_ends`].
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Foundation {
     /// Its elements, as indices of [`State::contact`].
@@ -100,6 +104,7 @@ impl PartialEq for Origin {
 /// translation unless they say otherwise. Forces are those of the
 /// structure **on the soil**, per metre of thickness; tractions of the step act at its middle.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct State {
     /// Steps made.
@@ -137,9 +142,15 @@ pub struct State {
     pub trials: usize,
     /// Method that found the modes; in a nonlinear step, the last resort of any iteration.
     pub method: SearchMethod,
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) origin: Origin,
+    /// Names of the probes, shared by all states of a simulation.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) probe_names: Arc<[String]>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) motion: Motion,
     /// Start of the next step as the laws see it, per element.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) start: StepStarts,
 }
 
@@ -168,6 +179,40 @@ impl State {
     /// Total accelerations of the unknowns; for the midpoint and θ rules the mean over the step.
     pub fn acceleration(&self) -> &[f64] {
         self.motion.unknowns(Quantity::Acceleration)
+    }
+
+    /// The value of the probe called `name`: looked for by its name at every call; by its place,
+    /// [`State::probes`] has it at once.
+    ///
+    /// ```
+    /// use basemat::bem::SpringGround;
+    /// use basemat::coupled::Probe;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::motion::el_centro_1940;
+    /// use basemat::structure::RigidBlock;
+    /// use basemat::{Error, Simulation};
+    ///
+    /// let block = RigidBlock::new(4.0, 6.0, 2000.0)?;
+    /// let mut simulation = Simulation::builder(0.01)
+    ///     .probe(Probe::displacement("top", block.horizontal_at(6.0)))
+    ///     .structure(block)
+    ///     .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
+    ///     .interface(Coulomb::new(0.4)?)
+    ///     .motion(el_centro_1940())
+    ///     .build()?;
+    /// let state = simulation.step()?;
+    /// assert_eq!(state.probe("top")?, state.probes[0]);
+    /// assert!(matches!(state.probe("roof"), Err(Error::Name { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Name`] if there is none.
+    pub fn probe(&self, name: &str) -> Result<f64> {
+        let place = self.probe_names.iter().position(|own| own == name);
+        // The list of values is public: it may have been cut.
+        let value = place.and_then(|place| self.probes.get(place));
+        value.copied().ok_or_else(|| Error::Name { quantity: "probe", name: name.to_owned() })
     }
 
     /// The numbers that the law of an element remembers

@@ -6,6 +6,8 @@ use super::ledger::Ledger;
 
 /// Where the assumptions of a run are strained, or its time step or elements too coarse.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Warning {
     /// Slip beyond the mean length of the elements: they no longer face each other.
@@ -23,6 +25,7 @@ pub enum Warning {
     /// The energy ledger does not close to 1e-9 at the end.
     Ledger {
         /// Its residual, relative to the largest term.
+        #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
         residual: f64,
     },
     /// The base shear vibrates with a period that the time step does not resolve.

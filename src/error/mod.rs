@@ -13,6 +13,7 @@ mod layered;
 mod matrix_file;
 #[cfg(feature = "io")]
 mod mesh_file;
+mod part;
 mod record;
 mod reduced;
 mod standing;
@@ -97,6 +98,16 @@ pub enum Error {
         quantity: &'static str,
         /// The name.
         name: String,
+    },
+    /// A word that stands for none of the choices.
+    #[error("there is no {quantity} '{text}', only {}", known.join(", "))]
+    Word {
+        /// Choice to be made.
+        quantity: &'static str,
+        /// The word that was given, cut to 40 characters.
+        text: String,
+        /// The words that are known.
+        known: &'static [&'static str],
     },
     /// A probe that does not fit the structure.
     #[error("probe '{name}': {source}")]
@@ -345,51 +356,4 @@ pub enum Error {
 /// A line of a file, or the file as a whole.
 fn place(file: &str, line: usize) -> String {
     if line == 0 { file.to_owned() } else { format!("{file}, line {line}") }
-}
-
-impl Error {
-    /// [`Error::Part`], what a part of your own returns when none of the other errors fits.
-    ///
-    /// ```
-    /// use basemat::bem::SpringGround;
-    /// use basemat::interface::{
-    ///     Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
-    /// };
-    /// use basemat::structure::RigidBlock;
-    /// use basemat::{Error, Result, Simulation};
-    ///
-    /// /// Friction of a bearing that was tested for steps of up to 5 ms.
-    /// struct Bearing(Coulomb);
-    ///
-    /// impl InterfaceLaw for Bearing {
-    ///     fn check(&self, scene: &ContactScene) -> Result<()> {
-    ///         if scene.time_step <= 0.005 {
-    ///             return Ok(());
-    ///         }
-    ///         Err(Error::part("bearing", format!("a step of {} s is too long", scene.time_step)))
-    ///     }
-    ///     // The rest is Coulomb's.
-    ///     # fn modes(&self) -> &[Mode] { self.0.modes() }
-    ///     # fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
-    ///     #     self.0.conditions(mode, start)
-    ///     # }
-    ///     # fn next_mode(
-    ///     #     &self, mode: Mode, start: &StepStart, trial: &ContactState, tolerance: Tolerance,
-    ///     # ) -> Mode {
-    ///     #     self.0.next_mode(mode, start, trial, tolerance)
-    ///     # }
-    /// }
-    ///
-    /// let refused = Simulation::builder(0.01)
-    ///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
-    ///     .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
-    ///     .interface(Bearing(Coulomb::new(0.1)?))
-    ///     .build()
-    ///     .unwrap_err();
-    /// assert_eq!(refused.to_string(), "bearing: a step of 0.01 s is too long");
-    /// # Ok::<(), Error>(())
-    /// ```
-    pub fn part(part: impl Into<String>, reason: impl Into<String>) -> Self {
-        Self::Part { part: part.into(), reason: reason.into() }
-    }
 }

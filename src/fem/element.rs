@@ -5,6 +5,8 @@ use crate::error::Result;
 
 /// Distribution of an element's mass over its unknowns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum MassKind {
     /// With the same shape functions as the stiffness: a full matrix.
@@ -13,6 +15,11 @@ pub enum MassKind {
     /// At the nodes: a diagonal matrix of the same total mass.
     Lumped,
 }
+
+words! { MassKind, "kind of mass", {
+    Consistent = "consistent",
+    Lumped = "lumped",
+} }
 
 /// A finite element: implement this to bring your own.
 ///

@@ -10,10 +10,17 @@ use crate::error::{Error, Result, finite, not_negative, positive};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "MaterialForm"))]
 pub struct Material {
     young_modulus: f64,
     poisson: f64,
     density: f64,
+}
+
+validated! {
+    Material as MaterialForm { young_modulus: f64, poisson: f64, density: f64 }
+    => Material::new(young_modulus, poisson, density)
 }
 
 impl Material {

@@ -18,6 +18,7 @@ mod assembly;
 mod beam;
 mod dashpot;
 mod direction;
+mod direction_words;
 mod element;
 mod layered_block;
 mod line;

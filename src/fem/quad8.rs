@@ -8,6 +8,8 @@ use crate::gauss;
 
 /// Integration of the stiffness of a [`Quad8`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Quad8Integration {
     /// 2 × 2 Gauss points, the default: rectangles bend exactly, and nothing locks as ν → 1/2. One

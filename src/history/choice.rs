@@ -25,6 +25,8 @@ use crate::error::{CheckpointError, Result};
 /// See [`RelaxedFftHistory`](super::RelaxedFftHistory) and
 /// [`ExponentialHistory`](super::ExponentialHistory) for more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum History {
     /// The sum as it is, [`DirectHistory`](super::DirectHistory): for checks.
@@ -54,8 +56,17 @@ pub enum History {
     Auto,
 }
 
+words! { History, "history", {
+    Direct = "direct",
+    RelaxedFft = "relaxed_fft",
+    Exponentials = "exponentials",
+    Auto = "auto",
+} }
+
 /// Why a history was chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ChoiceReason {
     /// It was asked for.
@@ -93,6 +104,7 @@ impl fmt::Display for ChoiceReason {
 
 /// The history that a ground keeps.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct HistoryChoice {
     /// Which one; never [`History::Auto`].

@@ -31,10 +31,26 @@ use crate::error::{Result, not_negative};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "AdhesiveForm"))]
 pub struct Adhesive {
     tension: f64,
     cohesion: f64,
+    #[cfg_attr(
+        feature = "serde",
+        serde(rename = "friction", serialize_with = "Coulomb::write_friction")
+    )]
     broken: Coulomb,
+}
+
+validated! {
+    Adhesive as AdhesiveForm {
+        tension: f64,
+        cohesion: f64,
+        #[serde(with = "crate::forms::number")]
+        friction: f64,
+    }
+    => Adhesive::new(tension, cohesion, friction)
 }
 
 impl Adhesive {

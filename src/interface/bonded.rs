@@ -4,6 +4,7 @@ use super::{Condition, ContactState, InterfaceLaw, Mode, StepStart, Tolerance};
 
 /// Base and soil never separate or slide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bonded;
 
 impl InterfaceLaw for Bonded {

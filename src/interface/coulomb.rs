@@ -5,6 +5,8 @@ use crate::error::{Error, Result, not_negative};
 
 /// On what the contact conditions of a closed element act.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Activation {
     /// On the gap at the end of the step: g ≥ 0, p ≥ 0, p·g = 0 (Signorini).
@@ -33,10 +35,25 @@ pub enum Activation {
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "CoulombForm"))]
 pub struct Coulomb {
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     friction: f64,
     tensile_strength: f64,
     activation: Activation,
+}
+
+validated! {
+    Coulomb as CoulombForm {
+        #[serde(with = "crate::forms::number")]
+        friction: f64,
+        #[serde(default)]
+        tensile_strength: f64,
+        #[serde(default)]
+        activation: Activation,
+    }
+    => Coulomb::new(friction)?.with_tensile_strength(tensile_strength)?.with_activation(activation)
 }
 
 impl Coulomb {
@@ -96,6 +113,15 @@ impl Coulomb {
     /// The friction coefficient.
     pub fn friction(&self) -> f64 {
         self.friction
+    }
+
+    /// Writes the coefficient alone.
+    #[cfg(feature = "serde")]
+    pub(super) fn write_friction<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> std::result::Result<S::Ok, S::Error> {
+        crate::forms::number::serialize(&self.friction, to)
     }
 
     fn strength(&self, start: &StepStart) -> f64 {

@@ -25,6 +25,8 @@ use crate::error::Result;
 
 /// Contact mode of an element during a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Mode {
     /// Closed, no slip (and the only mode of a bonded element).
@@ -42,6 +44,16 @@ pub enum Mode {
     /// The same; the structure slides to the right.
     YieldRight,
 }
+
+words! { Mode, "contact mode", {
+    Stick = "stick",
+    SlipLeft = "slip_left",
+    SlipRight = "slip_right",
+    Open = "open",
+    Yield = "yield",
+    YieldLeft = "yield_left",
+    YieldRight = "yield_right",
+} }
 
 impl Mode {
     /// Whether the element is closed.
@@ -81,8 +93,8 @@ impl Mode {
         }
     }
 
-    /// All modes.
-    const ALL: [Self; 7] = [
+    /// All modes, in the order of their declaration.
+    pub(crate) const ALL: [Self; 7] = [
         Self::Stick,
         Self::SlipLeft,
         Self::SlipRight,
@@ -105,6 +117,7 @@ impl Mode {
 
 /// Opening and **total** traction (static part included) of one contact element, as means over it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactState {
     /// Gap between base and soil, m; positive when open.
     pub gap: f64,

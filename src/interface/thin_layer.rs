@@ -17,6 +17,8 @@ use crate::soil::Soil;
 
 /// Which pressure limits friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum FrictionLimit {
     /// The total pressure of this step.
@@ -30,8 +32,17 @@ pub enum FrictionLimit {
     Dynamic,
 }
 
+words! { FrictionLimit, "friction limit", {
+    Total = "total",
+    Lagged = "lagged",
+    Static = "static",
+    Dynamic = "dynamic",
+} }
+
 /// Quantity that tells the sense of slip, and whether it goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SlipSense {
     /// Slip beyond the elastic one, as in plasticity: it starts in the sense of the shear traction
@@ -43,6 +54,12 @@ pub enum SlipSense {
     /// The relative velocity of the step before.
     LastVelocity,
 }
+
+words! { SlipSense, "sense of slip", {
+    Inelastic = "inelastic",
+    Velocity = "velocity",
+    LastVelocity = "last_velocity",
+} }
 
 /// Thin-layer interface elements: elastic in stick and in debonding [PS, eqs. 6–9], Coulomb friction
 /// in slip [PS, eqs. 10–12], rebonding when the gap has closed; a tenth as thick as the elements
@@ -81,15 +98,45 @@ pub enum SlipSense {
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "ThinLayerForm"))]
 pub struct ThinLayer {
     /// k_n and k_s of a layer as thick as the element beside it.
+    #[cfg_attr(feature = "serde", serde(rename = "reference_stiffness"))]
     reference: [f64; 2],
+    #[cfg_attr(feature = "serde", serde(rename = "thickness_ratio"))]
     ratio: f64,
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     friction: f64,
+    #[cfg_attr(feature = "serde", serde(rename = "debonded_share"))]
     debonded: f64,
+    #[cfg_attr(feature = "serde", serde(rename = "friction_limit"))]
     limit: FrictionLimit,
+    #[cfg_attr(feature = "serde", serde(rename = "slip_sense"))]
     sense: SlipSense,
+    #[cfg_attr(feature = "serde", serde(rename = "slip_stiffness_share"))]
     slip_stiffness: f64,
+}
+
+validated! {
+    ThinLayer as ThinLayerForm {
+        reference_stiffness: [f64; 2],
+        thickness_ratio: f64,
+        #[serde(with = "crate::forms::number")]
+        friction: f64,
+        debonded_share: f64,
+        friction_limit: FrictionLimit,
+        slip_sense: SlipSense,
+        slip_stiffness_share: f64,
+    }
+    => {
+        let [normal, shear] = reference_stiffness;
+        let layer = ThinLayer::from_stiffness(normal, shear, friction)?
+            .with_thickness_ratio(thickness_ratio)?
+            .with_debonded_share(debonded_share)?
+            .with_slip_stiffness_share(slip_stiffness_share)?;
+        Ok(layer.with_friction_limit(friction_limit).with_slip_sense(slip_sense))
+    }
 }
 
 impl ThinLayer {

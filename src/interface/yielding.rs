@@ -42,9 +42,24 @@ use crate::error::{Result, positive};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "YieldingForm"))]
 pub struct Yielding {
     bearing_pressure: f64,
+    #[cfg_attr(
+        feature = "serde",
+        serde(rename = "friction", serialize_with = "Coulomb::write_friction")
+    )]
     contact: Coulomb,
+}
+
+validated! {
+    Yielding as YieldingForm {
+        bearing_pressure: f64,
+        #[serde(with = "crate::forms::number")]
+        friction: f64,
+    }
+    => Yielding::new(bearing_pressure, friction)
 }
 
 impl Yielding {

@@ -10,6 +10,8 @@ use crate::error::{Error, Result};
 /// duration. Choose with care: displacements depend strongly on the choice, motions relative to
 /// the ground hardly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Baseline {
     /// Nothing: the record as it is.

@@ -3,6 +3,8 @@
 use realfft::RealFftPlanner;
 
 use super::Record;
+#[cfg(feature = "serde")]
+use crate::error::not_negative;
 use crate::error::{Error, Result, positive};
 
 /// A record is followed by zeros to at least this many times its length, so that the spectrum is
@@ -26,6 +28,8 @@ const LINES: usize = 1024;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "FrequencyContentForm"))]
 pub struct FrequencyContent {
     /// Distance of the lines, Hz; the first is at one such distance.
     spacing: f64,
@@ -33,6 +37,21 @@ pub struct FrequencyContent {
     energy: Vec<f64>,
     /// Of the record, s.
     duration: Option<f64>,
+}
+
+validated! {
+    FrequencyContent as FrequencyContentForm {
+        spacing: f64,
+        energy: Vec<f64>,
+        duration: Option<f64>,
+    }
+    => {
+        positive("distance of the lines", spacing)?;
+        positive("highest frequency", spacing * energy.len() as f64)?;
+        energy.iter().try_for_each(|&line| not_negative("energy of a line", line).map(drop))?;
+        duration.map_or(Ok(0.0), |duration| positive("duration of the record", duration))?;
+        FrequencyContent { spacing, energy, duration }.checked()
+    }
 }
 
 impl FrequencyContent {

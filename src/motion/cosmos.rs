@@ -41,6 +41,7 @@ use crate::number::finite;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CosmosFormat {
     channel: usize,
     unit: Option<AccelerationUnit>,

@@ -27,6 +27,7 @@ use crate::number::finite;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct KNetFormat;
 
 impl RecordFormat for KNetFormat {

@@ -7,6 +7,7 @@
 
 mod at_rest;
 mod baseline;
+mod baseline_words;
 mod closure;
 mod content;
 mod cosmos;
@@ -29,8 +30,10 @@ mod record;
 mod ricker;
 mod spectrum;
 mod travelling;
+mod trim;
 mod unit;
 mod vertical_incidence;
+mod writer;
 
 pub use at_rest::AtRest;
 pub use baseline::Baseline;

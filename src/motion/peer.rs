@@ -36,6 +36,7 @@ const HEADER_LINES: usize = 12;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PeerFormat;
 
 impl RecordFormat for PeerFormat {

@@ -25,8 +25,8 @@ const STEP_TOLERANCE: f64 = 0.01;
 /// * line ends `\n` or `\r\n`, and a byte-order mark.
 ///
 /// The time column must advance by equal steps, to 1 % of a step (for rounded print); the time
-/// step is their mean, rounded to twelve digits. The first time may be any: the record counts
-/// from there. Files without a time column are read by [`equally_spaced`](Self::equally_spaced). A
+/// step is their mean, rounded to twelve digits, or the second time where all are exact multiples of
+/// it, as [`Record::write_csv`] writes them. The first time may be any: the record counts from there. Files without a time column are read by [`equally_spaced`](Self::equally_spaced). A
 /// file cut within its last number cannot be told from a whole one: give
 /// [`with_samples`](Self::with_samples) where the count is known.
 ///
@@ -38,6 +38,7 @@ const STEP_TOLERANCE: f64 = 0.01;
 /// assert_eq!(error.to_string(), "my.txt, line 3: time advances by 0.02 s, but by 0.01 s before");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ColumnFormat {
     time: Time,
     /// None: the only one.
@@ -48,6 +49,8 @@ pub struct ColumnFormat {
 
 /// Where the time step comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 enum Time {
     /// The column of times, s.
     Column(usize),
@@ -176,6 +179,10 @@ fn equal_step(samples: &[Sample]) -> Reason<f64> {
             let (found, expected) = (decimal(found), decimal(first));
             return Err((pair[1].line, RecordError::UnequalStep { found, expected }));
         }
+    }
+    let exact = |(k, sample): (usize, &Sample)| sample.time == k as f64 * first;
+    if samples.iter().enumerate().all(exact) {
+        return Ok(first);
     }
     let last = samples.len() - 1;
     let mean = (samples[last].time - samples[0].time) / last as f64;

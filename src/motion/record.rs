@@ -24,11 +24,21 @@ pub(super) const MOST_SAMPLES: f64 = 1e8;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "RecordForm"))]
 pub struct Record {
+    #[cfg_attr(feature = "serde", serde(rename = "time_step"))]
     step: f64,
     acceleration: Vec<f64>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     velocity: Vec<f64>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     displacement: Vec<f64>,
+}
+
+validated! {
+    Record as RecordForm { time_step: f64, acceleration: Vec<f64> }
+    => Record::new(time_step, acceleration)
 }
 
 impl Record {

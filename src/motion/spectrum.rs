@@ -17,6 +17,7 @@ const MOST_SUBSTEPS: f64 = 1e9;
 
 /// Largest response of one oscillator during a record and one period after it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SpectralOrdinate {
     /// Natural period T, s.
     pub period: f64,

@@ -6,6 +6,7 @@ use crate::results::Extremes;
 
 /// Envelopes of one contact element; tractions are means over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ElementEnvelope {
     /// Where it is.

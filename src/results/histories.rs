@@ -1,17 +1,12 @@
 //! The observer: histories of a run.
 
-use std::io::{self, Write};
-use std::path::Path;
-
 use super::foundation;
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
 use super::sequence::Sequence;
-use super::table::csv_cell;
-use super::unit::labelled;
 use super::{Quantity, Recorder};
 use crate::bem::ContactElement;
 use crate::coupled::{Ledger, Probe, Simulation, State, probe_index};
-use crate::error::{Error, Result, write_file};
+use crate::error::{Error, Result};
 
 /// Time series of a run and snapshots: made by [`Recorder::start`], fed by [`Histories::record`], the
 /// observer of [`Simulation::run`].
@@ -180,42 +175,6 @@ impl Histories {
             + size_of_val(&self.ledgers[..])
             + self.contact.as_ref().map_or(0, ContactFrames::bytes)
             + self.motion.as_ref().map_or(0, MotionFrames::bytes)
-    }
-
-    /// Writes the CSV of [`Histories::write_csv`] to a file; its folder is made if it is not there.
-    ///
-    /// # Errors
-    /// [`Error::Write`](crate::Error::Write) if that fails.
-    pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
-        let mut text = Vec::new();
-        // Writing to memory cannot fail.
-        let _ = self.write_csv(&mut text);
-        write_file(path.as_ref(), text)
-    }
-
-    /// Writes times, scalars, probes and the ledger's input as CSV: a heading and a line for every
-    /// kept step, as RFC 4180 has it. Names of probes have their unit in brackets.
-    ///
-    /// # Errors
-    /// Those of `out`.
-    pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
-        write!(out, "time_s")?;
-        for quantity in Quantity::ALL {
-            write!(out, ",{}", quantity.heading())?;
-        }
-        for probe in &self.probes {
-            let heading = labelled(&probe.name, &probe.unit);
-            write!(out, ",{}", csv_cell(&heading))?;
-        }
-        writeln!(out, ",input_energy_j_per_m")?;
-        for (k, time) in self.times.iter().enumerate() {
-            write!(out, "{time}")?;
-            for list in self.scalars.iter().chain(&self.probe_values) {
-                write!(out, ",{:e}", list[k])?;
-            }
-            writeln!(out, ",{:e}", self.ledgers[k].input)?;
-        }
-        Ok(())
     }
 
     /// One value for each [`Quantity`], in the order of [`Quantity::ALL`].

@@ -41,6 +41,15 @@
 //! # Ok::<(), basemat::Error>(())
 //! ```
 //!
+//! # Columns and numbers in files
+//!
+//! One rule for CSV and for the arrays of NPZ: a column is called by its quantity in `snake_case`, with the
+//! unit spelled out behind it (`base_shear_n_per_m`, `roof_m_per_s2`, `base_rotation_rad`, none of a
+//! ratio), probes as well ([`Probe::column`](crate::coupled::Probe::column)); of equal ones the second
+//! ends in `_2`. Values are in SI units, those of probes in their own. Numbers have the digits that
+//! read back as the same number; one that is not there or not known (NaN) is an empty cell, infinities
+//! are `inf` and `-inf`, as pandas reads them.
+//!
 //! # What it costs
 //!
 //! Nothing where it is not used. The scalar histories take 24 numbers and one per probe at every
@@ -53,13 +62,17 @@
 //! Forces act on the soil, per metre of thickness, as in [`crate::coupled::State`]. A value belongs
 //! to the end of its step. The base moment is the total one, static part included.
 
+mod columns;
 mod comparison;
+mod csv;
 mod energy;
 mod envelope;
 mod floor;
 mod foundation;
 mod frames;
 mod histories;
+#[cfg(feature = "npz")]
+mod npz;
 mod page;
 mod quantity;
 mod recorder;
@@ -76,6 +89,7 @@ mod wireframe;
 
 pub use crate::coupled::{Extremes, ProbeExtremes};
 pub use comparison::Comparison;
+pub use csv::{save_spectrum_csv, write_spectrum_csv};
 pub use energy::EnergyShares;
 pub use envelope::ElementEnvelope;
 pub use floor::{broadened, log_spaced};

@@ -1,7 +1,16 @@
 //! The scalar histories that every recording keeps.
 
+use std::fmt;
+use std::str::FromStr;
+
+use crate::column::column;
+use crate::error::{Error, Result};
+use crate::words::{plain, unknown};
+
 /// A scalar of [`crate::coupled::State`], or one derived from it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Quantity {
     /// Horizontal force on the soil, positive to the right, N/m.
@@ -19,8 +28,10 @@ pub enum Quantity {
     /// Rotation of the base, counter-clockwise, rad.
     BaseRotation,
     /// Mean horizontal displacement of the free field under the base, m.
+    #[cfg_attr(feature = "serde", serde(rename = "free_field_x"))]
     FreeFieldHorizontal,
     /// Mean vertical displacement (up) of the free field under the base, m.
+    #[cfg_attr(feature = "serde", serde(rename = "free_field_y"))]
     FreeFieldVertical,
     /// Resistance of the interface over the base shear: φN/|H|. Infinite without shear, NaN in
     /// flight, and throughout if an element's law has no friction coefficient and the builder was
@@ -84,20 +95,58 @@ impl Quantity {
         }
     }
 
-    /// Its heading in CSV files.
-    pub(super) fn heading(self) -> &'static str {
-        match self {
-            Self::BaseShear => "base_shear_n_per_m",
-            Self::BaseMoment => "base_moment_n_m_per_m",
-            Self::NormalForce => "normal_force_n_per_m",
-            Self::UpliftedFraction => "uplifted_fraction",
-            Self::MeanSlip => "mean_slip_m",
-            Self::LargestSlip => "largest_slip_m",
-            Self::BaseRotation => "base_rotation_rad",
-            Self::FreeFieldHorizontal => "free_field_x_m",
-            Self::FreeFieldVertical => "free_field_y_m",
-            Self::SlidingSafety => "sliding_safety",
-            Self::OverturningSafety => "overturning_safety",
-        }
+    /// Its column in files, see [the rule](super#columns-and-numbers-in-files).
+    ///
+    /// ```
+    /// use basemat::results::Quantity;
+    /// assert_eq!(Quantity::BaseShear.column(), "base_shear_n_per_m");
+    /// ```
+    pub fn column(self) -> String {
+        column(&self.to_string(), self.unit())
+    }
+}
+
+/// Columns without their unit, in the order of [`Quantity::ALL`].
+const COLUMNS: [&str; Quantity::ALL.len()] = [
+    "base_shear",
+    "base_moment",
+    "normal_force",
+    "uplifted_fraction",
+    "mean_slip",
+    "largest_slip",
+    "base_rotation",
+    "free_field_x",
+    "free_field_y",
+    "sliding_safety",
+    "overturning_safety",
+];
+
+/// Its column without the unit: `base_shear`.
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(COLUMNS[*self as usize])
+    }
+}
+
+/// Reads what is displayed, the column or the [name](Quantity::name).
+///
+/// ```
+/// use basemat::results::Quantity;
+/// for text in ["base_shear", "base_shear_n_per_m", "base shear"] {
+///     assert_eq!(text.parse(), Ok(Quantity::BaseShear));
+/// }
+/// assert!("shear".parse::<Quantity>().is_err());
+/// ```
+impl FromStr for Quantity {
+    type Err = Error;
+
+    /// # Errors
+    /// [`Error::Word`] with those that are known.
+    fn from_str(text: &str) -> Result<Self> {
+        let word = plain(text);
+        let is = |own: &Self| {
+            COLUMNS[*own as usize] == word || own.column() == word || plain(own.name()) == word
+        };
+        Self::ALL.into_iter().find(is).ok_or_else(|| unknown("quantity", text, &COLUMNS))
     }
 }

@@ -4,6 +4,8 @@
 ///
 /// See the [module](super) for an example.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Recorder {
     pub(super) every: usize,
     pub(super) contact: Option<usize>,

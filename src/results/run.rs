@@ -17,6 +17,7 @@ use crate::motion::FreeField;
 /// Steps whose contact modes the first search did not find, see
 /// [`SearchMethod`](crate::coupled::SearchMethod).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Fallbacks {
     /// Steps that Gauss–Seidel over the elements solved.
     pub gauss_seidel: usize,
@@ -36,7 +37,11 @@ impl Fallbacks {
 ///
 /// Quantities are named and signed as in [`State`]: forces per metre of thickness, on the soil.
 /// The state from which the run begins counts as its steps do.
+///
+/// With the feature `serde` it is written with all its fields, [numbers](crate#settings-and-results-in-serdes-formats)
+/// that are not finite included; one that was read takes in no more steps.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Run {
     /// Steps of this run.
@@ -86,6 +91,7 @@ pub struct Run {
     /// The ledger at the end.
     pub ledger: Ledger,
     /// Largest ledger residual of the run; NaN if no ledger is kept.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub ledger_residual: f64,
     /// Linear solves of the mode search, in all.
     pub trials: usize,
@@ -94,12 +100,18 @@ pub struct Run {
     /// Warnings; none before the run is closed.
     pub warnings: Vec<Warning>,
     /// Wall time, observers included; zero where there is no clock (WebAssembly).
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::seconds"))]
     pub wall: Duration,
+    #[cfg_attr(feature = "serde", serde(skip))]
     elements: Vec<ContactElement>,
     /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
+    #[cfg_attr(feature = "serde", serde(skip))]
     friction: Vec<f64>,
+    #[cfg_attr(feature = "serde", serde(skip, default = "Sequence::closed"))]
     sequence: Sequence,
+    #[cfg_attr(feature = "serde", serde(skip))]
     resolution: Resolution,
+    #[cfg_attr(feature = "serde", serde(skip))]
     begin: Option<Instant>,
 }
 
@@ -214,6 +226,10 @@ impl Run {
 
     /// Closes the run; the ground is sampled where steps may have missed something.
     pub(crate) fn finish(&mut self, ground: &dyn Ground, motion: &dyn FreeField) {
+        // A run that was read from a file is closed.
+        if self.elements.is_empty() {
+            return;
+        }
         self.wall = self.begin.map_or(Duration::ZERO, |begin| begin.elapsed());
         self.resolution.resolve_ground(ground, motion, self.start..self.end);
         let lengths: f64 = self.elements.iter().map(ContactElement::length).sum();

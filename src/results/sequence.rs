@@ -26,6 +26,13 @@ impl Sequence {
         }
     }
 
+    /// One that takes no state: that of a run read from a file.
+    #[cfg(feature = "serde")]
+    pub(super) fn closed() -> Self {
+        let (elements, probes, foundations) = (0, 0, Vec::new());
+        Self { origin: Origin::new(), elements, probes, foundations, end: f64::INFINITY }
+    }
+
     /// Whether `state` is of the same simulation and later; it is the last one then.
     pub(super) fn takes(&mut self, state: &State) -> bool {
         // Its fields are public: somebody may have changed them.

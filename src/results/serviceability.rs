@@ -8,6 +8,8 @@ use crate::error::{Error, Result, positive};
 
 /// Response of a base that a service requirement limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Criterion {
     /// Slip averaged over a foundation, m, either way; tangential motion of open elements counts.
@@ -19,6 +21,13 @@ pub enum Criterion {
     /// Rotation of a foundation's chord, rad, either way, static part included.
     Rotation,
 }
+
+words! { Criterion, "criterion", {
+    Slip = "slip",
+    Gap = "gap",
+    UpliftedFraction = "uplifted_fraction",
+    Rotation = "rotation",
+} }
 
 impl Criterion {
     /// Its name.
@@ -87,11 +96,42 @@ impl Criterion {
 /// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "ServiceabilityForm"))]
 pub struct Serviceability {
     slip: Option<f64>,
     gap: Option<f64>,
     uplifted_fraction: Option<f64>,
     rotation: Option<f64>,
+}
+
+validated! {
+    Serviceability as ServiceabilityForm {
+        #[serde(default)]
+        slip: Option<f64>,
+        #[serde(default)]
+        gap: Option<f64>,
+        #[serde(default)]
+        uplifted_fraction: Option<f64>,
+        #[serde(default)]
+        rotation: Option<f64>,
+    }
+    => {
+        let mut limits = Serviceability::new();
+        if let Some(limit) = slip {
+            limits = limits.with_slip(limit)?;
+        }
+        if let Some(limit) = gap {
+            limits = limits.with_gap(limit)?;
+        }
+        if let Some(limit) = uplifted_fraction {
+            limits = limits.with_uplifted_fraction(limit)?;
+        }
+        if let Some(limit) = rotation {
+            limits = limits.with_rotation(limit)?;
+        }
+        Ok(limits)
+    }
 }
 
 impl Serviceability {
@@ -155,6 +195,7 @@ impl Serviceability {
 
 /// A criterion of [`Serviceability`] after a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ServiceCheck {
     /// The limited response.

@@ -5,6 +5,7 @@ use crate::interface::Mode;
 /// A stretch of steps in which a whole base slid one way: some elements are closed, all closed
 /// ones slide, and the mean slip does not turn round.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct SlipEvent {
     /// Beginning of its first step, s.
@@ -17,6 +18,7 @@ pub struct SlipEvent {
 
 /// Sliding of a base in a run, by its mean slip: of one foundation, or of all as one base.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sliding {
     /// Way slid, m: the sum of the events' |slip|.
     pub path: f64,

@@ -5,6 +5,7 @@ use crate::coupled::State;
 /// Uplift of a run. A stretch begins with the first step that ends with an open element, and ends
 /// with the first one that ends without.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Uplift {
     /// Time with any part uplifted, s.

@@ -14,6 +14,8 @@ use crate::soil::SoilProfile;
 
 /// What travels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum VerticalWave {
     /// Shear waves: horizontal motion.
     #[default]
@@ -24,6 +26,8 @@ pub enum VerticalWave {
 
 /// Where a motion at depth belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum ControlPoint {
     /// The surface of the base where no layers cover it: rock outcrop.
     #[default]

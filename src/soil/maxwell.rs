@@ -11,12 +11,25 @@ use crate::error::{Error, LayeredError, Result, not_negative, positive, same_len
 /// The usual choice for soil in time. The long-term modulus m is below 1: statics are softer
 /// than waves at the reference frequency.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "GeneralizedMaxwellForm"))]
 pub struct GeneralizedMaxwell {
     long_term: f64,
     shares: Vec<f64>,
     rates: Vec<f64>,
     /// Damping ratio and band (Hz), if it was fitted.
     fitted: Option<[f64; 3]>,
+}
+
+validated! {
+    GeneralizedMaxwell as GeneralizedMaxwellForm {
+        long_term: f64,
+        shares: Vec<f64>,
+        rates: Vec<f64>,
+        #[serde(default)]
+        fitted: Option<[f64; 3]>,
+    }
+    => GeneralizedMaxwell::new(long_term, shares, rates).map(|body| Self { fitted, ..body })
 }
 
 /// Frequencies of the fit.

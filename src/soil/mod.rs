@@ -3,6 +3,8 @@
 mod maxwell;
 mod nonnegative;
 mod profile;
+#[cfg(feature = "serde")]
+mod profile_form;
 mod relaxation;
 
 pub use maxwell::GeneralizedMaxwell;
@@ -20,10 +22,17 @@ use crate::error::{Error, Result, finite, positive};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "SoilForm"))]
 pub struct Soil {
     shear_modulus: f64,
     poisson: f64,
     density: f64,
+}
+
+validated! {
+    Soil as SoilForm { shear_modulus: f64, poisson: f64, density: f64 }
+    => Soil::new(shear_modulus, poisson, density)
 }
 
 impl Soil {

@@ -35,6 +35,10 @@ pub enum Base {
 
 /// Horizontal layers, from the surface down, on a half-plane or a rigid base.
 ///
+/// With the feature `serde` profiles with the crate's damping laws are written and read; a law of your own is
+/// refused, and a fitted [`GeneralizedMaxwell`](super::GeneralizedMaxwell) keeps its numbers but not the
+/// band that it was fitted to.
+///
 /// ```
 /// use basemat::Soil;
 /// use basemat::soil::{GeneralizedMaxwell, SoilProfile};

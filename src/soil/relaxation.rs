@@ -60,6 +60,7 @@ pub trait Relaxation: Debug + Send + Sync {
 
 /// No damping: μ(s) = μ₀.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Elastic;
 
 impl Relaxation for Elastic {
@@ -79,8 +80,15 @@ impl Relaxation for Elastic {
 /// A spring beside a dashpot: μ(s)/μ₀ = 1 + η s. Damping ratio η ω/2, growing with frequency;
 /// fronts have no finite speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "KelvinVoigtForm"))]
 pub struct KelvinVoigt {
     time: f64,
+}
+
+validated! {
+    KelvinVoigt as KelvinVoigtForm { time: f64 }
+    => KelvinVoigt::new(time)
 }
 
 impl KelvinVoigt {
@@ -130,9 +138,16 @@ impl Relaxation for KelvinVoigt {
 /// γ = atan(2ξ)/π, |μ| = μ₀ at ω₀. The long-term modulus is zero, so it carries no static load: for
 /// comparisons.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "KjartanssonForm"))]
 pub struct Kjartansson {
     exponent: f64,
     reference: f64,
+}
+
+validated! {
+    Kjartansson as KjartanssonForm { exponent: f64, reference: f64 }
+    => Kjartansson::from_parts(exponent, reference)
 }
 
 impl Kjartansson {
@@ -145,6 +160,17 @@ impl Kjartansson {
         positive("reference frequency of a damping law", reference)?;
         let exponent = 2.0 * (2.0 * ratio).atan() / std::f64::consts::PI;
         Ok(Self { exponent, reference: std::f64::consts::TAU * reference })
+    }
+
+    /// Law with the exponent 2γ and the circular frequency ω₀ (rad/s), as it is written.
+    #[cfg(feature = "serde")]
+    pub(super) fn from_parts(exponent: f64, reference: f64) -> Result<Self> {
+        positive("reference frequency of a damping law", reference)?;
+        if (0.0..=1.0).contains(&exponent) {
+            return Ok(Self { exponent, reference });
+        }
+        let (quantity, needed) = ("exponent of Kjartansson's damping", "from 0 to 1");
+        Err(Error::Input { quantity, value: exponent, needed })
     }
 }
 
@@ -166,8 +192,15 @@ impl Relaxation for Kjartansson {
 /// grounds that march in time refuse it ([`GeneralizedMaxwell`](super::GeneralizedMaxwell) is
 /// close to it and causal); [impedances](crate::bem::layered::rigid_strip_impedances) take it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "HystereticForm"))]
 pub struct Hysteretic {
     ratio: f64,
+}
+
+validated! {
+    Hysteretic as HystereticForm { ratio: f64 }
+    => Hysteretic::new(ratio)
 }
 
 impl Hysteretic {

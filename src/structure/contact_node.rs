@@ -7,6 +7,7 @@ use crate::error::{Error, Result, finite};
 
 /// A point of the base: where it is, and how the unknowns move it.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactNode {
     /// Coordinate along the surface, m.
     pub x: f64,

@@ -23,6 +23,8 @@ use crate::error::{Error, Result, finite, positive};
 /// assert!((drift.value(&unknowns) - 0.13).abs() < 1e-15);
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
 pub struct Row(Vec<(usize, f64)>);
 
 impl Row {

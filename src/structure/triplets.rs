@@ -1,5 +1,7 @@
 //! The sink into which structures and elements write their matrices.
 
+use crate::error::{Error, Result, same_length};
+
 /// Square sparse matrix under construction: entries at the same place add up.
 ///
 /// Indices out of range and values that are not finite are remembered and reported as a typed
@@ -16,6 +18,86 @@ impl Triplets {
     /// Empty matrix of `order` rows and columns.
     pub fn new(order: usize) -> Self {
         Self { order, entries: Vec::new(), shift: None }
+    }
+
+    /// Matrix of `order` rows and columns from its entries (row, column, value).
+    ///
+    /// ```
+    /// use basemat::structure::Triplets;
+    /// let matrix = Triplets::from_entries(3, [(0, 0, 2.0), (2, 2, 1.0), (0, 0, 0.5)]);
+    /// assert_eq!((matrix.order(), matrix.entries().len()), (3, 3));
+    /// // Collected, the matrix ends with the last row or column that has an entry.
+    /// let matrix: Triplets = [(0, 4, 1.0)].into_iter().collect();
+    /// assert_eq!(matrix.order(), 5);
+    /// ```
+    pub fn from_entries(
+        order: usize,
+        entries: impl IntoIterator<Item = (usize, usize, f64)>,
+    ) -> Self {
+        Self { order, entries: entries.into_iter().collect(), shift: None }
+    }
+
+    /// Matrix of `order` rows and columns from all its `values`, row-major; zeros are left out.
+    ///
+    /// ```
+    /// use basemat::structure::Triplets;
+    /// let matrix = Triplets::from_dense(2, &[4.0, -1.0, 0.0, 3.0])?;
+    /// assert_eq!(matrix.entries(), [(0, 0, 4.0), (0, 1, -1.0), (1, 1, 3.0)]);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`] unless there are `order` times `order` values.
+    pub fn from_dense(order: usize, values: &[f64]) -> Result<Self> {
+        same_length("dense matrix", values.len(), order.saturating_mul(order))?;
+        let entries = values.iter().enumerate().filter(|(_, value)| **value != 0.0);
+        let places = entries.map(|(place, &value)| (place / order, place % order, value));
+        Ok(Self::from_entries(order, places))
+    }
+
+    /// Matrix of `order` rows and columns in compressed sparse rows, as SciPy's `csr_matrix` has them:
+    /// entries `pointers[i]..pointers[i + 1]` of `columns` and `values` are those of row i, in any
+    /// order; entries at the same place add up.
+    ///
+    /// ```
+    /// use basemat::structure::Triplets;
+    /// let matrix = Triplets::from_csr(2, &[0, 2, 3], &[0, 1, 1], &[4.0, -1.0, 3.0])?;
+    /// assert_eq!(matrix, Triplets::from_dense(2, &[4.0, -1.0, 0.0, 3.0])?);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`] unless there are `order + 1` row pointers, as many columns as values, and the
+    /// last pointer is their number; [`Error::Index`] for a first pointer that is not zero, one above the
+    /// next, and a column that does not exist.
+    pub fn from_csr(
+        order: usize,
+        pointers: &[usize],
+        columns: &[usize],
+        values: &[f64],
+    ) -> Result<Self> {
+        same_length("list of row pointers", pointers.len(), order.saturating_add(1))?;
+        same_length("list of columns", columns.len(), values.len())?;
+        same_length("list of values", values.len(), pointers[order])?;
+        if pointers[0] > 0 {
+            return Err(Error::Index {
+                quantity: "first row pointer",
+                index: pointers[0],
+                bound: 1,
+            });
+        }
+        if let Some(pair) = pointers.windows(2).find(|pair| pair[0] > pair[1]) {
+            let (index, bound) = (pair[0], pair[1] + 1);
+            return Err(Error::Index { quantity: "row pointer", index, bound });
+        }
+        if let Some(&index) = columns.iter().find(|&&index| index >= order) {
+            return Err(Error::Index { quantity: "column of a matrix", index, bound: order });
+        }
+        let mut entries = Vec::with_capacity(values.len());
+        for (row, ends) in pointers.windows(2).enumerate() {
+            entries.extend((ends[0]..ends[1]).map(|k| (row, columns[k], values[k])));
+        }
+        Ok(Self { order, entries, shift: None })
     }
 
     /// Number of rows and columns.
@@ -85,5 +167,23 @@ impl Triplets {
     /// Forgets all entries, keeping the memory.
     pub fn clear(&mut self) {
         self.entries.clear();
+    }
+}
+
+/// Of the order that the largest index asks for: rows without entries at the end are not known. With
+/// [`Triplets::from_entries`] they are.
+impl FromIterator<(usize, usize, f64)> for Triplets {
+    fn from_iter<I: IntoIterator<Item = (usize, usize, f64)>>(entries: I) -> Self {
+        let entries: Vec<_> = entries.into_iter().collect();
+        let largest = entries.iter().map(|&(row, column, _)| row.max(column)).max();
+        let order = largest.map_or(0, |index| index.saturating_add(1));
+        Self { order, entries, shift: None }
+    }
+}
+
+/// Adds entries as [`Triplets::add`] does.
+impl Extend<(usize, usize, f64)> for Triplets {
+    fn extend<I: IntoIterator<Item = (usize, usize, f64)>>(&mut self, entries: I) {
+        entries.into_iter().for_each(|(row, column, value)| self.add(row, column, value));
     }
 }

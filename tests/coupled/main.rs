@@ -4,6 +4,7 @@ mod checkpoint;
 mod conditioning;
 mod conveniences;
 mod coordinates;
+mod forms;
 mod layered;
 mod layered_scenes;
 mod ledger;

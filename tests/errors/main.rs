@@ -16,6 +16,7 @@ mod steps;
 mod structures;
 #[path = "../support/mod.rs"]
 mod support;
+mod words;
 
 use basemat::{Error, Soil};
 

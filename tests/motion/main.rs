@@ -11,6 +11,7 @@ mod motion_formats;
 mod motion_reader;
 mod odd_columns;
 mod odd_headers;
+mod parts_and_files;
 mod records;
 mod response_spectrum;
 #[path = "../support/mod.rs"]

@@ -3,9 +3,12 @@
 //! REFERENCE: the states they were made of, and statics.
 
 mod case_tables;
+mod files;
 mod foundations;
 mod fragility;
 mod histories;
+#[cfg(feature = "npz")]
+mod npz;
 mod pages;
 mod plot;
 mod refused;

@@ -54,10 +54,11 @@ fn probes_come_with_their_unit() {
     let mut file = Vec::new();
     histories.write_csv(&mut file).unwrap();
     let text = String::from_utf8(file).unwrap();
-    let wanted = ",slide [m],turn [rad],rate [cm/s],shake [m/s²],bare,";
-    assert!(text.lines().next().unwrap().contains(wanted));
+    let wanted = ",slide_m,turn_rad,rate_cm_per_s,shake_m_per_s2,bare,input_energy_j_per_m";
+    assert!(text.lines().next().unwrap().ends_with(wanted));
     let csv = table.csv();
-    assert!(csv.lines().next().unwrap().ends_with(wanted.trim_end_matches(',')));
+    let wanted = ",slide [m],turn [rad],rate [cm/s],shake [m/s²],bare";
+    assert!(csv.lines().next().unwrap().ends_with(wanted));
     let last: Vec<&str> = csv.lines().nth(1).unwrap().split(',').collect();
     let turn = run.probe("turn").unwrap().largest().value;
     assert_eq!(last[last.len() - 4].parse(), Ok(turn));

@@ -4,6 +4,8 @@ use super::laplace_bessel::Complex64;
 
 /// Backward-differentiation formula behind a convolution quadrature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum CqMethod {
     /// δ = 1 − ζ: first order, strongly damped.

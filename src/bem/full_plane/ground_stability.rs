@@ -14,6 +14,7 @@ use crate::error::Result;
 /// A base that is open in part, and the structure that stands on it, are not assessed; a structure
 /// steadies what it holds.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct GroundStability {
     /// All elements free of traction, as under a base that has lifted off.

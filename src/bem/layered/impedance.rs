@@ -25,6 +25,7 @@ use crate::soil::{Base, SoilProfile};
 /// Reference point is the middle of the patch. The real part is stiffness (and soil that moves along), the
 /// imaginary part damping, by radiation and in the soil.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct StripImpedance {
     /// Frequency, Hz.
@@ -58,6 +59,8 @@ impl StripImpedance {
 
 /// Contact of a rigid strip with the soil below.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum StripContact {
     /// Soil and strip move together.
     #[default]

@@ -18,6 +18,8 @@ const PHASE: f64 = 1e-3;
 
 /// Number of stages of the Runge–Kutta method that carries a ground through time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Stages {
     /// Radau IIA of order 3. Phase error per step (ωΔt)⁴/72.
     #[default]

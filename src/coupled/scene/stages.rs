@@ -12,6 +12,8 @@ use crate::structure::Structure;
 
 /// Friction while the structure is placed on the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Placement {
     /// The base is placed without friction and without adhesion, and sticks from then on. What
@@ -49,6 +51,12 @@ pub enum Placement {
     /// ```
     Unloaded,
 }
+
+words! { Placement, "placement", {
+    Frictionless = "frictionless",
+    WithInterfaceLaw = "with_interface_law",
+    Unloaded = "unloaded",
+} }
 
 /// Increments of a load under which elements slide: friction makes their path matter.
 const INCREMENTS: usize = 10;

@@ -17,8 +17,15 @@ use crate::error::{Error, Result};
 /// assert!(HhtAlpha::new(0.1).is_err() && HhtAlpha::new(-0.4).is_err());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "HhtAlphaForm"))]
 pub struct HhtAlpha {
     alpha: f64,
+}
+
+validated! {
+    HhtAlpha as HhtAlphaForm { alpha: f64 }
+    => HhtAlpha::new(alpha)
 }
 
 impl HhtAlpha {

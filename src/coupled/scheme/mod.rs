@@ -42,6 +42,7 @@ pub trait TimeScheme: Send {
 
 /// Implicit midpoint rule (the default): second order, conserves energy exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Midpoint;
 
 impl TimeScheme for Midpoint {
@@ -52,8 +53,15 @@ impl TimeScheme for Midpoint {
 
 /// θ-method: the midpoint rule for θ = ½, dissipative at high frequencies above.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "ThetaForm"))]
 pub struct Theta {
     theta: f64,
+}
+
+validated! {
+    Theta as ThetaForm { theta: f64 }
+    => Theta::new(theta)
 }
 
 impl Theta {

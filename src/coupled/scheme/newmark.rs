@@ -21,9 +21,16 @@ use crate::error::{Error, Result};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "NewmarkForm"))]
 pub struct Newmark {
     gamma: f64,
     beta: f64,
+}
+
+validated! {
+    Newmark as NewmarkForm { gamma: f64, beta: f64 }
+    => Newmark::new(gamma, beta)
 }
 
 impl Newmark {

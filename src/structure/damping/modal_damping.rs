@@ -23,8 +23,15 @@ use crate::structure::{ContactNode, NonlinearForce, Structure, Triplets};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "ModalDampingForm"))]
 pub struct ModalDamping {
     ratios: Vec<f64>,
+}
+
+validated! {
+    ModalDamping as ModalDampingForm { ratios: Vec<f64> }
+    => ModalDamping::new(&ratios)
 }
 
 /// A structure with the damping of [`ModalDamping`] beside its own.

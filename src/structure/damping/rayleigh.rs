@@ -14,9 +14,16 @@ use std::f64::consts::TAU;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "RayleighDampingForm"))]
 pub struct RayleighDamping {
     mass: f64,
     stiffness: f64,
+}
+
+validated! {
+    RayleighDamping as RayleighDampingForm { mass: f64, stiffness: f64 }
+    => RayleighDamping::new(mass, stiffness)
 }
 
 impl RayleighDamping {

@@ -13,7 +13,8 @@ const DAMPING: &str = "damping matrix";
 /// is **free**, without supports: the ground holds it up, so a rigid translation must give no elastic
 /// force beyond rounding (entries of ten digits may leave too much, those of twelve do not).
 /// Matrices are per metre of thickness. They may come from Matrix Market files
-/// (`Triplets::read_matrix_market`, feature `io`); large models march faster after a
+/// (`Triplets::read_matrix_market`, feature `io`), dense arrays ([`Triplets::from_dense`]) or compressed
+/// rows ([`Triplets::from_csr`]); large models march faster after a
 /// [`CraigBampton`](crate::structure::CraigBampton) reduction.
 ///
 /// The mass matrix must be positive semi-definite up to rounding (see [`Structure::mass`]), which is
@@ -24,10 +25,8 @@ const DAMPING: &str = "damping matrix";
 /// use basemat::structure::{ContactNode, MatrixModel, Structure, Triplets};
 ///
 /// // A rigid base [u_x, u_y, θ] with a mass on a spring, 5 m up.
-/// let mut mass = Triplets::new(4);
-/// for (unknown, value) in [2.0e4, 3.0e4, 6.0e4, 1.0e4].into_iter().enumerate() {
-///     mass.add(unknown, unknown, value);
-/// }
+/// let masses = [2.0e4, 3.0e4, 6.0e4, 1.0e4];
+/// let mass = Triplets::from_entries(4, masses.into_iter().enumerate().map(|(k, m)| (k, k, m)));
 /// let mut stiffness = Triplets::new(4);
 /// stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
 /// let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);

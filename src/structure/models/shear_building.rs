@@ -9,16 +9,19 @@ use std::f64::consts::{PI, TAU};
 ///
 /// All per metre of thickness.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Storey {
     /// Height of the columns, m.
     pub height: f64,
     /// Mass of the floor on top, kg.
     pub mass: f64,
     /// Rotary inertia of that floor about its centre, kg m².
+    #[cfg_attr(feature = "serde", serde(default))]
     pub rotary_inertia: f64,
     /// Sway stiffness of the columns, N/m.
     pub stiffness: f64,
     /// Dashpot between the floors, N s/m.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub damping: f64,
 }
 

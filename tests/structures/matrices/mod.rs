@@ -7,3 +7,4 @@ mod model;
 mod reduction;
 mod semi_definite;
 mod supports;
+mod triplets;

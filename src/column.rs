@@ -1,0 +1,126 @@
+//! Names of columns and numbers in cells: the one rule for all files.
+
+use std::collections::BTreeSet;
+use std::fmt::{self, Write};
+
+/// Name of the column of a quantity: its name in `snake_case`, then its unit spelled out
+/// (`_n_per_m`, `_m_per_s2`, `_rad`), nothing for a ratio.
+pub(crate) fn column(name: &str, unit: &str) -> String {
+    let mut text = snake(name);
+    if text.is_empty() {
+        text.push_str("unnamed");
+    }
+    let unit = snake(&spelled(unit));
+    if !unit.is_empty() {
+        text.push('_');
+        text += &unit;
+    }
+    text
+}
+
+/// `columns` made different from each other and from `taken`: of equal ones the second ends in `_2`,
+/// the third in `_3`.
+pub(crate) fn distinct(taken: &[String], columns: impl Iterator<Item = String>) -> Vec<String> {
+    let mut known: BTreeSet<String> = taken.iter().cloned().collect();
+    let mut rename = |column: String| {
+        let numbered = (2_usize..).map(|k| format!("{column}_{k}"));
+        let free = std::iter::once(column.clone()).chain(numbered).find(|c| !known.contains(c));
+        let free = free.unwrap_or(column);
+        known.insert(free.clone());
+        free
+    };
+    columns.map(&mut rename).collect()
+}
+
+/// Letters and digits in lower case, an underscore for anything between.
+fn snake(text: &str) -> String {
+    let words = text.split(|sign: char| !sign.is_alphanumeric());
+    let words = words.filter(|word| !word.is_empty()).map(str::to_lowercase);
+    words.collect::<Vec<_>>().join("_")
+}
+
+/// A unit with its signs as words.
+fn spelled(unit: &str) -> String {
+    let mut text = String::new();
+    for sign in unit.chars() {
+        match sign {
+            '/' => text += " per ",
+            '%' => text += " percent ",
+            '°' => text += " deg ",
+            '⁻' => text += " minus",
+            '^' => {}
+            '¹' => text.push('1'),
+            '²' => text.push('2'),
+            '³' => text.push('3'),
+            '⁴' => text.push('4'),
+            other => text.push(other),
+        }
+    }
+    text
+}
+
+/// A number in a cell: the shortest decimal that reads back as the same, nothing for NaN, `inf` and
+/// `-inf`.
+#[derive(Clone, Copy)]
+pub(crate) struct Cell(pub(crate) f64);
+
+impl fmt::Display for Cell {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // The debug format has an exponent where that is shorter.
+        if self.0.is_nan() { Ok(()) } else { write!(f, "{:?}", self.0) }
+    }
+}
+
+/// Cells of one line.
+pub(crate) fn line<T: fmt::Display>(cells: impl IntoIterator<Item = T>) -> String {
+    let mut text = String::new();
+    for (k, cell) in cells.into_iter().enumerate() {
+        let comma = if k > 0 { "," } else { "" };
+        // Writing to memory cannot fail.
+        let _ = write!(text, "{comma}{cell}");
+    }
+    text.push('\n');
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_units_by_one_rule() {
+        for (name, unit, known) in [
+            ("base shear", "N/m", "base_shear_n_per_m"),
+            ("base moment", "N·m/m", "base_moment_n_m_per_m"),
+            ("Roof, left (top)", "m/s²", "roof_left_top_m_per_s2"),
+            ("roof", "m/s^2", "roof_m_per_s2"),
+            ("roof", "m s⁻²", "roof_m_s_minus2"),
+            ("rotation", "rad", "rotation_rad"),
+            ("uplift", "%", "uplift_percent"),
+            ("tilt", "°", "tilt_deg"),
+            ("ratio", "", "ratio"),
+            ("Größe", "kN/m", "größe_kn_per_m"),
+            ("--", "m", "unnamed_m"),
+            ("", "", "unnamed"),
+            ("a,b\"c\nd", "", "a_b_c_d"),
+        ] {
+            assert_eq!(column(name, unit), known);
+        }
+    }
+
+    #[test]
+    fn equal_columns_are_numbered() {
+        let names = ["time_s", "a", "a", "a_2", "b", "a"].map(str::to_owned);
+        let found = distinct(&["time_s".to_owned()], names.into_iter());
+        assert_eq!(found, ["time_s_2", "a", "a_2", "a_2_2", "b", "a_3"]);
+    }
+
+    #[test]
+    fn cells_read_back_as_the_same_number() {
+        for value in [0.1, -0.0, 1.0 / 3.0, 1e300, 5e-324, f64::INFINITY, -f64::INFINITY] {
+            let text = Cell(value).to_string();
+            assert_eq!(text.parse::<f64>().map(f64::to_bits), Ok(value.to_bits()), "{text}");
+        }
+        assert_eq!(line([1.0, f64::NAN, f64::INFINITY, 1e-9].map(Cell)), "1.0,,inf,1e-9\n");
+    }
+}

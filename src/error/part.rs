@@ -1,0 +1,50 @@
+//! Refusals of a user's own parts.
+
+use super::Error;
+
+impl Error {
+    /// [`Error::Part`], what a part of your own returns when none of the other errors fits.
+    ///
+    /// ```
+    /// use basemat::bem::SpringGround;
+    /// use basemat::interface::{
+    ///     Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+    /// };
+    /// use basemat::structure::RigidBlock;
+    /// use basemat::{Error, Result, Simulation};
+    ///
+    /// /// Friction of a bearing that was tested for steps of up to 5 ms.
+    /// struct Bearing(Coulomb);
+    ///
+    /// impl InterfaceLaw for Bearing {
+    ///     fn check(&self, scene: &ContactScene) -> Result<()> {
+    ///         if scene.time_step <= 0.005 {
+    ///             return Ok(());
+    ///         }
+    ///         Err(Error::part("bearing", format!("a step of {} s is too long", scene.time_step)))
+    ///     }
+    ///     // The rest is Coulomb's.
+    ///     # fn modes(&self) -> &[Mode] { self.0.modes() }
+    ///     # fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    ///     #     self.0.conditions(mode, start)
+    ///     # }
+    ///     # fn next_mode(
+    ///     #     &self, mode: Mode, start: &StepStart, trial: &ContactState, tolerance: Tolerance,
+    ///     # ) -> Mode {
+    ///     #     self.0.next_mode(mode, start, trial, tolerance)
+    ///     # }
+    /// }
+    ///
+    /// let refused = Simulation::builder(0.01)
+    ///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+    ///     .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
+    ///     .interface(Bearing(Coulomb::new(0.1)?))
+    ///     .build()
+    ///     .unwrap_err();
+    /// assert_eq!(refused.to_string(), "bearing: a step of 0.01 s is too long");
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn part(part: impl Into<String>, reason: impl Into<String>) -> Self {
+        Self::Part { part: part.into(), reason: reason.into() }
+    }
+}

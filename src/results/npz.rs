@@ -1,0 +1,154 @@
+//! Histories as an archive of NumPy's arrays.
+//!
+//! An NPZ file is a ZIP archive of files `name.npy`: a magic number, the length of the header, a Python
+//! dictionary of type, order and shape, blanks up to a multiple of 64 bytes, and the numbers (NumPy
+//! Enhancement Proposal 1, version 1.0).
+
+use std::io::{self, Cursor, Write};
+use std::path::Path;
+
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+use super::Histories;
+use super::columns::{CONTACT, LEDGER, MOTION, ledger_terms};
+use crate::error::{Error, Result, write_file};
+use crate::interface::{ContactState, Mode};
+
+/// The archive under construction.
+struct Archive(ZipWriter<Cursor<Vec<u8>>>);
+
+impl Archive {
+    /// Adds an array of NumPy's type `kind`, its numbers row by row.
+    fn add(&mut self, name: &str, kind: &str, shape: &[usize], bytes: &[u8]) -> io::Result<()> {
+        let lengths: Vec<String> = shape.iter().map(usize::to_string).collect();
+        let comma = if shape.len() == 1 { "," } else { "" };
+        let shape = format!("({}{comma})", lengths.join(", "));
+        let mut header =
+            format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
+        // Magic number, version and length take ten bytes, the line end one.
+        let blanks = (header.len() + 11).next_multiple_of(64) - (header.len() + 11);
+        header += &" ".repeat(blanks);
+        header.push('\n');
+        let length = u16::try_from(header.len()).map_err(io::Error::other)?;
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Stored)
+            .large_file(bytes.len() >= u32::MAX as usize - 1024);
+        self.0.start_file(format!("{name}.npy"), options)?;
+        self.0.write_all(b"\x93NUMPY\x01\x00")?;
+        self.0.write_all(&length.to_le_bytes())?;
+        self.0.write_all(header.as_bytes())?;
+        self.0.write_all(bytes)
+    }
+
+    fn add_numbers(
+        &mut self,
+        name: &str,
+        shape: &[usize],
+        numbers: impl Iterator<Item = f64>,
+    ) -> io::Result<()> {
+        let bytes: Vec<u8> = numbers.flat_map(f64::to_le_bytes).collect();
+        self.add(name, "<f8", shape, &bytes)
+    }
+
+    /// Texts in four bytes for each character, as long as the longest.
+    fn add_words(&mut self, name: &str, words: &[String]) -> io::Result<()> {
+        let longest = words.iter().map(|word| word.chars().count()).max().unwrap_or(0);
+        let letters = |word: &String| {
+            let letters: Vec<char> = word.chars().collect();
+            (0..longest).map(move |k| letters.get(k).map_or(0, |&letter| u32::from(letter)))
+        };
+        let bytes: Vec<u8> = words.iter().flat_map(letters).flat_map(u32::to_le_bytes).collect();
+        self.add(name, &format!("<U{longest}"), &[words.len()], &bytes)
+    }
+}
+
+impl Histories {
+    /// Writes the archive of [`Histories::write_npz`] to a file; its folder is made if it is not there.
+    ///
+    /// # Errors
+    /// [`Error::Write`] if that fails.
+    pub fn save_npz(&self, path: impl AsRef<Path>) -> Result<()> {
+        let (path, mut bytes) = (path.as_ref(), Vec::new());
+        // Memory takes everything, an archive no name of 64 KiB.
+        let refused = |error: io::Error| {
+            let (file, reason) = (path.display().to_string(), error.kind());
+            Error::Write { file, reason }
+        };
+        self.write_npz(&mut bytes).map_err(refused)?;
+        write_file(path, bytes)
+    }
+
+    /// Writes all that was kept as an archive of NumPy's arrays, `numpy.load("run.npz")["base_shear_n_per_m"]`;
+    /// feature `npz`. No array is compressed.
+    ///
+    /// | arrays | shape | |
+    /// |---|---|---|
+    /// | `time_s`; scalars and probes, called as [in CSV](Histories::write_csv) | kept steps | |
+    /// | `kinetic_energy_j_per_m` … `input_energy_j_per_m`, `soil_error_bound_j_per_m` | kept steps | terms of the [ledger](crate::coupled::Ledger) |
+    /// | `element_left_m`, `element_right_m` | elements | ends of the contact elements |
+    /// | `contact_time_s` | frames | with [`Recorder::contact`](super::Recorder::contact) |
+    /// | `contact_gap_m`, `contact_slip_m`, `contact_pressure_pa`, `contact_shear_pa` | frames × elements | |
+    /// | `contact_mode`, integers | frames × elements | places in `contact_mode_words` |
+    /// | `contact_mode_words` | modes | texts |
+    /// | `motion_time_s` | frames | with [`Recorder::motion`](super::Recorder::motion) |
+    /// | `motion_displacement`, `motion_velocity` | frames × unknowns | as in [`MotionFrame`](super::MotionFrame) |
+    /// | `motion_free_field_m` | frames × 2 | to the right, up |
+    ///
+    /// # Errors
+    /// Those of `out`, and of the archive for a name of 64 KiB.
+    pub fn write_npz(&self, out: &mut dyn Write) -> io::Result<()> {
+        let mut archive = Archive(ZipWriter::new(Cursor::new(Vec::new())));
+        let steps = self.times().len();
+        for (name, values) in self.columns().iter().zip(self.column_values()) {
+            archive.add_numbers(name, &[steps], values.iter().copied())?;
+        }
+        for (k, name) in LEDGER.iter().enumerate() {
+            let terms = self.ledgers().iter().map(|ledger| ledger_terms(ledger)[k]);
+            archive.add_numbers(name, &[steps], terms)?;
+        }
+        self.add_contact(&mut archive)?;
+        self.add_motion(&mut archive)?;
+        out.write_all(archive.0.finish()?.get_ref())
+    }
+
+    fn add_contact(&self, archive: &mut Archive) -> io::Result<()> {
+        let elements = self.elements();
+        let [left, right, time, gap, slip, pressure, shear, mode, words] = CONTACT;
+        archive.add_numbers(left, &[elements.len()], elements.iter().map(|own| own.left))?;
+        archive.add_numbers(right, &[elements.len()], elements.iter().map(|own| own.right))?;
+        if self.recorder.contact.is_none() {
+            return Ok(());
+        }
+        let frames = self.contact_frames().count();
+        let shape = [frames, elements.len()];
+        archive.add_numbers(time, &[frames], self.contact_frames().map(|frame| frame.time))?;
+        let mut add = |name: &str, value: fn(&ContactState) -> f64| {
+            let numbers = self.contact_frames().flat_map(|frame| frame.states.iter().map(value));
+            archive.add_numbers(name, &shape, numbers)
+        };
+        add(gap, |own| own.gap)?;
+        add(slip, |own| own.slip)?;
+        add(pressure, |own| own.pressure)?;
+        add(shear, |own| own.shear)?;
+        let modes = self.contact_frames().flat_map(|frame| frame.modes);
+        let codes: Vec<u8> = modes.map(|mode| *mode as u8).collect();
+        archive.add(mode, "|u1", &shape, &codes)?;
+        archive.add_words(words, &Mode::ALL.map(|mode| mode.to_string()))
+    }
+
+    fn add_motion(&self, archive: &mut Archive) -> io::Result<()> {
+        if self.recorder.motion.is_none() {
+            return Ok(());
+        }
+        let frames = || self.motion_frames();
+        let (count, [time, displacement, velocity, free_field]) = (frames().count(), MOTION);
+        let unknowns = frames().next().map_or(0, |frame| frame.displacement.len());
+        archive.add_numbers(time, &[count], frames().map(|frame| frame.time))?;
+        let values = frames().flat_map(|frame| frame.displacement.iter().copied());
+        archive.add_numbers(displacement, &[count, unknowns], values)?;
+        let values = frames().flat_map(|frame| frame.velocity.iter().copied());
+        archive.add_numbers(velocity, &[count, unknowns], values)?;
+        archive.add_numbers(free_field, &[count, 2], frames().flat_map(|frame| frame.free_field))
+    }
+}

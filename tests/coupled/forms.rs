@@ -1,0 +1,392 @@
+//! GOAL: settings, states, results and records through a text format, and none that a constructor would
+//! refuse.
+//! SCENE: every type with a form; numbers that are not finite; fields missing, unknown or out of range.
+//! REFERENCE: the value that was written.
+
+use std::fmt::Debug;
+
+use basemat::bem::full_plane::CqMethod;
+use basemat::bem::layered::{Stages, StripContact};
+use basemat::bem::{ContactElement, Grading, SpringGround, Strip};
+use basemat::coupled::{
+    ContactSearch, Coordinates, HhtAlpha, Ledger, Midpoint, Newmark, Outline, Peak, Placement,
+    Probe, Run, Theta, Warning, advise,
+};
+use basemat::fem::{Direction, Layer, MassKind, Material, Quad8Integration, QuadFormulation};
+use basemat::history::History;
+use basemat::interface::{
+    Activation, Adhesive, Bonded, Coulomb, FrictionLimit, Mode, SlipSense, ThinLayer, Yielding,
+};
+use basemat::motion::{
+    AccelerationUnit, Baseline, ColumnFormat, CosmosFormat, FrequencyContent, KNetFormat,
+    PeerFormat, Record, el_centro_1940,
+};
+use basemat::results::{Criterion, Quantity, Recorder, Serviceability};
+use basemat::site::{ControlPoint, VerticalWave};
+use basemat::soil::{
+    Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation, SoilProfile,
+};
+use basemat::structure::{
+    ContactNode, IsolationLevel, ModalDamping, RayleighDamping, RigidBlock, Row, Storey,
+};
+use basemat::{Complex, Simulation, Soil};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+
+/// Written and read again, a value is the same.
+#[track_caller]
+fn kept<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) -> Value {
+    let text = serde_json::to_string(value).unwrap();
+    let read: T = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
+    assert_eq!(&read, value, "{text}");
+    serde_json::from_str(&text).unwrap()
+}
+
+/// As [`kept`], and written as `form`.
+#[track_caller]
+fn written<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T, form: impl Into<Value>) {
+    assert_eq!(kept(value), form.into());
+}
+
+/// The form is not read: the error contains `reason`.
+#[track_caller]
+fn refused<T: DeserializeOwned + Debug>(form: Value, reason: &str) {
+    let text = form.to_string();
+    let error = serde_json::from_value::<T>(form).unwrap_err().to_string();
+    assert!(error.contains(reason), "{text}: {error}");
+}
+
+#[test]
+fn soils_materials_and_their_damping() {
+    let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
+    written(&soil, json!({"shear_modulus": 80.0e6, "poisson": 0.33, "density": 1900.0}));
+    let bad = |nu: f64| json!({"shear_modulus": 1.0, "poisson": nu, "density": 1.0});
+    refused::<Soil>(bad(0.5), "Poisson's ratio of the soil is 0.5");
+    refused::<Soil>(
+        json!({"shear_modulus": -1.0, "poisson": 0.3, "density": 1.0}),
+        "shear modulus",
+    );
+    refused::<Soil>(json!({"shear_modulus": 1.0, "poisson": 0.3}), "missing field `density`");
+    let typo = json!({"shear_modulus": 1.0, "poisson": 0.3, "density": 1.0, "damping": 0.05});
+    refused::<Soil>(typo, "unknown field `damping`");
+    kept(&Material::new(200e9, 0.25, 0.0).unwrap());
+    let bad = json!({"young_modulus": 0.0, "poisson": 0.3, "density": 1.0});
+    refused::<Material>(bad, "Young's modulus is 0");
+    kept(&Elastic);
+    kept(&KelvinVoigt::with_ratio(0.05, 3.0).unwrap());
+    refused::<KelvinVoigt>(json!({"time": -1.0}), "relaxation time");
+    kept(&Kjartansson::new(0.05, 3.0).unwrap());
+    refused::<Kjartansson>(json!({"exponent": 1.5, "reference": 1.0}), "exponent");
+    refused::<Kjartansson>(json!({"exponent": 0.1, "reference": 0.0}), "reference frequency");
+    kept(&Hysteretic::new(0.05).unwrap());
+    refused::<Hysteretic>(json!({"ratio": 1.0}), "damping ratio");
+    let fitted = GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0).unwrap();
+    kept(&fitted);
+    let bad = json!({"long_term": 1.0, "shares": [-0.1], "rates": [1.0]});
+    refused::<GeneralizedMaxwell>(bad, "share of a Maxwell mechanism");
+    let bad = json!({"long_term": 1.0, "shares": [0.1], "rates": []});
+    refused::<GeneralizedMaxwell>(bad, "rates of a generalised Maxwell body");
+}
+
+/// One with the first number of a law of the crate.
+#[derive(Debug)]
+struct Own(Option<Vec<f64>>);
+
+impl Relaxation for Own {
+    fn modulus(&self, _: Complex) -> Complex {
+        Complex::real(1.0)
+    }
+    fn identity(&self) -> Option<Vec<f64>> {
+        self.0.clone()
+    }
+}
+
+#[test]
+fn profiles_with_every_law_of_the_crate() {
+    let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
+    let layer = |profile: SoilProfile| profile.with_layer(soil, 3.0).unwrap();
+    let base =
+        layer(SoilProfile::on_half_plane(soil).with_base_damping(Hysteretic::new(0.02).unwrap()));
+    let profile = layer(base.with_damping(KelvinVoigt::with_ratio(0.05, 3.0).unwrap()));
+    let profile = layer(profile.with_damping(Kjartansson::new(0.05, 3.0).unwrap()));
+    let maxwell = GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0).unwrap();
+    let profile = layer(profile.with_damping(maxwell));
+    for profile in [profile, layer(SoilProfile::on_rigid_base()), SoilProfile::on_half_plane(soil)]
+    {
+        let text = serde_json::to_string(&profile).unwrap();
+        let read: SoilProfile = serde_json::from_str(&text).unwrap();
+        assert_eq!(read.identity(), profile.identity());
+        assert!(profile.identity().is_some());
+        assert_eq!(serde_json::to_string(&read).unwrap(), text);
+    }
+    let rigid = json!({"layers": [], "base": "rigid"});
+    refused::<SoilProfile>(rigid, "list of soil layers has length 0");
+    let constants = json!({"shear_modulus": 1e8, "poisson": 0.3, "density": 2e3});
+    let layer = json!({"soil": constants, "thickness": -1.0, "damping": "elastic"});
+    refused::<SoilProfile>(json!({"layers": [layer], "base": "rigid"}), "thickness");
+
+    for numbers in [None, Some(vec![]), Some(vec![17.0]), Some(vec![4.0, 1.0, 3.0, 0.1, 0.2, 0.3])]
+    {
+        let own = SoilProfile::on_half_plane(soil).with_base_damping(Own(numbers));
+        let error = serde_json::to_string(&own).unwrap_err().to_string();
+        assert!(error.contains("damping law 'own law'"), "{error}");
+    }
+}
+
+#[test]
+fn interface_laws() {
+    kept(&Bonded);
+    let law = Coulomb::new(0.4).unwrap();
+    let form = json!({"friction": 0.4, "tensile_strength": 0.0, "activation": "gap"});
+    written(&law, form);
+    let rate = Activation::Rate { closed_below: 1e-3 };
+    kept(&law.with_activation(rate).unwrap().with_tensile_strength(1e3).unwrap());
+    assert_eq!(kept(&Coulomb::uplift_only())["friction"], "inf");
+    assert_eq!(serde_json::from_value::<Coulomb>(json!({"friction": 1})).unwrap().friction(), 1.0);
+    refused::<Coulomb>(json!({"friction": -0.1}), "friction coefficient is -0.1");
+    refused::<Coulomb>(json!({"friction": null}), "friction coefficient is NaN");
+    refused::<Coulomb>(json!({"friction": "much"}), "expected a number, null");
+    refused::<Coulomb>(json!({"friction": 0.1, "tensile_strength": -1.0}), "tensile strength");
+    let bad = json!({"friction": 0.1, "activation": {"rate": {"closed_below": -1.0}}});
+    refused::<Coulomb>(bad, "gap below which");
+    let form = json!({"tension": 1e5, "cohesion": 8e4, "friction": 0.6});
+    written(&Adhesive::new(1e5, 8e4, 0.6).unwrap(), form);
+    refused::<Adhesive>(
+        json!({"tension": -1.0, "cohesion": 0.0, "friction": 0.6}),
+        "tensile strength",
+    );
+    let form = json!({"bearing_pressure": 3e5, "friction": "inf"});
+    written(&Yielding::new(3e5, f64::INFINITY).unwrap(), form);
+    refused::<Yielding>(json!({"bearing_pressure": 0.0, "friction": 0.6}), "bearing pressure");
+    let layer = ThinLayer::from_stiffness(1e9, 3e8, 0.4).unwrap();
+    kept(&layer);
+    let layer = layer.with_thickness_ratio(0.1).unwrap().with_debonded_share(0.0).unwrap();
+    let layer = layer.with_slip_stiffness_share(0.5).unwrap().with_slip_sense(SlipSense::Velocity);
+    let mut form = kept(&layer.with_friction_limit(FrictionLimit::Lagged));
+    form["thickness_ratio"] = json!(0.0);
+    refused::<ThinLayer>(form.clone(), "thickness ratio");
+    (form["thickness_ratio"], form["debonded_share"]) = (json!(0.1), json!(2.0));
+    refused::<ThinLayer>(form, "left in debonding");
+}
+
+#[test]
+fn schemes_dampings_strips_and_limits() {
+    kept(&Midpoint);
+    kept(&Theta::new(0.6).unwrap());
+    refused::<Theta>(json!({"theta": 0.4}), "theta is 0.4");
+    kept(&Newmark::new(0.6, 0.4).unwrap());
+    refused::<Newmark>(json!({"gamma": 0.5, "beta": 0.1}), "beta is 0.1");
+    kept(&HhtAlpha::new(-0.1).unwrap());
+    refused::<HhtAlpha>(json!({"alpha": 0.1}), "alpha is 0.1");
+    kept(&RayleighDamping::from_ratios([1.0, 10.0], [0.05; 2]).unwrap());
+    refused::<RayleighDamping>(json!({"mass": -1.0, "stiffness": 0.0}), "mass-proportional");
+    kept(&ModalDamping::new(&[0.05, 0.02]).unwrap());
+    refused::<ModalDamping>(json!({"ratios": []}), "list of damping ratios");
+    kept(&Strip::graded(-5.0..5.0, 7).unwrap());
+    refused::<Strip>(json!({"nodes": [0.0, 1.0, 1.0]}), "length of a contact element");
+    let limits = Serviceability::new().with_slip(5e-3).unwrap().with_rotation(0.05).unwrap();
+    kept(&limits);
+    assert_eq!(serde_json::from_value::<Serviceability>(json!({})).unwrap(), Serviceability::new());
+    for name in ["slip", "gap", "uplifted_fraction", "rotation"] {
+        refused::<Serviceability>(json!({ name: -1.0 }), "allowable");
+        kept(&serde_json::from_value::<Serviceability>(json!({ name: 0.5 })).unwrap());
+    }
+    refused::<Serviceability>(json!({"slipp": 1.0}), "unknown field `slipp`");
+    kept(&Recorder::new().every(2).contact(10));
+    let recorder: Recorder = serde_json::from_value(json!({"motion": 5})).unwrap();
+    assert_eq!(recorder, Recorder::new().motion(5));
+    let outline = Outline::new(10.0, 15.0, 150e3).unwrap();
+    kept(&outline);
+    let outline = outline.with_frequency(2.0, 0.05).unwrap();
+    kept(&outline);
+    refused::<Outline>(json!({"width": 0.0, "height": 1.0, "mass": 1.0}), "width of the outline");
+    let bad = json!({"width": 1.0, "height": 1.0, "mass": 1.0, "sway": [-1.0, 0.0]});
+    refused::<Outline>(bad, "frequency of the outline");
+    let content = FrequencyContent::of(&el_centro_1940()).unwrap();
+    kept(&content);
+    kept(&FrequencyContent::flat(20.0).unwrap());
+    for (spacing, energy, duration, reason) in [
+        (0.0, json!([1.0]), json!(1.0), "distance of the lines"),
+        (1.5e308, json!([1.0, 1.0]), json!(1.0), "highest frequency"),
+        (1.0, json!([]), json!(1.0), "highest frequency"),
+        (1.0, json!([-1.0, 2.0]), json!(1.0), "energy of a line"),
+        (1.0, json!([0.0]), json!(1.0), "energy of the ground acceleration"),
+        (1.0, json!([1.0]), json!(0.0), "duration of the record"),
+    ] {
+        let bad = json!({"spacing": spacing, "energy": energy, "duration": duration});
+        refused::<FrequencyContent>(bad, reason);
+    }
+    let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
+    kept(&advise(soil, &outline, &content, 0.05).unwrap());
+}
+
+#[test]
+fn choices_are_their_words() {
+    use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight};
+
+    fn words<T: Serialize + DeserializeOwned + PartialEq + Debug + ToString>(all: &[T]) {
+        for choice in all {
+            written(choice, json!(choice.to_string()));
+        }
+    }
+    words(&[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight]);
+    words(&[History::Direct, History::RelaxedFft, History::Exponentials, History::Auto]);
+    words(&[Grading::Uniform, Grading::Cosine]);
+    words(&[Placement::Frictionless, Placement::WithInterfaceLaw, Placement::Unloaded]);
+    words(&[Criterion::Slip, Criterion::Gap, Criterion::UpliftedFraction, Criterion::Rotation]);
+    words(&[FrictionLimit::Total, FrictionLimit::Lagged, FrictionLimit::Static]);
+    words(&[SlipSense::Inelastic, SlipSense::Velocity, SlipSense::LastVelocity]);
+    words(&[MassKind::Consistent, MassKind::Lumped]);
+    words(&[Direction::X, Direction::Y, Direction::Rotation]);
+    words(&Quantity::ALL);
+    words(&[
+        AccelerationUnit::MetrePerSecondSquared,
+        AccelerationUnit::MillimetrePerSecondSquared,
+        AccelerationUnit::StandardGravity,
+    ]);
+    words(&[
+        AccelerationUnit::Gal,
+        AccelerationUnit::FootPerSecondSquared,
+        AccelerationUnit::InchPerSecondSquared,
+    ]);
+    words(&[Coordinates::Auto, Coordinates::Unknowns, Coordinates::Modes]);
+    words(&[Baseline::None, Baseline::RemoveMean, Baseline::NewmarkParabola]);
+    written(&Coordinates::Reduced { tolerance: 1e-6 }, json!({"reduced": {"tolerance": 1e-6}}));
+    written(&ContactSearch::FlowChart { iterations: 9 }, json!({"flow_chart": {"iterations": 9}}));
+    written(&Baseline::RestToRest { degree: 4 }, json!({"rest_to_rest": {"degree": 4}}));
+    kept(&[QuadFormulation::Full, QuadFormulation::default()]);
+    kept(&[Quad8Integration::Full, Quad8Integration::Reduced]);
+    kept(&(CqMethod::Bdf1, Stages::Three, StripContact::Relaxed));
+    kept(&(VerticalWave::Pressure, ControlPoint::Within));
+}
+
+#[test]
+fn probes_storeys_layers_and_formats_of_files() {
+    let block = RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
+    kept(&Probe::absolute_displacement("top", block.horizontal_at(6.0)).in_unit("mm"));
+    let form = json!({"name": "roof", "unit": "m/s²", "acceleration": [[7, 1.0]]});
+    let probe: Probe = serde_json::from_value(form).unwrap();
+    assert_eq!(probe, Probe::acceleration("roof", 7));
+    refused::<Probe>(json!({"nam": "roof"}), "unknown field `nam`");
+    written(&Row::from([(3, 1.0), (0, -0.5)]), json!([[3, 1.0], [0, -0.5]]));
+    let storey = json!({"height": 3.0, "mass": 2e4, "stiffness": 4e7});
+    assert_eq!(serde_json::from_value::<Storey>(storey).unwrap(), Storey::new(3.0, 2e4, 4e7));
+    kept(&Storey::new(3.0, 2e4, 4e7));
+    kept(&IsolationLevel { height: 0.5, slab_mass: 1e4, slab_inertia: 0.0, damping: 9e4 });
+    let (material, formulation) =
+        (Material::new(3e10, 0.2, 2400.0).unwrap(), QuadFormulation::Full);
+    kept(&Layer { height: 1.0, rows: 2, material, formulation });
+    kept(&ContactNode::rigid_base(-1.0, 1.0, [0, 1, 2]));
+    kept(&ContactElement { left: -1.0, right: 1.0 });
+    kept(&ColumnFormat::new(AccelerationUnit::Gal).with_columns(2, 3).with_samples(7));
+    kept(&ColumnFormat::equally_spaced(AccelerationUnit::StandardGravity, 0.02));
+    kept(&CosmosFormat::default().with_channel(2).with_unit(AccelerationUnit::Gal));
+    kept(&(PeerFormat, KNetFormat));
+}
+
+#[test]
+fn records_are_their_samples() {
+    let record = el_centro_1940();
+    let form = kept(&record);
+    assert_eq!(form.as_object().unwrap().keys().collect::<Vec<_>>(), ["acceleration", "time_step"]);
+    kept(&record.response_spectrum(&[0.2, 1.0], 0.05).unwrap());
+    for (bad, reason) in [
+        (json!({"time_step": 0.0, "acceleration": [0.0, 1.0]}), "time step of the record is 0"),
+        (json!({"time_step": 0.1, "acceleration": [0.0]}), "1 samples, at least 2"),
+        (json!({"time_step": 0.1, "acceleration": [0.0, null]}), "invalid type: null"),
+        (json!({"time_step": 1e200, "acceleration": [0.0, 1e200]}), "of the record is inf"),
+    ] {
+        refused::<Record>(bad, reason);
+    }
+}
+
+/// A run with uplift, sliding, probes, limits, warnings and factors of safety that are not finite.
+fn run() -> (Simulation, Run) {
+    let block = RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
+    let mut simulation = Simulation::builder(0.08)
+        .probe(Probe::displacement("top", block.horizontal_at(6.0)))
+        .structure(block)
+        .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7).unwrap())
+        .interface(Coulomb::new(0.3).unwrap())
+        .serviceability(Serviceability::new().with_slip(1e-3).unwrap())
+        .motion(el_centro_1940())
+        .build()
+        .unwrap();
+    let run = simulation.run(300, |_| {}).unwrap();
+    (simulation, run)
+}
+
+#[test]
+fn runs_with_all_that_is_in_them() {
+    let (simulation, run) = run();
+    let text = serde_json::to_string(&run).unwrap();
+    let mut read: Run = serde_json::from_str(&text).unwrap();
+    assert_eq!(serde_json::to_string(&read).unwrap(), text);
+    assert_eq!(read.to_string(), run.to_string());
+    assert_eq!((read.wall, read.ledger), (run.wall, run.ledger));
+    assert!(run.slip_events() > 0 && !run.warnings.is_empty() && run.uplift.count > 0);
+    for foundation in &run.foundations {
+        kept(foundation);
+    }
+    kept(&(run.base_shear, run.uplift, run.sliding.clone(), run.fallbacks, run.energy().unwrap()));
+    kept(&(run.envelope.clone(), run.probes.clone(), run.serviceability.clone()));
+    kept(&run.warnings);
+    kept(&simulation.conditioning());
+
+    // It is closed: no state counts, and nothing is lost when it is ended again.
+    read.record(simulation.state());
+    assert_eq!(read.steps, run.steps);
+    let ended = simulation.end_run(read);
+    assert_eq!(serde_json::to_string(&ended).unwrap(), text);
+}
+
+#[test]
+fn states_are_written() {
+    let (simulation, _) = run();
+    let state = simulation.state();
+    let form = serde_json::to_value(state).unwrap();
+    assert_eq!(form["time"], json!(state.time));
+    assert_eq!(form["probes"], json!(state.probes));
+    assert_eq!(form["contact"][3]["pressure"], json!(state.contact[3].pressure));
+    assert_eq!(form["modes"][0], json!(state.modes[0].to_string()));
+    assert_eq!(form["foundations"][0]["elements"], json!({"start": 0, "end": 8}));
+    for hidden in ["origin", "probe_names", "motion", "start"] {
+        assert!(form.get(hidden).is_none(), "{hidden}");
+    }
+    kept(&state.foundations);
+    kept(&state.contact);
+}
+
+#[test]
+fn numbers_that_are_not_finite() {
+    for (value, form) in [
+        (f64::INFINITY, json!("inf")),
+        (f64::NEG_INFINITY, json!("-inf")),
+        (-0.0, json!(-0.0)),
+        (1.0 / 3.0, json!(1.0 / 3.0)),
+    ] {
+        written(&Peak { value, time: 0.0 }, json!({"value": form, "time": 0.0}));
+    }
+    let peak: Peak = serde_json::from_value(json!({"value": null, "time": 3})).unwrap();
+    assert!(peak.value.is_nan() && peak.time == 3.0);
+    assert_eq!(serde_json::to_value(peak).unwrap(), json!({"value": null, "time": 3.0}));
+    let warning: Vec<Warning> =
+        serde_json::from_value(json!([{"ledger": {"residual": "inf"}}])).unwrap();
+    assert_eq!(warning, [Warning::Ledger { residual: f64::INFINITY }]);
+
+    let block = RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
+    let simulation = Simulation::builder(0.01)
+        .structure(block)
+        .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7).unwrap())
+        .interface(Coulomb::new(0.4).unwrap())
+        .without_ledger()
+        .build()
+        .unwrap();
+    let ledger = simulation.state().ledger;
+    assert!(ledger.is_left_out());
+    assert_eq!(kept(&ledger)["input"], Value::Null);
+    let (mut form, given) = (kept(&Ledger::default()), json!("inf"));
+    form["soil"] = given;
+    assert_eq!(serde_json::from_value::<Ledger>(form).unwrap().soil, f64::INFINITY);
+}

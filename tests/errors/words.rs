@@ -1,0 +1,133 @@
+//! GOAL: choices are read as they are shown, and what is no choice is refused with those there are.
+//! SCENE: every choice; capitals, blanks, hyphens, numbers that do not fit.
+//! REFERENCE: the choice itself.
+
+use std::fmt::{Debug, Display};
+use std::str::FromStr;
+
+use basemat::Error;
+use basemat::bem::Grading;
+use basemat::coupled::{ContactSearch, Coordinates, Placement, SearchMethod};
+use basemat::fem::{Direction, MassKind};
+use basemat::history::History;
+use basemat::interface::{FrictionLimit, Mode, SlipSense};
+use basemat::motion::{AccelerationUnit, Baseline};
+use basemat::results::{Criterion, Quantity};
+
+/// Shown, each of `all` is read again, whatever its capitals and blanks; other words are refused.
+#[track_caller]
+fn check<T>(quantity: &str, all: &[T])
+where
+    T: FromStr<Err = Error> + Display + Debug + PartialEq + Copy,
+{
+    for choice in all {
+        let word = choice.to_string();
+        let spaced = format!("  {} ", word.replace('_', " "));
+        for text in [word.clone(), word.to_uppercase(), word.replace('_', "-"), spaced] {
+            assert_eq!(text.parse(), Ok(*choice), "{text}");
+        }
+        assert_eq!(format!("{choice:>30}").len() - word.len(), 30 - word.chars().count());
+    }
+    for text in ["", "nonsense", "auto(", "auto)", "reduced()", "reduced(inf)", "stick(1)", "é"] {
+        let Err(Error::Word { quantity: named, text: given, known }) = text.parse::<T>() else {
+            panic!("{quantity} '{text}' was read")
+        };
+        assert_eq!((named, &given[..]), (quantity, text));
+        let message = text.parse::<T>().unwrap_err().to_string();
+        assert!(message.contains(quantity) && known.iter().all(|word| message.contains(word)));
+        // Every choice is named.
+        let named = |choice: &T| {
+            let word = choice.to_string();
+            let word = word.split('(').next().unwrap_or_default();
+            known.iter().any(|known| known.split('(').next() == Some(word))
+        };
+        assert!(all.iter().all(named), "{known:?}");
+    }
+}
+
+#[test]
+fn choices_are_read_as_they_are_shown() {
+    use Baseline::{
+        DisplacementPolynomial, NewmarkParabola, RemoveMean, RestToRest, VelocityPolynomial,
+    };
+    use Criterion::{Gap, Rotation, Slip, UpliftedFraction};
+    use FrictionLimit::{Dynamic, Lagged, Static, Total};
+    use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight};
+    use Placement::{Frictionless, Unloaded, WithInterfaceLaw};
+    use SearchMethod::{ActiveSet, GaussSeidel, Path};
+    use SlipSense::{Inelastic, LastVelocity, Velocity};
+
+    check("contact mode", &[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight]);
+    let histories =
+        [History::Direct, History::RelaxedFft, History::Exponentials, History::default()];
+    check("history", &histories);
+    check("grading", &[Grading::Uniform, Grading::Cosine]);
+    check("placement", &[Frictionless, WithInterfaceLaw, Unloaded]);
+    check("search method", &[ActiveSet, GaussSeidel, Path]);
+    check("criterion", &[Slip, Gap, UpliftedFraction, Rotation]);
+    check("friction limit", &[Total, Lagged, Static, Dynamic]);
+    check("sense of slip", &[Inelastic, Velocity, LastVelocity]);
+    check("kind of mass", &[MassKind::Consistent, MassKind::Lumped]);
+    check("direction", &[Direction::X, Direction::Y, Direction::Rotation]);
+    check("quantity", &Quantity::ALL);
+    let tolerances = [1e-6, 0.5, 1.0 / 3.0, 5e-324];
+    let reduced = tolerances.map(|tolerance| Coordinates::Reduced { tolerance });
+    check("kind of coordinates", &[Coordinates::Unknowns, Coordinates::Modes]);
+    for choice in reduced.iter().chain(&[Coordinates::Auto]) {
+        assert_eq!(choice.to_string().parse(), Ok(*choice));
+    }
+    let searches =
+        [1, 50, 9_000_000_000_000_000].map(|n| ContactSearch::FlowChart { iterations: n });
+    check("contact search", &[ContactSearch::Robust]);
+    check("contact search", &searches);
+    let degree = 4;
+    check(
+        "baseline treatment",
+        &[Baseline::None, RemoveMean, NewmarkParabola, RestToRest { degree }],
+    );
+    check(
+        "baseline treatment",
+        &[VelocityPolynomial { degree }, DisplacementPolynomial { degree }],
+    );
+    for text in ["rest_to_rest(-1)", "rest_to_rest(1.5)", "rest_to_rest(1e300)", "remove_mean(1)"] {
+        assert!(text.parse::<Baseline>().is_err(), "{text}");
+    }
+}
+
+#[test]
+fn units_of_acceleration() {
+    use AccelerationUnit::{
+        FootPerSecondSquared, Gal, InchPerSecondSquared, MetrePerSecondSquared,
+        MillimetrePerSecondSquared, StandardGravity,
+    };
+    let metric = [MetrePerSecondSquared, MillimetrePerSecondSquared, StandardGravity, Gal];
+    check("unit of acceleration", &metric);
+    check("unit of acceleration", &[FootPerSecondSquared, InchPerSecondSquared]);
+    for (text, unit) in [("m/s2", MetrePerSecondSquared), ("cm/s²", Gal), ("G", StandardGravity)] {
+        assert_eq!(text.parse(), Ok(unit));
+    }
+}
+
+#[test]
+fn quantities_by_any_of_their_names() {
+    for quantity in Quantity::ALL {
+        for text in [quantity.to_string(), quantity.column(), quantity.name().to_owned()] {
+            assert_eq!(text.parse(), Ok(quantity), "{text}");
+        }
+    }
+    let columns = Quantity::ALL.map(Quantity::column);
+    let known = [
+        "base_shear_n_per_m",
+        "base_moment_n_m_per_m",
+        "normal_force_n_per_m",
+        "uplifted_fraction",
+        "mean_slip_m",
+        "largest_slip_m",
+        "base_rotation_rad",
+        "free_field_x_m",
+        "free_field_y_m",
+        "sliding_safety",
+        "overturning_safety",
+    ];
+    assert_eq!(columns, known);
+}

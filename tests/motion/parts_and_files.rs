@@ -1,0 +1,99 @@
+//! GOAL: parts of records, and records written and read back.
+//! SCENE: El Centro, any samples at any time step.
+//! REFERENCE: the samples themselves, bit for bit.
+
+use basemat::Error;
+use basemat::motion::{AccelerationUnit, ColumnFormat, Record, el_centro_1940};
+use proptest::prelude::*;
+
+const SI: AccelerationUnit = AccelerationUnit::MetrePerSecondSquared;
+
+fn written(record: &Record) -> Vec<u8> {
+    let mut text = Vec::new();
+    record.write_csv(&mut text).unwrap();
+    text
+}
+
+#[test]
+fn parts_keep_their_samples() {
+    let record = el_centro_1940();
+    let samples = record.accelerations();
+    for (start, end, first, last) in [
+        (0.0, record.duration(), 0, 1559),
+        (0.02, 0.04, 1, 2),
+        // 0.06 and 0.14 are 3 and 7 steps but for rounding.
+        (0.06, 0.14, 3, 7),
+        (0.061, 0.139, 3, 7),
+        (0.079, 0.0791, 3, 4),
+        (31.17, 31.175, 1558, 1559),
+    ] {
+        let part = record.trimmed(start, end).unwrap();
+        assert_eq!(part.accelerations(), &samples[first..=last], "{start} {end}");
+        assert_eq!(part.time_step(), record.time_step());
+        // It begins at rest; what it had is a constant of the velocity.
+        let lost = record.velocities()[first];
+        let (found, whole) = (part.velocities(), &record.velocities()[first..]);
+        assert!(found.iter().zip(whole).all(|(v, w)| (v - (w - lost)).abs() < 1e-13));
+    }
+    // Less than a millionth of a step apart, on a sample.
+    let sample = 100.0 * record.time_step();
+    let part = record.trimmed(sample - 1e-9, sample + 1e-9).unwrap();
+    assert_eq!(part.accelerations(), &samples[100..=101]);
+    let end = record.duration();
+    assert_eq!(record.trimmed(end - 1e-9, end).unwrap().accelerations(), &samples[1558..]);
+}
+
+#[test]
+fn parts_outside_are_refused() {
+    let record = el_centro_1940();
+    let end = record.duration();
+    let nan = f64::NAN;
+    for (start, stop, name) in [
+        (-0.1, 1.0, "start"),
+        (nan, 1.0, "start"),
+        (end, end + 1.0, "start"),
+        (f64::INFINITY, f64::INFINITY, "start"),
+        (1.0, 1.0, "end"),
+        (1.0, 0.5, "end"),
+        (1.0, nan, "end"),
+        (1.0, end + 0.01, "end"),
+        (1.0, f64::INFINITY, "end"),
+    ] {
+        let Err(Error::Input { quantity, value, .. }) = record.trimmed(start, stop) else {
+            panic!("{start} {stop}");
+        };
+        assert!(quantity.starts_with(name));
+        let given = if name == "start" { start } else { stop };
+        assert_eq!(value.to_bits(), given.to_bits());
+    }
+    assert!(record.trimmed_to_significant_duration(0.5, 0.5).is_err());
+    assert!(record.trimmed_to_significant_duration(0.95, 0.05).is_err());
+    assert!(
+        Record::new(0.1, vec![0.0; 5]).unwrap().trimmed_to_significant_duration(0.0, 1.0).is_err()
+    );
+}
+
+#[test]
+fn records_are_read_back_from_files() {
+    let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("records/new/el_centro.csv");
+    let record = el_centro_1940();
+    record.save_csv(&path).unwrap();
+    assert_eq!(Record::read(&path, &ColumnFormat::new(SI)).unwrap(), record);
+    assert_eq!(std::fs::read(&path).unwrap(), written(&record));
+    let below = path.join("below_a_file.csv");
+    assert!(matches!(record.save_csv(&below), Err(Error::Write { .. })));
+}
+
+proptest! {
+    #[test]
+    fn records_are_read_back_to_the_last_bit(
+        samples in prop::collection::vec(-20.0..20.0, 2..300),
+        exponent in -12.0..3.0_f64,
+    ) {
+        let record = Record::new(10.0_f64.powf(exponent), samples).unwrap();
+        let text = written(&record);
+        let read = Record::from_reader("text", &text[..], &ColumnFormat::new(SI)).unwrap();
+        prop_assert_eq!(read.time_step().to_bits(), record.time_step().to_bits());
+        prop_assert_eq!(read, record);
+    }
+}

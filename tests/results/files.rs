@@ -1,0 +1,159 @@
+//! GOAL: histories, contact, envelopes and spectra as files, read back as they were.
+//! SCENE: the block of `main`; probes whose names collide or are no names of columns.
+//! REFERENCE: the numbers themselves, through a reader of CSV that is not the crate's.
+
+use basemat::coupled::Probe;
+use basemat::interface::{Coulomb, Mode};
+use basemat::motion::AtRest;
+use basemat::results::{Quantity, Recorder, save_spectrum_csv, write_spectrum_csv};
+use basemat::structure::RigidBlock;
+
+use super::{Recorded, STEPS, recorded};
+use crate::support::scenes::{SI, block, scene};
+
+/// Heading and rows of what `write` writes.
+fn table(
+    write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
+) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut text = Vec::new();
+    write(&mut text).unwrap();
+    let mut reader = csv::Reader::from_reader(&text[..]);
+    let owned = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
+    let heading = owned(reader.headers().unwrap());
+    (heading, reader.records().map(|record| owned(&record.unwrap())).collect())
+}
+
+/// A cell as pandas reads it.
+fn number(cell: &str) -> f64 {
+    if cell.is_empty() { f64::NAN } else { cell.parse().unwrap() }
+}
+
+#[track_caller]
+fn same(cell: &str, value: f64) {
+    let found = number(cell);
+    assert!(found.to_bits() == value.to_bits() || (found.is_nan() && value.is_nan()), "{cell}");
+}
+
+#[test]
+fn histories_have_a_column_for_every_series() {
+    let Recorded { histories, .. } = recorded(Recorder::new().every(3));
+    let (heading, rows) = table(|out| histories.write_csv(out));
+    let mut wanted = vec!["time_s".to_owned()];
+    wanted.extend(Quantity::ALL.map(Quantity::column));
+    wanted
+        .extend(["top_m", "top_acceleration_m_per_s2", "input_energy_j_per_m"].map(str::to_owned));
+    assert_eq!(heading, wanted);
+    assert_eq!(rows.len(), histories.times().len());
+    for (k, row) in rows.iter().enumerate() {
+        same(&row[0], histories.times()[k]);
+        for (cell, quantity) in row[1..].iter().zip(Quantity::ALL) {
+            same(cell, histories.series(quantity)[k]);
+        }
+        same(&row[12], histories.probe("top").unwrap()[k]);
+        same(&row[14], histories.ledgers()[k].input);
+    }
+    // At the start nothing shears: the factor of safety is infinite.
+    assert_eq!(rows[0][10], "inf");
+}
+
+#[test]
+fn what_is_not_known_is_an_empty_cell() {
+    let mut simulation = scene(SI, 0.6)
+        .structure(block(SI))
+        .interface(Coulomb::uplift_only())
+        .motion(AtRest)
+        .without_ledger()
+        .build()
+        .unwrap();
+    let mut histories = Recorder::new().start(&simulation).unwrap();
+    simulation.run(2, |state| histories.record(state)).unwrap();
+    let (_, rows) = table(|out| histories.write_csv(out));
+    assert!(rows.iter().all(|row| row.last().unwrap().is_empty()));
+}
+
+#[test]
+fn columns_of_probes_differ() {
+    let probes = [
+        Probe::displacement("Roof (left)", RigidBlock::HORIZONTAL),
+        Probe::displacement("roof, left", RigidBlock::HORIZONTAL),
+        Probe::displacement("roof_left_m", RigidBlock::HORIZONTAL).in_unit(""),
+        Probe::displacement("time", RigidBlock::HORIZONTAL).in_unit("s"),
+        Probe::displacement("input energy", RigidBlock::HORIZONTAL).in_unit("J/m"),
+        Probe::displacement("!", RigidBlock::HORIZONTAL).in_unit(""),
+    ];
+    let simulation = scene(SI, 0.6)
+        .structure(block(SI))
+        .interface(Coulomb::uplift_only())
+        .probes(probes)
+        .build()
+        .unwrap();
+    let histories = Recorder::new().start(&simulation).unwrap();
+    let (heading, _) = table(|out| histories.write_csv(out));
+    let wanted = [
+        "roof_left_m",
+        "roof_left_m_2",
+        "roof_left_m_3",
+        "time_s_2",
+        "input_energy_j_per_m_2",
+        "unnamed",
+        "input_energy_j_per_m",
+    ];
+    assert_eq!(heading[12..], wanted);
+}
+
+#[test]
+fn contact_has_a_row_for_every_frame_and_element() {
+    let Recorded { histories, states, .. } = recorded(Recorder::new().contact(10));
+    let (heading, rows) = table(|out| histories.write_contact_csv(out));
+    assert_eq!(heading.len(), 9);
+    let count = histories.elements().len();
+    assert_eq!(rows.len(), (STEPS / 10 + 1) * count);
+    let mut modes = std::collections::BTreeSet::new();
+    for (k, row) in rows.iter().enumerate() {
+        let (state, e) = (&states[k / count * 10], k % count);
+        let (element, contact) = (histories.elements()[e], state.contact[e]);
+        same(&row[0], state.time);
+        assert_eq!(row[1], e.to_string());
+        same(&row[2], element.left);
+        same(&row[3], element.right);
+        assert_eq!(row[4].parse::<Mode>(), Ok(state.modes[e]));
+        let values = [contact.gap, contact.slip, contact.pressure, contact.shear];
+        row[5..].iter().zip(values).for_each(|(cell, value)| same(cell, value));
+        modes.insert(row[4].clone());
+    }
+    assert!(modes.len() > 2, "{modes:?}");
+    // Without frames there is the heading alone.
+    let (_, none) = table(|out| recorded(Recorder::new()).histories.write_contact_csv(out));
+    assert!(none.is_empty());
+}
+
+#[test]
+fn envelopes_and_spectra() {
+    let Recorded { histories, run, .. } = recorded(Recorder::new());
+    let (heading, rows) = table(|out| run.write_envelope_csv(out));
+    assert_eq!((heading.len(), rows.len()), (15, run.envelope.len()));
+    let at = |name: &str| heading.iter().position(|column| column == name).unwrap();
+    for (row, own) in rows.iter().zip(&run.envelope) {
+        same(&row[at("left_m")], own.element.left);
+        same(&row[at("static_pressure_pa")], own.static_pressure);
+        same(&row[at("lowest_pressure_pa")], own.pressure.lowest.value);
+        same(&row[at("highest_pressure_time_s")], own.pressure.highest.time);
+        same(&row[at("shear_pa")], own.shear.value);
+        same(&row[at("gap_m")], own.gap.value);
+        same(&row[at("slip_time_s")], own.slip.time);
+        same(&row[at("open_s")], own.open);
+    }
+    let spectrum = histories.floor_spectrum("top acceleration", &[0.2, 0.5], 0.05).unwrap();
+    let (heading, rows) = table(|out| write_spectrum_csv(out, &spectrum));
+    assert_eq!(heading[3], "pseudo_acceleration_m_per_s2");
+    same(&rows[1][3], spectrum[1].pseudo_acceleration);
+    same(&rows[0][4], spectrum[0].acceleration);
+
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("files");
+    run.save_envelope_csv(folder.join("envelope.csv")).unwrap();
+    histories.save_contact_csv(folder.join("contact.csv")).unwrap();
+    save_spectrum_csv(folder.join("spectrum.csv"), &spectrum).unwrap();
+    let below = folder.join("envelope.csv/below_a_file.csv");
+    assert!(run.save_envelope_csv(&below).is_err() && histories.save_contact_csv(&below).is_err());
+    assert!(save_spectrum_csv(&below, &spectrum).is_err());
+}

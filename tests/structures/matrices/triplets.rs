@@ -1,0 +1,86 @@
+//! GOAL: matrices from entries, dense arrays and compressed rows.
+//! SCENE: any matrix; wrong lengths, pointers and columns.
+//! REFERENCE: the dense matrix.
+
+use basemat::Error;
+use basemat::structure::Triplets;
+use proptest::prelude::*;
+
+fn dense(matrix: &Triplets) -> Vec<f64> {
+    let order = matrix.order();
+    let mut values = vec![0.0; order * order];
+    for &(row, column, value) in matrix.entries() {
+        values[row * order + column] += value;
+    }
+    values
+}
+
+proptest! {
+    #[test]
+    fn all_ways_lead_to_the_same_matrix(
+        order in 1_usize..7,
+        numbers in prop::collection::vec(prop_oneof![Just(0.0), -1e3..1e3], 36),
+    ) {
+        let values = &numbers[..order * order];
+        let matrix = Triplets::from_dense(order, values).unwrap();
+        prop_assert_eq!(&dense(&matrix)[..], values);
+
+        let (mut pointers, mut columns, mut kept) = (vec![0], vec![], vec![]);
+        for row in values.chunks(order) {
+            // From the right to the left: order within a row is free.
+            for (column, value) in row.iter().enumerate().rev().filter(|(_, v)| **v != 0.0) {
+                columns.push(column);
+                kept.push(*value);
+            }
+            pointers.push(columns.len());
+        }
+        let compressed = Triplets::from_csr(order, &pointers, &columns, &kept).unwrap();
+        prop_assert_eq!(&dense(&compressed)[..], values);
+
+        let again = Triplets::from_entries(order, matrix.entries().iter().copied());
+        prop_assert_eq!(&again, &matrix);
+        let mut extended = Triplets::new(order);
+        extended.extend(matrix.entries().iter().copied());
+        prop_assert_eq!(&extended, &matrix);
+        let collected: Triplets = matrix.entries().iter().copied().collect();
+        prop_assert_eq!(collected.entries(), matrix.entries());
+        prop_assert!(collected.order() <= order);
+    }
+}
+
+#[test]
+fn entries_at_the_same_place_add_up_and_bad_ones_are_remembered() {
+    let twice = Triplets::from_csr(1, &[0, 2], &[0, 0], &[1.0, 2.0]).unwrap();
+    assert_eq!(dense(&twice), [3.0]);
+    // Not finite: refused where the matrix is used, as those of `add`.
+    assert!(Triplets::from_dense(1, &[f64::NAN]).unwrap().entries()[0].2.is_nan());
+    assert_eq!(Triplets::from_iter([(usize::MAX, 0, 1.0)]).order(), usize::MAX);
+    assert_eq!(Triplets::from_iter([]).order(), 0);
+    assert_eq!(Triplets::from_csr(0, &[0], &[], &[]).unwrap(), Triplets::new(0));
+    assert_eq!(Triplets::from_dense(0, &[]).unwrap(), Triplets::new(0));
+}
+
+#[test]
+fn arrays_that_make_no_matrix_are_refused() {
+    for (order, count) in [(2, 3), (0, 1), (usize::MAX, 4), (3, 0)] {
+        let Err(Error::Size { quantity, found, .. }) =
+            Triplets::from_dense(order, &vec![1.0; count])
+        else {
+            panic!("{order} {count}")
+        };
+        assert_eq!((quantity, found), ("dense matrix", count));
+    }
+    let csr = |order, pointers: &[usize], columns: &[usize], values: usize| {
+        Triplets::from_csr(order, pointers, columns, &vec![1.0; values]).unwrap_err()
+    };
+    let size = |quantity, found, needed| Error::Size { quantity, found, needed };
+    let index = |quantity, index, bound| Error::Index { quantity, index, bound };
+    assert_eq!(csr(2, &[0, 1], &[0], 1), size("list of row pointers", 2, 3));
+    assert_eq!(csr(usize::MAX, &[], &[], 0), size("list of row pointers", 0, usize::MAX));
+    assert_eq!(csr(2, &[0, 1, 2], &[0], 2), size("list of columns", 1, 2));
+    assert_eq!(csr(2, &[0, 1, 3], &[0, 1], 2), size("list of values", 2, 3));
+    assert_eq!(csr(2, &[0, 1, usize::MAX], &[0, 1], 2), size("list of values", 2, usize::MAX));
+    assert_eq!(csr(2, &[1, 1, 2], &[0, 1], 2), index("first row pointer", 1, 1));
+    assert_eq!(csr(2, &[0, 3, 2], &[0, 1], 2), index("row pointer", 3, 3));
+    assert_eq!(csr(2, &[0, 1, 2], &[0, 2], 2), index("column of a matrix", 2, 2));
+}
