@@ -5,19 +5,7 @@
 
 use crate::error::CaseFileError;
 
-/// The shortest digits that read back as `value`, bit for bit; NaN is an empty cell.
-pub(super) fn number(value: f64) -> String {
-    if value.is_nan() {
-        return String::new();
-    }
-    let mut text = format!("{value:?}");
-    if text.ends_with(".0") {
-        text.truncate(text.len() - 2);
-    }
-    text
-}
-
-/// The number in a cell, as [`number`] writes it or in any other decimal form.
+/// The number in a cell, as [`Cell`](crate::column::Cell) writes it or in any other decimal form.
 pub(super) fn parsed(cell: &str) -> Option<f64> {
     match cell {
         "" => Some(f64::NAN),
@@ -124,13 +112,14 @@ impl Iterator for Records<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::column::Cell;
 
     #[test]
     fn numbers_read_back() {
         for (value, text) in [
             (0.2, "0.2"),
-            (4.0, "4"),
-            (-0.0, "-0"),
+            (4.0, "4.0"),
+            (-0.0, "-0.0"),
             (1e300, "1e300"),
             (5e-324, "5e-324"),
             (f64::MAX, "1.7976931348623157e308"),
@@ -138,7 +127,7 @@ mod tests {
             (f64::NEG_INFINITY, "-inf"),
             (f64::NAN, ""),
         ] {
-            assert_eq!(number(value), text);
+            assert_eq!(Cell(value).to_string(), text);
             assert_eq!(parsed(text).map(f64::to_bits), Some(value.to_bits()));
         }
         assert_eq!(parsed("0.20"), Some(0.2));

@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::csv::number;
 use super::grid::{Grid, no_name};
 use super::replace::replace;
+use crate::column::Cell;
 use crate::error::{Result, SweepError};
 use crate::results::table::csv_cell;
 
@@ -47,7 +47,7 @@ impl Row {
         cells.extend(parameter_cells(grid, self.case));
         match &self.outcome {
             Ok(results) => {
-                cells.extend(results.iter().map(|&value| number(value)));
+                cells.extend(results.iter().map(|&value| Cell(value).to_string()));
                 cells.push(String::new());
             }
             Err(reason) => {
@@ -80,7 +80,7 @@ pub(super) fn parameter_cells(grid: &Grid, case: usize) -> impl Iterator<Item = 
     grid.parameters.iter().enumerate().map(move |(index, parameter)| {
         let place = grid.place_of(case, index);
         let text = || parameter.text(place).unwrap_or_default().to_owned();
-        parameter.number(place).map_or_else(text, number)
+        parameter.number(place).map_or_else(text, |value| Cell(value).to_string())
     })
 }
 
