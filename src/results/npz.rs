@@ -18,9 +18,15 @@ use crate::interface::{ContactState, Mode};
 /// The archive under construction.
 struct Archive(ZipWriter<Cursor<Vec<u8>>>);
 
+/// Longest name of an array, in bytes: an archive has 16 bits for it.
+const LONGEST_NAME: usize = 60_000;
+
 impl Archive {
     /// Adds an array of NumPy's type `kind`, its numbers row by row.
     fn add(&mut self, name: &str, kind: &str, shape: &[usize], bytes: &[u8]) -> io::Result<()> {
+        if name.len() > LONGEST_NAME {
+            return Err(io::ErrorKind::InvalidInput.into());
+        }
         let lengths: Vec<String> = shape.iter().map(usize::to_string).collect();
         let comma = if shape.len() == 1 { "," } else { "" };
         let shape = format!("({}{comma})", lengths.join(", "));
@@ -70,7 +76,6 @@ impl Histories {
     /// [`Error::Write`] if that fails.
     pub fn save_npz(&self, path: impl AsRef<Path>) -> Result<()> {
         let (path, mut bytes) = (path.as_ref(), Vec::new());
-        // Memory takes everything, an archive no name of 64 KiB.
         let refused = |error: io::Error| {
             let (file, reason) = (path.display().to_string(), error.kind());
             Error::Write { file, reason }
@@ -96,7 +101,7 @@ impl Histories {
     /// | `motion_free_field_m` | frames × 2 | to the right, up |
     ///
     /// # Errors
-    /// Those of `out`, and of the archive for a name of 64 KiB.
+    /// Those of `out`, and invalid input for a probe whose name is longer than 60 000 bytes.
     pub fn write_npz(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut archive = Archive(ZipWriter::new(Cursor::new(Vec::new())));
         let steps = self.times().len();
