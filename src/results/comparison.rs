@@ -5,8 +5,9 @@ use std::path::Path;
 
 use super::page::factor;
 use super::table::Table;
-use super::unit::{labelled, number, printed};
+use super::unit::{number, printed};
 use super::{ProbeExtremes, Run, ServiceCheck};
+use crate::column::{Cell, column, distinct};
 use crate::error::{Result, write_file};
 
 /// Runs side by side; prints as a table with a row per quantity and a column per case, in blocks of
@@ -137,18 +138,19 @@ impl Comparison {
         write_file(path.as_ref(), self.csv())
     }
 
-    /// A line per case and a column per quantity, in SI units (probes in their own, which stands in
-    /// the heading) and full precision; empty where a case has no value.
+    /// A line per case and a column per quantity, in SI units (probes in their own): columns and numbers
+    /// as the [module](super) has them for all files; empty where a case has no value.
     pub fn csv(&self) -> String {
         let mut heading = vec!["case".to_owned()];
         heading.extend(ROWS.iter().map(|row| row.2.to_owned()));
         let probes = self.common_probes();
-        heading.extend(probes.iter().map(|probe| labelled(&probe.name, &probe.unit)));
+        let columns = probes.iter().map(|probe| column(&probe.name, &probe.unit));
+        heading.extend(distinct(&heading, columns));
         let line = |(name, run): &(String, Run)| {
             let values = ROWS.iter().map(|row| (row.4)(run));
             let own = run.probes.iter().take(probes.len());
             let peaks = own.map(|probe| Some(probe.extremes.largest().value));
-            let cells = values.chain(peaks).map(|v| v.map_or(String::new(), |v| v.to_string()));
+            let cells = values.chain(peaks).map(|v| Cell(v.unwrap_or(f64::NAN)).to_string());
             std::iter::once(name.clone()).chain(cells).collect()
         };
         Table { heading, repeated: 1, rows: self.cases.iter().map(line).collect() }.csv()

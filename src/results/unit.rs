@@ -11,11 +11,6 @@ pub(crate) fn printed(unit: &str) -> (f64, &str) {
     }
 }
 
-/// Name and unit of a probe, for a line of text.
-pub(crate) fn labelled(name: &str, unit: &str) -> String {
-    if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") }
-}
-
 /// Below this, in units of engineers, a number is rounding: nobody measures 10⁻¹² N or m.
 const NOTHING: f64 = 1e-9;
 

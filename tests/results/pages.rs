@@ -57,7 +57,7 @@ fn probes_come_with_their_unit() {
     let wanted = ",slide_m,turn_rad,rate_cm_per_s,shake_m_per_s2,bare,input_energy_j_per_m";
     assert!(text.lines().next().unwrap().ends_with(wanted));
     let csv = table.csv();
-    let wanted = ",slide [m],turn [rad],rate [cm/s],shake [m/s²],bare";
+    let wanted = ",slide_m,turn_rad,rate_cm_per_s,shake_m_per_s2,bare";
     assert!(csv.lines().next().unwrap().ends_with(wanted));
     let last: Vec<&str> = csv.lines().nth(1).unwrap().split(',').collect();
     let turn = run.probe("turn").unwrap().largest().value;
