@@ -1,0 +1,5 @@
+//! Parts that users write in Python.
+
+mod step_start;
+
+pub(crate) use step_start::PyStepStart;
