@@ -10,8 +10,13 @@ use basemat::structure::{ContactNode, Structure, Triplets};
 pub(crate) type Recipe<T> = Arc<dyn Fn() -> Result<Box<T>> + Send + Sync>;
 
 /// A linear structure that several simulations read.
-#[derive(Clone)]
 pub(crate) struct Shared<T>(pub(crate) Arc<T>);
+
+impl<T> Clone for Shared<T> {
+    fn clone(&self) -> Self {
+        Self(Arc::clone(&self.0))
+    }
+}
 
 impl<T: Structure + Sync> Structure for Shared<T> {
     fn unknowns(&self) -> usize {

@@ -5,7 +5,8 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyInt};
 
-use crate::error::refuse;
+use crate::error::{OrRaise, refuse};
+use crate::structure;
 
 /// A weighted sum of a structure's unknowns, ``Σ weight · unknown``: where a probe reads and a load
 /// acts.
@@ -91,6 +92,18 @@ impl PyRow {
                 weight;
         }
         Ok(PyArray1::from_vec(py, weights))
+    }
+
+    /// This displacement to the right less that of the middle of the structure's base.
+    fn relative_to_base(&self, structure: Bound<'_, PyAny>) -> PyResult<Self> {
+        let structure = structure::recipe(&structure)?().or_raise()?;
+        Ok(Self(self.0.relative_to_base(structure.as_ref()).or_raise()?))
+    }
+
+    /// The same less what the base's rotation makes of it at ``height`` (m): the sway.
+    fn sway(&self, structure: Bound<'_, PyAny>, height: f64) -> PyResult<Self> {
+        let structure = structure::recipe(&structure)?().or_raise()?;
+        Ok(Self(self.0.sway(structure.as_ref(), height).or_raise()?))
     }
 
     fn __add__(&self, other: RowLike) -> Self {

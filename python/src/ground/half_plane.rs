@@ -5,7 +5,10 @@ use pyo3::prelude::*;
 
 use super::PyGround;
 use super::history::{Options, PySharedKernels};
+use super::impedance::{PyImpedances, contact};
 use super::strip::{PyStrip, grading, strips};
+use crate::array::Numbers;
+use crate::error::OrRaise;
 use crate::soil::PySoil;
 use crate::structure;
 
@@ -15,14 +18,17 @@ use crate::structure;
 /// error (1e-12 to 1e-2) that the history may have; ``history_memory``: bytes that it may take;
 /// ``kernels``: to be shared between simulations.
 #[pyclass(name = "HalfPlaneGround", module = "basemat", extends = PyGround, frozen)]
-pub(crate) struct PyHalfPlaneGround;
+pub(crate) struct PyHalfPlaneGround {
+    make: Box<dyn Fn() -> basemat::Result<HalfPlaneGround> + Send + Sync>,
+}
 
 fn ground(
-    make: impl Fn() -> basemat::Result<HalfPlaneGround> + Send + Sync + 'static,
+    make: impl Fn() -> basemat::Result<HalfPlaneGround> + Clone + Send + Sync + 'static,
     options: Options,
 ) -> PyResult<PyClassInitializer<PyHalfPlaneGround>> {
-    let base = PyGround::new(move || options.of(make()?))?;
-    Ok(PyClassInitializer::from(base).add_subclass(PyHalfPlaneGround))
+    let make = move || options.of(make()?);
+    let base = PyGround::new(make.clone())?;
+    Ok(PyClassInitializer::from(base).add_subclass(PyHalfPlaneGround { make: Box::new(make) }))
 }
 
 #[pymethods]
@@ -88,5 +94,19 @@ impl PyHalfPlaneGround {
             _ => HalfPlaneGround::under(soil, &*structure()?, count),
         };
         Py::new(py, ground(make, options)?)
+    }
+
+    /// Dynamic stiffness of all strips as one rigid body at ``frequencies`` (array of shape (m,),
+    /// Hz); ``contact``: "bonded" or "relaxed".
+    #[pyo3(signature = (frequencies, *, contact="bonded"))]
+    fn impedances(
+        &self,
+        py: Python<'_>,
+        frequencies: Numbers,
+        contact: &str,
+    ) -> PyResult<PyImpedances> {
+        let (ground, contact) = ((self.make)().or_raise()?, self::contact(contact)?);
+        let found = py.detach(move || ground.impedances(&frequencies.0, contact));
+        Ok(PyImpedances(found.or_raise()?))
     }
 }

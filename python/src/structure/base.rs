@@ -1,12 +1,15 @@
 //! The base class of structures, and structures in any form that Python may give them.
 
+use std::sync::Arc;
+
 use basemat::structure::{Structure, Triplets};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
 use super::PyContactNode;
-use crate::error::{OrRaise, refuse};
+use crate::error::{OrRaise, kept, refuse};
 use crate::recipe::Recipe;
+use crate::user::UserStructure;
 
 /// A structure: a description from which every simulation makes one of its own.
 #[pyclass(name = "Structure", module = "basemat", subclass, frozen)]
@@ -17,7 +20,7 @@ pub(crate) struct PyStructure {
 impl PyStructure {
     /// A structure that can be copied.
     pub(crate) fn copied(structure: impl Structure + Clone + Sync + 'static) -> Self {
-        Self { make: std::sync::Arc::new(move || Ok(Box::new(structure.clone()))) }
+        Self { make: Arc::new(move || Ok(Box::new(structure.clone()))) }
     }
 }
 
@@ -25,6 +28,13 @@ impl PyStructure {
 pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure>> {
     if let Ok(own) = object.cast::<PyStructure>() {
         return Ok(own.get().make.clone());
+    }
+    if object.hasattr("contact_nodes")? {
+        let object = object.clone().unbind();
+        return Ok(Arc::new(move || {
+            let made = Python::attach(|py| UserStructure::new(object.bind(py)));
+            Ok(Box::new(made.map_err(|error| kept("structure", error))?))
+        }));
     }
     Err(refuse(format!(
         "{} is no structure: it has no method `contact_nodes`",

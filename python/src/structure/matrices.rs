@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use basemat::structure::{MatrixModel, RayleighDamping};
+use basemat::structure::MatrixModel;
 use pyo3::prelude::*;
 
 use super::PyStructure;
+use super::composed::PyRayleighDamping;
 use super::contact_node::{PyContactNode, nodes};
 use crate::array::Matrix;
 use crate::error::{OrRaise, refuse};
@@ -16,8 +17,7 @@ use crate::recipe::Shared;
 /// ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
 /// (m, rad). The structure is free, without supports: the ground holds it up. ``contact``: the
 /// points of its base, from left to right. ``damping`` (n × n, N s/m per metre) must be symmetric
-/// and positive semi-definite unless ``active_damping``; ``rayleigh``: factors of mass (1/s) and
-/// stiffness (s) for Rayleigh damping instead.
+/// and positive semi-definite unless ``active_damping``; ``rayleigh``: Rayleigh damping instead.
 #[pyclass(name = "MatrixModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyMatrixModel;
 
@@ -31,20 +31,18 @@ impl PyMatrixModel {
         contact: Vec<Bound<'_, PyContactNode>>,
         damping: Option<Matrix>,
         active_damping: bool,
-        rayleigh: Option<[f64; 2]>,
+        rayleigh: Option<&PyRayleighDamping>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let mut model = MatrixModel::new(mass.0, stiffness.0, nodes(&contact)).or_raise()?;
         model = match (damping, rayleigh) {
             (Some(_), Some(_)) => {
-                return Err(refuse("give a damping matrix or Rayleigh factors, not both"));
+                return Err(refuse("give a damping matrix or Rayleigh damping, not both"));
             }
             (Some(matrix), None) if active_damping => {
                 model.with_active_damping(matrix.0).or_raise()?
             }
             (Some(matrix), None) => model.with_damping(matrix.0).or_raise()?,
-            (None, Some([mass, stiffness])) => {
-                model.with_rayleigh(RayleighDamping::new(mass, stiffness).or_raise()?)
-            }
+            (None, Some(damping)) => model.with_rayleigh(damping.0),
             (None, None) => model,
         };
         let shared = Shared(Arc::new(model));

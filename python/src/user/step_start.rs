@@ -3,6 +3,8 @@
 use basemat::interface::{ContactState, Mode, StepStart};
 use pyo3::prelude::*;
 
+use super::PyContactState;
+use crate::array::Numbers;
 use crate::names::mode_name;
 
 /// An element at the start of a step.
@@ -24,10 +26,35 @@ impl PyStepStart {
         let memory = start.memory.to_vec();
         Self { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
     }
+
+    /// The same for a law of the core.
+    pub(crate) fn core(&self) -> StepStart<'_> {
+        let mut start = StepStart::new(self.state, self.mode, self.time_step);
+        start.has_opened = self.has_opened;
+        start.slip_rate = self.slip_rate;
+        start.static_pressure = self.static_pressure;
+        start.memory = &self.memory;
+        start
+    }
 }
 
 #[pymethods]
 impl PyStepStart {
+    /// A start by which a law can be tried without a simulation.
+    #[new]
+    #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, memory=None))]
+    fn new(
+        state: &PyContactState,
+        mode: &str,
+        time_step: f64,
+        slip_rate: f64,
+        memory: Option<Numbers>,
+    ) -> PyResult<Self> {
+        let memory = memory.map_or_else(Vec::new, |numbers| numbers.0);
+        let start = StepStart::new(state.core(), crate::names::mode(mode)?, time_step);
+        Ok(Self { slip_rate, memory, ..Self::of(&start) })
+    }
+
     /// Gap, m; positive when open.
     #[getter]
     fn gap(&self) -> f64 {
