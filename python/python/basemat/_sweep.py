@@ -6,14 +6,12 @@ import itertools
 import os
 import threading
 import traceback
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
 from typing import Any
 
 from . import _core
 from ._core import Run, Simulation
-
-Cases = "Mapping[str, Iterable[Any]] | Iterable[Mapping[str, Any]]"
 
 
 def cases_of(grid: Any) -> list[dict[str, Any]]:
@@ -73,6 +71,9 @@ def _run_in_thread(cancelled: threading.Event, *arguments: Any) -> tuple[dict[st
 
 def _outcome(future: Future[Any]) -> tuple[dict[str, Any], str | None]:
     """What a case left, or the error of the worker that did not live to report it."""
+    # A wait without end would not hear Ctrl-C everywhere.
+    while not wait([future], timeout=0.2).done:
+        pass
     try:
         outcome: tuple[dict[str, Any], str | None] = future.result()
         return outcome
