@@ -39,7 +39,9 @@ def test_containment(reference: Path, friction: float | None) -> None:
     name = "bonded" if friction is None else repr(friction)
     command = [str(reference), "containment", name, str(steps)]
     text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    bits = np.array([[int(word, 16) for word in line.split()] for line in text.splitlines()], np.uint64)
+    bits = np.array(
+        [[int(word, 16) for word in line.split()] for line in text.splitlines()], np.uint64
+    )
     rust = bits.view(np.float64)
 
     run = containment.scene(friction, steps=steps).simulation.run(steps)

@@ -43,7 +43,13 @@ def test_yielding_storey_against_scipys_integration() -> None:
         return [v, -(damping * v + spring) / mass - ground, 0.0 if slides else v]
 
     found = scipy.integrate.solve_ivp(
-        rates, (0.0, 8.0), [0.0, 0.0, 0.0], t_eval=run.time[::10], max_step=5e-4, rtol=1e-8, atol=1e-10
+        rates,
+        (0.0, 8.0),
+        [0.0, 0.0, 0.0],
+        t_eval=run.time[::10],
+        max_step=5e-4,
+        rtol=1e-8,
+        atol=1e-10,
     )
     drift, expected = run["drift"][::10], found.y[0]
     largest = np.abs(expected).max()
@@ -83,9 +89,16 @@ def test_linear_oscillator_from_matrices_against_its_state_space() -> None:
     run = simulation.run(duration=10.0)
     time = run.time
     ground = np.interp(time, record.times, record.accelerations)
-    system = ([[0.0, 1.0], [-(omega**2), -2.0 * ratio * omega]], [[0.0], [-1.0]], [[1.0, 0.0]], [[0.0]])
+    system = (
+        [[0.0, 1.0], [-(omega**2), -2.0 * ratio * omega]],
+        [[0.0], [-1.0]],
+        [[1.0, 0.0]],
+        [[0.0]],
+    )
     _, expected, _ = scipy.signal.lsim(system, ground, time)
-    np.testing.assert_allclose(run["stretch"], expected, rtol=0.0, atol=2e-3 * np.abs(expected).max())
+    np.testing.assert_allclose(
+        run["stretch"], expected, rtol=0.0, atol=2e-3 * np.abs(expected).max()
+    )
 
     # The floor spectrum, by the same means.
     floor = run.acceleration_record("floor").accelerations
@@ -93,10 +106,18 @@ def test_linear_oscillator_from_matrices_against_its_state_space() -> None:
     fine = np.arange(0.0, time[-1], 1e-4)
     for k, period in enumerate([0.1, 0.5, 1.0]):
         omega = 2.0 * np.pi / period
-        system = ([[0.0, 1.0], [-(omega**2), -0.04 * omega]], [[0.0], [-1.0]], [[1.0, 0.0]], [[0.0]])
+        system = (
+            [[0.0, 1.0], [-(omega**2), -0.04 * omega]],
+            [[0.0], [-1.0]],
+            [[1.0, 0.0]],
+            [[0.0]],
+        )
         _, response, _ = scipy.signal.lsim(system, np.interp(fine, time, floor), fine)
         assert abs(spectrum.displacement[k] / np.abs(response).max() - 1.0) < 1e-4
-        assert abs(spectrum.pseudo_acceleration[k] / (omega**2 * spectrum.displacement[k]) - 1.0) < 1e-14
+        assert (
+            abs(spectrum.pseudo_acceleration[k] / (omega**2 * spectrum.displacement[k]) - 1.0)
+            < 1e-14
+        )
     # It is largest at the oscillator's own period.
     assert spectrum.acceleration[1] > 3.0 * max(spectrum.acceleration[0], spectrum.acceleration[2])
 
@@ -125,7 +146,9 @@ def test_frame_from_arrays_has_a_cantilevers_frequency_and_deflection() -> None:
     modulus, area, second_moment, density, length = 2.1e11, 0.02, 2.0e-4, 7850.0, 10.0
     nodes = np.column_stack([np.zeros(9), np.linspace(0.0, length, 9)])
     mesh = bm.Mesh(np.vstack([nodes, [[-1.0, 0.0], [1.0, 0.0]]]))
-    mesh.add_beams(np.column_stack([np.arange(8), np.arange(1, 9)]), modulus, area, second_moment, density)
+    mesh.add_beams(
+        np.column_stack([np.arange(8), np.arange(1, 9)]), modulus, area, second_moment, density
+    )
     mesh.add_beams([[9, 0], [0, 10]], modulus, 1.0, [1.0, 1.0], 1.0)
     model = bm.FemModel(mesh, [9, 0, 10])
     stiffness, mass = model.stiffness(), model.mass()

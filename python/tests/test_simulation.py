@@ -36,7 +36,11 @@ def test_time_series_have_a_value_per_step_and_agree_with_the_summary(rocking) -
     assert opened.any()
     assert np.abs(pressure[opened]).max() < 1e-6 * pressure.max()
     # Pressure times length is the normal force.
-    lengths = np.diff(bm.HalfPlaneGround.under(bm.Soil(80e6, 0.33, 1900.0), bm.RigidBlock(6.0, 9.0, 1000.0), 8).elements)
+    lengths = np.diff(
+        bm.HalfPlaneGround.under(
+            bm.Soil(80e6, 0.33, 1900.0), bm.RigidBlock(6.0, 9.0, 1000.0), 8
+        ).elements
+    )
     np.testing.assert_allclose(pressure @ lengths[:, 0], run["normal_force"][::10], rtol=1e-12)
     envelope = run.envelope
     assert envelope["gap"].max() == run.largest_gap.value
@@ -103,9 +107,13 @@ def test_checkpoints_pickle_and_go_on_to_the_same_bits(rocking) -> None:
     other = rocking(expected_steps=300)
     other.resume(saved)
     assert same_bits(other.run(150)["roof"], expected)
-    with pytest.raises(bm.CheckpointError, match="time step|structure|probes|ground|contact elements"):
+    with pytest.raises(
+        bm.CheckpointError, match="time step|structure|probes|ground|contact elements"
+    ):
         block = bm.RigidBlock(5.0, 9.0, 1000.0)
-        rocking(structure=block, ground=bm.HalfPlaneGround.under(bm.Soil(80e6, 0.33, 1900.0), block, 8)).resume(saved)
+        rocking(
+            structure=block, ground=bm.HalfPlaneGround.under(bm.Soil(80e6, 0.33, 1900.0), block, 8)
+        ).resume(saved)
     with pytest.raises(bm.InputError, match="bytes of a checkpoint"):
         bm.Checkpoint(b"\xff" * 5)
 
@@ -178,7 +186,9 @@ def test_errors_have_classes_and_the_full_text(soil, rocking, tmp_path) -> None:
     with pytest.raises(bm.InputError, match="square"):
         bm.MatrixModel(np.ones((2, 3)), np.ones((2, 2)), [])
     with pytest.raises(bm.InputError, match="positive semi-definite"):
-        bm.MatrixModel(-np.eye(3), np.zeros((3, 3)), bm.ContactNode.rigid_base(-1.0, 1.0, [0, 1, 2]))
+        bm.MatrixModel(
+            -np.eye(3), np.zeros((3, 3)), bm.ContactNode.rigid_base(-1.0, 1.0, [0, 1, 2])
+        )
     with pytest.raises(KeyError, match="roof"):
         rocking().run(3)["ruf"]
     for wrong in ({"structure": 3.0}, {"interface": 3.0}, {"motion": 3.0}):

@@ -35,7 +35,12 @@ def test_one_row_per_case_in_order_and_errors_beside_results() -> None:
     table = bm.sweep(make, GRID, steps=300, results=results)
     assert list(table.columns) == ["friction", "peak", "shear", "slip", "error"]
     assert list(zip(table["friction"], table["peak"])) == [
-        (0.2, 1.0), (0.2, 3.0), (0.25, 1.0), (0.25, 3.0), (0.3, 1.0), (0.3, 3.0)
+        (0.2, 1.0),
+        (0.2, 3.0),
+        (0.25, 1.0),
+        (0.25, 3.0),
+        (0.3, 1.0),
+        (0.3, 3.0),
     ]
     failed = table["friction"] == 0.25
     assert set(table["error"][failed]) == {"ValueError: no such friction"}
@@ -49,7 +54,9 @@ def test_one_row_per_case_in_order_and_errors_beside_results() -> None:
 def test_threads_change_nothing(jobs: int) -> None:
     one = bm.sweep(make, GRID, steps=300)
     told = []
-    many = bm.sweep(make, GRID, steps=300, jobs=jobs, progress=lambda done, of: told.append((done, of)))
+    many = bm.sweep(
+        make, GRID, steps=300, jobs=jobs, progress=lambda done, of: told.append((done, of))
+    )
     pandas.testing.assert_frame_equal(one, many, check_exact=True)
     assert told == [(k, 6) for k in range(1, 7)]
 

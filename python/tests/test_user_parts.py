@@ -67,7 +67,9 @@ def test_a_nonlinear_structure_is_called_and_the_ledger_closes(rocking, block) -
     # Its strain energy is that of the spring: ½ k s² + ¼ k₃ s⁴.
     stretch = run["stretch"]
     expected = 0.5e6 * stretch**2 + 0.25e10 * stretch**4
-    np.testing.assert_allclose(run.ledgers["strain"], expected, rtol=0.0, atol=0.02 * expected.max())
+    np.testing.assert_allclose(
+        run.ledgers["strain"], expected, rtol=0.0, atol=0.02 * expected.max()
+    )
     assert own.committed == [], "a simulation has a copy of its own"
 
 
@@ -133,7 +135,9 @@ def test_a_law_remembers(rocking) -> None:
     assert slid >= abs(simulation.state.slip[3]) - 1e-12
     assert run.ledger_residual < 1e-9
     # Between the limits of its friction.
-    strong, weak = (rocking(f, motion=bm.el_centro_1940().scaled(1.5)).run(600) for f in (0.4, 0.15))
+    strong, weak = (
+        rocking(f, motion=bm.el_centro_1940().scaled(1.5)).run(600) for f in (0.4, 0.15)
+    )
     assert strong.slip_path < run.slip_path < weak.slip_path
 
 

@@ -83,6 +83,7 @@ from ._core import (
     vertical_incidence,
 )
 from ._errors import CheckpointError, Error, FileError, InputError, StepError
+from ._protocols import UserLaw, UserStructure
 from ._sweep import sweep
 
 __all__ = [
@@ -155,6 +156,8 @@ __all__ = [
     "ThinLayer",
     "TimeScheme",
     "Tolerance",
+    "UserLaw",
+    "UserStructure",
     "VariableFriction",
     "WithModalDamping",
     "WithSprings",

@@ -23,5 +23,7 @@ class Line:
         left = elapsed * (steps - done) / done if done else 0.0
         share = 100.0 * done / steps if steps else 100.0
         end = "\n" if done >= steps else ""
-        sys.stderr.write(f"\r{done} of {steps} {self._items} ({share:.0f} %), {left:.0f} s left  {end}")
+        sys.stderr.write(
+            f"\r{done} of {steps} {self._items} ({share:.0f} %), {left:.0f} s left  {end}"
+        )
         sys.stderr.flush()

@@ -60,7 +60,9 @@ def described(error: BaseException) -> str:
     return "".join(traceback.format_exception_only(type(error), error)).strip()
 
 
-def _run_in_thread(cancelled: threading.Event, *arguments: Any) -> tuple[dict[str, Any], str | None]:
+def _run_in_thread(
+    cancelled: threading.Event, *arguments: Any
+) -> tuple[dict[str, Any], str | None]:
     """A case whose runs end once ``cancelled`` is set."""
     _core.cancel_when(cancelled)
     try:

@@ -20,6 +20,7 @@ impl PyBonded {
         PyClassInitializer::from(PyInterfaceLaw::copied(Bonded)).add_subclass(Self)
     }
 
+    #[allow(clippy::unused_self, reason = "a method of Python")]
     fn __repr__(&self) -> &'static str {
         "Bonded()"
     }

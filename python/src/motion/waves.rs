@@ -176,6 +176,7 @@ impl PyColumn {
 
     /// The record of the ``control`` from one of the surface (deconvolution).
     #[pyo3(signature = (record, *, control="outcrop"))]
+    #[allow(clippy::wrong_self_convention, reason = "the core's name")]
     fn from_surface(
         &self,
         py: Python<'_>,

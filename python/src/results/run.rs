@@ -13,6 +13,7 @@ use crate::error::{OrRaise, refuse};
 use crate::motion::{PyRecord, PySpectrum};
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
+type Column = fn(&ElementEnvelope) -> f64;
 
 /// A run: peaks with their times, envelopes, uplift, slip, energies, warnings, and its time series.
 ///
@@ -253,7 +254,7 @@ impl PyRun {
     /// "open" (s).
     #[getter]
     fn envelope<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let columns: [(&str, fn(&ElementEnvelope) -> f64); 9] = [
+        let columns: [(&str, Column); 9] = [
             ("left", |own| own.element.left),
             ("right", |own| own.element.right),
             ("static_pressure", |own| own.static_pressure),

@@ -84,16 +84,16 @@ impl PyStructure {
 
     /// Mass matrix (n × n array, kg/m).
     fn mass<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        array(py, (self.make)().or_raise()?.as_ref(), |it, matrix| it.mass(matrix))
+        array(py, (self.make)().or_raise()?.as_ref(), Structure::mass)
     }
 
     /// Stiffness matrix (n × n array, N/m per metre).
     fn stiffness<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        array(py, (self.make)().or_raise()?.as_ref(), |it, matrix| it.stiffness(matrix))
+        array(py, (self.make)().or_raise()?.as_ref(), Structure::stiffness)
     }
 
     /// Viscous damping matrix (n × n array, N s/m per metre).
     fn damping<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        array(py, (self.make)().or_raise()?.as_ref(), |it, matrix| it.damping(matrix))
+        array(py, (self.make)().or_raise()?.as_ref(), Structure::damping)
     }
 }

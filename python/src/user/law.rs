@@ -61,9 +61,13 @@ impl PyCondition {
 /// Opening and total traction of an element: gap and slip (m), pressure and shear (Pa).
 #[pyclass(name = "ContactState", module = "basemat", frozen, get_all)]
 pub(crate) struct PyContactState {
+    /// Gap, m; positive when open.
     gap: f64,
+    /// Slip since the static state, m; positive to the right.
     slip: f64,
+    /// Pressure, Pa; positive in compression.
     pressure: f64,
+    /// Shear traction of the structure on the soil, Pa; positive to the right.
     shear: f64,
 }
 
@@ -91,7 +95,9 @@ impl PyContactState {
 /// Differences below which a law should see equality: of lengths (m) and of tractions (Pa).
 #[pyclass(name = "Tolerance", module = "basemat", frozen, get_all)]
 pub(crate) struct PyTolerance {
+    /// For gaps and slips, m.
     length: f64,
+    /// For tractions, Pa.
     traction: f64,
 }
 
@@ -116,6 +122,7 @@ impl PyTolerance {
 ///
 /// After an exception every number that the core asks for is NaN, which ends the step.
 #[derive(Clone)]
+#[allow(clippy::struct_excessive_bools, reason = "one for each method that may be missing")]
 pub(crate) struct UserLaw {
     object: Arc<Py<PyAny>>,
     modes: Vec<Mode>,

@@ -191,7 +191,7 @@ impl PySimulation {
         }
         let progress = progress_function(progress)?;
         take_raised();
-        let ended = py.detach(|| {
+        py.detach(|| {
             let mut simulation = self.lock()?;
             let mut histories =
                 series.then(|| recorder.start(&simulation)).transpose().or_raise()?;
@@ -208,8 +208,7 @@ impl PySimulation {
             };
             let result = simulation.run(steps, |state| watched.see(state));
             watched.end(result)
-        });
-        ended
+        })
     }
 
     /// Makes one step and returns the new state. Raises :class:`StepError` if the step could not be
