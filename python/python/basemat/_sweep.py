@@ -7,11 +7,14 @@ import os
 import threading
 import traceback
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor, wait
-from typing import Any
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from typing import Any, Optional
 
 from . import _core
 from ._core import Run, Simulation
+
+# Results of a case, and the text of its error.
+Outcome = tuple[dict[str, Any], Optional[str]]
 
 
 def cases_of(grid: Any) -> list[dict[str, Any]]:
@@ -47,7 +50,7 @@ def run_case(
     steps: int | None,
     duration: float | None,
     results: Callable[[Run], Mapping[str, Any]] | None,
-) -> tuple[dict[str, Any], str | None]:
+) -> Outcome:
     """Results of a case and the text of its error; importable, so that other processes can run it."""
     try:
         return results_of(make(**case), steps, duration, results), None
@@ -62,7 +65,7 @@ def described(error: BaseException) -> str:
 
 def _run_in_thread(
     cancelled: threading.Event, *arguments: Any
-) -> tuple[dict[str, Any], str | None]:
+) -> Outcome:
     """A case whose runs end once ``cancelled`` is set."""
     _core.cancel_when(cancelled)
     try:
@@ -71,13 +74,13 @@ def _run_in_thread(
         _core.cancel_when(None)
 
 
-def _outcome(future: Future[Any]) -> tuple[dict[str, Any], str | None]:
+def _outcome(future: Future[Any]) -> Outcome:
     """What a case left, or the error of the worker that did not live to report it."""
     # A wait without end would not hear Ctrl-C everywhere.
     while not wait([future], timeout=0.2).done:
         pass
     try:
-        outcome: tuple[dict[str, Any], str | None] = future.result()
+        outcome: Outcome = future.result()
         return outcome
     except (KeyboardInterrupt, SystemExit):
         raise
@@ -93,7 +96,7 @@ def sweep(
     duration: float | None = None,
     results: Callable[[Run], Mapping[str, Any]] | None = None,
     jobs: int | None = None,
-    executor: Executor | None = None,
+    executor: Any = None,
     progress: bool | Callable[[int, int], Any] = False,
 ) -> Any:
     """Runs a scene for every case of a grid; a pandas frame with one row per case.
@@ -107,21 +110,24 @@ def sweep(
         results: columns of a row, from its run; :meth:`Run.summary` unless given.
         jobs: threads (the GIL is released while steps are made); one unless given, all processors
             for 0.
-        executor: any executor of ``concurrent.futures`` instead, of processes or of Dask
-            (``client.get_executor()``); ``make`` and what it returns must pickle then.
+        executor: instead, any executor of ``concurrent.futures``, or a ``Client`` of Dask, which runs
+            the cases of a worker that dies on another one; ``make`` and what it returns must pickle.
         progress: True for a line on stderr, or a function ``(cases done, cases in all)``.
 
     Returns:
         Frame with the columns of the parameters, of the results, and ``error`` (None, or its text),
         rows in the order of the cases.
     """
+    from . import _dask
     from ._frames import pandas
 
     frames = pandas()
     cases = cases_of(grid)
     tell = _teller(progress, len(cases))
     arguments = [(make, case, steps, duration, results) for case in cases]
-    if executor is not None:
+    if _dask.is_client(executor):
+        outcomes = _dask.outcomes(executor, make, cases, (steps, duration, results), tell)
+    elif executor is not None:
         futures = [executor.submit(run_case, *own) for own in arguments]
         outcomes = _collect(futures, tell)
     elif jobs is None or jobs == 1:
@@ -172,7 +178,7 @@ def _in_threads(arguments: list[Any], jobs: int, tell: Callable[[int], Any]) -> 
 
 
 def _table(
-    cases: Sequence[Mapping[str, Any]], outcomes: Sequence[tuple[dict[str, Any], str | None]]
+    cases: Sequence[Mapping[str, Any]], outcomes: Sequence[Outcome]
 ) -> dict[str, list[Any]]:
     """Columns: parameters, results, error; what a row lacks is None."""
     parameters = list(dict.fromkeys(name for case in cases for name in case))
