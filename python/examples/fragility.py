@@ -4,9 +4,9 @@
     python examples/fragility.py --dask 2                      # a cluster of two processes here
     python examples/fragility.py --scheduler tcp://host:8786   # one that is there
 
-A shear building stands on a mat that may uplift and slide. El Centro and near-fault pulses are scaled to
-levels of peak ground velocity. The table has the columns and, to the last bit, the numbers of Rust's
-`cases.csv`. Rust fits the curves:
+A shear building stands on a mat that may uplift and slide. El Centro and near-fault pulses are
+scaled to levels of peak ground velocity. The table has the columns and, to the last bit, the
+numbers of Rust's `cases.csv`. Rust fits the curves:
 
     python examples/fragility.py --dask 2 --table runs/shard_0_of_1.csv
     cargo run --release --example fragility -- --merge --out runs
@@ -35,11 +35,11 @@ KERNELS = bm.SharedKernels()
 
 
 def pulse(period: float, oscillations: float, phase: float) -> bm.Record:
-    """A near-fault pulse of 1 m/s before its phase (degrees) is taken into account.
+    """The acceleration of a near-fault pulse: period 1/f (s), oscillations γ, phase ν (degrees).
 
     Velocity ½ [1 + cos(2πf(t − t₀)/γ)] cos(2πf(t − t₀) + ν) for |t − t₀| ≤ γ/(2f), zero outside:
-    Mavroeidis and Papageorgiou, "A mathematical representation of near-fault ground motions", Bulletin
-    of the Seismological Society of America 93 (2003), 1099–1131. Here its derivative.
+    Mavroeidis and Papageorgiou, "A mathematical representation of near-fault ground motions",
+    Bulletin of the Seismological Society of America 93 (2003), 1099–1131.
     """
     duration = oscillations * period
     end = math.pi * oscillations
@@ -93,7 +93,7 @@ def grid(short: bool = False) -> dict[str, list[Any]]:
 def shake(
     friction: float, width_m: float, motion: str, peak_velocity_m_per_s: float
 ) -> dict[str, float]:
-    """A run: five storeys of 3 m on a mat of this width, on soil with a shear wave speed of 250 m/s."""
+    """A run: five storeys of 3 m on a mat of this width; the soil's shear wave speed is 250 m/s."""
     storeys = [bm.Storey(3.0, 3.0e3 * width_m, 7.5e6 * width_m)] * STOREYS
     mass = 7.5e3 * width_m
     inertia = mass * width_m * width_m / 12.0
@@ -149,7 +149,7 @@ def main(arguments: list[str] | None = None) -> None:
 
         cluster = options.scheduler or LocalCluster(n_workers=options.dask, threads_per_worker=1)
         client = Client(cluster)
-        # Workers, those that come later too, import this file: its motions and kernels stay with them.
+        # Workers import this file, also those that come later; its motions and kernels stay there.
         client.upload_file(__file__, load=False)
         how = {"executor": client}
     else:

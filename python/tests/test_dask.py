@@ -1,4 +1,4 @@
-"""The study of examples/fragility on a Dask cluster whose workers are killed, beside the serial one and Rust's."""
+"""The fragility study on a Dask cluster whose workers are killed: the serial table, and Rust's."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ pandas = pytest.importorskip("pandas")
 distributed = pytest.importorskip("dask.distributed")
 dask = pytest.importorskip("dask")
 
-# Before version 3 pandas reads numbers to the last bit only when told to; later it wants not to be told.
+# Before version 3 pandas reads numbers to the last bit only when told to; later it warns if told.
 pytestmark = pytest.mark.filterwarnings("ignore:.*float_precision")
 sys.path.insert(0, str(CRATE / "examples"))
 fragility = importlib.import_module("fragility")
@@ -77,16 +77,20 @@ def assert_same(one: Any, other: Any) -> None:
 def logged(folder: Path) -> tuple[dict[int, list[str]], dict[int, list[str]]]:
     """Cases begun and cases ended by each process, in their order."""
     files = {int(path.name): path.read_text("utf-8").splitlines() for path in folder.glob("[0-9]*")}
-    begun = {own: [line[6:] for line in lines if line[:5] == "begin"] for own, lines in files.items()}
-    ended = {own: [line[6:] for line in lines if line[:5] == "ended"] for own, lines in files.items()}
+    begun = {
+        own: [line[6:] for line in lines if line[:5] == "begin"] for own, lines in files.items()
+    }
+    ended = {
+        own: [line[6:] for line in lines if line[:5] == "ended"] for own, lines in files.items()
+    }
     return begun, ended
 
 
 class Logged:
     """The study's run, with a line in the process's own file when it begins and when it ends.
 
-    Where the file `stop` is, the case `stuck` writes its process's number into it and makes steps until
-    the process is killed; the file is gone by then, so that the next attempt runs as any case.
+    Where the file `stop` is, the case `stuck` renames it to `stopped`, with its process's number,
+    and makes steps until the process is killed. The next attempt runs as any case.
     """
 
     def __init__(self, folder: Path, stuck: dict[str, Any]) -> None:
@@ -181,7 +185,10 @@ def test_a_case_that_raises_or_kills_is_a_row_and_no_other_suffers(
         client = request.getfixturevalue("client")
         told: list[int] = []
         table = bm.sweep(
-            sometimes, {"k": range(40)}, executor=client, progress=lambda done, of: told.append(done)
+            sometimes,
+            {"k": range(40)},
+            executor=client,
+            progress=lambda done, of: told.append(done),
         )
     assert list(table["k"]) == list(range(40))
     assert told == list(range(1, 41))

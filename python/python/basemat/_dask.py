@@ -37,8 +37,7 @@ def outcomes(
     def run(numbers: Sequence[int]) -> list[int]:
         """Runs these cases; returns those that the scheduler gave up."""
         nonlocal done
-        # One group: the scheduler then hands them out as workers come free, and does not give all of
-        # them to the workers at once.
+        # In one group the scheduler hands cases out as workers come free, and not all at once.
         futures = client.map(
             _run, [cases[number] for number in numbers], make=make, options=options, pure=False
         )

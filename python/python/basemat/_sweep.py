@@ -63,9 +63,7 @@ def described(error: BaseException) -> str:
     return "".join(traceback.format_exception_only(type(error), error)).strip()
 
 
-def _run_in_thread(
-    cancelled: threading.Event, *arguments: Any
-) -> Outcome:
+def _run_in_thread(cancelled: threading.Event, *arguments: Any) -> Outcome:
     """A case whose runs end once ``cancelled`` is set."""
     _core.cancel_when(cancelled)
     try:
@@ -177,9 +175,7 @@ def _in_threads(arguments: list[Any], jobs: int, tell: Callable[[int], Any]) -> 
             raise
 
 
-def _table(
-    cases: Sequence[Mapping[str, Any]], outcomes: Sequence[Outcome]
-) -> dict[str, list[Any]]:
+def _table(cases: Sequence[Mapping[str, Any]], outcomes: Sequence[Outcome]) -> dict[str, list[Any]]:
     """Columns: parameters, results, error; what a row lacks is None."""
     parameters = list(dict.fromkeys(name for case in cases for name in case))
     found = list(dict.fromkeys(name for results, _ in outcomes for name in results))
