@@ -1,0 +1,32 @@
+"""Exceptions of the package."""
+
+
+class Error(Exception):
+    """Any fault that basemat reports."""
+
+
+class InputError(Error, ValueError):
+    """A part of a scene that is out of its range, or does not fit the others."""
+
+
+class FileError(Error):
+    """A file that cannot be read or written."""
+
+
+class CheckpointError(Error):
+    """A run that could not be saved or resumed."""
+
+
+class StepError(Error, RuntimeError):
+    """A step that could not be solved; the simulation stays at the last accepted one.
+
+    ``step`` is its number, from 1, and ``time`` that at its end (s).
+    """
+
+    step: int
+    time: float
+
+
+for _class in (Error, InputError, FileError, CheckpointError, StepError):
+    _class.__module__ = "basemat"
+del _class

@@ -1,0 +1,60 @@
+"""Parts that users write in Python, as protocols for type checkers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from ._core import Condition, ContactNode, ContactState, StepStart, Tolerance
+
+
+class UserStructure(Protocol):
+    """A structure of n unknowns written in Python: ``unknowns``, an int, and these methods.
+
+    If it has them, these are called too: ``damping()`` (n × n), ``load(time)`` (shape (n,), N/m),
+    ``foundation_ends()`` (numbers of the contact nodes that end a foundation but the last),
+    ``active_damping`` (a flag: the damping matrix is taken as it is).
+
+    A nonlinear structure has ``force(u)`` (shape (n,), N/m, beyond K u) and ``tangent(u)`` (n × n)
+    of displacements u (shape (n,), m and rad), which change nothing, and if it has them
+    ``energy(u)`` (stored and dissipated, J/m), ``commit(u)`` (accepts the end of a step),
+    ``save()`` and ``restore(values)`` (internal variables, for checkpoints). Every simulation works
+    on a deep copy of it.
+
+    What they raise comes out of the run; the simulation stays at the last accepted step. Only
+    ``commit`` is called after a step is accepted: its exception ends the run after the step.
+    """
+
+    def contact_nodes(self) -> Sequence[ContactNode]:
+        """Points of the base, from left to right."""
+
+    def mass(self) -> Any:
+        """Mass matrix (n × n, dense or of ``scipy.sparse``, kg/m)."""
+
+    def stiffness(self) -> Any:
+        """Stiffness matrix (n × n, dense or of ``scipy.sparse``, N/m per metre)."""
+
+
+class UserLaw(Protocol):
+    """A law between base and ground written in Python. It keeps nothing itself.
+
+    If it has them, these count too: ``compliance(mode, start)`` (normal and tangential, m/Pa),
+    ``memory`` (count of the numbers that it remembers of each element),
+    ``initial_memory(start)`` and ``commit(start, end, mode)`` (which return them),
+    ``friction_coefficient`` (for the factor of safety), ``check(gravity, time_step)`` (may refuse).
+
+    What they raise comes out of the run; the simulation stays at the last accepted step.
+    """
+
+    @property
+    def modes(self) -> Sequence[str]:
+        """The modes that it uses, of :data:`basemat.MODES`; the first is that of an element at rest."""
+
+    def conditions(self, mode: str, start: StepStart) -> Sequence[Condition]:
+        """The two conditions that ``mode`` imposes on the end of the step."""
+
+    def next_mode(
+        self, mode: str, start: StepStart, trial: ContactState, tolerance: Tolerance
+    ) -> str:
+        """The mode to try next, after the ``trial`` that ``mode`` led to; ``mode`` if that will do."""

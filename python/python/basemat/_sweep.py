@@ -1,0 +1,189 @@
+"""Many cases of one scene: a row of a table for each."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import threading
+import traceback
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from typing import Any, Optional
+
+from . import _core
+from ._core import Run, Simulation
+
+# Results of a case, and the text of its error.
+Outcome = tuple[dict[str, Any], Optional[str]]
+
+
+def cases_of(grid: Any) -> list[dict[str, Any]]:
+    """The cases of a grid: of a mapping all combinations, the last name fastest; a list as it is."""
+    if isinstance(grid, Mapping):
+        names = list(grid)
+        values = [list(own) for own in grid.values()]
+        return [dict(zip(names, combination)) for combination in itertools.product(*values)]
+    return [dict(case) for case in grid]
+
+
+def results_of(
+    found: Any,
+    steps: int | None,
+    duration: float | None,
+    results: Callable[[Run], Mapping[str, Any]] | None,
+) -> dict[str, Any]:
+    """Columns of a row from what ``make`` returned."""
+    if isinstance(found, Simulation):
+        found = found.run(steps, duration=duration, series=results is not None)
+    if isinstance(found, Run):
+        return dict(found.summary() if results is None else results(found))
+    if isinstance(found, Mapping):
+        return dict(found)
+    raise TypeError(
+        f"make returned {type(found).__name__}, but must return a Simulation, a Run or a mapping"
+    )
+
+
+def run_case(
+    make: Callable[..., Any],
+    case: dict[str, Any],
+    steps: int | None,
+    duration: float | None,
+    results: Callable[[Run], Mapping[str, Any]] | None,
+) -> Outcome:
+    """Results of a case and the text of its error; importable, so that other processes can run it."""
+    try:
+        return results_of(make(**case), steps, duration, results), None
+    except Exception as error:
+        return {}, described(error)
+
+
+def described(error: BaseException) -> str:
+    """The error in one line, with its class."""
+    return "".join(traceback.format_exception_only(type(error), error)).strip()
+
+
+def _run_in_thread(cancelled: threading.Event, *arguments: Any) -> Outcome:
+    """A case whose runs end once ``cancelled`` is set."""
+    _core.cancel_when(cancelled)
+    try:
+        return run_case(*arguments)
+    finally:
+        _core.cancel_when(None)
+
+
+def _outcome(future: Future[Any]) -> Outcome:
+    """What a case left, or the error of the worker that did not live to report it."""
+    # A wait without end would not hear Ctrl-C everywhere.
+    while not wait([future], timeout=0.2).done:
+        pass
+    try:
+        outcome: Outcome = future.result()
+        return outcome
+    except (KeyboardInterrupt, SystemExit):
+        raise
+    except BaseException as error:  # Cancelled futures of Dask are no Exception.
+        return {}, described(error)
+
+
+def sweep(
+    make: Callable[..., Any],
+    grid: Any,
+    *,
+    steps: int | None = None,
+    duration: float | None = None,
+    results: Callable[[Run], Mapping[str, Any]] | None = None,
+    jobs: int | None = None,
+    executor: Any = None,
+    progress: bool | Callable[[int, int], Any] = False,
+) -> Any:
+    """Runs a scene for every case of a grid; a pandas frame with one row per case.
+
+    Args:
+        make: ``make(**case)`` returns a :class:`Simulation` (which is then run), a :class:`Run`, or
+            a mapping of results. What it raises goes into the row's ``error``; the other cases go on.
+        grid: names and values, ``{"friction": [0.2, 0.3], "peak": [1.0, 2.0]}``, of which all
+            combinations are made, the last name fastest; or a list of cases, each a mapping.
+        steps, duration: how long to run a simulation (s); the record's length unless given.
+        results: columns of a row, from its run; :meth:`Run.summary` unless given.
+        jobs: threads (the GIL is released while steps are made); one unless given, all processors
+            for 0.
+        executor: instead, any executor of ``concurrent.futures``, or a ``Client`` of Dask, which runs
+            the cases of a worker that dies on another one; ``make`` and what it returns must pickle.
+        progress: True for a line on stderr, or a function ``(cases done, cases in all)``.
+
+    Returns:
+        Frame with the columns of the parameters, of the results, and ``error`` (None, or its text),
+        rows in the order of the cases.
+    """
+    from . import _dask
+    from ._frames import pandas
+
+    frames = pandas()
+    cases = cases_of(grid)
+    tell = _teller(progress, len(cases))
+    arguments = [(make, case, steps, duration, results) for case in cases]
+    if _dask.is_client(executor):
+        outcomes = _dask.outcomes(executor, make, cases, (steps, duration, results), tell)
+    elif executor is not None:
+        futures = [executor.submit(run_case, *own) for own in arguments]
+        outcomes = _collect(futures, tell)
+    elif jobs is None or jobs == 1:
+        outcomes = []
+        for own in arguments:
+            outcomes.append(run_case(*own))
+            tell(len(outcomes))
+    else:
+        outcomes = _in_threads(arguments, jobs or os.cpu_count() or 1, tell)
+    return frames.DataFrame(_table(cases, outcomes))
+
+
+def _teller(progress: bool | Callable[[int, int], Any], count: int) -> Callable[[int], Any]:
+    if callable(progress):
+        return lambda done: progress(done, count)
+    if progress:
+        from ._progress import Line
+
+        line = Line("cases")
+        return lambda done: line(done, count)
+    return lambda done: None
+
+
+def _collect(futures: Sequence[Future[Any]], tell: Callable[[int], Any]) -> list[Any]:
+    """Outcomes in the order of the cases; on an interrupt what has not begun is not begun."""
+    outcomes = []
+    try:
+        for future in futures:
+            outcomes.append(_outcome(future))
+            tell(len(outcomes))
+    except BaseException:
+        for future in futures:
+            future.cancel()
+        raise
+    return outcomes
+
+
+def _in_threads(arguments: list[Any], jobs: int, tell: Callable[[int], Any]) -> list[Any]:
+    cancelled = threading.Event()
+    with ThreadPoolExecutor(max_workers=jobs) as pool:
+        try:
+            futures = [pool.submit(_run_in_thread, cancelled, *own) for own in arguments]
+            return _collect(futures, tell)
+        except BaseException:
+            # Ctrl-C reaches the main thread only: tell the others.
+            cancelled.set()
+            raise
+
+
+def _table(cases: Sequence[Mapping[str, Any]], outcomes: Sequence[Outcome]) -> dict[str, list[Any]]:
+    """Columns: parameters, results, error; what a row lacks is None."""
+    parameters = list(dict.fromkeys(name for case in cases for name in case))
+    found = list(dict.fromkeys(name for results, _ in outcomes for name in results))
+    clash = sorted(set(found) & {*parameters, "error"})
+    if clash:
+        raise ValueError(f"results and parameters share the name {clash[0]!r}")
+    table: dict[str, list[Any]] = {name: [case.get(name) for case in cases] for name in parameters}
+    for name in found:
+        table[name] = [results.get(name) for results, _ in outcomes]
+    table["error"] = [error for _, error in outcomes]
+    return table

@@ -1,0 +1,91 @@
+//! Errors of the core as Python's exceptions, and exceptions that user code raised inside a step.
+
+use std::cell::RefCell;
+
+use pyo3::prelude::*;
+
+/// The exception classes, defined in Python.
+mod classes {
+    pyo3::import_exception!(basemat._errors, CheckpointError);
+    pyo3::import_exception!(basemat._errors, Error);
+    pyo3::import_exception!(basemat._errors, FileError);
+    pyo3::import_exception!(basemat._errors, InputError);
+    pyo3::import_exception!(basemat._errors, StepError);
+}
+
+thread_local! {
+    /// The first exception that a user's structure, law or function has raised on this thread
+    /// while the core was running.
+    static RAISED: RefCell<Option<PyErr>> = const { RefCell::new(None) };
+}
+
+/// Keeps an exception of user code until the core returns; the first one stays.
+pub(crate) fn keep(error: PyErr) {
+    RAISED.with_borrow_mut(|kept| {
+        kept.get_or_insert(error);
+    });
+}
+
+/// Whether user code has raised an exception on this thread.
+pub(crate) fn has_raised() -> bool {
+    RAISED.with_borrow(Option::is_some)
+}
+
+/// Takes the exception of user code, if there is one.
+pub(crate) fn take_raised() -> Option<PyErr> {
+    RAISED.take()
+}
+
+/// The error of the core that stands for an exception of user code.
+pub(crate) fn kept(part: &'static str, error: PyErr) -> basemat::Error {
+    let text = error.to_string();
+    keep(error);
+    basemat::Error::part(part, text)
+}
+
+/// An `InputError` with this text.
+pub(crate) fn refuse(text: impl Into<String>) -> PyErr {
+    classes::InputError::new_err(text.into())
+}
+
+/// An `Error` with this text, of a simulation that is in use.
+pub(crate) fn busy() -> PyErr {
+    classes::Error::new_err("the simulation is running (in another thread, or around this call)")
+}
+
+/// The exception of user code that led to `error`, or that of the core with its full text.
+pub(crate) fn raise(error: basemat::Error) -> PyErr {
+    use basemat::Error as Core;
+    if let Some(own) = take_raised() {
+        return own;
+    }
+    let text = error.to_string();
+    match error {
+        Core::Step { step, time, .. } => {
+            let exception = classes::StepError::new_err(text);
+            Python::attach(|py| {
+                let value = exception.value(py);
+                // An exception whose attributes cannot be set is raised without them.
+                let _ = value.setattr("step", step).and_then(|()| value.setattr("time", time));
+            });
+            exception
+        }
+        Core::Checkpoint(_) => classes::CheckpointError::new_err(text),
+        Core::Record { .. }
+        | Core::MeshFile { .. }
+        | Core::MatrixFile { .. }
+        | Core::Write { .. } => classes::FileError::new_err(text),
+        _ => classes::InputError::new_err(text),
+    }
+}
+
+/// Results of the core as results of Python.
+pub(crate) trait OrRaise<T> {
+    fn or_raise(self) -> PyResult<T>;
+}
+
+impl<T> OrRaise<T> for basemat::Result<T> {
+    fn or_raise(self) -> PyResult<T> {
+        self.map_err(raise)
+    }
+}

@@ -1,0 +1,86 @@
+//! Winkler's spring bed.
+
+use basemat::bem::SpringGround;
+use pyo3::prelude::*;
+
+use super::PyGround;
+use super::strip::{PyStrip, strips};
+use crate::structure;
+
+/// Independent springs and dashpots under each element (Winkler bed).
+///
+/// Stiffnesses in Pa/m, normal and tangential; ``dashpots`` (normal, tangential) in Pa s/m.
+/// ``theta``: of the rule that steps them, from ½ (the default) to 1.
+#[pyclass(name = "SpringGround", module = "basemat", extends = PyGround, frozen)]
+pub(crate) struct PySpringGround;
+
+fn ground(
+    make: impl Fn() -> basemat::Result<SpringGround> + Send + Sync + 'static,
+    dashpots: Option<[f64; 2]>,
+    theta: Option<f64>,
+) -> PyResult<PyClassInitializer<PySpringGround>> {
+    let base = PyGround::new(move || {
+        let mut ground = make()?;
+        if let Some([normal, tangential]) = dashpots {
+            ground = ground.with_dashpots(normal, tangential)?;
+        }
+        match theta {
+            Some(theta) => ground.with_theta(theta),
+            None => Ok(ground),
+        }
+    })?;
+    Ok(PyClassInitializer::from(base).add_subclass(PySpringGround))
+}
+
+#[pymethods]
+impl PySpringGround {
+    #[new]
+    #[pyo3(signature = (strips, normal_stiffness, tangential_stiffness, *, dashpots=None, theta=None))]
+    fn new(
+        strips: Vec<Bound<'_, PyStrip>>,
+        normal_stiffness: f64,
+        tangential_stiffness: f64,
+        dashpots: Option<[f64; 2]>,
+        theta: Option<f64>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let strips = self::strips(&strips);
+        let (normal, tangential) = (normal_stiffness, tangential_stiffness);
+        ground(move || SpringGround::on_strips(&strips, normal, tangential), dashpots, theta)
+    }
+
+    /// One strip from ``left`` to ``right`` (m) of ``count`` equal elements.
+    #[staticmethod]
+    #[pyo3(signature = (left, right, count, normal_stiffness, tangential_stiffness, *, dashpots=None, theta=None))]
+    fn strip(
+        py: Python<'_>,
+        left: f64,
+        right: f64,
+        count: usize,
+        normal_stiffness: f64,
+        tangential_stiffness: f64,
+        dashpots: Option<[f64; 2]>,
+        theta: Option<f64>,
+    ) -> PyResult<Py<Self>> {
+        let (normal, tangential) = (normal_stiffness, tangential_stiffness);
+        let make = move || SpringGround::new(left..right, count, normal, tangential);
+        Py::new(py, ground(make, dashpots, theta)?)
+    }
+
+    /// Strips of ``count`` elements under each foundation of a structure.
+    #[staticmethod]
+    #[pyo3(signature = (structure, count, normal_stiffness, tangential_stiffness, *, dashpots=None, theta=None))]
+    fn under(
+        structure: Bound<'_, PyAny>,
+        count: usize,
+        normal_stiffness: f64,
+        tangential_stiffness: f64,
+        dashpots: Option<[f64; 2]>,
+        theta: Option<f64>,
+    ) -> PyResult<Py<Self>> {
+        let py = structure.py();
+        let structure = structure::recipe(&structure)?;
+        let (normal, tangential) = (normal_stiffness, tangential_stiffness);
+        let make = move || SpringGround::under(&*structure()?, count, normal, tangential);
+        Py::new(py, ground(make, dashpots, theta)?)
+    }
+}

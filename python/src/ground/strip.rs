@@ -1,0 +1,51 @@
+//! Strips of contact elements.
+
+use basemat::bem::{Grading, Strip};
+use pyo3::prelude::*;
+
+use crate::array::Numbers;
+use crate::error::{OrRaise, refuse};
+
+/// A strip of contact elements from ``left`` to ``right`` (m): ``count`` elements with the
+/// ``grading`` "cosine" (short at the edges, where tractions are singular) or "uniform".
+#[pyclass(name = "Strip", module = "basemat", frozen)]
+#[derive(Clone)]
+pub(crate) struct PyStrip(pub(crate) Strip);
+
+pub(super) fn grading(name: &str) -> PyResult<Grading> {
+    match name {
+        "cosine" => Ok(Grading::Cosine),
+        "uniform" => Ok(Grading::Uniform),
+        _ => Err(refuse(format!("grading is '{name}', but must be 'cosine' or 'uniform'"))),
+    }
+}
+
+#[pymethods]
+impl PyStrip {
+    #[new]
+    #[pyo3(signature = (left, right, count, *, grading="cosine"))]
+    fn new(left: f64, right: f64, count: usize, grading: &str) -> PyResult<Self> {
+        Ok(Self(Strip::new(left..right, count, self::grading(grading)?).or_raise()?))
+    }
+
+    /// Strip of elements between given nodes (array of shape (elements + 1,), m, ascending).
+    #[staticmethod]
+    fn from_nodes(nodes: Numbers) -> PyResult<Self> {
+        Ok(Self(Strip::from_nodes(nodes.0).or_raise()?))
+    }
+
+    /// Ends of the elements, m.
+    #[getter]
+    fn nodes(&self) -> Vec<f64> {
+        self.0.nodes().to_vec()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Strip.from_nodes({:?})", self.0.nodes())
+    }
+}
+
+/// The strips of a list.
+pub(super) fn strips(list: &[Bound<'_, PyStrip>]) -> Vec<Strip> {
+    list.iter().map(|strip| strip.get().0.clone()).collect()
+}

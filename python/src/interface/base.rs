@@ -1,0 +1,76 @@
+//! The base class of laws, and laws in any form that Python may give them.
+
+use std::sync::Arc;
+
+use basemat::interface::InterfaceLaw;
+use pyo3::prelude::*;
+
+use crate::error::{OrRaise, refuse};
+use crate::names::{mode, mode_name};
+use crate::recipe::Recipe;
+use crate::user::{PyCondition, PyContactState, PyStepStart, PyTolerance, UserLaw};
+
+/// A law between base and ground.
+#[pyclass(name = "InterfaceLaw", module = "basemat", subclass, frozen)]
+pub(crate) struct PyInterfaceLaw {
+    pub(crate) make: Recipe<dyn InterfaceLaw>,
+}
+
+impl PyInterfaceLaw {
+    /// A law that can be copied.
+    pub(crate) fn copied(law: impl InterfaceLaw + Clone + Sync + 'static) -> Self {
+        Self { make: Arc::new(move || Ok(Box::new(law.clone()))) }
+    }
+}
+
+#[pymethods]
+impl PyInterfaceLaw {
+    /// Names of the modes that this law uses.
+    #[getter]
+    fn modes(&self) -> PyResult<Vec<&'static str>> {
+        Ok((self.make)().or_raise()?.modes().iter().map(|mode| mode_name(*mode)).collect())
+    }
+
+    /// The two conditions that ``mode`` imposes on the end of a step.
+    fn conditions(&self, mode: &str, start: &PyStepStart) -> PyResult<(PyCondition, PyCondition)> {
+        let law = (self.make)().or_raise()?;
+        let [first, second] = law.conditions(self::mode(mode)?, &start.core());
+        Ok((PyCondition(first), PyCondition(second)))
+    }
+
+    /// The mode to try next after a trial; ``mode`` itself if the trial is admissible.
+    fn next_mode(
+        &self,
+        mode: &str,
+        start: &PyStepStart,
+        trial: &PyContactState,
+        tolerance: &PyTolerance,
+    ) -> PyResult<&'static str> {
+        let law = (self.make)().or_raise()?;
+        let mode = self::mode(mode)?;
+        Ok(mode_name(law.next_mode(mode, &start.core(), &trial.core(), tolerance.core())))
+    }
+}
+
+/// The recipe of a law of this package, or of one written in Python.
+fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn InterfaceLaw>> {
+    if let Ok(own) = object.cast::<PyInterfaceLaw>() {
+        return Ok(own.get().make.clone());
+    }
+    if object.hasattr("conditions")? {
+        let law = UserLaw::new(object)?;
+        return Ok(Arc::new(move || Ok(Box::new(law.clone()))));
+    }
+    Err(refuse(format!(
+        "{} is no interface law: it has no method `conditions`",
+        object.get_type().name()?
+    )))
+}
+
+/// One law for all elements, or a sequence of one each.
+pub(crate) fn recipes(object: &Bound<'_, PyAny>) -> PyResult<Vec<Recipe<dyn InterfaceLaw>>> {
+    match object.extract::<Vec<Bound<'_, PyAny>>>() {
+        Ok(list) => list.iter().map(recipe).collect(),
+        Err(_) => Ok(vec![recipe(object)?]),
+    }
+}

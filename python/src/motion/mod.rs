@@ -1,0 +1,14 @@
+//! Ground motion.
+
+mod base;
+mod formats;
+mod record;
+mod spectrum;
+mod waves;
+
+pub(crate) use base::{PyFreeField, recipe};
+pub(crate) use record::{PyRecord, el_centro_1940};
+pub(crate) use spectrum::{PySpectrum, log_spaced};
+pub(crate) use waves::{
+    PyColumn, PyInclinedWave, PyPlaneWave, ricker, travelling_wave, vertical_incidence,
+};

@@ -1,0 +1,207 @@
+//! Records of ground acceleration.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use basemat::motion::Record;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+
+use super::formats::{baseline, read, unit};
+use super::{PyFreeField, PySpectrum};
+use crate::array::Numbers;
+use crate::error::OrRaise;
+
+/// Ground acceleration at equal time steps, linear between samples; velocity and displacement are
+/// its exact integrals from rest.
+///
+/// ``time_step`` in s, ``acceleration`` an array of shape (samples,), at least two, in ``unit``:
+/// "m/s²" (the default), "mm/s²", "g", "gal", "ft/s²" or "in/s²". As the motion of a simulation it
+/// is horizontal, the same everywhere at once.
+#[pyclass(name = "Record", module = "basemat", extends = PyFreeField, frozen)]
+pub(crate) struct PyRecord(pub(crate) Arc<Record>);
+
+impl PyRecord {
+    fn from_core(record: Record) -> PyClassInitializer<Self> {
+        let record = Arc::new(record);
+        let own = Arc::clone(&record);
+        let base = PyFreeField { make: Arc::new(move || Ok(Box::new(Record::clone(&own)))) };
+        PyClassInitializer::from(base).add_subclass(Self(record))
+    }
+
+    pub(crate) fn create(py: Python<'_>, record: basemat::Result<Record>) -> PyResult<Py<Self>> {
+        Py::new(py, Self::from_core(record.or_raise()?))
+    }
+}
+
+/// El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s.
+#[pyfunction]
+pub(crate) fn el_centro_1940(py: Python<'_>) -> PyResult<Py<PyRecord>> {
+    PyRecord::create(py, Ok(basemat::motion::el_centro_1940()))
+}
+
+#[pymethods]
+impl PyRecord {
+    #[new]
+    #[pyo3(signature = (time_step, acceleration, *, unit="m/s²"))]
+    fn new(
+        time_step: f64,
+        acceleration: Numbers,
+        unit: &str,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let unit = self::unit(unit)?.in_metres_per_second_squared();
+        let samples = acceleration.0.into_iter().map(|value| value * unit).collect();
+        Ok(Self::from_core(Record::new(time_step, samples).or_raise()?))
+    }
+
+    /// Reads a file. ``format``: "columns" (text: time in s and acceleration, with ``unit``;
+    /// ``columns`` are their numbers from 1; with ``time_step`` a single column of acceleration),
+    /// "peer" (.AT2), "cosmos" (.V2; ``channel`` from 1) or "k-net".
+    #[staticmethod]
+    #[pyo3(signature = (path, *, format="columns", unit=None, time_step=None, columns=None, channel=None))]
+    fn read(
+        py: Python<'_>,
+        path: PathBuf,
+        format: &str,
+        unit: Option<&str>,
+        time_step: Option<f64>,
+        columns: Option<[usize; 2]>,
+        channel: Option<usize>,
+    ) -> PyResult<Py<Self>> {
+        Self::create(py, Ok(read(path, format, unit, time_step, columns, channel)?))
+    }
+
+    /// Time step, s.
+    #[getter]
+    fn time_step(&self) -> f64 {
+        self.0.time_step()
+    }
+
+    /// Time of the last sample, s.
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.0.duration()
+    }
+
+    /// Times of the samples: array of shape (samples,), s.
+    #[getter]
+    fn times<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_iter(py, (0..self.0.len()).map(|k| k as f64 * self.0.time_step()))
+    }
+
+    /// Acceleration at the samples: array of shape (samples,), m/s².
+    #[getter]
+    fn accelerations<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, self.0.accelerations())
+    }
+
+    /// Velocity at the samples: array of shape (samples,), m/s.
+    #[getter]
+    fn velocities<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, self.0.velocities())
+    }
+
+    /// Displacement at the samples: array of shape (samples,), m.
+    #[getter]
+    fn displacements<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, self.0.displacements())
+    }
+
+    /// Largest |acceleration|, m/s².
+    #[getter]
+    fn peak_acceleration(&self) -> f64 {
+        self.0.peak_acceleration()
+    }
+
+    /// Largest |velocity|, m/s.
+    #[getter]
+    fn peak_velocity(&self) -> f64 {
+        self.0.peak_velocity()
+    }
+
+    /// Largest |displacement|, m.
+    #[getter]
+    fn peak_displacement(&self) -> f64 {
+        self.0.peak_displacement()
+    }
+
+    /// Arias intensity, m/s.
+    #[getter]
+    fn arias_intensity(&self) -> f64 {
+        self.0.arias_intensity()
+    }
+
+    /// Times (s) at which the shares ``start`` and ``end`` of the Arias intensity are reached.
+    #[pyo3(signature = (start=0.05, end=0.95))]
+    fn significant_times(&self, start: f64, end: f64) -> PyResult<[f64; 2]> {
+        self.0.significant_times(start, end).or_raise()
+    }
+
+    /// All samples times a factor.
+    fn scaled(&self, py: Python<'_>, factor: f64) -> PyResult<Py<Self>> {
+        Self::create(py, self.0.scaled(factor))
+    }
+
+    /// Scaled to a peak acceleration (m/s²), signs kept.
+    fn scaled_to_peak(&self, py: Python<'_>, peak: f64) -> PyResult<Py<Self>> {
+        Self::create(py, self.0.scaled_to_peak(peak))
+    }
+
+    /// Samples every ``time_step`` (s), linear between the old ones.
+    fn resampled(&self, py: Python<'_>, time_step: f64) -> PyResult<Py<Self>> {
+        Self::create(py, self.0.resampled(time_step))
+    }
+
+    /// With its baseline treated: "remove mean", "newmark parabola", "velocity polynomial",
+    /// "displacement polynomial" or "rest to rest", polynomials of the ``degree``.
+    #[pyo3(signature = (treatment, *, degree=4))]
+    fn with_baseline(&self, py: Python<'_>, treatment: &str, degree: usize) -> PyResult<Py<Self>> {
+        Self::create(py, self.0.with_baseline(baseline(treatment, degree)?))
+    }
+
+    /// High-pass filtered at a corner frequency (Hz), without phase shift.
+    #[pyo3(signature = (corner, *, order=4))]
+    fn high_pass(&self, py: Python<'_>, corner: f64, order: u32) -> PyResult<Py<Self>> {
+        Self::create(py, self.0.high_pass(corner, order))
+    }
+
+    /// Tapered over durations (s) at its beginning and its end.
+    fn tapered(&self, py: Python<'_>, beginning: f64, end: f64) -> PyResult<Py<Self>> {
+        Self::create(py, self.0.tapered(beginning, end))
+    }
+
+    /// With rest (s) before and after it.
+    fn padded(&self, py: Python<'_>, before: f64, after: f64) -> PyResult<Py<Self>> {
+        Self::create(py, self.0.padded(before, after))
+    }
+
+    /// Elastic response spectrum at ``periods`` (array of shape (m,), s) with the ratio ``damping``.
+    #[pyo3(signature = (periods, damping=0.05))]
+    fn response_spectrum(
+        &self,
+        py: Python<'_>,
+        periods: Numbers,
+        damping: f64,
+    ) -> PyResult<PySpectrum> {
+        let record = &self.0;
+        let spectrum = py.detach(|| record.response_spectrum(&periods.0, damping));
+        Ok(PySpectrum(spectrum.or_raise()?))
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    fn __repr__(&self) -> String {
+        format!(
+            "Record({} samples of {:?} s, peak {:.3} m/s²)",
+            self.0.len(),
+            self.0.time_step(),
+            self.0.peak_acceleration()
+        )
+    }
+
+    fn __getnewargs__<'py>(&self, py: Python<'py>) -> (f64, Bound<'py, PyArray1<f64>>) {
+        (self.time_step(), self.accelerations(py))
+    }
+}

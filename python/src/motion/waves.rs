@@ -1,0 +1,235 @@
+//! Waves, pulses and records in both directions.
+
+use std::sync::Arc;
+
+use basemat::Complex;
+use basemat::motion::{
+    FreeField, PlaneWave, Record, RickerDisplacement, TravellingWave, VerticalIncidence,
+};
+use basemat::site::{Column, ControlPoint, InclinedControl, InclinedWave, VerticalWave};
+use numpy::{Complex64, PyArray1};
+use pyo3::prelude::*;
+
+use super::{PyFreeField, PyRecord, recipe};
+use crate::array::Numbers;
+use crate::error::{OrRaise, refuse};
+use crate::profile::PySoilProfile;
+use crate::soil::PySoil;
+
+/// A free field of this package from what makes it, which is tried once.
+fn field<F: FreeField + 'static>(
+    make: impl Fn() -> basemat::Result<F> + Send + Sync + 'static,
+) -> PyResult<PyFreeField> {
+    make().or_raise()?;
+    Ok(PyFreeField { make: Arc::new(move || Ok(Box::new(make()?))) })
+}
+
+/// Records of horizontal and vertical (up) motion, the same everywhere at once.
+#[pyfunction]
+#[pyo3(signature = (horizontal=None, vertical=None))]
+pub(crate) fn vertical_incidence(
+    horizontal: Option<Bound<'_, PyRecord>>,
+    vertical: Option<Bound<'_, PyRecord>>,
+) -> PyResult<PyFreeField> {
+    let own = |record: &Bound<'_, PyRecord>| Record::clone(&record.get().0);
+    let incidence = match (&horizontal, &vertical) {
+        (Some(first), Some(second)) => {
+            VerticalIncidence::new(own(first)).with_vertical(own(second))
+        }
+        (Some(first), None) => VerticalIncidence::new(own(first)),
+        (None, Some(second)) => VerticalIncidence::vertical(own(second)),
+        (None, None) => return Err(refuse("give a horizontal record, a vertical one, or both")),
+    };
+    field(move || Ok(incidence.clone()))
+}
+
+/// A motion that runs along x with an apparent velocity (m/s), as it is at ``origin`` (m).
+#[pyfunction]
+pub(crate) fn travelling_wave(
+    motion: Bound<'_, PyAny>,
+    apparent_velocity: f64,
+    origin: f64,
+) -> PyResult<PyFreeField> {
+    let motion = recipe(&motion)?;
+    field(move || TravellingWave::new(motion()?, apparent_velocity, origin))
+}
+
+/// A Ricker pulse of displacement: peak ``amplitude`` (m), width ``sigma`` (s), at ``center`` (s).
+#[pyfunction]
+#[pyo3(signature = (amplitude, sigma, center, *, vertical=false))]
+pub(crate) fn ricker(
+    amplitude: f64,
+    sigma: f64,
+    center: f64,
+    vertical: bool,
+) -> PyResult<PyFreeField> {
+    field(move || {
+        let pulse = RickerDisplacement::new(amplitude, sigma, center)?;
+        Ok(if vertical { pulse.vertical() } else { pulse })
+    })
+}
+
+/// A plane wave that meets the free surface of a half-plane at an angle, or a Rayleigh wave.
+#[pyclass(name = "PlaneWave", module = "basemat", frozen)]
+pub(crate) struct PyPlaneWave(PlaneWave);
+
+#[pymethods]
+impl PyPlaneWave {
+    /// SV wave from below at ``angle`` (rad) from the vertical, to the right if positive.
+    #[staticmethod]
+    fn sv(soil: &PySoil, angle: f64) -> PyResult<Self> {
+        Ok(Self(PlaneWave::sv(soil.0, angle).or_raise()?))
+    }
+
+    /// P wave from below at ``angle`` (rad).
+    #[staticmethod]
+    fn p(soil: &PySoil, angle: f64) -> PyResult<Self> {
+        Ok(Self(PlaneWave::p(soil.0, angle).or_raise()?))
+    }
+
+    /// Rayleigh wave to the right.
+    #[staticmethod]
+    fn rayleigh(soil: &PySoil) -> Self {
+        Self(PlaneWave::rayleigh(soil.0))
+    }
+
+    /// The same wave running the other way.
+    fn reversed(&self) -> Self {
+        Self(self.0.reversed())
+    }
+
+    /// Apparent velocity along the surface, m/s.
+    #[getter]
+    fn apparent_velocity(&self) -> f64 {
+        self.0.apparent_velocity()
+    }
+
+    /// The field whose horizontal motion at ``origin`` (m) is the record.
+    fn field_from_horizontal(&self, record: &PyRecord, origin: f64) -> PyResult<PyFreeField> {
+        let (wave, record) = (self.0, Arc::clone(&record.0));
+        field(move || wave.field_from_horizontal(&record, origin))
+    }
+
+    /// The field whose vertical motion at ``origin`` (m) is the record.
+    fn field_from_vertical(&self, record: &PyRecord, origin: f64) -> PyResult<PyFreeField> {
+        let (wave, record) = (self.0, Arc::clone(&record.0));
+        field(move || wave.field_from_vertical(&record, origin))
+    }
+}
+
+/// A soil profile as a column that waves travel up and down; ``wave``: "shear" or "pressure".
+#[pyclass(name = "Column", module = "basemat", frozen)]
+pub(crate) struct PyColumn(Column);
+
+fn control(name: &str) -> PyResult<ControlPoint> {
+    match name {
+        "outcrop" => Ok(ControlPoint::Outcrop),
+        "within" => Ok(ControlPoint::Within),
+        _ => Err(refuse(format!("control is '{name}', but must be 'outcrop' or 'within'"))),
+    }
+}
+
+#[pymethods]
+impl PyColumn {
+    #[new]
+    #[pyo3(signature = (profile, wave="shear"))]
+    fn new(profile: &PySoilProfile, wave: &str) -> PyResult<Self> {
+        let wave = match wave {
+            "shear" => VerticalWave::Shear,
+            "pressure" => VerticalWave::Pressure,
+            _ => {
+                return Err(refuse(format!("wave is '{wave}', but must be 'shear' or 'pressure'")));
+            }
+        };
+        Ok(Self(Column::new(profile.0.clone(), wave).or_raise()?))
+    }
+
+    /// Motion of the surface by that of the ``control`` ("outcrop" or "within") for e^(iωt):
+    /// complex array of shape (m,) at ``frequencies`` (Hz).
+    #[pyo3(signature = (frequencies, *, control="outcrop"))]
+    fn transfer<'py>(
+        &self,
+        py: Python<'py>,
+        frequencies: Numbers,
+        control: &str,
+    ) -> PyResult<Bound<'py, PyArray1<Complex64>>> {
+        let control = self::control(control)?;
+        let at = |frequency: &f64| self.0.transfer(control, *frequency);
+        let values: Vec<Complex> =
+            frequencies.0.iter().map(at).collect::<Result<_, _>>().or_raise()?;
+        Ok(PyArray1::from_iter(py, values.iter().map(|value| Complex64::new(value.re, value.im))))
+    }
+
+    /// The record of the surface from one of the ``control``.
+    #[pyo3(signature = (record, *, control="outcrop"))]
+    fn to_surface(
+        &self,
+        py: Python<'_>,
+        record: &PyRecord,
+        control: &str,
+    ) -> PyResult<Py<PyRecord>> {
+        let control = self::control(control)?;
+        let (step, samples) = (record.0.time_step(), record.0.accelerations());
+        let motion = self.0.to_surface(control, step, samples).or_raise()?;
+        PyRecord::create(py, Record::new(step, motion))
+    }
+
+    /// The record of the ``control`` from one of the surface (deconvolution).
+    #[pyo3(signature = (record, *, control="outcrop"))]
+    #[allow(clippy::wrong_self_convention, reason = "the core's name")]
+    fn from_surface(
+        &self,
+        py: Python<'_>,
+        record: &PyRecord,
+        control: &str,
+    ) -> PyResult<Py<PyRecord>> {
+        let control = self::control(control)?;
+        let (step, samples) = (record.0.time_step(), record.0.accelerations());
+        let motion = self.0.from_surface(control, step, samples).or_raise()?;
+        PyRecord::create(py, Record::new(step, motion))
+    }
+}
+
+/// A plane wave from the half-plane under a layered profile.
+#[pyclass(name = "InclinedWave", module = "basemat", frozen)]
+pub(crate) struct PyInclinedWave(InclinedWave);
+
+#[pymethods]
+impl PyInclinedWave {
+    /// SV wave at ``angle`` (rad) from the vertical in the base, to the right if positive.
+    #[staticmethod]
+    fn sv(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
+        Ok(Self(InclinedWave::sv(profile.0.clone(), angle).or_raise()?))
+    }
+
+    /// P wave at ``angle`` (rad).
+    #[staticmethod]
+    fn p(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
+        Ok(Self(InclinedWave::p(profile.0.clone(), angle).or_raise()?))
+    }
+
+    /// Apparent velocity along the surface, m/s.
+    #[getter]
+    fn apparent_velocity(&self) -> f64 {
+        self.0.apparent_velocity()
+    }
+
+    /// The field of the surface whose ``control`` ("outcrop horizontal", "outcrop vertical" or
+    /// "incident") moves as the record at ``origin`` (m), the point that is reached first.
+    #[pyo3(signature = (record, origin, *, control="outcrop horizontal"))]
+    fn field(&self, record: &PyRecord, origin: f64, control: &str) -> PyResult<PyFreeField> {
+        let control = match control {
+            "outcrop horizontal" => InclinedControl::OutcropHorizontal,
+            "outcrop vertical" => InclinedControl::OutcropVertical,
+            "incident" => InclinedControl::Incident,
+            _ => {
+                return Err(refuse(format!(
+                    "control is '{control}', but must be 'outcrop horizontal', 'outcrop vertical' or \
+                     'incident'"
+                )));
+            }
+        };
+        let (wave, record) = (self.0.clone(), Arc::clone(&record.0));
+        field(move || wave.field(control, &record, origin))
+    }
+}

@@ -1,0 +1,83 @@
+//! Probes.
+
+use basemat::coupled::Probe;
+use pyo3::prelude::*;
+
+use crate::row::{PyRow, PySectionRows, RowLike};
+
+/// A quantity read off at every step: a weighted sum of displacements, velocities or accelerations.
+///
+/// Displacements are changes against the static state, relative to the translation of the free
+/// field; :meth:`absolute_displacement` includes it. Velocities and accelerations are total. No two
+/// probes of a simulation have the same name.
+#[pyclass(name = "Probe", module = "basemat", frozen)]
+pub(crate) struct PyProbe(pub(crate) Probe);
+
+impl PyProbe {
+    fn labelled(probe: Probe, unit: Option<String>) -> Self {
+        Self(match unit {
+            Some(unit) => probe.in_unit(unit),
+            None => probe,
+        })
+    }
+}
+
+#[pymethods]
+impl PyProbe {
+    /// Displacement (m, or rad of a rotation) relative to the free field.
+    #[staticmethod]
+    #[pyo3(signature = (name, row, *, unit=None))]
+    fn displacement(name: String, row: RowLike, unit: Option<String>) -> Self {
+        Self::labelled(Probe::displacement(name, row.0), unit)
+    }
+
+    /// The same with the translation of the free field.
+    #[staticmethod]
+    #[pyo3(signature = (name, row, *, unit=None))]
+    fn absolute_displacement(name: String, row: RowLike, unit: Option<String>) -> Self {
+        Self::labelled(Probe::absolute_displacement(name, row.0), unit)
+    }
+
+    /// Total velocity, m/s.
+    #[staticmethod]
+    #[pyo3(signature = (name, row, *, unit=None))]
+    fn velocity(name: String, row: RowLike, unit: Option<String>) -> Self {
+        Self::labelled(Probe::velocity(name, row.0), unit)
+    }
+
+    /// Total acceleration, m/s².
+    #[staticmethod]
+    #[pyo3(signature = (name, row, *, unit=None))]
+    fn acceleration(name: String, row: RowLike, unit: Option<String>) -> Self {
+        Self::labelled(Probe::acceleration(name, row.0), unit)
+    }
+
+    /// A section's resultant: a force (N/m) or a moment (N·m/m).
+    #[staticmethod]
+    #[pyo3(signature = (name, section, *, unit=None))]
+    fn section(name: String, section: &PySectionRows, unit: Option<String>) -> Self {
+        Self::labelled(Probe::section(name, &section.0), unit)
+    }
+
+    /// Its name.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    /// Label of its unit; values are what the weights make of SI units.
+    #[getter]
+    fn unit(&self) -> &str {
+        &self.0.unit
+    }
+
+    /// Its rows: of displacements, velocities, accelerations.
+    #[getter]
+    fn rows(&self) -> [PyRow; 3] {
+        [&self.0.displacement, &self.0.velocity, &self.0.acceleration].map(|row| PyRow(row.clone()))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Probe({:?}, unit {:?})", self.0.name, self.0.unit)
+    }
+}

@@ -1,0 +1,57 @@
+//! Recipes: Python's structures, grounds, laws and motions are descriptions, from which every
+//! simulation gets a part of its own.
+
+use std::sync::Arc;
+
+use basemat::Result;
+use basemat::structure::{ContactNode, Structure, Triplets};
+
+/// Makes a part for one simulation.
+pub(crate) type Recipe<T> = Arc<dyn Fn() -> Result<Box<T>> + Send + Sync>;
+
+/// A linear structure that several simulations read.
+pub(crate) struct Shared<T>(pub(crate) Arc<T>);
+
+impl<T> Clone for Shared<T> {
+    fn clone(&self) -> Self {
+        Self(Arc::clone(&self.0))
+    }
+}
+
+impl<T: Structure + Sync> Structure for Shared<T> {
+    fn unknowns(&self) -> usize {
+        self.0.unknowns()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.0.contact_nodes()
+    }
+
+    fn foundation_ends(&self) -> Vec<usize> {
+        self.0.foundation_ends()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.mass(matrix)
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.stiffness(matrix)
+    }
+
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.damping(matrix)
+    }
+
+    fn has_active_damping(&self) -> bool {
+        self.0.has_active_damping()
+    }
+
+    fn describe(&self, unknowns: &[usize]) -> Option<String> {
+        self.0.describe(unknowns)
+    }
+
+    fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
+        self.0.load(time, load)
+    }
+}

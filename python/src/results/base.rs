@@ -1,0 +1,141 @@
+//! What a run says of its base: foundations and limits of service.
+
+use basemat::results::{FoundationSummary, ServiceCheck, SlipEvent};
+use pyo3::prelude::*;
+
+use super::{PyExtremes, PyPeak};
+
+/// A foundation in numbers, as a run's own.
+#[pyclass(name = "FoundationSummary", module = "basemat", frozen)]
+pub(crate) struct PyFoundationSummary(pub(super) FoundationSummary);
+
+/// Slip events as tuples (start in s, end in s, slip in m).
+pub(super) fn events(list: &[SlipEvent]) -> Vec<(f64, f64, f64)> {
+    list.iter().map(|event| (event.start, event.end, event.slip)).collect()
+}
+
+#[pymethods]
+impl PyFoundationSummary {
+    /// Its ends, m.
+    #[getter]
+    fn ends(&self) -> [f64; 2] {
+        self.0.ends
+    }
+
+    /// Normal force at the start, N/m.
+    #[getter]
+    fn static_normal_force(&self) -> f64 {
+        self.0.static_normal_force
+    }
+
+    /// Base shear, N/m.
+    #[getter]
+    fn base_shear(&self) -> PyExtremes {
+        PyExtremes(self.0.base_shear)
+    }
+
+    /// Moment about its middle, N·m/m.
+    #[getter]
+    fn base_moment(&self) -> PyExtremes {
+        PyExtremes(self.0.base_moment)
+    }
+
+    /// Normal force, N/m.
+    #[getter]
+    fn normal_force(&self) -> PyExtremes {
+        PyExtremes(self.0.normal_force)
+    }
+
+    /// Rotation, rad.
+    #[getter]
+    fn base_rotation(&self) -> PyExtremes {
+        PyExtremes(self.0.base_rotation)
+    }
+
+    /// Largest uplifted fraction.
+    #[getter]
+    fn uplifted_fraction(&self) -> PyPeak {
+        PyPeak(self.0.uplifted_fraction)
+    }
+
+    /// Mean slip, m.
+    #[getter]
+    fn mean_slip(&self) -> PyExtremes {
+        PyExtremes(self.0.mean_slip)
+    }
+
+    /// Mean slip at the end, m.
+    #[getter]
+    fn residual_slip(&self) -> f64 {
+        self.0.residual_slip
+    }
+
+    /// Slip events: tuples (start in s, end in s, slip in m).
+    #[getter]
+    fn slip_events(&self) -> Vec<(f64, f64, f64)> {
+        events(&self.0.sliding.events)
+    }
+
+    /// Least factor of safety against sliding; None without a friction coefficient.
+    #[getter]
+    fn least_sliding_safety(&self) -> Option<PyPeak> {
+        self.0.least_sliding_safety.map(PyPeak)
+    }
+
+    /// Least factor of safety against overturning.
+    #[getter]
+    fn least_overturning_safety(&self) -> PyPeak {
+        PyPeak(self.0.least_overturning_safety)
+    }
+}
+
+/// A limit of service after a run.
+#[pyclass(name = "ServiceCheck", module = "basemat", frozen)]
+pub(crate) struct PyServiceCheck(pub(super) ServiceCheck);
+
+#[pymethods]
+impl PyServiceCheck {
+    /// The limited response: "slip", "gap", "uplifted fraction" or "rotation".
+    #[getter]
+    fn criterion(&self) -> &'static str {
+        self.0.criterion.name()
+    }
+
+    /// Its limit, in SI units.
+    #[getter]
+    fn limit(&self) -> f64 {
+        self.0.limit
+    }
+
+    /// The value of the run furthest from zero.
+    #[getter]
+    fn largest(&self) -> PyPeak {
+        PyPeak(self.0.largest)
+    }
+
+    /// End of the first step beyond the limit, s; None if there was none.
+    #[getter]
+    fn first_excess(&self) -> Option<f64> {
+        self.0.first_excess
+    }
+
+    /// Whether the limit was kept.
+    #[getter]
+    fn is_met(&self) -> bool {
+        self.0.is_met()
+    }
+
+    /// Unused share of the limit; below zero where it is exceeded.
+    #[getter]
+    fn margin(&self) -> f64 {
+        self.0.margin()
+    }
+
+    fn __str__(&self) -> String {
+        self.0.to_string()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("ServiceCheck({})", self.0)
+    }
+}

@@ -1,0 +1,123 @@
+//! The energy ledger.
+
+use basemat::coupled::Ledger;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Energies since the start, J per metre of thickness:
+/// ``kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input``.
+#[pyclass(name = "Ledger", module = "basemat", frozen)]
+pub(crate) struct PyLedger(pub(crate) Ledger);
+
+/// One term of a ledger.
+type Term = fn(&Ledger) -> f64;
+
+/// All terms, with their names.
+pub(super) const TERMS: [(&str, Term); 12] = [
+    ("kinetic", |ledger| ledger.kinetic),
+    ("strain", |ledger| ledger.strain),
+    ("hysteresis", |ledger| ledger.hysteresis),
+    ("damping", |ledger| ledger.damping),
+    ("numerical", |ledger| ledger.numerical),
+    ("soil", |ledger| ledger.soil),
+    ("contact", |ledger| ledger.contact),
+    ("layer", |ledger| ledger.layer),
+    ("preload", |ledger| ledger.preload),
+    ("input", |ledger| ledger.input),
+    ("relative_input", |ledger| ledger.relative_input),
+    ("soil_error_bound", |ledger| ledger.soil_error_bound),
+];
+
+#[pymethods]
+impl PyLedger {
+    /// ½ v·M v.
+    #[getter]
+    fn kinetic(&self) -> f64 {
+        self.0.kinetic
+    }
+
+    /// Elastic energy of the structure.
+    #[getter]
+    fn strain(&self) -> f64 {
+        self.0.strain
+    }
+
+    /// Heat of hysteretic parts of the structure.
+    #[getter]
+    fn hysteresis(&self) -> f64 {
+        self.0.hysteresis
+    }
+
+    /// Work of the dashpots.
+    #[getter]
+    fn damping(&self) -> f64 {
+        self.0.damping
+    }
+
+    /// Loss by the time scheme.
+    #[getter]
+    fn numerical(&self) -> f64 {
+        self.0.numerical
+    }
+
+    /// Work done on the soil: radiated and stored.
+    #[getter]
+    fn soil(&self) -> f64 {
+        self.0.soil
+    }
+
+    /// Loss by friction and impact.
+    #[getter]
+    fn contact(&self) -> f64 {
+        self.0.contact
+    }
+
+    /// Elastic energy of compliant interfaces.
+    #[getter]
+    fn layer(&self) -> f64 {
+        self.0.layer
+    }
+
+    /// Potential of the static tractions against the change of the jump.
+    #[getter]
+    fn preload(&self) -> f64 {
+        self.0.preload
+    }
+
+    /// Work of loads and free field, and the energy of an initial motion.
+    #[getter]
+    fn input(&self) -> f64 {
+        self.0.input
+    }
+
+    /// Relative input energy (Uang & Bertero 1990).
+    #[getter]
+    fn relative_input(&self) -> f64 {
+        self.0.relative_input
+    }
+
+    /// Error bound of ``soil`` by an approximate history.
+    #[getter]
+    fn soil_error_bound(&self) -> f64 {
+        self.0.soil_error_bound
+    }
+
+    /// What the terms leave of the balance, relative to the largest of them.
+    #[getter]
+    fn residual(&self) -> f64 {
+        self.0.residual()
+    }
+
+    /// All terms by their names.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let terms = PyDict::new(py);
+        for (name, term) in TERMS {
+            terms.set_item(name, term(&self.0))?;
+        }
+        Ok(terms)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Ledger(input {:.6e} J/m, residual {:.1e})", self.0.input, self.0.residual())
+    }
+}

@@ -1,0 +1,72 @@
+//! Largest values with their times.
+
+use basemat::coupled::{Extremes, Peak};
+use pyo3::prelude::*;
+
+/// A value with its time.
+#[pyclass(name = "Peak", module = "basemat", frozen, eq)]
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct PyPeak(pub(crate) Peak);
+
+#[pymethods]
+impl PyPeak {
+    /// The value, in the quantity's unit, with its sign.
+    #[getter]
+    fn value(&self) -> f64 {
+        self.0.value
+    }
+
+    /// Its time, s.
+    #[getter]
+    fn time(&self) -> f64 {
+        self.0.time
+    }
+
+    fn __float__(&self) -> f64 {
+        self.0.value
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Peak(value={:?}, time={:?})", self.0.value, self.0.time)
+    }
+}
+
+/// Smallest and largest value of a run.
+#[pyclass(name = "Extremes", module = "basemat", frozen, eq)]
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct PyExtremes(pub(crate) Extremes);
+
+#[pymethods]
+impl PyExtremes {
+    /// The smallest value.
+    #[getter]
+    fn lowest(&self) -> PyPeak {
+        PyPeak(self.0.lowest)
+    }
+
+    /// The largest value.
+    #[getter]
+    fn highest(&self) -> PyPeak {
+        PyPeak(self.0.highest)
+    }
+
+    /// Whichever of them is further from zero, with its sign.
+    #[getter]
+    fn largest(&self) -> PyPeak {
+        PyPeak(self.0.largest())
+    }
+
+    /// Its magnitude.
+    #[getter]
+    fn magnitude(&self) -> f64 {
+        self.0.magnitude()
+    }
+
+    fn __repr__(&self) -> String {
+        let Extremes { lowest, highest } = self.0;
+        format!(
+            "Extremes({:?} at {:?} s, {:?} at {:?} s)",
+            lowest.value, lowest.time, highest.value, highest.time
+        )
+    }
+}

@@ -1,0 +1,368 @@
+//! A run: its summary and its time series.
+
+use basemat::coupled::Run;
+use basemat::results::{ElementEnvelope, Histories};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::base::events;
+use super::{PyExtremes, PyFoundationSummary, PyLedger, PyPeak, PyServiceCheck, series};
+use crate::array::Numbers;
+use crate::error::{OrRaise, refuse};
+use crate::motion::{PyRecord, PySpectrum};
+
+type Array<'py> = Bound<'py, PyArray1<f64>>;
+type Column = fn(&ElementEnvelope) -> f64;
+
+/// A run: peaks with their times, envelopes, uplift, slip, energies, warnings, and its time series.
+///
+/// ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``; printed, a run is
+/// a page for a report.
+#[pyclass(name = "Run", module = "basemat", frozen)]
+pub(crate) struct PyRun {
+    pub(super) run: Run,
+    histories: Option<Histories>,
+}
+
+impl PyRun {
+    pub(crate) fn new(run: Run, histories: Option<Histories>) -> Self {
+        Self { run, histories }
+    }
+
+    fn kept(&self) -> PyResult<&Histories> {
+        self.histories
+            .as_ref()
+            .ok_or_else(|| refuse("the run kept no time series (`series=False`)"))
+    }
+}
+
+#[pymethods]
+impl PyRun {
+    /// Steps made.
+    #[getter]
+    fn steps(&self) -> usize {
+        self.run.steps
+    }
+
+    /// Time at the beginning, s.
+    #[getter]
+    fn start(&self) -> f64 {
+        self.run.start
+    }
+
+    /// Time at the end, s.
+    #[getter]
+    fn end(&self) -> f64 {
+        self.run.end
+    }
+
+    /// Times of the kept steps: array of shape (steps + 1,), s; the first is that of the start.
+    #[getter]
+    fn time<'py>(&self, py: Python<'py>) -> PyResult<Array<'py>> {
+        Ok(PyArray1::from_slice(py, self.kept()?.times()))
+    }
+
+    /// Time series of a scalar or a probe: array of shape (steps + 1,).
+    fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Array<'py>> {
+        series::named(py, self.kept()?, name)
+    }
+
+    /// All time series: dict of arrays of shape (steps + 1,), "time" first.
+    #[getter]
+    fn series<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        series::all(py, self.kept()?)
+    }
+
+    /// Terms of the energy ledger over time: dict of arrays of shape (steps + 1,), J/m.
+    #[getter]
+    fn ledgers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        series::ledgers(py, self.kept()?)
+    }
+
+    /// Snapshots of the base: dict of "time" (frames,) and "gap", "slip" (m), "pressure", "shear"
+    /// (Pa), "mode" (numbers into :data:`basemat.MODES`), each of shape (frames, elements).
+    #[getter]
+    fn contact<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        series::contact(py, self.kept()?)
+    }
+
+    /// Snapshots of the structure: dict of "time" (frames,), "displacement", "velocity" (frames, n)
+    /// and "free_field" (frames, 2).
+    #[getter]
+    fn motion<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        series::motion(py, self.kept()?)
+    }
+
+    /// All time series as a pandas frame, indexed by the time.
+    fn to_frame<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("basemat._frames")?.call_method1("run", (slf,))
+    }
+
+    /// The record of an acceleration probe.
+    fn acceleration_record(&self, py: Python<'_>, probe: &str) -> PyResult<Py<PyRecord>> {
+        PyRecord::create(py, self.kept()?.acceleration_record(probe))
+    }
+
+    /// Floor (in-structure) response spectrum of an acceleration probe at ``periods`` (array of
+    /// shape (m,), s) with the ratio ``damping``.
+    #[pyo3(signature = (probe, periods, damping=0.05))]
+    fn floor_spectrum(
+        &self,
+        py: Python<'_>,
+        probe: &str,
+        periods: Numbers,
+        damping: f64,
+    ) -> PyResult<PySpectrum> {
+        let histories = self.kept()?;
+        let spectrum = py.detach(|| histories.floor_spectrum(probe, &periods.0, damping));
+        Ok(PySpectrum(spectrum.or_raise()?))
+    }
+
+    /// Smallest and largest value of each probe, by its name.
+    #[getter]
+    fn probes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let probes = PyDict::new(py);
+        for probe in &self.run.probes {
+            probes.set_item(&probe.name, Py::new(py, PyExtremes(probe.extremes))?)?;
+        }
+        Ok(probes)
+    }
+
+    /// Normal force at the start, N/m.
+    #[getter]
+    fn static_normal_force(&self) -> f64 {
+        self.run.static_normal_force
+    }
+
+    /// Base shear, N/m.
+    #[getter]
+    fn base_shear(&self) -> PyExtremes {
+        PyExtremes(self.run.base_shear)
+    }
+
+    /// Base moment, N·m/m.
+    #[getter]
+    fn base_moment(&self) -> PyExtremes {
+        PyExtremes(self.run.base_moment)
+    }
+
+    /// Normal force, N/m.
+    #[getter]
+    fn normal_force(&self) -> PyExtremes {
+        PyExtremes(self.run.normal_force)
+    }
+
+    /// Rotation of the base, rad.
+    #[getter]
+    fn base_rotation(&self) -> PyExtremes {
+        PyExtremes(self.run.base_rotation)
+    }
+
+    /// Largest uplifted fraction of the base.
+    #[getter]
+    fn uplifted_fraction(&self) -> PyPeak {
+        PyPeak(self.run.uplifted_fraction)
+    }
+
+    /// Time with uplift, s.
+    #[getter]
+    fn uplift_duration(&self) -> f64 {
+        self.run.uplift.duration
+    }
+
+    /// Slip averaged over the base, m.
+    #[getter]
+    fn mean_slip(&self) -> PyExtremes {
+        PyExtremes(self.run.mean_slip)
+    }
+
+    /// Mean slip at the end, m.
+    #[getter]
+    fn residual_slip(&self) -> f64 {
+        self.run.residual_slip
+    }
+
+    /// Largest slip of any element, m.
+    #[getter]
+    fn largest_slip(&self) -> PyPeak {
+        PyPeak(self.run.largest_slip)
+    }
+
+    /// Largest gap of any element, m.
+    #[getter]
+    fn largest_gap(&self) -> PyPeak {
+        PyPeak(self.run.largest_gap())
+    }
+
+    /// Largest pressure of any element, Pa; None without elements.
+    #[getter]
+    fn largest_pressure(&self) -> Option<PyPeak> {
+        self.run.largest_pressure().map(|(_, peak)| PyPeak(peak))
+    }
+
+    /// Largest base shear over the weight; None without weight.
+    #[getter]
+    fn shear_coefficient(&self) -> Option<f64> {
+        self.run.shear_coefficient()
+    }
+
+    /// Slip events of the whole base: tuples (start in s, end in s, slip in m).
+    #[getter]
+    fn slip_events(&self) -> Vec<(f64, f64, f64)> {
+        events(&self.run.sliding.events)
+    }
+
+    /// Length of the way that the base has slid, m.
+    #[getter]
+    fn slip_path(&self) -> f64 {
+        self.run.sliding.path
+    }
+
+    /// Least factor of safety against sliding; None without a friction coefficient.
+    #[getter]
+    fn least_sliding_safety(&self) -> Option<PyPeak> {
+        self.run.least_sliding_safety().map(PyPeak)
+    }
+
+    /// Least factor of safety against overturning.
+    #[getter]
+    fn least_overturning_safety(&self) -> PyPeak {
+        PyPeak(self.run.least_overturning_safety())
+    }
+
+    /// Each foundation by itself.
+    #[getter]
+    fn foundations(&self) -> Vec<PyFoundationSummary> {
+        self.run.foundations.iter().cloned().map(PyFoundationSummary).collect()
+    }
+
+    /// A check for each limit of service that the simulation was given.
+    #[getter]
+    fn serviceability(&self) -> Vec<PyServiceCheck> {
+        self.run.serviceability.iter().copied().map(PyServiceCheck).collect()
+    }
+
+    /// Whether all limits of service were kept; None without limits.
+    #[getter]
+    fn is_serviceable(&self) -> Option<bool> {
+        self.run.is_serviceable()
+    }
+
+    /// Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
+    /// "slip" (m), "static_pressure", "lowest_pressure", "highest_pressure", "shear" (Pa),
+    /// "open" (s).
+    #[getter]
+    fn envelope<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let columns: [(&str, Column); 9] = [
+            ("left", |own| own.element.left),
+            ("right", |own| own.element.right),
+            ("static_pressure", |own| own.static_pressure),
+            ("lowest_pressure", |own| own.pressure.lowest.value),
+            ("highest_pressure", |own| own.pressure.highest.value),
+            ("shear", |own| own.shear.value),
+            ("gap", |own| own.gap.value),
+            ("slip", |own| own.slip.value),
+            ("open", |own| own.open),
+        ];
+        let envelope = PyDict::new(py);
+        for (name, value) in columns {
+            envelope
+                .set_item(name, PyArray1::from_iter(py, self.run.envelope.iter().map(value)))?;
+        }
+        Ok(envelope)
+    }
+
+    /// Changes of contact mode.
+    #[getter]
+    fn mode_changes(&self) -> usize {
+        self.run.mode_changes
+    }
+
+    /// The ledger at the end.
+    #[getter]
+    fn ledger(&self) -> PyLedger {
+        PyLedger(self.run.ledger)
+    }
+
+    /// Largest residual of the ledger; NaN if none is kept.
+    #[getter]
+    fn ledger_residual(&self) -> f64 {
+        self.run.ledger_residual
+    }
+
+    /// Shares of the energy input at the end, by their names; None if that is not positive.
+    #[getter]
+    fn energy_shares<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some(energy) = self.run.energy() else { return Ok(None) };
+        let shares = PyDict::new(py);
+        for (name, share) in energy.named() {
+            shares.set_item(name, share)?;
+        }
+        Ok(Some(shares))
+    }
+
+    /// Linear solves of the search for contact modes.
+    #[getter]
+    fn trials(&self) -> usize {
+        self.run.trials
+    }
+
+    /// Steps that the first search did not solve.
+    #[getter]
+    fn fallbacks(&self) -> usize {
+        self.run.fallbacks.total()
+    }
+
+    /// Warnings, in words.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.run.warnings.iter().map(ToString::to_string).collect()
+    }
+
+    /// Wall time, s.
+    #[getter]
+    fn wall(&self) -> f64 {
+        self.run.wall.as_secs_f64()
+    }
+
+    /// Numbers of the run for a table, SI units; peaks with their signs, probes as "peak NAME".
+    fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let Self { run, .. } = self;
+        let numbers = PyDict::new(py);
+        let safety = run.least_sliding_safety().map(|peak| peak.value);
+        let pressure = run.largest_pressure().map(|(_, peak)| peak.value);
+        for (name, value) in [
+            ("end", Some(run.end)),
+            ("base_shear", Some(run.base_shear.largest().value)),
+            ("shear_coefficient", run.shear_coefficient()),
+            ("base_moment", Some(run.base_moment.largest().value)),
+            ("base_rotation", Some(run.base_rotation.largest().value)),
+            ("uplifted_fraction", Some(run.uplifted_fraction.value)),
+            ("uplift_duration", Some(run.uplift.duration)),
+            ("largest_gap", Some(run.largest_gap().value)),
+            ("largest_pressure", pressure),
+            ("mean_slip", Some(run.mean_slip.largest().value)),
+            ("residual_slip", Some(run.residual_slip)),
+            ("largest_slip", Some(run.largest_slip.value)),
+            ("sliding_safety", safety),
+            ("overturning_safety", Some(run.least_overturning_safety().value)),
+            ("energy_input", Some(run.ledger.input)),
+            ("ledger_residual", Some(run.ledger_residual)),
+        ] {
+            numbers.set_item(name, value)?;
+        }
+        for probe in &run.probes {
+            numbers.set_item(format!("peak {}", probe.name), probe.extremes.largest().value)?;
+        }
+        Ok(numbers)
+    }
+
+    fn __str__(&self) -> String {
+        self.run.to_string()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Run({} steps, {} s to {} s)", self.run.steps, self.run.start, self.run.end)
+    }
+}

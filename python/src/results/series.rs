@@ -1,0 +1,107 @@
+//! Time series and snapshots as arrays.
+
+use basemat::interface::ContactState;
+use basemat::results::{ContactFrame, Histories};
+use numpy::{PyArray1, PyArrayMethods, ToPyArray};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::ledger::TERMS;
+use crate::error::refuse;
+use crate::names::{SERIES, mode_number};
+
+type Array<'py> = Bound<'py, PyArray1<f64>>;
+
+/// A scalar, or a probe, by its name.
+pub(super) fn named<'py>(
+    py: Python<'py>,
+    histories: &Histories,
+    name: &str,
+) -> PyResult<Array<'py>> {
+    if name == "time" {
+        return Ok(PyArray1::from_slice(py, histories.times()));
+    }
+    // A probe of the same name comes first: its name was the user's choice.
+    if let Ok(values) = histories.probe(name) {
+        return Ok(PyArray1::from_slice(py, values));
+    }
+    match SERIES.iter().find(|(_, key)| *key == name) {
+        Some((quantity, _)) => Ok(PyArray1::from_slice(py, histories.series(*quantity))),
+        None => Err(pyo3::exceptions::PyKeyError::new_err(format!(
+            "'{name}' is neither a time series ({}) nor a probe ({})",
+            SERIES.map(|(_, key)| key).join(", "),
+            names(histories).join(", ")
+        ))),
+    }
+}
+
+/// Names of the probes.
+pub(super) fn names(histories: &Histories) -> Vec<String> {
+    histories.probes().iter().map(|probe| probe.name.clone()).collect()
+}
+
+/// All scalars and probes by their names.
+pub(super) fn all<'py>(py: Python<'py>, histories: &Histories) -> PyResult<Bound<'py, PyDict>> {
+    let series = PyDict::new(py);
+    series.set_item("time", PyArray1::from_slice(py, histories.times()))?;
+    for (quantity, key) in SERIES {
+        series.set_item(key, PyArray1::from_slice(py, histories.series(quantity)))?;
+    }
+    for name in names(histories) {
+        series.set_item(&name, named(py, histories, &name)?)?;
+    }
+    Ok(series)
+}
+
+/// Terms of the ledger over time.
+pub(super) fn ledgers<'py>(py: Python<'py>, histories: &Histories) -> PyResult<Bound<'py, PyDict>> {
+    let series = PyDict::new(py);
+    series.set_item("time", PyArray1::from_slice(py, histories.times()))?;
+    for (name, term) in TERMS {
+        series.set_item(name, PyArray1::from_iter(py, histories.ledgers().iter().map(term)))?;
+    }
+    let residuals = histories.ledgers().iter().map(basemat::coupled::Ledger::residual);
+    series.set_item("residual", PyArray1::from_iter(py, residuals))?;
+    Ok(series)
+}
+
+/// Snapshots of the base: times, and arrays of shape (frames, elements).
+pub(super) fn contact<'py>(py: Python<'py>, histories: &Histories) -> PyResult<Bound<'py, PyDict>> {
+    let frames: Vec<ContactFrame<'_>> = histories.contact_frames().collect();
+    if frames.is_empty() {
+        return Err(refuse("no contact was kept: give `contact_every` to `run`"));
+    }
+    let shape = [frames.len(), histories.elements().len()];
+    let columns = PyDict::new(py);
+    columns.set_item("time", PyArray1::from_iter(py, frames.iter().map(|frame| frame.time)))?;
+    let value = |pick: fn(&ContactState) -> f64| {
+        let values = frames.iter().flat_map(|frame| frame.states).map(pick);
+        PyArray1::from_iter(py, values).reshape(shape)
+    };
+    columns.set_item("gap", value(|state| state.gap)?)?;
+    columns.set_item("slip", value(|state| state.slip)?)?;
+    columns.set_item("pressure", value(|state| state.pressure)?)?;
+    columns.set_item("shear", value(|state| state.shear)?)?;
+    let modes = frames.iter().flat_map(|frame| frame.modes).map(|mode| mode_number(*mode));
+    columns.set_item("mode", PyArray1::from_iter(py, modes).reshape(shape)?)?;
+    Ok(columns)
+}
+
+/// Snapshots of the structure: times, and arrays of shape (frames, n).
+pub(super) fn motion<'py>(py: Python<'py>, histories: &Histories) -> PyResult<Bound<'py, PyDict>> {
+    let frames: Vec<_> = histories.motion_frames().collect();
+    let Some(first) = frames.first() else {
+        return Err(refuse("no motion was kept: give `motion_every` to `run`"));
+    };
+    let shape = [frames.len(), first.displacement.len()];
+    let columns = PyDict::new(py);
+    columns.set_item("time", PyArray1::from_iter(py, frames.iter().map(|frame| frame.time)))?;
+    let displacement: Vec<f64> =
+        frames.iter().flat_map(|frame| frame.displacement).copied().collect();
+    columns.set_item("displacement", displacement.to_pyarray(py).reshape(shape)?)?;
+    let velocity: Vec<f64> = frames.iter().flat_map(|frame| frame.velocity).copied().collect();
+    columns.set_item("velocity", velocity.to_pyarray(py).reshape(shape)?)?;
+    let free: Vec<f64> = frames.iter().flat_map(|frame| frame.free_field).collect();
+    columns.set_item("free_field", free.to_pyarray(py).reshape([frames.len(), 2])?)?;
+    Ok(columns)
+}

@@ -1,0 +1,395 @@
+//! The simulation.
+
+use std::ops::ControlFlow;
+use std::sync::{Mutex, MutexGuard};
+
+use basemat::Simulation;
+use basemat::coupled::{Run, State};
+use basemat::results::{Histories, Recorder};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+
+use super::build;
+use super::ticker::Ticker;
+use super::{PyCheckpoint, PyLoad, PyState, PyTimeScheme};
+use crate::array::Numbers;
+use crate::error::{OrRaise, busy, has_raised, raise, refuse, take_raised};
+use crate::ground::PyGround;
+use crate::motion::PyRecord;
+use crate::probe::PyProbe;
+use crate::results::PyRun;
+use crate::{interface, motion, structure};
+
+/// A structure on a ground, ready to march.
+#[pyclass(name = "Simulation", module = "basemat", frozen)]
+pub(crate) struct PySimulation {
+    simulation: Mutex<Simulation>,
+    /// Length of the record that it was given, s.
+    duration: Option<f64>,
+}
+
+/// Steps as an iterator: see :meth:`Simulation.steps`.
+#[pyclass(name = "Steps", module = "basemat")]
+pub(crate) struct PySteps {
+    simulation: Py<PySimulation>,
+    left: usize,
+}
+
+impl PySimulation {
+    /// The simulation, unless a run holds it.
+    fn lock(&self) -> PyResult<MutexGuard<'_, Simulation>> {
+        self.simulation.try_lock().map_err(|_| busy())
+    }
+
+    /// Steps asked for directly, by a duration, or by the length of the record.
+    fn count(&self, steps: Option<usize>, duration: Option<f64>) -> PyResult<usize> {
+        match (steps, duration.or(self.duration)) {
+            (Some(_), _) if duration.is_some() => Err(refuse("give steps or a duration, not both")),
+            (Some(steps), _) => Ok(steps),
+            (None, Some(duration)) => Ok(self.lock()?.steps_for(duration)),
+            (None, None) => Err(refuse("give steps or a duration: no record says how long to run")),
+        }
+    }
+}
+
+/// Result of a step, after the core has returned.
+fn settled<T>(result: basemat::Result<T>) -> PyResult<T> {
+    match take_raised() {
+        Some(raised) => Err(raised),
+        None => result.or_raise(),
+    }
+}
+
+#[pymethods]
+impl PySimulation {
+    #[new]
+    #[pyo3(signature = (
+        time_step, structure, ground, interface, *,
+        motion=None, probes=None, loads=None, gravity=None, placement="frictionless",
+        initial_displacement=None, initial_velocity=None, scheme=None, coordinates=None,
+        expected_steps=None, moment_center=None, ledger=true, safety_friction=None,
+        allowable_slip=None, allowable_gap=None, allowable_uplifted_fraction=None,
+        allowable_rotation=None, flow_chart_iterations=None,
+    ))]
+    fn new(
+        py: Python<'_>,
+        time_step: f64,
+        structure: Bound<'_, PyAny>,
+        ground: Bound<'_, PyGround>,
+        interface: Bound<'_, PyAny>,
+        motion: Option<Bound<'_, PyAny>>,
+        probes: Option<Vec<Bound<'_, PyProbe>>>,
+        loads: Option<Vec<Bound<'_, PyLoad>>>,
+        gravity: Option<f64>,
+        placement: &str,
+        initial_displacement: Option<Numbers>,
+        initial_velocity: Option<Numbers>,
+        scheme: Option<Bound<'_, PyTimeScheme>>,
+        coordinates: Option<Bound<'_, PyAny>>,
+        expected_steps: Option<usize>,
+        moment_center: Option<f64>,
+        ledger: bool,
+        safety_friction: Option<f64>,
+        allowable_slip: Option<f64>,
+        allowable_gap: Option<f64>,
+        allowable_uplifted_fraction: Option<f64>,
+        allowable_rotation: Option<f64>,
+        flow_chart_iterations: Option<usize>,
+    ) -> PyResult<Self> {
+        take_raised();
+        let laws = interface::recipes(&interface)?;
+        let laws = laws.iter().map(|make| make()).collect::<basemat::Result<_>>().or_raise()?;
+        let mut builder = Simulation::builder(time_step)
+            .structure(structure::recipe(&structure)?().or_raise()?)
+            .ground((ground.get().make)().or_raise()?)
+            .interfaces(laws)
+            .placement(build::placement(placement)?)
+            .contact_search(build::search(flow_chart_iterations))
+            .serviceability(build::limits(
+                allowable_slip,
+                allowable_gap,
+                allowable_uplifted_fraction,
+                allowable_rotation,
+            )?)
+            .probes(probes.iter().flatten().map(|probe| probe.get().0.clone()));
+        for load in loads.iter().flatten() {
+            builder = builder.load((load.get().make)().or_raise()?);
+        }
+        if let Some(motion) = &motion {
+            builder = builder.motion(motion::recipe(motion)?().or_raise()?);
+        }
+        if let Some(gravity) = gravity {
+            builder = builder.gravity(gravity);
+        }
+        if let Some(values) = initial_displacement {
+            builder = builder.initial_displacement(values.0);
+        }
+        if let Some(values) = initial_velocity {
+            builder = builder.initial_velocity(values.0);
+        }
+        if let Some(scheme) = scheme {
+            builder = builder.scheme((scheme.get().make)().or_raise()?);
+        }
+        if let Some(coordinates) = coordinates {
+            builder = builder.coordinates(build::coordinates(&coordinates)?);
+        }
+        if let Some(steps) = expected_steps {
+            builder = builder.expected_steps(steps);
+        }
+        if let Some(x) = moment_center {
+            builder = builder.moment_center(x);
+        }
+        if !ledger {
+            builder = builder.without_ledger();
+        }
+        if let Some(coefficient) = safety_friction {
+            builder = builder.safety_friction(coefficient);
+        }
+        let simulation = build::build(py, builder)?;
+        let record = motion.as_ref().and_then(|motion| motion.cast::<PyRecord>().ok());
+        let duration = record.map(|record| record.get().0.duration());
+        Ok(Self { simulation: Mutex::new(simulation), duration })
+    }
+
+    /// Makes ``steps`` steps, or those of a ``duration`` (s); without either, those of the record.
+    ///
+    /// ``progress``: True for a line on stderr, or a function ``(steps done, steps in all)`` that is
+    /// called about every 50 ms. ``observe(state)`` is called after every ``observe_every``th step
+    /// and ends the run when it returns True; what it raises comes out of here. Ctrl-C is heard. In
+    /// all three cases the simulation stays at the last accepted step.
+    ///
+    /// Time series are kept of every ``every``th step (all: needed for floor spectra), contact of
+    /// every ``contact_every``th and the structure's motion of every ``motion_every``th (none unless
+    /// given). ``series=False`` keeps no time series at all.
+    #[pyo3(signature = (
+        steps=None, *, duration=None, progress=None, observe=None, observe_every=1, series=true,
+        every=1, contact_every=None, motion_every=None,
+    ))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        steps: Option<usize>,
+        duration: Option<f64>,
+        progress: Option<Bound<'_, PyAny>>,
+        observe: Option<Py<PyAny>>,
+        observe_every: usize,
+        series: bool,
+        every: usize,
+        contact_every: Option<usize>,
+        motion_every: Option<usize>,
+    ) -> PyResult<PyRun> {
+        let steps = self.count(steps, duration)?;
+        if observe_every == 0 {
+            return Err(refuse("observe_every is 0, but must be one or more"));
+        }
+        let mut recorder = Recorder::new().every(every);
+        if let Some(every) = contact_every {
+            recorder = recorder.contact(every);
+        }
+        if let Some(every) = motion_every {
+            recorder = recorder.motion(every);
+        }
+        let progress = progress_function(progress)?;
+        take_raised();
+        py.detach(|| {
+            let mut simulation = self.lock()?;
+            let mut histories =
+                series.then(|| recorder.start(&simulation)).transpose().or_raise()?;
+            if let Some(histories) = &mut histories {
+                histories.reserve(steps);
+            }
+            let mut watched = Watched {
+                ticker: Ticker::new(progress, steps),
+                observe,
+                observe_every,
+                histories,
+                done: 0,
+                stopped: None,
+            };
+            let result = simulation.run(steps, |state| watched.see(state));
+            watched.end(result)
+        })
+    }
+
+    /// Makes one step and returns the new state. Raises :class:`StepError` if the step could not be
+    /// solved; the simulation is then as it was before.
+    fn step(&self, py: Python<'_>) -> PyResult<PyState> {
+        take_raised();
+        py.detach(|| {
+            let mut simulation = self.lock()?;
+            settled(simulation.step().cloned()).map(PyState)
+        })
+    }
+
+    /// An iterator that makes a step and yields its state, ``steps`` times or those of a
+    /// ``duration`` (s); without either, those of the record.
+    #[pyo3(signature = (steps=None, *, duration=None))]
+    fn steps(
+        slf: Bound<'_, Self>,
+        steps: Option<usize>,
+        duration: Option<f64>,
+    ) -> PyResult<PySteps> {
+        let left = slf.get().count(steps, duration)?;
+        Ok(PySteps { simulation: slf.unbind(), left })
+    }
+
+    /// The state at the end of the last accepted step (at first: the static state).
+    #[getter]
+    fn state(&self) -> PyResult<PyState> {
+        Ok(PyState(self.lock()?.state().clone()))
+    }
+
+    /// Time step, s.
+    #[getter]
+    fn time_step(&self) -> PyResult<f64> {
+        Ok(self.lock()?.time_step())
+    }
+
+    /// Names of the probes.
+    #[getter]
+    fn probe_names(&self) -> PyResult<Vec<String>> {
+        Ok(self.lock()?.probes().iter().map(|probe| probe.name.clone()).collect())
+    }
+
+    /// Ends of the contact elements: list of (left, right), m.
+    #[getter]
+    fn elements(&self) -> PyResult<Vec<(f64, f64)>> {
+        Ok(self.lock()?.elements().iter().map(|e| (e.left, e.right)).collect())
+    }
+
+    /// Static displacement of the unknowns: array of shape (n,), m and rad.
+    #[getter]
+    fn static_displacement<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        Ok(PyArray1::from_slice(py, self.lock()?.static_displacement()))
+    }
+
+    /// Which history the ground keeps and why, in words; None if it has not chosen one yet.
+    #[getter]
+    fn history_choice(&self) -> PyResult<Option<String>> {
+        Ok(self.lock()?.history_choice().map(|choice| choice.to_string()))
+    }
+
+    /// Condition numbers of the matrices of a step: effective stiffness, ground, Delassus operator.
+    #[getter]
+    fn conditioning(&self) -> PyResult<(f64, f64, f64)> {
+        let conditioning = self.lock()?.conditioning();
+        Ok((conditioning.effective_stiffness, conditioning.ground, conditioning.delassus))
+    }
+
+    /// Number of steps that last ``duration`` (s), rounded up.
+    fn steps_for(&self, duration: f64) -> PyResult<usize> {
+        Ok(self.lock()?.steps_for(duration))
+    }
+
+    /// All that the steps so far have left behind, for :meth:`resume`.
+    fn checkpoint(&self) -> PyResult<PyCheckpoint> {
+        settled(self.lock()?.checkpoint()).map(PyCheckpoint)
+    }
+
+    /// Goes to where ``checkpoint`` was made, in a simulation that was built in the same way.
+    fn resume(&self, checkpoint: &PyCheckpoint) -> PyResult<()> {
+        take_raised();
+        settled(self.lock()?.resume(&checkpoint.0))
+    }
+
+    fn __repr__(&self) -> String {
+        self.lock().map_or_else(
+            |_| "Simulation(running)".to_owned(),
+            |simulation| {
+                format!(
+                    "Simulation(step {}, {} s)",
+                    simulation.state().step,
+                    simulation.state().time
+                )
+            },
+        )
+    }
+}
+
+/// The function that is told of the progress: the package's own for True, none for False.
+fn progress_function(given: Option<Bound<'_, PyAny>>) -> PyResult<Option<Py<PyAny>>> {
+    match given {
+        Some(function) if function.is_callable() => Ok(Some(function.unbind())),
+        Some(flag) if flag.is_truthy()? => {
+            let line = flag.py().import("basemat._progress")?.call_method0("Line")?;
+            Ok(Some(line.unbind()))
+        }
+        _ => Ok(None),
+    }
+}
+
+/// A run and those who watch it.
+struct Watched {
+    ticker: Ticker,
+    observe: Option<Py<PyAny>>,
+    observe_every: usize,
+    histories: Option<Histories>,
+    done: usize,
+    stopped: Option<PyErr>,
+}
+
+impl Watched {
+    fn see(&mut self, state: &State) -> ControlFlow<()> {
+        self.done += 1;
+        if let Some(histories) = &mut self.histories {
+            histories.record(state);
+        }
+        match self.ask(state) {
+            Ok(flow) => flow,
+            Err(error) => {
+                self.stopped = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    }
+
+    /// The observer, the ticker, and what user code has raised while the step was committed.
+    fn ask(&mut self, state: &State) -> PyResult<ControlFlow<()>> {
+        if has_raised() {
+            return Ok(ControlFlow::Break(()));
+        }
+        self.ticker.tick(self.done)?;
+        let Some(observe) =
+            self.observe.as_ref().filter(|_| self.done.is_multiple_of(self.observe_every))
+        else {
+            return Ok(ControlFlow::Continue(()));
+        };
+        let ends = Python::attach(|py| {
+            observe.call1(py, (PyState(state.clone()),))?.extract::<Option<bool>>(py)
+        })?;
+        Ok(if ends == Some(true) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+    }
+
+    /// The run, or what ended it.
+    fn end(mut self, result: basemat::Result<Run>) -> PyResult<PyRun> {
+        let raised = take_raised().or(self.stopped.take());
+        let last = Python::attach(|py| self.ticker.look(py, self.done));
+        if let Some(raised) = raised {
+            return Err(raised);
+        }
+        let run = result.map_err(raise)?;
+        last?;
+        Ok(PyRun::new(run, self.histories))
+    }
+}
+
+#[pymethods]
+impl PySteps {
+    fn __iter__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
+        slf
+    }
+
+    fn __next__(&mut self, py: Python<'_>) -> PyResult<Option<PyState>> {
+        if self.left == 0 {
+            return Ok(None);
+        }
+        py.check_signals()?;
+        let state = self.simulation.get().step(py)?;
+        self.left -= 1;
+        Ok(Some(state))
+    }
+
+    fn __len__(&self) -> usize {
+        self.left
+    }
+}

@@ -1,0 +1,79 @@
+//! Loads.
+
+use std::sync::Arc;
+
+use basemat::coupled::Load;
+use basemat::structure::Row;
+use pyo3::prelude::*;
+
+use crate::array::Numbers;
+use crate::error::{OrRaise, keep, refuse};
+use crate::motion::PyRecord;
+use crate::row::RowLike;
+
+/// A force that acts on a structure from outside, on a row of unknowns.
+///
+/// ``value``: a function of time (s) that returns the force (N/m; on a rotation a moment, N·m/m); it
+/// may raise. Its value at t = 0 belongs to the static state.
+#[pyclass(name = "Load", module = "basemat", frozen)]
+pub(crate) struct PyLoad {
+    pub(super) make: Arc<dyn Fn() -> basemat::Result<Load> + Send + Sync>,
+}
+
+impl PyLoad {
+    fn of(make: impl Fn() -> basemat::Result<Load> + Send + Sync + 'static) -> Self {
+        Self { make: Arc::new(make) }
+    }
+}
+
+#[pymethods]
+impl PyLoad {
+    #[new]
+    fn new(row: RowLike, value: Bound<'_, PyAny>) -> PyResult<Self> {
+        if !value.is_callable() {
+            return Err(refuse("the value of a load must be a function of time"));
+        }
+        let (row, value) = (row.0, Arc::new(value.unbind()));
+        Ok(Self::of(move || {
+            let value = Arc::clone(&value);
+            Ok(Load::new(row.clone(), move |time| value_of(&value, time)))
+        }))
+    }
+
+    /// The same force (N/m) at any time, the static state included.
+    #[staticmethod]
+    fn constant(row: RowLike, force: f64) -> Self {
+        Self::of(move || Ok(Load::constant(row.0.clone(), force)))
+    }
+
+    /// A force (N/m) of the static state that is gone from the first step on (snap-back).
+    #[staticmethod]
+    fn released(row: RowLike, force: f64) -> Self {
+        Self::of(move || Ok(Load::released(row.0.clone(), force)))
+    }
+
+    /// ``force`` times the samples of a record, linear between them and zero beyond its ends.
+    #[staticmethod]
+    fn record(row: RowLike, record: &PyRecord, force: f64) -> Self {
+        let (row, record): (Row, _) = (row.0, Arc::clone(&record.0));
+        Self::of(move || Ok(Load::record(row.clone(), &record, force)))
+    }
+
+    /// ``forces`` (array, N/m) at ``times`` (array, s, ascending), linear between them, zero outside.
+    #[staticmethod]
+    fn table(row: RowLike, times: Numbers, forces: Numbers) -> PyResult<Self> {
+        Load::table(row.0.clone(), &times.0, &forces.0).or_raise()?;
+        Ok(Self::of(move || Load::table(row.0.clone(), &times.0, &forces.0)))
+    }
+}
+
+/// What the function returns, or NaN (which ends the step) if it raises.
+fn value_of(function: &Py<PyAny>, time: f64) -> f64 {
+    Python::attach(|py| {
+        let found = function.call1(py, (time,));
+        found.and_then(|value| value.extract(py)).unwrap_or_else(|error: PyErr| {
+            keep(error);
+            f64::NAN
+        })
+    })
+}

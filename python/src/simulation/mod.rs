@@ -1,0 +1,16 @@
+//! The simulation, its state and its runs.
+
+mod build;
+mod checkpoint;
+mod class;
+mod load;
+mod scheme;
+mod state;
+mod ticker;
+
+pub(crate) use checkpoint::PyCheckpoint;
+pub(crate) use class::{PySimulation, PySteps};
+pub(crate) use load::PyLoad;
+pub(crate) use scheme::PyTimeScheme;
+pub(crate) use state::{PyFoundation, PyState};
+pub(crate) use ticker::cancel_when;

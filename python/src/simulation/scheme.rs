@@ -1,0 +1,47 @@
+//! Time schemes.
+
+use std::sync::Arc;
+
+use basemat::coupled::{HhtAlpha, Midpoint, Newmark, Theta, TimeScheme};
+use pyo3::prelude::*;
+
+use crate::error::OrRaise;
+use crate::recipe::Recipe;
+
+/// A time scheme of the structure: the midpoint rule unless told otherwise.
+#[pyclass(name = "TimeScheme", module = "basemat", frozen)]
+pub(crate) struct PyTimeScheme {
+    pub(super) make: Recipe<dyn TimeScheme>,
+}
+
+fn copied(scheme: impl TimeScheme + Clone + Sync + 'static) -> PyTimeScheme {
+    PyTimeScheme { make: Arc::new(move || Ok(Box::new(scheme.clone()))) }
+}
+
+#[pymethods]
+impl PyTimeScheme {
+    /// The midpoint rule: conserves energy.
+    #[staticmethod]
+    fn midpoint() -> Self {
+        copied(Midpoint)
+    }
+
+    /// The θ rule, ½ ≤ θ ≤ 1.
+    #[staticmethod]
+    fn theta(theta: f64) -> PyResult<Self> {
+        Ok(copied(Theta::new(theta).or_raise()?))
+    }
+
+    /// Newmark's rule.
+    #[staticmethod]
+    #[pyo3(signature = (gamma=0.5, beta=0.25))]
+    fn newmark(gamma: f64, beta: f64) -> PyResult<Self> {
+        Ok(copied(Newmark::new(gamma, beta).or_raise()?))
+    }
+
+    /// The HHT-α rule.
+    #[staticmethod]
+    fn hht_alpha(alpha: f64) -> PyResult<Self> {
+        Ok(copied(HhtAlpha::new(alpha).or_raise()?))
+    }
+}

@@ -1,0 +1,214 @@
+//! The state at the end of a step.
+
+use basemat::coupled::{Foundation, SearchMethod, State};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+
+use crate::names::{mode_name, mode_number};
+use crate::results::PyLedger;
+
+type Array<'py> = Bound<'py, PyArray1<f64>>;
+
+/// The simulation at the end of an accepted step.
+///
+/// Displacements are changes against the static state, relative to the free field's translation
+/// unless they say otherwise. Forces are those of the structure on the soil, per metre of thickness.
+#[pyclass(name = "State", module = "basemat", frozen)]
+pub(crate) struct PyState(pub(super) State);
+
+/// A foundation at the end of a step.
+#[pyclass(name = "FoundationState", module = "basemat", frozen, get_all)]
+pub(crate) struct PyFoundation {
+    /// First element and the one after the last.
+    elements: (usize, usize),
+    /// Horizontal force on the soil, N/m.
+    shear: f64,
+    /// Moment on the soil, N·m/m.
+    moment: f64,
+    /// Total pressure, N/m.
+    normal_force: f64,
+    /// Open length over its length.
+    uplifted_fraction: f64,
+    /// Mean slip, m.
+    mean_slip: f64,
+    /// Rotation of its chord, rad.
+    rotation: f64,
+}
+
+#[pymethods]
+impl PyState {
+    /// Steps made.
+    #[getter]
+    fn step(&self) -> usize {
+        self.0.step
+    }
+
+    /// Time, s.
+    #[getter]
+    fn time(&self) -> f64 {
+        self.0.time
+    }
+
+    /// Gap of each element: array of shape (elements,), m.
+    #[getter]
+    fn gap<'py>(&self, py: Python<'py>) -> Array<'py> {
+        PyArray1::from_iter(py, self.0.contact.iter().map(|contact| contact.gap))
+    }
+
+    /// Slip of each element: array of shape (elements,), m.
+    #[getter]
+    fn slip<'py>(&self, py: Python<'py>) -> Array<'py> {
+        PyArray1::from_iter(py, self.0.contact.iter().map(|contact| contact.slip))
+    }
+
+    /// Pressure on each element: array of shape (elements,), Pa.
+    #[getter]
+    fn pressure<'py>(&self, py: Python<'py>) -> Array<'py> {
+        PyArray1::from_iter(py, self.0.contact.iter().map(|contact| contact.pressure))
+    }
+
+    /// Shear traction on each element: array of shape (elements,), Pa.
+    #[getter]
+    fn shear<'py>(&self, py: Python<'py>) -> Array<'py> {
+        PyArray1::from_iter(py, self.0.contact.iter().map(|contact| contact.shear))
+    }
+
+    /// Mode of each element: array of shape (elements,) of numbers into :data:`basemat.MODES`.
+    #[getter]
+    fn modes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
+        PyArray1::from_iter(py, self.0.modes.iter().map(|mode| mode_number(*mode)))
+    }
+
+    /// Changes of mode in this step: tuples (element, mode before, mode now).
+    #[getter]
+    fn transitions(&self) -> Vec<(usize, &'static str, &'static str)> {
+        let changes = self.0.transitions.iter();
+        changes
+            .map(|change| (change.element, mode_name(change.from), mode_name(change.to)))
+            .collect()
+    }
+
+    /// Values of the probes: array of shape (probes,), in their order.
+    #[getter]
+    fn probes<'py>(&self, py: Python<'py>) -> Array<'py> {
+        PyArray1::from_slice(py, &self.0.probes)
+    }
+
+    /// Horizontal force on the soil, positive to the right, N/m.
+    #[getter]
+    fn base_shear(&self) -> f64 {
+        self.0.base_shear
+    }
+
+    /// Moment on the soil, counter-clockwise, N·m/m.
+    #[getter]
+    fn base_moment(&self) -> f64 {
+        self.0.base_moment
+    }
+
+    /// Total pressure on the soil, N/m.
+    #[getter]
+    fn normal_force(&self) -> f64 {
+        self.0.normal_force
+    }
+
+    /// Length of open elements over the length of the base.
+    #[getter]
+    fn uplifted_fraction(&self) -> f64 {
+        self.0.uplifted_fraction
+    }
+
+    /// Slip averaged over the base, m.
+    #[getter]
+    fn mean_slip(&self) -> f64 {
+        self.0.mean_slip
+    }
+
+    /// Largest |slip| of any element, m.
+    #[getter]
+    fn largest_slip(&self) -> f64 {
+        self.0.largest_slip()
+    }
+
+    /// Rotation of the base, counter-clockwise, rad.
+    #[getter]
+    fn base_rotation(&self) -> f64 {
+        self.0.base_rotation
+    }
+
+    /// Each foundation by itself.
+    #[getter]
+    fn foundations(&self) -> Vec<PyFoundation> {
+        let own = |foundation: &Foundation| PyFoundation {
+            elements: (foundation.elements.start, foundation.elements.end),
+            shear: foundation.shear,
+            moment: foundation.moment,
+            normal_force: foundation.normal_force,
+            uplifted_fraction: foundation.uplifted_fraction,
+            mean_slip: foundation.mean_slip,
+            rotation: foundation.rotation,
+        };
+        self.0.foundations.iter().map(own).collect()
+    }
+
+    /// Mean displacement (to the right, up) of the free field under the base, m.
+    #[getter]
+    fn free_field(&self) -> [f64; 2] {
+        self.0.free_field
+    }
+
+    /// The energy ledger.
+    #[getter]
+    fn ledger(&self) -> PyLedger {
+        PyLedger(self.0.ledger)
+    }
+
+    /// Linear solves that the search for contact modes needed.
+    #[getter]
+    fn trials(&self) -> usize {
+        self.0.trials
+    }
+
+    /// Method that found the modes: "active set", "gauss-seidel" or "path".
+    #[getter]
+    fn method(&self) -> &'static str {
+        match self.0.method {
+            SearchMethod::GaussSeidel => "gauss-seidel",
+            SearchMethod::Path => "path",
+            _ => "active set",
+        }
+    }
+
+    /// Displacement of the unknowns relative to the free field: array of shape (n,), m and rad.
+    #[getter]
+    fn displacement<'py>(&self, py: Python<'py>) -> Array<'py> {
+        PyArray1::from_slice(py, self.0.displacement())
+    }
+
+    /// The same with the translation of the free field.
+    #[getter]
+    fn absolute_displacement<'py>(&self, py: Python<'py>) -> Array<'py> {
+        PyArray1::from_slice(py, self.0.absolute_displacement())
+    }
+
+    /// Total velocity of the unknowns: array of shape (n,), m/s and rad/s.
+    #[getter]
+    fn velocity<'py>(&self, py: Python<'py>) -> Array<'py> {
+        PyArray1::from_slice(py, self.0.velocity())
+    }
+
+    /// Total acceleration of the unknowns: array of shape (n,), m/s² and rad/s².
+    #[getter]
+    fn acceleration<'py>(&self, py: Python<'py>) -> Array<'py> {
+        PyArray1::from_slice(py, self.0.acceleration())
+    }
+
+    /// Numbers that the law of an element remembers.
+    fn law_memory(&self, element: usize) -> Vec<f64> {
+        self.0.law_memory(element).to_vec()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("State(step {}, {} s)", self.0.step, self.0.time)
+    }
+}

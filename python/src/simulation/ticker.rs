@@ -1,0 +1,62 @@
+//! What happens beside the steps: signals (Ctrl-C), progress, cancellation.
+
+use std::cell::RefCell;
+use std::time::{Duration, Instant};
+
+use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::prelude::*;
+
+/// Time between two looks at Python.
+const INTERVAL: Duration = Duration::from_millis(50);
+
+thread_local! {
+    /// An event (`is_set`) that ends the runs of this thread.
+    static CANCELLED: RefCell<Option<Py<PyAny>>> = const { RefCell::new(None) };
+}
+
+/// Runs of this thread end with `KeyboardInterrupt` once ``event.is_set()``; None for no event.
+#[pyfunction]
+#[pyo3(signature = (event=None))]
+pub(crate) fn cancel_when(event: Option<Py<PyAny>>) {
+    let before = CANCELLED.replace(event);
+    drop(before);
+}
+
+/// Looks at Python every 50 ms.
+pub(super) struct Ticker {
+    last: Instant,
+    /// Called with the steps made and the steps in all.
+    progress: Option<Py<PyAny>>,
+    steps: usize,
+}
+
+impl Ticker {
+    pub(super) fn new(progress: Option<Py<PyAny>>, steps: usize) -> Self {
+        Self { last: Instant::now(), progress, steps }
+    }
+
+    /// After a step, `done` of them in all; to be called without the GIL.
+    pub(super) fn tick(&mut self, done: usize) -> PyResult<()> {
+        if self.last.elapsed() < INTERVAL {
+            return Ok(());
+        }
+        let result = Python::attach(|py| self.look(py, done));
+        self.last = Instant::now();
+        result
+    }
+
+    /// Signals, cancellation and progress.
+    pub(super) fn look(&self, py: Python<'_>, done: usize) -> PyResult<()> {
+        py.check_signals()?;
+        let event = CANCELLED.with_borrow(|event| event.as_ref().map(|event| event.clone_ref(py)));
+        if let Some(event) = event
+            && event.call_method0(py, "is_set")?.is_truthy(py)?
+        {
+            return Err(PyKeyboardInterrupt::new_err("cancelled"));
+        }
+        if let Some(progress) = &self.progress {
+            progress.call1(py, (done, self.steps))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,75 @@
+//! The soil.
+
+use basemat::Soil;
+use pyo3::prelude::*;
+
+use crate::error::OrRaise;
+
+/// Elastic soil: shear modulus (Pa), Poisson's ratio (−1 to 0.5), density (kg/m³).
+#[pyclass(name = "Soil", module = "basemat", frozen)]
+#[derive(Clone, Copy)]
+pub(crate) struct PySoil(pub(crate) Soil);
+
+#[pymethods]
+impl PySoil {
+    #[new]
+    fn new(shear_modulus: f64, poisson: f64, density: f64) -> PyResult<Self> {
+        Ok(Self(Soil::new(shear_modulus, poisson, density).or_raise()?))
+    }
+
+    /// Soil from the speed of its shear waves (m/s), Poisson's ratio and density (kg/m³).
+    #[staticmethod]
+    fn from_shear_wave_speed(speed: f64, poisson: f64, density: f64) -> PyResult<Self> {
+        Ok(Self(Soil::from_shear_wave_speed(speed, poisson, density).or_raise()?))
+    }
+
+    /// Soil from the speeds of shear and pressure waves (m/s) and density (kg/m³).
+    #[staticmethod]
+    fn from_wave_speeds(shear: f64, pressure: f64, density: f64) -> PyResult<Self> {
+        Ok(Self(Soil::from_wave_speeds(shear, pressure, density).or_raise()?))
+    }
+
+    /// Shear modulus, Pa.
+    #[getter]
+    fn shear_modulus(&self) -> f64 {
+        self.0.shear_modulus()
+    }
+
+    /// Poisson's ratio.
+    #[getter]
+    fn poisson(&self) -> f64 {
+        self.0.poisson()
+    }
+
+    /// Density, kg/m³.
+    #[getter]
+    fn density(&self) -> f64 {
+        self.0.density()
+    }
+
+    /// Speed of shear waves, m/s.
+    #[getter]
+    fn shear_wave_speed(&self) -> f64 {
+        self.0.shear_wave_speed()
+    }
+
+    /// Speed of pressure waves, m/s.
+    #[getter]
+    fn pressure_wave_speed(&self) -> f64 {
+        self.0.pressure_wave_speed()
+    }
+
+    fn __repr__(&self) -> String {
+        let Self(soil) = self;
+        format!(
+            "Soil(shear_modulus={:?}, poisson={:?}, density={:?})",
+            soil.shear_modulus(),
+            soil.poisson(),
+            soil.density()
+        )
+    }
+
+    fn __getnewargs__(&self) -> (f64, f64, f64) {
+        (self.0.shear_modulus(), self.0.poisson(), self.0.density())
+    }
+}

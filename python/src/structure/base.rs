@@ -1,0 +1,99 @@
+//! The base class of structures, and structures in any form that Python may give them.
+
+use std::sync::Arc;
+
+use basemat::structure::{Structure, Triplets};
+use numpy::{PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+
+use super::PyContactNode;
+use crate::error::{OrRaise, kept, refuse};
+use crate::recipe::Recipe;
+use crate::user::UserStructure;
+
+/// A structure: a description from which every simulation makes one of its own.
+#[pyclass(name = "Structure", module = "basemat", subclass, frozen)]
+pub(crate) struct PyStructure {
+    pub(crate) make: Recipe<dyn Structure>,
+}
+
+impl PyStructure {
+    /// A structure that can be copied.
+    pub(crate) fn copied(structure: impl Structure + Clone + Sync + 'static) -> Self {
+        Self { make: Arc::new(move || Ok(Box::new(structure.clone()))) }
+    }
+}
+
+/// The recipe of a structure of this package, or of one written in Python.
+pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure>> {
+    if let Ok(own) = object.cast::<PyStructure>() {
+        return Ok(own.get().make.clone());
+    }
+    if object.hasattr("contact_nodes")? {
+        let object = object.clone().unbind();
+        return Ok(Arc::new(move || {
+            let made = Python::attach(|py| UserStructure::new(object.bind(py)));
+            Ok(Box::new(made.map_err(|error| kept("structure", error))?))
+        }));
+    }
+    Err(refuse(format!(
+        "{} is no structure: it has no method `contact_nodes`",
+        object.get_type().name()?
+    )))
+}
+
+/// An n × n array of what `fill` adds up.
+fn array<'py>(
+    py: Python<'py>,
+    structure: &dyn Structure,
+    fill: impl FnOnce(&dyn Structure, &mut Triplets) -> basemat::Result<()>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let order = structure.unknowns();
+    let mut entries = Triplets::new(order);
+    fill(structure, &mut entries).or_raise()?;
+    let array = PyArray2::zeros(py, [order, order], false);
+    {
+        let mut view = array.try_readwrite()?;
+        let mut view = view.as_array_mut();
+        for &(row, column, value) in entries.entries() {
+            match view.get_mut([row, column]) {
+                Some(entry) => *entry += value,
+                None => {
+                    return Err(refuse(format!(
+                        "entry ({row}, {column}) of a matrix of order {order}"
+                    )));
+                }
+            }
+        }
+    }
+    Ok(array)
+}
+
+#[pymethods]
+impl PyStructure {
+    /// Number of unknowns n.
+    #[getter]
+    fn unknowns(&self) -> PyResult<usize> {
+        Ok((self.make)().or_raise()?.unknowns())
+    }
+
+    /// Points of the base that touch the ground, from left to right.
+    fn contact_nodes(&self) -> PyResult<Vec<PyContactNode>> {
+        Ok((self.make)().or_raise()?.contact_nodes().into_iter().map(PyContactNode).collect())
+    }
+
+    /// Mass matrix (n × n array, kg/m).
+    fn mass<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        array(py, (self.make)().or_raise()?.as_ref(), Structure::mass)
+    }
+
+    /// Stiffness matrix (n × n array, N/m per metre).
+    fn stiffness<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        array(py, (self.make)().or_raise()?.as_ref(), Structure::stiffness)
+    }
+
+    /// Viscous damping matrix (n × n array, N s/m per metre).
+    fn damping<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        array(py, (self.make)().or_raise()?.as_ref(), Structure::damping)
+    }
+}

@@ -1,0 +1,93 @@
+//! The rigid block.
+
+use basemat::structure::RigidBlock;
+use pyo3::prelude::*;
+
+use super::PyStructure;
+use crate::error::OrRaise;
+use crate::row::PyRow;
+
+/// A rigid block on a flat base, with three unknowns at the middle of its base: displacement to the
+/// right, displacement up, rotation.
+///
+/// ``width``, ``height`` in m, ``density`` in kg/m³. ``center``: x of its middle, m. ``p_delta``:
+/// gravity (m/s²) with which its weight tips it once it leans; none unless given.
+#[pyclass(name = "RigidBlock", module = "basemat", extends = PyStructure, frozen)]
+pub(crate) struct PyRigidBlock(RigidBlock);
+
+fn placed(
+    block: RigidBlock,
+    center: f64,
+    p_delta: Option<f64>,
+) -> PyResult<PyClassInitializer<PyRigidBlock>> {
+    let mut block = block.centered_at(center).or_raise()?;
+    if let Some(gravity) = p_delta {
+        block = block.with_p_delta(gravity).or_raise()?;
+    }
+    Ok(PyClassInitializer::from(PyStructure::copied(block.clone()))
+        .add_subclass(PyRigidBlock(block)))
+}
+
+#[pymethods]
+impl PyRigidBlock {
+    #[new]
+    #[pyo3(signature = (width, height, density, *, center=0.0, p_delta=None))]
+    fn new(
+        width: f64,
+        height: f64,
+        density: f64,
+        center: f64,
+        p_delta: Option<f64>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        placed(RigidBlock::new(width, height, density).or_raise()?, center, p_delta)
+    }
+
+    /// Block of a mass (kg/m) with a rotary inertia about its centre of mass (kg m²/m), which is
+    /// ``center_height`` (m) above the base.
+    #[staticmethod]
+    #[pyo3(signature = (width, mass, rotary_inertia, center_height, *, center=0.0, p_delta=None))]
+    fn from_mass(
+        py: Python<'_>,
+        width: f64,
+        mass: f64,
+        rotary_inertia: f64,
+        center_height: f64,
+        center: f64,
+        p_delta: Option<f64>,
+    ) -> PyResult<Py<Self>> {
+        let block = RigidBlock::from_mass(width, mass, rotary_inertia, center_height);
+        Py::new(py, placed(block.or_raise()?, center, p_delta)?)
+    }
+
+    /// Unknown of the displacement to the right.
+    #[classattr]
+    const HORIZONTAL: usize = RigidBlock::HORIZONTAL;
+    /// Unknown of the displacement up.
+    #[classattr]
+    const VERTICAL: usize = RigidBlock::VERTICAL;
+    /// Unknown of the rotation.
+    #[classattr]
+    const ROTATION: usize = RigidBlock::ROTATION;
+
+    /// Mass, kg/m.
+    #[getter]
+    fn total_mass(&self) -> f64 {
+        self.0.total_mass()
+    }
+
+    /// Rotary inertia about the middle of the base, kg m²/m.
+    #[getter]
+    fn base_inertia(&self) -> f64 {
+        self.0.base_inertia()
+    }
+
+    /// Horizontal displacement at a height (m) above the base.
+    fn horizontal_at(&self, height: f64) -> PyRow {
+        PyRow(self.0.horizontal_at(height))
+    }
+
+    /// Vertical displacement at x (m).
+    fn vertical_at(&self, x: f64) -> PyRow {
+        PyRow(self.0.vertical_at(x))
+    }
+}

@@ -1,0 +1,159 @@
+//! Structures made of others: reduced ones, groups, modal damping; Rayleigh damping.
+
+use std::sync::Arc;
+
+use basemat::structure::{
+    CraigBampton, ModalDamping, RayleighDamping, ReducedModel, Structure, StructureGroup,
+};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+
+use super::{PyStructure, recipe};
+use crate::array::Numbers;
+use crate::error::{OrRaise, refuse};
+use crate::recipe::{Recipe, Shared};
+use crate::row::{PyRow, RowLike};
+
+/// Rayleigh damping: ``mass`` (1/s) times the mass matrix and ``stiffness`` (s) times the stiffness.
+#[pyclass(name = "RayleighDamping", module = "basemat", frozen)]
+pub(crate) struct PyRayleighDamping(pub(super) RayleighDamping);
+
+#[pymethods]
+impl PyRayleighDamping {
+    #[new]
+    fn new(mass: f64, stiffness: f64) -> PyResult<Self> {
+        Ok(Self(RayleighDamping::new(mass, stiffness).or_raise()?))
+    }
+
+    /// Damping with given ``ratios`` at two ``frequencies`` (Hz).
+    #[staticmethod]
+    fn from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) -> PyResult<Self> {
+        Ok(Self(RayleighDamping::from_ratios(frequencies, ratios).or_raise()?))
+    }
+
+    /// Factor of the mass, 1/s.
+    #[getter]
+    fn mass(&self) -> f64 {
+        self.0.mass()
+    }
+
+    /// Factor of the stiffness, s.
+    #[getter]
+    fn stiffness(&self) -> f64 {
+        self.0.stiffness()
+    }
+
+    /// Damping ratio at a frequency (Hz).
+    fn ratio(&self, frequency: f64) -> f64 {
+        self.0.ratio(frequency)
+    }
+}
+
+/// A structure reduced by Craig and Bampton's method to its contact nodes, the unknowns in ``keep``
+/// and the lowest ``modes`` modes of the rest. ``damping_ratio``: of these modes, in place of the
+/// structure's damping.
+#[pyclass(name = "ReducedModel", module = "basemat", extends = PyStructure, frozen)]
+pub(crate) struct PyReducedModel(Arc<ReducedModel>);
+
+#[pymethods]
+impl PyReducedModel {
+    #[new]
+    #[pyo3(signature = (structure, modes, *, keep=None, damping_ratio=None))]
+    fn new(
+        structure: Bound<'_, PyAny>,
+        modes: usize,
+        keep: Option<Vec<usize>>,
+        damping_ratio: Option<f64>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let py = structure.py();
+        let full = recipe(&structure)?().or_raise()?;
+        let reduction = CraigBampton::new(modes).keep(&keep.unwrap_or_default());
+        let reduced = py.detach(move || {
+            let reduced = reduction.reduce(full)?;
+            match damping_ratio {
+                Some(ratio) => reduced.with_damping_ratio(ratio),
+                None => Ok(reduced),
+            }
+        });
+        let reduced = Arc::new(reduced.or_raise()?);
+        let base = PyStructure::copied(Shared(Arc::clone(&reduced)));
+        Ok(PyClassInitializer::from(base).add_subclass(Self(reduced)))
+    }
+
+    /// Frequencies of the modes: array of shape (modes,), Hz.
+    #[getter]
+    fn frequencies<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_vec(py, self.0.frequencies())
+    }
+
+    /// A row of the full structure in the unknowns of the reduced one, for a probe or a load.
+    fn row(&self, row: RowLike) -> PyResult<PyRow> {
+        Ok(PyRow(self.0.recovery().row(row.0).or_raise()?))
+    }
+
+    /// Unknowns of the full structure (array of shape (n,)) from those of the reduced one.
+    fn full<'py>(&self, py: Python<'py>, reduced: Numbers) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        Ok(PyArray1::from_vec(py, self.0.recovery().full(&reduced.0).or_raise()?))
+    }
+}
+
+/// Several structures on one ground, from left to right: pairs ``(structure, shift)``, each moved to
+/// the right by its shift (m).
+#[pyclass(name = "StructureGroup", module = "basemat", extends = PyStructure, frozen)]
+pub(crate) struct PyStructureGroup {
+    make: Arc<dyn Fn() -> basemat::Result<StructureGroup> + Send + Sync>,
+}
+
+#[pymethods]
+impl PyStructureGroup {
+    #[new]
+    fn new(members: Vec<(Bound<'_, PyAny>, f64)>) -> PyResult<PyClassInitializer<Self>> {
+        let members: Vec<(Recipe<dyn Structure>, f64)> = members
+            .iter()
+            .map(|(structure, shift)| Ok((recipe(structure)?, *shift)))
+            .collect::<PyResult<_>>()?;
+        if members.is_empty() {
+            return Err(refuse("a group needs at least one structure"));
+        }
+        let make = Arc::new(move || {
+            let mut group = StructureGroup::new();
+            for (structure, shift) in &members {
+                group = group.with(structure()?, *shift)?;
+            }
+            Ok(group)
+        });
+        make().or_raise()?;
+        let own = Arc::clone(&make);
+        let base = PyStructure { make: Arc::new(move || Ok(Box::new(own()?))) };
+        Ok(PyClassInitializer::from(base).add_subclass(Self { make }))
+    }
+
+    /// A row of the structure ``member`` (0: the leftmost) in the unknowns of the group.
+    fn row(&self, member: usize, row: RowLike) -> PyResult<PyRow> {
+        Ok(PyRow((self.make)().or_raise()?.row(member, row.0).or_raise()?))
+    }
+}
+
+/// A structure with the damping ``ratios`` of its own modes beside its own damping: of the lowest
+/// mode first, the last of them for all further modes.
+#[pyclass(name = "WithModalDamping", module = "basemat", extends = PyStructure, frozen)]
+pub(crate) struct PyWithModalDamping(Vec<f64>);
+
+#[pymethods]
+impl PyWithModalDamping {
+    #[new]
+    fn new(structure: Bound<'_, PyAny>, ratios: Numbers) -> PyResult<PyClassInitializer<Self>> {
+        let structure = recipe(&structure)?;
+        let damping = ModalDamping::new(&ratios.0).or_raise()?;
+        let frequencies = damping.on(structure().or_raise()?).or_raise()?.frequencies().to_vec();
+        let make = move || Ok(Box::new(damping.on(structure()?)?) as Box<_>);
+        let base = PyStructure { make: Arc::new(make) };
+        Ok(PyClassInitializer::from(base).add_subclass(Self(frequencies)))
+    }
+
+    /// Frequencies of the modes that are not rigid: array of shape (modes,), Hz.
+    #[getter]
+    fn frequencies<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, &self.0)
+    }
+}

@@ -1,0 +1,166 @@
+//! Finite-element models, and meshes from Gmsh.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use basemat::fem::{MassKind, Material};
+use basemat::io::GmshMesh;
+use basemat::structure::FemModel;
+use pyo3::prelude::*;
+
+use super::PyStructure;
+use super::composed::PyRayleighDamping;
+use super::mesh::{PyMaterial, PyMesh, direction, formulation};
+use crate::error::{OrRaise, refuse};
+use crate::recipe::Shared;
+use crate::row::{PyRow, PySectionRows};
+
+/// A finite-element structure.
+///
+/// ``contact``: nodes that touch the ground from left to right; a list of such lists for separate
+/// foundations; all lowest nodes unless given. ``rayleigh``: damping; ``mass``: "consistent" or
+/// "lumped"; ``rigid_links``: pairs (leader, followers) of nodes that move as one body; ``p_delta``:
+/// gravity (m/s²) of the weight whose axial forces make P–Δ.
+#[pyclass(name = "FemModel", module = "basemat", extends = PyStructure, frozen)]
+pub(crate) struct PyFemModel(Arc<FemModel>);
+
+#[derive(FromPyObject)]
+enum Contact {
+    Nodes(Vec<usize>),
+    Lines(Vec<Vec<usize>>),
+}
+
+#[pymethods]
+impl PyFemModel {
+    #[new]
+    #[pyo3(signature = (mesh, contact=None, *, rayleigh=None, mass="consistent", rigid_links=None, p_delta=None, active_damping=false))]
+    fn new(
+        mesh: &PyMesh,
+        contact: Option<Contact>,
+        rayleigh: Option<&PyRayleighDamping>,
+        mass: &str,
+        rigid_links: Option<Vec<(usize, Vec<usize>)>>,
+        p_delta: Option<f64>,
+        active_damping: bool,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let mesh = mesh.0.clone();
+        let mut model = match contact {
+            None => FemModel::on_base(mesh),
+            Some(Contact::Nodes(nodes)) => FemModel::new(mesh, &nodes),
+            Some(Contact::Lines(lines)) => FemModel::on_foundations(mesh, &lines),
+        }
+        .or_raise()?;
+        model = model.with_mass(match mass {
+            "consistent" => MassKind::Consistent,
+            "lumped" => MassKind::Lumped,
+            _ => {
+                return Err(refuse(format!(
+                    "mass is '{mass}', but must be 'consistent' or 'lumped'"
+                )));
+            }
+        });
+        if let Some(damping) = rayleigh {
+            model = model.with_rayleigh(damping.0);
+        }
+        for (leader, followers) in rigid_links.into_iter().flatten() {
+            model = model.with_rigid_link(leader, &followers).or_raise()?;
+        }
+        if let Some(gravity) = p_delta {
+            model = model.with_p_delta(gravity).or_raise()?;
+        }
+        if active_damping {
+            model = model.with_active_damping();
+        }
+        let model = Arc::new(model);
+        let base = PyStructure::copied(Shared(Arc::clone(&model)));
+        Ok(PyClassInitializer::from(base).add_subclass(Self(model)))
+    }
+
+    /// Motion of a node in a direction ("x", "y" or "rotation") as a weighted sum of unknowns.
+    fn row(&self, node: usize, direction: &str) -> PyResult<PyRow> {
+        Ok(PyRow(self.0.row(node, self::direction(direction)?).or_raise()?))
+    }
+
+    /// Unknown of a node in a direction; None if it has none of its own.
+    fn unknown(&self, node: usize, direction: &str) -> PyResult<Option<usize>> {
+        Ok(self.0.unknown(node, self::direction(direction)?))
+    }
+
+    /// Node at (x, y), m, to a millionth of the model's size.
+    fn node_at(&self, x: f64, y: f64) -> PyResult<usize> {
+        self.0.node_at(x, y).or_raise()
+    }
+
+    /// Shear, compression and moment that the part above ``height`` (m) exerts on the part below,
+    /// the moment about (``reference``, ``height``).
+    #[pyo3(signature = (height, reference=0.0))]
+    fn section(
+        &self,
+        height: f64,
+        reference: f64,
+    ) -> PyResult<(PySectionRows, PySectionRows, PySectionRows)> {
+        let section = self.0.section(height, reference).or_raise()?;
+        let [shear, compression, moment] =
+            [section.shear, section.compression, section.moment].map(PySectionRows);
+        Ok((shear, compression, moment))
+    }
+
+    /// Row of a uniform pressure (Pa) on a line of nodes.
+    fn pressure_row(&self, nodes: Vec<usize>) -> PyResult<PyRow> {
+        Ok(PyRow(self.0.pressure_row(&nodes).or_raise()?))
+    }
+
+    /// Share of the axial forces of its static state at which it buckles.
+    fn buckling_factor(&self) -> PyResult<f64> {
+        self.0.buckling_factor().or_raise()
+    }
+}
+
+/// A mesh of quadrilaterals from a file of Gmsh (format 4.1, ASCII).
+#[pyclass(name = "GmshMesh", module = "basemat", frozen)]
+pub(crate) struct PyGmshMesh(GmshMesh);
+
+#[pymethods]
+impl PyGmshMesh {
+    #[new]
+    fn new(path: PathBuf) -> PyResult<Self> {
+        Ok(Self(GmshMesh::read(path).or_raise()?))
+    }
+
+    /// Names of the groups of quadrilaterals.
+    #[getter]
+    fn surfaces(&self) -> Vec<&str> {
+        self.0.surfaces()
+    }
+
+    /// Names of the groups of lines.
+    #[getter]
+    fn lines(&self) -> Vec<&str> {
+        self.0.lines()
+    }
+
+    /// The quadrilaterals, each with the material of its group: ``{"wall": material}``.
+    #[pyo3(signature = (materials, *, formulation="incompatible modes", hourglass_percent=5))]
+    fn mesh(
+        &self,
+        materials: BTreeMap<String, Bound<'_, PyMaterial>>,
+        formulation: &str,
+        hourglass_percent: u8,
+    ) -> PyResult<PyMesh> {
+        let materials: Vec<(&str, Material)> =
+            materials.iter().map(|(name, own)| (name.as_str(), own.get().0)).collect();
+        let formulation = self::formulation(formulation, hourglass_percent)?;
+        Ok(PyMesh(self.0.mesh_of(&materials, formulation).or_raise()?))
+    }
+
+    /// Nodes of a group of lines in one piece, from left to right.
+    fn line(&self, name: &str) -> PyResult<Vec<usize>> {
+        self.0.line(name).or_raise()
+    }
+
+    /// Nodes of a group of lines, piece by piece: for the contact of a :class:`FemModel`.
+    fn foundations(&self, name: &str) -> PyResult<Vec<Vec<usize>>> {
+        self.0.foundations(name).or_raise()
+    }
+}

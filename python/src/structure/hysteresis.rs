@@ -1,0 +1,153 @@
+//! Springs with a memory.
+
+use std::sync::Arc;
+
+use basemat::structure::{Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber};
+use pyo3::prelude::*;
+
+use crate::error::OrRaise;
+use crate::recipe::Recipe;
+
+/// A spring whose force depends on where it has been: a yield law of a storey, an isolator.
+#[pyclass(name = "Hysteresis", module = "basemat", subclass, frozen)]
+pub(crate) struct PyHysteresis {
+    pub(super) make: Recipe<dyn Hysteresis>,
+}
+
+fn law<T>(law: impl Hysteresis + Clone + Sync + 'static, own: T) -> PyClassInitializer<T>
+where
+    T: pyo3::PyClass<BaseType = PyHysteresis>,
+{
+    let base = PyHysteresis { make: Arc::new(move || Ok(Box::new(law.clone()))) };
+    PyClassInitializer::from(base).add_subclass(own)
+}
+
+#[pymethods]
+impl PyHysteresis {
+    /// Force (N) at each of the ``deformations`` (m) of a path that a new spring is led along.
+    fn path(&self, deformations: crate::array::Numbers) -> PyResult<Vec<f64>> {
+        let mut spring = (self.make)().or_raise()?;
+        let force = |deformation: f64| {
+            let force = spring.response(deformation).force;
+            spring.commit(deformation);
+            force
+        };
+        Ok(deformations.0.into_iter().map(force).collect())
+    }
+}
+
+/// Bilinear: ``stiffness`` (N/m) up to ``yield_force`` (N), then ``hardening`` times the stiffness;
+/// unloading with the first stiffness.
+#[pyclass(name = "Bilinear", module = "basemat", extends = PyHysteresis, frozen)]
+pub(crate) struct PyBilinear;
+
+#[pymethods]
+impl PyBilinear {
+    #[new]
+    fn new(stiffness: f64, yield_force: f64, hardening: f64) -> PyResult<PyClassInitializer<Self>> {
+        Ok(law(Bilinear::new(stiffness, yield_force, hardening).or_raise()?, Self))
+    }
+}
+
+/// Bouc–Wen: as bilinear with a smooth knee of an ``exponent``, and ``beta`` for the shape of loops.
+#[pyclass(name = "BoucWen", module = "basemat", extends = PyHysteresis, frozen)]
+pub(crate) struct PyBoucWen;
+
+#[pymethods]
+impl PyBoucWen {
+    #[new]
+    #[pyo3(signature = (stiffness, yield_force, hardening, *, exponent=None, beta=None))]
+    fn new(
+        stiffness: f64,
+        yield_force: f64,
+        hardening: f64,
+        exponent: Option<f64>,
+        beta: Option<f64>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let mut own = BoucWen::new(stiffness, yield_force, hardening).or_raise()?;
+        match (exponent, beta) {
+            (None, None) => {}
+            (Some(exponent), Some(beta)) => own = own.with_shape(exponent, beta).or_raise()?,
+            _ => return Err(crate::error::refuse("give both exponent and beta, or neither")),
+        }
+        Ok(law(own, Self))
+    }
+}
+
+/// Friction pendulum under a ``weight`` (N): ``radius`` of its dish (m), ``friction`` coefficient,
+/// ``yield_displacement`` (m) before it slides.
+#[pyclass(name = "FrictionPendulum", module = "basemat", extends = PyHysteresis, frozen)]
+pub(crate) struct PyFrictionPendulum(FrictionPendulum);
+
+#[pymethods]
+impl PyFrictionPendulum {
+    #[new]
+    #[pyo3(signature = (weight, radius, friction, *, yield_displacement=FrictionPendulum::YIELD_DISPLACEMENT))]
+    fn new(
+        weight: f64,
+        radius: f64,
+        friction: f64,
+        yield_displacement: f64,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let own = FrictionPendulum::new(weight, radius, friction)
+            .and_then(|own| own.with_yield_displacement(yield_displacement))
+            .or_raise()?;
+        Ok(law(own.clone(), Self(own)))
+    }
+
+    /// Period of sliding on the dish, s.
+    #[pyo3(signature = (gravity=basemat::motion::STANDARD_GRAVITY))]
+    fn sliding_period(&self, gravity: f64) -> PyResult<f64> {
+        self.0.sliding_period(gravity).or_raise()
+    }
+}
+
+/// Lead–rubber bearing: shear modulus (Pa), area (m²) and thickness (m) of its rubber, area of its
+/// lead (m²); ``stiffness_ratio``: first stiffness by that after yielding.
+#[pyclass(name = "LeadRubber", module = "basemat", extends = PyHysteresis, frozen)]
+pub(crate) struct PyLeadRubber(LeadRubber);
+
+#[pymethods]
+impl PyLeadRubber {
+    #[new]
+    #[pyo3(signature = (shear_modulus, rubber_area, rubber_thickness, lead_area, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
+    fn new(
+        shear_modulus: f64,
+        rubber_area: f64,
+        rubber_thickness: f64,
+        lead_area: f64,
+        stiffness_ratio: f64,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let own = LeadRubber::new(shear_modulus, rubber_area, rubber_thickness, lead_area)
+            .and_then(|own| own.with_stiffness_ratio(stiffness_ratio))
+            .or_raise()?;
+        Ok(law(own.clone(), Self(own)))
+    }
+
+    /// Bearing of a ``stiffness`` after yielding (N/m) and a ``strength`` (N).
+    #[staticmethod]
+    #[pyo3(signature = (stiffness, strength, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
+    fn from_strength(
+        py: Python<'_>,
+        stiffness: f64,
+        strength: f64,
+        stiffness_ratio: f64,
+    ) -> PyResult<Py<Self>> {
+        let own = LeadRubber::from_strength(stiffness, strength)
+            .and_then(|own| own.with_stiffness_ratio(stiffness_ratio))
+            .or_raise()?;
+        Py::new(py, law(own.clone(), Self(own)))
+    }
+
+    /// Strength, N.
+    #[getter]
+    fn strength(&self) -> f64 {
+        self.0.strength()
+    }
+
+    /// Stiffness after yielding, N/m.
+    #[getter]
+    fn stiffness(&self) -> f64 {
+        self.0.stiffness()
+    }
+}

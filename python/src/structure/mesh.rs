@@ -1,0 +1,302 @@
+//! Meshes from arrays.
+
+use basemat::fem::{
+    Beam, Dashpot, Direction, Layer, LumpedMass, Material, Mesh, Quad4, Quad8, QuadFormulation,
+    Spring, Truss,
+};
+use numpy::{AllowTypeChange, PyArray2, PyArrayLike2};
+use pyo3::prelude::*;
+
+use crate::array::{Numbers, Pairs};
+use crate::error::{OrRaise, refuse};
+
+/// A direction by its name: "x", "y" or "rotation".
+pub(super) fn direction(name: &str) -> PyResult<Direction> {
+    match name {
+        "x" => Ok(Direction::X),
+        "y" => Ok(Direction::Y),
+        "rotation" => Ok(Direction::Rotation),
+        _ => Err(refuse(format!("direction is '{name}', but must be 'x', 'y' or 'rotation'"))),
+    }
+}
+
+/// Integration of four-node quadrilaterals by its name.
+pub(super) fn formulation(name: &str, percent: u8) -> PyResult<QuadFormulation> {
+    match name {
+        "full" => Ok(QuadFormulation::Full),
+        "incompatible modes" => Ok(QuadFormulation::IncompatibleModes),
+        "one point" => Ok(QuadFormulation::OnePoint),
+        "hourglass" => Ok(QuadFormulation::Hourglass { percent }),
+        _ => Err(refuse(format!(
+            "formulation is '{name}', but must be 'full', 'incompatible modes', 'one point' or \
+             'hourglass'"
+        ))),
+    }
+}
+
+/// Elastic material in plane strain: Young's modulus (Pa), Poisson's ratio, density (kg/m³).
+#[pyclass(name = "Material", module = "basemat", frozen)]
+pub(crate) struct PyMaterial(pub(super) Material);
+
+#[pymethods]
+impl PyMaterial {
+    #[new]
+    fn new(young_modulus: f64, poisson: f64, density: f64) -> PyResult<Self> {
+        Ok(Self(Material::new(young_modulus, poisson, density).or_raise()?))
+    }
+}
+
+/// Horizontal layer of a block of quadrilaterals: ``height`` (m), ``rows`` of elements, material.
+#[pyclass(name = "Layer", module = "basemat", frozen)]
+pub(crate) struct PyLayer(Layer);
+
+#[pymethods]
+impl PyLayer {
+    #[new]
+    #[pyo3(signature = (height, rows, material, *, formulation="incompatible modes", hourglass_percent=5))]
+    fn new(
+        height: f64,
+        rows: usize,
+        material: &PyMaterial,
+        formulation: &str,
+        hourglass_percent: u8,
+    ) -> PyResult<Self> {
+        let formulation = self::formulation(formulation, hourglass_percent)?;
+        Ok(Self(Layer { height, rows, material: material.0, formulation }))
+    }
+}
+
+/// Nodes and finite elements; ``nodes``: array of shape (nodes, 2), m.
+#[pyclass(name = "Mesh", module = "basemat")]
+pub(crate) struct PyMesh(pub(super) Mesh);
+
+/// One number for all elements, or one each.
+struct PerElement(Vec<f64>);
+
+impl<'py> FromPyObject<'_, 'py> for PerElement {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        match object.extract::<f64>() {
+            Ok(value) => Ok(Self(vec![value])),
+            Err(_) => Ok(Self(object.extract::<Numbers>()?.0)),
+        }
+    }
+}
+
+impl PerElement {
+    fn at(&self, index: usize, count: usize) -> PyResult<f64> {
+        match self.0.len() {
+            1 => Ok(self.0[0]),
+            found if found == count => Ok(self.0[index]),
+            found => Err(refuse(format!("{found} values are given for {count} elements"))),
+        }
+    }
+}
+
+/// Rows of node numbers.
+fn rows<const N: usize>(
+    array: &PyArrayLike2<'_, i64, AllowTypeChange>,
+) -> PyResult<Vec<[usize; N]>> {
+    let node = |value: i64| {
+        usize::try_from(value)
+            .map_err(|_| refuse(format!("node is {value}, but must be 0 or more")))
+    };
+    let mut all = Vec::new();
+    for row in array.as_array().rows() {
+        let mut nodes = [0; N];
+        if row.len() != N {
+            return Err(refuse(format!("elements have {} nodes, but must have {N}", row.len())));
+        }
+        for (own, value) in nodes.iter_mut().zip(row) {
+            *own = node(*value)?;
+        }
+        all.push(nodes);
+    }
+    Ok(all)
+}
+
+type Connectivity<'py> = PyArrayLike2<'py, i64, AllowTypeChange>;
+
+#[pymethods]
+impl PyMesh {
+    #[new]
+    #[pyo3(signature = (nodes=None))]
+    fn new(nodes: Option<Pairs>) -> PyResult<Self> {
+        let mut mesh = Mesh::new();
+        for [x, y] in nodes.map_or_else(Vec::new, |nodes| nodes.0) {
+            mesh.add_node(x, y).or_raise()?;
+        }
+        Ok(Self(mesh))
+    }
+
+    /// Block of equal columns from ``left`` to ``right`` (m), layer upon layer from y = 0 upwards.
+    #[staticmethod]
+    fn layered_block(
+        left: f64,
+        right: f64,
+        columns: usize,
+        layers: Vec<Bound<'_, PyLayer>>,
+    ) -> PyResult<Self> {
+        let layers: Vec<Layer> = layers.iter().map(|layer| layer.get().0).collect();
+        Ok(Self(Mesh::layered_block(left..right, columns, &layers).or_raise()?))
+    }
+
+    /// The same with columns between the lines of ``grid`` (array, m, ascending).
+    #[staticmethod]
+    fn graded_block(grid: Numbers, layers: Vec<Bound<'_, PyLayer>>) -> PyResult<Self> {
+        let layers: Vec<Layer> = layers.iter().map(|layer| layer.get().0).collect();
+        Ok(Self(Mesh::graded_block(&grid.0, &layers).or_raise()?))
+    }
+
+    /// Adds a node at (x, y), m; returns its number.
+    fn add_node(&mut self, x: f64, y: f64) -> PyResult<usize> {
+        self.0.add_node(x, y).or_raise()
+    }
+
+    /// Adds beams on ``nodes`` (array of shape (beams, 2)): Young's modulus (Pa), area (m²) and
+    /// second moment (m⁴) per metre of thickness, density (kg/m³), each one number or one per beam.
+    /// ``shear_stiffness`` (N): of Timoshenko beams; ``compression`` (N): for P–Δ.
+    #[pyo3(signature = (nodes, young_modulus, area, second_moment, density, *, shear_stiffness=None, rotary_inertia=false, compression=None))]
+    fn add_beams(
+        &mut self,
+        nodes: Connectivity<'_>,
+        young_modulus: PerElement,
+        area: PerElement,
+        second_moment: PerElement,
+        density: PerElement,
+        shear_stiffness: Option<PerElement>,
+        rotary_inertia: bool,
+        compression: Option<PerElement>,
+    ) -> PyResult<()> {
+        let ends = rows::<2>(&nodes)?;
+        for (k, own) in ends.iter().enumerate() {
+            let at = |values: &PerElement| values.at(k, ends.len());
+            let numbers = (at(&young_modulus)?, at(&area)?, at(&second_moment)?, at(&density)?);
+            let mut beam =
+                Beam::new(*own, numbers.0, numbers.1, numbers.2, numbers.3).or_raise()?;
+            if let Some(stiffness) = &shear_stiffness {
+                beam = beam.with_shear_stiffness(at(stiffness)?).or_raise()?;
+            }
+            if let Some(force) = &compression {
+                beam = beam.with_compression(at(force)?).or_raise()?;
+            }
+            self.0
+                .add(if rotary_inertia { beam.with_rotary_inertia() } else { beam })
+                .or_raise()?;
+        }
+        Ok(())
+    }
+
+    /// Adds trusses on ``nodes`` (array of shape (trusses, 2)): Young's modulus (Pa), area (m²) per
+    /// metre of thickness, density (kg/m³).
+    fn add_trusses(
+        &mut self,
+        nodes: Connectivity<'_>,
+        young_modulus: PerElement,
+        area: PerElement,
+        density: PerElement,
+    ) -> PyResult<()> {
+        let ends = rows::<2>(&nodes)?;
+        for (k, own) in ends.iter().enumerate() {
+            let at = |values: &PerElement| values.at(k, ends.len());
+            let truss = Truss::new(*own, at(&young_modulus)?, at(&area)?, at(&density)?);
+            self.0.add(truss.or_raise()?).or_raise()?;
+        }
+        Ok(())
+    }
+
+    /// Adds springs between ``nodes`` (array of shape (springs, 2)) in a ``direction`` ("x", "y",
+    /// "rotation" or "axial"), of ``stiffness`` (N/m, of rotations N·m).
+    fn add_springs(
+        &mut self,
+        nodes: Connectivity<'_>,
+        direction: &str,
+        stiffness: PerElement,
+    ) -> PyResult<()> {
+        let ends = rows::<2>(&nodes)?;
+        for (k, own) in ends.iter().enumerate() {
+            let value = stiffness.at(k, ends.len())?;
+            let spring = match direction {
+                "axial" => Spring::axial(*own, value),
+                _ => Spring::new(*own, self::direction(direction)?, value),
+            };
+            self.0.add(spring.or_raise()?).or_raise()?;
+        }
+        Ok(())
+    }
+
+    /// Adds dashpots, as :meth:`add_springs`, of a ``coefficient`` (N s/m, of rotations N·m s).
+    fn add_dashpots(
+        &mut self,
+        nodes: Connectivity<'_>,
+        direction: &str,
+        coefficient: PerElement,
+    ) -> PyResult<()> {
+        let ends = rows::<2>(&nodes)?;
+        for (k, own) in ends.iter().enumerate() {
+            let value = coefficient.at(k, ends.len())?;
+            let dashpot = match direction {
+                "axial" => Dashpot::axial(*own, value),
+                _ => Dashpot::new(*own, self::direction(direction)?, value),
+            };
+            self.0.add(dashpot.or_raise()?).or_raise()?;
+        }
+        Ok(())
+    }
+
+    /// Adds a mass (kg/m) at a node, with a rotary inertia (kg m²/m) if that is given.
+    #[pyo3(signature = (node, mass, *, rotary_inertia=None))]
+    fn add_mass(&mut self, node: usize, mass: f64, rotary_inertia: Option<f64>) -> PyResult<()> {
+        let mut element = LumpedMass::new(node, mass).or_raise()?;
+        if let Some(inertia) = rotary_inertia {
+            element = element.with_rotary_inertia(inertia).or_raise()?;
+        }
+        self.0.add(element).or_raise().map(|_| ())
+    }
+
+    /// Adds plane-strain quadrilaterals on ``nodes``, counter-clockwise: array of shape (quads, 4),
+    /// or (quads, 8) with the midside nodes last.
+    #[pyo3(signature = (nodes, material, *, formulation="incompatible modes", hourglass_percent=5))]
+    fn add_quads(
+        &mut self,
+        nodes: Connectivity<'_>,
+        material: &PyMaterial,
+        formulation: &str,
+        hourglass_percent: u8,
+    ) -> PyResult<()> {
+        let formulation = self::formulation(formulation, hourglass_percent)?;
+        if nodes.as_array().ncols() == 8 {
+            for own in rows::<8>(&nodes)? {
+                self.0.add(Quad8::new(own, material.0)).or_raise()?;
+            }
+            return Ok(());
+        }
+        for own in rows::<4>(&nodes)? {
+            self.0.add(Quad4::new(own, material.0, formulation)).or_raise()?;
+        }
+        Ok(())
+    }
+
+    /// Coordinates of the nodes: array of shape (nodes, 2), m.
+    #[getter]
+    fn nodes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows: Vec<Vec<f64>> = self.0.nodes().iter().map(|node| node.to_vec()).collect();
+        Ok(PyArray2::from_vec2(py, &rows)?)
+    }
+
+    /// Node at (x, y), m, to a millionth of the mesh's size.
+    fn node_at(&self, x: f64, y: f64) -> PyResult<usize> {
+        self.0.node_at(x, y).or_raise()
+    }
+
+    /// Nodes at a height (m) within a tolerance (m), from left to right.
+    #[pyo3(signature = (y, tolerance=1e-9))]
+    fn nodes_at_height(&self, y: f64, tolerance: f64) -> PyResult<Vec<usize>> {
+        self.0.nodes_at_height(y, tolerance).or_raise()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Mesh({} nodes, {} elements)", self.0.nodes().len(), self.0.elements().len())
+    }
+}

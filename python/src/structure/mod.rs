@@ -1,0 +1,27 @@
+//! Structures.
+
+mod base;
+mod block;
+mod building;
+mod composed;
+mod contact_node;
+mod fem;
+mod hysteresis;
+mod matrices;
+mod mesh;
+mod nonlinear;
+
+pub(crate) use base::{PyStructure, recipe};
+pub(crate) use block::PyRigidBlock;
+pub(crate) use building::{PyShearBuilding, PyStorey};
+pub(crate) use composed::{
+    PyRayleighDamping, PyReducedModel, PyStructureGroup, PyWithModalDamping,
+};
+pub(crate) use contact_node::PyContactNode;
+pub(crate) use fem::{PyFemModel, PyGmshMesh};
+pub(crate) use hysteresis::{
+    PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber,
+};
+pub(crate) use matrices::PyMatrixModel;
+pub(crate) use mesh::{PyLayer, PyMaterial, PyMesh};
+pub(crate) use nonlinear::{PyNonlinearShearBuilding, PyWithSprings};

@@ -1,0 +1,284 @@
+//! A law written in Python.
+
+use std::sync::Arc;
+
+use basemat::Result;
+use basemat::interface::{
+    Condition, ContactScene, ContactState, InterfaceLaw, Mode, StepStart, Tolerance,
+};
+use pyo3::prelude::*;
+
+use super::PyStepStart;
+use crate::array::Numbers;
+use crate::error::{has_raised, keep, kept};
+use crate::names::{mode, mode_name};
+
+/// One linear condition on the end of a step:
+/// ``gap · g + slip · s + pressure · p + shear · τ = value``, coefficients by name.
+#[pyclass(name = "Condition", module = "basemat", frozen)]
+pub(crate) struct PyCondition(pub(crate) Condition);
+
+#[pymethods]
+impl PyCondition {
+    #[new]
+    #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0, value=0.0))]
+    fn new(gap: f64, slip: f64, pressure: f64, shear: f64, value: f64) -> Self {
+        Self(Condition { gap, slip, pressure, shear, value })
+    }
+
+    /// The gap is ``value``, m.
+    #[staticmethod]
+    fn gap_is(value: f64) -> Self {
+        Self(Condition::gap_is(value))
+    }
+
+    /// The slip is ``value``, m.
+    #[staticmethod]
+    fn slip_is(value: f64) -> Self {
+        Self(Condition::slip_is(value))
+    }
+
+    /// The pressure is ``value``, Pa.
+    #[staticmethod]
+    fn pressure_is(value: f64) -> Self {
+        Self(Condition::pressure_is(value))
+    }
+
+    /// The shear traction is ``value``, Pa.
+    #[staticmethod]
+    fn shear_is(value: f64) -> Self {
+        Self(Condition::shear_is(value))
+    }
+
+    fn __repr__(&self) -> String {
+        let Condition { gap, slip, pressure, shear, value } = self.0;
+        format!(
+            "Condition(gap={gap:?}, slip={slip:?}, pressure={pressure:?}, shear={shear:?}, value={value:?})"
+        )
+    }
+}
+
+/// Opening and total traction of an element: gap and slip (m), pressure and shear (Pa).
+#[pyclass(name = "ContactState", module = "basemat", frozen, get_all)]
+pub(crate) struct PyContactState {
+    /// Gap, m; positive when open.
+    gap: f64,
+    /// Slip since the static state, m; positive to the right.
+    slip: f64,
+    /// Pressure, Pa; positive in compression.
+    pressure: f64,
+    /// Shear traction of the structure on the soil, Pa; positive to the right.
+    shear: f64,
+}
+
+impl PyContactState {
+    fn of(state: &ContactState) -> Self {
+        let ContactState { gap, slip, pressure, shear } = *state;
+        Self { gap, slip, pressure, shear }
+    }
+
+    pub(crate) fn core(&self) -> ContactState {
+        let Self { gap, slip, pressure, shear } = *self;
+        ContactState { gap, slip, pressure, shear }
+    }
+}
+
+#[pymethods]
+impl PyContactState {
+    #[new]
+    #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0))]
+    fn new(gap: f64, slip: f64, pressure: f64, shear: f64) -> Self {
+        Self { gap, slip, pressure, shear }
+    }
+}
+
+/// Differences below which a law should see equality: of lengths (m) and of tractions (Pa).
+#[pyclass(name = "Tolerance", module = "basemat", frozen, get_all)]
+pub(crate) struct PyTolerance {
+    /// For gaps and slips, m.
+    length: f64,
+    /// For tractions, Pa.
+    traction: f64,
+}
+
+impl PyTolerance {
+    pub(crate) fn core(&self) -> Tolerance {
+        Tolerance::new(self.length, self.traction)
+    }
+}
+
+#[pymethods]
+impl PyTolerance {
+    #[new]
+    fn new(length: f64, traction: f64) -> Self {
+        Self { length, traction }
+    }
+}
+
+/// A Python object with `modes`, `conditions(mode, start)` and
+/// `next_mode(mode, start, trial, tolerance)`, and as it may be `compliance(mode, start)`,
+/// `memory`, `initial_memory(start)`, `commit(start, end, mode)`, `friction_coefficient`,
+/// `check(gravity, time_step)`.
+///
+/// After an exception every number that the core asks for is NaN, which ends the step.
+#[derive(Clone)]
+#[allow(clippy::struct_excessive_bools, reason = "one for each method that may be missing")]
+pub(crate) struct UserLaw {
+    object: Arc<Py<PyAny>>,
+    modes: Vec<Mode>,
+    memory: usize,
+    friction_coefficient: Option<f64>,
+    has_compliance: bool,
+    has_initial_memory: bool,
+    has_commit: bool,
+    has_check: bool,
+}
+
+/// Its name in errors.
+const PART: &str = "interface law";
+/// A condition that ends the step.
+const NOTHING: Condition = Condition {
+    gap: f64::NAN,
+    slip: f64::NAN,
+    pressure: f64::NAN,
+    shear: f64::NAN,
+    value: f64::NAN,
+};
+
+impl UserLaw {
+    pub(crate) fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let names: Vec<String> = object.getattr("modes")?.extract()?;
+        let optional = |name: &str| -> PyResult<Option<Bound<'_, PyAny>>> {
+            Ok(object.getattr_opt(name)?.filter(|value| !value.is_none()))
+        };
+        Ok(Self {
+            modes: names.iter().map(|name| mode(name)).collect::<PyResult<_>>()?,
+            memory: optional("memory")?.map_or(Ok(0), |count| count.extract())?,
+            friction_coefficient: optional("friction_coefficient")?
+                .map(|value| value.extract())
+                .transpose()?,
+            has_compliance: object.hasattr("compliance")?,
+            has_initial_memory: object.hasattr("initial_memory")?,
+            has_commit: object.hasattr("commit")?,
+            has_check: object.hasattr("check")?,
+            object: Arc::new(object.clone().unbind()),
+        })
+    }
+
+    /// What `ask` finds, or `otherwise` if it raises, or something has raised before.
+    fn ask<T>(
+        &self,
+        otherwise: T,
+        ask: impl FnOnce(Python<'_>, &Bound<'_, PyAny>) -> PyResult<T>,
+    ) -> T {
+        if has_raised() {
+            return otherwise;
+        }
+        Python::attach(|py| ask(py, self.object.bind(py))).unwrap_or_else(|error| {
+            keep(error);
+            otherwise
+        })
+    }
+
+    /// Replaces the memory by what a method returns, if it is as long.
+    fn remember(
+        &self,
+        memory: &mut [f64],
+        ask: impl for<'py> FnOnce(&Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>>,
+    ) {
+        let count = memory.len();
+        let found = self.ask(None, |_, object| {
+            let Numbers(values) = ask(object)?.extract()?;
+            if values.len() == count {
+                return Ok(Some(values));
+            }
+            let text = format!("the law remembers {count} numbers, but returned {}", values.len());
+            Err(crate::error::refuse(text))
+        });
+        match found {
+            Some(values) => memory.copy_from_slice(&values),
+            None => memory.fill(f64::NAN),
+        }
+    }
+}
+
+impl InterfaceLaw for UserLaw {
+    fn modes(&self) -> &[Mode] {
+        &self.modes
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart<'_>) -> [Condition; 2] {
+        self.ask([NOTHING; 2], |_, object| {
+            let found =
+                object.call_method1("conditions", (mode_name(mode), PyStepStart::of(start)))?;
+            let [first, second]: [Bound<'_, PyCondition>; 2] = found.extract()?;
+            Ok([first.get().0, second.get().0])
+        })
+    }
+
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &StepStart<'_>,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        self.ask(mode, |_, object| {
+            let Tolerance { length, traction, .. } = tolerance;
+            let arguments = (
+                mode_name(mode),
+                PyStepStart::of(start),
+                PyContactState::of(trial),
+                PyTolerance { length, traction },
+            );
+            let next: String = object.call_method1("next_mode", arguments)?.extract()?;
+            crate::names::mode(&next)
+        })
+    }
+
+    /// Asked before a step is accepted, so that an exception of `next_mode` ends it.
+    fn compliance(&self, mode: Mode, start: &StepStart<'_>) -> [f64; 2] {
+        if !self.has_compliance {
+            return if has_raised() { [f64::NAN; 2] } else { [0.0; 2] };
+        }
+        self.ask([f64::NAN; 2], |_, object| {
+            object.call_method1("compliance", (mode_name(mode), PyStepStart::of(start)))?.extract()
+        })
+    }
+
+    fn memory(&self) -> usize {
+        self.memory
+    }
+
+    fn initial_memory(&self, start: &StepStart<'_>, memory: &mut [f64]) {
+        if self.has_initial_memory {
+            self.remember(memory, |object| {
+                object.call_method1("initial_memory", (PyStepStart::of(start),))
+            });
+        }
+    }
+
+    fn commit(&self, start: &StepStart<'_>, end: &ContactState, mode: Mode, memory: &mut [f64]) {
+        if self.has_commit {
+            self.remember(memory, |object| {
+                let end = PyContactState::of(end);
+                object.call_method1("commit", (PyStepStart::of(start), end, mode_name(mode)))
+            });
+        }
+    }
+
+    fn friction_coefficient(&self) -> Option<f64> {
+        self.friction_coefficient
+    }
+
+    fn check(&self, scene: &ContactScene) -> Result<()> {
+        if !self.has_check {
+            return Ok(());
+        }
+        let done = Python::attach(|py| {
+            let numbers = (scene.gravity, scene.time_step);
+            self.object.bind(py).call_method1("check", numbers).map(|_| ())
+        });
+        done.map_err(|error| kept(PART, error))
+    }
+}

@@ -1,0 +1,117 @@
+//! The start of a step, as laws written in Python see it.
+
+use basemat::interface::{ContactState, Mode, StepStart};
+use pyo3::prelude::*;
+
+use super::PyContactState;
+use crate::array::Numbers;
+use crate::names::mode_name;
+
+/// An element at the start of a step.
+#[pyclass(name = "StepStart", module = "basemat", frozen)]
+pub(crate) struct PyStepStart {
+    state: ContactState,
+    mode: Mode,
+    has_opened: bool,
+    slip_rate: f64,
+    static_pressure: f64,
+    time_step: f64,
+    memory: Vec<f64>,
+}
+
+impl PyStepStart {
+    pub(crate) fn of(start: &StepStart<'_>) -> Self {
+        let StepStart { state, mode, has_opened, slip_rate, static_pressure, time_step, .. } =
+            *start;
+        let memory = start.memory.to_vec();
+        Self { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
+    }
+
+    /// The same for a law of the core.
+    pub(crate) fn core(&self) -> StepStart<'_> {
+        let mut start = StepStart::new(self.state, self.mode, self.time_step);
+        start.has_opened = self.has_opened;
+        start.slip_rate = self.slip_rate;
+        start.static_pressure = self.static_pressure;
+        start.memory = &self.memory;
+        start
+    }
+}
+
+#[pymethods]
+impl PyStepStart {
+    /// A start by which a law can be tried without a simulation.
+    #[new]
+    #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, memory=None))]
+    fn new(
+        state: &PyContactState,
+        mode: &str,
+        time_step: f64,
+        slip_rate: f64,
+        memory: Option<Numbers>,
+    ) -> PyResult<Self> {
+        let memory = memory.map_or_else(Vec::new, |numbers| numbers.0);
+        let start = StepStart::new(state.core(), crate::names::mode(mode)?, time_step);
+        Ok(Self { slip_rate, memory, ..Self::of(&start) })
+    }
+
+    /// Gap, m; positive when open.
+    #[getter]
+    fn gap(&self) -> f64 {
+        self.state.gap
+    }
+
+    /// Slip since the static state, m; positive to the right.
+    #[getter]
+    fn slip(&self) -> f64 {
+        self.state.slip
+    }
+
+    /// Pressure, Pa; positive in compression.
+    #[getter]
+    fn pressure(&self) -> f64 {
+        self.state.pressure
+    }
+
+    /// Shear traction of the structure on the soil, Pa; positive to the right.
+    #[getter]
+    fn shear(&self) -> f64 {
+        self.state.shear
+    }
+
+    /// Mode of the step before, as in :data:`basemat.MODES`.
+    #[getter]
+    fn mode(&self) -> &'static str {
+        mode_name(self.mode)
+    }
+
+    /// Whether the element has been open.
+    #[getter]
+    fn has_opened(&self) -> bool {
+        self.has_opened
+    }
+
+    /// Slip rate of the step before, m/s.
+    #[getter]
+    fn slip_rate(&self) -> f64 {
+        self.slip_rate
+    }
+
+    /// Pressure of the static state, Pa.
+    #[getter]
+    fn static_pressure(&self) -> f64 {
+        self.static_pressure
+    }
+
+    /// Time step, s.
+    #[getter]
+    fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// Numbers that the law remembers of the element.
+    #[getter]
+    fn memory(&self) -> Vec<f64> {
+        self.memory.clone()
+    }
+}

@@ -1,0 +1,140 @@
+//! A structure written in Python.
+
+use basemat::structure::{ContactNode, NonlinearForce, Structure, Triplets};
+use basemat::{Error, Result};
+use pyo3::prelude::*;
+
+use super::nonlinear::UserForce;
+use crate::array::{Matrix, Numbers};
+use crate::error::kept;
+use crate::structure::PyContactNode;
+
+/// Its name in errors.
+pub(super) const PART: &str = "structure";
+
+/// A Python object with `unknowns`, `contact_nodes()`, `mass()` and `stiffness()`; a structure that
+/// is nonlinear also has `force(u)` and `tangent(u)`.
+pub(crate) struct UserStructure {
+    object: Py<PyAny>,
+    unknowns: usize,
+    contact: Vec<ContactNode>,
+    ends: Vec<usize>,
+    active_damping: bool,
+    has_damping: bool,
+    has_load: bool,
+    force: Option<UserForce>,
+}
+
+impl UserStructure {
+    /// The structure of one simulation. A nonlinear one is a deep copy of the object, so that
+    /// simulations do not share its internal variables.
+    pub(crate) fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let nonlinear = object.hasattr("force")?;
+        let object = if nonlinear {
+            object.py().import("copy")?.call_method1("deepcopy", (object,))?
+        } else {
+            object.clone()
+        };
+        let unknowns = object.getattr("unknowns")?;
+        let unknowns = if unknowns.is_callable() { unknowns.call0()? } else { unknowns };
+        let unknowns: usize = unknowns.extract()?;
+        let nodes: Vec<Bound<'_, PyContactNode>> =
+            object.call_method0("contact_nodes")?.extract()?;
+        let ends = if object.hasattr("foundation_ends")? {
+            object.call_method0("foundation_ends")?.extract()?
+        } else {
+            Vec::new()
+        };
+        let active_damping = match object.getattr_opt("active_damping")? {
+            Some(flag) => flag.is_truthy()?,
+            None => false,
+        };
+        Ok(Self {
+            unknowns,
+            contact: nodes.iter().map(|node| node.get().0.clone()).collect(),
+            ends,
+            active_damping,
+            has_damping: object.hasattr("damping")?,
+            has_load: object.hasattr("load")?,
+            force: nonlinear.then(|| UserForce::new(&object, unknowns)).transpose()?,
+            object: object.unbind(),
+        })
+    }
+
+    /// Adds the matrix that a method returns.
+    fn add(&self, method: &str, matrix: &mut Triplets) -> Result<()> {
+        let found = Python::attach(|py| -> PyResult<Triplets> {
+            Ok(self.object.bind(py).call_method0(method)?.extract::<Matrix>()?.0)
+        });
+        add_matrix(&found.map_err(|error| kept(PART, error))?, self.unknowns, matrix)
+    }
+}
+
+/// Adds a matrix of Python to one of the core.
+pub(super) fn add_matrix(own: &Triplets, order: usize, matrix: &mut Triplets) -> Result<()> {
+    if own.order() != order {
+        let quantity = "matrix of a structure";
+        return Err(Error::Size { quantity, found: own.order(), needed: order });
+    }
+    for &(row, column, value) in own.entries() {
+        matrix.add(row, column, value);
+    }
+    Ok(())
+}
+
+/// Adds numbers of Python to a vector of the core.
+pub(super) fn add_numbers(quantity: &'static str, own: &[f64], sum: &mut [f64]) -> Result<()> {
+    if own.len() != sum.len() {
+        return Err(Error::Size { quantity, found: own.len(), needed: sum.len() });
+    }
+    sum.iter_mut().zip(own).for_each(|(sum, value)| *sum += value);
+    Ok(())
+}
+
+impl Structure for UserStructure {
+    fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.contact.clone()
+    }
+
+    fn foundation_ends(&self) -> Vec<usize> {
+        self.ends.clone()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+        self.add("mass", matrix)
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.add("stiffness", matrix)
+    }
+
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
+        if self.has_damping { self.add("damping", matrix) } else { Ok(()) }
+    }
+
+    fn has_active_damping(&self) -> bool {
+        self.active_damping
+    }
+
+    fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
+        if !self.has_load {
+            return Ok(());
+        }
+        let found = Python::attach(|py| -> PyResult<Vec<f64>> {
+            Ok(self.object.bind(py).call_method1("load", (time,))?.extract::<Numbers>()?.0)
+        });
+        add_numbers("load of the structure", &found.map_err(|error| kept(PART, error))?, load)
+    }
+
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        self.force.as_ref().map(|force| force as &dyn NonlinearForce)
+    }
+
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        self.force.as_mut().map(|force| force as &mut dyn NonlinearForce)
+    }
+}

@@ -1,0 +1,86 @@
+"""The README's programs run, and do what they say."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import basemat as bm
+
+ROOT = Path(__file__).parents[1]
+PROGRAMS = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text("utf-8"), re.S)
+
+
+@pytest.fixture(scope="module")
+def names() -> dict[str, object]:
+    """What the first program leaves."""
+    pytest.importorskip("scipy")
+    found: dict[str, object] = {}
+    exec(PROGRAMS[0], found)
+    return found
+
+
+def test_the_first_program_is_short_and_uplifts(names: dict[str, object]) -> None:
+    lines = [line for line in PROGRAMS[0].splitlines() if line.strip()]
+    assert len(lines) < 25
+    run, spectra = names["run"], names["spectra"]
+    assert isinstance(run, bm.Run)
+    assert run.uplifted_fraction.value > 0.2
+    assert run.ledger_residual < 1e-9
+    assert isinstance(spectra, dict)
+    # Short oscillators follow the floor.
+    peak = run.probes["roof"].magnitude
+    shortest = spectra["roof"].acceleration[0]
+    assert peak < shortest < 2.0 * peak
+
+
+def test_its_matrices_are_those_of_a_shear_building(names: dict[str, object]) -> None:
+    storeys = [bm.Storey(3.0, 20e3, 40e6)] * 5
+    building = bm.ShearBuilding(6.0, 50e3, 400e3, storeys)
+    model = names["model"]
+    assert isinstance(model, bm.MatrixModel)
+    np.testing.assert_allclose(model.mass(), building.mass(), rtol=1e-15)
+    np.testing.assert_allclose(model.stiffness(), building.stiffness(), rtol=1e-14, atol=1e-6)
+
+
+def test_the_others_run(names: dict[str, object]) -> None:
+    for program in PROGRAMS[1:]:
+        exec(program, names)
+    table = names["table"]
+    assert len(table) == 4 and table["error"].isna().all()  # type: ignore[attr-defined, arg-type]
+    polished, soil, model = (names[name] for name in ("Polished", "soil", "model"))
+    simulation = bm.Simulation(
+        0.005,
+        model,  # type: ignore[arg-type]
+        bm.HalfPlaneGround.under(soil, model, 6),  # type: ignore[arg-type]
+        polished(),  # type: ignore[operator]
+        motion=bm.el_centro_1940(),
+    )
+    assert simulation.run(200).steps == 200
+
+
+def test_the_containments_command_prints_its_table(capsys: pytest.CaptureFixture[str]) -> None:
+    from basemat import containment
+
+    containment.main(["--duration", "3", "--friction", "0.2"])
+    lines = capsys.readouterr().out.splitlines()
+    assert [line[:13].strip() for line in lines[2:]] == ["bonded", "uplift only", "friction 0.2"]
+
+
+def test_every_public_name_has_a_docstring() -> None:
+    for name in bm.__all__:
+        value = getattr(bm, name)
+        if name in ("MODES", "STANDARD_GRAVITY"):
+            continue
+        assert value.__doc__, name
+        if (
+            isinstance(value, type)
+            and value.__module__ == "basemat"
+            and not issubclass(value, Exception)
+        ):
+            for own, member in vars(value).items():
+                if not own.startswith("_") and not isinstance(member, int):
+                    assert member.__doc__, f"{name}.{own}"

@@ -1,0 +1,206 @@
+"""Stepping, watching, stopping, saving, failing."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+from conftest import same_bits
+
+import basemat as bm
+
+
+def test_time_series_have_a_value_per_step_and_agree_with_the_summary(rocking) -> None:
+    run = rocking().run(500, contact_every=10, motion_every=100)
+    assert run.steps == 500
+    assert run.time.shape == (501,)
+    np.testing.assert_allclose(run.time, 0.01 * np.arange(501), rtol=1e-14)
+    for key, extremes in (("base_shear", run.base_shear), ("roof", run.probes["roof"])):
+        series = run[key]
+        assert series.dtype == np.float64
+        assert (extremes.lowest.value, extremes.highest.value) == (series.min(), series.max())
+        assert extremes.highest.time == run.time[series.argmax()]
+    contact = run.contact
+    assert contact["gap"].shape == contact["mode"].shape == (51, 8)
+    assert run.motion["displacement"].shape == (6, 3)
+    # No tension, Coulomb's limit, no pressure on what is open.
+    pressure, shear = contact["pressure"], contact["shear"]
+    assert pressure.min() > -1e-6 * pressure.max()
+    assert np.all(np.abs(shear) <= 0.4 * pressure + 1e-6 * pressure.max())
+    opened = contact["mode"] == bm.MODES.index("open")
+    assert opened.any()
+    assert np.abs(pressure[opened]).max() < 1e-6 * pressure.max()
+    # Pressure times length is the normal force.
+    lengths = np.diff(
+        bm.HalfPlaneGround.under(
+            bm.Soil(80e6, 0.33, 1900.0), bm.RigidBlock(6.0, 9.0, 1000.0), 8
+        ).elements
+    )
+    np.testing.assert_allclose(pressure @ lengths[:, 0], run["normal_force"][::10], rtol=1e-12)
+    envelope = run.envelope
+    assert envelope["gap"].max() == run.largest_gap.value
+    assert run.ledgers["residual"].max() < 1e-9
+
+
+def test_frames(rocking) -> None:
+    pandas = pytest.importorskip("pandas")
+    run = rocking().run(100)
+    frame = run.to_frame()
+    assert isinstance(frame, pandas.DataFrame)
+    assert frame.index.name == "time"
+    assert same_bits(frame["roof"].to_numpy(), run["roof"])
+    spectrum = run.floor_spectrum("roof", bm.log_spaced(0.1, 1.0, 5))
+    assert list(spectrum.to_frame().index) == list(spectrum.period)
+    assert np.all(spectrum.broadened(0.15).acceleration >= spectrum.acceleration)
+
+
+def test_run_lasts_as_long_as_the_record(rocking) -> None:
+    short = bm.Record(0.02, np.sin(np.arange(101)))
+    assert rocking(motion=short).run().end == 2.0
+    assert rocking().run(duration=0.255).steps == 26
+    with pytest.raises(bm.InputError, match="steps or a duration"):
+        rocking(motion=None).run()
+    with pytest.raises(bm.InputError, match="not both"):
+        rocking().run(10, duration=1.0)
+
+
+def test_observer_sees_every_step_and_may_stop(rocking) -> None:
+    seen = []
+    simulation = rocking()
+
+    def observe(state: bm.State) -> bool:
+        seen.append((state.step, state.base_shear))
+        return state.step == 70
+
+    run = simulation.run(200, observe=observe)
+    assert [step for step, _ in seen] == list(range(1, 71))
+    assert run.steps == 70
+    assert [shear for _, shear in seen] == list(run["base_shear"][1:])
+
+    def fail(state: bm.State) -> None:
+        raise LookupError(f"at {state.step}")
+
+    with pytest.raises(LookupError, match="at 80"):
+        simulation.run(200, observe=fail, observe_every=10)
+    assert simulation.state.step == 80
+
+
+def test_a_simulation_cannot_be_used_while_it_runs(rocking) -> None:
+    simulation = rocking()
+    with pytest.raises(bm.Error, match="is running"):
+        simulation.run(10, observe=lambda state: simulation.step())
+    assert simulation.state.step == 1
+
+
+def test_checkpoints_pickle_and_go_on_to_the_same_bits(rocking) -> None:
+    simulation = rocking(expected_steps=300)
+    simulation.run(150)
+    saved = pickle.loads(pickle.dumps(simulation.checkpoint()))
+    assert saved == simulation.checkpoint()
+    assert saved.steps == 150
+    expected = simulation.run(150)["roof"]
+    other = rocking(expected_steps=300)
+    other.resume(saved)
+    assert same_bits(other.run(150)["roof"], expected)
+    with pytest.raises(
+        bm.CheckpointError, match="time step|structure|probes|ground|contact elements"
+    ):
+        block = bm.RigidBlock(5.0, 9.0, 1000.0)
+        rocking(
+            structure=block, ground=bm.HalfPlaneGround.under(bm.Soil(80e6, 0.33, 1900.0), block, 8)
+        ).resume(saved)
+    with pytest.raises(bm.InputError, match="bytes of a checkpoint"):
+        bm.Checkpoint(b"\xff" * 5)
+
+
+@pytest.mark.parametrize("value", [bm.Soil(80e6, 0.33, 1900.0), bm.Row([(3, 1.5), (0, -1.0)])])
+def test_descriptions_pickle(value: object) -> None:
+    assert repr(pickle.loads(pickle.dumps(value))) == repr(value)
+
+
+def test_records_pickle() -> None:
+    record = bm.el_centro_1940().scaled(1.7)
+    copy = pickle.loads(pickle.dumps(record))
+    assert same_bits(copy.accelerations, record.accelerations)
+    assert same_bits(copy.displacements, record.displacements)
+
+
+def test_ctrl_c_is_heard(rocking) -> None:
+    simulation = rocking(expected_steps=1000)
+    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        simulation.run(50_000_000, series=False)
+    assert time.monotonic() - begin < 5.0
+    reached = simulation.state.step
+    assert 0 < reached < 50_000_000
+    assert simulation.step().step == reached + 1
+
+
+def test_progress_is_told_and_other_threads_run(rocking) -> None:
+    told = []
+    counted = [0]
+    stop = threading.Event()
+
+    def count() -> None:
+        while not stop.is_set():
+            counted[0] += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    simulation = rocking(expected_steps=60_000)
+    before = counted[0]
+    simulation.run(60_000, progress=lambda done, steps: told.append((done, steps)), series=False)
+    during = counted[0] - before
+    stop.set()
+    thread.join()
+    assert told[-1] == (60_000, 60_000)
+    assert all(first < second for first, second in zip(told, told[1:]))
+    assert during > 10, "the GIL was held"
+
+
+def test_progress_writes_a_line(rocking, capsys) -> None:
+    rocking().run(50, progress=True)
+    assert "50 of 50 steps (100 %)" in capsys.readouterr().err
+
+
+def test_errors_have_classes_and_the_full_text(soil, rocking, tmp_path) -> None:
+    with pytest.raises(bm.InputError, match="shear modulus of the soil is -1, but must be"):
+        bm.Soil(-1.0, 0.3, 1900.0)
+    with pytest.raises(ValueError, match="friction coefficient is NaN"):
+        bm.Coulomb(float("nan"))
+    with pytest.raises(bm.FileError, match="nowhere.AT2"):
+        bm.Record.read(tmp_path / "nowhere.AT2", format="peer")
+    bad = tmp_path / "bad.csv"
+    bad.write_text("0.00 0.1\n0.01 0.2\n0.03 0.3\n")
+    with pytest.raises(bm.FileError, match="bad.csv, line 3: time advances by 0.02 s"):
+        bm.Record.read(bad, unit="g")
+    with pytest.raises(bm.InputError, match="more than one probe is called 'a'"):
+        rocking(probes=[bm.Probe.displacement("a", 0), bm.Probe.displacement("a", 1)])
+    with pytest.raises(bm.InputError, match="square"):
+        bm.MatrixModel(np.ones((2, 3)), np.ones((2, 2)), [])
+    with pytest.raises(bm.InputError, match="positive semi-definite"):
+        bm.MatrixModel(
+            -np.eye(3), np.zeros((3, 3)), bm.ContactNode.rigid_base(-1.0, 1.0, [0, 1, 2])
+        )
+    with pytest.raises(KeyError, match="roof"):
+        rocking().run(3)["ruf"]
+    for wrong in ({"structure": 3.0}, {"interface": 3.0}, {"motion": 3.0}):
+        with pytest.raises(bm.InputError, match="float is no"):
+            rocking(**wrong)
+    assert issubclass(bm.InputError, bm.Error) and issubclass(bm.StepError, RuntimeError)
+
+
+def test_a_step_that_fails_leaves_the_simulation_where_it_was(rocking) -> None:
+    simulation = rocking(flow_chart_iterations=1)
+    with pytest.raises(bm.StepError) as raised:
+        simulation.run(1000)
+    assert raised.value.step == simulation.state.step + 1
+    assert raised.value.time == pytest.approx(0.01 * raised.value.step)
+    assert str(raised.value).startswith(f"step {raised.value.step} (t = ")

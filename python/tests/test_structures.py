@@ -1,0 +1,220 @@
+"""Structures against each other, and what they are built from."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import same_bits
+
+import basemat as bm
+
+STOREYS = [bm.Storey(3.0, 20e3, 40e6)] * 3
+
+
+def shaken(structure: object, soil: bm.Soil, **others: object) -> bm.Run:
+    ground = bm.HalfPlaneGround.under(soil, structure, 6)
+    simulation = bm.Simulation(
+        0.005, structure, ground, bm.Coulomb(0.4), motion=bm.el_centro_1940(), **others
+    )
+    return simulation.run(600)
+
+
+def test_matrices_of_a_building_give_its_response(soil: bm.Soil) -> None:
+    building = bm.ShearBuilding(8.0, 50e3, 4e5, STOREYS, damping=0.05)
+    model = bm.MatrixModel(
+        building.mass(), building.stiffness(), building.contact_nodes(), damping=building.damping()
+    )
+    expected, found = shaken(building, soil), shaken(model, soil)
+    assert expected.uplifted_fraction.value > 0.1
+    scale = expected.base_shear.magnitude
+    np.testing.assert_allclose(found["base_shear"], expected["base_shear"], atol=1e-9 * scale)
+
+
+def test_rayleigh_damping_is_a_sum_of_the_matrices() -> None:
+    building = bm.ShearBuilding(8.0, 50e3, 4e5, STOREYS)
+    damping = bm.RayleighDamping.from_ratios([1.0, 10.0], [0.05, 0.05])
+    model = bm.MatrixModel(
+        building.mass(), building.stiffness(), building.contact_nodes(), rayleigh=damping
+    )
+    expected = damping.mass * building.mass() + damping.stiffness * building.stiffness()
+    np.testing.assert_allclose(model.damping(), expected, rtol=1e-14)
+    assert damping.ratio(1.0) == pytest.approx(0.05)
+    with pytest.raises(bm.InputError, match="not both"):
+        matrices = building.mass(), building.stiffness(), building.contact_nodes()
+        bm.MatrixModel(*matrices, damping=expected, rayleigh=damping)
+
+
+def test_a_law_that_never_yields_is_a_linear_storey(soil: bm.Soil) -> None:
+    building = bm.ShearBuilding(8.0, 50e3, 4e5, STOREYS)
+    strong = bm.NonlinearShearBuilding(building, {0: bm.Bilinear(40e6, 1e12, 0.05)})
+    scale = shaken(building, soil).base_shear.magnitude
+    np.testing.assert_allclose(
+        shaken(strong, soil)["base_shear"], shaken(building, soil)["base_shear"], atol=1e-6 * scale
+    )
+    weak = bm.NonlinearShearBuilding(building, {0: bm.Bilinear(40e6, 100e3, 0.05)})
+    assert shaken(weak, soil).base_shear.magnitude < 0.8 * scale
+    # The structure is a description: a second simulation starts from new columns.
+    assert same_bits(shaken(weak, soil)["base_moment"], shaken(weak, soil)["base_moment"])
+
+
+def test_isolators_cut_the_base_shear(soil: bm.Soil) -> None:
+    building = bm.ShearBuilding(10.0, 50e3, 4e5, STOREYS, damping=0.02)
+    weight = (60e3 + 30e3) * bm.STANDARD_GRAVITY
+    pendulum = bm.FrictionPendulum(weight, 2.0, 0.06)
+    isolated = bm.NonlinearShearBuilding.isolated(building, pendulum, height=0.5, slab_mass=30e3)
+    fixed = shaken(building, soil)
+    run = shaken(isolated, soil, probes=[bm.Probe.displacement("bearing", isolated.drift(0))])
+    assert run.base_shear.magnitude < 0.6 * fixed.base_shear.magnitude
+    assert run.probes["bearing"].magnitude > 0.01
+    assert run.ledger.hysteresis > 0.2 * run.ledger.relative_input
+    assert pendulum.sliding_period(9.80665) == pytest.approx(2 * np.pi * np.sqrt(2.0 / 9.80665))
+
+
+def test_laws_of_springs_by_hand() -> None:
+    law = bm.Bilinear(10e6, 100e3, 0.1)
+    forces = law.path([0.005, 0.03, 0.025, 0.018])
+    assert forces == pytest.approx([50e3, 120e3, 70e3, 0.0], abs=1e-6)
+    assert law.path([0.005]) == [50e3], "a path begins with a new spring"
+    bearing = bm.LeadRubber.from_strength(1.0e6, 50e3)
+    assert (bearing.stiffness, bearing.strength) == (1.0e6, pytest.approx(50e3))
+
+
+def test_springs_on_a_structure_are_those_of_the_law(soil: bm.Soil) -> None:
+    building = bm.ShearBuilding(8.0, 50e3, 4e5, STOREYS)
+    soft = bm.ShearBuilding(8.0, 50e3, 4e5, [bm.Storey(3.0, 20e3, 30e6), *STOREYS[1:]])
+    braced = bm.WithSprings(soft, [(soft.drift(0), bm.Bilinear(10e6, 1e12, 0.0))])
+    scale = shaken(building, soil).base_shear.magnitude
+    np.testing.assert_allclose(
+        shaken(braced, soil)["base_shear"], shaken(building, soil)["base_shear"], atol=1e-6 * scale
+    )
+
+
+def test_a_group_of_one_is_that_one_and_two_far_apart_are_two(soil: bm.Soil) -> None:
+    one = bm.RigidBlock(6.0, 9.0, 1000.0)
+    two = bm.StructureGroup([(one, -50.0), (one, 50.0)])
+    assert two.unknowns == 6
+    assert two.row(1, one.horizontal_at(9.0)).terms == [(3, 1.0), (5, -9.0)]
+    run, alone = shaken(two, soil), shaken(one, soil)
+    # Until P waves have come from one to the other.
+    first = int(94.0 / soil.pressure_wave_speed / 0.005)
+    both, twice = run["base_shear"], 2.0 * alone["base_shear"]
+    np.testing.assert_allclose(both[:first], twice[:first], rtol=1e-9, atol=1e-3)
+    assert np.abs(both - twice)[first + 10 :].max() > 100.0
+    left, right = run.foundations
+    assert left.ends == [-53.0, -47.0] and right.ends == [47.0, 53.0]
+
+
+def test_reduction_keeps_the_response() -> None:
+    concrete = bm.Material(30e9, 0.2, 2400.0)
+    mesh = bm.Mesh.layered_block(-3.0, 3.0, 6, [bm.Layer(12.0, 12, concrete)])
+    rayleigh = bm.RayleighDamping.from_ratios([2.0, 20.0], [0.03, 0.03])
+    full = bm.FemModel(mesh, rayleigh=rayleigh)
+    reduced = bm.ReducedModel(full, 12)
+    assert reduced.unknowns == 14 + 12 < full.unknowns
+    roof = full.row(full.node_at(3.0, 12.0), "x")
+    soil = bm.Soil(200e6, 0.33, 2000.0)
+    runs = [
+        shaken(structure, soil, probes=[bm.Probe.displacement("roof", row)])
+        for structure, row in ((full, roof), (reduced, reduced.row(roof)))
+    ]
+    exact, found = (run["roof"] for run in runs)
+    assert np.abs(found - exact).max() < 0.01 * np.abs(exact).max()
+    assert np.all(np.diff(reduced.frequencies) >= 0.0)
+
+
+GMSH = """$MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+1 7 "base"
+2 9 "wall"
+$EndPhysicalNames
+$Entities
+0 1 1 0
+1 0 0 0 2 0 0 1 7 0
+1 0 0 0 2 1 0 1 9 0
+$EndEntities
+$Nodes
+1 6 1 6
+2 1 0 6
+1
+2
+3
+4
+5
+6
+0. 0. 0.
+1. 0. 0.
+1. 1. 0.
+0. 1. 0.
+2. 0. 0.
+2. 1. 0.
+$EndNodes
+$Elements
+2 4 1 4
+1 1 1 2
+1 1 2
+2 2 5
+2 1 3 2
+3 1 2 3 4
+4 2 5 6 3
+$EndElements
+"""
+
+
+def test_gmsh_and_arrays_give_the_same_model(tmp_path: Path) -> None:
+    (tmp_path / "wall.msh").write_text(GMSH)
+    read = bm.GmshMesh(tmp_path / "wall.msh")
+    assert (read.surfaces, read.lines) == (["wall"], ["base"])
+    wall = bm.Material(30e9, 0.2, 2400.0)
+    model = bm.FemModel(read.mesh({"wall": wall}), read.line("base"))
+
+    mesh = bm.Mesh([[0, 0], [1, 0], [1, 1], [0, 1], [2, 0], [2, 1]])
+    mesh.add_quads([[0, 1, 2, 3], [1, 4, 5, 2]], wall)
+    own = bm.FemModel(mesh, [0, 1, 4])
+    assert same_bits(model.stiffness(), own.stiffness())
+    assert same_bits(model.mass(), own.mass())
+    # Two cubic metres of concrete, and no resistance to a translation.
+    ones = np.tile([1.0, 0.0], 6)
+    assert ones @ own.mass() @ ones == pytest.approx(4800.0)
+    assert np.abs(own.stiffness() @ ones).max() < 1e-6 * own.stiffness().max()
+    with pytest.raises(bm.InputError, match="would count twice"):
+        mesh.add_quads([[0, 1, 2, 3]], wall)
+    with pytest.raises(bm.FileError, match="wall.msh"):
+        read.mesh({"roof": wall})
+
+
+def test_layers_over_a_half_plane_of_the_same_soil_are_the_half_plane(soil: bm.Soil) -> None:
+    block = bm.RigidBlock(6.0, 9.0, 1000.0)
+    frequencies = [1.0, 4.0, 10.0]
+    profile = bm.SoilProfile([bm.SoilLayer(soil, 5.0)], soil)
+    layered = bm.LayeredGround.under(profile, block, 8)
+    half_plane = bm.HalfPlaneGround.under(soil, block, 8)
+    one, other = layered.impedances(frequencies), half_plane.impedances(frequencies)
+    for name in ("horizontal", "vertical", "rocking"):
+        np.testing.assert_allclose(getattr(one, name), getattr(other, name), rtol=1e-4)
+    # And in time, with friction, to the error of the convolution quadrature.
+    motion = bm.el_centro_1940().scaled(0.5)
+    runs = [
+        bm.Simulation(0.005, block, ground, bm.Coulomb(0.4), motion=motion).run(600)
+        for ground in (layered, half_plane)
+    ]
+    first, second = (run["base_shear"] for run in runs)
+    assert np.abs(first - second).max() < 0.03 * np.abs(second).max()
+
+
+def test_rows_add_and_scale(block: bm.RigidBlock) -> None:
+    row = 2.0 * bm.Row(0) - bm.Row({2: 3.0}) + [(0, 1.0)]
+    assert row.terms == [(0, 3.0), (2, -3.0)]
+    assert row.value(np.array([1.0, 0.0, 2.0])) == -3.0
+    assert list(row.weights(4)) == [3.0, 0.0, -3.0, 0.0]
+    assert bm.Row(np.array([0.0, 2.0])) == bm.Row([(1, 2.0)])
+    assert bm.Row(np.int64(3)) == bm.Row(3)
+    assert block.horizontal_at(9.0).relative_to_base(block).value(
+        np.array([0.5, 0, 0.01])
+    ) == pytest.approx(-0.09)
+    with pytest.raises(bm.InputError, match="a row must be"):
+        bm.Row("roof")

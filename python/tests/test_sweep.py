@@ -1,0 +1,102 @@
+"""Tables of many cases."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import os
+import signal
+import threading
+import time
+
+import pytest
+
+import basemat as bm
+
+pandas = pytest.importorskip("pandas")
+
+
+def make(friction: float, peak: float) -> bm.Simulation:
+    if friction == 0.25:
+        raise ValueError("no such friction")
+    block = bm.RigidBlock(6.0, 9.0, 1000.0)
+    ground = bm.HalfPlaneGround.under(bm.Soil(80.0e6, 0.33, 1900.0), block, 6)
+    motion = bm.el_centro_1940().scaled_to_peak(peak)
+    return bm.Simulation(0.01, block, ground, bm.Coulomb(friction), motion=motion)
+
+
+def results(run: bm.Run) -> dict[str, float]:
+    return {"shear": run.base_shear.magnitude, "slip": run.residual_slip}
+
+
+GRID = {"friction": [0.2, 0.25, 0.3], "peak": [1.0, 3.0]}
+
+
+def test_one_row_per_case_in_order_and_errors_beside_results() -> None:
+    table = bm.sweep(make, GRID, steps=300, results=results)
+    assert list(table.columns) == ["friction", "peak", "shear", "slip", "error"]
+    assert list(zip(table["friction"], table["peak"])) == [
+        (0.2, 1.0),
+        (0.2, 3.0),
+        (0.25, 1.0),
+        (0.25, 3.0),
+        (0.3, 1.0),
+        (0.3, 3.0),
+    ]
+    failed = table["friction"] == 0.25
+    assert set(table["error"][failed]) == {"ValueError: no such friction"}
+    assert table["error"][~failed].isna().all()
+    assert table["shear"][failed].isna().all()
+    expected = make(0.3, 3.0).run(300).base_shear.magnitude
+    assert table["shear"].iloc[-1] == expected
+
+
+@pytest.mark.parametrize("jobs", [2, 0])
+def test_threads_change_nothing(jobs: int) -> None:
+    one = bm.sweep(make, GRID, steps=300)
+    told = []
+    many = bm.sweep(
+        make, GRID, steps=300, jobs=jobs, progress=lambda done, of: told.append((done, of))
+    )
+    pandas.testing.assert_frame_equal(one, many, check_exact=True)
+    assert told == [(k, 6) for k in range(1, 7)]
+
+
+def test_processes_change_nothing() -> None:
+    one = bm.sweep(make, GRID, steps=100, results=results)
+    with concurrent.futures.ProcessPoolExecutor(2) as executor:
+        many = bm.sweep(make, GRID, steps=100, results=results, executor=executor)
+    pandas.testing.assert_frame_equal(one, many, check_exact=True)
+
+
+def dies(case: int) -> dict[str, int]:
+    if case == 2:
+        os._exit(1)
+    return {"value": case}
+
+
+def test_a_worker_that_dies_leaves_a_row_with_an_error() -> None:
+    with concurrent.futures.ProcessPoolExecutor(1) as executor:
+        table = bm.sweep(dies, [{"case": k} for k in range(3)], executor=executor)
+    assert len(table) == 3
+    assert "BrokenProcessPool" in table["error"].iloc[2]
+
+
+def test_make_may_return_a_run_or_a_mapping() -> None:
+    assert list(bm.sweep(lambda a: {"b": a * a}, {"a": [2, 3]})["b"]) == [4, 9]
+    table = bm.sweep(lambda friction: make(friction, 2.0).run(50), {"friction": [0.3]})
+    assert table["end"].iloc[0] == 0.5
+    table = bm.sweep(lambda a: a, {"a": [2]})
+    assert table["error"].iloc[0].startswith("TypeError: make returned int")
+
+
+def test_names_that_clash_are_refused() -> None:
+    with pytest.raises(ValueError, match="'a'"):
+        bm.sweep(lambda a: {"a": a}, {"a": [2]})
+
+
+def test_ctrl_c_ends_all_threads() -> None:
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        bm.sweep(lambda k: make(0.3, 1.0).run(10**7, series=False), {"k": range(8)}, jobs=2)
+    assert time.monotonic() - begin < 10.0

@@ -1,0 +1,29 @@
+"""The stubs agree with the compiled module, and the package with its stubs."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+
+def check(*command: str) -> None:
+    pytest.importorskip("mypy")
+    done = subprocess.run(
+        [sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_stubs_are_those_of_the_compiled_module() -> None:
+    allowed = str(ROOT / "tests" / "stubtest_allowed.txt")
+    options = ["--concise", "--mypy-config-file", "pyproject.toml", "--allowlist", allowed]
+    check("mypy.stubtest", "basemat", *options)
+
+
+def test_the_package_is_typed() -> None:
+    check("mypy", "--strict", "-p", "basemat")

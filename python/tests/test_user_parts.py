@@ -1,0 +1,194 @@
+"""Structures, laws, loads and motions written in Python."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import basemat as bm
+
+
+class Tuned:
+    """A block with a mass on top on a spring that hardens; it may raise."""
+
+    unknowns = 4
+
+    def __init__(self, block: bm.RigidBlock, breaks_at: float = np.inf) -> None:
+        self.block, self.breaks_at = block, breaks_at
+        self.committed: list[float] = []
+
+    def __deepcopy__(self, memo: dict) -> "Tuned":
+        return Tuned(self.block, self.breaks_at)
+
+    def contact_nodes(self) -> list[bm.ContactNode]:
+        return self.block.contact_nodes()
+
+    def mass(self) -> np.ndarray:
+        mass = np.zeros((4, 4))
+        mass[:3, :3] = self.block.mass()
+        mass[3, 3] = 2.0e3
+        return mass
+
+    def stiffness(self) -> np.ndarray:
+        spring = np.array([-1.0, 0.0, 9.0, 1.0])
+        return 1.0e6 * np.outer(spring, spring)
+
+    def stretch(self, u: np.ndarray) -> float:
+        return u[3] - u[0] + 9.0 * u[2]
+
+    def force(self, u: np.ndarray) -> np.ndarray:
+        stretch = self.stretch(u)
+        if abs(stretch) > self.breaks_at:
+            raise ArithmeticError(f"broken at {stretch:.3f} m")
+        return 1.0e10 * stretch**3 * np.array([-1.0, 0.0, 9.0, 1.0])
+
+    def tangent(self, u: np.ndarray) -> np.ndarray:
+        spring = np.array([-1.0, 0.0, 9.0, 1.0])
+        return 3.0e10 * self.stretch(u) ** 2 * np.outer(spring, spring)
+
+    def commit(self, u: np.ndarray) -> None:
+        self.committed.append(self.stretch(u))
+
+    def save(self) -> list[float]:
+        return []
+
+    def restore(self, values: np.ndarray) -> None:
+        assert len(values) == 0
+
+
+PROBE = bm.Probe.displacement("stretch", {3: 1.0, 0: -1.0, 2: 9.0})
+
+
+def test_a_nonlinear_structure_is_called_and_the_ledger_closes(rocking, block) -> None:
+    own = Tuned(block)
+    run = rocking(structure=own, probes=[PROBE]).run(300)
+    assert run.ledger_residual < 1e-9
+    assert run.probes["stretch"].magnitude > 5e-3
+    # Its strain energy is that of the spring: ½ k s² + ¼ k₃ s⁴.
+    stretch = run["stretch"]
+    expected = 0.5e6 * stretch**2 + 0.25e10 * stretch**4
+    np.testing.assert_allclose(
+        run.ledgers["strain"], expected, rtol=0.0, atol=0.02 * expected.max()
+    )
+    assert own.committed == [], "a simulation has a copy of its own"
+
+
+def test_an_exception_of_the_structure_comes_out_of_the_run(rocking, block) -> None:
+    simulation = rocking(structure=Tuned(block, breaks_at=4e-3), probes=[PROBE])
+    with pytest.raises(ArithmeticError, match="broken at"):
+        simulation.run(500)
+    state = simulation.state
+    assert 10 < state.step < 500
+    assert abs(state.probes[0]) <= 4e-3
+    with pytest.raises(ArithmeticError, match="broken at"):
+        simulation.step()
+    assert simulation.state.step == state.step
+
+
+@pytest.mark.parametrize("method", ["unknowns", "contact_nodes", "mass", "stiffness", "tangent"])
+def test_an_exception_while_a_simulation_is_built(rocking, block, method: str) -> None:
+    def fail(*_: object) -> None:
+        raise NotImplementedError(method)
+
+    own = type("Own", (Tuned,), {method: fail, "__deepcopy__": lambda self, memo: self})(block)
+    with pytest.raises(NotImplementedError, match=method):
+        rocking(structure=own)
+
+
+class Weakening:
+    """Friction that falls with the way that an element has slid."""
+
+    modes = ("stick", "slip left", "slip right", "open")
+    memory = 1
+    fails_in = ""
+    fails_at = 0.5
+
+    def __init__(self) -> None:
+        self.calls = 0
+
+    def law(self, start: bm.StepStart) -> bm.Coulomb:
+        return bm.Coulomb(0.15 + 0.25 * np.exp(-start.memory[0] / 0.01))
+
+    def called(self, method: str) -> None:
+        self.calls += 1
+        if method == self.fails_in and self.calls > 3000:
+            raise TimeoutError(method)
+
+    def conditions(self, mode: str, start: bm.StepStart):
+        self.called("conditions")
+        return self.law(start).conditions(mode, start)
+
+    def next_mode(self, mode, start, trial, tolerance):
+        self.called("next_mode")
+        return self.law(start).next_mode(mode, start, trial, tolerance)
+
+    def commit(self, start, end, mode):
+        self.called("commit")
+        return [start.memory[0] + (abs(end.slip - start.slip) if mode.startswith("slip") else 0.0)]
+
+
+def test_a_law_remembers(rocking) -> None:
+    simulation = rocking(interface=Weakening(), motion=bm.el_centro_1940().scaled(1.5))
+    run = simulation.run(600)
+    slid = simulation.state.law_memory(3)[0]
+    assert slid > 0.01
+    assert slid >= abs(simulation.state.slip[3]) - 1e-12
+    assert run.ledger_residual < 1e-9
+    # Between the limits of its friction.
+    strong, weak = (
+        rocking(f, motion=bm.el_centro_1940().scaled(1.5)).run(600) for f in (0.4, 0.15)
+    )
+    assert strong.slip_path < run.slip_path < weak.slip_path
+
+
+@pytest.mark.parametrize("method", ["conditions", "next_mode", "commit"])
+def test_an_exception_of_a_law_comes_out_of_the_run(rocking, method: str) -> None:
+    law = Weakening()
+    law.fails_in = method
+    simulation = rocking(interface=law)
+    accepted = []
+    with pytest.raises(TimeoutError, match=method):
+        simulation.run(2000, observe=lambda state: accepted.append(state.base_shear))
+    state = simulation.state
+    assert state.step == len(accepted) > 10
+    assert state.base_shear == accepted[-1]
+    law.fails_in = ""
+    assert simulation.step().step == state.step + 1
+
+
+def test_functions_may_raise(rocking) -> None:
+    def late(time: float) -> float:
+        if time > 0.2:
+            raise OverflowError("the load")
+        return 0.0
+
+    def shaken(x: float, time: float) -> tuple[float, float]:
+        if time > 0.3:
+            raise OverflowError("the motion")
+        return 1e-3 * np.sin(10.0 * time) ** 2, 0.0
+
+    for parts, text, last in (
+        ({"loads": [bm.Load(0, late)], "motion": None}, "the load", 20),
+        ({"motion": shaken}, "the motion", 30),
+        ({"interface": bm.VariableFriction(lambda start: 1 / 0)}, "division", None),
+    ):
+        with pytest.raises((OverflowError, ZeroDivisionError), match=text):
+            simulation = rocking(**parts)
+            simulation.run(100)
+        if last is not None:
+            assert abs(simulation.state.step - last) <= 1
+
+
+def test_bad_shapes_are_named(rocking, block) -> None:
+    own = Tuned(block)
+    own.mass = lambda: np.eye(3)  # type: ignore[method-assign]
+    own.__class__ = type("Bad", (Tuned,), {"__deepcopy__": lambda self, memo: self})
+    with pytest.raises(bm.InputError, match="matrix of a structure has length 3, but must have 4"):
+        rocking(structure=own)
+
+
+def test_active_law_without_modes_is_refused(rocking) -> None:
+    law = Weakening()
+    law.modes = ("glide",)
+    with pytest.raises(bm.InputError, match="mode is 'glide'"):
+        rocking(interface=law)
