@@ -196,3 +196,12 @@ def test_laws_of_the_interface_bound_its_tractions(rocking, soil) -> None:
     assert bm.ThinLayer(soil, 1.0, 0.4, thickness_ratio=0.01).stiffness[0] > 1e9
     with pytest.raises(bm.InputError, match="list of interface laws has length 3"):
         rocking(interface=[bm.Coulomb(0.4)] * 3)
+
+
+def test_advice_is_followed_by_a_smaller_error(soil: bm.Soil) -> None:
+    record = bm.el_centro_1940()
+    outline = {"width": 6.0, "height": 9.0, "mass": 54e3}
+    fine, coarse = (bm.advise(soil, record, tolerance, **outline) for tolerance in (0.01, 0.1))
+    assert fine.elements > coarse.elements and fine.time_step < coarse.time_step
+    assert max(coarse.mesh_error, coarse.step_error, coarse.peak_error) <= 0.06
+    assert (fine.grading, fine.history) == ("cosine", "auto")
