@@ -7,6 +7,7 @@ soil. See the README of the package for a first program.
 
 from __future__ import annotations
 
+from . import _pickling
 from ._core import (
     MODES,
     STANDARD_GRAVITY,
@@ -87,6 +88,11 @@ from ._core import (
 from ._errors import CheckpointError, Error, FileError, InputError, StepError
 from ._protocols import UserLaw, UserStructure
 from ._sweep import sweep
+
+_pickling.prepare()
+ricker = _pickling.function(ricker)
+travelling_wave = _pickling.function(travelling_wave)
+vertical_incidence = _pickling.function(vertical_incidence)
 
 __all__ = [
     "MODES",

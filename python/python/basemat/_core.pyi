@@ -84,6 +84,7 @@ class HalfPlaneGround(Ground):
 @final
 class SharedKernels:
     def __new__(cls) -> Self: ...
+    def __getnewargs__(self) -> tuple[()]: ...
     def __len__(self) -> int: ...
 
 @final
@@ -600,6 +601,15 @@ class Row:
 
 @final
 class SectionRows:
+    def __new__(
+        cls,
+        displacement: _RowLike,
+        velocity: _RowLike,
+        acceleration: _RowLike,
+        *,
+        unit: str = "N/m",
+    ) -> Self: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[Row, Row, Row], dict[str, Any]]: ...
     @property
     def unit(self) -> str: ...
     @property

@@ -9,7 +9,7 @@ use crate::error::{keep, refuse};
 use crate::recipe::Recipe;
 
 /// Motion of the ground's surface without the structure.
-#[pyclass(name = "FreeField", module = "basemat", subclass, frozen)]
+#[pyclass(name = "FreeField", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyFreeField {
     pub(crate) make: Recipe<dyn FreeField>,
 }
