@@ -71,7 +71,7 @@ _FIELDS = (
 
 
 class Made(NamedTuple):
-    """How to make a description: a class, function or method, and its arguments."""
+    """The origin of a description: a class, function or method, and its arguments."""
 
     owner: Any
     name: str | None
@@ -141,7 +141,7 @@ def function(make: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _how(description: Any) -> Made:
-    """How a description was made, calls that added to it included."""
+    """The origin of a description, calls that added to it included."""
     own = vars(description)
     made: Made = own[_MADE]
     return made._replace(calls=tuple(own.get(_CALLS, ())))

@@ -67,7 +67,7 @@ impl PyLoad {
     }
 }
 
-/// What the function returns, or NaN (which ends the step) if it raises.
+/// Value of the function, or NaN (which ends the step) if it raises.
 fn value_of(function: &Py<PyAny>, time: f64) -> f64 {
     Python::attach(|py| {
         let found = function.call1(py, (time,));

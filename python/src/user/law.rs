@@ -165,7 +165,7 @@ impl UserLaw {
         })
     }
 
-    /// What `ask` finds, or `otherwise` if it raises, or something has raised before.
+    /// The result of `ask`, or `otherwise` if it raises, or something has raised before.
     fn ask<T>(
         &self,
         otherwise: T,
