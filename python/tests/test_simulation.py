@@ -61,6 +61,8 @@ def test_frames(rocking) -> None:
     row = contact.iloc[3 * 8 + 2]
     assert (row["time"], row["element"]) == (run.contact["time"][3], 2)
     assert row["pressure"] == run.contact["pressure"][3, 2]
+    envelope = run.envelope
+    assert row["x"] == 0.5 * (envelope["left"][2] + envelope["right"][2])
     assert row["mode"] == bm.MODES[run.contact["mode"][3, 2]]
     spectrum = run.floor_spectrum("roof", bm.log_spaced(0.1, 1.0, 5))
     assert list(spectrum.to_frame().index) == list(spectrum.period)
