@@ -21,5 +21,6 @@ wheel="$(ls -t "$CARGO_TARGET_DIR"/wheels/basemat-*.whl | head -1)"
 "$venv/bin/pip" install -q --force-reinstall --no-deps "$wheel"
 "$venv/bin/pip" install -q "$wheel[test]"
 "$venv/bin/python" -m pytest -q
-MPLBACKEND=agg "$venv/bin/python" examples/walkthrough.py
+walkthrough="$PWD/examples/walkthrough.py"
+(cd "$CARGO_TARGET_DIR" && MPLBACKEND=agg "$venv/bin/python" "$walkthrough")
 echo "wheel: $wheel"

@@ -1,6 +1,7 @@
 //! The compiled half of the Python package `basemat`: descriptions of soils, structures, laws and
 //! motions, the simulation made of them, and its results.
 
+mod advice;
 mod array;
 mod error;
 mod ground;
@@ -23,6 +24,8 @@ use pyo3::prelude::*;
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("MODES", names::MODE_NAMES)?;
     module.add("STANDARD_GRAVITY", basemat::motion::STANDARD_GRAVITY)?;
+    module.add_class::<advice::PyAdvice>()?;
+    module.add_function(wrap_pyfunction!(advice::advise, module)?)?;
     module.add_class::<soil::PySoil>()?;
     module.add_class::<profile::PyDampingLaw>()?;
     module.add_class::<profile::PySoilLayer>()?;

@@ -10,7 +10,7 @@ use crate::row::{PyRow, PySectionRows, RowLike};
 /// Displacements are changes against the static state, relative to the translation of the free
 /// field; :meth:`absolute_displacement` includes it. Velocities and accelerations are total. No two
 /// probes of a simulation have the same name.
-#[pyclass(name = "Probe", module = "basemat", frozen)]
+#[pyclass(name = "Probe", module = "basemat", frozen, dict)]
 pub(crate) struct PyProbe(pub(crate) Probe);
 
 impl PyProbe {

@@ -13,7 +13,7 @@ use crate::error::OrRaise;
 use crate::soil::PySoil;
 
 /// Damping of a soil: how its shear modulus depends on frequency.
-#[pyclass(name = "DampingLaw", module = "basemat", frozen)]
+#[pyclass(name = "DampingLaw", module = "basemat", frozen, dict)]
 pub(crate) struct PyDampingLaw(Arc<dyn Relaxation>);
 
 #[pymethods]
@@ -63,7 +63,7 @@ impl PyDampingLaw {
 }
 
 /// A horizontal layer: its soil, its thickness (m), its damping (none unless given).
-#[pyclass(name = "SoilLayer", module = "basemat", frozen)]
+#[pyclass(name = "SoilLayer", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilLayer(SoilLayer);
 
 #[pymethods]
@@ -81,7 +81,7 @@ fn law(given: Option<&PyDampingLaw>) -> Arc<dyn Relaxation> {
 
 /// Horizontal layers from the surface down, on a half-plane of the soil ``base`` or, with
 /// ``base=None``, on a rigid base.
-#[pyclass(name = "SoilProfile", module = "basemat", frozen)]
+#[pyclass(name = "SoilProfile", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilProfile(pub(crate) SoilProfile);
 
 #[pymethods]

@@ -146,6 +146,32 @@ pub(crate) struct PySectionRows(pub(crate) SectionRows);
 
 #[pymethods]
 impl PySectionRows {
+    #[new]
+    #[pyo3(signature = (displacement, velocity, acceleration, *, unit="N/m"))]
+    fn new(
+        displacement: RowLike,
+        velocity: RowLike,
+        acceleration: RowLike,
+        unit: &str,
+    ) -> PyResult<Self> {
+        let unit = match unit {
+            "N/m" => "N/m",
+            "N·m/m" => "N·m/m",
+            _ => return Err(refuse(format!("unit is '{unit}', but must be 'N/m' or 'N·m/m'"))),
+        };
+        let (displacement, velocity, acceleration) = (displacement.0, velocity.0, acceleration.0);
+        Ok(Self(SectionRows { unit, displacement, velocity, acceleration }))
+    }
+
+    fn __getnewargs_ex__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<((PyRow, PyRow, PyRow), Bound<'py, PyDict>)> {
+        let unit = PyDict::new(py);
+        unit.set_item("unit", self.0.unit)?;
+        Ok(((self.displacement(), self.velocity(), self.acceleration()), unit))
+    }
+
     /// SI unit of the resultant.
     #[getter]
     fn unit(&self) -> &'static str {

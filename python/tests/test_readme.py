@@ -16,7 +16,7 @@ PROGRAMS = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text("ut
 
 @pytest.fixture(scope="module")
 def names() -> dict[str, object]:
-    """What the first program leaves."""
+    """Names that the first program defines."""
     pytest.importorskip("scipy")
     found: dict[str, object] = {}
     exec(PROGRAMS[0], found)

@@ -54,6 +54,16 @@ def test_frames(rocking) -> None:
     assert isinstance(frame, pandas.DataFrame)
     assert frame.index.name == "time"
     assert same_bits(frame["roof"].to_numpy(), run["roof"])
+    run = rocking().run(100, contact_every=20)
+    contact = run.contact_frame()
+    assert list(contact.columns) == "time element x gap slip pressure shear mode".split()
+    assert len(contact) == 6 * 8
+    row = contact.iloc[3 * 8 + 2]
+    assert (row["time"], row["element"]) == (run.contact["time"][3], 2)
+    assert row["pressure"] == run.contact["pressure"][3, 2]
+    envelope = run.envelope
+    assert row["x"] == 0.5 * (envelope["left"][2] + envelope["right"][2])
+    assert row["mode"] == bm.MODES[run.contact["mode"][3, 2]]
     spectrum = run.floor_spectrum("roof", bm.log_spaced(0.1, 1.0, 5))
     assert list(spectrum.to_frame().index) == list(spectrum.period)
     assert np.all(spectrum.broadened(0.15).acceleration >= spectrum.acceleration)

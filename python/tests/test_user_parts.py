@@ -156,6 +156,30 @@ def test_an_exception_of_a_law_comes_out_of_the_run(rocking, method: str) -> Non
     assert simulation.step().step == state.step + 1
 
 
+def test_a_law_without_memory_that_raises_in_next_mode_commits_nothing(rocking) -> None:
+    class Brittle:
+        modes = ("stick", "slip left", "slip right", "open")
+        law = bm.Coulomb(0.4)
+
+        def conditions(self, mode, start):
+            return self.law.conditions(mode, start)
+
+        def next_mode(self, mode, start, trial, tolerance):
+            if trial.gap > 1e-3:
+                raise BlockingIOError(f"{trial.gap}")
+            return self.law.next_mode(mode, start, trial, tolerance)
+
+    simulation = rocking(interface=Brittle())
+    shears = []
+    with pytest.raises(BlockingIOError):
+        simulation.run(1000, observe=lambda state: shears.append(state.base_shear))
+    state = simulation.state
+    assert (state.step, state.base_shear) == (len(shears), shears[-1])
+    assert state.gap.max() <= 1e-3
+    expected = rocking(interface=bm.Coulomb(0.4)).run(state.step)["base_shear"][1:]
+    assert list(expected) == shears
+
+
 def test_functions_may_raise(rocking) -> None:
     def late(time: float) -> float:
         if time > 0.2:

@@ -7,10 +7,12 @@ soil. See the README of the package for a first program.
 
 from __future__ import annotations
 
+from . import _pickling
 from ._core import (
     MODES,
     STANDARD_GRAVITY,
     Adhesive,
+    Advice,
     Bilinear,
     Bonded,
     BoucWen,
@@ -76,6 +78,7 @@ from ._core import (
     WithModalDamping,
     WithSprings,
     Yielding,
+    advise,
     el_centro_1940,
     log_spaced,
     ricker,
@@ -86,10 +89,16 @@ from ._errors import CheckpointError, Error, FileError, InputError, StepError
 from ._protocols import UserLaw, UserStructure
 from ._sweep import sweep
 
+_pickling.prepare()
+ricker = _pickling.function(ricker)
+travelling_wave = _pickling.function(travelling_wave)
+vertical_incidence = _pickling.function(vertical_incidence)
+
 __all__ = [
     "MODES",
     "STANDARD_GRAVITY",
     "Adhesive",
+    "Advice",
     "Bilinear",
     "Bonded",
     "BoucWen",
@@ -162,6 +171,7 @@ __all__ = [
     "WithModalDamping",
     "WithSprings",
     "Yielding",
+    "advise",
     "el_centro_1940",
     "log_spaced",
     "ricker",

@@ -20,6 +20,23 @@ _RowLike: TypeAlias = Union[
 _MatrixLike: TypeAlias = Any
 """A square array, or any matrix of ``scipy.sparse``."""
 
+@final
+class Advice:
+    @property
+    def elements(self) -> int: ...
+    @property
+    def grading(self) -> str: ...
+    @property
+    def time_step(self) -> float: ...
+    @property
+    def history(self) -> str: ...
+    @property
+    def mesh_error(self) -> float: ...
+    @property
+    def step_error(self) -> float: ...
+    @property
+    def peak_error(self) -> float: ...
+
 @disjoint_base
 class Ground:
     @property
@@ -67,6 +84,7 @@ class HalfPlaneGround(Ground):
 @final
 class SharedKernels:
     def __new__(cls) -> Self: ...
+    def __getnewargs__(self) -> tuple[()]: ...
     def __len__(self) -> int: ...
 
 @final
@@ -498,6 +516,7 @@ class Run:
     @property
     def motion(self) -> dict[str, Any]: ...
     def to_frame(self) -> Any: ...
+    def contact_frame(self) -> Any: ...
     def acceleration_record(self, probe: str) -> Record: ...
     def floor_spectrum(self, probe: str, periods: ArrayLike, damping: float = 0.05) -> Spectrum: ...
     @property
@@ -582,6 +601,15 @@ class Row:
 
 @final
 class SectionRows:
+    def __new__(
+        cls,
+        displacement: _RowLike,
+        velocity: _RowLike,
+        acceleration: _RowLike,
+        *,
+        unit: str = "N/m",
+    ) -> Self: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[Row, Row, Row], dict[str, Any]]: ...
     @property
     def unit(self) -> str: ...
     @property
@@ -1165,6 +1193,17 @@ class StepStart:
     @property
     def memory(self) -> list[float]: ...
 
+def advise(
+    soil: Soil,
+    record: Record,
+    tolerance: float,
+    *,
+    width: float,
+    height: float,
+    mass: float,
+    frequency: float | None = None,
+    damping_ratio: float = 0.05,
+) -> Advice: ...
 def el_centro_1940() -> Record: ...
 def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]: ...
 def vertical_incidence(

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
+from ._core import MODES
+
 
 def pandas() -> Any:
     """The module pandas, or an error that says how to get it."""
@@ -17,6 +21,21 @@ def pandas() -> Any:
 def run(run: Any) -> Any:
     """All time series of a run, indexed by the time."""
     return pandas().DataFrame(run.series).set_index("time")
+
+
+def contact(run: Any) -> Any:
+    """Snapshots of the base, a row per frame and element."""
+    columns = run.contact
+    frames, elements = columns["gap"].shape
+    x = 0.5 * (run.envelope["left"] + run.envelope["right"])
+    table = {
+        "time": np.repeat(columns["time"], elements),
+        "element": np.tile(np.arange(elements), frames),
+        "x": np.tile(x, frames),
+    }
+    table.update({name: columns[name].ravel() for name in ("gap", "slip", "pressure", "shear")})
+    modes = pandas().Categorical.from_codes(columns["mode"].ravel(), categories=MODES)
+    return pandas().DataFrame({**table, "mode": modes})
 
 
 def spectrum(spectrum: Any) -> Any:

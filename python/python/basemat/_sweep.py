@@ -51,7 +51,7 @@ def run_case(
     duration: float | None,
     results: Callable[[Run], Mapping[str, Any]] | None,
 ) -> Outcome:
-    """Results of a case and the text of its error; importable, so that other processes can run it."""
+    """Results of a case and the text of its error; importable, for other processes."""
     try:
         return results_of(make(**case), steps, duration, results), None
     except Exception as error:
@@ -73,7 +73,7 @@ def _run_in_thread(cancelled: threading.Event, *arguments: Any) -> Outcome:
 
 
 def _outcome(future: Future[Any]) -> Outcome:
-    """What a case left, or the error of the worker that did not live to report it."""
+    """Outcome of a case, or the error of a worker that died before it could report one."""
     # A wait without end would not hear Ctrl-C everywhere.
     while not wait([future], timeout=0.2).done:
         pass
@@ -101,7 +101,7 @@ def sweep(
 
     Args:
         make: ``make(**case)`` returns a :class:`Simulation` (which is then run), a :class:`Run`, or
-            a mapping of results. What it raises goes into the row's ``error``; the other cases go on.
+            a mapping of results. What it raises goes into the row's ``error``; others go on.
         grid: names and values, ``{"friction": [0.2, 0.3], "peak": [1.0, 2.0]}``, of which all
             combinations are made, the last name fastest; or a list of cases, each a mapping.
         steps, duration: how long to run a simulation (s); the record's length unless given.

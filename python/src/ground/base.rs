@@ -10,7 +10,7 @@ use crate::error::OrRaise;
 use crate::recipe::Recipe;
 
 /// A ground: a description from which every simulation makes one of its own.
-#[pyclass(name = "Ground", module = "basemat", subclass, frozen)]
+#[pyclass(name = "Ground", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyGround {
     pub(crate) make: Recipe<dyn Ground>,
     elements: Vec<ContactElement>,

@@ -3,6 +3,7 @@
 use basemat::bem::{HalfPlaneGround, SharedKernels};
 use basemat::history::History;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 use crate::error::refuse;
 
@@ -17,6 +18,12 @@ impl PySharedKernels {
     #[new]
     fn new() -> Self {
         Self::default()
+    }
+
+    /// A copy in another process begins empty.
+    #[allow(clippy::unused_self, reason = "a method of Python")]
+    fn __getnewargs__<'py>(&self, py: Python<'py>) -> Bound<'py, PyTuple> {
+        PyTuple::empty(py)
     }
 
     fn __len__(&self) -> usize {

@@ -26,7 +26,7 @@ pub(crate) struct PyLayeredGround {
     make: Box<dyn Fn() -> basemat::Result<LayeredGround> + Send + Sync>,
 }
 
-/// How it marches.
+/// Step coefficients and history of the ground.
 #[derive(Clone)]
 struct Options {
     stages: Option<Stages>,

@@ -8,7 +8,7 @@ use crate::error::{OrRaise, refuse};
 
 /// A strip of contact elements from ``left`` to ``right`` (m): ``count`` elements with the
 /// ``grading`` "cosine" (short at the edges, where tractions are singular) or "uniform".
-#[pyclass(name = "Strip", module = "basemat", frozen)]
+#[pyclass(name = "Strip", module = "basemat", frozen, dict)]
 #[derive(Clone)]
 pub(crate) struct PyStrip(pub(crate) Strip);
 

@@ -11,7 +11,7 @@ use crate::recipe::Recipe;
 use crate::user::{PyCondition, PyContactState, PyStepStart, PyTolerance, UserLaw};
 
 /// A law between base and ground.
-#[pyclass(name = "InterfaceLaw", module = "basemat", subclass, frozen)]
+#[pyclass(name = "InterfaceLaw", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyInterfaceLaw {
     pub(crate) make: Recipe<dyn InterfaceLaw>,
 }

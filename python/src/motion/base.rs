@@ -9,7 +9,7 @@ use crate::error::{keep, refuse};
 use crate::recipe::Recipe;
 
 /// Motion of the ground's surface without the structure.
-#[pyclass(name = "FreeField", module = "basemat", subclass, frozen)]
+#[pyclass(name = "FreeField", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyFreeField {
     pub(crate) make: Recipe<dyn FreeField>,
 }
@@ -43,7 +43,7 @@ pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn FreeField
     }))
 }
 
-/// What the function returns, or NaN (which ends the step) if it raises.
+/// Value of the function, or NaN (which ends the step) if it raises.
 fn displacement(function: &Py<PyAny>, x: f64, time: f64) -> [f64; 2] {
     Python::attach(|py| {
         let found = function.call1(py, (x, time));

@@ -70,7 +70,7 @@ pub(crate) fn ricker(
 }
 
 /// A plane wave that meets the free surface of a half-plane at an angle, or a Rayleigh wave.
-#[pyclass(name = "PlaneWave", module = "basemat", frozen)]
+#[pyclass(name = "PlaneWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyPlaneWave(PlaneWave);
 
 #[pymethods]
@@ -118,7 +118,7 @@ impl PyPlaneWave {
 }
 
 /// A soil profile as a column that waves travel up and down; ``wave``: "shear" or "pressure".
-#[pyclass(name = "Column", module = "basemat", frozen)]
+#[pyclass(name = "Column", module = "basemat", frozen, dict)]
 pub(crate) struct PyColumn(Column);
 
 fn control(name: &str) -> PyResult<ControlPoint> {
@@ -191,7 +191,7 @@ impl PyColumn {
 }
 
 /// A plane wave from the half-plane under a layered profile.
-#[pyclass(name = "InclinedWave", module = "basemat", frozen)]
+#[pyclass(name = "InclinedWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyInclinedWave(InclinedWave);
 
 #[pymethods]

@@ -1,4 +1,4 @@
-//! What a run says of its base: foundations and limits of service.
+//! Foundations and limits of service after a run.
 
 use basemat::results::{FoundationSummary, ServiceCheck, SlipEvent};
 use pyo3::prelude::*;

@@ -102,7 +102,7 @@ impl PyLedger {
         self.0.soil_error_bound
     }
 
-    /// What the terms leave of the balance, relative to the largest of them.
+    /// Difference between the two sides of the balance, relative to the largest term.
     #[getter]
     fn residual(&self) -> f64 {
         self.0.residual()

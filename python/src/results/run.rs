@@ -99,6 +99,12 @@ impl PyRun {
         slf.py().import("basemat._frames")?.call_method1("run", (slf,))
     }
 
+    /// Snapshots of the base as a tidy pandas frame: a row per frame and element, with columns "time",
+    /// "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode".
+    fn contact_frame<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("basemat._frames")?.call_method1("contact", (slf,))
+    }
+
     /// The record of an acceleration probe.
     fn acceleration_record(&self, py: Python<'_>, probe: &str) -> PyResult<Py<PyRecord>> {
         PyRecord::create(py, self.kept()?.acceleration_record(probe))

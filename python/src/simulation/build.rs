@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 use crate::error::{OrRaise, refuse};
 
-/// How the weight comes on, by its name.
+/// A placement by its name.
 pub(super) fn placement(name: &str) -> PyResult<Placement> {
     match name {
         "frictionless" => Ok(Placement::Frictionless),

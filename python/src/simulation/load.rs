@@ -15,7 +15,7 @@ use crate::row::RowLike;
 ///
 /// ``value``: a function of time (s) that returns the force (N/m; on a rotation a moment, N·m/m); it
 /// may raise. Its value at t = 0 belongs to the static state.
-#[pyclass(name = "Load", module = "basemat", frozen)]
+#[pyclass(name = "Load", module = "basemat", frozen, dict)]
 pub(crate) struct PyLoad {
     pub(super) make: Arc<dyn Fn() -> basemat::Result<Load> + Send + Sync>,
 }
@@ -67,7 +67,7 @@ impl PyLoad {
     }
 }
 
-/// What the function returns, or NaN (which ends the step) if it raises.
+/// Value of the function, or NaN (which ends the step) if it raises.
 fn value_of(function: &Py<PyAny>, time: f64) -> f64 {
     Python::attach(|py| {
         let found = function.call1(py, (time,));

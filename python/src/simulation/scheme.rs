@@ -9,7 +9,7 @@ use crate::error::OrRaise;
 use crate::recipe::Recipe;
 
 /// A time scheme of the structure: the midpoint rule unless told otherwise.
-#[pyclass(name = "TimeScheme", module = "basemat", frozen)]
+#[pyclass(name = "TimeScheme", module = "basemat", frozen, dict)]
 pub(crate) struct PyTimeScheme {
     pub(super) make: Recipe<dyn TimeScheme>,
 }

@@ -1,4 +1,4 @@
-//! What happens beside the steps: signals (Ctrl-C), progress, cancellation.
+//! Signals (Ctrl-C), progress and cancellation during a run.
 
 use std::cell::RefCell;
 use std::time::{Duration, Instant};

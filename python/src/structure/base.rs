@@ -12,7 +12,7 @@ use crate::recipe::Recipe;
 use crate::user::UserStructure;
 
 /// A structure: a description from which every simulation makes one of its own.
-#[pyclass(name = "Structure", module = "basemat", subclass, frozen)]
+#[pyclass(name = "Structure", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyStructure {
     pub(crate) make: Recipe<dyn Structure>,
 }

@@ -10,7 +10,7 @@ use crate::row::{PyRow, PySectionRows};
 /// A storey of a :class:`ShearBuilding`, per metre of thickness: ``height`` of its columns (m),
 /// ``mass`` of the floor above (kg), sway ``stiffness`` (N/m), ``rotary_inertia`` of the floor
 /// (kg m²), ``damping`` by a dashpot between the floors (N s/m).
-#[pyclass(name = "Storey", module = "basemat", frozen)]
+#[pyclass(name = "Storey", module = "basemat", frozen, dict)]
 #[derive(Clone, Copy)]
 pub(crate) struct PyStorey(pub(crate) Storey);
 

@@ -15,7 +15,7 @@ use crate::recipe::{Recipe, Shared};
 use crate::row::{PyRow, RowLike};
 
 /// Rayleigh damping: ``mass`` (1/s) times the mass matrix and ``stiffness`` (s) times the stiffness.
-#[pyclass(name = "RayleighDamping", module = "basemat", frozen)]
+#[pyclass(name = "RayleighDamping", module = "basemat", frozen, dict)]
 pub(crate) struct PyRayleighDamping(pub(super) RayleighDamping);
 
 #[pymethods]

@@ -118,7 +118,7 @@ impl PyFemModel {
 }
 
 /// A mesh of quadrilaterals from a file of Gmsh (format 4.1, ASCII).
-#[pyclass(name = "GmshMesh", module = "basemat", frozen)]
+#[pyclass(name = "GmshMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshMesh(GmshMesh);
 
 #[pymethods]

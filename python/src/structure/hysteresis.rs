@@ -9,7 +9,7 @@ use crate::error::OrRaise;
 use crate::recipe::Recipe;
 
 /// A spring whose force depends on where it has been: a yield law of a storey, an isolator.
-#[pyclass(name = "Hysteresis", module = "basemat", subclass, frozen)]
+#[pyclass(name = "Hysteresis", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyHysteresis {
     pub(super) make: Recipe<dyn Hysteresis>,
 }

@@ -35,7 +35,7 @@ pub(super) fn formulation(name: &str, percent: u8) -> PyResult<QuadFormulation> 
 }
 
 /// Elastic material in plane strain: Young's modulus (Pa), Poisson's ratio, density (kg/m³).
-#[pyclass(name = "Material", module = "basemat", frozen)]
+#[pyclass(name = "Material", module = "basemat", frozen, dict)]
 pub(crate) struct PyMaterial(pub(super) Material);
 
 #[pymethods]
@@ -47,7 +47,7 @@ impl PyMaterial {
 }
 
 /// Horizontal layer of a block of quadrilaterals: ``height`` (m), ``rows`` of elements, material.
-#[pyclass(name = "Layer", module = "basemat", frozen)]
+#[pyclass(name = "Layer", module = "basemat", frozen, dict)]
 pub(crate) struct PyLayer(Layer);
 
 #[pymethods]
@@ -67,7 +67,7 @@ impl PyLayer {
 }
 
 /// Nodes and finite elements; ``nodes``: array of shape (nodes, 2), m.
-#[pyclass(name = "Mesh", module = "basemat")]
+#[pyclass(name = "Mesh", module = "basemat", dict)]
 pub(crate) struct PyMesh(pub(super) Mesh);
 
 /// One number for all elements, or one each.

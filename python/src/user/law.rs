@@ -15,7 +15,7 @@ use crate::names::{mode, mode_name};
 
 /// One linear condition on the end of a step:
 /// ``gap · g + slip · s + pressure · p + shear · τ = value``, coefficients by name.
-#[pyclass(name = "Condition", module = "basemat", frozen)]
+#[pyclass(name = "Condition", module = "basemat", frozen, dict)]
 pub(crate) struct PyCondition(pub(crate) Condition);
 
 #[pymethods]
@@ -165,7 +165,7 @@ impl UserLaw {
         })
     }
 
-    /// What `ask` finds, or `otherwise` if it raises, or something has raised before.
+    /// The result of `ask`, or `otherwise` if it raises, or something has raised before.
     fn ask<T>(
         &self,
         otherwise: T,

@@ -1,0 +1,216 @@
+"""Descriptions of soils, structures, grounds, laws and motions that pickle.
+
+A description remembers the arguments that it was made of, and is made of them again in another
+process. Arrays among them are copied, so that it stays what it was.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import _core
+
+_MADE = "_made"
+_CALLS = "_calls"
+"""Where a description keeps what it was made of, and a mesh what was added to it."""
+
+_DESCRIBED = (
+    _core.DampingLaw,
+    _core.SoilLayer,
+    _core.SoilProfile,
+    _core.Strip,
+    _core.HalfPlaneGround,
+    _core.LayeredGround,
+    _core.SpringGround,
+    _core.Bonded,
+    _core.Coulomb,
+    _core.Adhesive,
+    _core.Yielding,
+    _core.ThinLayer,
+    _core.VariableFriction,
+    _core.PlaneWave,
+    _core.Column,
+    _core.InclinedWave,
+    _core.Probe,
+    _core.Load,
+    _core.TimeScheme,
+    _core.RigidBlock,
+    _core.Storey,
+    _core.ShearBuilding,
+    _core.NonlinearShearBuilding,
+    _core.MatrixModel,
+    _core.FemModel,
+    _core.ReducedModel,
+    _core.StructureGroup,
+    _core.WithSprings,
+    _core.WithModalDamping,
+    _core.RayleighDamping,
+    _core.Bilinear,
+    _core.BoucWen,
+    _core.FrictionPendulum,
+    _core.LeadRubber,
+    _core.Material,
+    _core.Layer,
+    _core.Mesh,
+    _core.GmshMesh,
+    _core.Condition,
+)
+_FIELDS = (
+    (_core.PlaneWave, "field_from_horizontal"),
+    (_core.PlaneWave, "field_from_vertical"),
+    (_core.PlaneWave, "reversed"),
+    (_core.InclinedWave, "field"),
+    (_core.GmshMesh, "mesh"),
+)
+"""Methods that return descriptions."""
+
+
+class Made(NamedTuple):
+    """The origin of a description: a class, function or method, and its arguments."""
+
+    owner: Any
+    name: str | None
+    arguments: tuple[Any, ...]
+    keywords: dict[str, Any]
+    calls: tuple[tuple[str, tuple[Any, ...], dict[str, Any]], ...] = ()
+
+    def again(self) -> Any:
+        """The description, made anew."""
+        make = self.owner if self.name is None else getattr(self.owner, self.name)
+        found = make(
+            *map(_given, self.arguments), **{k: _given(v) for k, v in self.keywords.items()}
+        )
+        for method, arguments, keywords in self.calls:
+            getattr(found, method)(*arguments, **keywords)
+        return found
+
+
+def _again(made: Made) -> Any:
+    return made.again()
+
+
+def _given(value: Any) -> Any:
+    return value.again() if isinstance(value, Made) else value
+
+
+def _kept(value: Any) -> Any:
+    """A copy of what may change later."""
+    if isinstance(value, np.ndarray) or hasattr(value, "tocoo"):
+        return value.copy()
+    if isinstance(value, _core.Mesh):
+        return _how(value)
+    if type(value) in (list, tuple):
+        return type(value)(_kept(own) for own in value)
+    if type(value) is dict:
+        return {name: _kept(own) for name, own in value.items()}
+    return value
+
+
+def _made(owner: Any, name: str | None, arguments: Any, keywords: Any) -> Made:
+    return Made(owner, name, _kept(tuple(arguments)), _kept(dict(keywords)))
+
+
+def _remembering(make: Callable[..., Any], owner: Any, name: str | None) -> Callable[..., Any]:
+    """``make``, which leaves in its result how it was made."""
+
+    @functools.wraps(make)
+    def remember(*arguments: Any, **keywords: Any) -> Any:
+        found = make(*arguments, **keywords)
+        vars(found)[_MADE] = _made(owner, name, arguments, keywords)
+        return found
+
+    return remember
+
+
+def function(make: Callable[..., Any]) -> Callable[..., Any]:
+    """A function of the package that returns descriptions, so that they pickle."""
+
+    @functools.wraps(make)
+    def remember(*arguments: Any, **keywords: Any) -> Any:
+        found = make(*arguments, **keywords)
+        vars(found)[_MADE] = _made(remember, None, arguments, keywords)
+        return found
+
+    remember.__module__ = "basemat"
+    return remember
+
+
+def _how(description: Any) -> Made:
+    """The origin of a description, calls that added to it included."""
+    own = vars(description)
+    made: Made = own[_MADE]
+    return made._replace(calls=tuple(own.get(_CALLS, ())))
+
+
+def _init(self: Any, *arguments: Any, **keywords: Any) -> None:
+    vars(self)[_MADE] = _made(type(self), None, arguments, keywords)
+
+
+def _reduce(self: Any) -> Any:
+    return _again, (_how(self),)
+
+
+def _prepare(described: Any) -> None:
+    """Lets a class remember what its instances are made of."""
+    signature = inspect.signature(described) if described.__text_signature__ else None
+
+    def __init__(self: Any, *arguments: Any, **keywords: Any) -> None:
+        _init(self, *arguments, **keywords)
+
+    if signature is not None:
+        own = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
+        parameters = [own, *signature.parameters.values()]
+        try:
+            __init__.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
+        except ValueError:
+            pass
+    described.__init__ = __init__
+    described.__reduce__ = _reduce
+    for name, method in list(vars(described).items()):
+        if isinstance(method, staticmethod) and not name.startswith("_"):
+            make = getattr(described, name)
+            setattr(described, name, staticmethod(_remembering(make, described, name)))
+
+
+def _prepare_method(owner: Any, name: str) -> None:
+    """A method that returns a description."""
+    method = getattr(owner, name)
+
+    @functools.wraps(method)
+    def remember(self: Any, *arguments: Any, **keywords: Any) -> Any:
+        found = method(self, *arguments, **keywords)
+        vars(found)[_MADE] = _made(self, name, arguments, keywords)
+        return found
+
+    setattr(owner, name, remember)
+
+
+def _prepare_call(name: str) -> None:
+    """A method that adds to a mesh."""
+    method = getattr(_core.Mesh, name)
+
+    @functools.wraps(method)
+    def remember(self: Any, *arguments: Any, **keywords: Any) -> Any:
+        found = method(self, *arguments, **keywords)
+        vars(self).setdefault(_CALLS, []).append((name, _kept(arguments), _kept(keywords)))
+        return found
+
+    setattr(_core.Mesh, name, remember)
+
+
+def prepare() -> None:
+    """Lets all descriptions pickle; once, when the package is imported."""
+    for described in _DESCRIBED:
+        _prepare(described)
+    _core.FreeField.__reduce__ = _reduce  # type: ignore[method-assign]
+    # A record is its samples.
+    _core.Record.__reduce__ = object.__reduce__  # type: ignore[method-assign]
+    for owner, name in _FIELDS:
+        _prepare_method(owner, name)
+    for name in [name for name in vars(_core.Mesh) if name.startswith("add_")]:
+        _prepare_call(name)

@@ -1,0 +1,113 @@
+"""Records, waves and their files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import basemat as bm
+
+SOIL = bm.Soil(80.0e6, 0.25, 1900.0)
+
+
+def test_units_and_integrals() -> None:
+    time = np.arange(0.0, 2.0, 0.01)
+    values = np.sin(np.pi * time)
+    record = bm.Record(0.01, values)
+    np.testing.assert_allclose(record.velocities, (1.0 - np.cos(np.pi * time)) / np.pi, atol=1e-4)
+    np.testing.assert_allclose(
+        record.displacements, (time - np.sin(np.pi * time) / np.pi) / np.pi, atol=1e-4
+    )
+    for unit, factor in {"g": 9.80665, "gal": 0.01, "ft/s²": 0.3048, "mm/s²": 1e-3}.items():
+        scaled = bm.Record(0.01, values, unit=unit)
+        np.testing.assert_allclose(scaled.accelerations, factor * values, rtol=1e-15)
+    assert bm.Record(1, [0, 1, 0]).duration == 2.0
+    with pytest.raises(bm.InputError, match="unit is 'yd'"):
+        bm.Record(0.01, values, unit="yd")
+
+
+def test_files(tmp_path: Path) -> None:
+    path = tmp_path / "columns.csv"
+    path.write_text("t,a\n0.00,0.0\n0.01,0.1\n0.02,-0.2\n")
+    record = bm.Record.read(path, unit="g")
+    np.testing.assert_allclose(record.accelerations, [0.0, 0.980665, -1.96133], rtol=1e-15)
+    assert record.time_step == 0.01
+    np.testing.assert_allclose(
+        bm.Record.read(str(path), unit="m/s²", columns=(1, 2)).accelerations, [0.0, 0.1, -0.2]
+    )
+    (tmp_path / "one.txt").write_text("1.0\n2.0\n3.0\n")
+    one = bm.Record.read(tmp_path / "one.txt", unit="gal", time_step=0.02)
+    np.testing.assert_allclose(one.accelerations, [0.01, 0.02, 0.03], rtol=1e-15)
+    peer = tmp_path / "record.AT2"
+    peer.write_text(
+        "PEER NGA\nSomewhere\nACCELERATION TIME SERIES IN UNITS OF G\n"
+        "NPTS=   4, DT=   .0050 SEC\n 0.0 0.1\n 0.2 -0.1\n"
+    )
+    read = bm.Record.read(peer, format="peer")
+    np.testing.assert_allclose(read.accelerations / 9.80665, [0.0, 0.1, 0.2, -0.1], rtol=1e-15)
+    assert read.time_step == 0.005
+
+
+def test_treatments() -> None:
+    record = bm.el_centro_1940()
+    assert len(record) == 1560
+    assert record.scaled(2.0).peak_acceleration == 2.0 * record.peak_acceleration
+    assert record.scaled_to_peak(5.0).peak_acceleration == pytest.approx(5.0, rel=1e-15)
+    assert record.resampled(0.005).time_step == 0.005
+    rest = record.with_baseline("rest to rest", degree=5)
+    assert abs(rest.velocities[-1]) < 1e-10 and abs(rest.displacements[-1]) < 1e-9
+    assert record.padded(1.0, 2.0).duration == pytest.approx(record.duration + 3.0)
+    begin, end = record.significant_times()
+    assert 0.0 < begin < end < record.duration
+    tapered = record.tapered(1.0, 1.0)
+    assert tapered.accelerations[0] == 0.0
+    spectrum = record.response_spectrum([0.5], damping=0.05)
+    assert spectrum.pseudo_acceleration[0] / 9.80665 == pytest.approx(0.9187, abs=1e-4)
+    with pytest.raises(bm.InputError, match="baseline is 'straight'"):
+        record.with_baseline("straight")
+
+
+def test_free_fields() -> None:
+    record = bm.el_centro_1940()
+    both = bm.vertical_incidence(record, record.scaled(0.5))
+    right, up = both.displacement(0.0, 3.0)
+    assert up == pytest.approx(0.5 * right) and right != 0.0
+    assert bm.vertical_incidence(vertical=record).displacement(0.0, 3.0)[0] == 0.0
+    wave = bm.travelling_wave(record, 800.0, -5.0)
+    assert wave.displacement(3.0, 2.01)[0] == pytest.approx(wave.displacement(-5.0, 2.0)[0])
+    pulse = bm.ricker(0.1, 0.05, 0.5)
+    assert pulse.displacement(0.0, 0.5) == [0.1, 0.0]
+    assert bm.ricker(0.1, 0.05, 0.5, vertical=True).displacement(0.0, 0.5) == [0.0, 0.1]
+    sv = bm.PlaneWave.sv(SOIL, np.radians(20.0))
+    assert sv.apparent_velocity == pytest.approx(SOIL.shear_wave_speed / np.sin(np.radians(20.0)))
+    right, up = sv.field_from_horizontal(record, -10.0).displacement(-10.0, 5.0)
+    assert up / right == pytest.approx(-0.41535, abs=1e-5)
+    assert sv.reversed().apparent_velocity == -sv.apparent_velocity
+    # The Rayleigh wave of a quarter's Poisson ratio runs with 0.9194 of the shear wave's speed.
+    ratio = bm.PlaneWave.rayleigh(SOIL).apparent_velocity / SOIL.shear_wave_speed
+    assert ratio == pytest.approx(0.91940, abs=1e-5)
+
+
+def test_inclined_waves_without_layers_are_plane_waves() -> None:
+    profile = bm.SoilProfile([], SOIL)
+    wave = bm.InclinedWave.sv(profile, np.radians(20.0))
+    record = bm.el_centro_1940()
+    field = wave.field(record, -5.0)
+    plane = bm.PlaneWave.sv(SOIL, np.radians(20.0)).field_from_horizontal(record, -5.0)
+    for time in (1.0, 2.5, 6.0):
+        expected = plane.displacement(2.0, time)
+        assert field.displacement(2.0, time) == pytest.approx(expected, rel=1e-3, abs=1e-5)
+
+
+def test_a_motion_that_runs_turns_a_long_base(rocking) -> None:
+    record = bm.vertical_incidence(vertical=bm.el_centro_1940().scaled(0.3))
+    still = rocking(interface=bm.Bonded(), motion=record).run(300)
+    running = rocking(interface=bm.Bonded(), motion=bm.travelling_wave(record, 300.0, -3.0)).run(
+        300
+    )
+    assert still.base_rotation.magnitude < 1e-9 < 1e-5 < running.base_rotation.magnitude
+    # A function of x and time does the same.
+    own = rocking(interface=bm.Bonded(), motion=lambda x, t: tuple(record.displacement(x, t)))
+    np.testing.assert_allclose(own.run(300)["normal_force"], still["normal_force"], rtol=1e-12)

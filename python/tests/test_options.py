@@ -1,0 +1,207 @@
+"""Every option reaches the simulation."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from conftest import same_bits
+
+import basemat as bm
+
+BLOCK = bm.RigidBlock(4.0, 2.0, 2000.0)
+MASS = 16.0e3
+STIFFNESS = 5.0e7
+OMEGA = np.sqrt(4.0 * STIFFNESS / MASS)
+UP = bm.RigidBlock.VERTICAL
+
+
+def bouncing(ground: bm.Ground | None = None, **options: object) -> bm.Simulation:
+    """A bonded block on springs; a probe reads its vertical displacement."""
+    ground = bm.SpringGround.under(BLOCK, 4, STIFFNESS, STIFFNESS) if ground is None else ground
+    options.setdefault("probes", [bm.Probe.displacement("up", UP)])
+    return bm.Simulation(1e-4, BLOCK, ground, bm.Bonded(), **options)
+
+
+def test_initial_velocity_and_dashpots() -> None:
+    """e^(−ζωt) sin(ω_d t) v₀/ω_d."""
+    ratio, velocity = 0.1, 0.01
+    coefficient = 2.0 * ratio * OMEGA * MASS / 4.0
+    ground = bm.SpringGround.under(
+        BLOCK, 4, STIFFNESS, STIFFNESS, dashpots=(coefficient, coefficient)
+    )
+    run = bouncing(ground, initial_velocity=[0.0, velocity, 0.0]).run(2000)
+    damped = OMEGA * np.sqrt(1.0 - ratio**2)
+    time = run.time
+    expected = np.exp(-ratio * OMEGA * time) * np.sin(damped * time) * velocity / damped
+    np.testing.assert_allclose(run["up"], expected, rtol=0.0, atol=3e-3 * expected.max())
+
+
+def test_initial_displacement_unloaded_and_gravity() -> None:
+    """Dropped, it swings about its settlement; let go from a height, it falls freely first."""
+    fallen = bouncing(gravity=10.0, placement="unloaded").run(2000)
+    settlement = MASS * 10.0 / (4.0 * STIFFNESS)
+    expected = -settlement * (1.0 - np.cos(OMEGA * fallen.time))
+    np.testing.assert_allclose(fallen["up"], expected, rtol=0.0, atol=5e-3 * settlement)
+    lifted = bm.Simulation(
+        1e-3,
+        BLOCK,
+        bm.SpringGround.under(BLOCK, 4, STIFFNESS, STIFFNESS),
+        bm.Coulomb(0.5),
+        gravity=10.0,
+        placement="unloaded",
+        initial_displacement=[0.0, 0.02, 0.0],
+        probes=[bm.Probe.displacement("up", UP)],
+    ).run(60)
+    assert lifted.normal_force.magnitude == 0.0
+    np.testing.assert_allclose(lifted["up"], 0.02 - 5.0 * lifted.time**2, rtol=0.0, atol=1e-9)
+    standing = bouncing(gravity=10.0)
+    assert standing.static_displacement[UP] == pytest.approx(-settlement)
+    assert standing.state.normal_force == pytest.approx(MASS * 10.0)
+    assert standing.run(10)["up"] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_loads() -> None:
+    """A table, a record and a function of the same values; a constant load is static."""
+    times, forces = [0.0, 0.05, 0.1], [0.0, 2.0e4, 0.0]
+    record = bm.Record(0.05, [0.0, 2.0, 0.0])
+    loads = [
+        bm.Load.table(UP, times, forces),
+        bm.Load.record(UP, record, 1.0e4),
+        bm.Load(UP, lambda time: float(np.interp(time, times, forces, right=0.0))),
+    ]
+    runs = [bouncing(loads=[load]).run(1500)["up"] for load in loads]
+    for own in runs[1:]:
+        np.testing.assert_allclose(own, runs[0], rtol=0.0, atol=1e-9 * runs[0].max())
+    assert runs[0].max() > 2.0e4 / (4.0 * STIFFNESS)
+    pulled = bouncing(loads=[bm.Load.constant(UP, 4.0e4)])
+    assert pulled.state.normal_force == pytest.approx(MASS * bm.STANDARD_GRAVITY - 4.0e4)
+
+
+def test_schemes_differ_as_they_should() -> None:
+    """Numerical damping takes energy, the midpoint rule none."""
+    building = bm.ShearBuilding(8.0, 50e3, 4e5, [bm.Storey(3.0, 20e3, 40e6)])
+    stiff = bm.SpringGround.under(building, 4, 1e10, 1e10, dashpots=(1e8, 1e8))
+    start = [0.0, 0.0, 0.0, 0.1]
+    losses = {}
+    for name, scheme in {
+        "midpoint": bm.TimeScheme.midpoint(),
+        "newmark": bm.TimeScheme.newmark(0.6, 0.3025),
+        "theta": bm.TimeScheme.theta(0.7),
+        "hht": bm.TimeScheme.hht_alpha(-0.2),
+    }.items():
+        simulation = bm.Simulation(
+            5e-3, building, stiff, bm.Bonded(), scheme=scheme, initial_velocity=start
+        )
+        losses[name] = simulation.run(200).ledger.numerical
+    energy = 0.5 * 20e3 * 0.1**2
+    assert abs(losses["midpoint"]) < 1e-12 * energy
+    assert all(losses[name] > 0.01 * energy for name in ("newmark", "theta", "hht")), losses
+
+
+def test_moment_center_ledger_and_safety(rocking) -> None:
+    middle, left = rocking().run(200), rocking(moment_center=-3.0).run(200)
+    lever = left["base_moment"] - middle["base_moment"]
+    np.testing.assert_allclose(np.abs(lever), 3.0 * middle["normal_force"], rtol=1e-9)
+    assert np.isnan(rocking(ledger=False).run(10).ledger_residual)
+    bonded = rocking(interface=bm.Bonded()).run(200)
+    assert bonded.least_sliding_safety is None or bonded.least_sliding_safety.value == np.inf
+    held = rocking(interface=bm.Bonded(), safety_friction=0.3).run(200)
+    assert held.least_sliding_safety is not None
+    expected = 0.3 * held["normal_force"][1:] / np.abs(held["base_shear"][1:])
+    assert held.least_sliding_safety.value == pytest.approx(np.nanmin(expected))
+
+
+def test_serviceability(rocking) -> None:
+    run = rocking(
+        0.1,
+        allowable_slip=5e-3,
+        allowable_gap=1.0,
+        allowable_uplifted_fraction=0.99,
+        allowable_rotation=0.5,
+    ).run(1000)
+    checks = {check.criterion: check for check in run.serviceability}
+    assert set(checks) == {"slip", "gap", "uplifted fraction", "rotation"}
+    slip = checks["slip"]
+    assert not slip.is_met and slip.limit == 5e-3 and run.is_serviceable is False
+    series = np.abs(run["mean_slip"])
+    assert slip.first_excess == run.time[np.argmax(series > 5e-3)]
+    assert slip.margin == pytest.approx(1.0 - series.max() / 5e-3)
+    assert checks["rotation"].is_met and "rotation" in str(checks["rotation"])
+    assert rocking().run(10).is_serviceable is None
+
+
+def test_coordinates_change_rounding_only(soil: bm.Soil) -> None:
+    storeys = [bm.Storey(3.0, 20e3, 40e6)] * 5
+    building = bm.ShearBuilding(10.0, 50e3, 4e5, storeys, damping=0.05)
+    ground = bm.HalfPlaneGround.under(soil, building, 6)
+
+    def run(**options: object) -> bm.Run:
+        law, motion = bm.Coulomb(0.4), bm.el_centro_1940()
+        return bm.Simulation(0.005, building, ground, law, motion=motion, **options).run(400)
+
+    unknowns, modes = run(coordinates="unknowns"), run(coordinates="modes")
+    scale = unknowns.base_shear.magnitude
+    np.testing.assert_allclose(modes["base_shear"], unknowns["base_shear"], atol=1e-7 * scale)
+    assert not same_bits(modes["base_shear"], unknowns["base_shear"])
+    reduced = run(coordinates=1e-6)
+    np.testing.assert_allclose(reduced["base_shear"], unknowns["base_shear"], atol=1e-4 * scale)
+    with pytest.raises(bm.InputError, match="coordinates are 'modal'"):
+        run(coordinates="modal")
+
+
+def test_histories_agree_and_say_what_they_are(rocking, soil, block) -> None:
+    runs = {}
+    for kind in ("direct", "relaxed fft", "exponentials"):
+        ground = bm.HalfPlaneGround.under(soil, block, 8, history=kind)
+        simulation = rocking(ground=ground)
+        runs[kind] = simulation.run(400)["base_shear"]
+        assert simulation.history_choice is not None and "as asked" in simulation.history_choice
+    scale = np.abs(runs["direct"]).max()
+    np.testing.assert_allclose(runs["relaxed fft"], runs["direct"], atol=1e-9 * scale)
+    np.testing.assert_allclose(runs["exponentials"], runs["direct"], atol=1e-3 * scale)
+    with pytest.raises(bm.InputError, match="history is 'fast'"):
+        bm.HalfPlaneGround.under(soil, block, 8, history="fast")
+
+
+def test_shared_kernels_change_nothing(rocking, soil, block) -> None:
+    kernels = bm.SharedKernels()
+    expected = rocking().run(200)["base_shear"]
+    for _ in range(2):
+        ground = bm.HalfPlaneGround.under(soil, block, 8, kernels=kernels)
+        assert same_bits(rocking(ground=ground).run(200)["base_shear"], expected)
+    assert len(kernels) == 1
+
+
+def test_strips(soil: bm.Soil) -> None:
+    graded = bm.HalfPlaneGround.strip(soil, -3.0, 3.0, 8).elements
+    uniform = bm.HalfPlaneGround.strip(soil, -3.0, 3.0, 8, grading="uniform").elements
+    assert graded.shape == (8, 2) and graded[0, 1] - graded[0, 0] < 0.4
+    np.testing.assert_allclose(np.diff(uniform), 0.75, rtol=1e-12)
+    own = bm.HalfPlaneGround(soil, [bm.Strip.from_nodes([-5, -4, -2]), bm.Strip(1.0, 2.0, 3)])
+    assert own.elements[:, 0].tolist()[:2] == [-5.0, -4.0] and len(own.elements) == 5
+
+
+def test_laws_of_the_interface_bound_its_tractions(rocking, soil) -> None:
+    strong = bm.el_centro_1940().scaled(1.5)
+    held = rocking(interface=bm.Coulomb(0.4, tensile_strength=1e7), motion=strong).run(300)
+    assert held.uplifted_fraction.value == 0.0
+    glued = rocking(interface=bm.Adhesive(1e7, 1e7, 0.4), motion=strong).run(300)
+    assert glued.uplifted_fraction.value == 0.0
+    soft = rocking(interface=bm.Yielding(4.0e5, 0.4), motion=strong).run(300, contact_every=1)
+    assert soft.contact["pressure"].max() < 4.0e5 * (1.0 + 1e-9)
+    assert any(bm.MODES[mode].startswith("yield") for mode in np.unique(soft.contact["mode"]))
+    thin = bm.ThinLayer.from_stiffness(1e10, 1e10, 0.4)
+    assert thin.stiffness == [1e10, 1e10]
+    assert rocking(interface=thin, motion=strong).run(300).uplifted_fraction.value > 0.1
+    assert bm.ThinLayer(soil, 1.0, 0.4, thickness_ratio=0.01).stiffness[0] > 1e9
+    with pytest.raises(bm.InputError, match="list of interface laws has length 3"):
+        rocking(interface=[bm.Coulomb(0.4)] * 3)
+
+
+def test_advice_is_followed_by_a_smaller_error(soil: bm.Soil) -> None:
+    record = bm.el_centro_1940()
+    outline = {"width": 6.0, "height": 9.0, "mass": 54e3}
+    fine, coarse = (bm.advise(soil, record, tolerance, **outline) for tolerance in (0.01, 0.1))
+    assert fine.elements > coarse.elements and fine.time_step < coarse.time_step
+    assert max(coarse.mesh_error, coarse.step_error, coarse.peak_error) <= 0.06
+    assert (fine.grading, fine.history) == ("cosine", "auto")

@@ -1,0 +1,143 @@
+"""Descriptions travel to other processes."""
+
+from __future__ import annotations
+
+import inspect
+import pickle
+import sys
+
+import numpy as np
+import pytest
+import scipy.sparse
+from conftest import same_bits
+
+import basemat as bm
+
+SOIL = bm.Soil(80.0e6, 0.33, 1900.0)
+STOREYS = [bm.Storey(3.0, 20e3, 40e6)] * 3
+BUILDING = bm.ShearBuilding(8.0, 50e3, 4e5, STOREYS, damping=0.05)
+RECORD = bm.el_centro_1940()
+
+
+def matrices() -> bm.MatrixModel:
+    stiffness = scipy.sparse.csr_array(BUILDING.stiffness())
+    damping = BUILDING.damping()
+    model = bm.MatrixModel(BUILDING.mass(), stiffness, BUILDING.contact_nodes(), damping=damping)
+    # The model stays what it was.
+    damping[:] = 0.0
+    stiffness.data[:] = 0.0
+    return model
+
+
+def finite_elements() -> bm.FemModel:
+    mesh = bm.Mesh([[-1.0, 0.0], [1.0, 0.0], [0.0, 0.0]])
+    top = mesh.add_node(0.0, 5.0)
+    mesh.add_beams([[0, 2], [2, 1], [2, top]], 30e9, [0.5, 0.5, 0.3], 0.01, 2400.0)
+    mesh.add_mass(top, 1e4)
+    model = bm.FemModel(mesh, [0, 2, 1], rayleigh=bm.RayleighDamping(0.1, 1e-3))
+    mesh.add_mass(top, 5e4)
+    return model
+
+
+def isolated() -> bm.NonlinearShearBuilding:
+    law = bm.LeadRubber.from_strength(2e6, 30e3)
+    return bm.NonlinearShearBuilding.isolated(BUILDING, law, height=0.5, slab_mass=30e3)
+
+
+STRUCTURES = {
+    "block": lambda: bm.RigidBlock(6.0, 9.0, 1000.0, center=1.0),
+    "block of mass": lambda: bm.RigidBlock.from_mass(6.0, 5e4, 5e5, center_height=4.0),
+    "building": lambda: BUILDING,
+    "yielding": lambda: bm.NonlinearShearBuilding(BUILDING, {0: bm.Bilinear(40e6, 1e5, 0.05)}),
+    "isolated": isolated,
+    "matrices": matrices,
+    "finite elements": finite_elements,
+    "reduced": lambda: bm.ReducedModel(finite_elements(), 1),
+    "group": lambda: bm.StructureGroup([(BUILDING, -10.0), (BUILDING, 10.0)]),
+    "modal": lambda: bm.WithModalDamping(BUILDING, [0.05, 0.03]),
+    "springs": lambda: bm.WithSprings(BUILDING, [(BUILDING.drift(0), bm.BoucWen(5e6, 2e4, 0.0))]),
+}
+
+
+def shaken(structure: object, ground: bm.Ground, motion: object, law: object) -> np.ndarray:
+    simulation = bm.Simulation(0.005, structure, ground, law, motion=motion)  # type: ignore[arg-type]
+    return simulation.run(150)["base_shear"]
+
+
+def copied(value: object) -> object:
+    return pickle.loads(pickle.dumps(value))
+
+
+@pytest.mark.parametrize("name", STRUCTURES)
+def test_structures(name: str) -> None:
+    structure = STRUCTURES[name]()
+    copy = copied(structure)
+    assert type(copy) is type(structure)
+    assert same_bits(copy.mass(), structure.mass())
+    assert same_bits(copy.stiffness(), structure.stiffness())
+    assert same_bits(copy.damping(), structure.damping())
+    ground = bm.HalfPlaneGround.under(SOIL, structure, 4)
+    expected = shaken(structure, ground, RECORD, bm.Coulomb(0.4))
+    assert same_bits(
+        shaken(copy, copied(ground), copied(RECORD), copied(bm.Coulomb(0.4))), expected
+    )
+    assert same_bits(copied(copy).mass(), structure.mass())
+
+
+def test_meshes() -> None:
+    mesh = bm.Mesh.layered_block(0.0, 2.0, 2, [bm.Layer(1.0, 2, bm.Material(1e9, 0.2, 2000.0))])
+    mesh.add_node(1.0, 5.0)
+    assert same_bits(copied(mesh).nodes, mesh.nodes) and repr(copied(mesh)) == repr(mesh)
+
+
+LAW = bm.DampingLaw.constant_q(0.05)
+PROFILE = bm.SoilProfile([bm.SoilLayer(SOIL, 6.0, LAW)], SOIL, base_damping=LAW)
+
+
+def test_grounds() -> None:
+    strip = bm.Strip.from_nodes([-4.0, -3.0, 0.0, 3.0, 4.0])
+    for ground in (
+        bm.HalfPlaneGround(SOIL, [strip], history="exponentials"),
+        bm.HalfPlaneGround.strip(SOIL, -4.0, 4.0, 4, kernels=bm.SharedKernels()),
+        bm.SpringGround([strip], 1e8, 5e7, dashpots=(1e6, 1e6)),
+        bm.LayeredGround.under(PROFILE, BUILDING, 4),
+    ):
+        expected = shaken(BUILDING, ground, RECORD, bm.Coulomb(0.3))
+        assert same_bits(shaken(BUILDING, copied(ground), RECORD, bm.Coulomb(0.3)), expected)
+
+
+def test_motions_laws_loads_and_probes() -> None:
+    wave = bm.PlaneWave.sv(SOIL, 0.3)
+    for field in (
+        bm.vertical_incidence(RECORD, RECORD.scaled(0.5)),
+        bm.travelling_wave(bm.ricker(0.1, 0.05, 0.5), 800.0, -5.0),
+        wave.reversed().field_from_horizontal(RECORD, 5.0),
+        bm.InclinedWave.sv(PROFILE, 0.2).field(RECORD, -5.0),
+    ):
+        assert copied(field).displacement(1.0, 0.7) == field.displacement(1.0, 0.7) != [0.0, 0.0]
+    load = copied(bm.Load.table(3, [0.0, 1.0], [0.0, 1e4]))
+    probe = copied(bm.Probe.section("shear", BUILDING.shear(0), unit="N/m"))
+    assert (probe.name, probe.unit) == ("shear", "N/m")
+    ground = bm.HalfPlaneGround.under(SOIL, BUILDING, 4)
+    for law in (bm.Bonded(), bm.Adhesive(1e5, 1e5, 0.4), bm.ThinLayer(SOIL, 1.0, 0.4)):
+        runs = [
+            bm.Simulation(0.005, BUILDING, ground, own, loads=[load], probes=[probe]).run(50)[
+                "shear"
+            ]
+            for own in (law, copied(law))
+        ]
+        assert same_bits(*runs) and np.abs(runs[0]).max() > 0.0
+
+
+def test_what_cannot_pickle_says_so() -> None:
+    with pytest.raises((pickle.PicklingError, AttributeError), match="lambda"):
+        pickle.dumps(bm.VariableFriction(lambda start: 0.3))
+
+
+def test_signatures_stay_readable() -> None:
+    # Python 3.9 knows no signatures of compiled classes.
+    assert sys.version_info < (3, 10) or str(inspect.signature(bm.RigidBlock)) == (
+        "(width, height, density, *, center=0.0, p_delta=None)"
+    )
+    assert "grading='cosine'" in str(inspect.signature(bm.HalfPlaneGround.under))
+    assert "of ``count`` elements" in bm.HalfPlaneGround.under.__doc__
