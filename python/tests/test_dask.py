@@ -203,7 +203,7 @@ def test_a_case_that_raises_or_kills_is_a_row_and_no_other_suffers(
     assert table["value"][[3, 20]].isna().all()
 
 
-def test_a_cluster_that_is_gone_leaves_rows_that_say_so(tmp_path: Path) -> None:
+def test_a_cluster_that_is_gone_leaves_rows_that_say_so() -> None:
     with distributed.LocalCluster(
         n_workers=1, threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
     ) as cluster:
