@@ -38,7 +38,7 @@ impl Sweep<'_> {
     ///     6.0 => Err(basemat::Error::part("width", "too wide")),
     ///     width => Ok([width * width]),
     /// })?;
-    /// assert_eq!(table.csv(), "case,width_m,area_m2,error\n0,4,16,\n1,6,,width: too wide\n");
+    /// assert_eq!(table.csv(), "case,width_m,area_m2,error\n0,4.0,16.0,\n1,6.0,,width: too wide\n");
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
