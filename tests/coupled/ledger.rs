@@ -3,11 +3,14 @@
 //! travel far.
 //! REFERENCE: the identity of the energies; perturbing any term must open it.
 
+use basemat::Simulation;
 use basemat::bem::SpringGround;
 use basemat::coupled::{Ledger, Newmark, Run, SimulationBuilder, Theta};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::{Activation, Bonded, ThinLayer};
-use basemat::structure::{Bilinear, FemModel, RayleighDamping, ShearBuilding, Storey, WithSprings};
+use basemat::structure::{
+    Bilinear, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, WithSprings,
+};
 
 use crate::support::scenes::{Rider, SI, block, friction, scene, shake, soil, tower};
 
@@ -150,4 +153,34 @@ fn relative_input_meets_the_absolute_one_when_the_ground_rests() {
     let (shaking, at_rest) = (of(130), of(600));
     assert!((shaking.relative_input / shaking.input - 1.0).abs() > 0.2);
     assert!((at_rest.relative_input / at_rest.input - 1.0).abs() < 2e-3);
+}
+
+/// GOAL: Newmark's method takes a step's tractions for those at its end; on springs whose traction is
+/// that of mid-step it feeds the structure as a dashpot of ratio −ωΔt/4 would, on springs that act
+/// at the end it keeps the energy. SCENE: a block that bounces on springs without dashpots.
+/// REFERENCE: the oscillator's energy e^(ω²Δt t/2), and the midpoint rule's.
+#[test]
+fn newmark_on_springs_needs_theta_one() {
+    let (width, height, density, stiffness, time_step) = (4.0, 4.0, 2000.0, 5.0e7, 5.0e-4);
+    let bounce = |newmark: bool, theta: f64| {
+        let block = RigidBlock::new(width, height, density).unwrap();
+        let ground = SpringGround::under(&block, 4, stiffness, stiffness).unwrap();
+        let mut builder = Simulation::builder(time_step)
+            .ground(ground.with_theta(theta).unwrap())
+            .structure(block)
+            .interface(Bonded)
+            .gravity(0.0)
+            .initial_velocity([0.0, 0.01, 0.0]);
+        if newmark {
+            builder = builder.scheme(Newmark::default());
+        }
+        run(builder, 2000)
+    };
+    let fed = bounce(true, 0.5);
+    let squared_frequency = stiffness / (density * height);
+    let wanted = (squared_frequency * time_step * fed.end / 2.0).exp();
+    let energy = (fed.ledger.input - fed.ledger.numerical) / fed.ledger.input;
+    assert!((energy.ln() / wanted.ln() - 1.0).abs() < 0.02, "{energy} {wanted}");
+    let kinetic = [bounce(false, 0.5), bounce(true, 1.0)].map(|run| run.ledger.kinetic);
+    assert!((kinetic[0] / kinetic[1] - 1.0).abs() < 1e-9, "{kinetic:?}");
 }

@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 ///
 /// Newmark's method with γ = ½ − α and β = (1−α)²/4, its damping and stiffness forces and loads
 /// taken at t₁ + α Δt, its inertia at t₁. Contact tractions are constant over the step and enter in
-/// full. α = 0 is average acceleration; −⅓ damps most: the spectral radius tends to
+/// full, with what [`Newmark`](super::Newmark) says of springs. α = 0 is average acceleration; −⅓ damps most: the spectral radius tends to
 /// (1+α)/(1−α) for steps that are long against the period, ½ at α = −⅓.
 ///
 /// ```

@@ -10,7 +10,8 @@ use crate::error::{Error, Result};
 /// structure. The default, average acceleration (γ = ½, β = ¼), neither damps nor feeds a linear
 /// structure; but the work of its forces is booked where they act, and the difference between
 /// equilibrium at the ends of steps and within them goes to [`Ledger::numerical`](crate::coupled::Ledger),
-/// which is then bounded and not zero. Loads present at t = 0 belong to the static state, so that the
+/// which is not zero. On springs without dashpots it grows for ever unless they act at the end of the
+/// step, too ([`SpringGround::with_theta`](crate::bem::SpringGround::with_theta) of 1). Loads present at t = 0 belong to the static state, so that the
 /// method starts from zero acceleration; with an initial motion, or a weight that acts from t = 0 on, from that of
 /// the structure before the soil has answered.
 ///
