@@ -138,7 +138,7 @@
 //! | `reference` | `reference`: closed forms from the literature, to check against |
 //! | `plot` | `plot`: pictures of histories, contact, spectra and shapes, as SVG; `results::Wireframe` |
 //! | `png` | `plot`, and the same pictures as PNG |
-//! | `rayon` | [`Sweep`] on all processors |
+//! | `rayon` | [`Sweep`], and coefficients of layered ground, on all processors |
 //! | `serde` | `Serialize` and `Deserialize` of settings, results, records and [`Checkpoint`](coupled::Checkpoint)s |
 //! | `npz` | [`results::Histories`] as an archive of NumPy's arrays |
 //!
@@ -146,7 +146,8 @@
 //!
 //! With the feature `serde` plain data derive `Serialize` and `Deserialize`: soils, profiles, materials, laws that
 //! are numbers, schemes, options, probes, records, spectra, a [`coupled::Run`] with all in it. What a
-//! constructor checks is checked when it is read. Choices are the words of their `Display` (`"slip_left"`).
+//! constructor checks is checked when it is read. Choices are words, those of their `Display` where they have one
+//! (`"slip_left"`), with their numbers in a map (`{"reduced": {"tolerance": 1e-6}}`).
 //! In formats that people read, a number that is NaN is null and infinities are `"inf"` and `"-inf"`, where
 //! they can occur (peaks, ledgers, conditions, friction); elsewhere numbers are finite. Floating-point
 //! numbers read back as they were, with serde_json if its feature `float_roundtrip` is on.

@@ -185,8 +185,8 @@ fn group(
         if row.value("friction")? == friction && row.value("width_m")? == width {
             let place = [row.place("motion")?, row.place("peak_velocity_m_per_s")?];
             if row.results().is_ok() {
-                let exceeds = row.value(&options.demand)? > options.limit;
-                outcomes[place[0]][place[1]] = Some(exceeds);
+                let demand = row.value(&options.demand)?;
+                outcomes[place[0]][place[1]] = (!demand.is_nan()).then_some(demand > options.limit);
             }
         }
     }

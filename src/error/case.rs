@@ -70,8 +70,8 @@ pub enum SweepError {
         /// The value, printed.
         value: String,
     },
-    /// More combinations of values than an integer holds.
-    #[error("the parameters have more combinations than can be counted")]
+    /// More combinations of values than a table is made of.
+    #[error("the parameters have more combinations than 100 million")]
     TooManyCases,
     /// A case that panicked, where its result was needed.
     #[error("the case panicked: {message}")]

@@ -3,7 +3,7 @@
 use super::Error;
 
 impl Error {
-    /// [`Error::Part`], what a part of your own returns when none of the other errors fits.
+    /// [`Error::Part`], returned by a user's own part when none of the other errors fits.
     ///
     /// ```
     /// use basemat::bem::SpringGround;

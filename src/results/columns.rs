@@ -72,7 +72,7 @@ impl Histories {
         columns
     }
 
-    /// What stands under them.
+    /// Their values.
     pub(super) fn column_values(&self) -> impl Iterator<Item = &[f64]> {
         let scalars = Quantity::ALL.iter().map(|&quantity| self.series(quantity));
         let probes = self.probe_values.iter().map(Vec::as_slice);

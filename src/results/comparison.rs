@@ -58,7 +58,7 @@ const ROWS: [Line; 22] = [
     ("  first excess at", "s", "serviceability_first_excess_s", 1.0, |s| {
         s.serviceability.iter().filter_map(|check| check.first_excess).reduce(f64::min)
     }),
-    ("energy input", "kJ/m", "energy_input_j_per_m", 1e-3, |s| Some(s.ledger.input)),
+    ("energy input", "kJ/m", "input_energy_j_per_m", 1e-3, |s| Some(s.ledger.input)),
     ("  to the soil", "%", "energy_share_soil", 100.0, |s| s.energy().map(|e| e.soil)),
     ("  friction, impact", "%", "energy_share_contact", 100.0, |s| s.energy().map(|e| e.contact)),
     ("  hysteresis", "%", "energy_share_hysteresis", 100.0, |s| {

@@ -11,6 +11,11 @@ pub(crate) fn csv_cell(cell: &str) -> Cow<'_, str> {
     }
 }
 
+/// Cells as a line of CSV, with its end.
+pub(crate) fn csv_line(cells: &[String]) -> String {
+    cells.iter().map(|cell| csv_cell(cell)).collect::<Vec<_>>().join(",") + "\n"
+}
+
 /// A cell on one line: line ends and other control characters become spaces.
 fn one_line(cell: &str) -> String {
     cell.replace(|c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}'), " ")
@@ -109,8 +114,7 @@ impl Table {
     pub(crate) fn csv(&self) -> String {
         let mut text = String::new();
         for row in std::iter::once(&self.heading).chain(&self.rows) {
-            text += &row.iter().map(|cell| csv_cell(cell)).collect::<Vec<_>>().join(",");
-            text.push('\n');
+            text += &csv_line(row);
         }
         text
     }

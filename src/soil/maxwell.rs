@@ -29,7 +29,13 @@ validated! {
         #[serde(default)]
         fitted: Option<[f64; 3]>,
     }
-    => GeneralizedMaxwell::new(long_term, shares, rates).map(|body| Self { fitted, ..body })
+    => GeneralizedMaxwell::new(long_term, shares, rates).map(|body| Self { fitted: fitted.filter(is_band), ..body })
+}
+
+/// Whether these are a damping ratio and a band.
+#[cfg(feature = "serde")]
+fn is_band([ratio, low, high]: &[f64; 3]) -> bool {
+    *ratio >= 0.0 && *low > 0.0 && low < high && (ratio + high).is_finite()
 }
 
 /// Frequencies of the fit.

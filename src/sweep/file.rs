@@ -17,7 +17,7 @@ pub(super) struct Content {
     pub(super) end: u64,
 }
 
-/// How a file may end.
+/// Permitted endings of a file.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Ending {
     /// With a whole line, as files do that were written to their end.

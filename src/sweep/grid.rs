@@ -3,6 +3,9 @@
 use super::parameter::Parameter;
 use crate::error::{Error, Result, SweepError};
 
+/// Most cases of a grid: tables and merging keep a number of each.
+const MOST_CASES: usize = 100_000_000;
+
 /// Cases numbered by their place in the grid, the last parameter fastest.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Grid {
@@ -17,7 +20,8 @@ impl Grid {
         let mut count = 1_usize;
         for parameter in &parameters {
             parameter.check()?;
-            count = count.checked_mul(parameter.len()).ok_or(SweepError::TooManyCases)?;
+            let product = count.checked_mul(parameter.len()).filter(|&count| count <= MOST_CASES);
+            count = product.ok_or(SweepError::TooManyCases)?;
         }
         Ok(Self { parameters, count })
     }

@@ -38,7 +38,7 @@ impl Parameter {
         &self.name
     }
 
-    /// How many values it takes.
+    /// Number of values.
     pub fn len(&self) -> usize {
         match &self.values {
             Values::Numbers(numbers) => numbers.len(),

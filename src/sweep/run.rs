@@ -110,7 +110,7 @@ impl<'a> Sweep<'a> {
     /// # Errors
     /// [`Error::DuplicateName`] if two parameters have one name, or one is called `case` or `error`;
     /// [`Error::Sweep`] for a parameter without a name or values, for a value that is there twice,
-    /// is not finite or an empty text, and for more cases than can be counted.
+    /// is not finite or an empty text, and for more than 100 million cases.
     pub fn grid(parameters: impl IntoIterator<Item = Parameter>) -> Result<Self> {
         Ok(Self::over(Grid::new(parameters.into_iter().collect())?))
     }
@@ -128,7 +128,7 @@ impl<'a> Sweep<'a> {
     pub fn shard(self, index: usize, of: usize) -> Result<Self> {
         let outside = Error::Index { quantity: "shard", index, bound: of };
         let of = NonZeroUsize::new(of).filter(|of| index < of.get()).ok_or(outside)?;
-        // What is too large to be counted is beyond the last case as well.
+        // A saturated start lies beyond the last case.
         let first = self.first.saturating_add(self.stride.get().saturating_mul(index));
         Ok(Self { first, stride: self.stride.saturating_mul(of), ..self })
     }
@@ -175,7 +175,8 @@ impl<'a> Sweep<'a> {
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
         sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) + Send,
     ) {
-        self.run_some(&self.cases().collect::<Vec<_>>(), run, sink);
+        let case = |place: usize| self.first + place * self.stride.get();
+        self.run_each(self.cases().len(), &case, run, sink);
     }
 
     /// [`Sweep::run`] for `cases` alone.
@@ -185,10 +186,22 @@ impl<'a> Sweep<'a> {
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
         sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) + Send,
     ) {
+        self.run_each(cases.len(), &|place| cases[place], run, sink);
+    }
+
+    /// Runs `count` cases, whose numbers `number` gives.
+    fn run_each<T: Send, E: Send>(
+        &self,
+        count: usize,
+        number: &(dyn Fn(usize) -> usize + Sync),
+        run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
+        sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) + Send,
+    ) {
         let sink = Mutex::new(sink);
-        for_each(cases, &|index| {
+        for_each(count, &|place| {
+            let index = number(place);
             let case = SweepCase { index, grid: &self.grid, progress: &*self.progress };
-            // What a case has built is dropped with it; what cases share is theirs to keep sound.
+            // A panicking case drops its own values; state that cases share is the caller's to keep sound.
             let result = match catch_unwind(AssertUnwindSafe(|| run(&case))) {
                 Ok(result) => result.map_err(CaseError::Failed),
                 Err(payload) => Err(CaseError::panicked(payload.as_ref())),
@@ -201,13 +214,13 @@ impl<'a> Sweep<'a> {
 }
 
 #[cfg(feature = "rayon")]
-fn for_each(cases: &[usize], run: &(dyn Fn(usize) + Sync)) {
-    use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+fn for_each(count: usize, run: &(dyn Fn(usize) + Sync)) {
+    use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
     // Cases are long and few: each is a task of its own.
-    cases.par_iter().with_max_len(1).for_each(|&case| run(case));
+    (0..count).into_par_iter().with_max_len(1).for_each(run);
 }
 
 #[cfg(not(feature = "rayon"))]
-fn for_each(cases: &[usize], run: &(dyn Fn(usize) + Sync)) {
-    cases.iter().copied().for_each(run);
+fn for_each(count: usize, run: &(dyn Fn(usize) + Sync)) {
+    (0..count).for_each(run);
 }

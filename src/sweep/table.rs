@@ -7,7 +7,7 @@ use super::grid::{Grid, no_name};
 use super::replace::replace;
 use crate::column::Cell;
 use crate::error::{Result, SweepError};
-use crate::results::table::csv_cell;
+use crate::results::table::csv_line;
 
 /// The cases of a [`Sweep`](super::Sweep), a row each: the case's number, its parameters, its results, and why it has none if it
 /// failed. Prints as a table of five figures no line of which is longer than 99 characters: a wide
@@ -91,11 +91,6 @@ pub(super) fn heading(grid: &Grid, columns: &[String]) -> Vec<String> {
     cells.extend_from_slice(columns);
     cells.push("error".to_owned());
     cells
-}
-
-/// Cells as a line of CSV, with its end.
-pub(super) fn csv_line(cells: &[String]) -> String {
-    cells.iter().map(|cell| csv_cell(cell)).collect::<Vec<_>>().join(",") + "\n"
 }
 
 /// A row of a [`CaseTable`].

@@ -12,8 +12,9 @@ use super::grid::check_names;
 use super::parameter::Parameter;
 use super::replace::{name, replace, unwritten};
 use super::run::{Sweep, SweepCase};
-use super::table::{CaseTable, Row, csv_line, heading};
+use super::table::{CaseTable, Row, heading};
 use crate::error::{CaseError, Result, SweepError};
+use crate::results::table::csv_line;
 
 /// Rows by their cases, each with the file that it is from.
 type Rows = BTreeMap<usize, (Row, PathBuf)>;
@@ -103,8 +104,8 @@ impl Sweep<'_> {
             let mut file = Some(open().map_err(unwritten(&part))?);
             self.run_some(&left, run, |case, result| {
                 let row = row(case, result);
-                // After a row that found no room no other is written: a line that was cut is the last. The
-                // table has them all, unless the process is killed, too.
+                // After a failed write nothing more is written, so that only the last line can be
+                // incomplete. The table returned has all rows.
                 let line = row.csv(&self.grid, N);
                 file = file.take().filter(|mut file| file.write_all(line.as_bytes()).is_ok());
                 rows.push(row);
@@ -190,13 +191,16 @@ fn each(names: &[String]) -> impl Iterator<Item = &str> {
     names.iter().map(String::as_str)
 }
 
+/// Most missing shards that are named; beyond, cases are.
+const MOST_SHARDS: usize = 256;
+
 /// The shards `[index, of]` whose cases are exactly the missing ones of `count`, if `files` others are
 /// there.
 fn missing_shards(missing: &[usize], count: usize, files: usize) -> Vec<[usize; 2]> {
     if files == 0 {
         return Vec::new();
     }
-    for of in files + 1..=(files + missing.len()).min(count) {
+    for of in files + 1..=(files + missing.len().min(MOST_SHARDS)).min(count) {
         // Cases of a shard: count / of, or one more.
         let (shards, least) = (of - files, count / of);
         if !(shards * least..=shards * (least + 1)).contains(&missing.len()) {

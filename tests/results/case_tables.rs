@@ -405,6 +405,9 @@ fn parameters_and_columns_are_checked() {
     }
     let many = (0..16).map(|k| Parameter::numbers(format!("x{k}"), (0..16).map(f64::from)));
     assert_eq!(grid(many.collect()), Error::Sweep(TooManyCases));
+    // Countable, but not in memory.
+    let large = ["a", "b"].map(|name| Parameter::numbers(name, (0..10_001).map(f64::from)));
+    assert_eq!(grid(large.to_vec()), Error::Sweep(TooManyCases));
     let table =
         |columns| sweep().table(columns, |_| -> Result<[f64; 2]> { unreachable!("columns") });
     for columns in [["friction", "y"], ["y", "y"], ["y", "error"]] {
