@@ -135,8 +135,8 @@ pub(crate) fn print_search(reading: &Reading, short: bool) {
             for pair in sizes.pairs() {
                 place = see(pair).1;
             }
-            let mut step = if short { 0.01 } else { 0.16 };
-            while step > 0.008 {
+            let (mut step, least) = (0.16, if short { 0.1 } else { 0.008 });
+            while step > least {
                 let mut moved = false;
                 for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
                     let mut trial = place;
