@@ -135,6 +135,7 @@ def test_a_simulation_says_that_a_panic_has_left_it_unusable(rocking) -> None:
             simulation.run(10, observe=fail)
         with pytest.raises(bm.Error, match="ended in a panic"):
             simulation.step()
+        assert repr(simulation) == "Simulation(unusable)"
         simulation = rocking()
     assert panics
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -239,6 +241,26 @@ def test_arrays_that_do_not_fit_are_refused() -> None:
     for matrix in (model.mass, model.stiffness, model.damping):
         with pytest.raises(bm.InputError, match="has 20001 unknowns"):
             matrix()
+
+
+SHORT_OF_MEMORY = """
+import resource
+import numpy, scipy.sparse, basemat as bm
+mass = scipy.sparse.diags_array(numpy.ones(15_000)).tocsr()
+model = bm.MatrixModel(mass, mass, bm.ContactNode.rigid_base(-1.0, 1.0, [0, 1, 2]))
+resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+try:
+    model.mass()
+except MemoryError as error:
+    print("refused")
+"""
+
+
+def test_a_matrix_without_memory_is_a_memory_error() -> None:
+    pytest.importorskip("resource")
+    command = [sys.executable, "-c", SHORT_OF_MEMORY]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.stdout == "refused\n", done.stderr
 
 
 @pytest.mark.parametrize("node", [1.7, -1, float("nan"), float("inf")])

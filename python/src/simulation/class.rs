@@ -290,8 +290,9 @@ impl PySimulation {
     }
 
     fn __repr__(&self) -> String {
+        let reason = if self.simulation.is_poisoned() { "unusable" } else { "running" };
         self.lock().map_or_else(
-            |_| "Simulation(running)".to_owned(),
+            |_| format!("Simulation({reason})"),
             |simulation| {
                 format!(
                     "Simulation(step {}, {} s)",

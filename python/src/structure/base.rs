@@ -59,7 +59,9 @@ fn array<'py>(
     }
     let mut entries = Triplets::new(order);
     fill(structure, &mut entries).or_raise()?;
-    let array = PyArray2::zeros(py, [order, order], false);
+    // By numpy itself, which raises a MemoryError for what does not fit.
+    let array = py.import("numpy")?.call_method1("zeros", ((order, order),))?;
+    let array = array.cast_into::<PyArray2<f64>>()?;
     {
         let mut view = array.try_readwrite()?;
         let mut view = view.as_array_mut();
