@@ -246,21 +246,22 @@ def test_an_exception_comes_out_of_the_call_that_met_it(rocking, call) -> None:
 
 
 def test_an_exception_of_a_run_is_not_taken_by_a_call_inside_it(rocking) -> None:
-    caught = []
+    armed, asked, caught = False, 0, []
 
-    def load(time: float) -> float:
+    def friction(start: bm.StepStart) -> float:
+        nonlocal asked
+        asked += armed
+        if asked == 1:
+            raise OverflowError("of the run")
         try:
-            bm.VariableFriction(raises).conditions("slip left", START)
+            bm.VariableFriction(raises).conditions("slip left", start)
         except Exception as error:
             caught.append(error)
-        return 0.0
+        return 0.4
 
-    def shaken(x: float, time: float) -> tuple[float, float]:
-        if time > 0.1:
-            raise OverflowError("the motion")
-        return 0.0, 0.0
-
-    simulation = rocking(motion=shaken, loads=[bm.Load(0, load)])
-    with pytest.raises(OverflowError, match="the motion"):
+    simulation = rocking(interface=bm.VariableFriction(friction))
+    armed = True
+    with pytest.raises(OverflowError, match="of the run"):
         simulation.run(50)
+    assert asked > 1, "no call came after the exception"
     assert caught and all(isinstance(error, KeyError) for error in caught)
