@@ -5,22 +5,24 @@ cd "$(dirname "$0")"
 
 export CARGO_TARGET_DIR="${CARGO_TARGET_DIR:-$PWD/../target/python}"
 venv="$CARGO_TARGET_DIR/venv"
+# Folder of the environment's programs.
+case "$(uname -s)" in MINGW* | MSYS* | CYGWIN*) programs="$venv/Scripts" ;; *) programs="$venv/bin" ;; esac
 mkdir -p "$CARGO_TARGET_DIR"
-[[ -x "$venv/bin/python" ]] || "${PYTHON:-python3}" -m venv "$venv"
+[[ -x "$programs/python" ]] || "${PYTHON:-python3}" -m venv "$venv"
 
 cargo fmt --check
-cargo clippy --all-targets -- -D warnings
+cargo clippy --locked --all-targets -- -D warnings
 # No file of the package above 400 lines, but for the one stub file of the compiled module.
 long="$(find src python tests examples -name '*.rs' -o -name '*.py' | xargs wc -l | awk '$2 != "total" && $1 > 400')"
 [[ -z "$long" ]] || { echo "above 400 lines: $long"; exit 1; }
 
-"$venv/bin/pip" install -q maturin
+"$programs/pip" install -q maturin
 # One build for the tests and to be given away.
-"$venv/bin/maturin" build --release --out "$CARGO_TARGET_DIR/wheels" --interpreter "$venv/bin/python"
+"$programs/maturin" build --release --locked --out "$CARGO_TARGET_DIR/wheels" --interpreter "$programs/python"
 wheel="$(ls -t "$CARGO_TARGET_DIR"/wheels/basemat-*.whl | head -1)"
-"$venv/bin/pip" install -q --force-reinstall --no-deps "$wheel"
-"$venv/bin/pip" install -q "$wheel[test]"
-"$venv/bin/python" -m pytest -q
+"$programs/pip" install -q --force-reinstall --no-deps "$wheel"
+"$programs/pip" install -q "$wheel[test]"
+"$programs/python" -m pytest -q
 walkthrough="$PWD/examples/walkthrough.py"
-(cd "$CARGO_TARGET_DIR" && MPLBACKEND=agg "$venv/bin/python" "$walkthrough")
+(cd "$CARGO_TARGET_DIR" && MPLBACKEND=agg "$programs/python" "$walkthrough")
 echo "wheel: $wheel"

@@ -1,8 +1,6 @@
 //! Elements and time step for a wanted accuracy.
 
-use basemat::bem::Grading;
 use basemat::coupled::{Advice, Outline};
-use basemat::history::History;
 use basemat::motion::FrequencyContent;
 use pyo3::prelude::*;
 
@@ -50,8 +48,8 @@ impl PyAdvice {
 
     /// Their grading: "cosine" or "uniform".
     #[getter]
-    fn grading(&self) -> &'static str {
-        if self.0.grading == Grading::Uniform { "uniform" } else { "cosine" }
+    fn grading(&self) -> String {
+        self.0.grading.to_string()
     }
 
     /// Time step, s.
@@ -62,13 +60,8 @@ impl PyAdvice {
 
     /// Kind of history, as grounds are told.
     #[getter]
-    fn history(&self) -> &'static str {
-        match self.0.history {
-            History::Direct => "direct",
-            History::RelaxedFft => "relaxed fft",
-            History::Exponentials => "exponentials",
-            _ => "auto",
-        }
+    fn history(&self) -> String {
+        self.0.history.to_string().replace('_', " ")
     }
 
     /// Expected relative error of the base shear's time series due to the mesh.

@@ -1,6 +1,7 @@
 //! Errors of the core as Python's exceptions, and exceptions that user code raised inside a step.
 
 use std::cell::RefCell;
+use std::sync::TryLockError;
 
 use pyo3::prelude::*;
 
@@ -36,6 +37,17 @@ pub(crate) fn take_raised() -> Option<PyErr> {
     RAISED.take()
 }
 
+/// The result of a call that may run user code, or the exception that this code raised. One that was
+/// there before belongs to a run around this call and stays for it.
+pub(crate) fn heard<T>(call: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+    let outer = has_raised();
+    let found = call();
+    match if outer { None } else { take_raised() } {
+        Some(raised) => Err(raised),
+        None => found,
+    }
+}
+
 /// The error of the core that stands for an exception of user code.
 pub(crate) fn kept(part: &'static str, error: PyErr) -> basemat::Error {
     let text = error.to_string();
@@ -48,9 +60,16 @@ pub(crate) fn refuse(text: impl Into<String>) -> PyErr {
     classes::InputError::new_err(text.into())
 }
 
-/// An `Error` with this text, of a simulation that is in use.
-pub(crate) fn busy() -> PyErr {
-    classes::Error::new_err("the simulation is running (in another thread, or around this call)")
+/// An `Error` that says why a simulation cannot be used.
+pub(crate) fn locked<T>(reason: TryLockError<T>) -> PyErr {
+    classes::Error::new_err(match reason {
+        TryLockError::WouldBlock => {
+            "the simulation is running (in another thread, or around this call)"
+        }
+        TryLockError::Poisoned(_) => {
+            "the simulation cannot be used any more: an earlier call ended in a panic"
+        }
+    })
 }
 
 /// The exception of user code that led to `error`, or that of the core with its full text.

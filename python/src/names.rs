@@ -4,7 +4,7 @@ use basemat::interface::Mode;
 use basemat::results::Quantity;
 use pyo3::prelude::*;
 
-use crate::error::refuse;
+use crate::error::{OrRaise, refuse};
 
 /// All modes, in the order of their numbers in arrays.
 const MODES: [(Mode, &str); 7] = [
@@ -18,33 +18,29 @@ const MODES: [(Mode, &str); 7] = [
 ];
 
 /// Names of the modes, in the order of their numbers in arrays.
-pub(crate) const MODE_NAMES: [&str; 7] =
-    ["stick", "slip left", "slip right", "open", "yield", "yield left", "yield right"];
+pub(crate) const MODE_NAMES: [&str; MODES.len()] = {
+    let mut names = [""; MODES.len()];
+    let mut number = 0;
+    while number < MODES.len() {
+        names[number] = MODES[number].1;
+        number += 1;
+    }
+    names
+};
 
-pub(crate) fn mode_name(mode: Mode) -> &'static str {
-    MODE_NAMES[usize::from(mode_number(mode))]
+pub(crate) fn mode_name(mode: Mode) -> PyResult<&'static str> {
+    Ok(MODE_NAMES[usize::from(mode_number(mode)?)])
 }
 
 /// Its number in arrays: the place in [`MODE_NAMES`].
-pub(crate) fn mode_number(mode: Mode) -> u8 {
-    match mode {
-        Mode::SlipLeft => 1,
-        Mode::SlipRight => 2,
-        Mode::Open => 3,
-        Mode::Yield => 4,
-        Mode::YieldLeft => 5,
-        Mode::YieldRight => 6,
-        // Stick; others there are none.
-        _ => 0,
-    }
+pub(crate) fn mode_number(mode: Mode) -> PyResult<u8> {
+    let found = (0..).zip(MODES).find(|(_, (own, _))| *own == mode);
+    found.map(|(number, _)| number).ok_or_else(|| refuse(format!("mode '{mode}' has no number")))
 }
 
 /// The mode of a name.
 pub(crate) fn mode(name: &str) -> PyResult<Mode> {
-    let found = MODES.iter().find(|(_, own)| *own == name);
-    found.map(|(mode, _)| *mode).ok_or_else(|| {
-        refuse(format!("mode is '{name}', but must be one of {}", MODE_NAMES.join(", ")))
-    })
+    name.parse().or_raise()
 }
 
 /// Scalar time series, with their keys.

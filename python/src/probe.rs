@@ -9,7 +9,7 @@ use crate::row::{PyRow, PySectionRows, RowLike};
 ///
 /// Displacements are changes against the static state, relative to the translation of the free
 /// field; :meth:`absolute_displacement` includes it. Velocities and accelerations are total. No two
-/// probes of a simulation have the same name.
+/// probes of a simulation have the same name, and none that of another time series of a run.
 #[pyclass(name = "Probe", module = "basemat", frozen, dict)]
 pub(crate) struct PyProbe(pub(crate) Probe);
 

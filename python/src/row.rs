@@ -1,10 +1,12 @@
 //! Weighted sums of unknowns.
 
 use basemat::structure::{Row, SectionRows};
-use numpy::{PyArray1, PyReadonlyArray1};
+use numpy::{PyArray1, PyUntypedArray, PyUntypedArrayMethods};
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyInt};
 
+use crate::array::Numbers;
 use crate::error::{OrRaise, refuse};
 use crate::structure;
 
@@ -37,10 +39,10 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
                 .collect::<PyResult<_>>()?;
             return Ok(Self(terms.into()));
         }
-        if let Ok(weights) = object.extract::<PyReadonlyArray1<'_, f64>>() {
-            let weights = weights.as_array();
-            let terms = weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
-            return Ok(Self(terms.map(|(unknown, weight)| (unknown, *weight)).collect()));
+        if object.cast::<PyUntypedArray>().is_ok_and(|array| array.ndim() == 1) {
+            let Numbers(weights) = object.extract()?;
+            let terms = weights.into_iter().enumerate().filter(|(_, weight)| *weight != 0.0);
+            return Ok(Self(terms.collect()));
         }
         if let Ok(unknown) = object.extract::<usize>() {
             // Integers of numpy.
@@ -70,8 +72,8 @@ impl PyRow {
     }
 
     /// The sum for given unknowns (array of shape (n,)).
-    fn value(&self, unknowns: PyReadonlyArray1<'_, f64>) -> PyResult<f64> {
-        let unknowns = unknowns.as_array().to_vec();
+    fn value(&self, unknowns: Numbers) -> PyResult<f64> {
+        let Numbers(unknowns) = unknowns;
         if let Some((index, _)) = self.0.iter().find(|(index, _)| *index >= unknowns.len()) {
             return Err(refuse(format!("unknown {index} of a row, of {} given", unknowns.len())));
         }
@@ -84,7 +86,11 @@ impl PyRow {
         py: Python<'py>,
         unknowns: usize,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let mut weights = vec![0.0; unknowns];
+        let mut weights = Vec::new();
+        weights.try_reserve_exact(unknowns).map_err(|_| {
+            PyMemoryError::new_err(format!("an array of {unknowns} weights does not fit"))
+        })?;
+        weights.resize(unknowns, 0.0);
         for &(index, weight) in &self.0 {
             *weights
                 .get_mut(index)

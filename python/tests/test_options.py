@@ -145,7 +145,7 @@ def test_coordinates_change_rounding_only(soil: bm.Soil) -> None:
     assert not same_bits(modes["base_shear"], unknowns["base_shear"])
     reduced = run(coordinates=1e-6)
     np.testing.assert_allclose(reduced["base_shear"], unknowns["base_shear"], atol=1e-4 * scale)
-    with pytest.raises(bm.InputError, match="coordinates are 'modal'"):
+    with pytest.raises(bm.InputError, match="no kind of coordinates 'modal', only auto"):
         run(coordinates="modal")
 
 
@@ -159,7 +159,7 @@ def test_histories_agree_and_say_what_they_are(rocking, soil, block) -> None:
     scale = np.abs(runs["direct"]).max()
     np.testing.assert_allclose(runs["relaxed fft"], runs["direct"], atol=1e-9 * scale)
     np.testing.assert_allclose(runs["exponentials"], runs["direct"], atol=1e-3 * scale)
-    with pytest.raises(bm.InputError, match="history is 'fast'"):
+    with pytest.raises(bm.InputError, match="no history 'fast', only direct"):
         bm.HalfPlaneGround.under(soil, block, 8, history="fast")
 
 
@@ -205,3 +205,31 @@ def test_advice_is_followed_by_a_smaller_error(soil: bm.Soil) -> None:
     assert fine.elements > coarse.elements and fine.time_step < coarse.time_step
     assert max(coarse.mesh_error, coarse.step_error, coarse.peak_error) <= 0.06
     assert (fine.grading, fine.history) == ("cosine", "auto")
+
+
+def test_words_are_those_of_the_crate_and_those_of_the_docstrings(rocking, soil, block) -> None:
+    for word in ("with interface law", "with_interface_law", "With-interface-law"):
+        rocking(placement=word)
+    for word in ("relaxed fft", "relaxed_fft"):
+        bm.HalfPlaneGround.under(soil, block, 8, history=word)
+    record = bm.el_centro_1940()
+    rests = [
+        record.with_baseline(word, degree=degree).accelerations
+        for word, degree in (("rest to rest", 3), ("rest_to_rest(3)", 5))
+    ]
+    assert same_bits(*rests)
+    assert not same_bits(rests[0], record.with_baseline("rest to rest", degree=5).accelerations)
+    with pytest.raises(bm.InputError, match="no baseline treatment 'rest', only none"):
+        record.with_baseline("rest")
+    bm.ThinLayer(soil, 1.0, 0.4, friction_limit="Lagged", slip_sense="last_velocity")
+    with pytest.raises(bm.InputError, match="no placement 'hung', only frictionless"):
+        rocking(placement="hung")
+
+
+def test_all_modes_of_the_crate_have_a_number(rocking) -> None:
+    with pytest.raises(bm.InputError) as refused:
+        bm.StepStart(bm.ContactState(), "glide", 0.01)
+    known = str(refused.value).partition(", only ")[2].split(", ")
+    assert [word.replace("_", " ") for word in known] == list(bm.MODES)
+    for mode in bm.MODES:
+        assert bm.StepStart(bm.ContactState(), mode, 0.01).mode == mode

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import array
+import collections
 import inspect
 import pickle
 import sys
@@ -12,6 +14,7 @@ import scipy.sparse
 from conftest import same_bits
 
 import basemat as bm
+from basemat import _pickling
 
 SOIL = bm.Soil(80.0e6, 0.33, 1900.0)
 STOREYS = [bm.Storey(3.0, 20e3, 40e6)] * 3
@@ -141,3 +144,64 @@ def test_signatures_stay_readable() -> None:
     )
     assert "grading='cosine'" in str(inspect.signature(bm.HalfPlaneGround.under))
     assert "of ``count`` elements" in bm.HalfPlaneGround.under.__doc__
+
+
+def test_what_changes_later_was_copied() -> None:
+    pandas = pytest.importorskip("pandas")
+    weights = pandas.Series([0.0, 2.0])
+    nodes = array.array("d", [-4.0, 0.0, 4.0])
+    laws = collections.OrderedDict({0: bm.Bilinear(40e6, 1e5, 0.05)})
+    row = bm.Load.table(3, pandas.Series([0.0, 1.0]), weights)
+    strip = bm.Strip.from_nodes(nodes)
+    building = bm.NonlinearShearBuilding(BUILDING, laws)
+    expected = shaken(building, bm.HalfPlaneGround.under(SOIL, building, 4), RECORD, bm.Bonded())
+    weights[:] = 7.0
+    nodes[2] = 9.0
+    laws[1] = laws.pop(0)
+    assert copied(strip).nodes == strip.nodes
+    copy = copied(building)
+    found = shaken(copy, bm.HalfPlaneGround.under(SOIL, copy, 4), RECORD, bm.Bonded())
+    assert same_bits(found, expected)
+    pushed = [
+        bm.Simulation(
+            0.01, BUILDING, bm.HalfPlaneGround.under(SOIL, BUILDING, 4), bm.Bonded(), loads=[load]
+        ).run(20)["base_shear"]
+        for load in (row, copied(row))
+    ]
+    assert same_bits(*pushed) and pushed[0].any()
+
+
+class LawByName(dict):
+    """A law that is a mapping, too."""
+
+    modes = bm.Coulomb(0.3).modes
+
+    def conditions(self, mode, start):
+        return bm.Coulomb(0.3).conditions(mode, start)
+
+
+def test_parts_of_the_user_stay_what_they_are() -> None:
+    law, numbers = LawByName(), np.float64(3.0)
+    assert _pickling._kept([law, numbers])[0] is law
+    assert type(_pickling._kept(numbers)) is np.float64
+
+
+def test_a_refused_addition_leaves_the_mesh_as_it_was() -> None:
+    wall = bm.Material(30e9, 0.2, 2400.0)
+    mesh = bm.Mesh([[0, 0], [1, 0], [1, 1], [0, 1], [2, 0], [2, 1]])
+    mesh.add_beams([[0, 1]], 30e9, 0.5, 0.01, 2400.0)
+    before = repr(mesh)
+    for refused in (
+        lambda: mesh.add_beams([[1, 2], [2, 9]], 30e9, 0.5, 0.01, 2400.0),
+        lambda: mesh.add_beams([[1, 2], [2, 3]], 30e9, [0.5, -1.0], 0.01, 2400.0),
+        lambda: mesh.add_trusses([[1, 2], [2, 9]], 30e9, 0.5, 2400.0),
+        lambda: mesh.add_springs([[1, 2], [2, 9]], "x", 1e6),
+        lambda: mesh.add_dashpots([[1, 2], [2, 9]], "x", 1e6),
+        lambda: mesh.add_quads([[0, 1, 2, 3], [0, 1, 2, 3]], wall),
+        lambda: mesh.add_mass(9, 1.0),
+    ):
+        with pytest.raises(bm.InputError):
+            refused()
+        assert repr(mesh) == before
+    mesh.add_quads([[0, 1, 2, 3], [1, 4, 5, 2]], wall)
+    assert repr(copied(mesh)) == repr(mesh) == "Mesh(6 nodes, 3 elements)"

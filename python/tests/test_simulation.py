@@ -79,6 +79,19 @@ def test_run_lasts_as_long_as_the_record(rocking) -> None:
         rocking().run(10, duration=1.0)
 
 
+@pytest.mark.parametrize("duration", [-1.0, float("nan"), float("inf")])
+def test_a_duration_is_finite_and_not_negative(rocking, duration: float) -> None:
+    simulation = rocking()
+    for call in (
+        lambda: simulation.run(duration=duration),
+        lambda: simulation.steps(duration=duration),
+        lambda: simulation.steps_for(duration),
+    ):
+        with pytest.raises(bm.InputError, match="duration is"):
+            call()
+    assert simulation.state.step == 0 == simulation.steps_for(0.0)
+
+
 def test_observer_sees_every_step_and_may_stop(rocking) -> None:
     seen = []
     simulation = rocking()
@@ -105,6 +118,32 @@ def test_a_simulation_cannot_be_used_while_it_runs(rocking) -> None:
     with pytest.raises(bm.Error, match="is running"):
         simulation.run(10, observe=lambda state: simulation.step())
     assert simulation.state.step == 1
+
+
+def test_a_simulation_says_that_a_panic_has_left_it_unusable(rocking) -> None:
+    simulation = rocking()
+    with pytest.raises(bm.InputError):
+        bm.Coulomb(-1.0)
+    # The class of Rust's panics: raised by a function that the core calls, it is a panic there.
+    panics = [own for own in BaseException.__subclasses__() if own.__name__ == "PanicException"]
+    for panic in panics:
+
+        def fail(state: bm.State, panic: type[BaseException] = panic) -> None:
+            raise panic("the test's own")
+
+        with pytest.raises(BaseException, match="the test's own"):
+            simulation.run(10, observe=fail)
+        with pytest.raises(bm.Error, match="ended in a panic"):
+            simulation.step()
+        assert repr(simulation) == "Simulation(unusable)"
+        simulation = rocking()
+    assert panics
+
+
+@pytest.mark.parametrize("name", ["time", "base_shear", "overturning_safety"])
+def test_a_probe_does_not_hide_another_time_series(rocking, name: str) -> None:
+    with pytest.raises(bm.InputError, match=f"a probe is called '{name}'"):
+        rocking(probes=[bm.Probe.displacement(name, 0)])
 
 
 def test_checkpoints_pickle_and_go_on_to_the_same_bits(rocking) -> None:
@@ -140,6 +179,7 @@ def test_records_pickle() -> None:
     assert same_bits(copy.displacements, record.displacements)
 
 
+@pytest.mark.skipif(os.name == "nt", reason="os.kill ends the process on Windows")
 def test_ctrl_c_is_heard(rocking) -> None:
     simulation = rocking(expected_steps=1000)
     threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+import scipy.sparse
 from conftest import same_bits
 
 import basemat as bm
@@ -218,3 +221,52 @@ def test_rows_add_and_scale(block: bm.RigidBlock) -> None:
     ) == pytest.approx(-0.09)
     with pytest.raises(bm.InputError, match="a row must be"):
         bm.Row("roof")
+
+
+def test_arrays_of_any_type_are_weights() -> None:
+    for kind in (np.float64, np.float32, np.int64, np.uint8):
+        assert bm.Row(np.array([0, 2], dtype=kind)).terms == [(1, 2.0)]
+        assert bm.Row([(1, 2.0)]).value(np.array([5, 3], dtype=kind)) == 6.0
+    assert bm.Row(np.arange(6.0)[::2]).terms == [(1, 2.0), (2, 4.0)]
+    assert bm.Row(np.array(3)) == bm.Row(3)
+
+
+def test_arrays_that_do_not_fit_are_refused() -> None:
+    with pytest.raises(MemoryError, match="1000000000000000000 weights"):
+        bm.Row(0).weights(10**18)
+    count = 20_001
+    mass = scipy.sparse.diags_array(np.ones(count)).tocsr()
+    base = bm.ContactNode.rigid_base(-1.0, 1.0, [0, 1, 2])
+    model = bm.MatrixModel(mass, mass, base)
+    for matrix in (model.mass, model.stiffness, model.damping):
+        with pytest.raises(bm.InputError, match="has 20001 unknowns"):
+            matrix()
+
+
+SHORT_OF_MEMORY = """
+import resource
+import numpy, scipy.sparse, basemat as bm
+mass = scipy.sparse.diags_array(numpy.ones(15_000)).tocsr()
+model = bm.MatrixModel(mass, mass, bm.ContactNode.rigid_base(-1.0, 1.0, [0, 1, 2]))
+resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+try:
+    model.mass()
+except MemoryError as error:
+    print("refused")
+"""
+
+
+def test_a_matrix_without_memory_is_a_memory_error() -> None:
+    pytest.importorskip("resource")
+    command = [sys.executable, "-c", SHORT_OF_MEMORY]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.stdout == "refused\n", done.stderr
+
+
+@pytest.mark.parametrize("node", [1.7, -1, float("nan"), float("inf")])
+def test_node_numbers_are_whole(node: float) -> None:
+    mesh = bm.Mesh([[0, 0], [1, 0], [1, 1]])
+    with pytest.raises(bm.InputError, match="node is .* but must be a whole number"):
+        mesh.add_springs([[0, node]], "x", 1e6)
+    mesh.add_springs(np.array([[0.0, 1.0]]), "x", 1e6)
+    assert repr(mesh) == "Mesh(3 nodes, 1 elements)"

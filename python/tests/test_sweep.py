@@ -89,11 +89,24 @@ def test_make_may_return_a_run_or_a_mapping() -> None:
     assert table["error"].iloc[0].startswith("TypeError: make returned int")
 
 
-def test_names_that_clash_are_refused() -> None:
-    with pytest.raises(ValueError, match="'a'"):
-        bm.sweep(lambda a: {"a": a}, {"a": [2]})
+def test_a_parameter_called_error_is_refused_before_anything_runs() -> None:
+    made = []
+    with pytest.raises(ValueError, match="'error'"):
+        bm.sweep(lambda **case: made.append(case), [{"a": 1}, {"error": 2}])
+    assert made == []
 
 
+def test_a_result_with_the_name_of_another_column_is_an_error_of_its_row() -> None:
+    results = {2: {"a": 0.0, "b": 0.0}, 3: {"b": 5.0}, 4: {"error": "none"}}
+    table = bm.sweep(lambda a: results[a], {"a": [2, 3, 4]})
+    assert list(table.columns) == ["a", "b", "error"] and list(table["a"]) == [2, 3, 4]
+    assert table["b"].iloc[1] == 5.0 and table["b"].isna().tolist() == [True, False, True]
+    assert "another column, 'a'" in table["error"].iloc[0]
+    assert "another column, 'error'" in table["error"].iloc[2]
+    assert table["error"].isna().tolist() == [False, True, False]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="os.kill ends the process on Windows")
 def test_ctrl_c_ends_all_threads() -> None:
     threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
     begin = time.monotonic()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib.metadata
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -27,3 +29,13 @@ def test_stubs_are_those_of_the_compiled_module() -> None:
 
 def test_the_package_is_typed() -> None:
     check("mypy", "--strict", "-p", "basemat")
+
+
+def test_there_is_one_version() -> None:
+    stated = re.compile(r'^version = "(.+)"$', re.MULTILINE)
+    [own], [crate] = (
+        stated.findall((folder / "Cargo.toml").read_text(encoding="utf-8"))
+        for folder in (ROOT, ROOT.parent)
+    )
+    assert own == crate == importlib.metadata.version("basemat")
+    assert not stated.findall((ROOT / "pyproject.toml").read_text(encoding="utf-8"))

@@ -214,5 +214,54 @@ def test_bad_shapes_are_named(rocking, block) -> None:
 def test_active_law_without_modes_is_refused(rocking) -> None:
     law = Weakening()
     law.modes = ("glide",)
-    with pytest.raises(bm.InputError, match="mode is 'glide'"):
+    with pytest.raises(bm.InputError, match="no contact mode 'glide', only stick"):
         rocking(interface=law)
+
+
+def raises(*_: object) -> float:
+    raise KeyError("its own")
+
+
+START = bm.StepStart(bm.ContactState(pressure=1e5), "stick", 0.01)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: bm.VariableFriction(raises).conditions("slip left", START),
+        lambda: bm.VariableFriction(raises).next_mode(
+            "stick", START, bm.ContactState(pressure=1e5), bm.Tolerance(1e-9, 1.0)
+        ),
+        lambda: bm.travelling_wave(raises, 100.0, 0.0).displacement(0.0, 1.0),
+        lambda: bm.travelling_wave(raises, 100.0, 0.0).velocity(0.0, 1.0),
+    ],
+)
+def test_an_exception_comes_out_of_the_call_that_met_it(rocking, call) -> None:
+    simulation = rocking()
+    with pytest.raises(KeyError, match="its own"):
+        call()
+    simulation.checkpoint()
+    with pytest.raises(bm.InputError, match="friction coefficient is -1"):
+        bm.Coulomb(-1.0)
+
+
+def test_an_exception_of_a_run_is_not_taken_by_a_call_inside_it(rocking) -> None:
+    armed, asked, caught = False, 0, []
+
+    def friction(start: bm.StepStart) -> float:
+        nonlocal asked
+        asked += armed
+        if asked == 1:
+            raise OverflowError("of the run")
+        try:
+            bm.VariableFriction(raises).conditions("slip left", start)
+        except Exception as error:
+            caught.append(error)
+        return 0.4
+
+    simulation = rocking(interface=bm.VariableFriction(friction))
+    armed = True
+    with pytest.raises(OverflowError, match="of the run"):
+        simulation.run(50)
+    assert asked > 1, "no call came after the exception"
+    assert caught and all(isinstance(error, KeyError) for error in caught)

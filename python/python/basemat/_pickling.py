@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, MutableSequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -104,11 +104,22 @@ def _kept(value: Any) -> Any:
         return value.copy()
     if isinstance(value, _core.Mesh):
         return _how(value)
-    if type(value) in (list, tuple):
-        return type(value)(_kept(own) for own in value)
-    if type(value) is dict:
+    if isinstance(value, (type, np.generic)) or _is_part(value):
+        return value
+    if hasattr(value, "__array__"):
+        return np.array(value)
+    if isinstance(value, tuple):
+        return tuple(_kept(own) for own in value)
+    if isinstance(value, MutableSequence):
+        return [_kept(own) for own in value]
+    if isinstance(value, Mapping):
         return {name: _kept(own) for name, own in value.items()}
     return value
+
+
+def _is_part(value: Any) -> bool:
+    """Whether this is a function, a structure or a law of the user's, whatever else it may be."""
+    return callable(value) or hasattr(value, "contact_nodes") or hasattr(value, "conditions")
 
 
 def _made(owner: Any, name: str | None, arguments: Any, keywords: Any) -> Made:

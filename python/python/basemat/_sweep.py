@@ -101,9 +101,11 @@ def sweep(
 
     Args:
         make: ``make(**case)`` returns a :class:`Simulation` (which is then run), a :class:`Run`, or
-            a mapping of results. What it raises goes into the row's ``error``; others go on.
+            a mapping of results. What it raises goes into the row's ``error``, as does a result
+            with the name of a parameter; others go on.
         grid: names and values, ``{"friction": [0.2, 0.3], "peak": [1.0, 2.0]}``, of which all
-            combinations are made, the last name fastest; or a list of cases, each a mapping.
+            combinations are made, the last name fastest; or a list of cases, each a mapping. No
+            parameter is called "error".
         steps, duration: how long to run a simulation (s); the record's length unless given.
         results: columns of a row, from its run; :meth:`Run.summary` unless given.
         jobs: threads (the GIL is released while steps are made); one unless given, all processors
@@ -121,6 +123,9 @@ def sweep(
 
     frames = pandas()
     cases = cases_of(grid)
+    parameters = list(dict.fromkeys(name for case in cases for name in case))
+    if "error" in parameters:
+        raise ValueError("a parameter is called 'error', as the column of what a case raises")
     tell = _teller(progress, len(cases))
     arguments = [(make, case, steps, duration, results) for case in cases]
     if _dask.is_client(executor):
@@ -135,7 +140,8 @@ def sweep(
             tell(len(outcomes))
     else:
         outcomes = _in_threads(arguments, jobs or os.cpu_count() or 1, tell)
-    return frames.DataFrame(_table(cases, outcomes))
+    taken = {*parameters, "error"}
+    return frames.DataFrame(_table(cases, parameters, [_distinct(own, taken) for own in outcomes]))
 
 
 def _teller(progress: bool | Callable[[int, int], Any], count: int) -> Callable[[int], Any]:
@@ -175,15 +181,20 @@ def _in_threads(arguments: list[Any], jobs: int, tell: Callable[[int], Any]) -> 
             raise
 
 
-def _table(cases: Sequence[Mapping[str, Any]], outcomes: Sequence[Outcome]) -> dict[str, list[Any]]:
+def _distinct(outcome: Outcome, taken: set[str]) -> Outcome:
+    """The outcome, or an error if one of its results has the name of another column."""
+    clash = next((name for name in outcome[0] if name in taken), None)
+    if clash is None:
+        return outcome
+    return {}, described(ValueError(f"a result has the name of another column, {clash!r}"))
+
+
+def _table(
+    cases: Sequence[Mapping[str, Any]], parameters: Sequence[str], outcomes: Sequence[Outcome]
+) -> dict[str, list[Any]]:
     """Columns: parameters, results, error; what a row lacks is None."""
-    parameters = list(dict.fromkeys(name for case in cases for name in case))
-    found = list(dict.fromkeys(name for results, _ in outcomes for name in results))
-    clash = sorted(set(found) & {*parameters, "error"})
-    if clash:
-        raise ValueError(f"results and parameters share the name {clash[0]!r}")
     table: dict[str, list[Any]] = {name: [case.get(name) for case in cases] for name in parameters}
-    for name in found:
+    for name in dict.fromkeys(name for results, _ in outcomes for name in results):
         table[name] = [results.get(name) for results, _ in outcomes]
     table["error"] = [error for _, error in outcomes]
     return table

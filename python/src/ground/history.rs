@@ -5,7 +5,7 @@ use basemat::history::History;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::error::refuse;
+use crate::error::OrRaise;
 
 /// Kernels that grounds of equal soil and elements share: evaluated once for all simulations that
 /// are built with the same object.
@@ -31,19 +31,6 @@ impl PySharedKernels {
     }
 }
 
-/// Kind of a history by its name.
-pub(super) fn kind(name: &str) -> PyResult<History> {
-    match name {
-        "auto" => Ok(History::Auto),
-        "direct" => Ok(History::Direct),
-        "relaxed fft" => Ok(History::RelaxedFft),
-        "exponentials" => Ok(History::Exponentials),
-        _ => Err(refuse(format!(
-            "history is '{name}', but must be 'auto', 'direct', 'relaxed fft' or 'exponentials'"
-        ))),
-    }
-}
-
 /// History of a half-plane.
 #[derive(Clone)]
 pub(super) struct Options {
@@ -61,7 +48,7 @@ impl Options {
         kernels: Option<&Bound<'_, PySharedKernels>>,
     ) -> PyResult<Self> {
         let kernels = kernels.map(|kernels| kernels.get().0.clone());
-        Ok(Self { kind: self::kind(kind)?, tolerance, memory, kernels })
+        Ok(Self { kind: kind.parse().or_raise()?, tolerance, memory, kernels })
     }
 
     pub(super) fn of(&self, ground: HalfPlaneGround) -> basemat::Result<HalfPlaneGround> {

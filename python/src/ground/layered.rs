@@ -8,7 +8,7 @@ use basemat::history::History;
 use pyo3::prelude::*;
 
 use super::PyGround;
-use super::history::{PySharedKernels, kind};
+use super::history::PySharedKernels;
 use super::impedance::{PyImpedances, contact};
 use super::strip::{PyStrip, grading, strips};
 use crate::array::Numbers;
@@ -46,7 +46,7 @@ impl Options {
     ) -> PyResult<Self> {
         let stages = stages.map(Stages::from_count).transpose().or_raise()?;
         let kernels = kernels.map(|kernels| kernels.get().0.clone());
-        Ok(Self { stages, tolerance, file, kind: self::kind(kind)?, kernels })
+        Ok(Self { stages, tolerance, file, kind: kind.parse().or_raise()?, kernels })
     }
 
     fn of(&self, ground: LayeredGround) -> basemat::Result<LayeredGround> {

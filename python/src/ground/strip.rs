@@ -4,7 +4,7 @@ use basemat::bem::{Grading, Strip};
 use pyo3::prelude::*;
 
 use crate::array::Numbers;
-use crate::error::{OrRaise, refuse};
+use crate::error::OrRaise;
 
 /// A strip of contact elements from ``left`` to ``right`` (m): ``count`` elements with the
 /// ``grading`` "cosine" (short at the edges, where tractions are singular) or "uniform".
@@ -13,11 +13,7 @@ use crate::error::{OrRaise, refuse};
 pub(crate) struct PyStrip(pub(crate) Strip);
 
 pub(super) fn grading(name: &str) -> PyResult<Grading> {
-    match name {
-        "cosine" => Ok(Grading::Cosine),
-        "uniform" => Ok(Grading::Uniform),
-        _ => Err(refuse(format!("grading is '{name}', but must be 'cosine' or 'uniform'"))),
-    }
+    name.parse().or_raise()
 }
 
 #[pymethods]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use basemat::interface::InterfaceLaw;
 use pyo3::prelude::*;
 
-use crate::error::{OrRaise, refuse};
+use crate::error::{OrRaise, heard, refuse};
 use crate::names::{mode, mode_name};
 use crate::recipe::Recipe;
 use crate::user::{PyCondition, PyContactState, PyStepStart, PyTolerance, UserLaw};
@@ -28,14 +28,16 @@ impl PyInterfaceLaw {
     /// Names of the modes that this law uses.
     #[getter]
     fn modes(&self) -> PyResult<Vec<&'static str>> {
-        Ok((self.make)().or_raise()?.modes().iter().map(|mode| mode_name(*mode)).collect())
+        (self.make)().or_raise()?.modes().iter().map(|mode| mode_name(*mode)).collect()
     }
 
     /// The two conditions that ``mode`` imposes on the end of a step.
     fn conditions(&self, mode: &str, start: &PyStepStart) -> PyResult<(PyCondition, PyCondition)> {
-        let law = (self.make)().or_raise()?;
-        let [first, second] = law.conditions(self::mode(mode)?, &start.core());
-        Ok((PyCondition(first), PyCondition(second)))
+        heard(|| {
+            let law = (self.make)().or_raise()?;
+            let [first, second] = law.conditions(self::mode(mode)?, &start.core());
+            Ok((PyCondition(first), PyCondition(second)))
+        })
     }
 
     /// The mode to try next after a trial; ``mode`` itself if the trial is admissible.
@@ -46,9 +48,11 @@ impl PyInterfaceLaw {
         trial: &PyContactState,
         tolerance: &PyTolerance,
     ) -> PyResult<&'static str> {
-        let law = (self.make)().or_raise()?;
-        let mode = self::mode(mode)?;
-        Ok(mode_name(law.next_mode(mode, &start.core(), &trial.core(), tolerance.core())))
+        heard(|| {
+            let law = (self.make)().or_raise()?;
+            let mode = self::mode(mode)?;
+            mode_name(law.next_mode(mode, &start.core(), &trial.core(), tolerance.core()))
+        })
     }
 }
 

@@ -1,12 +1,10 @@
 //! The core's laws.
 
-use basemat::interface::{
-    Activation, Adhesive, Bonded, Coulomb, FrictionLimit, SlipSense, ThinLayer, Yielding,
-};
+use basemat::interface::{Activation, Adhesive, Bonded, Coulomb, ThinLayer, Yielding};
 use pyo3::prelude::*;
 
 use super::PyInterfaceLaw;
-use crate::error::{OrRaise, refuse};
+use crate::error::OrRaise;
 use crate::soil::PySoil;
 
 /// Base and ground never part.
@@ -118,21 +116,10 @@ fn layer(
         law = law.with_slip_stiffness_share(share).or_raise()?;
     }
     if let Some(limit) = friction_limit {
-        law = law.with_friction_limit(match limit {
-            "total" => FrictionLimit::Total,
-            "lagged" => FrictionLimit::Lagged,
-            "static" => FrictionLimit::Static,
-            "dynamic" => FrictionLimit::Dynamic,
-            _ => return Err(refuse(format!("friction_limit is '{limit}'"))),
-        });
+        law = law.with_friction_limit(limit.parse().or_raise()?);
     }
     if let Some(sense) = slip_sense {
-        law = law.with_slip_sense(match sense {
-            "inelastic" => SlipSense::Inelastic,
-            "velocity" => SlipSense::Velocity,
-            "last velocity" => SlipSense::LastVelocity,
-            _ => return Err(refuse(format!("slip_sense is '{sense}'"))),
-        });
+        law = law.with_slip_sense(sense.parse().or_raise()?);
     }
     Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(PyThinLayer(law)))
 }

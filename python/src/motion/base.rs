@@ -5,7 +5,7 @@ use std::sync::Arc;
 use basemat::motion::{FreeField, FreeFieldFn};
 use pyo3::prelude::*;
 
-use crate::error::{keep, refuse};
+use crate::error::{OrRaise, heard, keep, refuse};
 use crate::recipe::Recipe;
 
 /// Motion of the ground's surface without the structure.
@@ -18,12 +18,12 @@ pub(crate) struct PyFreeField {
 impl PyFreeField {
     /// Displacement (to the right, up), m, at ``x`` (m) and ``time`` (s).
     fn displacement(&self, x: f64, time: f64) -> PyResult<[f64; 2]> {
-        Ok((self.make)().map_err(crate::error::raise)?.displacement(x, time))
+        heard(|| Ok((self.make)().or_raise()?.displacement(x, time)))
     }
 
     /// Velocity (to the right, up), m/s, at ``x`` (m) and ``time`` (s).
     fn velocity(&self, x: f64, time: f64) -> PyResult<[f64; 2]> {
-        Ok((self.make)().map_err(crate::error::raise)?.velocity(x, time))
+        heard(|| Ok((self.make)().or_raise()?.velocity(x, time)))
     }
 }
 

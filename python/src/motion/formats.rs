@@ -12,37 +12,13 @@ use crate::error::{OrRaise, refuse};
 
 /// A unit of acceleration by its symbol.
 pub(super) fn unit(symbol: &str) -> PyResult<AccelerationUnit> {
-    Ok(match symbol {
-        "m/s²" | "m/s2" | "m/s^2" => AccelerationUnit::MetrePerSecondSquared,
-        "mm/s²" | "mm/s2" | "mm/s^2" => AccelerationUnit::MillimetrePerSecondSquared,
-        "g" => AccelerationUnit::StandardGravity,
-        "gal" | "Gal" | "cm/s²" | "cm/s2" | "cm/s^2" => AccelerationUnit::Gal,
-        "ft/s²" | "ft/s2" | "ft/s^2" => AccelerationUnit::FootPerSecondSquared,
-        "in/s²" | "in/s2" | "in/s^2" => AccelerationUnit::InchPerSecondSquared,
-        _ => {
-            return Err(refuse(format!(
-                "unit is '{symbol}', but must be 'm/s²', 'mm/s²', 'g', 'gal', 'ft/s²' or 'in/s²'"
-            )));
-        }
-    })
+    symbol.parse().or_raise()
 }
 
-/// A treatment of the baseline by its name.
+/// A treatment of the baseline by its name, which may hold a degree of its own.
 pub(super) fn baseline(name: &str, degree: usize) -> PyResult<Baseline> {
-    Ok(match name {
-        "none" => Baseline::None,
-        "remove mean" => Baseline::RemoveMean,
-        "newmark parabola" => Baseline::NewmarkParabola,
-        "velocity polynomial" => Baseline::VelocityPolynomial { degree },
-        "displacement polynomial" => Baseline::DisplacementPolynomial { degree },
-        "rest to rest" => Baseline::RestToRest { degree },
-        _ => {
-            return Err(refuse(format!(
-                "baseline is '{name}', but must be 'none', 'remove mean', 'newmark parabola', \
-                 'velocity polynomial', 'displacement polynomial' or 'rest to rest'"
-            )));
-        }
-    })
+    let alone = name.parse::<Baseline>();
+    alone.or_else(|error| format!("{name}({degree})").parse().map_err(|_| error)).or_raise()
 }
 
 /// Reads a file; the arguments are those of `Record.read`.

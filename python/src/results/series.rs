@@ -21,7 +21,6 @@ pub(super) fn named<'py>(
     if name == "time" {
         return Ok(PyArray1::from_slice(py, histories.times()));
     }
-    // A probe of the same name comes first: its name was the user's choice.
     if let Ok(values) = histories.probe(name) {
         return Ok(PyArray1::from_slice(py, values));
     }
@@ -83,7 +82,8 @@ pub(super) fn contact<'py>(py: Python<'py>, histories: &Histories) -> PyResult<B
     columns.set_item("pressure", value(|state| state.pressure)?)?;
     columns.set_item("shear", value(|state| state.shear)?)?;
     let modes = frames.iter().flat_map(|frame| frame.modes).map(|mode| mode_number(*mode));
-    columns.set_item("mode", PyArray1::from_iter(py, modes).reshape(shape)?)?;
+    let modes = modes.collect::<PyResult<Vec<_>>>()?;
+    columns.set_item("mode", PyArray1::from_vec(py, modes).reshape(shape)?)?;
     Ok(columns)
 }
 

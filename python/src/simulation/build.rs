@@ -1,38 +1,43 @@
 //! From Python's arguments to a simulation of the core.
 
 use basemat::Simulation;
-use basemat::coupled::{ContactSearch, Coordinates, Placement, SimulationBuilder};
+use basemat::coupled::{ContactSearch, Coordinates, Placement, Probe, SimulationBuilder};
 use basemat::results::Serviceability;
 use pyo3::prelude::*;
 
 use crate::error::{OrRaise, refuse};
+use crate::names::SERIES;
+use crate::probe::PyProbe;
 
 /// A placement by its name.
 pub(super) fn placement(name: &str) -> PyResult<Placement> {
-    match name {
-        "frictionless" => Ok(Placement::Frictionless),
-        "with interface law" => Ok(Placement::WithInterfaceLaw),
-        "unloaded" => Ok(Placement::Unloaded),
-        _ => Err(refuse(format!(
-            "placement is '{name}', but must be 'frictionless', 'with interface law' or 'unloaded'"
-        ))),
-    }
+    name.parse().or_raise()
 }
 
 /// Coordinates by their name, or the tolerance of reduced ones.
 pub(super) fn coordinates(given: &Bound<'_, PyAny>) -> PyResult<Coordinates> {
-    if let Ok(tolerance) = given.extract::<f64>() {
-        return Ok(Coordinates::Reduced { tolerance });
+    match given.extract::<f64>() {
+        Ok(tolerance) => Ok(Coordinates::Reduced { tolerance }),
+        Err(_) => given.extract::<String>()?.parse().or_raise(),
     }
-    match given.extract::<String>()?.as_str() {
-        "auto" => Ok(Coordinates::Auto),
-        "unknowns" => Ok(Coordinates::Unknowns),
-        "modes" => Ok(Coordinates::Modes),
-        name => Err(refuse(format!(
-            "coordinates are '{name}', but must be 'auto', 'unknowns', 'modes' or the tolerance of \
-             reduced ones"
-        ))),
-    }
+}
+
+/// The probes, none of which has the name of another time series of a run.
+pub(super) fn probes<'a, 'py: 'a>(
+    given: impl Iterator<Item = &'a Bound<'py, PyProbe>>,
+) -> PyResult<Vec<Probe>> {
+    given
+        .map(|probe| {
+            let probe = &probe.get().0;
+            let name = probe.name.as_str();
+            if name == "time" || SERIES.iter().any(|(_, key)| *key == name) {
+                return Err(refuse(format!(
+                    "a probe is called '{name}', but that is another time series of a run"
+                )));
+            }
+            Ok(probe.clone())
+        })
+        .collect()
 }
 
 /// Limits of service, each if it is given.

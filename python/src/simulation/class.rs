@@ -1,19 +1,17 @@
 //! The simulation.
 
-use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard};
 
 use basemat::Simulation;
-use basemat::coupled::{Run, State};
-use basemat::results::{Histories, Recorder};
+use basemat::results::Recorder;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use super::build;
-use super::ticker::Ticker;
+use super::watched::{Watched, progress_function};
 use super::{PyCheckpoint, PyLoad, PyState, PyTimeScheme};
 use crate::array::Numbers;
-use crate::error::{OrRaise, busy, has_raised, raise, refuse, take_raised};
+use crate::error::{OrRaise, locked, refuse, take_raised};
 use crate::ground::PyGround;
 use crate::motion::PyRecord;
 use crate::probe::PyProbe;
@@ -38,7 +36,7 @@ pub(crate) struct PySteps {
 impl PySimulation {
     /// The simulation, unless a run holds it.
     fn lock(&self) -> PyResult<MutexGuard<'_, Simulation>> {
-        self.simulation.try_lock().map_err(|_| busy())
+        self.simulation.try_lock().map_err(locked)
     }
 
     /// Steps asked for directly, by a duration, or by the length of the record.
@@ -46,7 +44,7 @@ impl PySimulation {
         match (steps, duration.or(self.duration)) {
             (Some(_), _) if duration.is_some() => Err(refuse("give steps or a duration, not both")),
             (Some(steps), _) => Ok(steps),
-            (None, Some(duration)) => Ok(self.lock()?.steps_for(duration)),
+            (None, Some(duration)) => self.steps_for(duration),
             (None, None) => Err(refuse("give steps or a duration: no record says how long to run")),
         }
     }
@@ -111,7 +109,7 @@ impl PySimulation {
                 allowable_uplifted_fraction,
                 allowable_rotation,
             )?)
-            .probes(probes.iter().flatten().map(|probe| probe.get().0.clone()));
+            .probes(build::probes(probes.iter().flatten())?);
         for load in loads.iter().flatten() {
             builder = builder.load((load.get().make)().or_raise()?);
         }
@@ -198,14 +196,7 @@ impl PySimulation {
             if let Some(histories) = &mut histories {
                 histories.reserve(steps);
             }
-            let mut watched = Watched {
-                ticker: Ticker::new(progress, steps),
-                observe,
-                observe_every,
-                histories,
-                done: 0,
-                stopped: None,
-            };
+            let mut watched = Watched::new(progress, steps, observe, observe_every, histories);
             let result = simulation.run(steps, |state| watched.see(state));
             watched.end(result)
         })
@@ -278,11 +269,17 @@ impl PySimulation {
 
     /// Number of steps that last ``duration`` (s), rounded up.
     fn steps_for(&self, duration: f64) -> PyResult<usize> {
+        if !duration.is_finite() || duration < 0.0 {
+            return Err(refuse(format!(
+                "duration is {duration} s, but must be finite and 0 or more"
+            )));
+        }
         Ok(self.lock()?.steps_for(duration))
     }
 
     /// All that the steps so far have left behind, for :meth:`resume`.
     fn checkpoint(&self) -> PyResult<PyCheckpoint> {
+        take_raised();
         settled(self.lock()?.checkpoint()).map(PyCheckpoint)
     }
 
@@ -293,8 +290,9 @@ impl PySimulation {
     }
 
     fn __repr__(&self) -> String {
+        let reason = if self.simulation.is_poisoned() { "unusable" } else { "running" };
         self.lock().map_or_else(
-            |_| "Simulation(running)".to_owned(),
+            |_| format!("Simulation({reason})"),
             |simulation| {
                 format!(
                     "Simulation(step {}, {} s)",
@@ -303,73 +301,6 @@ impl PySimulation {
                 )
             },
         )
-    }
-}
-
-/// The function that is told of the progress: the package's own for True, none for False.
-fn progress_function(given: Option<Bound<'_, PyAny>>) -> PyResult<Option<Py<PyAny>>> {
-    match given {
-        Some(function) if function.is_callable() => Ok(Some(function.unbind())),
-        Some(flag) if flag.is_truthy()? => {
-            let line = flag.py().import("basemat._progress")?.call_method0("Line")?;
-            Ok(Some(line.unbind()))
-        }
-        _ => Ok(None),
-    }
-}
-
-/// A run and those who watch it.
-struct Watched {
-    ticker: Ticker,
-    observe: Option<Py<PyAny>>,
-    observe_every: usize,
-    histories: Option<Histories>,
-    done: usize,
-    stopped: Option<PyErr>,
-}
-
-impl Watched {
-    fn see(&mut self, state: &State) -> ControlFlow<()> {
-        self.done += 1;
-        if let Some(histories) = &mut self.histories {
-            histories.record(state);
-        }
-        match self.ask(state) {
-            Ok(flow) => flow,
-            Err(error) => {
-                self.stopped = Some(error);
-                ControlFlow::Break(())
-            }
-        }
-    }
-
-    /// The observer, the ticker, and what user code has raised while the step was committed.
-    fn ask(&mut self, state: &State) -> PyResult<ControlFlow<()>> {
-        if has_raised() {
-            return Ok(ControlFlow::Break(()));
-        }
-        self.ticker.tick(self.done)?;
-        let Some(observe) =
-            self.observe.as_ref().filter(|_| self.done.is_multiple_of(self.observe_every))
-        else {
-            return Ok(ControlFlow::Continue(()));
-        };
-        let ends = Python::attach(|py| {
-            observe.call1(py, (PyState(state.clone()),))?.extract::<Option<bool>>(py)
-        })?;
-        Ok(if ends == Some(true) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
-    }
-
-    /// The run, or what ended it.
-    fn end(mut self, result: basemat::Result<Run>) -> PyResult<PyRun> {
-        let raised = take_raised().or(self.stopped.take());
-        let last = Python::attach(|py| self.ticker.look(py, self.done));
-        if let Some(raised) = raised {
-            return Err(raised);
-        }
-        let run = result.map_err(raise)?;
-        last?;
-        Ok(PyRun::new(run, self.histories))
     }
 }
 

@@ -7,6 +7,7 @@ mod load;
 mod scheme;
 mod state;
 mod ticker;
+mod watched;
 
 pub(crate) use checkpoint::PyCheckpoint;
 pub(crate) use class::{PySimulation, PySteps};

@@ -75,16 +75,17 @@ impl PyState {
 
     /// Mode of each element: array of shape (elements,) of numbers into :data:`basemat.MODES`.
     #[getter]
-    fn modes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
-        PyArray1::from_iter(py, self.0.modes.iter().map(|mode| mode_number(*mode)))
+    fn modes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u8>>> {
+        let modes = self.0.modes.iter().map(|mode| mode_number(*mode));
+        Ok(PyArray1::from_vec(py, modes.collect::<PyResult<_>>()?))
     }
 
     /// Changes of mode in this step: tuples (element, mode before, mode now).
     #[getter]
-    fn transitions(&self) -> Vec<(usize, &'static str, &'static str)> {
+    fn transitions(&self) -> PyResult<Vec<(usize, &'static str, &'static str)>> {
         let changes = self.0.transitions.iter();
         changes
-            .map(|change| (change.element, mode_name(change.from), mode_name(change.to)))
+            .map(|change| Ok((change.element, mode_name(change.from)?, mode_name(change.to)?)))
             .collect()
     }
 

@@ -42,6 +42,9 @@ pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure
     )))
 }
 
+/// Most unknowns of a structure whose matrices are written out: an array takes 3.2 GB.
+const MOST_UNKNOWNS: usize = 20_000;
+
 /// An n × n array of what `fill` adds up.
 fn array<'py>(
     py: Python<'py>,
@@ -49,9 +52,16 @@ fn array<'py>(
     fill: impl FnOnce(&dyn Structure, &mut Triplets) -> basemat::Result<()>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let order = structure.unknowns();
+    if order > MOST_UNKNOWNS {
+        return Err(refuse(format!(
+            "the structure has {order} unknowns, but its matrices are arrays up to {MOST_UNKNOWNS}"
+        )));
+    }
     let mut entries = Triplets::new(order);
     fill(structure, &mut entries).or_raise()?;
-    let array = PyArray2::zeros(py, [order, order], false);
+    // By numpy itself, which raises a MemoryError for what does not fit.
+    let array = py.import("numpy")?.call_method1("zeros", ((order, order),))?;
+    let array = array.cast_into::<PyArray2<f64>>()?;
     {
         let mut view = array.try_readwrite()?;
         let mut view = view.as_array_mut();
@@ -82,7 +92,7 @@ impl PyStructure {
         Ok((self.make)().or_raise()?.contact_nodes().into_iter().map(PyContactNode).collect())
     }
 
-    /// Mass matrix (n × n array, kg/m).
+    /// Mass matrix (n × n array, kg/m); this and the others of up to 20 000 unknowns.
     fn mass<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         array(py, (self.make)().or_raise()?.as_ref(), Structure::mass)
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use basemat::fem::{MassKind, Material};
+use basemat::fem::Material;
 use basemat::io::GmshMesh;
 use basemat::structure::FemModel;
 use pyo3::prelude::*;
@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use super::PyStructure;
 use super::composed::PyRayleighDamping;
 use super::mesh::{PyMaterial, PyMesh, direction, formulation};
-use crate::error::{OrRaise, refuse};
+use crate::error::OrRaise;
 use crate::recipe::Shared;
 use crate::row::{PyRow, PySectionRows};
 
@@ -51,15 +51,7 @@ impl PyFemModel {
             Some(Contact::Lines(lines)) => FemModel::on_foundations(mesh, &lines),
         }
         .or_raise()?;
-        model = model.with_mass(match mass {
-            "consistent" => MassKind::Consistent,
-            "lumped" => MassKind::Lumped,
-            _ => {
-                return Err(refuse(format!(
-                    "mass is '{mass}', but must be 'consistent' or 'lumped'"
-                )));
-            }
-        });
+        model = model.with_mass(mass.parse().or_raise()?);
         if let Some(damping) = rayleigh {
             model = model.with_rayleigh(damping.0);
         }

@@ -1,8 +1,8 @@
 //! Meshes from arrays.
 
 use basemat::fem::{
-    Beam, Dashpot, Direction, Layer, LumpedMass, Material, Mesh, Quad4, Quad8, QuadFormulation,
-    Spring, Truss,
+    Beam, Dashpot, Direction, Element, Layer, LumpedMass, Material, Mesh, Quad4, Quad8,
+    QuadFormulation, Spring, Truss,
 };
 use numpy::{AllowTypeChange, PyArray2, PyArrayLike2};
 use pyo3::prelude::*;
@@ -12,12 +12,7 @@ use crate::error::{OrRaise, refuse};
 
 /// A direction by its name: "x", "y" or "rotation".
 pub(super) fn direction(name: &str) -> PyResult<Direction> {
-    match name {
-        "x" => Ok(Direction::X),
-        "y" => Ok(Direction::Y),
-        "rotation" => Ok(Direction::Rotation),
-        _ => Err(refuse(format!("direction is '{name}', but must be 'x', 'y' or 'rotation'"))),
-    }
+    name.parse().or_raise()
 }
 
 /// Integration of four-node quadrilaterals by its name.
@@ -94,29 +89,63 @@ impl PerElement {
     }
 }
 
-/// Rows of node numbers.
-fn rows<const N: usize>(
-    array: &PyArrayLike2<'_, i64, AllowTypeChange>,
-) -> PyResult<Vec<[usize; N]>> {
-    let node = |value: i64| {
-        usize::try_from(value)
-            .map_err(|_| refuse(format!("node is {value}, but must be 0 or more")))
-    };
-    let mut all = Vec::new();
-    for row in array.as_array().rows() {
-        let mut nodes = [0; N];
-        if row.len() != N {
-            return Err(refuse(format!("elements have {} nodes, but must have {N}", row.len())));
-        }
-        for (own, value) in nodes.iter_mut().zip(row) {
-            *own = node(*value)?;
-        }
-        all.push(nodes);
-    }
-    Ok(all)
+/// Node numbers of elements: anything that numpy takes for an array of shape (elements, nodes each).
+struct Connectivity {
+    /// Nodes of an element.
+    each: usize,
+    rows: Vec<Vec<usize>>,
 }
 
-type Connectivity<'py> = PyArrayLike2<'py, i64, AllowTypeChange>;
+impl<'py> FromPyObject<'_, 'py> for Connectivity {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        // As integers, numpy would cut what is not whole.
+        let array: PyArrayLike2<'py, f64, AllowTypeChange> = object.extract()?;
+        let node = |value: &f64| {
+            if *value < 0.0 || value.fract() != 0.0 {
+                let needed = "must be a whole number of 0 or more";
+                return Err(refuse(format!("node is {value}, but {needed}")));
+            }
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+            Ok(*value as usize)
+        };
+        let array = array.as_array();
+        let rows = array.rows().into_iter().map(|row| row.iter().map(node).collect());
+        Ok(Self { each: array.ncols(), rows: rows.collect::<PyResult<_>>()? })
+    }
+}
+
+impl Connectivity {
+    fn rows<const N: usize>(&self) -> PyResult<Vec<[usize; N]>> {
+        let nodes = |row: &Vec<usize>| {
+            <[usize; N]>::try_from(row.as_slice()).map_err(|_| {
+                refuse(format!("elements have {} nodes, but must have {N}", self.each))
+            })
+        };
+        self.rows.iter().map(nodes).collect()
+    }
+}
+
+impl PyMesh {
+    /// Adds all elements, or none if one is refused.
+    fn add_all<E: Element + 'static>(
+        &mut self,
+        elements: impl Iterator<Item = PyResult<E>>,
+    ) -> PyResult<()> {
+        let elements = elements.collect::<PyResult<Vec<_>>>()?;
+        if elements.len() < 2 {
+            // One alone needs no copy of the mesh to be refused.
+            return elements.into_iter().try_for_each(|own| self.0.add(own).or_raise().map(drop));
+        }
+        let mut mesh = self.0.clone();
+        for element in elements {
+            mesh.add(element).or_raise()?;
+        }
+        self.0 = mesh;
+        Ok(())
+    }
+}
 
 #[pymethods]
 impl PyMesh {
@@ -160,7 +189,7 @@ impl PyMesh {
     #[pyo3(signature = (nodes, young_modulus, area, second_moment, density, *, shear_stiffness=None, rotary_inertia=false, compression=None))]
     fn add_beams(
         &mut self,
-        nodes: Connectivity<'_>,
+        nodes: Connectivity,
         young_modulus: PerElement,
         area: PerElement,
         second_moment: PerElement,
@@ -169,8 +198,8 @@ impl PyMesh {
         rotary_inertia: bool,
         compression: Option<PerElement>,
     ) -> PyResult<()> {
-        let ends = rows::<2>(&nodes)?;
-        for (k, own) in ends.iter().enumerate() {
+        let ends = nodes.rows::<2>()?;
+        self.add_all(ends.iter().enumerate().map(|(k, own)| {
             let at = |values: &PerElement| values.at(k, ends.len());
             let numbers = (at(&young_modulus)?, at(&area)?, at(&second_moment)?, at(&density)?);
             let mut beam =
@@ -181,68 +210,62 @@ impl PyMesh {
             if let Some(force) = &compression {
                 beam = beam.with_compression(at(force)?).or_raise()?;
             }
-            self.0
-                .add(if rotary_inertia { beam.with_rotary_inertia() } else { beam })
-                .or_raise()?;
-        }
-        Ok(())
+            Ok(if rotary_inertia { beam.with_rotary_inertia() } else { beam })
+        }))
     }
 
     /// Adds trusses on ``nodes`` (array of shape (trusses, 2)): Young's modulus (Pa), area (m²) per
     /// metre of thickness, density (kg/m³).
     fn add_trusses(
         &mut self,
-        nodes: Connectivity<'_>,
+        nodes: Connectivity,
         young_modulus: PerElement,
         area: PerElement,
         density: PerElement,
     ) -> PyResult<()> {
-        let ends = rows::<2>(&nodes)?;
-        for (k, own) in ends.iter().enumerate() {
+        let ends = nodes.rows::<2>()?;
+        self.add_all(ends.iter().enumerate().map(|(k, own)| {
             let at = |values: &PerElement| values.at(k, ends.len());
             let truss = Truss::new(*own, at(&young_modulus)?, at(&area)?, at(&density)?);
-            self.0.add(truss.or_raise()?).or_raise()?;
-        }
-        Ok(())
+            truss.or_raise()
+        }))
     }
 
     /// Adds springs between ``nodes`` (array of shape (springs, 2)) in a ``direction`` ("x", "y",
     /// "rotation" or "axial"), of ``stiffness`` (N/m, of rotations N·m).
     fn add_springs(
         &mut self,
-        nodes: Connectivity<'_>,
+        nodes: Connectivity,
         direction: &str,
         stiffness: PerElement,
     ) -> PyResult<()> {
-        let ends = rows::<2>(&nodes)?;
-        for (k, own) in ends.iter().enumerate() {
+        let ends = nodes.rows::<2>()?;
+        self.add_all(ends.iter().enumerate().map(|(k, own)| {
             let value = stiffness.at(k, ends.len())?;
             let spring = match direction {
                 "axial" => Spring::axial(*own, value),
                 _ => Spring::new(*own, self::direction(direction)?, value),
             };
-            self.0.add(spring.or_raise()?).or_raise()?;
-        }
-        Ok(())
+            spring.or_raise()
+        }))
     }
 
     /// Adds dashpots, as :meth:`add_springs`, of a ``coefficient`` (N s/m, of rotations N·m s).
     fn add_dashpots(
         &mut self,
-        nodes: Connectivity<'_>,
+        nodes: Connectivity,
         direction: &str,
         coefficient: PerElement,
     ) -> PyResult<()> {
-        let ends = rows::<2>(&nodes)?;
-        for (k, own) in ends.iter().enumerate() {
+        let ends = nodes.rows::<2>()?;
+        self.add_all(ends.iter().enumerate().map(|(k, own)| {
             let value = coefficient.at(k, ends.len())?;
             let dashpot = match direction {
                 "axial" => Dashpot::axial(*own, value),
                 _ => Dashpot::new(*own, self::direction(direction)?, value),
             };
-            self.0.add(dashpot.or_raise()?).or_raise()?;
-        }
-        Ok(())
+            dashpot.or_raise()
+        }))
     }
 
     /// Adds a mass (kg/m) at a node, with a rotary inertia (kg m²/m) if that is given.
@@ -260,22 +283,18 @@ impl PyMesh {
     #[pyo3(signature = (nodes, material, *, formulation="incompatible modes", hourglass_percent=5))]
     fn add_quads(
         &mut self,
-        nodes: Connectivity<'_>,
+        nodes: Connectivity,
         material: &PyMaterial,
         formulation: &str,
         hourglass_percent: u8,
     ) -> PyResult<()> {
         let formulation = self::formulation(formulation, hourglass_percent)?;
-        if nodes.as_array().ncols() == 8 {
-            for own in rows::<8>(&nodes)? {
-                self.0.add(Quad8::new(own, material.0)).or_raise()?;
-            }
-            return Ok(());
+        if nodes.each == 8 {
+            let all = nodes.rows::<8>()?.into_iter();
+            return self.add_all(all.map(|own| Ok(Quad8::new(own, material.0))));
         }
-        for own in rows::<4>(&nodes)? {
-            self.0.add(Quad4::new(own, material.0, formulation)).or_raise()?;
-        }
-        Ok(())
+        let all = nodes.rows::<4>()?.into_iter();
+        self.add_all(all.map(|own| Ok(Quad4::new(own, material.0, formulation))))
     }
 
     /// Coordinates of the nodes: array of shape (nodes, 2), m.

@@ -210,7 +210,7 @@ impl InterfaceLaw for UserLaw {
     fn conditions(&self, mode: Mode, start: &StepStart<'_>) -> [Condition; 2] {
         self.ask([NOTHING; 2], |_, object| {
             let found =
-                object.call_method1("conditions", (mode_name(mode), PyStepStart::of(start)))?;
+                object.call_method1("conditions", (mode_name(mode)?, PyStepStart::of(start)))?;
             let [first, second]: [Bound<'_, PyCondition>; 2] = found.extract()?;
             Ok([first.get().0, second.get().0])
         })
@@ -226,7 +226,7 @@ impl InterfaceLaw for UserLaw {
         self.ask(mode, |_, object| {
             let Tolerance { length, traction, .. } = tolerance;
             let arguments = (
-                mode_name(mode),
+                mode_name(mode)?,
                 PyStepStart::of(start),
                 PyContactState::of(trial),
                 PyTolerance { length, traction },
@@ -242,7 +242,7 @@ impl InterfaceLaw for UserLaw {
             return if has_raised() { [f64::NAN; 2] } else { [0.0; 2] };
         }
         self.ask([f64::NAN; 2], |_, object| {
-            object.call_method1("compliance", (mode_name(mode), PyStepStart::of(start)))?.extract()
+            object.call_method1("compliance", (mode_name(mode)?, PyStepStart::of(start)))?.extract()
         })
     }
 
@@ -262,7 +262,7 @@ impl InterfaceLaw for UserLaw {
         if self.has_commit {
             self.remember(memory, |object| {
                 let end = PyContactState::of(end);
-                object.call_method1("commit", (PyStepStart::of(start), end, mode_name(mode)))
+                object.call_method1("commit", (PyStepStart::of(start), end, mode_name(mode)?))
             });
         }
     }

@@ -81,7 +81,7 @@ impl PyStepStart {
 
     /// Mode of the step before, as in :data:`basemat.MODES`.
     #[getter]
-    fn mode(&self) -> &'static str {
+    fn mode(&self) -> PyResult<&'static str> {
         mode_name(self.mode)
     }
 

@@ -1,0 +1,90 @@
+//! A run and those who watch it.
+
+use std::ops::ControlFlow;
+
+use basemat::coupled::{Run, State};
+use basemat::results::Histories;
+use pyo3::prelude::*;
+
+use super::PyState;
+use super::ticker::Ticker;
+use crate::error::{has_raised, raise, take_raised};
+use crate::results::PyRun;
+
+/// The function that is told of the progress: the package's own for True, none for False.
+pub(super) fn progress_function(given: Option<Bound<'_, PyAny>>) -> PyResult<Option<Py<PyAny>>> {
+    match given {
+        Some(function) if function.is_callable() => Ok(Some(function.unbind())),
+        Some(flag) if flag.is_truthy()? => {
+            let line = flag.py().import("basemat._progress")?.call_method0("Line")?;
+            Ok(Some(line.unbind()))
+        }
+        _ => Ok(None),
+    }
+}
+
+/// A run and those who watch it.
+pub(super) struct Watched {
+    ticker: Ticker,
+    observe: Option<Py<PyAny>>,
+    observe_every: usize,
+    histories: Option<Histories>,
+    done: usize,
+    stopped: Option<PyErr>,
+}
+
+impl Watched {
+    pub(super) fn new(
+        progress: Option<Py<PyAny>>,
+        steps: usize,
+        observe: Option<Py<PyAny>>,
+        observe_every: usize,
+        histories: Option<Histories>,
+    ) -> Self {
+        let ticker = Ticker::new(progress, steps);
+        Self { ticker, observe, observe_every, histories, done: 0, stopped: None }
+    }
+
+    pub(super) fn see(&mut self, state: &State) -> ControlFlow<()> {
+        self.done += 1;
+        if let Some(histories) = &mut self.histories {
+            histories.record(state);
+        }
+        match self.ask(state) {
+            Ok(flow) => flow,
+            Err(error) => {
+                self.stopped = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    }
+
+    /// The observer, the ticker, and what user code has raised while the step was committed.
+    fn ask(&mut self, state: &State) -> PyResult<ControlFlow<()>> {
+        if has_raised() {
+            return Ok(ControlFlow::Break(()));
+        }
+        self.ticker.tick(self.done)?;
+        let Some(observe) =
+            self.observe.as_ref().filter(|_| self.done.is_multiple_of(self.observe_every))
+        else {
+            return Ok(ControlFlow::Continue(()));
+        };
+        let ends = Python::attach(|py| {
+            observe.call1(py, (PyState(state.clone()),))?.extract::<Option<bool>>(py)
+        })?;
+        Ok(if ends == Some(true) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+    }
+
+    /// The run, or what ended it.
+    pub(super) fn end(mut self, result: basemat::Result<Run>) -> PyResult<PyRun> {
+        let raised = take_raised().or(self.stopped.take());
+        let last = Python::attach(|py| self.ticker.look(py, self.done));
+        if let Some(raised) = raised {
+            return Err(raised);
+        }
+        let run = result.map_err(raise)?;
+        last?;
+        Ok(PyRun::new(run, self.histories))
+    }
+}
