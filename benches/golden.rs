@@ -224,7 +224,7 @@ fn rows(name: &str, out: &mut String) -> Result<()> {
     Ok(())
 }
 
-fn main() -> Result<()> {
+fn main() {
     let path = std::env::args().skip(1).find(|argument| argument != "--bench");
     let mut out = String::new();
     for (name, _) in SCENES {
@@ -237,5 +237,4 @@ fn main() -> Result<()> {
         Some(path) => std::fs::write(&path, out).expect("a file that can be written"),
         None => print!("{out}"),
     }
-    Ok(())
 }
