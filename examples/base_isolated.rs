@@ -86,8 +86,8 @@ fn main() -> Result<()> {
             travel?,
             storey?,
             run.probe("roof")?.magnitude() / STANDARD_GRAVITY,
-            run.base_shear.magnitude() / total,
-            100.0 * run.uplifted_fraction.value,
+            run.whole.base_shear.magnitude() / total,
+            100.0 * run.whole.uplifted_fraction.largest().value,
             1e-3 * run.ledger.input,
             1e-3 * run.ledger.hysteresis,
         );

@@ -32,7 +32,7 @@ fn main() -> Result<()> {
         let sunk = |element| 1e3 * state.law_memory(element).first().copied().unwrap_or(0.0);
         println!(
             "{factor:8.1}{:17.3}{:22.2}{:17.1}{:9.1}{:9.0e}",
-            run.base_shear.magnitude() / run.static_normal_force,
+            run.whole.base_shear.magnitude() / run.whole.static_normal_force,
             1e3 * state.base_rotation,
             sunk(0).max(sunk(11)),
             sunk(6),

@@ -55,7 +55,7 @@ fn slide(friction: f64, motion: Record) -> Result<f64> {
         .motion(motion)
         .build()?;
     let run = simulation.run(1500, |_| {})?;
-    Ok(run.mean_slip.magnitude())
+    Ok(run.whole.mean_slip.magnitude())
 }
 
 fn main() -> Result<()> {

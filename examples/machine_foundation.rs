@@ -110,8 +110,8 @@ fn main() -> Result<()> {
         println!(
             "{name:<14}{:7.3}{:10.0}{:11.3}{:9.0e}",
             1e3 * run.probes[0].extremes.magnitude(),
-            1e2 * run.uplifted_fraction.value,
-            1e3 * run.largest_slip.magnitude(),
+            1e2 * run.whole.uplifted_fraction.largest().value,
+            1e3 * run.whole.largest_slip.magnitude(),
             run.ledger_residual
         );
     }

@@ -87,7 +87,7 @@ fn main() -> Result<()> {
         [("free field", &ground[..]), ("roof, bonded", &held?), ("roof, uplift and slip", &loose?)];
     save("spectra", plot::spectra("Floor response spectra, 5 % damping", &spectra)?)?;
 
-    let rotation = free_run.base_rotation;
+    let rotation = free_run.whole.base_rotation;
     let times = [rotation.lowest.time, rotation.highest.time];
     save("shapes", plot::deformed_shapes("Largest rotations", &shape, &free, &times, 50.0)?)?;
     // Browsers play it.

@@ -108,7 +108,7 @@ impl Portal {
             // The axial pair of the footings and their own moments balance the inertia forces.
             let [left, right] = &state.foundations[..] else { unreachable!("two foundations") };
             let pair = 0.5 * SPAN * (left.normal_force - right.normal_force);
-            let moment = pair + left.moment + right.moment;
+            let moment = pair + left.base_moment + right.base_moment;
             largest = largest.max(moment.abs());
             error = error.max((moment - state.probes[1]).abs());
         })?;
@@ -160,7 +160,7 @@ fn main() -> Result<()> {
                 1e3 * run.probe("drift")?.magnitude(),
                 1e-3 * footing.base_shear.magnitude(),
                 1e-3 * footing.normal_force.highest.value,
-                100.0 * footing.uplifted_fraction.value,
+                100.0 * footing.uplifted_fraction.largest().value,
                 tenth(1e3 * footing.mean_slip.largest().value),
                 tenth(1e3 * footing.residual_slip)
             );

@@ -64,12 +64,12 @@ fn main() -> Result<()> {
         print!("{strength:<8.2}");
         for speed in [400.0, 120.0] {
             let run = rock(speed, pulse(strength * onset, 0.8)?, tipping)?;
-            let rotation = run.base_rotation.magnitude();
+            let rotation = run.whole.base_rotation.magnitude();
             let outcome = if rotation > tipping {
                 "falls"
-            } else if run.uplifted_fraction.value >= 0.5 {
+            } else if run.whole.uplifted_fraction.largest().value >= 0.5 {
                 "rocks"
-            } else if run.uplift.count > 0 {
+            } else if run.whole.uplift.count > 0 {
                 "edge opens"
             } else {
                 "stands"
@@ -80,8 +80,8 @@ fn main() -> Result<()> {
             print!(
                 "{:>8.1} mrad{large}{:>7.0} %{:>9}{outcome:>12}",
                 1e3 * rotation,
-                100.0 * run.uplifted_fraction.value,
-                run.uplift.count,
+                100.0 * run.whole.uplifted_fraction.largest().value,
+                run.whole.uplift.count,
             );
         }
         println!();

@@ -37,7 +37,7 @@ fn main() -> Result<()> {
                 upright.get_or_insert(state.time);
             }
         })?;
-        let over = -run.base_rotation.lowest.value / tilt;
+        let over = -run.whole.base_rotation.lowest.value / tilt;
         println!(
             "{speed:8.0}{:19.4}{:28.1}{:9.0e}",
             upright.unwrap_or(f64::NAN),

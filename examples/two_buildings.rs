@@ -57,7 +57,7 @@ fn main() -> Result<()> {
                 "| {name} | {how} | {:.1} | {:.2} | {:.0} | {:.2} |",
                 1e-3 * base.base_shear.magnitude(),
                 1e3 * base.base_rotation.magnitude(),
-                100.0 * base.uplifted_fraction.value,
+                100.0 * base.uplifted_fraction.largest().value,
                 roof.magnitude()
             );
         }

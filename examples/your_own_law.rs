@@ -116,8 +116,8 @@ fn main() -> basemat::Result<()> {
     for (name, run) in cases {
         println!(
             "{name:<28}{:>11.1} mm{:>11.1} mm{:>16.1e}",
-            1e3 * run.largest_slip.value,
-            1e3 * run.residual_slip,
+            1e3 * run.whole.largest_slip.largest().value,
+            1e3 * run.whole.residual_slip,
             run.ledger_residual
         );
     }

@@ -46,7 +46,7 @@
 //!     }
 //! })?;
 //! assert_eq!(run.steps, 300);
-//! assert!(run.base_shear.magnitude() > 0.0);
+//! assert!(run.whole.base_shear.magnitude() > 0.0);
 //! // Every joule is accounted for.
 //! assert!(run.ledger_residual < 1e-9);
 //! println!("{run}");

@@ -54,7 +54,8 @@ fn history(scene: Scene, (grading, elements): (Grading, usize), time_step: f64) 
     assert!(run.ledger_residual < 1e-9, "ledger open by {:.1e}", run.ledger_residual);
     println!(
         "{scene:?} {grading:?} {elements}, step {time_step}: uplift {:.2}, slip {:.2}",
-        run.uplifted_fraction.value, run.largest_slip.value
+        run.whole.uplifted_fraction.largest().value,
+        run.whole.largest_slip.largest().value
     );
     history
 }

@@ -40,7 +40,7 @@ pub(crate) fn print(results: &[Outcome]) {
                 || "–".to_owned(),
                 |last| format!("{} on the row before", against(outcome.peak_shear, last))
             ),
-            1e3 * outcome.run.mean_slip.magnitude(),
+            1e3 * outcome.run.whole.mean_slip.magnitude(),
             1e3 * outcome.peak_roof,
             against(outcome.peak_roof, uplift.peak_roof),
             1e3 * outcome.peak_lift,

@@ -108,7 +108,7 @@ fn sweep(options: &Options, record: &Record, steps: usize) -> Result<Vec<(f64, f
     let mut peaks = Vec::new();
     for (friction, outcome) in frictions.into_iter().zip(runs) {
         let outcome = outcome?;
-        let slip = outcome.run.mean_slip.magnitude();
+        let slip = outcome.run.whole.mean_slip.magnitude();
         writer.write_record([friction, outcome.peak_shear, slip].map(|v| v.to_string()))?;
         peaks.push((friction, outcome.peak_shear));
     }

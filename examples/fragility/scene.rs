@@ -52,10 +52,10 @@ pub(crate) fn shake(
     let run = simulation.run(steps, |_| {})?;
     let drift = run.probes.iter().fold(0.0_f64, |m, probe| m.max(probe.extremes.magnitude()));
     Ok([
-        run.mean_slip.magnitude(),
-        run.residual_slip.abs(),
+        run.whole.mean_slip.magnitude(),
+        run.whole.residual_slip.abs(),
         run.largest_gap().value,
-        run.uplifted_fraction.value,
+        run.whole.uplifted_fraction.largest().value,
         drift / 3.0,
         run.shear_coefficient().unwrap_or(f64::NAN),
         steps as f64,

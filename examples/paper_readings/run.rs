@@ -67,10 +67,10 @@ impl Reading {
         let run = simulation.run((self.duration / time_step).round() as usize, |_| {})?;
         let probe = run.probe("base shear")?.largest().value;
         Ok(Row {
-            shear: [probe, run.base_shear.largest().value]
+            shear: [probe, run.whole.base_shear.largest().value]
                 .map(|force| pounds_per_foot(force.abs())),
-            uplift: run.uplifted_fraction.value,
-            slip: run.largest_slip.value,
+            uplift: run.whole.uplifted_fraction.largest().value,
+            slip: run.whole.largest_slip.largest().value,
             roof: [run.probe("roof x")?.magnitude(), run.probe("roof y")?.highest.value],
             cycles: run.fallbacks.total(),
         })

@@ -81,7 +81,7 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
             let mut simulation = scene(friction, steps)?;
             let begin = Instant::now();
             let (run, _) = run(&mut simulation, steps)?;
-            println!("{} {:e}", begin.elapsed().as_secs_f64(), run.base_shear.magnitude());
+            println!("{} {:e}", begin.elapsed().as_secs_f64(), run.whole.base_shear.magnitude());
         }
         _ => return Err("the first argument is `containment` or `time`".into()),
     }

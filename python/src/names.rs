@@ -1,7 +1,6 @@
 //! Names of the core's choices in Python.
 
 use basemat::interface::Mode;
-use basemat::results::Quantity;
 use pyo3::prelude::*;
 
 use crate::error::{OrRaise, refuse};
@@ -42,18 +41,3 @@ pub(crate) fn mode_number(mode: Mode) -> PyResult<u8> {
 pub(crate) fn mode(name: &str) -> PyResult<Mode> {
     name.parse().or_raise()
 }
-
-/// Scalar time series, with their keys.
-pub(crate) const SERIES: [(Quantity, &str); 11] = [
-    (Quantity::BaseShear, "base_shear"),
-    (Quantity::BaseMoment, "base_moment"),
-    (Quantity::NormalForce, "normal_force"),
-    (Quantity::UpliftedFraction, "uplifted_fraction"),
-    (Quantity::MeanSlip, "mean_slip"),
-    (Quantity::LargestSlip, "largest_slip"),
-    (Quantity::BaseRotation, "base_rotation"),
-    (Quantity::FreeFieldHorizontal, "free_field_horizontal"),
-    (Quantity::FreeFieldVertical, "free_field_vertical"),
-    (Quantity::SlidingSafety, "sliding_safety"),
-    (Quantity::OverturningSafety, "overturning_safety"),
-];

@@ -1,9 +1,11 @@
 //! Moving the state to the end of an accepted step.
 
+use std::sync::Arc;
+
 use super::ledger::Ledger;
 use super::motion::Motion;
 use super::scene::Scene;
-use super::state::{Foundation, Origin, State, Transition};
+use super::state::{Context, Foundation, Origin, State, Transition};
 use super::step::forcing::Forcing;
 use super::step::increment::Increment;
 use crate::contact::SearchMethod;
@@ -43,7 +45,11 @@ impl State {
             step: 0,
             time: 0.0,
             origin: Origin::new(),
-            probe_names: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
+            context: Arc::new(Context {
+                probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
+                elements: scene.elements.clone(),
+                friction: scene.safety_friction.clone(),
+            }),
             motion: Motion::new(model.coordinates, model.influence.clone(), model.modes.clone()),
             contact,
             modes,
@@ -121,14 +127,14 @@ impl State {
             width += own_width;
             let left = scene.arms[first] - 0.5 * scene.base.length(first);
             let right = scene.arms[last] + 0.5 * scene.base.length(last);
-            foundation.shear = shear;
+            foundation.base_shear = shear;
             foundation.normal_force = normal;
-            foundation.moment = moment + normal * 0.5 * (left + right);
+            foundation.base_moment = moment + normal * 0.5 * (left + right);
             foundation.uplifted_fraction = own_open / own_width;
             foundation.mean_slip = own_slip / own_width;
-            foundation.rotation = scene.base.rotation(k, displacement);
-            if foundation.rotation.abs() > state.base_rotation.abs() {
-                state.base_rotation = foundation.rotation;
+            foundation.base_rotation = scene.base.rotation(k, displacement);
+            if foundation.base_rotation.abs() > state.base_rotation.abs() {
+                state.base_rotation = foundation.base_rotation;
             }
         }
         [state.base_shear, state.normal_force, state.base_moment] = total;

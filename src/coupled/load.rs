@@ -37,7 +37,7 @@ use crate::structure::Row;
 /// let run = simulation.run(400, |_| {})?;
 /// // It swings back.
 /// assert!(run.probes[0].extremes.lowest.value < -5e-3);
-/// assert!(run.base_shear.lowest.value < 0.0 && run.ledger_residual < 1e-9);
+/// assert!(run.whole.base_shear.lowest.value < 0.0 && run.ledger_residual < 1e-9);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct Load {

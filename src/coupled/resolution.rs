@@ -158,7 +158,7 @@ impl Resolution {
                 resolution.foundation = k;
                 resolution.elements = own.len();
                 resolution.width = own.iter().map(ContactElement::length).sum();
-                resolution.static_moment = foundation.moment;
+                resolution.static_moment = foundation.base_moment;
             }
         }
         resolution
@@ -171,8 +171,8 @@ impl Resolution {
         self.steps += 1;
         self.normal_force = self.normal_force.max(state.normal_force.abs());
         if let Some(foundation) = state.foundations.get(self.foundation) {
-            self.shear = self.shear.max(foundation.shear.abs());
-            self.moment = self.moment.max((foundation.moment - self.static_moment).abs());
+            self.shear = self.shear.max(foundation.base_shear.abs());
+            self.moment = self.moment.max((foundation.base_moment - self.static_moment).abs());
         }
         if self.in_a_row > 1 {
             self.base_shear.see(self.last_shear, state.base_shear);

@@ -98,11 +98,6 @@ impl Simulation {
         &self.scene.elements
     }
 
-    /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
-    pub(crate) fn safety_friction(&self) -> &[f64] {
-        &self.scene.safety_friction
-    }
-
     /// The structure as it is now, internal variables included. It is [`Any`](std::any::Any): of
     /// its own type it is what was given to the builder (the box, if that was a box).
     ///
@@ -242,11 +237,10 @@ impl Simulation {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn begin_run(&self) -> Run {
-        let Scene { time_step, elements, probes, safety_friction, serviceability, .. } =
-            &self.scene;
+        let Scene { time_step, elements, probes, serviceability, .. } = &self.scene;
         let speed = self.ground.shear_wave_speed();
         let resolution = Resolution::new(*time_step, elements, speed, &self.state);
-        let run = Run::start(probes, elements, safety_friction, &self.state, resolution);
+        let run = Run::start(probes, &self.state, resolution);
         run.with_limits(serviceability, &self.state)
     }
 

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::ledger::Ledger;
 use super::motion::{Motion, Quantity};
 use crate::contact::SearchMethod;
+use crate::contact_element::ContactElement;
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, Mode, StepStarts};
 
@@ -48,9 +49,9 @@ pub struct Foundation {
     /// Its elements, as indices of [`State::contact`].
     pub elements: std::ops::Range<usize>,
     /// Horizontal force on the soil, positive to the right, N/m.
-    pub shear: f64,
+    pub base_shear: f64,
     /// Moment on the soil about the middle of its elements, counter-clockwise, N·m/m.
-    pub moment: f64,
+    pub base_moment: f64,
     /// Total pressure on the soil, positive in compression, N/m.
     pub normal_force: f64,
     /// Length of its open elements over that of all its elements.
@@ -58,21 +59,31 @@ pub struct Foundation {
     /// Slip averaged over its elements, m.
     pub mean_slip: f64,
     /// Rotation of its chord, counter-clockwise, rad.
-    pub rotation: f64,
+    pub base_rotation: f64,
 }
 
 impl Foundation {
     pub(crate) fn new(elements: std::ops::Range<usize>) -> Self {
         Self {
             elements,
-            shear: 0.0,
-            moment: 0.0,
+            base_shear: 0.0,
+            base_moment: 0.0,
             normal_force: 0.0,
             uplifted_fraction: 0.0,
             mean_slip: 0.0,
-            rotation: 0.0,
+            base_rotation: 0.0,
         }
     }
+}
+
+/// What a state needs of its simulation to be read.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Context {
+    /// Names of the probes.
+    pub(crate) probes: Vec<String>,
+    pub(crate) elements: Vec<ContactElement>,
+    /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
+    pub(crate) friction: Vec<f64>,
 }
 
 /// Which simulation a state belongs to; not part of what makes two states equal.
@@ -146,7 +157,7 @@ pub struct State {
     pub(crate) origin: Origin,
     /// Names of the probes, shared by all states of a simulation.
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub(crate) probe_names: Arc<[String]>,
+    pub(crate) context: Arc<Context>,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) motion: Motion,
     /// Start of the next step as the laws see it, per element.
@@ -209,7 +220,7 @@ impl State {
     /// # Errors
     /// [`Error::Name`] if there is none.
     pub fn probe(&self, name: &str) -> Result<f64> {
-        let place = self.probe_names.iter().position(|own| own == name);
+        let place = self.context.probes.iter().position(|own| own == name);
         // The list of values is public: it may have been cut.
         let value = place.and_then(|place| self.probes.get(place));
         value.copied().ok_or_else(|| Error::Name { quantity: "probe", name: name.to_owned() })

@@ -287,7 +287,7 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 ///     .build()?;
 /// let run = simulation.run(1000, |_| {})?;
 /// let slid = simulation.state().law_memory(3)[0];
-/// assert!(slid > 0.02 && slid > run.largest_slip.value.abs());
+/// assert!(slid > 0.02 && slid > run.whole.largest_slip.magnitude());
 /// assert!(run.ledger_residual < 1e-9);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -337,7 +337,7 @@ pub trait InterfaceLaw: Send {
     fn commit(&self, _start: &StepStart, _end: &ContactState, _mode: Mode, _memory: &mut [f64]) {}
 
     /// The friction coefficient, for the factor of safety against sliding
-    /// ([`Run::least_sliding_safety`](crate::coupled::Run::least_sliding_safety)): the base resists by this times the pressure.
+    /// ([`Quantity::SlidingSafety`](crate::results::Quantity::SlidingSafety)): the base resists by this times the pressure.
     /// Infinite for a law that never slides, `None` (the default) for one without such a number.
     fn friction_coefficient(&self) -> Option<f64> {
         None

@@ -33,7 +33,7 @@ type Coefficient = Box<dyn Fn(&StepStart) -> f64 + Send>;
 ///     let largest = 0.3 * state.normal_force;
 ///     assert!(state.base_shear.abs() <= largest * (1.0 + 1e-9));
 /// })?;
-/// assert!(run.largest_slip.value.abs() > 1e-3);
+/// assert!(run.whole.largest_slip.magnitude() > 1e-3);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct VariableFriction {

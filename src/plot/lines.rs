@@ -73,12 +73,8 @@ fn with_limit(title: &str, x: &str, y: &str, curves: &[Curve], limit: Option<&st
 /// # Errors
 /// As for [`curves`].
 pub fn history(title: &str, runs: &[(&str, &Histories)], quantity: Quantity) -> Result<Svg> {
-    let limit = match quantity {
-        Quantity::SlidingSafety => Some("1: sliding"),
-        Quantity::OverturningSafety => Some("1: on its edge"),
-        _ => None,
-    };
-    let (factor, unit) = engineering_unit(quantity);
+    let limit = quantity.limit();
+    let (factor, unit) = quantity.printed();
     let value = |&value: &f64| match limit {
         // Without a value, in flight or without a friction coefficient, nothing is drawn.
         Some(_) if value.is_nan() => f64::NAN,
@@ -131,16 +127,6 @@ pub fn probe_history(title: &str, runs: &[(&str, &Histories)], probe: &str) -> R
 /// Description of an axis.
 fn with_unit(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
-}
-
-/// Factor from SI, and the unit that engineers read.
-fn engineering_unit(quantity: Quantity) -> (f64, &'static str) {
-    match quantity {
-        Quantity::UpliftedFraction => (1e2, "%"),
-        // Inverted.
-        Quantity::SlidingSafety | Quantity::OverturningSafety => (1.0, ""),
-        other => printed(other.unit()),
-    }
 }
 
 /// The same curve by the extremes of its stretches, peaks and gaps kept.

@@ -4,9 +4,10 @@ use std::fmt;
 use std::path::Path;
 
 use super::page::factor;
+use super::quantity::Place;
 use super::table::Table;
 use super::unit::{number, printed};
-use super::{ProbeExtremes, Run, ServiceCheck};
+use super::{ProbeExtremes, Quantity, Run, ServiceCheck};
 use crate::column::{Cell, column, distinct};
 use crate::error::{Result, write_file};
 
@@ -27,30 +28,40 @@ pub struct Comparison {
     cases: Vec<(String, Run)>,
 }
 
-/// Name, unit and heading of a row, the factor from SI to the unit, and its value.
-type Line = (&'static str, &'static str, &'static str, f64, fn(&Run) -> Option<f64>);
+/// Value of a run; none where a run does not have it.
+type Value = dyn Fn(&Run) -> Option<f64>;
 
-const ROWS: [Line; 22] = [
-    ("base shear", "kN/m", "base_shear_n_per_m", 1e-3, |s| Some(s.base_shear.largest().value)),
-    ("  at", "s", "base_shear_time_s", 1.0, |s| Some(s.base_shear.largest().time)),
-    ("  over weight", "", "base_shear_over_weight", 1.0, Run::shear_coefficient),
-    ("base moment", "kN·m/m", "base_moment_n_m_per_m", 1e-3, |s| {
-        Some(s.base_moment.largest().value)
-    }),
-    ("  at", "s", "base_moment_time_s", 1.0, |s| Some(s.base_moment.largest().time)),
+/// A row: name and unit, column of files, factor from SI to the unit, and the value of a run.
+struct Line {
+    name: &'static str,
+    unit: &'static str,
+    column: String,
+    factor: f64,
+    value: Box<Value>,
+}
+
+impl Line {
+    fn cell(&self, run: &Run) -> String {
+        match (self.value)(run) {
+            None => "–".to_owned(),
+            Some(value) if self.column.ends_with("safety") => factor(value),
+            Some(value) if self.column == "slip_events" => format!("{value:.0}"),
+            Some(value) => number(self.factor * value),
+        }
+    }
+}
+
+/// What is derived from several quantities, or is none.
+type Derived = (&'static str, &'static str, &'static str, f64, fn(&Run) -> Option<f64>);
+
+const DERIVED: [Derived; 13] = [
+    ("base shear over weight", "", "base_shear_over_weight", 1.0, Run::shear_coefficient),
+    ("mean slip, residual", "mm", "residual_slip_m", 1e3, |s| Some(s.whole.residual_slip)),
+    ("slip events", "", "slip_events", 1.0, |s| Some(s.slip_events() as f64)),
+    ("uplifted for", "s", "uplift_duration_s", 1.0, |s| Some(s.whole.uplift.duration)),
+    ("largest gap", "mm", "largest_gap_m", 1e3, |s| Some(s.largest_gap().value)),
     ("largest pressure", "kPa", "largest_pressure_pa", 1e-3, |s| {
         s.largest_pressure().map(|(_, peak)| peak.value)
-    }),
-    ("base rotation", "mrad", "base_rotation_rad", 1e3, |s| Some(s.base_rotation.largest().value)),
-    ("uplifted part", "%", "uplifted_fraction", 100.0, |s| Some(s.uplifted_fraction.value)),
-    ("  for", "s", "uplift_duration_s", 1.0, |s| Some(s.uplift.duration)),
-    ("largest gap", "mm", "largest_gap_m", 1e3, |s| Some(s.largest_gap().value)),
-    ("mean slip, peak", "mm", "mean_slip_m", 1e3, |s| Some(s.mean_slip.largest().value)),
-    ("mean slip, residual", "mm", "residual_slip_m", 1e3, |s| Some(s.residual_slip)),
-    ("slip events", "", "slip_events", 1.0, |s| Some(s.slip_events() as f64)),
-    ("safety, sliding", "", "sliding_safety", 1.0, |s| s.least_sliding_safety().map(|p| p.value)),
-    ("safety, overturning", "", "overturning_safety", 1.0, |s| {
-        Some(s.least_overturning_safety().value)
     }),
     ("serviceability, margin", "%", "serviceability_margin", 100.0, |s| {
         s.least_serviceable().map(ServiceCheck::margin)
@@ -66,6 +77,37 @@ const ROWS: [Line; 22] = [
     }),
     ("  damping", "%", "energy_share_damping", 100.0, |s| s.energy().map(|e| e.damping)),
 ];
+
+/// All rows: quantities, with the times of some, then what is derived.
+fn lines() -> Vec<Line> {
+    let mut lines = Vec::new();
+    for quantity in Quantity::shown(Place::Comparison) {
+        let (factor, unit) = quantity.printed();
+        let peak = move |run: &Run| run.whole.peak(quantity);
+        let known = move |run: &Run| Some(peak(run).value).filter(|value| !value.is_nan());
+        let (name, column) = (quantity.short_name(), quantity.column());
+        lines.push(Line { name, unit, column, factor, value: Box::new(known) });
+        if quantity.is_shown(Place::ComparisonTime) {
+            let (column, value) =
+                (format!("{quantity}_time_s"), move |run: &Run| Some(peak(run).time));
+            lines.push(Line {
+                name: "  at",
+                unit: "s",
+                column,
+                factor: 1.0,
+                value: Box::new(value),
+            });
+        }
+    }
+    lines.extend(DERIVED.map(|(name, unit, column, factor, value)| Line {
+        name,
+        unit,
+        column: column.to_owned(),
+        factor,
+        value: Box::new(value),
+    }));
+    lines
+}
 
 impl Comparison {
     /// No cases yet.
@@ -86,22 +128,16 @@ impl Comparison {
     fn table(&self) -> Table {
         let mut heading = vec![String::new(), "unit".to_owned()];
         heading.extend(self.cases.iter().map(|(name, _)| name.clone()));
-        let cell = |row: &Line, run: &Run| match (row.4)(run) {
-            None => "–".to_owned(),
-            Some(value) if row.2.ends_with("safety") => factor(value),
-            Some(value) if row.2 == "slip_events" => format!("{value:.0}"),
-            Some(value) => number(row.3 * value),
-        };
-        let line = |row: &Line| {
-            let mut cells = vec![row.0.to_owned(), row.1.to_owned()];
-            cells.extend(self.cases.iter().map(|(_, run)| cell(row, run)));
+        let line = |row: Line| {
+            let mut cells = vec![row.name.to_owned(), row.unit.to_owned()];
+            cells.extend(self.cases.iter().map(|(_, run)| row.cell(run)));
             cells
         };
         // What no case has is no row.
-        let known = |row: &&Line| {
-            self.cases.is_empty() || self.cases.iter().any(|(_, s)| (row.4)(s).is_some())
+        let known = |row: &Line| {
+            self.cases.is_empty() || self.cases.iter().any(|(_, s)| (row.value)(s).is_some())
         };
-        let mut rows: Vec<_> = ROWS.iter().filter(known).map(line).collect();
+        let mut rows: Vec<_> = lines().into_iter().filter(known).map(line).collect();
         for (k, probe) in self.common_probes().iter().enumerate() {
             let (factor, unit) = printed(&probe.unit);
             let value = |run: &Run| {
@@ -142,12 +178,13 @@ impl Comparison {
     /// as the [module](super) has them for all files; empty where a case has no value.
     pub fn csv(&self) -> String {
         let mut heading = vec!["case".to_owned()];
-        heading.extend(ROWS.iter().map(|row| row.2.to_owned()));
+        let lines = lines();
+        heading.extend(lines.iter().map(|row| row.column.clone()));
         let probes = self.common_probes();
         let columns = probes.iter().map(|probe| column(&probe.name, &probe.unit));
         heading.extend(distinct(&heading, columns));
         let line = |(name, run): &(String, Run)| {
-            let values = ROWS.iter().map(|row| (row.4)(run));
+            let values = lines.iter().map(|row| (row.value)(run));
             let own = run.probes.iter().take(probes.len());
             let peaks = own.map(|probe| Some(probe.extremes.largest().value));
             let cells = values.chain(peaks).map(|v| Cell(v.unwrap_or(f64::NAN)).to_string());

@@ -1,6 +1,5 @@
 //! The observer: histories of a run.
 
-use super::foundation;
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
 use super::sequence::Sequence;
 use super::{Quantity, Recorder};
@@ -19,8 +18,6 @@ pub struct Histories {
     pub(super) elements: Vec<ContactElement>,
     pub(super) probes: Vec<Probe>,
     pub(super) time_step: f64,
-    /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
-    friction: Vec<f64>,
     pub(super) sequence: Sequence,
     steps: usize,
     unknowns: usize,
@@ -57,7 +54,6 @@ impl Histories {
             elements: simulation.elements().to_vec(),
             probes: simulation.probes().to_vec(),
             time_step: simulation.time_step(),
-            friction: simulation.safety_friction().to_vec(),
             sequence: Sequence::new(state),
             steps: 0,
             unknowns: recorder.motion.map_or(0, |_| state.displacement().len()),
@@ -69,7 +65,7 @@ impl Histories {
             motion: recorder.motion.map(MotionFrames::new),
             recorder,
         };
-        let values = histories.scalars_of(state);
+        let values = state.values();
         histories.keep(state, &values);
         histories
     }
@@ -98,7 +94,7 @@ impl Histories {
             return;
         }
         self.steps += 1;
-        let values = self.scalars_of(state);
+        let values = state.values();
         self.keep(state, &values);
     }
 
@@ -175,23 +171,5 @@ impl Histories {
             + size_of_val(&self.ledgers[..])
             + self.contact.as_ref().map_or(0, ContactFrames::bytes)
             + self.motion.as_ref().map_or(0, MotionFrames::bytes)
-    }
-
-    /// One value for each [`Quantity`], in the order of [`Quantity::ALL`].
-    fn scalars_of(&self, state: &State) -> [f64; Quantity::ALL.len()] {
-        let [sliding, overturning] = foundation::least(state, &self.friction, &self.elements);
-        Quantity::ALL.map(|quantity| match quantity {
-            Quantity::BaseShear => state.base_shear,
-            Quantity::BaseMoment => state.base_moment,
-            Quantity::NormalForce => state.normal_force,
-            Quantity::UpliftedFraction => state.uplifted_fraction,
-            Quantity::MeanSlip => state.mean_slip,
-            Quantity::LargestSlip => state.largest_slip(),
-            Quantity::BaseRotation => state.base_rotation,
-            Quantity::FreeFieldHorizontal => state.free_field[0],
-            Quantity::FreeFieldVertical => state.free_field[1],
-            Quantity::SlidingSafety => sliding,
-            Quantity::OverturningSafety => overturning,
-        })
     }
 }

@@ -28,9 +28,9 @@
 //! let run = simulation.run(500, |state| histories.record(state))?;
 //!
 //! println!("{run}");
-//! assert!((run.static_normal_force / weight - 1.0).abs() < 1e-9);
+//! assert!((run.whole.static_normal_force / weight - 1.0).abs() < 1e-9);
 //! // Coulomb's limit: the factor of safety never falls below one.
-//! assert!(run.least_sliding_safety().is_some_and(|peak| peak.value > 1.0 - 1e-9));
+//! assert!(run.whole.sliding_safety.lowest.value > 1.0 - 1e-9);
 //! // The shares of the energy add up to all of it.
 //! assert!(run.energy().is_some_and(|shares| (shares.sum() - 1.0).abs() < 1e-9));
 //!
@@ -68,7 +68,6 @@ mod csv;
 mod energy;
 mod envelope;
 mod floor;
-mod foundation;
 mod frames;
 mod histories;
 #[cfg(feature = "npz")]
@@ -93,10 +92,9 @@ pub use csv::{save_spectrum_csv, write_spectrum_csv};
 pub use energy::EnergyShares;
 pub use envelope::ElementEnvelope;
 pub use floor::{broadened, log_spaced};
-pub use foundation::FoundationSummary;
 pub use frames::{ContactFrame, MotionFrame};
 pub use histories::Histories;
-pub use quantity::Quantity;
+pub use quantity::{Quantity, Summary};
 pub use recorder::Recorder;
 pub use run::Run;
 pub use serviceability::{Criterion, ServiceCheck, Serviceability};

@@ -2,9 +2,10 @@
 
 use std::fmt;
 
+use super::quantity::Place;
 use super::table::Table;
 use super::unit::{number, printed};
-use super::{Extremes, Run};
+use super::{Extremes, Quantity, Run, Summary};
 use crate::coupled::Peak;
 
 /// Elements of the pressure envelope beyond which only some are printed.
@@ -14,8 +15,9 @@ impl fmt::Display for Run {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { steps, start, end, .. } = self;
         writeln!(f, "Run of {steps} steps from t = {start:.3} s to {end:.3} s")?;
-        if self.static_normal_force > 0.0 {
-            writeln!(f, "Weight on the base: {:.1} kN/m", 1e-3 * self.static_normal_force)?;
+        let weight = self.whole.static_normal_force;
+        if weight > 0.0 {
+            writeln!(f, "Weight on the base: {:.1} kN/m", 1e-3 * weight)?;
         }
         writeln!(f, "\n{}", self.peaks().text())?;
         if self.foundations.len() > 1 {
@@ -54,12 +56,11 @@ impl Run {
             let [high, high_time] = cell(extremes.highest);
             vec![name.to_owned(), unit.to_owned(), low, low_time, high, high_time]
         };
-        let mut rows = vec![
-            row("base shear", "kN/m", 1e-3, &self.base_shear),
-            row("base moment", "kN·m/m", 1e-3, &self.base_moment),
-            row("normal force", "kN/m", 1e-3, &self.normal_force),
-            row("base rotation", "mrad", 1e3, &self.base_rotation),
-        ];
+        let whole = Quantity::shown(Place::Page).map(|quantity| {
+            let (factor, unit) = quantity.printed();
+            row(quantity.name(), unit, factor, &self.whole.extremes(quantity))
+        });
+        let mut rows: Vec<_> = whole.collect();
         rows.extend(self.probes.iter().map(|probe| {
             let (factor, unit) = printed(&probe.unit);
             row(&probe.name, unit, factor, &probe.extremes)
@@ -69,63 +70,46 @@ impl Run {
 
     /// Largest magnitudes, a line for each foundation.
     fn each_foundation(&self) -> Table {
-        let heading = [
-            "Foundation, m",
-            "shear kN/m",
-            "moment kN·m/m",
-            "rotation mrad",
-            "uplift %",
-            "mean slip mm",
-            "slip events",
-            "way mm",
-            "safety, sliding",
-            "overturning",
-        ];
-        let row = |own: &super::FoundationSummary| {
-            let [left, right] = own.ends;
-            vec![
-                format!("{left:.2} to {right:.2}"),
-                number(1e-3 * own.base_shear.largest().value),
-                number(1e-3 * own.base_moment.largest().value),
-                number(1e3 * own.base_rotation.largest().value),
-                number(100.0 * own.uplifted_fraction.value),
-                number(1e3 * own.mean_slip.largest().value),
-                own.sliding.events.len().to_string(),
-                number(1e3 * own.sliding.path),
-                own.least_sliding_safety.map_or("–".to_owned(), |peak| factor(peak.value)),
-                factor(own.least_overturning_safety.value),
-            ]
+        let shown: Vec<_> = Quantity::shown(Place::Foundations).collect();
+        let heading = |quantity: &Quantity| {
+            let unit = if quantity.limit().is_some() { "" } else { quantity.printed().1 };
+            format!("{} {unit}", quantity.short_name()).trim_end().to_owned()
         };
-        Table {
-            heading: heading.map(str::to_owned).to_vec(),
-            repeated: 1,
-            rows: self.foundations.iter().map(row).collect(),
-        }
+        let mut headings = vec!["Foundation, m".to_owned()];
+        headings.extend(shown.iter().map(heading));
+        headings.extend(["slip events", "sliding distance mm"].map(str::to_owned));
+        let row = |own: &Summary| {
+            let [left, right] = own.ends;
+            let value = |quantity: &Quantity| match own.peak(*quantity).value {
+                safety if quantity.limit().is_some() => factor(safety),
+                value => number(quantity.printed().0 * value),
+            };
+            let mut cells = vec![format!("{left:.2} to {right:.2}")];
+            cells.extend(shown.iter().map(value));
+            cells.extend([own.sliding.events.len().to_string(), number(1e3 * own.sliding.path)]);
+            cells
+        };
+        Table { heading: headings, repeated: 1, rows: self.foundations.iter().map(row).collect() }
     }
 
     fn safety(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut line = |name: &str, peak: Peak| {
-            writeln!(
-                f,
-                "Least factor of safety against {name}: {} at {:.3} s",
-                factor(peak.value),
-                peak.time
-            )
-        };
-        if let Some(peak) = self.least_sliding_safety() {
-            line("sliding", peak)?;
+        let known = |own: &Quantity| own.limit().is_some() && !self.whole.peak(*own).value.is_nan();
+        for quantity in Quantity::ALL.into_iter().filter(known) {
+            let peak = self.whole.peak(quantity);
+            let (name, least) = (quantity.short_name(), factor(peak.value));
+            writeln!(f, "Least factor of {name}: {least} at {:.3} s", peak.time)?;
         }
-        line("overturning", self.least_overturning_safety())
+        Ok(())
     }
 
     fn uplift_and_sliding(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let uplift = &self.uplift;
+        let (uplift, uplifted) = (&self.whole.uplift, self.whole.uplifted_fraction.highest);
         writeln!(f, "\nUplift")?;
         writeln!(
             f,
             "  up to {:.1} % of the base, at {:.3} s; largest gap {} mm",
-            100.0 * self.uplifted_fraction.value,
-            self.uplifted_fraction.time,
+            100.0 * uplifted.value,
+            uplifted.time,
             number(1e3 * self.largest_gap().value)
         )?;
         writeln!(
@@ -133,15 +117,15 @@ impl Run {
             "  {:.3} s in {} stretches, the longest {:.3} s; {:.3} s without contact",
             uplift.duration, uplift.count, uplift.longest, uplift.flight
         )?;
-        let (sliding, mean) = (&self.sliding, self.mean_slip.largest());
+        let (sliding, mean) = (&self.whole.sliding, self.whole.mean_slip.largest());
         writeln!(f, "Sliding")?;
         writeln!(
             f,
             "  mean slip up to {} mm at {:.3} s, {} mm at the end; any element {} mm",
             number(1e3 * mean.value),
             mean.time,
-            number(1e3 * self.residual_slip),
-            number(1e3 * self.largest_slip.value)
+            number(1e3 * self.whole.residual_slip),
+            number(1e3 * self.whole.largest_slip.highest.value)
         )?;
         let base =
             if self.foundations.len() > 1 { "all foundations as one" } else { "the whole base" };

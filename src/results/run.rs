@@ -3,9 +3,8 @@
 use std::time::{Duration, Instant};
 
 use super::envelope::{self, ElementEnvelope};
-use super::foundation::{self, FoundationSummary};
 use super::sequence::Sequence;
-use super::{EnergyShares, ServiceCheck, Serviceability, Sliding, Uplift};
+use super::{EnergyShares, ServiceCheck, Serviceability, Summary};
 use crate::bem::{ContactElement, Ground};
 use crate::contact::SearchMethod;
 use crate::coupled::{
@@ -50,33 +49,12 @@ pub struct Run {
     pub start: f64,
     /// Time at its end, s.
     pub end: f64,
-    /// Normal force at the start, of weight and loads, N/m.
-    pub static_normal_force: f64,
-    /// Base shear, N/m.
-    pub base_shear: Extremes,
-    /// Base moment, static part included, N·m/m.
-    pub base_moment: Extremes,
-    /// Normal force, N/m.
-    pub normal_force: Extremes,
-    /// Rotation of the base, rad.
-    pub base_rotation: Extremes,
-    /// Largest uplifted fraction of the base.
-    pub uplifted_fraction: Peak,
-    /// Slip averaged over the base, m; tangential motion of open elements counts.
-    pub mean_slip: Extremes,
-    /// That slip at the end, m.
-    pub residual_slip: f64,
-    /// Largest slip of any one element, m.
-    pub largest_slip: Peak,
+    /// The base as a whole.
+    pub whole: Summary,
     /// The probes, in the order they were given to the builder.
     pub probes: Vec<ProbeExtremes>,
-    /// Duration of uplift.
-    pub uplift: Uplift,
-    /// Distance and duration of sliding of the whole base: of several foundations, while all of them
-    /// slide, by the mean slip of all. Each one's own is in [`Run::foundations`].
-    pub sliding: Sliding,
     /// Each foundation by itself, from left to right.
-    pub foundations: Vec<FoundationSummary>,
+    pub foundations: Vec<Summary>,
     /// A check for each limit that the builder was given
     /// ([`SimulationBuilder::serviceability`](crate::coupled::SimulationBuilder::serviceability)).
     pub serviceability: Vec<ServiceCheck>,
@@ -104,9 +82,6 @@ pub struct Run {
     pub wall: Duration,
     #[cfg_attr(feature = "serde", serde(skip))]
     elements: Vec<ContactElement>,
-    /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
-    #[cfg_attr(feature = "serde", serde(skip))]
-    friction: Vec<f64>,
     #[cfg_attr(feature = "serde", serde(skip, default = "Sequence::closed"))]
     sequence: Sequence,
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -117,37 +92,23 @@ pub struct Run {
 
 impl Run {
     /// Before its first step, at `state`.
-    pub(crate) fn start(
-        probes: &[Probe],
-        elements: &[ContactElement],
-        friction: &[f64],
-        state: &State,
-        resolution: Resolution,
-    ) -> Self {
+    pub(crate) fn start(probes: &[Probe], state: &State, resolution: Resolution) -> Self {
         let time = state.time;
-        let extremes = |value| Extremes::of(value, time);
         let probe = |(probe, &value): (&Probe, &f64)| ProbeExtremes {
             name: probe.name.clone(),
             unit: probe.unit.clone(),
-            extremes: extremes(value),
+            extremes: Extremes::of(value, time),
         };
-        let mut run = Self {
+        let elements = &state.context.elements;
+        Self {
             steps: 0,
             start: time,
             end: time,
-            static_normal_force: state.normal_force,
-            base_shear: extremes(state.base_shear),
-            base_moment: extremes(state.base_moment),
-            normal_force: extremes(state.normal_force),
-            base_rotation: extremes(state.base_rotation),
-            uplifted_fraction: Peak { value: state.uplifted_fraction, time },
-            mean_slip: extremes(state.mean_slip),
-            residual_slip: state.mean_slip,
-            largest_slip: Peak::default(),
+            whole: Summary::start(state, None),
             probes: probes.iter().zip(&state.probes).map(probe).collect(),
-            uplift: Uplift::default(),
-            sliding: Sliding::with_capacity(foundation::EVENTS),
-            foundations: foundation::start(state, friction, elements),
+            foundations: (0..state.foundations.len())
+                .map(|k| Summary::start(state, Some(k)))
+                .collect(),
             serviceability: Vec::new(),
             envelope: envelope::start(elements, state),
             mode_changes: 0,
@@ -159,27 +120,18 @@ impl Run {
             fallbacks: Fallbacks::default(),
             warnings: Vec::new(),
             wall: Duration::ZERO,
-            elements: elements.to_vec(),
-            friction: friction.to_vec(),
+            elements: elements.clone(),
             sequence: Sequence::new(state),
             resolution,
             // There is no clock in bare WebAssembly.
             begin: (!cfg!(target_family = "wasm")).then(Instant::now),
-        };
-        run.see_slips(state);
-        run
+        }
     }
 
     /// Held against `limits`, from `state` on.
     pub(crate) fn with_limits(mut self, limits: &Serviceability, state: &State) -> Self {
         self.serviceability = limits.start(state);
         self
-    }
-
-    fn see_slips(&mut self, state: &State) {
-        for contact in &state.contact {
-            self.largest_slip.see(contact.slip, state.time);
-        }
     }
 
     /// Takes in the next step; [`Simulation::run`](crate::Simulation::run) does it for every step.
@@ -192,20 +144,13 @@ impl Run {
         self.steps += 1;
         self.end = time;
         self.resolution.see(state);
-        self.base_shear.see(state.base_shear, time);
-        self.base_moment.see(state.base_moment, time);
-        self.normal_force.see(state.normal_force, time);
-        self.base_rotation.see(state.base_rotation, time);
-        self.uplifted_fraction.see(state.uplifted_fraction, time);
-        self.uplift.see(state, begin);
-        self.sliding.see(&state.modes, state.mean_slip - self.residual_slip, [begin, time]);
-        self.mean_slip.see(state.mean_slip, time);
-        self.residual_slip = state.mean_slip;
-        self.see_slips(state);
+        self.whole.see(state, begin, None);
+        for (k, own) in self.foundations.iter_mut().enumerate() {
+            own.see(state, begin, Some(k));
+        }
         for (probe, value) in self.probes.iter_mut().zip(&state.probes) {
             probe.extremes.see(*value, time);
         }
-        foundation::see(&mut self.foundations, state, begin, &self.friction, &self.elements);
         self.serviceability.iter_mut().for_each(|check| check.see(state));
         envelope::see(&mut self.envelope, state, time - begin);
         self.mode_changes += state.transitions.len();
@@ -234,9 +179,9 @@ impl Run {
         self.resolution.resolve_ground(ground, motion, self.start..self.end);
         let lengths: f64 = self.elements.iter().map(ContactElement::length).sum();
         self.warnings = Warning::all(
-            self.largest_slip.value,
+            self.whole.largest_slip.highest.value,
             lengths / self.elements.len() as f64,
-            self.base_rotation.largest().value,
+            self.whole.base_rotation.largest().value,
             &self.ledger,
         );
         self.resolution.warn(&mut self.warnings);
@@ -252,26 +197,13 @@ impl Run {
 
     /// Largest base shear over the weight; `None` without weight.
     pub fn shear_coefficient(&self) -> Option<f64> {
-        (self.static_normal_force > 0.0)
-            .then(|| self.base_shear.magnitude() / self.static_normal_force)
+        let Summary { static_normal_force, base_shear, .. } = &self.whole;
+        (*static_normal_force > 0.0).then(|| base_shear.magnitude() / static_normal_force)
     }
 
     /// Number of slip events, of several foundations those of each.
     pub fn slip_events(&self) -> usize {
         self.foundations.iter().map(|own| own.sliding.events.len()).sum()
-    }
-
-    /// Least factor of safety against sliding, of several foundations the least; `None` without a
-    /// friction coefficient ([`SimulationBuilder::safety_friction`](crate::coupled::SimulationBuilder::safety_friction)).
-    pub fn least_sliding_safety(&self) -> Option<Peak> {
-        least(self.foundations.iter().filter_map(|own| own.least_sliding_safety))
-    }
-
-    /// Least factor of safety against overturning, of several foundations the least; NaN for a base
-    /// in flight throughout.
-    pub fn least_overturning_safety(&self) -> Peak {
-        let all = self.foundations.iter().map(|own| own.least_overturning_safety);
-        least(all).unwrap_or(Peak { value: f64::NAN, time: self.start })
     }
 
     /// Whether all limits of serviceability were kept; `None` without limits.
@@ -309,9 +241,4 @@ impl Run {
     pub fn history_error_bound(&self) -> f64 {
         self.ledger.soil_error_bound
     }
-}
-
-/// NaN, of a base in flight, counts if there is nothing else.
-fn least(peaks: impl Iterator<Item = Peak>) -> Option<Peak> {
-    peaks.reduce(|a, b| if b.value < a.value || a.value.is_nan() { b } else { a })
 }

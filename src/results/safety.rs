@@ -8,12 +8,16 @@
 use crate::bem::ContactElement;
 use crate::interface::ContactState;
 
-/// Σ A φ p over |Σ A τ|; an infinite coefficient holds wherever it is pressed on.
+/// Σ A φ p over |Σ A τ|, for one friction coefficient or one for each element; NaN without any. An infinite
+/// coefficient holds wherever it is pressed on.
 pub(super) fn against_sliding(
     friction: &[f64],
     elements: &[ContactElement],
     contact: &[ContactState],
 ) -> f64 {
+    if friction.is_empty() {
+        return f64::NAN;
+    }
     let (mut resistance, mut normal, mut shear) = (0.0, 0.0, 0.0);
     for (e, (element, state)) in elements.iter().zip(contact).enumerate() {
         let coefficient = friction[if friction.len() == 1 { 0 } else { e }];

@@ -57,7 +57,7 @@ impl Criterion {
             Self::Slip => foundations.map(|own| own.mean_slip).fold(0.0, furthest),
             Self::Gap => state.contact.iter().fold(0.0, |far, own| own.gap.max(far)),
             Self::UpliftedFraction => foundations.map(|f| f.uplifted_fraction).fold(0.0, furthest),
-            Self::Rotation => foundations.map(|own| own.rotation).fold(0.0, furthest),
+            Self::Rotation => foundations.map(|own| own.base_rotation).fold(0.0, furthest),
         }
     }
 }

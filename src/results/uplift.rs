@@ -1,6 +1,6 @@
 //! For how long the base left the ground.
 
-use crate::coupled::State;
+use crate::interface::Mode;
 
 /// Uplift of a run. A stretch begins with the first step that ends with an open element, and ends
 /// with the first one that ends without.
@@ -21,9 +21,8 @@ pub struct Uplift {
 
 impl Uplift {
     /// A step that began at `begin`.
-    pub(super) fn see(&mut self, state: &State, begin: f64) {
-        let closed = state.modes.iter().any(|mode| mode.is_closed());
-        self.advance(state.uplifted_fraction, state.time - begin, closed);
+    pub(super) fn see(&mut self, uplifted: f64, modes: &[Mode], step: f64) {
+        self.advance(uplifted, step, modes.iter().any(|mode| mode.is_closed()));
     }
 
     /// A step of length `step`, and whether any element is closed at its end.

@@ -20,7 +20,7 @@
 //!         .motion(el_centro_1940().scaled(factor)?)
 //!         .build()?
 //!         .run(400, |_| {})?;
-//!     basemat::Result::Ok([run.mean_slip.magnitude()])
+//!     basemat::Result::Ok([run.whole.mean_slip.magnitude()])
 //! })?;
 //!
 //! println!("{table}");

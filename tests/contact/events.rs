@@ -158,7 +158,7 @@ fn slip_reverses_in_all_elements() {
     let half_plane = |step| scene(step).ground(ground(SI, ELEMENTS, Grading::Cosine));
     let (runs, apart) = refine("half-plane", &parts, 1.2, half_plane);
     assert_converging("half-plane", &apart, 0.01);
-    assert!(runs.iter().all(|run| run.run.residual_slip != 0.0));
+    assert!(runs.iter().all(|run| run.run.whole.residual_slip != 0.0));
 }
 
 /// A slender block that was pushed rocks to rest, its impacts following each other ever faster.

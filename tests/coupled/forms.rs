@@ -325,11 +325,17 @@ fn runs_with_all_that_is_in_them() {
     assert_eq!(serde_json::to_string(&read).unwrap(), text);
     assert_eq!(read.to_string(), run.to_string());
     assert_eq!((read.wall, read.ledger), (run.wall, run.ledger));
-    assert!(run.slip_events() > 0 && !run.warnings.is_empty() && run.uplift.count > 0);
+    assert!(run.slip_events() > 0 && !run.warnings.is_empty() && run.whole.uplift.count > 0);
     for foundation in &run.foundations {
         kept(foundation);
     }
-    kept(&(run.base_shear, run.uplift, run.sliding.clone(), run.fallbacks, run.energy().unwrap()));
+    kept(&(
+        run.whole.base_shear,
+        run.whole.uplift,
+        run.whole.sliding.clone(),
+        run.fallbacks,
+        run.energy().unwrap(),
+    ));
     kept(&(run.envelope.clone(), run.probes.clone(), run.serviceability.clone()));
     kept(&run.warnings);
     kept(&simulation.conditioning());

@@ -77,8 +77,8 @@ fn run(seed: u64) -> Result<(f64, bool, bool)> {
         .motion(motion)
         .build()?;
     let run = simulation.run(STEPS, |_| {})?;
-    let slid = run.largest_slip.value > 0.0;
-    Ok((run.ledger_residual, run.uplifted_fraction.value > 0.0, slid))
+    let slid = run.whole.largest_slip.largest().value > 0.0;
+    Ok((run.ledger_residual, run.whole.uplifted_fraction.largest().value > 0.0, slid))
 }
 
 #[test]

@@ -22,7 +22,12 @@ fn told(run: Run) -> String {
     let page: Vec<&str> = page.lines().filter(|line| !line.starts_with("Time taken")).collect();
     let (page, fields) =
         (page.join("\n"), (run.trials, run.fallbacks, run.ledger, run.warnings.clone()));
-    let parts = (run.envelope.clone(), run.foundations.clone(), run.sliding.clone(), run.uplift);
+    let parts = (
+        run.envelope.clone(),
+        run.foundations.clone(),
+        run.whole.sliding.clone(),
+        run.whole.uplift,
+    );
     let mut table = Comparison::new();
     table.add("run", run);
     format!("{page}\n{fields:?}\n{parts:?}\n{}", table.csv())
@@ -32,7 +37,7 @@ fn told(run: Run) -> String {
 fn all_ways_to_run_tell_the_same() {
     let mut whole = simulation();
     let run = whole.run(STEPS, |_| {}).unwrap();
-    assert!(run.steps == STEPS && run.mode_changes > 10 && !run.sliding.events.is_empty());
+    assert!(run.steps == STEPS && run.mode_changes > 10 && !run.whole.sliding.events.is_empty());
     assert_eq!((run.start, run.end), (0.0, whole.state().time));
     let expected = told(run);
 
@@ -63,7 +68,7 @@ fn observers_stop_and_fail() {
     let mut stopped = simulation();
     let run =
         stopped.run(STEPS, |state| if uplifted(state) { Break(()) } else { Continue(()) }).unwrap();
-    assert!(run.steps > 0 && run.steps < STEPS && run.uplift.count == 1);
+    assert!(run.steps > 0 && run.steps < STEPS && run.whole.uplift.count == 1);
     assert!(uplifted(stopped.state()));
 
     // The error is the observer's own; what was seen before it is not lost.

@@ -28,7 +28,7 @@ fn shear(motion: impl FreeField + 'static) -> Vec<f64> {
         .unwrap();
     let mut histories = Recorder::new().start(&simulation).unwrap();
     let run = simulation.run(400, |state| histories.record(state)).unwrap();
-    assert!(run.uplift.count > 0 && !run.sliding.events.is_empty());
+    assert!(run.whole.uplift.count > 0 && !run.whole.sliding.events.is_empty());
     histories.series(Quantity::BaseShear).to_vec()
 }
 

@@ -41,5 +41,5 @@ fn own_free_field() {
     let scene = Simulation::builder(STEP).gravity(9.81).motion(Passing { speed: 100.0 });
     let law = Coulomb::new(0.4).unwrap();
     let (run, _) = run(scene.structure(block()).ground(bed(8)).interface(law));
-    assert!(run.base_rotation.largest().value != 0.0, "a wave that passes turns the base");
+    assert!(run.whole.base_rotation.largest().value != 0.0, "a wave that passes turns the base");
 }

@@ -376,7 +376,7 @@ fn a_block_on_the_voigt_bed() {
     let difference = |time_step: f64, steps| {
         let springs = SpringGround::new(-2.0..2.0, 8, 5e7, 5e7).unwrap();
         let springs = springs.with_dashpots(5e5, 5e5).unwrap();
-        let peak = |run: Run| run.base_shear.largest().value;
+        let peak = |run: Run| run.whole.base_shear.largest().value;
         let (own, other) =
             (peak(run(bed(), time_step, steps).1), peak(run(springs, time_step, steps).1));
         println!("{own} {other}");

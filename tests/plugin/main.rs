@@ -50,7 +50,7 @@ fn run(builder: SimulationBuilder) -> (Run, Simulation) {
     let mut simulation = builder.build().unwrap();
     let run = simulation.run(600, |_| {}).unwrap();
     assert!(run.ledger_residual < 1e-9, "{run}");
-    assert!(run.base_shear.magnitude() > 0.0, "{run}");
+    assert!(run.whole.base_shear.magnitude() > 0.0, "{run}");
     (run, simulation)
 }
 
@@ -77,5 +77,5 @@ fn all_of_one_s_own_together() {
         .gravity(9.81);
     let mut simulation = scene.build().unwrap();
     let run = simulation.run(300, |_| {}).unwrap();
-    assert!(run.end > 0.59 && run.base_shear.largest().value != 0.0, "{run}");
+    assert!(run.end > 0.59 && run.whole.base_shear.largest().value != 0.0, "{run}");
 }

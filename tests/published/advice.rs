@@ -57,7 +57,7 @@ fn ratio_on_table(
     let peak = (0..whole(wanted.duration() / 0.002))
         .map(|k| wanted.at(0.002 * k as f64).abs())
         .fold(0.0, f64::max);
-    let peak = (run.base_shear.magnitude() - peak).abs() / peak;
+    let peak = (run.whole.base_shear.magnitude() - peak).abs() / peak;
     report(file, &advice, [history.relative(), peak])
 }
 

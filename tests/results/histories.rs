@@ -24,21 +24,21 @@ fn histories_and_peaks_are_those_of_the_states() {
     assert_eq!(histories.ledgers()[STEPS], states[STEPS].ledger);
 
     let peak = (0..=STEPS).max_by(|&a, &b| shear[a].total_cmp(&shear[b])).unwrap();
-    let found = run.base_shear.highest;
+    let found = run.whole.base_shear.highest;
     assert_eq!((found.value, found.time), (shear[peak], times[peak]));
     let lowest = shear.iter().copied().fold(f64::INFINITY, f64::min);
-    assert_eq!(run.base_shear.lowest.value, lowest);
+    assert_eq!(run.whole.base_shear.lowest.value, lowest);
     assert!(lowest < 0.0);
     let top_peak = top.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     assert_eq!(run.probe("top").unwrap().largest().magnitude(), top_peak);
 
     let largest = |of: &dyn Fn(&State) -> f64| states.iter().map(of).fold(f64::MIN, f64::max);
-    assert_eq!(run.base_moment.highest.value, largest(&|s| s.base_moment));
-    assert_eq!(run.normal_force.highest.value, largest(&|s| s.normal_force));
-    assert_eq!(run.base_rotation.highest.value, largest(&|s| s.base_rotation));
-    assert_eq!(run.uplifted_fraction.value, largest(&|s| s.uplifted_fraction));
-    assert_eq!(run.largest_slip.magnitude(), largest(&State::largest_slip));
-    assert_eq!(run.static_normal_force, states[0].normal_force);
+    assert_eq!(run.whole.base_moment.highest.value, largest(&|s| s.base_moment));
+    assert_eq!(run.whole.normal_force.highest.value, largest(&|s| s.normal_force));
+    assert_eq!(run.whole.base_rotation.highest.value, largest(&|s| s.base_rotation));
+    assert_eq!(run.whole.uplifted_fraction.largest().value, largest(&|s| s.uplifted_fraction));
+    assert_eq!(run.whole.largest_slip.magnitude(), largest(&State::largest_slip));
+    assert_eq!(run.whole.static_normal_force, states[0].normal_force);
     let changes: usize = states.iter().map(|s| s.transitions.len()).sum();
     assert_eq!(run.mode_changes, changes);
 
@@ -58,7 +58,7 @@ fn histories_and_peaks_are_those_of_the_states() {
     let letters: String =
         states[1..].iter().map(|s| if s.uplifted_fraction > 0.0 { 'u' } else { ' ' }).collect();
     let stretches: Vec<usize> = letters.split_whitespace().map(str::len).collect();
-    let uplift = run.uplift;
+    let uplift = run.whole.uplift;
     let dt = simulation.time_step();
     assert!(stretches.len() > 2, "{letters}");
     assert_eq!(uplift.count, stretches.len());
@@ -78,17 +78,17 @@ fn histories_and_peaks_are_those_of_the_states() {
             }
         })
         .collect();
-    let sliding = &run.sliding;
+    let sliding = &run.whole.sliding;
     let events = letters.chunk_by(|a, b| a == b).filter(|event| event[0] != ' ').count();
     assert!(events > 2, "{letters:?}");
     assert_eq!(sliding.events.len(), events);
     let slid = letters.iter().filter(|&&letter| letter != ' ').count();
     assert!((sliding.duration - dt * slid as f64).abs() < 1e-9);
-    assert_eq!(run.residual_slip, states[STEPS].mean_slip);
+    assert_eq!(run.whole.residual_slip, states[STEPS].mean_slip);
     let way: f64 = sliding.events.iter().map(|event| event.slip.abs()).sum();
     assert!((way / sliding.path - 1.0).abs() < 1e-12);
     let peak = states.iter().fold(0.0_f64, |m, s| m.max(s.mean_slip.abs()));
-    assert_eq!(run.mean_slip.magnitude(), peak);
+    assert_eq!(run.whole.mean_slip.magnitude(), peak);
 
     // Safety from the resultants that the state has of its own.
     let half = 2.0;
@@ -107,7 +107,7 @@ fn histories_and_peaks_are_those_of_the_states() {
             assert!(found > 1.0 - 1e-9);
         }
     }
-    let least = run.least_sliding_safety().unwrap();
+    let least = run.whole.sliding_safety.lowest;
     assert!((least.value - 1.0).abs() < 1e-9);
 
     // Energy: shares of the last ledger, which close.

@@ -111,7 +111,7 @@ fn pages_and_tables() {
     let values: Vec<&str> = lines[2].split(',').collect();
     assert_eq!(values.len(), columns);
     let column = lines[0].split(',').position(|name| name == "base_shear_n_per_m").unwrap();
-    assert_eq!(values[column].parse(), Ok(run.base_shear.largest().value));
+    assert_eq!(values[column].parse(), Ok(run.whole.base_shear.largest().value));
     assert!(lines[1].starts_with("\"first, \"\"a\"\"\","));
     let text = comparison.to_string();
     assert!(text.lines().nth(2).unwrap().starts_with("base shear"));

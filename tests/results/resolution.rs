@@ -59,7 +59,7 @@ fn steps_that_miss_the_record() {
     let shake = |step| run(storeys(), el_centro_1940(), soil(250.0), 12, step);
     for time_step in [0.1, 0.2, 0.5, 1.0] {
         let run = shake(time_step);
-        let error = (run.base_shear.magnitude() / THREE_STOREYS - 1.0).abs();
+        let error = (run.whole.base_shear.magnitude() / THREE_STOREYS - 1.0).abs();
         assert!(error > 0.15, "Δt = {time_step}: {error}");
         let [Warning::UnresolvedMotion { frequency, time_step: told, needed }] = run.warnings[..]
         else {
@@ -68,7 +68,7 @@ fn steps_that_miss_the_record() {
         assert!((frequency / EL_CENTRO - 1.0).abs() < 0.05, "{frequency}");
         assert_eq!(told, time_step);
         let resolved = shake(needed);
-        let error = (resolved.base_shear.magnitude() / THREE_STOREYS - 1.0).abs();
+        let error = (resolved.whole.base_shear.magnitude() / THREE_STOREYS - 1.0).abs();
         assert!(error < 0.06, "Δt = {needed}: {error}");
         assert_eq!(resolved.warnings, []);
     }
@@ -82,13 +82,13 @@ fn steps_that_miss_the_structure() {
     let fine = shake(2.5e-3);
     assert_eq!(fine.warnings, []);
     let coarse = shake(0.1);
-    assert!(coarse.base_shear.magnitude() < 0.75 * fine.base_shear.magnitude());
+    assert!(coarse.whole.base_shear.magnitude() < 0.75 * fine.whole.base_shear.magnitude());
     let [Warning::UnresolvedPeriod { period, time_step: 0.1, needed }] = coarse.warnings[..] else {
         panic!("{:?}", coarse.warnings)
     };
     assert!((period / SLENDER - 1.0).abs() < 0.2, "{period}");
     let resolved = shake(needed);
-    let error = resolved.base_shear.magnitude() / fine.base_shear.magnitude() - 1.0;
+    let error = resolved.whole.base_shear.magnitude() / fine.whole.base_shear.magnitude() - 1.0;
     assert!(error.abs() < 0.1, "{error}");
     assert_eq!(resolved.warnings, []);
 }
@@ -101,7 +101,7 @@ fn stiff_structures_need_no_fine_steps() {
         run(block, ricker(1.0), soil(1500.0), 8, step)
     };
     let (fine, coarse) = (shake(2e-3), shake(0.08));
-    let error = coarse.base_shear.magnitude() / fine.base_shear.magnitude() - 1.0;
+    let error = coarse.whole.base_shear.magnitude() / fine.whole.base_shear.magnitude() - 1.0;
     assert!(error.abs() < 0.06, "{error}");
     assert_eq!(coarse.warnings, []);
 }
@@ -129,14 +129,14 @@ fn recorded_by_hand() {
 #[test]
 fn too_few_elements() {
     let shake = |elements| run(storeys(), el_centro_1940(), soil(250.0), elements, 5e-3);
-    let fine = shake(12).base_shear.magnitude();
+    let fine = shake(12).whole.base_shear.magnitude();
     for elements in [1, 2, 3] {
         let found = shake(elements).warnings;
         assert_eq!(found, [Warning::FewElements { foundation: 0, elements, needed: 4 }]);
     }
-    assert!(shake(1).base_shear.magnitude() < 0.5 * fine);
+    assert!(shake(1).whole.base_shear.magnitude() < 0.5 * fine);
     let enough = shake(4);
-    assert!((enough.base_shear.magnitude() / fine - 1.0).abs() < 0.05);
+    assert!((enough.whole.base_shear.magnitude() / fine - 1.0).abs() < 0.05);
     assert_eq!(enough.warnings, []);
 }
 
@@ -155,7 +155,7 @@ fn elements_longer_than_waves() {
     let fine = shake(40);
     assert_eq!(fine.warnings, []);
     let coarse = shake(5);
-    let error = coarse.base_shear.magnitude() / fine.base_shear.magnitude() - 1.0;
+    let error = coarse.whole.base_shear.magnitude() / fine.whole.base_shear.magnitude() - 1.0;
     assert!(error.abs() > 0.1, "{error}");
     let [Warning::LongElements { element_length, wavelength, needed }] = coarse.warnings[..] else {
         panic!("{:?}", coarse.warnings)

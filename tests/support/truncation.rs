@@ -129,7 +129,7 @@ pub(crate) fn rocking(elements: usize, free: usize, beta: f64) -> [(Vec<f64>, f6
             })
             .unwrap();
         assert!(run.ledger_residual < 1e-9, "ledger open by {:.1e}", run.ledger_residual);
-        (slip, run.uplifted_fraction.value)
+        (slip, run.whole.uplifted_fraction.largest().value)
     };
     [
         run(Simulation::builder(time_step).ground(full)),

@@ -1,17 +1,23 @@
 //! Foundations and limits of service after a run.
 
-use basemat::results::{FoundationSummary, ServiceCheck, SlipEvent};
+use basemat::coupled::Extremes;
+use basemat::results::{ServiceCheck, SlipEvent, Summary};
 use pyo3::prelude::*;
 
 use super::{PyExtremes, PyPeak};
 
 /// A foundation in numbers, as a run's own.
 #[pyclass(name = "FoundationSummary", module = "basemat", frozen)]
-pub(crate) struct PyFoundationSummary(pub(super) FoundationSummary);
+pub(crate) struct PyFoundationSummary(pub(super) Summary);
 
 /// Slip events as tuples (start in s, end in s, slip in m).
 pub(super) fn events(list: &[SlipEvent]) -> Vec<(f64, f64, f64)> {
     list.iter().map(|event| (event.start, event.end, event.slip)).collect()
+}
+
+/// The least value, if there is one.
+pub(super) fn known(extremes: Extremes) -> Option<PyPeak> {
+    (!extremes.lowest.value.is_nan()).then_some(PyPeak(extremes.lowest))
 }
 
 #[pymethods]
@@ -55,7 +61,7 @@ impl PyFoundationSummary {
     /// Largest uplifted fraction.
     #[getter]
     fn uplifted_fraction(&self) -> PyPeak {
-        PyPeak(self.0.uplifted_fraction)
+        PyPeak(self.0.uplifted_fraction.highest)
     }
 
     /// Mean slip, m.
@@ -79,13 +85,13 @@ impl PyFoundationSummary {
     /// Least factor of safety against sliding; None without a friction coefficient.
     #[getter]
     fn least_sliding_safety(&self) -> Option<PyPeak> {
-        self.0.least_sliding_safety.map(PyPeak)
+        known(self.0.sliding_safety)
     }
 
     /// Least factor of safety against overturning.
     #[getter]
     fn least_overturning_safety(&self) -> PyPeak {
-        PyPeak(self.0.least_overturning_safety)
+        PyPeak(self.0.overturning_safety.lowest)
     }
 }
 

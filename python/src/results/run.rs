@@ -1,12 +1,12 @@
 //! A run: its summary and its time series.
 
 use basemat::coupled::Run;
-use basemat::results::{ElementEnvelope, Histories};
+use basemat::results::{ElementEnvelope, Histories, Quantity};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::base::events;
+use super::base::{events, known};
 use super::{PyExtremes, PyFoundationSummary, PyLedger, PyPeak, PyServiceCheck, series};
 use crate::array::Numbers;
 use crate::error::{OrRaise, refuse};
@@ -138,61 +138,61 @@ impl PyRun {
     /// Normal force at the start, N/m.
     #[getter]
     fn static_normal_force(&self) -> f64 {
-        self.run.static_normal_force
+        self.run.whole.static_normal_force
     }
 
     /// Base shear, N/m.
     #[getter]
     fn base_shear(&self) -> PyExtremes {
-        PyExtremes(self.run.base_shear)
+        PyExtremes(self.run.whole.base_shear)
     }
 
     /// Base moment, N·m/m.
     #[getter]
     fn base_moment(&self) -> PyExtremes {
-        PyExtremes(self.run.base_moment)
+        PyExtremes(self.run.whole.base_moment)
     }
 
     /// Normal force, N/m.
     #[getter]
     fn normal_force(&self) -> PyExtremes {
-        PyExtremes(self.run.normal_force)
+        PyExtremes(self.run.whole.normal_force)
     }
 
     /// Rotation of the base, rad.
     #[getter]
     fn base_rotation(&self) -> PyExtremes {
-        PyExtremes(self.run.base_rotation)
+        PyExtremes(self.run.whole.base_rotation)
     }
 
     /// Largest uplifted fraction of the base.
     #[getter]
     fn uplifted_fraction(&self) -> PyPeak {
-        PyPeak(self.run.uplifted_fraction)
+        PyPeak(self.run.whole.uplifted_fraction.highest)
     }
 
     /// Time with uplift, s.
     #[getter]
     fn uplift_duration(&self) -> f64 {
-        self.run.uplift.duration
+        self.run.whole.uplift.duration
     }
 
     /// Slip averaged over the base, m.
     #[getter]
     fn mean_slip(&self) -> PyExtremes {
-        PyExtremes(self.run.mean_slip)
+        PyExtremes(self.run.whole.mean_slip)
     }
 
     /// Mean slip at the end, m.
     #[getter]
     fn residual_slip(&self) -> f64 {
-        self.run.residual_slip
+        self.run.whole.residual_slip
     }
 
     /// Largest slip of any element, m.
     #[getter]
     fn largest_slip(&self) -> PyPeak {
-        PyPeak(self.run.largest_slip)
+        PyPeak(self.run.whole.largest_slip.highest)
     }
 
     /// Largest gap of any element, m.
@@ -216,25 +216,25 @@ impl PyRun {
     /// Slip events of the whole base: tuples (start in s, end in s, slip in m).
     #[getter]
     fn slip_events(&self) -> Vec<(f64, f64, f64)> {
-        events(&self.run.sliding.events)
+        events(&self.run.whole.sliding.events)
     }
 
     /// Length of the way that the base has slid, m.
     #[getter]
     fn slip_path(&self) -> f64 {
-        self.run.sliding.path
+        self.run.whole.sliding.path
     }
 
     /// Least factor of safety against sliding; None without a friction coefficient.
     #[getter]
     fn least_sliding_safety(&self) -> Option<PyPeak> {
-        self.run.least_sliding_safety().map(PyPeak)
+        known(self.run.whole.sliding_safety)
     }
 
     /// Least factor of safety against overturning.
     #[getter]
     fn least_overturning_safety(&self) -> PyPeak {
-        PyPeak(self.run.least_overturning_safety())
+        PyPeak(self.run.whole.overturning_safety.lowest)
     }
 
     /// Each foundation by itself.
@@ -336,23 +336,17 @@ impl PyRun {
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let Self { run, .. } = self;
         let numbers = PyDict::new(py);
-        let safety = run.least_sliding_safety().map(|peak| peak.value);
-        let pressure = run.largest_pressure().map(|(_, peak)| peak.value);
+        for quantity in Quantity::ALL {
+            let value = run.whole.peak(quantity).value;
+            numbers.set_item(quantity.to_string(), (!value.is_nan()).then_some(value))?;
+        }
         for (name, value) in [
             ("end", Some(run.end)),
-            ("base_shear", Some(run.base_shear.largest().value)),
             ("shear_coefficient", run.shear_coefficient()),
-            ("base_moment", Some(run.base_moment.largest().value)),
-            ("base_rotation", Some(run.base_rotation.largest().value)),
-            ("uplifted_fraction", Some(run.uplifted_fraction.value)),
-            ("uplift_duration", Some(run.uplift.duration)),
+            ("uplift_duration", Some(run.whole.uplift.duration)),
             ("largest_gap", Some(run.largest_gap().value)),
-            ("largest_pressure", pressure),
-            ("mean_slip", Some(run.mean_slip.largest().value)),
-            ("residual_slip", Some(run.residual_slip)),
-            ("largest_slip", Some(run.largest_slip.value)),
-            ("sliding_safety", safety),
-            ("overturning_safety", Some(run.least_overturning_safety().value)),
+            ("largest_pressure", run.largest_pressure().map(|(_, peak)| peak.value)),
+            ("residual_slip", Some(run.whole.residual_slip)),
             ("energy_input", Some(run.ledger.input)),
             ("ledger_residual", Some(run.ledger_residual)),
         ] {

@@ -1,14 +1,14 @@
 //! Time series and snapshots as arrays.
 
 use basemat::interface::ContactState;
-use basemat::results::{ContactFrame, Histories};
+use basemat::results::{ContactFrame, Histories, Quantity};
 use numpy::{PyArray1, PyArrayMethods, ToPyArray};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::ledger::TERMS;
 use crate::error::refuse;
-use crate::names::{SERIES, mode_number};
+use crate::names::mode_number;
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 
@@ -24,11 +24,12 @@ pub(super) fn named<'py>(
     if let Ok(values) = histories.probe(name) {
         return Ok(PyArray1::from_slice(py, values));
     }
-    match SERIES.iter().find(|(_, key)| *key == name) {
-        Some((quantity, _)) => Ok(PyArray1::from_slice(py, histories.series(*quantity))),
+    let words = Quantity::ALL.map(|quantity| quantity.to_string());
+    match words.iter().zip(Quantity::ALL).find(|(word, _)| *word == name) {
+        Some((_, quantity)) => Ok(PyArray1::from_slice(py, histories.series(quantity))),
         None => Err(pyo3::exceptions::PyKeyError::new_err(format!(
             "'{name}' is neither a time series ({}) nor a probe ({})",
-            SERIES.map(|(_, key)| key).join(", "),
+            words.join(", "),
             names(histories).join(", ")
         ))),
     }
@@ -43,8 +44,9 @@ pub(super) fn names(histories: &Histories) -> Vec<String> {
 pub(super) fn all<'py>(py: Python<'py>, histories: &Histories) -> PyResult<Bound<'py, PyDict>> {
     let series = PyDict::new(py);
     series.set_item("time", PyArray1::from_slice(py, histories.times()))?;
-    for (quantity, key) in SERIES {
-        series.set_item(key, PyArray1::from_slice(py, histories.series(quantity)))?;
+    for quantity in Quantity::ALL {
+        series
+            .set_item(quantity.to_string(), PyArray1::from_slice(py, histories.series(quantity)))?;
     }
     for name in names(histories) {
         series.set_item(&name, named(py, histories, &name)?)?;

@@ -142,12 +142,12 @@ impl PyState {
     fn foundations(&self) -> Vec<PyFoundation> {
         let own = |foundation: &Foundation| PyFoundation {
             elements: (foundation.elements.start, foundation.elements.end),
-            shear: foundation.shear,
-            moment: foundation.moment,
+            shear: foundation.base_shear,
+            moment: foundation.base_moment,
             normal_force: foundation.normal_force,
             uplifted_fraction: foundation.uplifted_fraction,
             mean_slip: foundation.mean_slip,
-            rotation: foundation.rotation,
+            rotation: foundation.base_rotation,
         };
         self.0.foundations.iter().map(own).collect()
     }

@@ -51,7 +51,7 @@ fn matrices_march_as_the_model_they_came_from() {
         let mut simulation = builder.build().unwrap();
         let run = simulation.run(400, |_| {}).unwrap();
         assert!(run.ledger_residual < 1e-9);
-        run.base_moment.largest().value
+        run.whole.base_moment.largest().value
     };
     let expected = run(on_soil(model));
     for found in [run(on_soil(full)), run(on_soil(rayleigh))] {
