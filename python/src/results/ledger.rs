@@ -102,7 +102,7 @@ impl PyLedger {
         self.0.soil_error_bound
     }
 
-    /// Difference between the two sides of the balance, relative to the largest term.
+    /// Difference between the two sides of the balance, relative to the largest energy so far.
     #[getter]
     fn residual(&self) -> f64 {
         self.0.residual()

@@ -1,8 +1,10 @@
 //! Time schemes of the structure.
 
+mod dissipative;
 mod hht;
 mod newmark;
 
+pub use dissipative::DissipativeMidpoint;
 pub use hht::HhtAlpha;
 pub use newmark::Newmark;
 
