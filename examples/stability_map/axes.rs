@@ -80,7 +80,11 @@ impl Map {
     }
 }
 
+/// The sweep that compares time schemes.
+pub(crate) const SCHEME_MAP: &str = "time_schemes";
+
 const OWN: &[Scheme] = &[Scheme::Own];
+const SCHEMES: &[Scheme] = &[Scheme::Own, Scheme::Dissipative, Scheme::Newmark, Scheme::Hht];
 const ALL: &[Scheme] = &[Scheme::Own, Scheme::Paper, Scheme::Quadrature];
 const BETA: [f64; 11] = [0.01, 0.03, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 100.0];
 const POISSON: [f64; 12] =
@@ -136,6 +140,7 @@ pub(crate) fn maps(short: bool) -> Vec<Map> {
     let mut list = soil_and_structure(short, base);
     list.extend(mesh_and_contact(short, base));
     list.extend(loads_and_bearing(short, base));
+    list.push(schemes(short, base));
     list.push(long_runs(short));
     list
 }
@@ -280,6 +285,15 @@ fn loads_and_bearing(short: bool, base: Scene) -> Vec<Map> {
             base,
         ),
     ]
+}
+
+/// Time schemes on the half-plane, under a base that may open and cannot slide.
+fn schemes(short: bool, base: Scene) -> Map {
+    let masses = thin(&[0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0], short, 3);
+    let mass = Axis::numbers("mass ratio", &masses, |s, v| s.mass = v);
+    let base = Scene { law: Law::Coulomb(f64::INFINITY), slenderness: 1.0, ..base };
+    let axes = [Axis::beta(short, 3), mass];
+    map(SCHEME_MAP, "Time schemes: time step and mass", axes, SCHEMES, base)
 }
 
 /// Single runs of many steps.

@@ -1,6 +1,6 @@
 //! Maps of stability: where marches stay bounded, close their energy ledger and find their
 //! contact modes, over pairs of parameters from one extreme to the other. The crate's own scheme,
-//! the paper's, and the one by convolution quadrature.
+//! the paper's, and the one by convolution quadrature; and the time schemes on the crate's soil.
 //!
 //! What is in `docs/stability.md` comes from
 //!
@@ -62,7 +62,14 @@ fn main() -> Result<(), AnyError> {
     std::fs::write(options.out.join("tables.md"), &tables)?;
     let mut folders = vec![options.out.clone()];
     if let Some(docs) = &options.docs {
-        report::splice(&docs.join("stability.md"), &report::document(&maps, &cells))?;
+        let path = docs.join("stability.md");
+        let compared = |map: &Map| map.name == axes::SCHEME_MAP;
+        if maps.iter().any(compared) {
+            report::splice(&path, "time_schemes", &report::schemes(&maps, &cells))?;
+        }
+        if !maps.iter().all(compared) {
+            report::splice(&path, "stability_map", &report::document(&maps, &cells))?;
+        }
         folders.push(docs.join("images"));
     }
     for folder in folders {

@@ -33,7 +33,7 @@ pub(crate) struct Options {
     /// Only cells with this label on the vertical axis.
     #[arg(long, allow_hyphen_values = true)]
     pub(crate) y: Option<String>,
-    /// Only this scheme: basemat, paper or quadrature.
+    /// Only this scheme: basemat, dissipative, newmark, hht, paper or quadrature.
     #[arg(long)]
     pub(crate) scheme: Option<String>,
     /// Names the sweeps and their axes, and computes nothing.

@@ -1,4 +1,5 @@
-//! Heat maps: one panel per scheme, and one for the work of the mode search.
+//! Heat maps: one panel per scheme, and one for the work of the mode search; of the sweep over time
+//! schemes, the energy that each makes.
 
 use std::path::Path;
 
@@ -6,7 +7,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::axes::Map;
+use super::axes::{Map, SCHEME_MAP};
 use super::run::Verdict;
 use super::scene::Scheme;
 use super::{AnyError, Cell};
@@ -26,7 +27,8 @@ pub(crate) fn draw(path: &Path, map: &Map, cells: &[&Cell]) -> Result<(), AnyErr
     let (columns, rows) = (count(&map.x.labels), count(&map.y.labels));
     let there = |scheme: Scheme| cells.iter().any(|cell| cell.scheme == scheme);
     let schemes: Vec<Scheme> = map.schemes.iter().copied().filter(|s| there(*s)).collect();
-    let panels = schemes.len() + 1;
+    let compared = map.name == SCHEME_MAP;
+    let panels = schemes.len() + usize::from(!compared);
     // Two panels to a row: more could not be read in a page's column.
     let panel = [ROOM[0] + columns * CELL[0] + GAP, ROOM[1] + rows * CELL[1] + ROOM[2]];
     let place =
@@ -40,18 +42,38 @@ pub(crate) fn draw(path: &Path, map: &Map, cells: &[&Cell]) -> Result<(), AnyErr
     for (k, &scheme) in schemes.iter().enumerate() {
         let corner = place(k);
         let caption = match scheme {
+            Scheme::Own if compared => "midpoint rule",
             Scheme::Own => "basemat: log₁₀ of ledger residual",
+            Scheme::Dissipative => "dissipative midpoint rule, γ = 0.8",
+            Scheme::Newmark => "Newmark, average acceleration",
+            Scheme::Hht => "HHT-α, α = −0.1",
             Scheme::Paper => "paper, as printed",
             Scheme::Quadrature => "convolution quadrature",
         };
         frame(&root, map, corner, caption)?;
         for cell in cells.iter().filter(|cell| cell.scheme == scheme) {
-            let (color, word) = verdict(cell);
+            let (color, word) = if compared { made(cell) } else { verdict(cell) };
             square(&root, corner, rows, cell.place, color, &word)?;
         }
     }
-    let corner = place(schemes.len());
-    frame(&root, map, corner, "basemat: solves per step")?;
+    if !compared {
+        trials(&root, map, place(schemes.len()), cells)?;
+    }
+    legend(&root, height - LEGEND + 14, compared)?;
+    root.present()?;
+    drop(root);
+    // What is the default anyway takes a fifth of the file.
+    let mut text = std::fs::read_to_string(path)?;
+    for word in [" opacity=\"1\"", " stroke=\"none\"", " fill=\"#000000\""] {
+        text = text.replace(word, "");
+    }
+    Ok(std::fs::write(path, text)?)
+}
+
+/// The panel of solves per step.
+fn trials(root: &Area, map: &Map, corner: [i32; 2], cells: &[&Cell]) -> Result<(), AnyError> {
+    let rows = count(&map.y.labels);
+    frame(root, map, corner, "basemat: solves per step")?;
     for cell in cells.iter().filter(|cell| cell.scheme == Scheme::Own) {
         let out = &cell.outcome;
         let mark = match out.fallbacks {
@@ -63,17 +85,9 @@ pub(crate) fn draw(path: &Path, map: &Map, cells: &[&Cell]) -> Result<(), AnyErr
         let shade = ((out.trials[0] - 1.0) / 4.0).clamp(0.0, 1.0);
         let color = blend(RGBColor(236, 240, 246), RGBColor(106, 81, 163), shade);
         let word = if refused { "–".to_owned() } else { format!("{:.1}{mark}", out.trials[0]) };
-        square(&root, corner, rows, cell.place, color, &word)?;
+        square(root, corner, rows, cell.place, color, &word)?;
     }
-    legend(&root, height - LEGEND + 14)?;
-    root.present()?;
-    drop(root);
-    // What is the default anyway takes a fifth of the file.
-    let mut text = std::fs::read_to_string(path)?;
-    for word in [" opacity=\"1\"", " stroke=\"none\"", " fill=\"#000000\""] {
-        text = text.replace(word, "");
-    }
-    Ok(std::fs::write(path, text)?)
+    Ok(())
 }
 
 fn count(labels: &[String]) -> i32 {
@@ -154,6 +168,23 @@ fn verdict(cell: &Cell) -> (RGBColor, String) {
     (color, if out.is_foretold() { format!("U {word}") } else { word })
 }
 
+/// Colour and word of the energy that the time scheme has made.
+fn made(cell: &Cell) -> (RGBColor, String) {
+    let out = &cell.outcome;
+    match out.verdict {
+        Verdict::Refused | Verdict::Failed => (ERROR, out.letter().to_owned()),
+        _ if out.made > LIMIT => (growth_color(0.1 * out.made), percent(out.made)),
+        _ => (ledger_color(-17.0 + 400.0 * out.made), percent(out.made)),
+    }
+}
+
+/// Energy that a scheme may make before a run warns.
+const LIMIT: f64 = 0.02;
+
+fn percent(share: f64) -> String {
+    format!("{:.*}", usize::from(share > 5e-4 && share < 0.0995), 100.0 * share)
+}
+
 /// From blue (10⁻¹⁷) to pale green (10⁻⁹).
 fn ledger_color(exponent: f64) -> RGBColor {
     blend(RGBColor(49, 84, 160), RGBColor(196, 226, 168), (exponent + 17.0) / 8.0)
@@ -175,7 +206,7 @@ fn blend(from: RGBColor, to: RGBColor, share: f64) -> RGBColor {
     RGBColor(mix(from.0, to.0), mix(from.1, to.1), mix(from.2, to.2))
 }
 
-fn legend(root: &Area, top: i32) -> Result<(), AnyError> {
+fn legend(root: &Area, top: i32, compared: bool) -> Result<(), AnyError> {
     let mut x = 14;
     let mut entry = |color: RGBColor, word: &str, width: i32| -> Result<(), AnyError> {
         root.draw(&Rectangle::new([(x, top), (x + 22, top + 14)], color.filled()))?;
@@ -183,6 +214,11 @@ fn legend(root: &Area, top: i32) -> Result<(), AnyError> {
         x += width;
         Ok(())
     };
+    if compared {
+        entry(ledger_color(-16.0), "made by the time scheme, % of the run's largest energy", 350)?;
+        entry(growth_color(0.05), "more than 2 %: the run warns", 220)?;
+        return entry(ERROR, "error", 80);
+    }
     entry(ledger_color(-16.0), "bounded: log₁₀ of the ledger residual", 268)?;
     entry(ACTIVE, "not growing, but the soil gives energy: log₁₀ of its share", 370)?;
     entry(growth_color(0.03), "grows: growth per step", 180)?;

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::axes::Map;
+use super::axes::{Map, SCHEME_MAP};
 use super::run::{ROUNDING, Verdict};
 use super::scene::Scheme;
 use super::{AnyError, Cell};
@@ -27,6 +27,7 @@ pub(crate) fn write_cells(path: &Path, maps: &[Map], cells: &[Cell]) -> Result<(
         "assessed_growth_bonded",
         "energy_rise",
         "least_soil_work",
+        "made_by_time_scheme",
         "trials_per_step",
         "most_trials",
         "gauss_seidel_steps",
@@ -55,6 +56,7 @@ pub(crate) fn write_cells(path: &Path, maps: &[Map], cells: &[Cell]) -> Result<(
             out.assessed.map(|growth| short(growth[1])).unwrap_or_default(),
             short(out.rise),
             short(out.least_soil),
+            short(out.made),
             format!("{:.2}", out.trials[0]),
             format!("{:.0}", out.trials[1]),
             out.fallbacks[0].to_string(),
@@ -135,7 +137,7 @@ fn summary(text: &mut String, name: &str, scheme: Scheme, cells: &[&Cell]) {
     {
         let _ = write!(text, "| {} ", count(verdict));
     }
-    let rise = if scheme == Scheme::Own {
+    let rise = if scheme.is_passive() {
         format!("{:.1e}", most(&|c| c.outcome.rise))
     } else {
         "–".into()
@@ -163,7 +165,8 @@ pub(crate) fn document(maps: &[Map], cells: &[Cell]) -> String {
         let all = cells.iter().filter(|cell| cell.scheme == scheme);
         all.filter(|cell| map.is_none_or(|map| cell.map == map)).collect()
     };
-    let names = maps.iter().enumerate().map(|(index, map)| (map.name, Some(index)));
+    let others = maps.iter().enumerate().filter(|(_, map)| map.name != SCHEME_MAP);
+    let names = others.map(|(index, map)| (map.name, Some(index)));
     for (name, map) in names.chain([("**all**", None)]) {
         let own = of(Scheme::Own, map);
         let most = |pick: &dyn Fn(&Cell) -> f64| own.iter().map(|c| pick(c)).fold(0.0, f64::max);
@@ -209,6 +212,38 @@ pub(crate) fn document(maps: &[Map], cells: &[Cell]) -> String {
     text
 }
 
+/// What the time schemes make of the crate's soil.
+pub(crate) fn schemes(maps: &[Map], cells: &[Cell]) -> String {
+    let mut text = String::from(
+        "| time scheme | cells | most energy made by the scheme | cells beyond 2 % | beyond 50 % | \
+         ledger residual |\n|---|---|---|---|---|---|\n",
+    );
+    for (index, map) in maps.iter().enumerate().filter(|(_, map)| map.name == SCHEME_MAP) {
+        for (&scheme, name) in map.schemes.iter().zip([
+            "midpoint rule",
+            "dissipative midpoint rule, γ = 0.8",
+            "Newmark, average acceleration",
+            "HHT-α, α = −0.1",
+        ]) {
+            let own: Vec<&Cell> =
+                cells.iter().filter(|cell| cell.map == index && cell.scheme == scheme).collect();
+            let most =
+                |pick: &dyn Fn(&Cell) -> f64| own.iter().map(|c| pick(c)).fold(0.0, f64::max);
+            let beyond = |made: f64| own.iter().filter(|cell| cell.outcome.made > made).count();
+            let _ = writeln!(
+                text,
+                "| {name} | {} | {:.1e} | {} | {} | {:.1e} |",
+                verdicts(&own),
+                most(&|cell| cell.outcome.made),
+                beyond(0.02),
+                beyond(0.5),
+                most(&|cell| cell.outcome.ledger[1]),
+            );
+        }
+    }
+    text
+}
+
 /// How many cells have which verdict, in words.
 fn verdicts(cells: &[&Cell]) -> String {
     let all =
@@ -224,7 +259,7 @@ fn verdicts(cells: &[&Cell]) -> String {
 /// The cells of the crate's own scheme that are not as they must be, one a line.
 pub(crate) fn broken(maps: &[Map], cells: &[Cell]) -> String {
     let mut text = String::new();
-    let own = cells.iter().filter(|cell| cell.scheme == Scheme::Own);
+    let own = cells.iter().filter(|cell| cell.scheme.is_passive());
     for cell in own.filter(|cell| !cell.outcome.is_as_guaranteed(maps[cell.map].allowed)) {
         let (map, out) = (&maps[cell.map], &cell.outcome);
         let _ = write!(
@@ -246,14 +281,14 @@ pub(crate) fn broken(maps: &[Map], cells: &[Cell]) -> String {
     if text.is_empty() { text } else { format!("not as guaranteed:{text}") }
 }
 
-/// Puts `text` between the markers of `path`.
-pub(crate) fn splice(path: &Path, text: &str) -> Result<(), AnyError> {
-    const MARKERS: [&str; 2] = ["<!-- stability_map: begin -->", "<!-- stability_map: end -->"];
+/// Puts `text` between the markers of this name in `path`.
+pub(crate) fn splice(path: &Path, name: &str, text: &str) -> Result<(), AnyError> {
+    let [begin, end] = ["begin", "end"].map(|place| format!("<!-- {name}: {place} -->"));
     let old = std::fs::read_to_string(path)?;
-    let missing = || format!("{}: no markers '{}'", path.display(), MARKERS.join("', '"));
-    let (before, rest) = old.split_once(MARKERS[0]).ok_or_else(missing)?;
-    let (_, after) = rest.split_once(MARKERS[1]).ok_or_else(missing)?;
-    let new = format!("{before}{}\n\n{}\n\n{}{after}", MARKERS[0], text.trim(), MARKERS[1]);
+    let missing = || format!("{}: no markers '{begin}', '{end}'", path.display());
+    let (before, rest) = old.split_once(&begin).ok_or_else(missing)?;
+    let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
+    let new = format!("{before}{begin}\n\n{}\n\n{end}{after}", text.trim());
     Ok(std::fs::write(path, new)?)
 }
 
@@ -266,7 +301,7 @@ fn foretold(maps: &[Map], cells: &[Cell]) -> String {
          |---|---|---|---|---|---|---|---|---|\n",
     );
     for (index, map) in maps.iter().enumerate() {
-        for &scheme in map.schemes.iter().filter(|scheme| **scheme != Scheme::Own) {
+        for &scheme in map.schemes.iter().filter(|scheme| !scheme.is_half_plane()) {
             let own: Vec<_> = cells
                 .iter()
                 .filter(|c| c.map == index && c.scheme == scheme)

@@ -6,7 +6,9 @@ use std::sync::{Mutex, PoisonError};
 
 use basemat::bem::full_plane::{ConvolutionQuadrature, CqMethod, FullPlaneGround};
 use basemat::bem::{HalfPlaneGround, Strip};
-use basemat::coupled::{ContactSearch, Load, Newmark, Placement, SimulationBuilder};
+use basemat::coupled::{
+    ContactSearch, DissipativeMidpoint, HhtAlpha, Load, Newmark, Placement, SimulationBuilder,
+};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::history::History;
 use basemat::interface::{Bonded, Coulomb, ThinLayer, Yielding};
@@ -26,6 +28,11 @@ const FREE: usize = 5;
 pub(crate) enum Scheme {
     /// Half-plane in the mean, midpoint rule.
     Own,
+    /// The same with other time schemes: dissipative midpoint rule with γ = 0.8, average acceleration,
+    /// HHT-α with α = −0.1.
+    Dissipative,
+    Newmark,
+    Hht,
     /// Patel & Spyrakos as printed: full plane in time, collocation, trapezoidal rule.
     Paper,
     /// Full plane by convolution quadrature (BDF2), trapezoidal rule.
@@ -36,9 +43,22 @@ impl Scheme {
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Own => "basemat",
+            Self::Dissipative => "dissipative",
+            Self::Newmark => "newmark",
+            Self::Hht => "hht",
             Self::Paper => "paper",
             Self::Quadrature => "quadrature",
         }
+    }
+
+    /// Whether the ground is the crate's half-plane.
+    pub(crate) fn is_half_plane(self) -> bool {
+        !matches!(self, Self::Paper | Self::Quadrature)
+    }
+
+    /// Whether the run cannot gain energy from nowhere.
+    pub(crate) fn is_passive(self) -> bool {
+        matches!(self, Self::Own | Self::Dissipative)
     }
 }
 
@@ -132,17 +152,23 @@ impl Scene {
     /// takes all of them at once.
     pub(crate) fn exists(&self) -> bool {
         match self.scheme {
-            Scheme::Own => true,
+            Scheme::Own | Scheme::Dissipative | Scheme::Newmark | Scheme::Hht => true,
             Scheme::Paper => self.poisson <= 0.45,
             Scheme::Quadrature => self.poisson <= 0.45 && self.beta >= 0.1,
         }
     }
 
     fn with_ground(&self, builder: SimulationBuilder, soil: Soil) -> Result<SimulationBuilder> {
-        if self.scheme == Scheme::Own {
+        if self.scheme.is_half_plane() {
             let strip = Strip::from_nodes(self.nodes())?;
             let ground = HalfPlaneGround::new(soil, &[strip])?.with_history_kind(self.history);
-            return Ok(builder.ground(ground));
+            let builder = builder.ground(ground);
+            return Ok(match self.scheme {
+                Scheme::Dissipative => builder.scheme(DissipativeMidpoint::default()),
+                Scheme::Newmark => builder.scheme(Newmark::default()),
+                Scheme::Hht => builder.scheme(HhtAlpha::new(-0.1)?),
+                _ => builder,
+            });
         }
         // Marched whatever is foretold: that is what the maps are to show.
         let ground = self.full_plane(soil)?.skip_assessment();
@@ -232,7 +258,7 @@ impl Scene {
     /// long: for very short steps and for many elements.
     pub(crate) fn assess(&self, known: &Foretold) -> Option<[f64; 2]> {
         let affordable = (0.25..=10.0).contains(&self.beta) && self.elements <= 10;
-        if self.scheme == Scheme::Own || !affordable {
+        if self.scheme.is_half_plane() || !affordable {
             return None;
         }
         let numbers = [self.beta, self.poisson].map(f64::to_bits);

@@ -85,6 +85,7 @@ def test_schemes_differ_as_they_should() -> None:
     losses = {}
     for name, scheme in {
         "midpoint": bm.TimeScheme.midpoint(),
+        "dissipative": bm.TimeScheme.dissipative_midpoint(0.8),
         "newmark": bm.TimeScheme.newmark(0.6, 0.3025),
         "theta": bm.TimeScheme.theta(0.7),
         "hht": bm.TimeScheme.hht_alpha(-0.2),
@@ -96,6 +97,8 @@ def test_schemes_differ_as_they_should() -> None:
     energy = 0.5 * 20e3 * 0.1**2
     assert abs(losses["midpoint"]) < 1e-12 * energy
     assert all(losses[name] > 0.01 * energy for name in ("newmark", "theta", "hht")), losses
+    # It damps what the step does not resolve, and here ωΔt is 0.2.
+    assert 1e-4 * energy < losses["dissipative"] < losses["hht"], losses
 
 
 def test_moment_center_ledger_and_safety(rocking) -> None:

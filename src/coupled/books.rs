@@ -38,8 +38,9 @@ pub(crate) struct Books {
     /// Per part: Rᵀ M Δu of the last step, and its Δy.
     pub(crate) momentum: Vec<[f64; 2]>,
     pub(crate) translation: Vec<[f64; 2]>,
-    /// Per part: M R.
+    /// Per part: M R, and its mass Rᵀ M R.
     inertia: Vec<[Terms; 2]>,
+    mass: Vec<[f64; 2]>,
     scratch: Scratch,
 }
 
@@ -68,13 +69,19 @@ impl Books {
         let compliant = if scene.compliant { state.modes.as_slice() } else { &[] };
         let compliance = compliant.iter().enumerate().map(compliance).collect::<Result<_, _>>()?;
         let parts = scene.model.influence.parts();
-        let inertia = parts.iter().map(|part| {
-            [0, 1].map(|k| {
+        let (mut inertia, mut mass) = (Vec::new(), Vec::new());
+        for part in parts {
+            let products = [0, 1].map(|k| {
+                let vector = spread(&part.vectors[k], n);
                 let mut product = vec![0.0; n];
-                scene.model.mass.multiply_add(1.0, &spread(&part.vectors[k], n), &mut product);
+                scene.model.mass.multiply_add(1.0, &vector, &mut product);
+                (dot(&vector, &product), product)
+            });
+            mass.push(products.each_ref().map(|(mass, _)| *mass));
+            inertia.push(products.map(|(_, product)| {
                 product.into_iter().enumerate().filter(|(_, m)| *m != 0.0).collect()
-            })
-        });
+            }));
+        }
         let mut books = Self {
             ledger: Ledger::default(),
             free_field: vec![0.0; size],
@@ -84,7 +91,8 @@ impl Books {
             nonlinear_work: 0.0,
             momentum: vec![[0.0; 2]; parts.len()],
             translation: vec![[0.0; 2]; parts.len()],
-            inertia: inertia.collect(),
+            inertia,
+            mass,
             scratch: Scratch { vector: vec![0.0; n], product: vec![0.0; n], means },
         };
         books.begin(scene, structure, state);
@@ -94,6 +102,7 @@ impl Books {
     /// Kinetic and strain energy of the motion at t = 0.
     fn begin(&mut self, scene: &Scene, structure: &dyn Structure, state: &State) {
         let Motion { displacement, velocity, .. } = &state.motion;
+        let at_rest = self.static_energy(scene);
         let (model, ledger) = (&scene.model, &mut self.ledger);
         ledger.kinetic = 0.5 * model.mass.form(velocity, velocity);
         if !model.linear {
@@ -107,6 +116,20 @@ impl Books {
         scene.subtract_base(vector, means);
         ledger.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_work;
         ledger.input = ledger.kinetic + ledger.strain + ledger.hysteresis;
+        ledger.largest = ledger.scale().max(at_rest);
+    }
+
+    /// Energy at rest in what the ledger books against the static state: compliant interfaces, and
+    /// the nonlinear force where its energy is known. Changes are rounded in proportion to it.
+    fn static_energy(&self, scene: &Scene) -> f64 {
+        let at_rest = &scene.static_state;
+        let count = scene.count();
+        let energy = |(i, traction): (usize, &f64)| {
+            let compliance = self.compliance.get(i % count).map_or(0.0, |c| c[i / count]);
+            0.5 * scene.base.length(i) * compliance * traction * traction
+        };
+        let interfaces: f64 = at_rest.traction.iter().enumerate().map(energy).sum();
+        interfaces + at_rest.energy.map_or(0.0, |energy| energy.stored.abs())
     }
 
     /// Every number that a step leaves to the next, always in this order.
@@ -124,9 +147,11 @@ impl Books {
             input,
             relative_input,
             soil_error_bound,
+            largest,
         } = &mut self.ledger;
         let mut all = vec![&mut self.nonlinear_work, kinetic, strain, damping, numerical, soil];
         all.extend([contact, layer, preload, input, relative_input, soil_error_bound, hysteresis]);
+        all.push(largest);
         let contact = [&mut self.free_field, &mut self.soil_displacement, &mut self.jump];
         all.extend(contact.into_iter().flatten());
         all.extend(self.compliance.iter_mut().flatten());
@@ -154,6 +179,17 @@ impl Books {
         self.book_structure(scene, state, forcing, increment);
         self.book_relative_input(scene, forcing, increment);
         self.book_contact(scene, ground, state, forcing, increment);
+        self.see_largest(scene.time_step);
+    }
+
+    /// Takes the energies of the step into the largest so far, that of the ground's motion included:
+    /// a structure that the ground leaves behind has none but rounding.
+    fn see_largest(&mut self, time_step: f64) {
+        let carried = self.mass.iter().zip(&self.translation).map(|(mass, increment)| {
+            let energy = |k: usize| 0.5 * mass[k] * (increment[k] / time_step).powi(2);
+            energy(0) + energy(1)
+        });
+        self.ledger.largest = self.ledger.scale().max(carried.sum());
     }
 
     /// The nonlinear force: stored, dissipated, or just done.

@@ -13,7 +13,7 @@ use crate::interface::ContactState;
 use crate::structure::{Structure, restore_variables, save_variables};
 
 /// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
-const FORMAT: u32 = 7;
+const FORMAT: u32 = 8;
 /// Most steps that a checkpoint may stand for: more would not fit into any run.
 const MOST_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,

@@ -67,6 +67,11 @@ pub struct Ledger {
     /// is due to it; but the soil of the equations may have taken this much more or less than it did here.
     #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
     pub soil_error_bound: f64,
+    /// Largest energy since the start, to which residuals are relative: magnitude of any term of the
+    /// balance at the end of any step, ½ M v² of the whole structure carried along by the ground, and the
+    /// energy of the static state in compliant interfaces and nonlinear parts.
+    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
+    pub largest: f64,
 }
 
 impl Ledger {
@@ -84,25 +89,20 @@ impl Ledger {
         input: f64::NAN,
         relative_input: f64::NAN,
         soil_error_bound: f64::NAN,
+        largest: f64::NAN,
     };
 
-    fn terms(&self) -> [f64; 12] {
-        let Self { kinetic, strain, hysteresis, damping, numerical, soil, .. } = *self;
-        let Self { contact, layer, preload, input, relative_input, soil_error_bound, .. } = *self;
-        [
-            kinetic,
-            strain,
-            hysteresis,
-            damping,
-            numerical,
-            soil,
-            contact,
-            layer,
-            preload,
-            input,
-            relative_input,
-            soil_error_bound,
-        ]
+    /// The terms of the left-hand side.
+    fn left(&self) -> [f64; 9] {
+        let Self { kinetic, strain, hysteresis, damping, numerical, .. } = *self;
+        let Self { soil, contact, layer, preload, .. } = *self;
+        [kinetic, strain, hysteresis, damping, numerical, soil, contact, layer, preload]
+    }
+
+    /// Largest energy so far, the present terms included.
+    pub(crate) fn scale(&self) -> f64 {
+        let terms = self.left().into_iter().chain([self.input]);
+        terms.fold(self.largest, |m, term| m.max(term.abs()))
     }
 
     /// Whether no ledger is kept: every term is then NaN.
@@ -110,27 +110,15 @@ impl Ledger {
         self.input.is_nan()
     }
 
-    /// Left-hand side minus input, relative to the largest term (or to a thousandth of the relative input, if
-    /// that is more); NaN if no ledger is kept.
+    /// Left-hand side minus input, relative to the [largest energy](Ledger::largest) so far; NaN if no
+    /// ledger is kept.
     pub fn residual(&self) -> f64 {
         if self.is_left_out() {
             return f64::NAN;
         }
-        let left = [
-            self.kinetic,
-            self.strain,
-            self.hysteresis,
-            self.damping,
-            self.numerical,
-            self.soil,
-            self.contact,
-            self.layer,
-            self.preload,
-        ];
-        // A structure that the ground leaves behind has no energy but rounding.
-        let least = self.input.abs().max(1e-3 * self.relative_input.abs());
-        let scale = left.iter().fold(least, |m, x| m.max(x.abs()));
-        if scale > 0.0 { (left.iter().sum::<f64>() - self.input).abs() / scale } else { 0.0 }
+        let open = (self.left().iter().sum::<f64>() - self.input).abs();
+        // `max` ignores NaN, the sum does not.
+        if open == 0.0 { 0.0 } else { open / self.scale() }
     }
 }
 
@@ -138,7 +126,12 @@ impl Ledger {
 impl PartialEq for Ledger {
     fn eq(&self, other: &Self) -> bool {
         let same = |(a, b): (f64, f64)| a == b || (a.is_nan() && b.is_nan());
-        self.terms().into_iter().zip(other.terms()).all(same)
+        let rest = |ledger: &Self| {
+            let Self { input, relative_input, soil_error_bound, largest, .. } = *ledger;
+            [input, relative_input, soil_error_bound, largest]
+        };
+        let left = self.left().into_iter().zip(other.left());
+        left.chain(rest(self).into_iter().zip(rest(other))).all(same)
     }
 }
 

@@ -66,7 +66,7 @@
 //! ```
 //!
 //! holds exactly for the discrete equations; see [`Ledger`] for the terms. [`Run::ledger_residual`]
-//! is the largest violation of a run, relative to the largest term.
+//! is the largest violation of a run, relative to the largest energy until then.
 
 mod advance;
 mod advice;
@@ -110,7 +110,9 @@ pub(crate) use resolution::Resolution;
 pub use response_estimate::StiffnessError;
 pub use scene::conditioning::Conditioning;
 pub use scene::stages::Placement;
-pub use scheme::{HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme};
+pub use scheme::{
+    DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme,
+};
 pub use simulation::Simulation;
 pub(crate) use state::Origin;
 pub use state::{Foundation, State, Transition};

@@ -83,6 +83,7 @@ mod tests {
             input: 376.0,
             relative_input: 300.0,
             soil_error_bound: 0.0,
+            largest: 376.0,
         };
         assert_eq!(ledger.residual(), 0.0);
         let shares = EnergyShares::of(&ledger).unwrap();

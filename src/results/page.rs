@@ -205,7 +205,7 @@ impl Run {
             }
             None => writeln!(f, "\nEnergy: input {:.4} kJ/m", 1e-3 * self.ledger.input)?,
         }
-        write!(f, "  ledger open by at most {:.1e} of its largest term", self.ledger_residual)?;
+        write!(f, "  ledger open by at most {:.1e} of the largest energy", self.ledger_residual)?;
         if self.history_error_bound() > 0.0 {
             let bound = number(1e-3 * self.history_error_bound());
             write!(f, "\n  soil within {bound} kJ/m (approximate history)")?;

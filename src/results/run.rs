@@ -86,6 +86,9 @@ pub struct Run {
     sequence: Sequence,
     #[cfg_attr(feature = "serde", serde(skip))]
     resolution: Resolution,
+    /// Least algorithmic energy of the ledger at any time.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    least_numerical: f64,
     #[cfg_attr(feature = "serde", serde(skip))]
     begin: Option<Instant>,
 }
@@ -123,6 +126,7 @@ impl Run {
             elements: elements.clone(),
             sequence: Sequence::new(state),
             resolution,
+            least_numerical: state.ledger.numerical,
             // There is no clock in bare WebAssembly.
             begin: (!cfg!(target_family = "wasm")).then(Instant::now),
         }
@@ -157,6 +161,7 @@ impl Run {
         self.debondings += state.transitions.iter().filter(|t| t.is_debonding()).count();
         self.rebondings += state.transitions.iter().filter(|t| t.is_rebonding()).count();
         self.ledger = state.ledger;
+        self.least_numerical = self.least_numerical.min(state.ledger.numerical);
         let residual = state.ledger.residual();
         if residual.is_nan() || residual > self.ledger_residual {
             self.ledger_residual = residual;
@@ -183,6 +188,7 @@ impl Run {
             lengths / self.elements.len() as f64,
             self.whole.base_rotation.largest().value,
             &self.ledger,
+            self.least_numerical,
         );
         self.resolution.warn(&mut self.warnings);
     }

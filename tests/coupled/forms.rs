@@ -9,8 +9,8 @@ use basemat::bem::full_plane::CqMethod;
 use basemat::bem::layered::{Stages, StripContact};
 use basemat::bem::{ContactElement, Grading, SpringGround, Strip};
 use basemat::coupled::{
-    ContactSearch, Coordinates, HhtAlpha, Ledger, Midpoint, Newmark, Outline, Peak, Placement,
-    Probe, Run, Theta, Warning, advise,
+    ContactSearch, Coordinates, DissipativeMidpoint, HhtAlpha, Ledger, Midpoint, Newmark, Outline,
+    Peak, Placement, Probe, Run, Theta, Warning, advise,
 };
 use basemat::fem::{Direction, Layer, MassKind, Material, Quad8Integration, QuadFormulation};
 use basemat::history::History;
@@ -177,6 +177,8 @@ fn schemes_dampings_strips_and_limits() {
     refused::<Theta>(json!({"theta": 0.4}), "theta is 0.4");
     kept(&Newmark::new(0.6, 0.4).unwrap());
     refused::<Newmark>(json!({"gamma": 0.5, "beta": 0.1}), "beta is 0.1");
+    kept(&DissipativeMidpoint::new(0.7).unwrap());
+    refused::<DissipativeMidpoint>(json!({"gamma": 0.4}), "gamma is 0.4");
     kept(&HhtAlpha::new(-0.1).unwrap());
     refused::<HhtAlpha>(json!({"alpha": 0.1}), "alpha is 0.1");
     kept(&RayleighDamping::from_ratios([1.0, 10.0], [0.05; 2]).unwrap());

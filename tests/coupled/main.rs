@@ -9,6 +9,7 @@ mod layered;
 mod layered_scenes;
 mod ledger;
 mod loads;
+mod passive_schemes;
 mod preload_of_soft_structures;
 mod reduced;
 mod runs;

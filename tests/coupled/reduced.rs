@@ -5,8 +5,8 @@
 
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::{
-    Coordinates, HhtAlpha, Load, Midpoint, Newmark, Placement, Probe, SimulationBuilder, State,
-    Theta,
+    Coordinates, DissipativeMidpoint, HhtAlpha, Load, Midpoint, Newmark, Placement, Probe,
+    SimulationBuilder, State, Theta,
 };
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
@@ -114,11 +114,12 @@ fn towers_that_uplift_and_slide_keep_it() {
 
 #[test]
 fn all_schemes_are_reduced() {
-    let schemes: [fn(SimulationBuilder) -> SimulationBuilder; 4] = [
+    let schemes: [fn(SimulationBuilder) -> SimulationBuilder; 5] = [
         |builder| builder.scheme(Midpoint),
         |builder| builder.scheme(Theta::new(0.7).unwrap()),
         |builder| builder.scheme(Newmark::new(0.6, 0.3025).unwrap()),
         |builder| builder.scheme(HhtAlpha::new(-0.1).unwrap()),
+        |builder| builder.scheme(DissipativeMidpoint::default()),
     ];
     for scheme in schemes {
         let make = || {

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use basemat::Simulation;
 use basemat::bem::{Grading, HalfPlaneGround, Strip};
-use basemat::coupled::{HhtAlpha, Midpoint, Newmark, Probe, Run, TimeScheme};
+use basemat::coupled::{DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, Probe, Run, TimeScheme};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::motion::{FreeField, FreeFieldFn};
@@ -21,6 +21,7 @@ use crate::support::scenes::{GRAVITY, SI, friction, shake, soil};
 fn schemes() -> Vec<(&'static str, Box<dyn TimeScheme>)> {
     vec![
         ("midpoint", Box::new(Midpoint)),
+        ("dissipative", Box::new(DissipativeMidpoint::default())),
         ("Newmark", Box::new(Newmark::default())),
         ("HHT", Box::new(HhtAlpha::new(-0.1).unwrap())),
     ]

@@ -1,8 +1,8 @@
 //! A rocking and sliding block on soil, and how smooth its normal force is.
 
 use basemat::bem::HalfPlaneGround;
-use basemat::coupled::{Midpoint, Theta};
-use basemat::fem::{Layer, Material, Mesh};
+use basemat::coupled::{DissipativeMidpoint, Midpoint, Probe, Theta};
+use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::interface::{Activation, Coulomb};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{FemModel, RigidBlock};
@@ -17,6 +17,7 @@ const WIDTH: f64 = 4.0;
 pub(crate) enum Scheme {
     Midpoint,
     Theta(f64),
+    Dissipative(f64),
 }
 
 /// A run of the block under El Centro × 2.
@@ -41,6 +42,11 @@ pub(crate) struct Outcome {
     pub(crate) peak_above: f64,
     /// Root mean square of what alternates from step to step.
     pub(crate) alternating: f64,
+    /// The same two of the horizontal acceleration of the top, over gravity.
+    pub(crate) acceleration_above: f64,
+    pub(crate) acceleration_alternating: f64,
+    /// Largest base shear, over the weight.
+    pub(crate) shear: f64,
     pub(crate) peak_slip: f64,
     pub(crate) residual_slip: f64,
     pub(crate) uplift: f64,
@@ -66,37 +72,45 @@ impl Scene {
         let builder = match self.scheme {
             Scheme::Midpoint => builder.scheme(Midpoint),
             Scheme::Theta(theta) => builder.scheme(Theta::new(theta)?),
+            Scheme::Dissipative(gamma) => builder.scheme(DissipativeMidpoint::new(gamma)?),
         };
         let builder = match self.young {
-            None => builder.structure(RigidBlock::new(WIDTH, self.height, DENSITY)?),
+            None => {
+                let block = RigidBlock::new(WIDTH, self.height, DENSITY)?;
+                let top = block.horizontal_at(self.height);
+                builder.structure(block).probe(Probe::acceleration("top", top))
+            }
             Some(young) => {
                 let material = Material::new(young, 0.2, DENSITY)?;
                 let rows = self.elements;
                 let layers = [Layer::new(self.height, rows, material)];
                 let mesh = Mesh::layered_block(-half..half, self.elements, &layers)?;
-                builder.structure(FemModel::on_base(mesh)?)
+                let model = FemModel::on_base(mesh)?;
+                let top = model.row(model.nearest_node(0.0, self.height), Direction::X)?;
+                builder.structure(model).probe(Probe::acceleration("top", top))
             }
         };
         let mut simulation = builder.build()?;
         let weight = WIDTH * self.height * DENSITY * STANDARD_GRAVITY;
-        let mut force = Vec::new();
+        let (mut force, mut acceleration) = (Vec::new(), Vec::new());
         let (mut penetration, mut input) = (0.0_f64, 0.0_f64);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
         let steps = (self.duration / self.time_step).round() as usize;
         let run = simulation.run(steps, |state| {
             force.push(state.normal_force / weight);
+            acceleration.push(state.probes[0] / STANDARD_GRAVITY);
             input = input.max(state.ledger.input.abs());
             for contact in &state.contact {
                 penetration = penetration.max(-contact.gap);
             }
         })?;
         let fast = high_pass(&force, self.time_step);
-        let square: f64 = fast.iter().map(|f| f * f).sum();
-        let square_of_alternating: f64 =
-            force.windows(3).map(|f| (0.25 * (f[0] + f[2]) - 0.5 * f[1]).powi(2)).sum();
         Ok(Outcome {
-            alternating: (square_of_alternating / force.len() as f64).sqrt(),
-            rms_above: (square / fast.len() as f64).sqrt(),
+            alternating: alternating(&force),
+            acceleration_above: root_mean_square(&high_pass(&acceleration, self.time_step)),
+            acceleration_alternating: alternating(&acceleration),
+            shear: run.base_shear.magnitude() / weight,
+            rms_above: root_mean_square(&fast),
             peak_above: fast.iter().fold(0.0, |m, f| m.max(f.abs())),
             peak_slip: run.whole.largest_slip.largest().value.abs(),
             residual_slip: run.whole.residual_slip,
@@ -109,6 +123,17 @@ impl Scene {
             changes: run.mode_changes,
         })
     }
+}
+
+fn root_mean_square(values: &[f64]) -> f64 {
+    (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt()
+}
+
+/// Root mean square of what alternates from step to step.
+fn alternating(values: &[f64]) -> f64 {
+    let parts: Vec<f64> =
+        values.windows(3).map(|x| 0.25 * (x[0] + x[2]) - 0.5 * x[1]).collect();
+    root_mean_square(&parts)
 }
 
 /// Content above [`CUT`]: fourth-order Butterworth high-pass, forwards and backwards, so that it

@@ -102,7 +102,13 @@ impl PyLedger {
         self.0.soil_error_bound
     }
 
-    /// Difference between the two sides of the balance, relative to the largest term.
+    /// Largest energy so far, to which ``residual`` is relative.
+    #[getter]
+    fn largest(&self) -> f64 {
+        self.0.largest
+    }
+
+    /// Difference between the two sides of the balance, relative to the largest energy so far.
     #[getter]
     fn residual(&self) -> f64 {
         self.0.residual()

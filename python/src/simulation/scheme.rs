@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use basemat::coupled::{HhtAlpha, Midpoint, Newmark, Theta, TimeScheme};
+use basemat::coupled::{DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, Theta, TimeScheme};
 use pyo3::prelude::*;
 
 use crate::error::OrRaise;
@@ -26,20 +26,27 @@ impl PyTimeScheme {
         copied(Midpoint)
     }
 
-    /// The θ rule, ½ ≤ θ ≤ 1.
+    /// The midpoint rule that damps high frequencies, ½ ≤ γ ≤ 1: second order, passive together with the soil.
+    #[staticmethod]
+    #[pyo3(signature = (gamma=0.8))]
+    fn dissipative_midpoint(gamma: f64) -> PyResult<Self> {
+        Ok(copied(DissipativeMidpoint::new(gamma).or_raise()?))
+    }
+
+    /// The θ rule, ½ ≤ θ ≤ 1: first order for θ > ½.
     #[staticmethod]
     fn theta(theta: f64) -> PyResult<Self> {
         Ok(copied(Theta::new(theta).or_raise()?))
     }
 
-    /// Newmark's rule.
+    /// Newmark's rule, for comparison with papers: its coupling with the soil may make energy.
     #[staticmethod]
     #[pyo3(signature = (gamma=0.5, beta=0.25))]
     fn newmark(gamma: f64, beta: f64) -> PyResult<Self> {
         Ok(copied(Newmark::new(gamma, beta).or_raise()?))
     }
 
-    /// The HHT-α rule.
+    /// The HHT-α rule, for comparison with papers: its coupling with the soil may make energy.
     #[staticmethod]
     fn hht_alpha(alpha: f64) -> PyResult<Self> {
         Ok(copied(HhtAlpha::new(alpha).or_raise()?))

@@ -4,11 +4,14 @@ use super::newmark::end_of_step;
 use super::{SchemeCoefficients, TimeScheme};
 use crate::error::{Error, Result};
 
-/// HHT-α (Hilber, Hughes & Taylor 1977): second order, damps high frequencies only.
+/// HHT-α (Hilber, Hughes & Taylor 1977), **for comparison with papers**: second order, damps high
+/// frequencies of the structure alone. For use take
+/// [`DissipativeMidpoint`](super::DissipativeMidpoint), which is passive together with the soil.
 ///
 /// Newmark's method with γ = ½ − α and β = (1−α)²/4, its damping and stiffness forces and loads
 /// taken at t₁ + α Δt, its inertia at t₁. Contact tractions are constant over the step and enter in
-/// full, with what [`Newmark`](super::Newmark) says of springs. α = 0 is average acceleration; −⅓ damps most: the spectral radius tends to
+/// full: what [`Newmark`](super::Newmark) says of the energy that its coupling makes holds here, less
+/// what α takes. α = 0 is average acceleration; −⅓ damps most: the spectral radius tends to
 /// (1+α)/(1−α) for steps that are long against the period, ½ at α = −⅓.
 ///
 /// ```

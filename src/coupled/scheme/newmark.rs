@@ -3,17 +3,23 @@
 use super::{SchemeCoefficients, TimeScheme};
 use crate::error::{Error, Result};
 
-/// Newmark's method (1959), equation of motion at the end of the step.
+/// Newmark's method (1959), equation of motion at the end of the step: **for comparison with papers**.
+/// For use take [`Midpoint`](super::Midpoint), which is average acceleration with the step's own
+/// traction, or [`DissipativeMidpoint`](super::DissipativeMidpoint).
 ///
 /// u₁ = u₀ + Δt v₀ + Δt² ((½−β) a₀ + β a₁), v₁ = v₀ + Δt ((1−γ) a₀ + γ a₁). Contact tractions of the
 /// step enter at its end with their full value, which is how Patel & Spyrakos couple soil and
-/// structure. The default, average acceleration (γ = ½, β = ¼), neither damps nor feeds a linear
-/// structure; but the work of its forces is booked where they act, and the difference between
-/// equilibrium at the ends of steps and within them goes to [`Ledger::numerical`](crate::coupled::Ledger),
-/// which is not zero. On springs without dashpots it grows for ever unless they act at the end of the
-/// step, too ([`SpringGround::with_theta`](crate::bem::SpringGround::with_theta) of 1). Loads present at t = 0 belong to the static state, so that the
-/// method starts from zero acceleration; with an initial motion, or a weight that acts from t = 0 on, from that of
-/// the structure before the soil has answered.
+/// structure. The structure so feels the mean of two steps' tractions, the soil those of one, and the
+/// difference makes energy: the default, average acceleration (γ = ½, β = ¼), neither damps nor feeds a
+/// linear structure by itself, but with soil it does. Radiation does not always outweigh it; base shears of
+/// buildings on the half-plane come out larger by 8 % at 10 ms and 20 % at 20 ms, and light blocks that
+/// land fly higher every time. What it makes is the negative of
+/// [`Ledger::numerical`](crate::coupled::Ledger), and beyond 2 % of the largest energy a run ends with
+/// [`Warning::AlgorithmicEnergy`](crate::coupled::Warning). On springs without dashpots it grows for ever
+/// unless they act at the end of the step, too
+/// ([`SpringGround::with_theta`](crate::bem::SpringGround::with_theta) of 1). Loads present at t = 0
+/// belong to the static state, so that the method starts from zero acceleration; with an initial motion, or
+/// a weight that acts from t = 0 on, from that of the structure before the soil has answered.
 ///
 /// ```
 /// use basemat::coupled::Newmark;

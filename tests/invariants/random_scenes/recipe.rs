@@ -2,12 +2,15 @@
 
 use basemat::bem::{Grading, HalfPlaneGround, SpringGround, Strip};
 use basemat::coupled::{
-    Coordinates, HhtAlpha, Midpoint, Newmark, Placement, SimulationBuilder, State, Theta,
+    Coordinates, DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, Placement, SimulationBuilder,
+    State, Theta,
 };
-use basemat::fem::{Layer, Material, Mesh};
+use basemat::fem::{Layer, Material, Mesh, Quad8};
 use basemat::history::History;
 use basemat::interface::{Bonded, Coulomb, ThinLayer};
-use basemat::structure::{FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey};
+use basemat::structure::{
+    CraigBampton, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey,
+};
 use basemat::{Error, Simulation, Soil};
 use proptest::prelude::*;
 
@@ -22,8 +25,58 @@ pub(crate) const WIDTH: f64 = 4.0;
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Building {
     Block { height: f64, density: f64 },
-    Tower { height: f64, rows: usize, columns: usize, young: f64, damped: bool },
+    Tower(Tower),
     Storeys { count: usize, stiffness: f64, damped: bool },
+}
+
+/// A block of finite elements.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Tower {
+    height: f64,
+    rows: usize,
+    columns: usize,
+    young: f64,
+    poisson: f64,
+    damped: bool,
+    form: Form,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Form {
+    Quad4,
+    Quad8,
+    /// Four-node elements, reduced to the base and two modes.
+    Reduced,
+}
+
+impl Tower {
+    fn mesh(&self, frame: Frame) -> Result<Mesh, Error> {
+        let material =
+            Material::new(self.young * frame.pressure(), self.poisson, 2000.0 * frame.density())?;
+        let [half, height] = [0.5 * WIDTH, self.height].map(|length| length * frame.length);
+        if self.form != Form::Quad8 {
+            let layers = [Layer::new(height, self.rows, material)];
+            return Mesh::layered_block(-half..half, self.columns, &layers);
+        }
+        // Nodes at all crossings of a grid of half elements but the middles.
+        let (across, up) = (2 * self.columns, 2 * self.rows);
+        let mut mesh = Mesh::new();
+        let mut nodes = vec![0; (across + 1) * (up + 1)];
+        for (k, node) in nodes.iter_mut().enumerate() {
+            let (i, j) = (k % (across + 1), k / (across + 1));
+            if i % 2 == 0 || j % 2 == 0 {
+                let x = half * (2.0 * i as f64 / across as f64 - 1.0);
+                *node = mesh.add_node(x, height * j as f64 / up as f64)?;
+            }
+        }
+        for k in 0..self.columns * self.rows {
+            let (i, j) = (2 * (k % self.columns), 2 * (k / self.columns));
+            let around = [[0, 0], [2, 0], [2, 2], [0, 2], [1, 0], [2, 1], [1, 2], [0, 1]];
+            let at = |[a, b]: [usize; 2]| nodes[(j + b) * (across + 1) + i + a];
+            mesh.add(Quad8::new(around.map(at), material))?;
+        }
+        Ok(mesh)
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,6 +98,7 @@ pub(crate) enum Law {
 pub(crate) enum Scheme {
     Midpoint,
     Theta(f64),
+    Dissipative(f64),
     Newmark(f64),
     Hht(f64),
 }
@@ -66,6 +120,8 @@ pub(crate) struct Recipe {
     pub(crate) courant: f64,
     /// Shear modulus of the soil, Pa.
     pub(crate) modulus: f64,
+    /// Without gravity: a base that may open flies off and away.
+    pub(crate) weightless: bool,
 }
 
 impl Recipe {
@@ -96,7 +152,7 @@ impl Recipe {
     pub(crate) fn weight(&self) -> f64 {
         let mass = match self.building {
             Building::Block { height, density } => WIDTH * height * density,
-            Building::Tower { height, .. } => WIDTH * height * 2000.0,
+            Building::Tower(Tower { height, .. }) => WIDTH * height * 2000.0,
             Building::Storeys { count, .. } => 3e4 + 10e3 * count as f64,
         };
         mass * GRAVITY
@@ -124,9 +180,10 @@ impl Recipe {
             delay: delay as f64 * step,
             duration,
         };
+        let gravity = if self.weightless { 0.0 } else { GRAVITY * frame.acceleration() };
         let builder = Simulation::builder(step)
             .motion(motion)
-            .gravity(GRAVITY * frame.acceleration())
+            .gravity(gravity)
             .placement(self.placement)
             .coordinates(self.coordinates);
         let builder = self.with_ground(builder, frame)?;
@@ -143,6 +200,7 @@ impl Recipe {
         let builder = match self.scheme {
             Scheme::Midpoint => builder.scheme(Midpoint),
             Scheme::Theta(theta) => builder.scheme(Theta::new(theta)?),
+            Scheme::Dissipative(gamma) => builder.scheme(DissipativeMidpoint::new(gamma)?),
             Scheme::Newmark(gamma) => builder.scheme(Newmark::new(gamma, 0.5 * gamma)?),
             Scheme::Hht(alpha) => builder.scheme(HhtAlpha::new(alpha)?),
         };
@@ -184,16 +242,15 @@ impl Recipe {
                 let (height, density) = (height * frame.length, density * frame.density());
                 builder.structure(RigidBlock::new(width, height, density)?)
             }
-            Building::Tower { height, rows, columns, young, damped } => {
-                let material =
-                    Material::new(young * frame.pressure(), 0.2, 2000.0 * frame.density())?;
-                let layers = [Layer::new(height * frame.length, rows, material)];
-                let half = 0.5 * width;
-                let model = FemModel::on_base(Mesh::layered_block(-half..half, columns, &layers)?)?;
-                if damped {
+            Building::Tower(tower) => {
+                let mut model = FemModel::on_base(tower.mesh(frame)?)?;
+                if tower.damped {
                     let frequencies = [2.0 / frame.time, 20.0 / frame.time];
-                    let damping = RayleighDamping::from_ratios(frequencies, [0.05; 2])?;
-                    builder.structure(model.with_rayleigh(damping))
+                    model =
+                        model.with_rayleigh(RayleighDamping::from_ratios(frequencies, [0.05; 2])?);
+                }
+                if tower.form == Form::Reduced {
+                    builder.structure(CraigBampton::new(2).reduce(model)?)
                 } else {
                     builder.structure(model)
                 }
@@ -212,13 +269,17 @@ impl Recipe {
 
     /// All states of a run, the static one first.
     pub(crate) fn run(&self, frame: Frame, delay: usize) -> Result<Vec<State>, Error> {
-        let mut simulation = self.build(frame, delay)?;
-        let mut states = vec![simulation.state().clone()];
-        for _ in 0..STEPS + delay {
-            states.push(simulation.step()?.clone());
-        }
-        Ok(states)
+        march(self.build(frame, delay)?, STEPS + delay)
     }
+}
+
+/// All states of a run, the static one first.
+pub(crate) fn march(mut simulation: Simulation, steps: usize) -> Result<Vec<State>, Error> {
+    let mut states = vec![simulation.state().clone()];
+    for _ in 0..steps {
+        states.push(simulation.step()?.clone());
+    }
+    Ok(states)
 }
 
 /// 10^x with x uniform.
@@ -230,18 +291,28 @@ fn building() -> impl Strategy<Value = Building> {
     prop_oneof![
         (0.5..10.0, decades(300.0, 3000.0))
             .prop_map(|(height, density)| Building::Block { height, density }),
-        (0.5..10.0, 1_usize..4, 1_usize..5, decades(1e8, 3e10), any::<bool>()).prop_map(
-            |(height, rows, columns, young, damped)| Building::Tower {
-                height,
-                rows,
-                columns,
-                young,
-                damped
-            }
-        ),
+        tower().prop_map(Building::Tower),
         (1_usize..4, decades(1e6, 1e9), any::<bool>())
             .prop_map(|(count, stiffness, damped)| Building::Storeys { count, stiffness, damped }),
     ]
+}
+
+fn tower() -> impl Strategy<Value = Tower> {
+    let size = (0.5..10.0, 1_usize..4, 1_usize..5);
+    let poisson = prop_oneof![3 => Just(0.2), 1 => 0.0..0.4995];
+    let form =
+        prop_oneof![3 => Just(Form::Quad4), 1 => Just(Form::Quad8), 1 => Just(Form::Reduced)];
+    (size, decades(1e8, 3e10), poisson, any::<bool>(), form).prop_map(
+        |((height, rows, columns), young, poisson, damped, form)| Tower {
+            height,
+            rows,
+            columns,
+            young,
+            poisson,
+            damped,
+            form,
+        },
+    )
 }
 
 fn bed() -> impl Strategy<Value = Bed> {
@@ -252,7 +323,7 @@ fn bed() -> impl Strategy<Value = Bed> {
         History::Exponentials,
     ]);
     prop_oneof![
-        3 => (any::<bool>(), 0.0..0.49, history)
+        3 => (any::<bool>(), prop_oneof![7 => 0.0..0.49, 1 => 0.49..0.4995], history)
             .prop_map(|(graded, poisson, history)| Bed::HalfPlane { graded, poisson, history }),
         1 => any::<bool>().prop_map(|dashpots| Bed::Springs { dashpots }),
     ]
@@ -276,6 +347,7 @@ fn scheme() -> impl Strategy<Value = Scheme> {
     prop_oneof![
         3 => Just(Scheme::Midpoint),
         1 => (0.5..1.0).prop_map(Scheme::Theta),
+        1 => (0.5..1.0).prop_map(Scheme::Dissipative),
         1 => (0.5..0.8).prop_map(Scheme::Newmark),
         1 => (-1.0 / 3.0..0.0).prop_map(Scheme::Hht),
     ]
@@ -310,6 +382,7 @@ pub(crate) fn recipes(most_friction: f64) -> impl Strategy<Value = Recipe> {
             strength,
             courant,
             modulus,
+            weightless: false,
         };
         // Rayleigh-damped or not, all structures here decouple; a base of one element does not
         // resist rotation.

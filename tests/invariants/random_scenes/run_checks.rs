@@ -79,10 +79,15 @@ pub(crate) fn numbers_are_finite(states: &[State]) -> Result<(), TestCaseError> 
     Ok(())
 }
 
+/// Roundings times the condition of the effective stiffness by which the ledger may be open: see
+/// `tests/coupled/conditioning.rs`.
+const ROUNDINGS: f64 = 60.0;
+
 /// Every joule is accounted for, and what is lost is lost.
 pub(crate) fn energy_is_kept(
     recipe: &Recipe,
     states: &[State],
+    condition: f64,
     tally: &mut Tally,
 ) -> Result<(), TestCaseError> {
     let scale = Scales::of(states).energy;
@@ -94,9 +99,14 @@ pub(crate) fn energy_is_kept(
     let one_point = matches!(recipe.scheme, Scheme::Midpoint | Scheme::Theta(_));
     for pair in states.windows(2) {
         let (before, now) = (&pair[0].ledger, &pair[1].ledger);
-        let [left @ .., input] = terms(now);
-        let open = left.iter().sum::<f64>() - input;
-        tally.within("ledger open, of the largest term", open.abs() / scale, 1e-9)?;
+        let (open, rounding) = (now.residual(), condition * f64::EPSILON);
+        tally.within("ledger open, of the largest energy so far", open, open.max(0.0))?;
+        tally.within("ledger open, in roundings times the condition", open / rounding, f64::MAX)?;
+        tally.within(
+            "ledger open, of what rounding explains",
+            open,
+            (1e-9_f64).max(ROUNDINGS * rounding),
+        )?;
         let gained = (before.contact - now.contact) / scale;
         tally.within("gained from friction and impact in a step", gained, 1e-12)?;
         if one_point {
