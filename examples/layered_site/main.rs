@@ -19,6 +19,7 @@ use std::path::PathBuf;
 use basemat::Result;
 use basemat::bem::SharedKernels;
 use basemat::bem::layered::LayeredGround;
+use basemat::coupled::EnergyTerm;
 use basemat::motion::SpectralOrdinate;
 use basemat::prelude::*;
 use basemat::results::log_spaced;
@@ -190,7 +191,7 @@ fn table(cases: &[Case], motions: [&Record; 5]) -> Result<String> {
     row(
         "energy to the soil, %",
         1,
-        of(&|case| case.run.energy().map_or(f64::NAN, |shares| 100.0 * shares.soil)),
+        of(&|case| 100.0 * case.run.ledger.share(EnergyTerm::Soil).unwrap_or(f64::NAN)),
     );
     row("before the first step, s", 2, of(&|case| case.seconds[0]));
     row("2000 steps, s", 3, of(&|case| case.seconds[1]));

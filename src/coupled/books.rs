@@ -134,24 +134,8 @@ impl Books {
 
     /// Every number that a step leaves to the next, always in this order.
     pub(crate) fn numbers(&mut self) -> Vec<&mut f64> {
-        let Ledger {
-            kinetic,
-            strain,
-            hysteresis,
-            damping,
-            numerical,
-            soil,
-            contact,
-            layer,
-            preload,
-            input,
-            relative_input,
-            soil_error_bound,
-            largest,
-        } = &mut self.ledger;
-        let mut all = vec![&mut self.nonlinear_work, kinetic, strain, damping, numerical, soil];
-        all.extend([contact, layer, preload, input, relative_input, soil_error_bound, hysteresis]);
-        all.push(largest);
+        let mut all = vec![&mut self.nonlinear_work];
+        all.extend(self.ledger.terms_mut());
         let contact = [&mut self.free_field, &mut self.soil_displacement, &mut self.jump];
         all.extend(contact.into_iter().flatten());
         all.extend(self.compliance.iter_mut().flatten());

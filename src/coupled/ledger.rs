@@ -2,106 +2,191 @@
 
 use std::fmt;
 
+use crate::column::column;
 use crate::results::unit::number;
 
-/// Energies since the start, J per metre of thickness.
-///
-/// ```text
-/// kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input
-/// ```
-///
-/// holds exactly for the discrete equations. Every term is computed from its own definition and
-/// none as the remainder, so that [`Ledger::residual`] checks the whole step. One thing it does not
-/// check: energies that a nonlinear structure says it stores and dissipates. The difference between
-/// them and the work of its force is in `numerical`, and falls with the square of the step.
-#[derive(Debug, Clone, Copy, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Ledger {
+/// Where a term stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    /// Left-hand side of the balance: kept, or still to come.
+    Balance,
+    /// The same, of what the structure has lost for good, or to the ground.
+    Lost,
+    /// Right-hand side.
+    Input,
+    /// Beside the balance.
+    Beside,
+}
+
+/// From rows in the order of columns: the terms as an enum, and the ledger that holds them.
+macro_rules! energies {
+    ($($(#[$doc:meta])* $variant:ident $field:ident, $side:ident, $name:literal;)+) => {
+        /// A term of the [`Ledger`].
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        #[non_exhaustive]
+        pub enum EnergyTerm {
+            $($(#[$doc])* $variant,)+
+        }
+
+        const ROWS: &[(&str, Side, &str)] = &[$((stringify!($field), Side::$side, $name)),+];
+
+        impl EnergyTerm {
+            /// All terms, in the order of columns.
+            pub const ALL: [Self; ROWS.len()] = [$(Self::$variant),+];
+        }
+
+        /// Energies since the start, J per metre of thickness.
+        ///
+        /// ```text
+        /// kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input
+        /// ```
+        ///
+        /// holds exactly for the discrete equations. Every term is computed from its own definition and
+        /// none as the remainder, so that [`Ledger::residual`] checks the whole step. One thing it does not
+        /// check: energies that a nonlinear structure says it stores and dissipates. The difference between
+        /// them and the work of its force is in `numerical`, and falls with the square of the step.
+        #[derive(Debug, Clone, Copy, Default)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[non_exhaustive]
+        pub struct Ledger {
+            $(
+                $(#[$doc])*
+                #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
+                pub $field: f64,
+            )+
+        }
+
+        impl Ledger {
+            /// The ledger of a simulation that keeps none: every term is NaN.
+            pub(crate) const LEFT_OUT: Self = Self { $($field: f64::NAN),+ };
+
+            /// All terms, in the order of [`EnergyTerm::ALL`].
+            pub fn terms(&self) -> [f64; ROWS.len()] {
+                [$(self.$field),+]
+            }
+
+            /// The same, to be overwritten.
+            pub(crate) fn terms_mut(&mut self) -> [&mut f64; ROWS.len()] {
+                [$(&mut self.$field),+]
+            }
+        }
+    };
+}
+
+energies! {
     /// ½ v·M v.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
-    pub kinetic: f64,
+    Kinetic kinetic, Balance, "kinetic and strain";
     /// ½ u·K u, plus what the nonlinear internal force stores: its work since t = 0, where the structure
     /// does not tell stored from dissipated energy.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
-    pub strain: f64,
+    Strain strain, Balance, "kinetic and strain";
     /// Heat of hysteretic parts of the structure
     /// ([`NonlinearForce::energy`](crate::structure::NonlinearForce::energy)); never less
     /// than before.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
-    pub hysteresis: f64,
+    Hysteresis hysteresis, Lost, "hysteresis";
     /// Work of the dashpots, on displacements relative to the free field's translation.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
-    pub damping: f64,
+    Damping damping, Lost, "damping";
     /// Loss by the time scheme: in the structure (zero for the midpoint rule), and in compliant
     /// interfaces, whose traction is that of the end of the step all through it. With a nonlinear
     /// force of known energies, also its work in the discrete equation beyond them: the error of
     /// one point in a step, of either sign.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
-    pub numerical: f64,
+    Numerical numerical, Balance, "time scheme";
     /// Work done on the soil by the changes of traction: radiated and stored.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
-    pub soil: f64,
+    Soil soil, Lost, "soil (radiated, stored)";
     /// Loss by friction and impact, and with the springs of a compliant interface
     /// when its elements open and close: total tractions times minus the change of the jump, its
     /// elastic part left out. Never less from step to step, with any law of the crate.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
-    pub contact: f64,
+    Contact contact, Lost, "friction and impact";
     /// Elastic energy stored in compliant interfaces ([`crate::interface::InterfaceLaw::compliance`]),
     /// as a change against the static state; zero for hard contact.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
-    pub layer: f64,
+    Layer layer, Balance, "interface layer";
     /// Potential of the static tractions against the change of the jump.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
-    pub preload: f64,
+    Preload preload, Balance, "static pressures";
     /// Work of external loads and of the free field, and the energy of an initial motion.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
-    pub input: f64,
+    Input input, Input, "input";
     /// Relative input energy (Uang & Bertero 1990): work of the loads, and of the inertia forces
     /// −M R ÿ of the free field's translation y, on displacements relative to it. It stands beside
     /// the balance, to be compared with that of a structure on a fixed base.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
-    pub relative_input: f64,
+    RelativeInput relative_input, Beside, "relative input";
     /// Error bound of `soil`, Σ A |τ| |error of Δs|: zero unless the ground's history is
     /// approximate. The terms above balance with the history as it is, so nothing of the residual
     /// is due to it; but the soil of the equations may have taken this much more or less than it did here.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
-    pub soil_error_bound: f64,
+    SoilErrorBound soil_error_bound, Beside, "error bound of the soil";
     /// Largest energy since the start, to which residuals are relative: magnitude of any term of the
     /// balance at the end of any step, ½ M v² of the whole structure carried along by the ground, and the
     /// energy of the static state in compliant interfaces and nonlinear parts.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
-    pub largest: f64,
+    Largest largest, Beside, "largest energy";
+}
+
+impl EnergyTerm {
+    /// Its name in tables and pictures. Terms of one name are shown as their sum.
+    pub fn name(self) -> &'static str {
+        ROWS[self as usize].2
+    }
+
+    /// Its column in files: `soil_energy_j_per_m`.
+    pub fn column(self) -> String {
+        let word = ROWS[self as usize].0;
+        column(
+            &if word.contains("bound") { word.to_owned() } else { format!("{word} energy") },
+            "J/m",
+        )
+    }
+
+    /// Whether it is what the structure has lost for good, or to the ground.
+    pub(crate) fn is_lost(self) -> bool {
+        self.side() == Side::Lost
+    }
+
+    fn side(self) -> Side {
+        ROWS[self as usize].1
+    }
+}
+
+/// The word of its field, `soil`.
+impl fmt::Display for EnergyTerm {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(ROWS[*self as usize].0)
+    }
 }
 
 impl Ledger {
-    /// The ledger of a simulation that keeps none: every term is NaN.
-    pub(crate) const LEFT_OUT: Self = Self {
-        kinetic: f64::NAN,
-        strain: f64::NAN,
-        hysteresis: f64::NAN,
-        damping: f64::NAN,
-        numerical: f64::NAN,
-        soil: f64::NAN,
-        contact: f64::NAN,
-        layer: f64::NAN,
-        preload: f64::NAN,
-        input: f64::NAN,
-        relative_input: f64::NAN,
-        soil_error_bound: f64::NAN,
-        largest: f64::NAN,
-    };
+    /// Value of a term, J/m.
+    pub fn term(&self, term: EnergyTerm) -> f64 {
+        self.terms()[term as usize]
+    }
 
-    /// The terms of the left-hand side.
-    fn left(&self) -> [f64; 9] {
-        let Self { kinetic, strain, hysteresis, damping, numerical, .. } = *self;
-        let Self { soil, contact, layer, preload, .. } = *self;
-        [kinetic, strain, hysteresis, damping, numerical, soil, contact, layer, preload]
+    /// Terms of the left-hand side.
+    fn balance(&self) -> impl Iterator<Item = (EnergyTerm, f64)> {
+        let all = EnergyTerm::ALL.into_iter().zip(self.terms());
+        all.filter(|(term, _)| matches!(term.side(), Side::Balance | Side::Lost))
+    }
+
+    /// What the input has become, J/m: the left-hand side by the [names](EnergyTerm::name) of its terms.
+    pub fn parts(&self) -> Vec<(&'static str, f64)> {
+        let mut parts: Vec<(&'static str, f64)> = Vec::new();
+        for (term, energy) in self.balance() {
+            match parts.iter_mut().find(|(name, _)| *name == term.name()) {
+                Some((_, sum)) => *sum += energy,
+                None => parts.push((term.name(), energy)),
+            }
+        }
+        parts
+    }
+
+    /// The parts relative to the input; `None` if that is not positive.
+    pub fn shares(&self) -> Option<Vec<(&'static str, f64)>> {
+        let share = |(name, energy)| (name, energy / self.input);
+        (self.input > 0.0).then(|| self.parts().into_iter().map(share).collect())
+    }
+
+    /// A term relative to the input; `None` if that is not positive.
+    pub fn share(&self, term: EnergyTerm) -> Option<f64> {
+        (self.input > 0.0).then(|| self.term(term) / self.input)
     }
 
     /// Largest energy so far, the present terms included.
     pub(crate) fn scale(&self) -> f64 {
-        let terms = self.left().into_iter().chain([self.input]);
+        let terms = self.balance().map(|(_, energy)| energy).chain([self.input]);
         terms.fold(self.largest, |m, term| m.max(term.abs()))
     }
 
@@ -116,7 +201,7 @@ impl Ledger {
         if self.is_left_out() {
             return f64::NAN;
         }
-        let open = (self.left().iter().sum::<f64>() - self.input).abs();
+        let open = (self.balance().map(|(_, energy)| energy).sum::<f64>() - self.input).abs();
         // `max` ignores NaN, the sum does not.
         if open == 0.0 { 0.0 } else { open / self.scale() }
     }
@@ -126,12 +211,7 @@ impl Ledger {
 impl PartialEq for Ledger {
     fn eq(&self, other: &Self) -> bool {
         let same = |(a, b): (f64, f64)| a == b || (a.is_nan() && b.is_nan());
-        let rest = |ledger: &Self| {
-            let Self { input, relative_input, soil_error_bound, largest, .. } = *ledger;
-            [input, relative_input, soil_error_bound, largest]
-        };
-        let left = self.left().into_iter().zip(other.left());
-        left.chain(rest(self).into_iter().zip(rest(other))).all(same)
+        self.terms().into_iter().zip(other.terms()).all(same)
     }
 }
 
@@ -143,26 +223,56 @@ impl fmt::Display for Ledger {
         }
         let shown = |energy: f64| number(1e-3 * energy);
         writeln!(f, "energy, kJ/m: input {}", shown(self.input))?;
-        let pairs = [
-            [("kinetic", self.kinetic), ("strain", self.strain)],
-            [("soil", self.soil), ("contact", self.contact)],
-            [("damping", self.damping), ("numerical", self.numerical)],
-        ];
-        for [(left, first), (right, second)] in pairs {
-            let [first, second] = [first, second].map(shown);
-            writeln!(f, "  {left:<12}{first:>12}    {right:<12}{second:>12}")?;
+        for pair in self.parts().chunks(2) {
+            let cell = |(name, energy): &(&str, f64)| format!("{name:<24}{:>12}", shown(*energy));
+            writeln!(f, "  {}", pair.iter().map(cell).collect::<Vec<_>>().join("    "))?;
         }
-        for (name, energy) in [("hysteresis", self.hysteresis), ("layer", self.layer)] {
-            if energy != 0.0 {
-                writeln!(f, "  {name:<12}{:>12}", shown(energy))?;
-            }
-        }
-        let (preload, residual) = (shown(self.preload), self.residual());
-        write!(f, "  {:<12}{preload:>12}    {:<12}{residual:>12.1e}", "preload", "residual")?;
+        write!(f, "  {:<24}{:>12.1e}", "residual", self.residual())?;
         if self.soil_error_bound > 0.0 {
             let bound = shown(self.soil_error_bound);
-            write!(f, "\n  {:<12}{bound:>12}    (approximate history)", "soil within")?;
+            write!(f, "\n  {:<24}{bound:>12}", EnergyTerm::SoilErrorBound.name())?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_add_up_as_the_ledger_does() {
+        let ledger = Ledger {
+            kinetic: 1.0,
+            strain: 2.0,
+            hysteresis: 256.0,
+            damping: 4.0,
+            numerical: 8.0,
+            soil: 16.0,
+            contact: 32.0,
+            layer: 64.0,
+            preload: -7.0,
+            input: 376.0,
+            relative_input: 300.0,
+            soil_error_bound: 0.0,
+            largest: 376.0,
+        };
+        assert_eq!(ledger.residual(), 0.0);
+        let shares = ledger.shares().unwrap();
+        assert!((shares.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-15);
+        assert_eq!(shares.len(), 8);
+        assert!(shares.contains(&("kinetic and strain", 3.0 / 376.0)));
+        assert_eq!(ledger.share(EnergyTerm::Soil), Some(16.0 / 376.0));
+        for input in [0.0, -1.0, f64::NAN] {
+            assert_eq!(Ledger { input, ..ledger }.shares(), None);
+        }
+    }
+
+    #[test]
+    fn columns_by_one_rule() {
+        let columns = EnergyTerm::ALL.map(EnergyTerm::column);
+        assert_eq!(columns[0], "kinetic_energy_j_per_m");
+        assert!(columns.contains(&"relative_input_energy_j_per_m".to_owned()));
+        assert!(columns.contains(&"soil_error_bound_j_per_m".to_owned()));
     }
 }

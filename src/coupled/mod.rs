@@ -100,7 +100,7 @@ pub use advice::{Advice, Outline, advise};
 pub use builder::SimulationBuilder;
 pub use checkpoint::Checkpoint;
 pub use coordinates::Coordinates;
-pub use ledger::Ledger;
+pub use ledger::{EnergyTerm, Ledger};
 pub use load::Load;
 pub use observed::Observed;
 pub(crate) use peak::probe_index;

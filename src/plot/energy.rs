@@ -6,41 +6,22 @@ use crate::coupled::Ledger;
 use crate::error::Result;
 use crate::results::Histories;
 
-/// Name and value of a term.
-type Term = (&'static str, fn(&Ledger) -> f64);
-
-const TERMS: [Term; 8] = [
-    ("input", |l| l.input),
-    ("friction and impact", |l| l.contact),
-    ("soil", |l| l.soil),
-    ("hysteresis", |l| l.hysteresis),
-    ("damping", |l| l.damping),
-    ("kinetic and strain", |l| l.kinetic + l.strain),
-    ("static pressures", |l| l.preload),
-    ("layer, time scheme", |l| l.layer + l.numerical),
-];
-
 /// The terms of the energy ledger over time, those that stay below a thousandth of the largest left
 /// out.
 ///
 /// # Errors
 /// Those of [`curves`].
 pub fn energy(title: &str, histories: &Histories) -> Result<Svg> {
-    let ledgers = histories.ledgers();
-    let largest = |value: fn(&Ledger) -> f64| {
-        ledgers.iter().fold(0.0_f64, |m, ledger| m.max(value(ledger).abs()))
-    };
-    let scale = TERMS.iter().map(|(_, value)| largest(*value)).fold(0.0, f64::max);
-    let shown =
-        TERMS.iter().filter(|(name, value)| *name == "input" || largest(*value) > 1e-3 * scale);
-    let curve = |(name, value): &Term| Curve {
-        name: (*name).to_owned(),
-        points: histories
-            .times()
-            .iter()
-            .zip(ledgers)
-            .map(|(&time, ledger)| (time, 1e-3 * value(ledger)))
-            .collect(),
+    // The input, then what it has become.
+    let terms = |ledger: &Ledger| [vec![("input", ledger.input)], ledger.parts()].concat();
+    let rows: Vec<_> = histories.ledgers().iter().map(terms).collect();
+    let largest = |k: usize| rows.iter().fold(0.0_f64, |m, row| m.max(row[k].1.abs()));
+    let names: Vec<_> = rows.first().into_iter().flatten().map(|(name, _)| *name).collect();
+    let scale = (0..names.len()).map(largest).fold(0.0, f64::max);
+    let shown = (0..names.len()).filter(|k| *k == 0 || largest(*k) > 1e-3 * scale);
+    let curve = |k: usize| Curve {
+        name: names[k].to_owned(),
+        points: histories.times().iter().zip(&rows).map(|(t, row)| (*t, 1e-3 * row[k].1)).collect(),
     };
     curves(title, "time, s", "energy, kJ/m", &shown.map(curve).collect::<Vec<_>>())
 }

@@ -9,6 +9,7 @@ use super::table::Table;
 use super::unit::{number, printed};
 use super::{ProbeExtremes, Quantity, Run, ServiceCheck};
 use crate::column::{Cell, column, distinct};
+use crate::coupled::EnergyTerm;
 use crate::error::{Result, write_file};
 
 /// Runs side by side; prints as a table with a row per quantity and a column per case, in blocks of
@@ -54,7 +55,7 @@ impl Line {
 /// What is derived from several quantities, or is none.
 type Derived = (&'static str, &'static str, &'static str, f64, fn(&Run) -> Option<f64>);
 
-const DERIVED: [Derived; 13] = [
+const DERIVED: [Derived; 9] = [
     ("base shear over weight", "", "base_shear_over_weight", 1.0, Run::shear_coefficient),
     ("mean slip, residual", "mm", "residual_slip_m", 1e3, |s| Some(s.whole.residual_slip)),
     ("slip events", "", "slip_events", 1.0, |s| Some(s.slip_events() as f64)),
@@ -70,12 +71,6 @@ const DERIVED: [Derived; 13] = [
         s.serviceability.iter().filter_map(|check| check.first_excess).reduce(f64::min)
     }),
     ("energy input", "kJ/m", "input_energy_j_per_m", 1e-3, |s| Some(s.ledger.input)),
-    ("  to the soil", "%", "energy_share_soil", 100.0, |s| s.energy().map(|e| e.soil)),
-    ("  friction, impact", "%", "energy_share_contact", 100.0, |s| s.energy().map(|e| e.contact)),
-    ("  hysteresis", "%", "energy_share_hysteresis", 100.0, |s| {
-        s.energy().map(|e| e.hysteresis).filter(|share| *share != 0.0)
-    }),
-    ("  damping", "%", "energy_share_damping", 100.0, |s| s.energy().map(|e| e.damping)),
 ];
 
 /// All rows: quantities, with the times of some, then what is derived.
@@ -105,6 +100,13 @@ fn lines() -> Vec<Line> {
         column: column.to_owned(),
         factor,
         value: Box::new(value),
+    }));
+    lines.extend(EnergyTerm::ALL.into_iter().filter(|term| term.is_lost()).map(|term| Line {
+        name: term.name(),
+        unit: "%",
+        column: format!("energy_share_{term}"),
+        factor: 100.0,
+        value: Box::new(move |run: &Run| run.ledger.share(term).filter(|share| *share != 0.0)),
     }));
     lines
 }

@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::columns::INPUT;
 use super::{Histories, Run};
 use crate::column::{Cell, line};
+use crate::coupled::EnergyTerm;
 use crate::error::{Result, write_file};
 use crate::motion::SpectralOrdinate;
 
@@ -33,7 +33,7 @@ impl Histories {
     /// Those of `out`.
     pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut columns = self.columns();
-        columns.push(INPUT.to_owned());
+        columns.push(EnergyTerm::Input.column());
         out.write_all(line(columns).as_bytes())?;
         for (k, ledger) in self.ledgers().iter().enumerate() {
             let numbers = self.column_values().map(|values| values[k]).chain([ledger.input]);

@@ -32,7 +32,8 @@
 //! // Coulomb's limit: the factor of safety never falls below one.
 //! assert!(run.whole.sliding_safety.lowest.value > 1.0 - 1e-9);
 //! // The shares of the energy add up to all of it.
-//! assert!(run.energy().is_some_and(|shares| (shares.sum() - 1.0).abs() < 1e-9));
+//! let shares = run.ledger.shares().unwrap_or_default();
+//! assert!((shares.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-9);
 //!
 //! // A history, and the response spectrum of the roof.
 //! assert_eq!(histories.series(Quantity::BaseShear).len(), 501);
@@ -65,7 +66,6 @@
 mod columns;
 mod comparison;
 mod csv;
-mod energy;
 mod envelope;
 mod floor;
 mod frames;
@@ -89,7 +89,6 @@ mod wireframe;
 pub use crate::coupled::{Extremes, ProbeExtremes};
 pub use comparison::Comparison;
 pub use csv::{save_spectrum_csv, write_spectrum_csv};
-pub use energy::EnergyShares;
 pub use envelope::ElementEnvelope;
 pub use floor::{broadened, log_spaced};
 pub use frames::{ContactFrame, MotionFrame};

@@ -11,7 +11,8 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::Histories;
-use super::columns::{CONTACT, LEDGER, MOTION, ledger_terms};
+use super::columns::{CONTACT, MOTION};
+use crate::coupled::EnergyTerm;
 use crate::error::{Error, Result, write_file};
 use crate::interface::{ContactState, Mode};
 
@@ -108,9 +109,9 @@ impl Histories {
         for (name, values) in self.columns().iter().zip(self.column_values()) {
             archive.add_numbers(name, &[steps], values.iter().copied())?;
         }
-        for (k, name) in LEDGER.iter().enumerate() {
-            let terms = self.ledgers().iter().map(|ledger| ledger_terms(ledger)[k]);
-            archive.add_numbers(name, &[steps], terms)?;
+        for term in EnergyTerm::ALL {
+            let values = self.ledgers().iter().map(|ledger| ledger.term(term));
+            archive.add_numbers(&term.column(), &[steps], values)?;
         }
         self.add_contact(&mut archive)?;
         self.add_motion(&mut archive)?;

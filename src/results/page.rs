@@ -193,10 +193,10 @@ impl Run {
         if self.ledger.is_left_out() {
             return write!(f, "\n{}", self.ledger);
         }
-        match self.energy() {
+        match self.ledger.shares() {
             Some(shares) => {
-                writeln!(f, "\nEnergy: input {:.4} kJ/m, of which", 1e-3 * shares.input)?;
-                for (name, share) in shares.named() {
+                writeln!(f, "\nEnergy: input {:.4} kJ/m, of which", 1e-3 * self.ledger.input)?;
+                for (name, share) in shares {
                     // Not those that would print as nothing.
                     if share.abs() >= 5e-5 {
                         writeln!(f, "  {name:<24}{:>8.2} %", 100.0 * share)?;

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::envelope::{self, ElementEnvelope};
 use super::sequence::Sequence;
-use super::{EnergyShares, ServiceCheck, Serviceability, Summary};
+use super::{ServiceCheck, Serviceability, Summary};
 use crate::bem::{ContactElement, Ground};
 use crate::contact::SearchMethod;
 use crate::coupled::{
@@ -235,11 +235,6 @@ impl Run {
     pub fn largest_gap(&self) -> Peak {
         let gaps = self.envelope.iter().map(|envelope| envelope.gap);
         gaps.max_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or_default()
-    }
-
-    /// Where the energy went, as shares of the input at the end; `None` if that is not positive.
-    pub fn energy(&self) -> Option<EnergyShares> {
-        EnergyShares::of(&self.ledger)
     }
 
     /// Error bound of the ledger's `soil` by an approximate history, J/m since the start; zero for

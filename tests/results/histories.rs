@@ -3,8 +3,8 @@
 //! REFERENCE: the states, by other means.
 
 use basemat::Error;
-use basemat::coupled::State;
-use basemat::results::{EnergyShares, Quantity, Recorder};
+use basemat::coupled::{EnergyTerm, State};
+use basemat::results::{Quantity, Recorder};
 
 use super::{FRICTION, Recorded, STEPS, recorded};
 
@@ -111,12 +111,13 @@ fn histories_and_peaks_are_those_of_the_states() {
     assert!((least.value - 1.0).abs() < 1e-9);
 
     // Energy: shares of the last ledger, which close.
-    let shares = run.energy().unwrap();
     let ledger = states[STEPS].ledger;
-    assert_eq!(shares, EnergyShares::of(&ledger).unwrap());
-    assert!((shares.sum() - 1.0).abs() < 1e-9);
-    assert!((shares.contact * ledger.input / ledger.contact - 1.0).abs() < 1e-12);
-    assert!(shares.soil > 0.05 && shares.contact > 0.05);
+    assert_eq!(run.ledger, ledger);
+    let shares = ledger.shares().unwrap();
+    assert!((shares.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-9);
+    let share = |term| ledger.share(term).unwrap();
+    assert!((share(EnergyTerm::Contact) * ledger.input / ledger.contact - 1.0).abs() < 1e-12);
+    assert!(share(EnergyTerm::Soil) > 0.05 && share(EnergyTerm::Contact) > 0.05);
 
     // Frames are the states.
     let frames: Vec<_> = histories.contact_frames().collect();

@@ -109,7 +109,7 @@ impl Scene {
             alternating: alternating(&force),
             acceleration_above: root_mean_square(&high_pass(&acceleration, self.time_step)),
             acceleration_alternating: alternating(&acceleration),
-            shear: run.base_shear.magnitude() / weight,
+            shear: run.whole.base_shear.magnitude() / weight,
             rms_above: root_mean_square(&fast),
             peak_above: fast.iter().fold(0.0, |m, f| m.max(f.abs())),
             peak_slip: run.whole.largest_slip.largest().value.abs(),
@@ -131,8 +131,7 @@ fn root_mean_square(values: &[f64]) -> f64 {
 
 /// Root mean square of what alternates from step to step.
 fn alternating(values: &[f64]) -> f64 {
-    let parts: Vec<f64> =
-        values.windows(3).map(|x| 0.25 * (x[0] + x[2]) - 0.5 * x[1]).collect();
+    let parts: Vec<f64> = values.windows(3).map(|x| 0.25 * (x[0] + x[2]) - 0.5 * x[1]).collect();
     root_mean_square(&parts)
 }
 

@@ -1,6 +1,6 @@
 //! The energy ledger.
 
-use basemat::coupled::Ledger;
+use basemat::coupled::{EnergyTerm, Ledger};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -8,25 +8,6 @@ use pyo3::types::PyDict;
 /// ``kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input``.
 #[pyclass(name = "Ledger", module = "basemat", frozen)]
 pub(crate) struct PyLedger(pub(crate) Ledger);
-
-/// One term of a ledger.
-type Term = fn(&Ledger) -> f64;
-
-/// All terms, with their names.
-pub(super) const TERMS: [(&str, Term); 12] = [
-    ("kinetic", |ledger| ledger.kinetic),
-    ("strain", |ledger| ledger.strain),
-    ("hysteresis", |ledger| ledger.hysteresis),
-    ("damping", |ledger| ledger.damping),
-    ("numerical", |ledger| ledger.numerical),
-    ("soil", |ledger| ledger.soil),
-    ("contact", |ledger| ledger.contact),
-    ("layer", |ledger| ledger.layer),
-    ("preload", |ledger| ledger.preload),
-    ("input", |ledger| ledger.input),
-    ("relative_input", |ledger| ledger.relative_input),
-    ("soil_error_bound", |ledger| ledger.soil_error_bound),
-];
 
 #[pymethods]
 impl PyLedger {
@@ -117,8 +98,8 @@ impl PyLedger {
     /// All terms by their names.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let terms = PyDict::new(py);
-        for (name, term) in TERMS {
-            terms.set_item(name, term(&self.0))?;
+        for term in EnergyTerm::ALL {
+            terms.set_item(term.to_string(), self.0.term(term))?;
         }
         Ok(terms)
     }

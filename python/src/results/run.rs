@@ -300,9 +300,9 @@ impl PyRun {
     /// Shares of the energy input at the end, by their names; None if that is not positive.
     #[getter]
     fn energy_shares<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let Some(energy) = self.run.energy() else { return Ok(None) };
+        let Some(energy) = self.run.ledger.shares() else { return Ok(None) };
         let shares = PyDict::new(py);
-        for (name, share) in energy.named() {
+        for (name, share) in energy {
             shares.set_item(name, share)?;
         }
         Ok(Some(shares))

@@ -1,12 +1,12 @@
 //! Time series and snapshots as arrays.
 
+use basemat::coupled::EnergyTerm;
 use basemat::interface::ContactState;
 use basemat::results::{ContactFrame, Histories, Quantity};
 use numpy::{PyArray1, PyArrayMethods, ToPyArray};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::ledger::TERMS;
 use crate::error::refuse;
 use crate::names::mode_number;
 
@@ -58,8 +58,9 @@ pub(super) fn all<'py>(py: Python<'py>, histories: &Histories) -> PyResult<Bound
 pub(super) fn ledgers<'py>(py: Python<'py>, histories: &Histories) -> PyResult<Bound<'py, PyDict>> {
     let series = PyDict::new(py);
     series.set_item("time", PyArray1::from_slice(py, histories.times()))?;
-    for (name, term) in TERMS {
-        series.set_item(name, PyArray1::from_iter(py, histories.ledgers().iter().map(term)))?;
+    for term in EnergyTerm::ALL {
+        let values = histories.ledgers().iter().map(|ledger| ledger.term(term));
+        series.set_item(term.to_string(), PyArray1::from_iter(py, values))?;
     }
     let residuals = histories.ledgers().iter().map(basemat::coupled::Ledger::residual);
     series.set_item("residual", PyArray1::from_iter(py, residuals))?;
