@@ -131,8 +131,7 @@ fn root_mean_square(values: &[f64]) -> f64 {
 
 /// Root mean square of what alternates from step to step.
 fn alternating(values: &[f64]) -> f64 {
-    let parts: Vec<f64> =
-        values.windows(3).map(|x| 0.25 * (x[0] + x[2]) - 0.5 * x[1]).collect();
+    let parts: Vec<f64> = values.windows(3).map(|x| 0.25 * (x[0] + x[2]) - 0.5 * x[1]).collect();
     root_mean_square(&parts)
 }
 
