@@ -240,7 +240,7 @@ impl Outcome {
     fn judge(&mut self, scheme: Scheme, watch: &Watch) {
         let relative = |x: f64| if watch.scale > 0.0 { x / watch.scale } else { 0.0 };
         (self.rise, self.least_soil) = (relative(watch.rise), relative(watch.least_soil));
-        self.made = relative(-watch.least_numerical);
+        self.made = relative(watch.least_numerical.abs());
         let [first, .., last] = watch.windows;
         // What is below the rounding of the largest energy is no motion.
         let floor = 1e-12 * watch.scale;

@@ -311,8 +311,8 @@ fn schemes_of_a_building() {
     let error = |run: &Run| run.whole.base_shear.magnitude() / reference - 1.0;
     for time_step in [0.01, 0.02] {
         let midpoint = run(Box::new(Midpoint), time_step);
-        let damped = run(Box::<DissipativeMidpoint>::default(), time_step);
-        let newmark = run(Box::new(Newmark::default()), time_step);
+        let damped = run(Box::new(DissipativeMidpoint::new(0.8).unwrap()), time_step);
+        let newmark = run(Box::<Newmark>::default(), time_step);
         let hht = run(Box::new(HhtAlpha::new(-0.1).unwrap()), time_step);
         println!(
             "{time_step}: midpoint {:.4}, dissipative {:.4}, Newmark {:.4} {:?}, HHT {:.4} {:?}",

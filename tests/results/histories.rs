@@ -134,8 +134,8 @@ fn thinned_histories_are_every_seventh_state() {
     for (k, &shear) in histories.series(Quantity::BaseShear).iter().enumerate() {
         assert_eq!(shear, states[7 * k].base_shear);
     }
-    // Time, 11 scalars, 2 probes, 12 terms of the ledger.
-    assert_eq!(all.bytes(), 8 * (1 + 11 + 2 + 12) * (STEPS + 1));
+    // Time, 11 scalars, 2 probes, 12 terms of the ledger and its largest energy.
+    assert_eq!(all.bytes(), 8 * (1 + 11 + 2 + 13) * (STEPS + 1));
     assert!(histories.bytes() < all.bytes());
     assert_eq!(histories.contact_frames().count(), 21);
     let frames: Vec<_> = histories.motion_frames().collect();

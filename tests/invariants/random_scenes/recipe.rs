@@ -5,7 +5,7 @@ use basemat::coupled::{
     Coordinates, DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, Placement, SimulationBuilder,
     State, Theta,
 };
-use basemat::fem::{Layer, Material, Mesh, Quad8};
+use basemat::fem::{Layer, Material, Mesh, Quad8, Quad8Integration};
 use basemat::history::History;
 use basemat::interface::{Bonded, Coulomb, ThinLayer};
 use basemat::structure::{
@@ -69,11 +69,14 @@ impl Tower {
                 *node = mesh.add_node(x, height * j as f64 / up as f64)?;
             }
         }
+        // By itself an element with reduced integration is a mechanism.
+        let single = self.columns * self.rows == 1;
+        let integration = if single { Quad8Integration::Full } else { Quad8Integration::default() };
         for k in 0..self.columns * self.rows {
             let (i, j) = (2 * (k % self.columns), 2 * (k / self.columns));
             let around = [[0, 0], [2, 0], [2, 2], [0, 2], [1, 0], [2, 1], [1, 2], [0, 1]];
             let at = |[a, b]: [usize; 2]| nodes[(j + b) * (across + 1) + i + a];
-            mesh.add(Quad8::new(around.map(at), material))?;
+            mesh.add(Quad8::new(around.map(at), material).with_integration(integration))?;
         }
         Ok(mesh)
     }
@@ -156,6 +159,16 @@ impl Recipe {
             Building::Storeys { count, .. } => 3e4 + 10e3 * count as f64,
         };
         mass * GRAVITY
+    }
+
+    /// Stiffness of a tower over that of the soil, about: what the static state loses of its digits.
+    pub(crate) fn stiffness_ratio(&self) -> f64 {
+        match self.building {
+            Building::Tower(Tower { young, poisson, .. }) => {
+                young / (1.0 - 2.0 * poisson) / self.modulus
+            }
+            _ => 0.0,
+        }
     }
 
     /// Whether pressure and friction obey Signorini and Coulomb exactly.

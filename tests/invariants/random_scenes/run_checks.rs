@@ -31,6 +31,7 @@ pub(crate) fn terms(ledger: &Ledger) -> [f64; 10] {
 /// Largest energy, traction and length of a run: what counts as rounding is relative to them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Scales {
+    /// That of the ground's motion included.
     pub(crate) energy: f64,
     pub(crate) traction: f64,
     pub(crate) length: f64,
@@ -41,7 +42,7 @@ impl Scales {
         let contact = || states.iter().flat_map(|state| &state.contact);
         let or_one = |value: f64| if value > 0.0 { value } else { 1.0 };
         Self {
-            energy: or_one(largest(states.iter().flat_map(|s| terms(&s.ledger)))),
+            energy: or_one(states.last().map_or(0.0, |state| state.ledger.largest)),
             traction: or_one(largest(contact().flat_map(|c| [c.pressure, c.shear]))),
             length: or_one(
                 largest(contact().flat_map(|c| [c.gap, c.slip]))
