@@ -195,6 +195,7 @@ mod words;
 
 pub mod bem;
 mod bounded_line;
+mod check_sum;
 mod column;
 mod complex;
 pub mod contact;
