@@ -5,6 +5,7 @@ use crate::error::{Error, Result, finite, positive};
 /// One boundary element of the base: the interval from `left` to `right` of the flat surface, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ContactElement {
     /// Left end, m.
     pub left: f64,

@@ -9,6 +9,7 @@ use std::ops::Range;
 /// Horizontal layer of a block: height, rows of elements, material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Layer {
     /// Height, m.
     pub height: f64,

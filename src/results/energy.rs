@@ -5,6 +5,7 @@ use crate::coupled::Ledger;
 /// Terms of the [`Ledger`] over its input: they add up to one, to the ledger's residual.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct EnergyShares {
     /// The input itself, J/m.

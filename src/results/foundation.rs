@@ -15,6 +15,7 @@ pub(super) const EVENTS: usize = 1000;
 /// Moments are about the middle of its own elements, so that of several structures each has its own.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct FoundationSummary {
     /// Its elements, as indices of all.

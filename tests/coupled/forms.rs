@@ -9,7 +9,7 @@ use basemat::bem::full_plane::CqMethod;
 use basemat::bem::layered::{Stages, StripContact};
 use basemat::bem::{ContactElement, Grading, SpringGround, Strip};
 use basemat::coupled::{
-    ContactSearch, Coordinates, HhtAlpha, Ledger, Midpoint, Newmark, Outline, Peak, Placement,
+    Checkpoint, ContactSearch, Coordinates, HhtAlpha, Ledger, Midpoint, Newmark, Outline, Peak, Placement,
     Probe, Run, Theta, Warning, advise,
 };
 use basemat::fem::{Direction, Layer, MassKind, Material, Quad8Integration, QuadFormulation};
@@ -34,13 +34,43 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-/// Written and read again, a value is the same.
+/// Written and read again, a value is the same; with one more key anywhere it is refused.
 #[track_caller]
 fn kept<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) -> Value {
     let text = serde_json::to_string(value).unwrap();
     let read: T = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
     assert_eq!(&read, value, "{text}");
-    serde_json::from_str(&text).unwrap()
+    let form = serde_json::from_str(&text).unwrap();
+    closed::<T>(&form);
+    form
+}
+
+/// No object within the form takes a key that it does not know: a misspelt optional one, say.
+/// Returns how many objects there are.
+#[track_caller]
+fn closed<T: DeserializeOwned>(form: &Value) -> usize {
+    fn with_stranger(value: &mut Value, place: &mut usize) {
+        if let Value::Object(map) = value {
+            if *place == 0 {
+                map.insert("dampingx".to_owned(), json!(0.05));
+            }
+            *place = place.wrapping_sub(1);
+        }
+        match value {
+            Value::Object(map) => map.values_mut().for_each(|value| with_stranger(value, place)),
+            Value::Array(list) => list.iter_mut().for_each(|value| with_stranger(value, place)),
+            _ => {}
+        }
+    }
+    for place in 0.. {
+        let mut other = form.clone();
+        with_stranger(&mut other, &mut { place });
+        if other == *form {
+            return place;
+        }
+        assert!(serde_json::from_value::<T>(other.clone()).is_err(), "{other} is read");
+    }
+    unreachable!("every form ends")
 }
 
 /// As [`kept`], and written as `form`.
@@ -119,6 +149,7 @@ fn profiles_with_every_law_of_the_crate() {
         assert_eq!(read.identity(), profile.identity());
         assert!(profile.identity().is_some());
         assert_eq!(serde_json::to_string(&read).unwrap(), text);
+        assert!(closed::<SoilProfile>(&serde_json::to_value(&profile).unwrap()) > 2);
     }
     let rigid = json!({"layers": [], "base": "rigid"});
     refused::<SoilProfile>(rigid, "list of soil layers has length 0");
@@ -322,6 +353,8 @@ fn runs_with_all_that_is_in_them() {
     let (simulation, run) = run();
     let text = serde_json::to_string(&run).unwrap();
     let mut read: Run = serde_json::from_str(&text).unwrap();
+    assert!(closed::<Run>(&serde_json::from_str(&text).unwrap()) > 20);
+    closed::<Checkpoint>(&serde_json::to_value(simulation.checkpoint().unwrap()).unwrap());
     assert_eq!(serde_json::to_string(&read).unwrap(), text);
     assert_eq!(read.to_string(), run.to_string());
     assert_eq!((read.wall, read.ledger), (run.wall, run.ledger));
