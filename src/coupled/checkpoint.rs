@@ -88,7 +88,8 @@ impl Checkpoint {
 
     /// Check sum over all contents, field by field.
     fn sum(&self) -> u64 {
-        let Self { format, identity, steps, modes, memory, state, ground, structure, sum: _ } = self;
+        let Self { format, identity, steps, modes, memory, state, ground, structure, sum: _ } =
+            self;
         let mut sum = CheckSum::default();
         sum.add(u64::from(*format));
         identity.add_to(&mut sum);
@@ -98,7 +99,9 @@ impl Checkpoint {
             sum.add(*mode as u64);
             sum.add(u64::from(*has_opened));
         }
-        [memory, state, ground, structure].into_iter().for_each(|list| sum.add_numbers(list));
+        for list in [memory, state, ground, structure] {
+            sum.add_numbers(list);
+        }
         sum.value()
     }
 }
@@ -110,10 +113,13 @@ impl Identity {
         sum.add(*unknowns as u64);
         sum.add(u64::from(*ledger));
         sum.add(probes.len() as u64);
-        probes.iter().for_each(|name| sum.add_text(name));
+        for name in probes {
+            sum.add_text(name);
+        }
         sum.add_list(memory.iter().map(|end| *end as u64));
-        let lists = [steps, elements, structure, ground, preload];
-        lists.into_iter().for_each(|list| sum.add_numbers(list));
+        for list in [steps, elements, structure, ground, preload] {
+            sum.add_numbers(list);
+        }
     }
 
     /// Error that names the first thing that differs.

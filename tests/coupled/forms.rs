@@ -4,13 +4,14 @@
 //! REFERENCE: the value that was written.
 
 use std::fmt::Debug;
+use std::path::{Path, PathBuf};
 
 use basemat::bem::full_plane::CqMethod;
 use basemat::bem::layered::{Stages, StripContact};
 use basemat::bem::{ContactElement, Grading, SpringGround, Strip};
 use basemat::coupled::{
-    Checkpoint, ContactSearch, Coordinates, HhtAlpha, Ledger, Midpoint, Newmark, Outline, Peak, Placement,
-    Probe, Run, Theta, Warning, advise,
+    Checkpoint, ContactSearch, Coordinates, HhtAlpha, Ledger, Midpoint, Newmark, Outline, Peak,
+    Placement, Probe, Run, Theta, Warning, advise,
 };
 use basemat::fem::{Direction, Layer, MassKind, Material, Quad8Integration, QuadFormulation};
 use basemat::history::History;
@@ -330,6 +331,42 @@ fn records_are_their_samples() {
     ] {
         refused::<Record>(bad, reason);
     }
+}
+
+/// GOAL: the rule of [`closed`] for every type, those among them that only long computations give.
+/// REFERENCE: the attributes in the sources.
+#[test]
+fn every_type_that_is_read_is_closed() {
+    fn sources(folder: &Path, all: &mut Vec<PathBuf>) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                sources(&path, all);
+            } else {
+                all.push(path);
+            }
+        }
+    }
+    let mut files = Vec::new();
+    sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
+    let mut types = 0;
+    for file in files {
+        let text = std::fs::read_to_string(&file).unwrap();
+        for derived in
+            text.split("Deserialize))]\n").skip(1).chain(text.split("Deserialize)]\n").skip(1))
+        {
+            types += 1;
+            let (attributes, body) = derived.split_once(" {").unwrap_or((derived, ""));
+            let body = body.split("\n}").next().unwrap_or_default();
+            let rules = ["deny_unknown_fields", "try_from", "transparent"];
+            let is_enum = attributes.contains("enum ");
+            let has_fields = !is_enum || body.lines().any(|line| line.ends_with(" {"));
+            let is_unit = attributes.lines().any(|line| line.ends_with(';'));
+            let closed = rules.iter().any(|rule| attributes.contains(rule));
+            assert!(closed || is_unit || !has_fields, "{}: {attributes}", file.display());
+        }
+    }
+    assert!(types > 80, "{types}");
 }
 
 /// A run with uplift, sliding, probes, limits, warnings and factors of safety that are not finite.

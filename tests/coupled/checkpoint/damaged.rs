@@ -84,7 +84,8 @@ fn every_flipped_bit_is_refused() {
             if let Ok(damaged) = serde_json::from_value::<Checkpoint>(other) {
                 let error = simulation.resume(&damaged).unwrap_err();
                 let Error::Checkpoint(error) = error else { panic!("{error}") };
-                let named = matches!(error, CheckpointError::Damaged | CheckpointError::Format { .. });
+                let named =
+                    matches!(error, CheckpointError::Damaged | CheckpointError::Format { .. });
                 assert!(named, "leaf {place}, bit {bit}: {error}");
                 refused += 1;
             }

@@ -1,25 +1,31 @@
 //! The check sum of a checkpoint's form, worked out from the form itself (feature `serde`).
 //!
-//! Words of 64 bits, field by field: h ← rotate((h ⊕ word) · 0x100000001b3, 23 to the left) from
-//! 0xcbf29ce484222325. Lists and texts begin with their length; texts are words byte by byte.
+//! Words field by field; lists and texts begin with their length, and texts are words byte by byte.
 
 use basemat::coupled::Checkpoint;
 use serde_json::Value;
 
+use crate::support::check_sum::{check_sum, text_words};
+
 const FIELDS: [&str; 8] =
     ["format", "identity", "steps", "modes", "memory", "state", "ground", "structure"];
 const IDENTITY: [&str; 9] = [
-    "unknowns", "ledger", "probes", "memory", "steps", "elements", "structure", "ground", "preload",
+    "unknowns",
+    "ledger",
+    "probes",
+    "memory",
+    "steps",
+    "elements",
+    "structure",
+    "ground",
+    "preload",
 ];
 
 fn words(value: &Value, all: &mut Vec<u64>) {
     match value {
         Value::Bool(flag) => all.push(u64::from(*flag)),
         Value::Number(number) => all.push(number.as_u64().unwrap()),
-        Value::String(text) => {
-            all.push(text.len() as u64);
-            all.extend(text.bytes().map(u64::from));
-        }
+        Value::String(text) => all.extend(text_words(text)),
         Value::Array(list) => {
             all.push(list.len() as u64);
             list.iter().for_each(|entry| words(entry, all));
@@ -47,12 +53,7 @@ pub(super) fn sum(form: &Value) -> u64 {
             words(&form[name], &mut all);
         }
     }
-    let start = 0xcbf2_9ce4_8422_2325_u64;
-    all.iter().fold(start, |sum, word| {
-        let product = u128::from(sum ^ word) * 0x0100_0000_01b3;
-        let low = (product & u128::from(u64::MAX)) as u64;
-        low << 23 | low >> 41
-    })
+    check_sum(&all)
 }
 
 /// The checkpoint of this form with the sum that belongs to it: as one who means to mislead.
