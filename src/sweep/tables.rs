@@ -46,7 +46,7 @@ impl Sweep<'_> {
     ///
     /// # Errors
     /// Not those of cases. [`Error::DuplicateName`](crate::Error::DuplicateName) if two columns
-    /// (parameters, `case` and `error` among them) have one name, [`SweepError::Unnamed`] if one has none.
+    /// (parameters, `case`, `error` and `check` among them) have one name, [`SweepError::Unnamed`] if one has none.
     pub fn table<const N: usize, E: Display + Send>(
         &self,
         columns: [&str; N],
