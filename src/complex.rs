@@ -15,6 +15,7 @@ use realfft::num_complex::Complex64;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Complex {
     /// Real part.
     pub re: f64,

@@ -1,10 +1,12 @@
 //! An element of the contact surface, and the order in which elements come.
 
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Error, MemoryError, Result, finite, positive};
+use crate::memory;
 
 /// One boundary element of the base: the interval from `left` to `right` of the flat surface, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ContactElement {
     /// Left end, m.
     pub left: f64,
@@ -24,11 +26,22 @@ impl ContactElement {
     }
 }
 
+/// Bytes for each pair of elements: a dozen matrices of 2 × 2 numbers. Measured, 300 to 800
+/// elements: 202 to 271 when a simulation is built, 385 to 436 after the first step on a graded strip.
+const BYTES_PER_PAIR: f64 = 400.0;
+
+/// Error for so many elements that the matrices between them would not fit into memory.
+pub(crate) fn check_count(count: usize) -> std::result::Result<(), MemoryError> {
+    let count = count as f64;
+    memory::check("contact elements", count, BYTES_PER_PAIR * count * count)
+}
+
 /// Error unless the elements have positive length, in order, without overlap.
 pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
     if elements.is_empty() {
         return Err(Error::Size { quantity: "list of contact elements", found: 0, needed: 1 });
     }
+    check_count(elements.len())?;
     for element in elements {
         finite("left end of a contact element", element.left)?;
         finite("right end of a contact element", element.right)?;

@@ -195,6 +195,7 @@ mod words;
 
 pub mod bem;
 mod bounded_line;
+mod check_sum;
 mod column;
 mod complex;
 pub mod contact;
@@ -210,6 +211,7 @@ pub mod interface;
 pub mod io;
 mod linalg;
 mod matrix;
+mod memory;
 pub mod motion;
 mod number;
 #[cfg(feature = "plot")]
@@ -230,10 +232,11 @@ pub use complex::Complex;
 pub use coupled::Simulation;
 pub use error::{
     CaseError, CaseFileError, CheckpointError, Error, KernelFileError, LawError, LayeredError,
-    RecordError, ReducedError, Result, StandingError, StepError, SweepError,
+    MemoryError, RecordError, ReducedError, Result, StandingError, StepError, SweepError,
 };
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};
+pub use memory::{memory_limit, set_memory_limit};
 pub use soil::Soil;
 pub use sweep::Sweep;
 

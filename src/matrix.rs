@@ -2,12 +2,22 @@
 
 use std::ops::Deref;
 
-use crate::error::{Error, Result, same_length};
+use crate::error::{Error, MemoryError, Result, same_length};
 use crate::linalg::{dense_multiply_add, weighted_dot};
+use crate::memory;
 use crate::structure::Triplets;
 
-/// Most rows and columns: more are a mistake.
-pub(crate) const MOST_ROWS: usize = 100_000_000;
+/// Bytes of an unknown in the sparse matrices of a structure, their factor and its states.
+const BYTES_PER_UNKNOWN: f64 = 400.0;
+
+/// Error for so many unknowns, rows of a matrix or whatever `quantity` says, that a structure with
+/// them would not fit into memory.
+pub(crate) fn check_order(
+    quantity: &'static str,
+    order: usize,
+) -> std::result::Result<(), MemoryError> {
+    memory::check(quantity, order as f64, BYTES_PER_UNKNOWN * order as f64)
+}
 
 /// Weights by unknown, zero where there is no (unknown, weight) term.
 pub(crate) fn spread(terms: &[(usize, f64)], length: usize) -> Vec<f64> {
@@ -43,10 +53,7 @@ impl SparseMatrix {
     /// Sums the entries of `triplets` by place.
     pub(crate) fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
         let order = triplets.order();
-        if order > MOST_ROWS {
-            let (quantity, value) = ("order of a matrix", order as f64);
-            return Err(Error::Input { quantity, value, needed: "100 million or less" });
-        }
+        check_order("rows of a matrix", order)?;
         let mut row_start = vec![0; order + 1];
         for &(row, column, value) in triplets.entries() {
             let index = row.max(column);

@@ -6,6 +6,7 @@ mod array;
 mod error;
 mod ground;
 mod interface;
+mod memory;
 mod motion;
 mod names;
 mod probe;
@@ -26,6 +27,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("STANDARD_GRAVITY", basemat::motion::STANDARD_GRAVITY)?;
     module.add_class::<advice::PyAdvice>()?;
     module.add_function(wrap_pyfunction!(advice::advise, module)?)?;
+    module.add_function(wrap_pyfunction!(memory::memory_limit, module)?)?;
+    module.add_function(wrap_pyfunction!(memory::set_memory_limit, module)?)?;
     module.add_class::<soil::PySoil>()?;
     module.add_class::<profile::PyDampingLaw>()?;
     module.add_class::<profile::PySoilLayer>()?;

@@ -167,6 +167,41 @@ def test_checkpoints_pickle_and_go_on_to_the_same_bits(rocking) -> None:
         bm.Checkpoint(b"\xff" * 5)
 
 
+def test_no_damaged_checkpoint_resumes_with_other_numbers() -> None:
+    block = bm.RigidBlock(4.0, 3.0, 2000.0)
+    ground = bm.SpringGround.strip(-2.0, 2.0, 2, 5e7, 4e7)
+    simulation = bm.Simulation(0.01, block, ground, bm.Coulomb(0.3), motion=bm.el_centro_1940())
+    simulation.run(9)
+    saved = simulation.checkpoint()
+    data = saved.to_bytes()
+    refused = 0
+    for place in range(len(data)):
+        for bit in range(8):
+            damaged = bytearray(data)
+            damaged[place] ^= 1 << bit
+            try:
+                checkpoint = bm.Checkpoint(bytes(damaged))
+                simulation.resume(checkpoint)
+            except (bm.InputError, bm.CheckpointError):
+                refused += 1
+            else:
+                assert checkpoint == saved, (place, bit)
+    assert refused > 7.9 * len(data)
+    simulation.resume(saved)
+
+
+def test_sizes_beyond_memory_are_refused_with_what_they_take() -> None:
+    limit = bm.memory_limit()
+    assert limit == 4 * 2**30
+    with pytest.raises(bm.InputError, match="contact elements: 10000 would take about 40.0 GB"):
+        bm.Strip(-5.0, 5.0, 10_000)
+    bm.set_memory_limit(2**36)
+    try:
+        assert len(bm.Strip(-5.0, 5.0, 10_000).nodes) == 10_001
+    finally:
+        bm.set_memory_limit(limit)
+
+
 @pytest.mark.parametrize("value", [bm.Soil(80e6, 0.33, 1900.0), bm.Row([(3, 1.5), (0, -1.0)])])
 def test_descriptions_pickle(value: object) -> None:
     assert repr(pickle.loads(pickle.dumps(value))) == repr(value)

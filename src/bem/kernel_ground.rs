@@ -184,7 +184,8 @@ impl KernelGround {
     /// With a limit (bytes) on the memory of the history that [`History::Auto`] chooses; 1 GiB
     /// unless called. It goes by [`Ground::announce`] and [`Ground::reserve`] (of a simulation,
     /// [`expected_steps`](crate::coupled::SimulationBuilder::expected_steps) or the steps of the
-    /// first run), and is no limit where the number of steps is not known.
+    /// first run), and is no limit where the number of steps is not known; but no more is prepared
+    /// ahead of the steps that need it.
     #[must_use]
     pub fn with_history_memory(mut self, bytes: usize) -> Self {
         self.options.memory = bytes;
@@ -246,7 +247,12 @@ impl Ground for KernelGround {
 
     fn reserve(&mut self, steps: usize) -> Result<()> {
         match &mut self.prepared {
-            Some(prepared) => prepared.history(self.options, Some(steps))?.reserve(steps),
+            Some(prepared) => {
+                prepared.history(self.options, Some(steps))?;
+                let kind = prepared.choice.map(|choice| choice.kind);
+                let ready = self.options.prepared_steps(kind, &*prepared.kernel, steps)?;
+                prepared.history(self.options, None)?.reserve(ready)
+            }
             None => Err(NOT_PREPARED),
         }
     }

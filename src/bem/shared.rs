@@ -2,11 +2,12 @@
 
 use std::any::{Any, TypeId};
 use std::fmt;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, ThreadId};
 
 use super::kernel_source::KernelSource;
 use crate::contact_element::ContactElement;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::history::LagKernel;
 
 /// Kernels kept, at most: the latest.
@@ -17,7 +18,9 @@ const KEPT: usize = 8;
 /// Grounds with clones of one and the same store ([`HalfPlaneGround::with_shared_kernels`],
 /// [`KernelGround::with_shared_kernels`](super::KernelGround::with_shared_kernels)) compute and hold
 /// them once. The store keeps those of the last eight different soils, meshes and steps. Results are the
-/// same to the last bit. What one soil is says [`KernelSource::identity`].
+/// same to the last bit. What one soil is says [`KernelSource::identity`]. Who asks for coefficients
+/// that another thread is computing waits for them. A source may take other coefficients from the
+/// same store while it makes its own.
 ///
 /// ```
 /// use basemat::bem::{Ground, HalfPlaneGround, SharedKernels};
@@ -40,30 +43,82 @@ const KEPT: usize = 8;
 /// [`HalfPlaneGround::with_shared_kernels`]: super::HalfPlaneGround::with_shared_kernels
 #[derive(Debug, Clone, Default)]
 pub struct SharedKernels {
-    kernels: Arc<Mutex<Vec<Entry>>>,
+    store: Arc<Store>,
 }
 
-/// A kernel and all that determines it.
-struct Entry {
+#[derive(Debug, Default)]
+struct Store {
+    kernels: Mutex<Kernels>,
+    /// Tells those who wait that a kernel is there, or will not be.
+    ended: Condvar,
+}
+
+#[derive(Debug, Default)]
+struct Kernels {
+    kept: Vec<Entry>,
+    /// What threads are making now, and what others wait for.
+    being_made: Vec<(Arc<Key>, ThreadId)>,
+    waiting: Vec<(Arc<Key>, ThreadId)>,
+}
+
+/// All that determines a kernel.
+#[derive(Debug, PartialEq)]
+struct Key {
     source: TypeId,
     identity: Vec<f64>,
     time_step: f64,
+    elements: Vec<ContactElement>,
+}
+
+struct Entry {
+    key: Arc<Key>,
     kernel: Arc<dyn LagKernel>,
 }
 
 impl fmt::Debug for Entry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Entry")
-            .field("identity", &self.identity)
-            .field("time_step", &self.time_step)
+            .field("identity", &self.key.identity)
+            .field("time_step", &self.key.time_step)
             .finish_non_exhaustive()
+    }
+}
+
+impl Kernels {
+    fn maker(&self, key: &Key) -> Option<ThreadId> {
+        self.being_made.iter().find(|(other, _)| **other == *key).map(|(_, maker)| *maker)
+    }
+
+    /// Whether `maker` is `thread`, or waits for it, through others or not.
+    fn leads_to(&self, mut maker: ThreadId, thread: ThreadId) -> bool {
+        while maker != thread {
+            let wanted = self.waiting.iter().find(|(_, waits)| *waits == maker);
+            match wanted.and_then(|(key, _)| self.maker(key)) {
+                Some(next) => maker = next,
+                None => return false,
+            }
+        }
+        true
+    }
+}
+
+/// A kernel that is being made; whatever comes of it, nobody waits for it after that.
+struct Making<'a> {
+    store: &'a SharedKernels,
+    key: &'a Arc<Key>,
+}
+
+impl Drop for Making<'_> {
+    fn drop(&mut self) {
+        self.store.kernels().being_made.retain(|(key, _)| !Arc::ptr_eq(key, self.key));
+        self.store.store.ended.notify_all();
     }
 }
 
 impl SharedKernels {
     /// Number of kernels held.
     pub fn len(&self) -> usize {
-        self.entries().len()
+        self.kernels().kept.len()
     }
 
     /// Whether none is held.
@@ -71,8 +126,8 @@ impl SharedKernels {
         self.len() == 0
     }
 
-    fn entries(&self) -> MutexGuard<'_, Vec<Entry>> {
-        self.kernels.lock().unwrap_or_else(PoisonError::into_inner)
+    fn kernels(&self) -> MutexGuard<'_, Kernels> {
+        self.store.kernels.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The kernel of these elements, made now if it is not there or `source` has no identity.
@@ -83,26 +138,54 @@ impl SharedKernels {
         time_step: f64,
     ) -> Result<Arc<dyn LagKernel>> {
         let Some(identity) = source.identity() else { return source.kernel(elements, time_step) };
-        let (any, mut kernels): (&dyn Any, _) = (source, self.entries());
-        let same = |entry: &Entry| {
-            entry.source == any.type_id()
-                && entry.identity == identity
-                && entry.time_step == time_step
-                && entry.kernel.classes().elements() == elements
-        };
-        if let Some(place) = kernels.iter().position(same) {
-            // The latest used is the last to go.
-            let entry = kernels.remove(place);
-            let kernel = Arc::clone(&entry.kernel);
-            kernels.push(entry);
+        let any: &dyn Any = source;
+        let key = Arc::new(Key {
+            source: any.type_id(),
+            identity,
+            time_step,
+            elements: elements.to_vec(),
+        });
+        if let Some(kernel) = self.kept_or_begun(&key)? {
             return Ok(kernel);
         }
+        // The store stays open while the kernel is made: it may need others.
+        let making = Making { store: self, key: &key };
         let kernel = source.kernel(elements, time_step)?;
-        if kernels.len() == KEPT {
-            kernels.remove(0);
+        let mut kernels = self.kernels();
+        if kernels.kept.len() == KEPT {
+            kernels.kept.remove(0);
         }
-        let (source, kept) = (any.type_id(), Arc::clone(&kernel));
-        kernels.push(Entry { source, identity, time_step, kernel: kept });
+        kernels.kept.push(Entry { key: Arc::clone(&key), kernel: Arc::clone(&kernel) });
+        drop(kernels);
+        drop(making);
         Ok(kernel)
+    }
+
+    /// The kernel of `key` once no other thread is making it; none if it is for the caller to make.
+    fn kept_or_begun(&self, key: &Arc<Key>) -> Result<Option<Arc<dyn LagKernel>>> {
+        let own = thread::current().id();
+        let mut kernels = self.kernels();
+        loop {
+            if let Some(place) = kernels.kept.iter().position(|entry| entry.key == *key) {
+                // The latest used is the last to go.
+                let entry = kernels.kept.remove(place);
+                let kernel = Arc::clone(&entry.kernel);
+                kernels.kept.push(entry);
+                return Ok(Some(kernel));
+            }
+            let Some(maker) = kernels.maker(key) else {
+                kernels.being_made.push((Arc::clone(key), own));
+                return Ok(None);
+            };
+            if kernels.leads_to(maker, own) {
+                return Err(Error::Scene {
+                    quantity: "kernel source",
+                    needed: "must not ask the shared kernels for the kernel that it is making",
+                });
+            }
+            kernels.waiting.push((Arc::clone(key), own));
+            kernels = self.store.ended.wait(kernels).unwrap_or_else(PoisonError::into_inner);
+            kernels.waiting.retain(|(_, waits)| *waits != own);
+        }
     }
 }

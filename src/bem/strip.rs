@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::contact_element::ContactElement;
+use crate::contact_element::{ContactElement, check_count};
 use crate::error::{Error, Result, finite, positive};
 use crate::structure::{Structure, foundation_nodes};
 
@@ -23,9 +23,6 @@ words! { Grading, "grading", {
     Uniform = "uniform",
     Cosine = "cosine",
 } }
-
-/// Most elements of a strip: their dense operator alone takes 3.2 GB.
-const MOST_ELEMENTS: usize = 10_000;
 
 /// A foundation strip: an interval of the surface cut into elements.
 ///
@@ -52,18 +49,17 @@ impl Strip {
     /// Strip over `range` (m) of `count` elements.
     ///
     /// # Errors
-    /// [`Error::Input`] for an empty or infinite range, no elements or more than 10 000.
+    /// [`Error::Input`] for an empty or infinite range or no elements, [`Error::Memory`] for so many
+    /// that the matrices between them would not fit.
     pub fn new(range: std::ops::Range<f64>, count: usize, grading: Grading) -> Result<Self> {
         finite("left end of the strip", range.start)?;
         finite("right end of the strip", range.end)?;
         positive("length of the strip", range.end - range.start)?;
-        if !(1..=MOST_ELEMENTS).contains(&count) {
-            return Err(Error::Input {
-                quantity: "number of contact elements",
-                value: count as f64,
-                needed: "from 1 to 10 000",
-            });
+        if count == 0 {
+            let (quantity, value) = ("number of contact elements", 0.0);
+            return Err(Error::Input { quantity, value, needed: "1 or more" });
         }
+        check_count(count)?;
         let middle = 0.5 * (range.start + range.end);
         let half = 0.5 * (range.end - range.start);
         let node = |k: usize| {

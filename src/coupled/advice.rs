@@ -82,6 +82,7 @@ impl Outline {
 /// Mesh and time step for a wanted accuracy of the base shear, see [`advise`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Advice {
     /// Elements under the base.

@@ -284,7 +284,7 @@ impl SimulationBuilder {
         let safety_friction =
             laws::safety_friction(&self.laws, std::mem::take(&mut self.safety_friction), count)?;
         let unknowns = structure.unknowns();
-        check_unknowns(unknowns)?;
+        check_unknowns(unknowns, count)?;
         let mut base = Base::of(structure.as_ref(), &elements)?;
         let mut model = Model::new(structure.as_ref(), linear, &base)?;
         super::probe::check(&self.probes, unknowns)?;

@@ -1,22 +1,22 @@
 //! Checks of a scene's parts that the builder makes.
 
 use crate::bem::Ground;
-use crate::error::{Error, Result, finite};
+use crate::error::{Result, finite};
+use crate::matrix::check_order;
+use crate::memory;
 use crate::motion::FreeField;
 
-/// More unknowns than this are a mistake, or would not fit in memory.
-const MOST_UNKNOWNS: usize = 10_000_000;
-
-/// Refuses more unknowns than anything can hold.
-pub(super) fn check_unknowns(unknowns: usize) -> Result<()> {
-    if unknowns <= MOST_UNKNOWNS {
-        return Ok(());
-    }
-    Err(Error::Input {
-        quantity: "number of unknowns of the structure",
-        value: unknowns as f64,
-        needed: "ten million or fewer",
-    })
+/// Refuses more unknowns than fit into memory, by themselves or with a response to the traction of
+/// each of `elements` contact elements.
+pub(super) fn check_unknowns(unknowns: usize, elements: usize) -> Result<()> {
+    check_order("unknowns of the structure", unknowns)?;
+    // Two components of traction, and the responses twice while they are computed.
+    let responses = 32.0 * unknowns as f64 * elements as f64;
+    Ok(memory::check(
+        "unknowns of the structure on its contact elements",
+        unknowns as f64,
+        responses,
+    )?)
 }
 
 /// The free field at t = 0, from which it is measured.

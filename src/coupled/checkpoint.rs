@@ -7,6 +7,7 @@ use super::scene::operators::Operators;
 use super::state::State;
 use super::translation::Translation;
 use crate::bem::Ground;
+use crate::check_sum::CheckSum;
 use crate::contact::SearchMethod;
 use crate::error::{CheckpointError, Result};
 use crate::interface::ContactState;
@@ -25,9 +26,12 @@ const SAME: f64 = 1e-9;
 /// A run between two steps: see [`Simulation::checkpoint`](crate::Simulation::checkpoint).
 ///
 /// With the feature `serde` it can be written in any of serde's formats. Floating-point numbers
-/// are written as their bits (integers of 64 bits), so that none is rounded on the way.
+/// are written as their bits (integers of 64 bits), so that none is rounded on the way, and a check
+/// sum over all contents goes with them: [`Simulation::resume`](crate::Simulation::resume) refuses
+/// whatever has been changed since.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Checkpoint {
     format: u32,
     identity: Identity,
@@ -43,11 +47,15 @@ pub struct Checkpoint {
     ground: Vec<f64>,
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     structure: Vec<f64>,
+    /// Over all of the above; checkpoints of formats before the eighth have none.
+    #[cfg_attr(feature = "serde", serde(default))]
+    sum: u64,
 }
 
 /// Numbers that differ between scenes.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 struct Identity {
     unknowns: usize,
     /// Whether a ledger is kept.
@@ -77,9 +85,43 @@ impl Checkpoint {
     pub fn steps(&self) -> usize {
         self.steps
     }
+
+    /// Check sum over all contents, field by field.
+    fn sum(&self) -> u64 {
+        let Self { format, identity, steps, modes, memory, state, ground, structure, sum: _ } =
+            self;
+        let mut sum = CheckSum::default();
+        sum.add(u64::from(*format));
+        identity.add_to(&mut sum);
+        sum.add(*steps as u64);
+        sum.add(modes.len() as u64);
+        for (mode, has_opened) in modes {
+            sum.add(*mode as u64);
+            sum.add(u64::from(*has_opened));
+        }
+        for list in [memory, state, ground, structure] {
+            sum.add_numbers(list);
+        }
+        sum.value()
+    }
 }
 
 impl Identity {
+    fn add_to(&self, sum: &mut CheckSum) {
+        let Self { unknowns, ledger, probes, memory, steps, elements, structure, ground, preload } =
+            self;
+        sum.add(*unknowns as u64);
+        sum.add(u64::from(*ledger));
+        sum.add(probes.len() as u64);
+        for name in probes {
+            sum.add_text(name);
+        }
+        sum.add_list(memory.iter().map(|end| *end as u64));
+        for list in [steps, elements, structure, ground, preload] {
+            sum.add_numbers(list);
+        }
+    }
+
     /// Error that names the first thing that differs.
     fn check(&self, own: &Self) -> std::result::Result<(), CheckpointError> {
         let close = |a: &[f64], b: &[f64], scale: f64| {
@@ -128,7 +170,7 @@ pub(super) fn save(
         .collect::<Result<Vec<_>>>()?;
     let (mut own, mut own_books) = (state.clone(), books.cloned());
     let numbers = numbers(&mut own, own_books.as_mut());
-    Ok(Checkpoint {
+    let mut checkpoint = Checkpoint {
         format: FORMAT,
         identity: identity(scene, operators, state, books.is_some()),
         steps: state.step,
@@ -137,7 +179,10 @@ pub(super) fn save(
         state: numbers.into_iter().map(|value| *value).collect(),
         ground: ground.save()?,
         structure: save_variables(structure)?,
-    })
+        sum: 0,
+    };
+    checkpoint.sum = checkpoint.sum();
+    Ok(checkpoint)
 }
 
 /// The state and books of `checkpoint`, with structure and ground restored to it; these are
@@ -153,6 +198,9 @@ pub(super) fn restore(
     if checkpoint.format != FORMAT {
         let found = checkpoint.format;
         return Err(CheckpointError::Format { found, needed: FORMAT }.into());
+    }
+    if checkpoint.sum != checkpoint.sum() {
+        return Err(CheckpointError::Damaged.into());
     }
     checkpoint.identity.check(&identity(scene, operators, state, books.is_some()))?;
     let corrupt = |quantity| CheckpointError::Corrupt { quantity };

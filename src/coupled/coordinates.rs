@@ -22,7 +22,7 @@ const SAMPLES: u32 = 16;
 /// [`Coordinates::Reduced`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Coordinates {
     /// Whichever is expected to take less time, with the modes' own computation counted against

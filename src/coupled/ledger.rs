@@ -47,6 +47,7 @@ macro_rules! energies {
         /// them and the work of its force is in `numerical`, and falls with the square of the step.
         #[derive(Debug, Clone, Copy, Default)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
         #[non_exhaustive]
         pub struct Ledger {
             $(

@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 /// A value of largest magnitude, with its sign, and when it occurred.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Peak {
     /// The value, with its sign.
     #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
@@ -31,6 +32,7 @@ impl Peak {
 /// unless there is nothing else.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Extremes {
     /// The smallest value.
     pub lowest: Peak,
@@ -68,6 +70,7 @@ impl Extremes {
 /// Smallest and largest value of a probe.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct ProbeExtremes {
     /// Name of the probe.

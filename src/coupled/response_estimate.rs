@@ -46,6 +46,7 @@ const SWAY_HEIGHT: f64 = 0.7;
 /// Relative errors of a strip's stiffnesses.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct StiffnessError {
     /// Of the horizontal one.
     pub horizontal: f64,

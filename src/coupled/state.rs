@@ -13,6 +13,7 @@ use crate::interface::{ContactState, Mode, StepStarts};
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Transition {
     /// Step in which it happened, from 1.
@@ -44,6 +45,7 @@ impl Transition {
 /// Most structures have one. See [`crate::structure::Structure::foundation_ends`].
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Foundation {
     /// Its elements, as indices of [`State::contact`].

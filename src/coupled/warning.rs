@@ -7,7 +7,7 @@ use super::ledger::Ledger;
 /// Where the assumptions of a run are strained, or its time step or elements too coarse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Warning {
     /// Slip beyond the mean length of the elements: they no longer face each other.

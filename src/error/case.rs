@@ -70,9 +70,6 @@ pub enum SweepError {
         /// The value, printed.
         value: String,
     },
-    /// More combinations of values than a table is made of.
-    #[error("the parameters have more combinations than 100 million")]
-    TooManyCases,
     /// A case that panicked, where its result was needed.
     #[error("the case panicked: {message}")]
     Panicked {
@@ -94,6 +91,22 @@ pub enum SweepError {
         file: String,
         /// The system's own message.
         reason: ErrorKind,
+    },
+    /// A file of rows that cannot be written, because the disk is full, say. No case was begun after
+    /// that.
+    #[error("{file} cannot be written: {reason}; {computed} cases have rows, {left} are left")]
+    Unwritten {
+        /// The file.
+        file: String,
+        /// The system's own message.
+        reason: ErrorKind,
+        /// Cases with a row, those of earlier processes among them.
+        computed: usize,
+        /// Cases of the shard without one.
+        left: usize,
+        /// All rows that there are, as CSV: [`Sweep::table_in`](crate::Sweep::table_in) goes on from
+        /// them once they are in a file called as its own with `.part` at the end.
+        rows: String,
     },
     /// A file that does not hold rows of this sweep.
     #[error("{file}, line {line}: {reason}")]
@@ -196,6 +209,14 @@ pub enum CaseFileError {
         column: String,
         /// The cell, cut to 40 characters.
         text: String,
+    },
+    /// A row that is not what was written: its check sum is another.
+    #[error(
+        "case {case} does not agree with its check sum: the row was damaged or changed by hand"
+    )]
+    Damaged {
+        /// Number of the case.
+        case: usize,
     },
     /// A case with both an error and results.
     #[error("case {case} has an error and results")]

@@ -20,6 +20,9 @@ pub enum CheckpointError {
         /// Format of this version.
         needed: u32,
     },
+    /// The contents are not those that were saved: a file was damaged, or changed by hand.
+    #[error("damaged: the contents do not agree with their check sum")]
+    Damaged,
     /// The checkpoint belongs to another scene.
     #[error("made in another scene: the {quantity} differs")]
     OtherScene {

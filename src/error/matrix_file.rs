@@ -1,7 +1,9 @@
 //! Files of matrices.
 
+use super::MemoryError;
+
 /// Fault of a Matrix Market file.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MatrixFileError {
     /// The file could not be read.
@@ -47,14 +49,9 @@ pub enum MatrixFileError {
         /// Columns.
         columns: usize,
     },
-    /// The matrix is larger than any that makes sense.
-    #[error("{rows} rows, at most {most} are read")]
-    TooLarge {
-        /// Rows.
-        rows: usize,
-        /// Most rows.
-        most: usize,
-    },
+    /// The matrix would not fit into memory.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
     /// A row or column that the matrix does not have.
     #[error("index {index}, but the matrix has {order} rows and columns")]
     Index {

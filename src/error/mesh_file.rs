@@ -1,5 +1,7 @@
 //! Files of meshes.
 
+use super::Error;
+
 /// Fault of a line of a mesh's file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -42,6 +44,14 @@ pub enum MeshFileError {
     Unsupported {
         /// Value found.
         text: String,
+    },
+    /// An element that the mesh does not take.
+    #[error("element {tag}: {source}")]
+    Element {
+        /// The element's tag in the file.
+        tag: u64,
+        /// Why.
+        r#source: Box<Error>,
     },
     /// A line is too long to be one of numbers.
     #[error("no line end in {bytes} bytes")]

@@ -11,6 +11,7 @@ mod law;
 mod layered;
 #[cfg(feature = "io")]
 mod matrix_file;
+mod memory;
 #[cfg(feature = "io")]
 mod mesh_file;
 mod part;
@@ -26,6 +27,7 @@ pub use law::LawError;
 pub use layered::{KernelFileError, LayeredError};
 #[cfg(feature = "io")]
 pub use matrix_file::MatrixFileError;
+pub use memory::MemoryError;
 #[cfg(feature = "io")]
 pub use mesh_file::MeshFileError;
 pub use record::RecordError;
@@ -65,6 +67,9 @@ pub enum Error {
         /// The length that was needed.
         needed: usize,
     },
+    /// A size that would not fit into memory.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
     /// An index that points outside its list.
     #[error("{quantity} is {index}, but must be below {bound}")]
     Index {

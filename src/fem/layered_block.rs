@@ -3,12 +3,14 @@
 use super::material::Material;
 use super::mesh::Mesh;
 use super::quad4::{Quad4, QuadFormulation};
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Error, MemoryError, Result, finite, positive};
+use crate::memory;
 use std::ops::Range;
 
 /// Horizontal layer of a block: height, rows of elements, material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Layer {
     /// Height, m.
     pub height: f64,
@@ -40,13 +42,13 @@ impl Mesh {
     ///
     /// # Errors
     /// [`Error::Input`] or [`Error::Size`] when the range is empty or not finite, when there are
-    /// no columns, layers or rows, more than a million columns or rows of a layer, or when a height
-    /// is not positive.
+    /// no columns, layers or rows, or when a height is not positive; [`Error::Memory`] for more
+    /// elements than would fit.
     pub fn layered_block(x: Range<f64>, columns: usize, layers: &[Layer]) -> Result<Self> {
         finite("left end of the block", x.start)?;
         finite("right end of the block", x.end)?;
         positive("width of the block", x.end - x.start)?;
-        check_count("columns of the block", columns)?;
+        check_size(columns, layers)?;
         let fraction = |k: usize| k as f64 / columns.max(1) as f64;
         // Weighted ends rather than start + step: both ends come out exact.
         let place = |k: usize| x.start * (1.0 - fraction(k)) + x.end * fraction(k);
@@ -83,6 +85,7 @@ impl Mesh {
         for pair in grid.windows(2) {
             positive("width of a column", pair[1] - pair[0])?;
         }
+        check_size(grid.len() - 1, layers)?;
         let mut mesh = Self::new();
         add_row(&mut mesh, grid, 0.0)?;
         let mut base = 0.0;
@@ -91,7 +94,6 @@ impl Mesh {
             if layer.rows == 0 {
                 return Err(Error::Size { quantity: "rows of a layer", found: 0, needed: 1 });
             }
-            check_count("rows of a layer", layer.rows)?;
             for row in 1..=layer.rows {
                 let y = base + layer.height * (row as f64 / layer.rows as f64);
                 let upper = add_row(&mut mesh, grid, y)?;
@@ -107,15 +109,15 @@ impl Mesh {
     }
 }
 
-/// Most columns of a block and rows of a layer.
-const MOST: usize = 1_000_000;
+/// Bytes of a quadrilateral in a mesh, with the node and the place that it adds.
+const BYTES: f64 = 500.0;
 
-/// Error for a count that would only fill the memory.
-fn check_count(quantity: &'static str, count: usize) -> Result<()> {
-    if count <= MOST {
-        return Ok(());
-    }
-    Err(Error::Input { quantity, value: count as f64, needed: "at most a million" })
+/// Error for so many quadrilaterals that they would not fit into memory.
+fn check_size(columns: usize, layers: &[Layer]) -> std::result::Result<(), MemoryError> {
+    let rows: f64 = layers.iter().map(|layer| layer.rows as f64).sum();
+    // A row of nodes lies below the first row of elements.
+    let count = columns as f64 * (rows + 1.0);
+    memory::check("columns times rows of the block", count, BYTES * count)
 }
 
 /// Adds the nodes of one height and returns the first one's index.

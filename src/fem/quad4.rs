@@ -9,7 +9,7 @@ use crate::error::{Error, Result, same_length};
 /// Formulation of the stiffness of a [`Quad4`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum QuadFormulation {
     /// 2 × 2 Gauss points. Far too stiff in bending (shear locking) and as ν → 1/2.

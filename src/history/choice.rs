@@ -105,6 +105,7 @@ impl fmt::Display for ChoiceReason {
 /// The history that a ground keeps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct HistoryChoice {
     /// Which one; never [`History::Auto`].

@@ -8,8 +8,9 @@ use super::cost::Estimate;
 use super::direct::DirectHistory;
 use super::exponentials::{ExponentialHistory, LONGEST};
 use super::lag_kernel::LagKernel;
-use super::relaxed_fft::RelaxedFftHistory;
+use super::relaxed_fft::{LEAF, RelaxedFftHistory};
 use crate::error::Result;
+use crate::memory;
 
 /// Steps that are estimated for where nothing is known.
 const UNKNOWN_STEPS: usize = 100_000;
@@ -45,6 +46,10 @@ impl HistoryOptions {
         let estimate = |kind| Estimate::new(kind, &**kernel, expected);
         let (exact, exponentials) =
             (estimate(History::RelaxedFft)?, estimate(History::Exponentials)?);
+        let fits = |needed: usize| {
+            let count = kernel.classes().elements().len();
+            memory::check("contact elements", count as f64, needed as f64)
+        };
         let choice = |kind, reason, Estimate { memory, cost, .. }| HistoryChoice {
             kind,
             reason,
@@ -56,6 +61,7 @@ impl HistoryOptions {
         };
         let own = || Arc::clone(kernel);
         let fit = |tolerance, reason| {
+            fits(if exponentials.cost.is_finite() { exponentials.memory } else { 0 })?;
             let horizon = expected.max(ExponentialHistory::HORIZON);
             let history = ExponentialHistory::with_horizon(own(), tolerance, horizon)?;
             let choice = HistoryChoice {
@@ -69,6 +75,7 @@ impl HistoryOptions {
         let tolerance = self.tolerance.unwrap_or(ExponentialHistory::TOLERANCE);
         let reason = match self.kind {
             History::Direct => {
+                fits(Estimate::new(History::Direct, &**kernel, LEAF)?.memory)?;
                 let choice = choice(History::Direct, asked, estimate(History::Direct)?);
                 return Ok((Box::new(DirectHistory::new(own())), choice));
             }
@@ -78,8 +85,8 @@ impl HistoryOptions {
                 let known = steps.map(|_| (ROUNDING, ChoiceReason::Rounding));
                 let allowed = self.tolerance.map(|it| (it, ChoiceReason::ToleranceAllowed));
                 let shorter = exponentials.of_run(expected) < exact.of_run(expected);
-                let fits = exact.memory <= self.memory;
-                let smaller = steps.is_some() && !fits && exponentials.memory < exact.memory;
+                let affordable = exact.memory <= self.memory;
+                let smaller = steps.is_some() && !affordable && exponentials.memory < exact.memory;
                 let attempts = [
                     allowed.or(known).filter(|_| shorter),
                     smaller.then_some((tolerance, ChoiceReason::MemoryLimit)),
@@ -89,14 +96,31 @@ impl HistoryOptions {
                         return Ok(made);
                     }
                 }
-                match (steps, fits) {
+                match (steps, affordable) {
                     (None, _) => ChoiceReason::UnknownLength,
                     (_, true) => ChoiceReason::Exact,
                     (_, false) => ChoiceReason::NoExponentials,
                 }
             }
         };
+        fits(Estimate::new(History::RelaxedFft, &**kernel, LEAF)?.memory)?;
         let history = Box::new(RelaxedFftHistory::new(own()));
         Ok((history, choice(History::RelaxedFft, reason, exact)))
+    }
+
+    /// As many of these steps as a history of this kind holds in the memory allowed: a larger number
+    /// may stand for a run without end. All where the history is one of the user's own.
+    pub(crate) fn prepared_steps(
+        self,
+        kind: Option<History>,
+        kernel: &dyn LagKernel,
+        mut steps: usize,
+    ) -> Result<usize> {
+        if let Some(kind @ (History::Direct | History::RelaxedFft)) = kind {
+            while steps > LEAF && Estimate::new(kind, kernel, steps)?.memory > self.memory {
+                steps /= 2;
+            }
+        }
+        Ok(steps)
     }
 }

@@ -6,7 +6,7 @@ use crate::error::{Error, Result, not_negative};
 /// On what the contact conditions of a closed element act.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Activation {
     /// On the gap at the end of the step: g ≥ 0, p ≥ 0, p·g = 0 (Signorini).

@@ -118,6 +118,7 @@ impl Mode {
 /// Opening and **total** traction (static part included) of one contact element, as means over it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ContactState {
     /// Gap between base and soil, m; positive when open.
     pub gap: f64,

@@ -1,10 +1,8 @@
 //! The start of a step: the past of each element, as its law sees it.
 
 use super::{ContactState, InterfaceLaw, Mode, law_of};
-use crate::error::{Error, LawError, Result, finite, positive, same_length};
-
-/// Most numbers that the laws of all elements may remember together.
-const MOST_NUMBERS: usize = 10_000_000;
+use crate::error::{LawError, Result, finite, positive, same_length};
+use crate::memory;
 
 /// State of an element at the beginning of a step, as its law sees it.
 ///
@@ -103,13 +101,8 @@ pub(crate) fn memory_ends(laws: &[Box<dyn InterfaceLaw>], count: usize) -> Resul
         end = end.saturating_add(law_of(laws, element).memory());
         ends.push(end);
     }
-    if end > MOST_NUMBERS {
-        return Err(Error::Input {
-            quantity: "count of numbers that the interface laws remember",
-            value: end as f64,
-            needed: "ten million or fewer",
-        });
-    }
+    // In the state, the increment and its copies.
+    memory::check("numbers that the interface laws remember", end as f64, 32.0 * end as f64)?;
     Ok(ends)
 }
 

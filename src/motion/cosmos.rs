@@ -42,6 +42,7 @@ use crate::number::finite;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct CosmosFormat {
     channel: usize,
     unit: Option<AccelerationUnit>,

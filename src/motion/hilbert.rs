@@ -15,26 +15,28 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 
 use super::Record;
-use super::record::MOST_SAMPLES;
+use super::record::check_samples;
 use crate::error::{Error, Result, not_negative};
 
 impl Record {
     /// Record with zero acceleration for at least `before` and `after` (s) around it.
     ///
     /// # Errors
-    /// [`Error::Input`] unless both are finite and not negative, and give at most 10⁸ samples.
+    /// [`Error::Input`] unless both are finite and not negative, [`Error::Memory`] if they give more
+    /// samples than would fit.
     pub fn padded(&self, before: f64, after: f64) -> Result<Self> {
         let samples = |quantity, time: f64| -> Result<usize> {
             let count = (not_negative(quantity, time)? / self.time_step()).ceil();
-            if count > MOST_SAMPLES {
-                return Err(Error::Input { quantity, value: time, needed: "at most 1e8 samples" });
-            }
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=1e8")]
+            check_samples(count + self.len() as f64)?;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
             Ok(count as usize)
         };
-        let mut padded = vec![0.0; samples("quiet time before the record", before)?];
+        let before = samples("quiet time before the record", before)?;
+        let after = samples("quiet time after the record", after)?;
+        check_samples((before + self.len() + after) as f64)?;
+        let mut padded = vec![0.0; before];
         padded.extend_from_slice(self.accelerations());
-        padded.resize(padded.len() + samples("quiet time after the record", after)?, 0.0);
+        padded.resize(padded.len() + after, 0.0);
         Self::new(self.time_step(), padded)
     }
 

@@ -39,6 +39,7 @@ const STEP_TOLERANCE: f64 = 0.01;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ColumnFormat {
     time: Time,
     /// None: the only one.

@@ -2,10 +2,13 @@
 
 use super::Baseline;
 use super::integral::{Instant, integrate};
-use crate::error::{Error, RecordError, Result, finite, positive};
+use crate::error::{Error, MemoryError, RecordError, Result, finite, positive};
+use crate::memory;
 
-/// Most samples that are made at a time.
-pub(super) const MOST_SAMPLES: f64 = 1e8;
+/// Error for so many samples that they would not fit into memory, with their two integrals.
+pub(super) fn check_samples(count: f64) -> std::result::Result<(), MemoryError> {
+    memory::check("samples of the record", count, 40.0 * count)
+}
 
 /// Ground acceleration at equal time steps, with its velocity and displacement.
 ///
@@ -80,8 +83,8 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// As for [`Record::new`]; [`Error::Input`] for a duration that is not positive or takes more than
-    /// 100 million samples.
+    /// As for [`Record::new`]; [`Error::Input`] for a duration that is not positive, [`Error::Memory`]
+    /// for one of more samples than would fit.
     pub fn from_fn(
         time_step: f64,
         duration: f64,
@@ -91,14 +94,7 @@ impl Record {
         positive("duration of the record", duration)?;
         let steps = (duration / time_step).round();
         // Infinity is refused as well.
-        if steps > MOST_SAMPLES {
-            let needed = "100 million time steps or fewer";
-            return Err(Error::Input {
-                quantity: "duration of the record",
-                value: duration,
-                needed,
-            });
-        }
+        check_samples(steps)?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let steps = steps as usize;
         Self::new(time_step, (0..=steps).map(|k| acceleration(k as f64 * time_step)).collect())
@@ -167,20 +163,15 @@ impl Record {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless the step is positive and gives at most 10⁸ samples.
+    /// [`Error::Input`] unless the step is positive, [`Error::Memory`] if it gives more samples than
+    /// would fit.
     pub fn resampled(&self, time_step: f64) -> Result<Self> {
         positive("new time step of the record", time_step)?;
         let duration = self.duration();
         // slack for a step that divides the duration but for rounding
         let intervals = (duration / time_step - 1e-9).ceil().max(1.0);
-        if intervals >= MOST_SAMPLES {
-            return Err(Error::Input {
-                quantity: "new time step of the record",
-                value: time_step,
-                needed: "long enough for at most 1e8 samples",
-            });
-        }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in 1..1e8")]
+        check_samples(intervals)?;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
         let count = intervals as usize;
         let sample = |k: usize| {
             let time = k as f64 * time_step;

@@ -18,6 +18,7 @@ const MOST_SUBSTEPS: f64 = 1e9;
 /// Largest response of one oscillator during a record and one period after it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct SpectralOrdinate {
     /// Natural period T, s.
     pub period: f64,

@@ -7,6 +7,7 @@ use crate::results::Extremes;
 /// Envelopes of one contact element; tractions are means over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct ElementEnvelope {
     /// Where it is.

@@ -91,6 +91,7 @@ macro_rules! quantities {
         /// own elements, so that of several structures each has its own.
         #[derive(Debug, Clone, PartialEq)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
         #[non_exhaustive]
         pub struct Summary {
             /// Its elements, as indices of all.

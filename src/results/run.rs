@@ -17,6 +17,7 @@ use crate::motion::FreeField;
 /// [`SearchMethod`](crate::coupled::SearchMethod).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Fallbacks {
     /// Steps that Gauss–Seidel over the elements solved.
     pub gauss_seidel: usize,
@@ -41,6 +42,7 @@ impl Fallbacks {
 /// that are not finite included; one that was read takes in no more steps.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Run {
     /// Steps of this run.

@@ -196,6 +196,7 @@ impl Serviceability {
 /// A criterion of [`Serviceability`] after a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct ServiceCheck {
     /// The limited response.

@@ -6,6 +6,7 @@ use crate::interface::Mode;
 /// ones slide, and the mean slip does not turn round.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct SlipEvent {
     /// Beginning of its first step, s.
@@ -19,6 +20,7 @@ pub struct SlipEvent {
 /// Sliding of a base in a run, by its mean slip: of one foundation, or of all as one base.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Sliding {
     /// Way slid, m: the sum of the events' |slip|.
     pub path: f64,

@@ -6,6 +6,7 @@ use crate::interface::Mode;
 /// with the first one that ends without.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Uplift {
     /// Time with any part uplifted, s.

@@ -64,7 +64,7 @@ struct LayerForm {
 }
 
 #[derive(serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 enum BaseForm {
     HalfPlane { soil: Soil, damping: DampingForm },
     Rigid,

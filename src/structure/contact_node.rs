@@ -8,6 +8,7 @@ use crate::error::{Error, Result, finite};
 /// A point of the base: where it is, and how the unknowns move it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ContactNode {
     /// Coordinate along the surface, m.
     pub x: f64,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::csv::{Record, Records, parsed};
-use super::grid::Grid;
+use super::grid::{Grid, LAST_COLUMNS};
 use super::replace::name;
 use super::table::{Row, heading, parameter_cells};
 use crate::error::{CaseFileError, Result, SweepError};
@@ -52,59 +52,77 @@ pub(super) fn read(
     // A byte-order mark is passed over.
     let rows = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mark = text.len() - rows.len();
-    let mut records = Records::new(rows);
-    let mut content = Content { columns: Vec::new(), rows: Vec::new(), end: 0 };
-    let is_cut = |fault: &(usize, CaseFileError)| {
-        ending == Ending::Anywhere && fault.1 == CaseFileError::Cut
-    };
-    match records.next().unwrap_or(Err((1, CaseFileError::Cut))) {
-        Ok(record) => {
-            content.end = (mark + record.end) as u64;
-            content.columns = headed(record, grid, columns).map_err(fault)?;
-        }
-        Err(reason) if is_cut(&reason) => return Ok(content),
-        Err(reason) => return Err(fault(reason).into()),
-    }
+    let records = Records::new(rows);
+    let mut heading: Option<Vec<String>> = None;
+    let (mut found, mut end) = (Vec::new(), 0);
     for record in records {
         match record {
             Ok(record) => {
-                content.end = (mark + record.end) as u64;
-                let row = row(&record, grid, wanted, &content.columns);
-                content.rows.push(row.map_err(fault)?);
+                end = record.end;
+                match &heading {
+                    Some(names) => found.push(row(&record, grid, wanted, names).map_err(fault)?),
+                    None => heading = Some(headed(&record, grid, columns).map_err(fault)?),
+                }
             }
-            Err(reason) if is_cut(&reason) => break,
-            Err(reason) => return Err(fault(reason).into()),
+            Err((line, reason)) => {
+                let names = heading.as_deref().or(columns).unwrap_or_default();
+                let is_row = |record: &Record| row(record, grid, wanted, names).is_ok();
+                match reason {
+                    CaseFileError::Cut if holds_row(&rows[end..], &is_row) => {
+                        return Err(fault((line, CaseFileError::Quote)).into());
+                    }
+                    CaseFileError::Cut if ending == Ending::Anywhere => break,
+                    reason => return Err(fault((line, reason)).into()),
+                }
+            }
         }
     }
-    Ok(content)
+    if heading.is_none() && ending == Ending::Whole {
+        return Err(fault((1, CaseFileError::Cut)).into());
+    }
+    let end = if end > 0 { (mark + end) as u64 } else { 0 };
+    Ok(Content { columns: heading.unwrap_or_default(), rows: found, end })
+}
+
+/// Whether a whole row begins behind a line end of `text`, which ends within a cell: then a
+/// quotation mark out of place has swallowed rows that were written, and nothing was cut there.
+fn holds_row(text: &str, is_row: &dyn Fn(&Record) -> bool) -> bool {
+    text.match_indices('\n').any(|(at, _)| {
+        let next = Records::new(&text[at + 1..]).next();
+        next.and_then(std::result::Result::ok).is_some_and(|record| is_row(&record))
+    })
 }
 
 /// The results' columns of a heading.
 fn headed(
-    record: Record,
+    record: &Record,
     grid: &Grid,
     columns: Option<&[String]>,
 ) -> std::result::Result<Vec<String>, (usize, CaseFileError)> {
-    let fixed = 2 + grid.parameters.len();
-    let found = record.cells.len();
-    let own = match columns {
-        Some(columns) => columns.to_vec(),
-        // Those between the parameters and the error are the file's own.
-        None => record.cells.get(fixed - 1..found.saturating_sub(1)).unwrap_or_default().to_vec(),
+    let own = if let Some(columns) = columns {
+        columns
+    } else {
+        // Those between the parameters and the last ones are the file's own.
+        let mut own = record.cells.get(1 + grid.parameters.len()..).unwrap_or_default();
+        for last in LAST_COLUMNS.iter().rev() {
+            own = own.strip_suffix(&[(*last).to_owned()]).unwrap_or(own);
+        }
+        own
     };
-    let wanted = heading(grid, &own);
-    let pairs = record.cells.into_iter().zip(&wanted).enumerate();
-    for (column, (found, needed)) in pairs {
-        if found != *needed {
-            let needed = needed.clone();
+    let wanted = heading(grid, own);
+    for (column, needed) in wanted.iter().enumerate() {
+        let found = record.cells.get(column).map_or("", String::as_str);
+        if found != needed {
+            let (found, needed) = (found.to_owned(), needed.clone());
             let reason = CaseFileError::Heading { column: column + 1, found, needed };
             return Err((record.line, reason));
         }
     }
-    if found != wanted.len() {
-        return Err((record.line, CaseFileError::Cells { found, needed: wanted.len() }));
+    let (found, needed) = (record.cells.len(), wanted.len());
+    if found != needed {
+        return Err((record.line, CaseFileError::Cells { found, needed }));
     }
-    Ok(own)
+    Ok(own.to_vec())
 }
 
 /// The case of a row, with the sweep's parameters, and its results or error.
@@ -115,12 +133,13 @@ fn row(
     columns: &[String],
 ) -> std::result::Result<Row, (usize, CaseFileError)> {
     let line = record.line;
-    let (found, needed) = (record.cells.len(), 2 + grid.parameters.len() + columns.len());
+    let (found, needed) = (record.cells.len(), 3 + grid.parameters.len() + columns.len());
     if found != needed {
         return Err((line, CaseFileError::Cells { found, needed }));
     }
     let (parameters, results) = record.cells[1..].split_at(grid.parameters.len());
-    let (results, error) = results.split_at(columns.len());
+    let (results, last) = results.split_at(columns.len());
+    let (reason, check) = (&last[0], &last[1]);
     let text = &record.cells[0];
     let digits = !text.is_empty() && text.bytes().all(|sign| sign.is_ascii_digit());
     let case = digits.then(|| text.parse().ok()).flatten().filter(|&case| wanted(case));
@@ -137,17 +156,23 @@ fn row(
             return Err((line, CaseFileError::Parameter { case, parameter, found, needed }));
         }
     }
-    let reason = &error[0];
-    if !reason.is_empty() {
-        if results.iter().any(|cell| !cell.is_empty()) {
-            return Err((line, CaseFileError::ErrorAndResults { case }));
-        }
-        return Ok(Row::new(case, Err(reason.clone())));
+    let has_failed = !reason.is_empty();
+    if has_failed && results.iter().any(|cell| !cell.is_empty()) {
+        return Err((line, CaseFileError::ErrorAndResults { case }));
     }
     let number = |(cell, column): (&String, &String)| {
         let wrong = || CaseFileError::NotANumber { column: column.clone(), text: excerpt(cell) };
         parsed(cell).ok_or_else(|| (line, wrong()))
     };
-    let results = results.iter().zip(columns).map(number).collect::<std::result::Result<_, _>>()?;
-    Ok(Row::new(case, Ok(results)))
+    let outcome = if has_failed {
+        Err(reason.clone())
+    } else {
+        Ok(results.iter().zip(columns).map(number).collect::<std::result::Result<_, _>>()?)
+    };
+    let row = Row::new(case, outcome);
+    if row.check(grid, columns) == *check {
+        Ok(row)
+    } else {
+        Err((line, CaseFileError::Damaged { case }))
+    }
 }

@@ -1,10 +1,14 @@
 //! All combinations of the values of some parameters, numbered.
 
+use std::collections::HashSet;
+
 use super::parameter::Parameter;
 use crate::error::{Error, Result, SweepError};
+use crate::memory;
 
-/// Most cases of a grid: tables and merging keep a number of each.
-const MOST_CASES: usize = 100_000_000;
+/// Bytes of a case in tables and while files are merged: its number, and its outcome without the
+/// results.
+const BYTES_PER_CASE: f64 = 40.0;
 
 /// Cases numbered by their place in the grid, the last parameter fastest.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,8 +24,9 @@ impl Grid {
         let mut count = 1_usize;
         for parameter in &parameters {
             parameter.check()?;
-            let product = count.checked_mul(parameter.len()).filter(|&count| count <= MOST_CASES);
-            count = product.ok_or(SweepError::TooManyCases)?;
+            let product = count as f64 * parameter.len() as f64;
+            memory::check("cases of the sweep", product, BYTES_PER_CASE * product)?;
+            count = count.saturating_mul(parameter.len());
         }
         Ok(Self { parameters, count })
     }
@@ -63,17 +68,20 @@ pub(super) fn no_name(quantity: &'static str, name: &str) -> Error {
     Error::Name { quantity, name: name.to_owned() }
 }
 
-/// Refuses columns without a name, and two of one name; a table has `case` and `error` besides.
+/// Columns of a table behind the results.
+pub(super) const LAST_COLUMNS: [&str; 2] = ["error", "check"];
+
+/// Refuses columns without a name, and two of one name, those of every table among them.
 pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()> {
-    let mut before = vec!["case", "error"];
+    let mut before = HashSet::from(LAST_COLUMNS);
+    before.insert("case");
     for name in names {
         if name.is_empty() {
             return Err(SweepError::Unnamed { quantity: "column" }.into());
         }
-        if before.contains(&name) {
+        if !before.insert(name) {
             return Err(Error::DuplicateName { quantity: "column", name: name.to_owned() });
         }
-        before.push(name);
     }
     Ok(())
 }

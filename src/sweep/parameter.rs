@@ -1,5 +1,8 @@
 //! A parameter of a sweep with its values.
 
+use std::collections::HashSet;
+use std::hash::Hash;
+
 use crate::error::{Result, SweepError};
 
 /// A parameter of a [`Sweep`](super::Sweep): its name and the values that it takes, numbers or texts.
@@ -78,13 +81,15 @@ impl Parameter {
                 if let Some(&value) = numbers.iter().find(|value| !value.is_finite()) {
                     return Err(SweepError::NotFinite { parameter: parameter(), value }.into());
                 }
-                first_repeated(numbers).map(f64::to_string)
+                // Both zeros are one value.
+                let bits = |value: &f64| (value + 0.0).to_bits();
+                first_repeated(numbers, bits).map(f64::to_string)
             }
             Values::Texts(texts) => {
                 if texts.iter().any(String::is_empty) {
                     return Err(SweepError::Unnamed { quantity: "value of a parameter" }.into());
                 }
-                first_repeated(texts).cloned()
+                first_repeated(texts, String::as_str).cloned()
             }
         };
         match repeated {
@@ -94,11 +99,8 @@ impl Parameter {
     }
 }
 
-/// The first value that was there before.
-fn first_repeated<T: PartialEq>(values: &[T]) -> Option<&T> {
-    values
-        .iter()
-        .enumerate()
-        .find(|(k, value)| values[..*k].contains(value))
-        .map(|(_, value)| value)
+/// The first value whose key was there before.
+fn first_repeated<'a, T, K: Hash + Eq>(values: &'a [T], key: impl Fn(&'a T) -> K) -> Option<&'a T> {
+    let mut before = HashSet::new();
+    values.iter().find(|value| !before.insert(key(value)))
 }

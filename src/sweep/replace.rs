@@ -19,6 +19,11 @@ pub(super) fn unwritten(path: &Path) -> impl Fn(std::io::Error) -> Error {
 
 /// Replaces a file by one with this content, or leaves it as it was.
 pub(super) fn replace(path: &Path, content: &str) -> Result<()> {
+    replaced(path, content).map_err(unwritten(path))
+}
+
+/// The same, with the system's own error.
+pub(super) fn replaced(path: &Path, content: &str) -> std::io::Result<()> {
     // The hash of nothing, under keys that are random: two processes must not share the name.
     let mark = RandomState::new().build_hasher().finish();
     let mut temporary = path.as_os_str().to_owned();
@@ -30,8 +35,7 @@ pub(super) fn replace(path: &Path, content: &str) -> Result<()> {
         file.sync_all()?;
         std::fs::rename(&temporary, path)
     };
-    write().map_err(|error| {
+    write().inspect_err(|_| {
         let _ = std::fs::remove_file(&temporary);
-        unwritten(path)(error)
     })
 }

@@ -1,6 +1,7 @@
 //! Cases run by one closure, on all processors or one after the other.
 
 use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -108,9 +109,9 @@ impl<'a> Sweep<'a> {
     /// the values, the last parameter fastest; without parameters there is one case.
     ///
     /// # Errors
-    /// [`Error::DuplicateName`] if two parameters have one name, or one is called `case` or `error`;
-    /// [`Error::Sweep`] for a parameter without a name or values, for a value that is there twice,
-    /// is not finite or an empty text, and for more than 100 million cases.
+    /// [`Error::DuplicateName`] if two parameters have one name, or one is called `case`, `error` or
+    /// `check`; [`Error::Sweep`] for a parameter without a name or values, for a value that is there
+    /// twice, is not finite or an empty text; [`Error::Memory`] for more cases than a table holds.
     pub fn grid(parameters: impl IntoIterator<Item = Parameter>) -> Result<Self> {
         Ok(Self::over(Grid::new(parameters.into_iter().collect())?))
     }
@@ -173,18 +174,22 @@ impl<'a> Sweep<'a> {
     pub fn run<T: Send, E: Send>(
         &self,
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
-        sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) + Send,
+        mut sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) + Send,
     ) {
         let case = |place: usize| self.first + place * self.stride.get();
-        self.run_each(self.cases().len(), &case, run, sink);
+        self.run_each(self.cases().len(), &case, run, |index, result| {
+            sink(index, result);
+            ControlFlow::Continue(())
+        });
     }
 
-    /// [`Sweep::run`] for `cases` alone.
+    /// [`Sweep::run`] for `cases` alone, until `sink` breaks: cases that are running then come to it
+    /// as well, no others are begun.
     pub(super) fn run_some<T: Send, E: Send>(
         &self,
         cases: &[usize],
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
-        sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) + Send,
+        sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) -> ControlFlow<()> + Send,
     ) {
         self.run_each(cases.len(), &|place| cases[place], run, sink);
     }
@@ -195,7 +200,7 @@ impl<'a> Sweep<'a> {
         count: usize,
         number: &(dyn Fn(usize) -> usize + Sync),
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
-        sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) + Send,
+        sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) -> ControlFlow<()> + Send,
     ) {
         let sink = Mutex::new(sink);
         for_each(count, &|place| {
@@ -208,19 +213,19 @@ impl<'a> Sweep<'a> {
             };
             (self.progress)(index, 1.0);
             let mut sink = sink.lock().unwrap_or_else(PoisonError::into_inner);
-            (*sink)(index, result);
+            (*sink)(index, result)
         });
     }
 }
 
 #[cfg(feature = "rayon")]
-fn for_each(count: usize, run: &(dyn Fn(usize) + Sync)) {
+fn for_each(count: usize, run: &(dyn Fn(usize) -> ControlFlow<()> + Sync)) {
     use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
     // Cases are long and few: each is a task of its own.
-    (0..count).into_par_iter().with_max_len(1).for_each(run);
+    let _ = (0..count).into_par_iter().with_max_len(1).try_for_each(run);
 }
 
 #[cfg(not(feature = "rayon"))]
-fn for_each(count: usize, run: &(dyn Fn(usize) + Sync)) {
-    (0..count).for_each(run);
+fn for_each(count: usize, run: &(dyn Fn(usize) -> ControlFlow<()> + Sync)) {
+    let _ = (0..count).try_for_each(run);
 }

@@ -3,8 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::grid::{Grid, no_name};
+use super::grid::{Grid, LAST_COLUMNS, no_name};
 use super::replace::replace;
+use crate::check_sum::CheckSum;
 use crate::column::Cell;
 use crate::error::{Result, SweepError};
 use crate::results::table::csv_line;
@@ -41,8 +42,24 @@ impl Row {
         Self { case, outcome }
     }
 
+    /// Check sum over all that the row says, in digits: the columns' names, and every cell by its
+    /// value.
+    pub(super) fn check(&self, grid: &Grid, columns: &[String]) -> String {
+        let mut sum = CheckSum::default();
+        for name in heading(grid, columns) {
+            sum.add_text(&name);
+        }
+        sum.add(self.case as u64);
+        parameter_cells(grid, self.case).for_each(|cell| sum.add_text(&cell));
+        match &self.outcome {
+            Ok(results) => sum.add_numbers(results),
+            Err(reason) => sum.add_text(reason),
+        }
+        sum.text()
+    }
+
     /// As a line of CSV, with its end.
-    pub(super) fn csv(&self, grid: &Grid, columns: usize) -> String {
+    pub(super) fn csv(&self, grid: &Grid, columns: &[String]) -> String {
         let mut cells = vec![self.case.to_string()];
         cells.extend(parameter_cells(grid, self.case));
         match &self.outcome {
@@ -51,10 +68,11 @@ impl Row {
                 cells.push(String::new());
             }
             Err(reason) => {
-                cells.extend(std::iter::repeat_n(String::new(), columns));
+                cells.extend(columns.iter().map(|_| String::new()));
                 cells.push(reason.clone());
             }
         }
+        cells.push(self.check(grid, columns));
         csv_line(&cells)
     }
 }
@@ -89,7 +107,7 @@ pub(super) fn heading(grid: &Grid, columns: &[String]) -> Vec<String> {
     let mut cells = vec!["case".to_owned()];
     cells.extend(grid.parameters.iter().map(|parameter| parameter.name().to_owned()));
     cells.extend_from_slice(columns);
-    cells.push("error".to_owned());
+    cells.extend(LAST_COLUMNS.map(str::to_owned));
     cells
 }
 
@@ -161,13 +179,13 @@ impl CaseTable {
         &self.columns
     }
 
-    /// As CSV (RFC 4180), a heading and a line for every case: `case`, the parameters, the results and
-    /// `error`. Numbers have as many digits as read back to the last bit, in the caller's units; NaN
+    /// As CSV (RFC 4180), a heading and a line for every case: `case`, the parameters, the results,
+    /// `error` and `check`, a check sum of the row without which it is not read again. Numbers have as many digits as read back to the last bit, in the caller's units; NaN
     /// is an empty cell, infinities are `inf` and `-inf`. Of a case that failed the results are empty
     /// and `error` is not.
     pub fn csv(&self) -> String {
         let mut text = csv_line(&heading(&self.grid, &self.columns));
-        text.extend(self.rows.iter().map(|row| row.csv(&self.grid, self.columns.len())));
+        text.extend(self.rows.iter().map(|row| row.csv(&self.grid, &self.columns)));
         text
     }
 

@@ -4,16 +4,17 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::fmt::Display;
 use std::fs::{OpenOptions, remove_file};
-use std::io::Write;
+use std::io::{ErrorKind, Write};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use super::file::{Content, Ending, read};
 use super::grid::check_names;
 use super::parameter::Parameter;
-use super::replace::{name, replace, unwritten};
+use super::replace::{name, replaced, unwritten};
 use super::run::{Sweep, SweepCase};
 use super::table::{CaseTable, Row, heading};
-use crate::error::{CaseError, Result, SweepError};
+use crate::error::{CaseError, Error, Result, SweepError};
 use crate::results::table::csv_line;
 
 /// Rows by their cases, each with the file that it is from.
@@ -39,13 +40,13 @@ impl Sweep<'_> {
     ///     6.0 => Err(basemat::Error::part("width", "too wide")),
     ///     width => Ok([width * width]),
     /// })?;
-    /// assert_eq!(table.csv(), "case,width_m,area_m2,error\n0,4.0,16.0,\n1,6.0,,width: too wide\n");
+    /// assert!(table.csv().starts_with("case,width_m,area_m2,error,check\n0,4.0,16.0,,"));
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
     /// # Errors
     /// Not those of cases. [`Error::DuplicateName`](crate::Error::DuplicateName) if two columns
-    /// (parameters, `case` and `error` among them) have one name, [`SweepError::Unnamed`] if one has none.
+    /// (parameters, `case`, `error` and `check` among them) have one name, [`SweepError::Unnamed`] if one has none.
     pub fn table<const N: usize, E: Display + Send>(
         &self,
         columns: [&str; N],
@@ -66,9 +67,10 @@ impl Sweep<'_> {
     /// files after a change of what a case computes. Two processes must not keep the same file.
     ///
     /// # Errors
-    /// As for [`Sweep::table`]; [`Error::Write`](crate::Error::Write) if a file cannot be written, and
-    /// [`Error::Sweep`](crate::Error::Sweep) if one that is there has not these columns, these values of
-    /// parameters and cases of this shard only.
+    /// As for [`Sweep::table`]; [`Error::Write`] if the file of rows cannot be opened,
+    /// [`SweepError::Unwritten`] with all rows computed, and no case begun after that, if a row cannot
+    /// be written; [`SweepError::File`] if a file that is there has not these columns, these values of
+    /// parameters and cases of this shard only, or if a row does not agree with its check sum.
     pub fn table_in<const N: usize, E: Display + Send>(
         &self,
         path: impl AsRef<Path>,
@@ -101,31 +103,47 @@ impl Sweep<'_> {
                 }
                 Ok(file)
             };
-            let mut file = Some(open().map_err(unwritten(&part))?);
+            let mut file = open().map_err(unwritten(&part))?;
+            let mut fault = None;
             self.run_some(&left, run, |case, result| {
                 let row = row(case, result);
                 // After a failed write nothing more is written, so that only the last line can be
-                // incomplete. The table returned has all rows.
-                let line = row.csv(&self.grid, N);
-                file = file.take().filter(|mut file| file.write_all(line.as_bytes()).is_ok());
+                // incomplete.
+                if fault.is_none() {
+                    fault = file.write_all(row.csv(&self.grid, &columns).as_bytes()).err();
+                }
                 rows.push(row);
+                if fault.is_none() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             });
+            if let Some(fault) = fault {
+                return Err(self.unwritten(&part, fault.kind(), &self.tabled(columns, rows)));
+            }
         }
         let table = self.tabled(columns, rows);
         if !left.is_empty() || part.exists() || !path.exists() {
-            replace(path, &table.csv())?;
+            if let Err(fault) = replaced(path, &table.csv()) {
+                return Err(self.unwritten(path, fault.kind(), &table));
+            }
             // If it stays, its rows are those of `path`.
             let _ = remove_file(&part);
         }
         Ok(table)
     }
 
+    /// The error of a file that cannot be written, with the rows of `table`.
+    fn unwritten(&self, file: &Path, reason: ErrorKind, table: &CaseTable) -> Error {
+        let (file, computed) = (name(file), table.rows.len());
+        let left = self.cases().len() - computed;
+        SweepError::Unwritten { file, reason, computed, left, rows: table.csv() }.into()
+    }
+
     /// The table of all cases from the files of its shards, to the last bit the one that
     /// [`Sweep::table`] would have made. The sweep is the one that was cut into shards.
     ///
     /// # Errors
-    /// [`Error::Sweep`](crate::Error::Sweep): [`SweepError::File`] for a file that was cut off, has
-    /// other columns than the first one, or values of parameters that are not this sweep's, bit for bit;
+    /// [`Error::Sweep`]: [`SweepError::File`] for a file that was cut off, has other columns than the
+    /// first one, values of parameters that are not this sweep's, bit for bit, or a row that does not
+    /// agree with its check sum;
     /// [`SweepError::Twice`] and [`SweepError::Missing`] for cases that are there twice or not at
     /// all; [`SweepError::Unreadable`].
     pub fn merge(&self, paths: impl IntoIterator<Item = impl AsRef<Path>>) -> Result<CaseTable> {

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::grid::LAST_COLUMNS;
 use super::table::{CaseTable, heading, parameter_cells};
 use crate::results::table::{LONGEST_LINE, Table};
 use crate::results::unit::number;
@@ -22,7 +23,7 @@ impl fmt::Display for CaseTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let columns = self.columns.len();
         let mut heading = heading(&self.grid, &self.columns);
-        heading.pop();
+        heading.truncate(heading.len() - LAST_COLUMNS.len());
         let rows = self.rows.iter().map(|row| {
             let mut cells = vec![row.case.to_string()];
             cells.extend(parameter_cells(&self.grid, row.case));

@@ -4,13 +4,14 @@
 //! REFERENCE: the value that was written.
 
 use std::fmt::Debug;
+use std::path::{Path, PathBuf};
 
 use basemat::bem::full_plane::CqMethod;
 use basemat::bem::layered::{Stages, StripContact};
 use basemat::bem::{ContactElement, Grading, SpringGround, Strip};
 use basemat::coupled::{
-    ContactSearch, Coordinates, DissipativeMidpoint, HhtAlpha, Ledger, Midpoint, Newmark, Outline,
-    Peak, Placement, Probe, Run, Theta, Warning, advise,
+    Checkpoint, ContactSearch, Coordinates, DissipativeMidpoint, HhtAlpha, Ledger, Midpoint, Newmark,
+    Outline, Peak, Placement, Probe, Run, Theta, Warning, advise,
 };
 use basemat::fem::{Direction, Layer, MassKind, Material, Quad8Integration, QuadFormulation};
 use basemat::history::History;
@@ -34,13 +35,43 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-/// Written and read again, a value is the same.
+/// Written and read again, a value is the same; with one more key anywhere it is refused.
 #[track_caller]
 fn kept<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) -> Value {
     let text = serde_json::to_string(value).unwrap();
     let read: T = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
     assert_eq!(&read, value, "{text}");
-    serde_json::from_str(&text).unwrap()
+    let form = serde_json::from_str(&text).unwrap();
+    closed::<T>(&form);
+    form
+}
+
+/// No object within the form takes a key that it does not know: a misspelt optional one, say.
+/// Returns how many objects there are.
+#[track_caller]
+fn closed<T: DeserializeOwned>(form: &Value) -> usize {
+    fn with_stranger(value: &mut Value, place: &mut usize) {
+        if let Value::Object(map) = value {
+            if *place == 0 {
+                map.insert("dampingx".to_owned(), json!(0.05));
+            }
+            *place = place.wrapping_sub(1);
+        }
+        match value {
+            Value::Object(map) => map.values_mut().for_each(|value| with_stranger(value, place)),
+            Value::Array(list) => list.iter_mut().for_each(|value| with_stranger(value, place)),
+            _ => {}
+        }
+    }
+    for place in 0.. {
+        let mut other = form.clone();
+        with_stranger(&mut other, &mut { place });
+        if other == *form {
+            return place;
+        }
+        assert!(serde_json::from_value::<T>(other.clone()).is_err(), "{other} is read");
+    }
+    unreachable!("every form ends")
 }
 
 /// As [`kept`], and written as `form`.
@@ -119,6 +150,7 @@ fn profiles_with_every_law_of_the_crate() {
         assert_eq!(read.identity(), profile.identity());
         assert!(profile.identity().is_some());
         assert_eq!(serde_json::to_string(&read).unwrap(), text);
+        assert!(closed::<SoilProfile>(&serde_json::to_value(&profile).unwrap()) > 2);
     }
     let rigid = json!({"layers": [], "base": "rigid"});
     refused::<SoilProfile>(rigid, "list of soil layers has length 0");
@@ -303,6 +335,42 @@ fn records_are_their_samples() {
     }
 }
 
+/// GOAL: the rule of [`closed`] for every type, those among them that only long computations give.
+/// REFERENCE: the attributes in the sources.
+#[test]
+fn every_type_that_is_read_is_closed() {
+    fn sources(folder: &Path, all: &mut Vec<PathBuf>) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                sources(&path, all);
+            } else {
+                all.push(path);
+            }
+        }
+    }
+    let mut files = Vec::new();
+    sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
+    let mut types = 0;
+    for file in files {
+        let text = std::fs::read_to_string(&file).unwrap();
+        for derived in
+            text.split("Deserialize))]\n").skip(1).chain(text.split("Deserialize)]\n").skip(1))
+        {
+            types += 1;
+            let (attributes, body) = derived.split_once(" {").unwrap_or((derived, ""));
+            let body = body.split("\n}").next().unwrap_or_default();
+            let rules = ["deny_unknown_fields", "try_from", "transparent"];
+            let is_enum = attributes.contains("enum ");
+            let has_fields = !is_enum || body.lines().any(|line| line.ends_with(" {"));
+            let is_unit = attributes.lines().any(|line| line.ends_with(';'));
+            let closed = rules.iter().any(|rule| attributes.contains(rule));
+            assert!(closed || is_unit || !has_fields, "{}: {attributes}", file.display());
+        }
+    }
+    assert!(types > 80, "{types}");
+}
+
 /// A run with uplift, sliding, probes, limits, warnings and factors of safety that are not finite.
 fn run() -> (Simulation, Run) {
     let block = RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
@@ -324,6 +392,8 @@ fn runs_with_all_that_is_in_them() {
     let (simulation, run) = run();
     let text = serde_json::to_string(&run).unwrap();
     let mut read: Run = serde_json::from_str(&text).unwrap();
+    assert!(closed::<Run>(&serde_json::from_str(&text).unwrap()) > 20);
+    closed::<Checkpoint>(&serde_json::to_value(simulation.checkpoint().unwrap()).unwrap());
     assert_eq!(serde_json::to_string(&read).unwrap(), text);
     assert_eq!(read.to_string(), run.to_string());
     assert_eq!((read.wall, read.ledger), (run.wall, run.ledger));

@@ -10,6 +10,7 @@ mod law_numbers;
 mod laws_and_motions;
 mod layered;
 mod reasons;
+mod sizes;
 mod soils_and_grounds;
 mod spoilt;
 mod steps;

@@ -72,11 +72,8 @@ fn an_unprepared_spring_bed_says_so() {
 #[test]
 fn absurd_counts_do_not_panic() {
     for count in [0, 1_000_000_000_000, usize::MAX] {
-        error_with(
-            "number of contact elements",
-            HalfPlaneGround::uniform_strip(soil(), 0.0..1.0, count),
-        );
-        error_with("number of contact elements", SpringGround::new(0.0..1.0, count, 1.0, 1.0));
+        error_with("contact elements", HalfPlaneGround::uniform_strip(soil(), 0.0..1.0, count));
+        error_with("contact elements", SpringGround::new(0.0..1.0, count, 1.0, 1.0));
     }
     let mut ground = HalfPlaneGround::uniform_strip(soil(), 0.0..1.0, 1).unwrap();
     ground.prepare(0.01).unwrap();

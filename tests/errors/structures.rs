@@ -8,7 +8,7 @@ use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::{
     ContactNode, CraigBampton, ModalDamping, Row, Structure, StructureGroup, Triplets,
 };
-use basemat::{Error, Simulation, Soil, StandingError};
+use basemat::{Error, MemoryError, Simulation, Soil, StandingError};
 
 use super::builder::unbuilt;
 use super::spoilt::Spoilt;
@@ -120,8 +120,8 @@ fn structures_without_end_are_refused() {
     // More unknowns than any machine holds.
     let endless = Spoilt { unknowns: usize::MAX, ..Spoilt::sound() };
     match endless.scene().build().err() {
-        Some(Error::Input { quantity, .. }) => {
-            assert_eq!(quantity, "number of unknowns of the structure");
+        Some(Error::Memory(MemoryError { quantity, .. })) => {
+            assert_eq!(quantity, "unknowns of the structure");
         }
         other => panic!("{other:?}"),
     }
@@ -163,5 +163,5 @@ fn groups_of_endless_structures_are_refused() {
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     assert!(HalfPlaneGround::uniform_under(soil, &group, 4).is_ok());
     let scene = Simulation::builder(1e-3).structure(group).ground(bed(4)).interface(Bonded);
-    assert!(matches!(scene.build(), Err(Error::Input { .. })));
+    assert!(matches!(scene.build(), Err(Error::Memory(_))));
 }

@@ -220,8 +220,14 @@ fn groups_that_are_not_there_are_named() {
     }
     assert!(gmsh.line("base").unwrap_err().to_string().contains("there is no line 'base'"));
     // A quadrilateral that crosses itself has an area of neither sign.
-    let crossed = read(&MANUAL.replacen("1 1 2 3 4", "1 1 3 2 4", 1)).unwrap();
-    assert!(crossed.mesh(&[("", concrete())]).is_err());
+    let crossed_text = MANUAL.replacen("1 1 2 3 4", "1 1 3 2 4", 1);
+    let crossed = read(&crossed_text).unwrap();
+    let error = crossed.mesh(&[("", concrete())]).unwrap_err();
+    let Error::MeshFile { line, reason, .. } = &error else { panic!("{error}") };
+    assert!(matches!(reason, MeshFileError::Element { tag: 1, .. }), "{error}");
+    let stands = crossed_text.lines().nth(line - 1).unwrap();
+    assert_eq!(stands, "1 1 3 2 4");
+    assert!(error.to_string().contains(&format!("line {line}: element 1: ")), "{error}");
 }
 
 #[test]

@@ -12,6 +12,7 @@ mod kernel;
 mod law;
 mod law_memory;
 mod scheme;
+mod shared_kernels;
 mod structure;
 mod structure_with_memory;
 #[path = "../support/mod.rs"]

@@ -3,6 +3,7 @@
 //! REFERENCE: the states they were made of, and statics.
 
 mod case_tables;
+mod damaged_tables;
 mod files;
 mod foundations;
 mod fragility;

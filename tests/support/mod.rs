@@ -4,6 +4,7 @@
 pub(crate) mod block_on_springs;
 pub(crate) mod cantilever;
 pub(crate) mod chatter;
+pub(crate) mod check_sum;
 pub(crate) mod contact_problems;
 pub(crate) mod curvature;
 pub(crate) mod dense;

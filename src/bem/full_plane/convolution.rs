@@ -18,6 +18,8 @@ const LEAF: usize = 64;
 
 /// Longest hint that is followed at once; beyond, memory grows as steps come in.
 const LONGEST_HINT: usize = 1 << 17;
+/// Bytes that they may take.
+const MOST_HINTED: usize = 1 << 30;
 
 /// Σ_{m<N} G^{N−m} t^m − H^{N−m} u^m, coefficients once per class of pairs.
 ///
@@ -127,10 +129,13 @@ impl BoundaryHistory {
         Ok(())
     }
 
-    /// Makes ready for `steps` further steps, 131 072 at most: a larger hint may stand for a run
-    /// without end.
+    /// Makes ready for `steps` further steps, 131 072 and 1 GiB at most: a larger hint may stand for a
+    /// run without end.
     pub(super) fn reserve(&mut self, steps: usize) -> Result<()> {
-        self.grow(self.steps.saturating_add(steps.min(LONGEST_HINT)))
+        // Eight series for each class of pairs, their values and spectra, and inputs and outputs.
+        let step = 192 * self.pairs.classes.len() + 24 * self.size();
+        let most = LONGEST_HINT.min(MOST_HINTED / step.max(1));
+        self.grow(self.steps.saturating_add(steps.min(most)))
     }
 
     /// Works the last input in, so that the next output is complete.

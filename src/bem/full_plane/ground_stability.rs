@@ -15,6 +15,7 @@ use crate::error::Result;
 /// steadies what it holds.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct GroundStability {
     /// All elements free of traction, as under a base that has lifted off.

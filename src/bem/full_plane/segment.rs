@@ -1,6 +1,7 @@
 //! Straight boundary elements.
 
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Error, MemoryError, Result, finite, positive};
+use crate::memory;
 
 /// A straight boundary element, with the soil on the right-hand side of the way from `from` to
 /// `to` as seen with x to the right and z **down** (on a flat surface: from left to right).
@@ -44,19 +45,13 @@ impl Segment {
     }
 }
 
-/// Most elements of a boundary: two dense operators of this size take 1 GB.
-const MOST_SEGMENTS: usize = 4_000;
+/// Bytes for each pair of elements: eight dense operators of 2 × 2 numbers.
+const BYTES_PER_PAIR: f64 = 256.0;
 
-/// Error for more elements than that.
-pub(super) fn check_count(count: usize) -> Result<()> {
-    if count <= MOST_SEGMENTS {
-        return Ok(());
-    }
-    Err(Error::Input {
-        quantity: "number of boundary elements",
-        value: count as f64,
-        needed: "at most 4000",
-    })
+/// Error for so many elements that the operators between them would not fit into memory.
+pub(super) fn check_count(count: usize) -> std::result::Result<(), MemoryError> {
+    let count = count as f64;
+    memory::check("boundary elements", count, BYTES_PER_PAIR * count * count)
 }
 
 /// Error unless there are elements, all have length, and none passes through a midpoint of another.

@@ -32,6 +32,7 @@ pub(super) fn check_growth(smallest: f64) -> Result<()> {
 /// Assessment of a boundary equation that is to be marched.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Stability {
     /// Factor minus one by which the worst perturbation grows in a step, if any grows faster than

@@ -8,7 +8,7 @@
 //! | 2 | fingerprint of the kernel |
 //! | 3, 4 | classes of pairs, blocks of lags |
 //! | then | coefficients: by block, class, component (zz, xx, zx), lag |
-//! | last | checksum of all before |
+//! | last | check sum of all before |
 //!
 //! The fingerprint is that of the mobility at the points of the passivity gate, bit for bit, with step,
 //! stages, tolerance and elements: whatever changes a coefficient changes it, be it a layer, a damping law of
@@ -20,31 +20,12 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::coefficients::{BLOCKS, Block};
+use crate::check_sum::CheckSum;
 use crate::error::{Error, KernelFileError, LayeredError, Result, write_file};
 
 const MAGIC: u64 = u64::from_le_bytes(*b"BASEMATK");
 const FORMAT: u64 = 1;
 const HEADER: usize = 5;
-
-/// A hash of words that every change of one of them changes (FNV-1a with a rotation).
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Hash(pub(crate) u64);
-
-impl Default for Hash {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl Hash {
-    pub(crate) fn add(&mut self, word: u64) {
-        self.0 = (self.0 ^ word).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(23);
-    }
-
-    pub(crate) fn add_number(&mut self, number: f64) {
-        self.add(number.to_bits());
-    }
-}
 
 /// The blocks of a file, in order; none if there is no file, or one of another kernel or format.
 ///
@@ -95,14 +76,14 @@ fn contents(
     let mut bytes = vec![];
     file.read_to_end(&mut bytes).map_err(unreadable)?;
     let (words, _) = bytes.as_chunks::<8>();
-    let Some((checksum, data)) = words.split_last() else {
+    let Some((stored, data)) = words.split_last() else {
         return Err(KernelFileError::Length { found, needed });
     };
-    let mut hash = Hash::default();
+    let mut sum = CheckSum::default();
     for word in begin.as_chunks().0.iter().chain(data) {
-        hash.add(u64::from_le_bytes(*word));
+        sum.add(u64::from_le_bytes(*word));
     }
-    if hash.0 != u64::from_le_bytes(*checksum) {
+    if sum.value() != u64::from_le_bytes(*stored) {
         return Err(KernelFileError::Damaged);
     }
     let mut numbers = data.iter().map(|word| f64::from_le_bytes(*word));
@@ -128,13 +109,13 @@ pub(crate) fn write(
     let lists = || blocks.iter().flat_map(|block| block.values.iter().flatten());
     let count = lists().map(Vec::len).sum::<usize>() + HEADER + 1;
     let mut bytes: Vec<u8> = Vec::with_capacity(8 * count);
-    let mut hash = Hash::default();
+    let mut sum = CheckSum::default();
     let header = [MAGIC, FORMAT, fingerprint, classes as u64, blocks.len() as u64];
     for word in header.into_iter().chain(lists().flatten().map(|number| number.to_bits())) {
-        hash.add(word);
+        sum.add(word);
         bytes.extend(word.to_le_bytes());
     }
-    bytes.extend(hash.0.to_le_bytes());
+    bytes.extend(sum.value().to_le_bytes());
     let mut name = path.as_os_str().to_owned();
     let number = WRITTEN.fetch_add(1, Ordering::Relaxed);
     name.push(format!(".{}-{number}", std::process::id()));

@@ -26,6 +26,7 @@ use crate::soil::{Base, SoilProfile};
 /// imaginary part damping, by radiation and in the soil.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct StripImpedance {
     /// Frequency, Hz.

@@ -3,8 +3,8 @@
 use realfft::num_complex::Complex64;
 
 use super::coefficients::Quadrature;
-use super::file::Hash;
 use super::wavenumber::Workspace;
+use crate::check_sum::CheckSum;
 use crate::complex::Complex;
 use crate::error::{LayeredError, Result};
 use crate::history::PairClasses;
@@ -26,10 +26,10 @@ pub(crate) fn check(quadrature: &Quadrature, classes: &PairClasses) -> Result<u6
     let mut work = Workspace::default();
     let mut scratch = vec![[Complex::default(); 3]; classes.count()];
     let mut values = scratch.clone();
-    let mut hash = Hash::default();
+    let mut fingerprint = CheckSum::default();
     let sizes = [quadrature.time_step, quadrature.tolerance, quadrature.stages.count() as f64];
     let ends = classes.elements().iter().flat_map(|element| [element.left, element.right]);
-    sizes.into_iter().chain(ends).for_each(|number| hash.add_number(number));
+    sizes.into_iter().chain(ends).for_each(|number| fingerprint.add_number(number));
     for point in 0..POINTS {
         let angle = std::f64::consts::PI * (point as f64 + 0.5) / POINTS as f64;
         quadrature.mobility([RADIUS.ln(), angle], &mut work, &mut scratch, &mut values)?;
@@ -38,11 +38,11 @@ pub(crate) fn check(quadrature: &Quadrature, classes: &PairClasses) -> Result<u6
             return Err(LayeredError::NotPassive { margin, allowed, angle, radius: RADIUS }.into());
         }
         for value in values.iter().flatten() {
-            hash.add_number(value.re);
-            hash.add_number(value.im);
+            fingerprint.add_number(value.re);
+            fingerprint.add_number(value.im);
         }
     }
-    Ok(hash.0)
+    Ok(fingerprint.value())
 }
 
 /// Least eigenvalue of the Hermitian part of the matrix of all pairs, scaled by the absolute

@@ -46,11 +46,13 @@ pub struct GmshMesh {
     lines: Vec<Cell>,
 }
 
-/// An element: the name of its group, and its nodes as indices.
+/// An element: the name of its group, its nodes as indices, its tag and where it stands in the file.
 #[derive(Debug, Clone, PartialEq)]
 struct Cell {
     group: String,
     nodes: Vec<usize>,
+    tag: u64,
+    line: usize,
 }
 
 /// Distance from the plane z = 0 that is rounding, relative to the size of the mesh.
@@ -110,7 +112,7 @@ impl GmshMesh {
             let places: Option<Vec<usize>> =
                 cell.nodes.iter().map(|tag| index.get(tag).copied()).collect();
             let Some(mut nodes) = places else { continue };
-            let group = raw.group(cell);
+            let (group, tag, line) = (raw.group(cell), cell.tag, cell.line);
             if cell.is_quadrilateral() {
                 let mut own = nodes[..4].to_vec();
                 own.sort_unstable();
@@ -120,9 +122,9 @@ impl GmshMesh {
                     return Err(refuse((cell.line, MeshFileError::Twice { what })));
                 }
                 mesh.turn_counter_clockwise(&mut nodes);
-                mesh.quads.push(Cell { group, nodes });
+                mesh.quads.push(Cell { group, nodes, tag, line });
             } else {
-                mesh.lines.push(Cell { group, nodes });
+                mesh.lines.push(Cell { group, nodes, tag, line });
             }
         }
         Ok(mesh)
@@ -147,8 +149,8 @@ impl GmshMesh {
     /// keep their indices.
     ///
     /// # Errors
-    /// [`Error::MeshFile`] for a group without a material here or with two of them, or a material
-    /// without a group; errors of [`Mesh::add`] for quadrilaterals without area or with a reflex corner.
+    /// [`Error::MeshFile`] for a group without a material here or with two of them, a material
+    /// without a group, and quadrilaterals without area or with a reflex corner, with their line.
     pub fn mesh(&self, materials: &[(&str, Material)]) -> Result<Mesh> {
         self.mesh_of(materials, QuadFormulation::default())
     }
@@ -180,13 +182,18 @@ impl GmshMesh {
             let Some((_, material)) = materials.iter().find(|(name, _)| *name == quad.group) else {
                 return Err(self.missing(format!("material for its surface '{}'", quad.group)));
             };
-            match *quad.nodes {
-                [a, b, c, d] => mesh.add(Quad4::new([a, b, c, d], *material, formulation))?,
+            let added = match *quad.nodes {
+                [a, b, c, d] => mesh.add(Quad4::new([a, b, c, d], *material, formulation)),
                 [a, b, c, d, ab, bc, cd, da] => {
-                    mesh.add(Quad8::new([a, b, c, d, ab, bc, cd, da], *material))?
+                    mesh.add(Quad8::new([a, b, c, d, ab, bc, cd, da], *material))
                 }
                 _ => continue,
             };
+            added.map_err(|error| Error::MeshFile {
+                file: self.file.clone(),
+                line: quad.line,
+                reason: MeshFileError::Element { tag: quad.tag, r#source: Box::new(error) },
+            })?;
         }
         Ok(mesh)
     }

@@ -24,6 +24,7 @@ pub(super) struct Point {
 pub(super) struct RawCell {
     /// Dimension and tag of its entity.
     entity: (u8, i64),
+    pub(super) tag: u64,
     pub(super) nodes: Vec<u64>,
     pub(super) line: usize,
 }
@@ -228,14 +229,14 @@ fn elements(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
         let count: usize = fields.next("number of elements")?;
         let size = size_of(kind).map_err(|reason| fields.refuse(reason))?;
         for _ in 0..count {
-            let _: u64 = fields.next("tag of an element")?;
+            let tag = fields.next("tag of an element")?;
             let mut nodes = Vec::with_capacity(size);
             for _ in 0..size {
                 nodes.push(fields.next("tag of a node")?);
             }
             found += 1;
             if size > 1 {
-                raw.cells.push(RawCell { entity, nodes, line: fields.line });
+                raw.cells.push(RawCell { entity, tag, nodes, line: fields.line });
             }
         }
     }

@@ -64,7 +64,7 @@ impl Triplets {
     ///
     /// # Errors
     /// [`Error::Index`] or [`Error::Input`] for an entry out of range or not finite, and
-    /// [`Error::Input`] for an order above 100 million, with the file left as it was;
+    /// [`Error::Memory`] for more rows than would fit, with the file left as it was;
     /// [`Error::MatrixFile`] when it cannot be written.
     pub fn write_matrix_market(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();

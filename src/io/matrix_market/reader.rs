@@ -4,12 +4,12 @@ use std::io::Read;
 
 use crate::bounded_line;
 use crate::error::MatrixFileError;
-use crate::matrix::MOST_ROWS;
+use crate::matrix::check_order;
+use crate::memory;
 use crate::number::{excerpt, finite};
 use crate::structure::Triplets;
 
-/// Most entries of an array, which has no other bound than what its size line says.
-const MOST_ROWS_OF_ARRAY: usize = 20_000;
+const ROWS: &str = "rows of the matrix";
 
 /// Why a line is refused, and which.
 type Reason<T> = Result<T, (usize, MatrixFileError)>;
@@ -67,10 +67,13 @@ pub(super) fn read(source: &mut dyn Read) -> Reason<Triplets> {
     if rows != columns {
         return Err(lines.refuse(MatrixFileError::NotSquare { rows, columns }));
     }
-    let most = if header.coordinate { MOST_ROWS } else { MOST_ROWS_OF_ARRAY };
-    if rows > most {
-        return Err(lines.refuse(MatrixFileError::TooLarge { rows, most }));
-    }
+    let fits = || {
+        check_order(ROWS, rows)?;
+        // An array has a line for each entry.
+        let entries = if header.coordinate { 0.0 } else { (rows as f64).powi(2) };
+        memory::check(ROWS, rows as f64, entries * size_of::<(usize, usize, f64)>() as f64)
+    };
+    fits().map_err(|reason| lines.refuse(reason.into()))?;
     let mut matrix = Triplets::new(rows);
     if header.coordinate {
         coordinates(&mut lines, &header, size[2], &mut matrix)?;

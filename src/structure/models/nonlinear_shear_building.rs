@@ -8,6 +8,7 @@ use crate::structure::{ContactNode, NonlinearForce, ShearBuilding, Storey, Struc
 /// The level of isolators between the basemat and the slab on which a building stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct IsolationLevel {
     /// Height of the bearings, from the basemat to the slab, m.
     pub height: f64,

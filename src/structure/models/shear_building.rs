@@ -10,6 +10,7 @@ use std::f64::consts::{PI, TAU};
 /// All per metre of thickness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Storey {
     /// Height of the columns, m.
     pub height: f64,

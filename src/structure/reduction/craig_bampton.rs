@@ -12,6 +12,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::recovery::{Basis, Recovery};
 use crate::error::{Error, Result, not_negative};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
+use crate::memory;
 use crate::structure::detached::{check_attached, numbers};
 use crate::structure::matrix_checks::SYMMETRIC;
 use crate::structure::nonlinear::is_nonlinear;
@@ -216,6 +217,8 @@ impl Parts {
     ) -> Result<(Vec<f64>, Vec<f64>)> {
         const NAME: &str = "stiffness matrix with the kept unknowns held";
         let (n, ni, nb) = (self.place.len(), self.interior.len(), self.kept.len());
+        let kept = (nb + modes.min(ni)) as f64;
+        memory::check("unknowns and modes of the reduction", kept, 24.0 * kept * n as f64)?;
         let mut rows = vec![0.0; nb * n];
         for (k, &unknown) in self.kept.iter().enumerate() {
             rows[k * n + unknown] = 1.0;

@@ -73,7 +73,7 @@ fn other_memories_are_refused() {
 #[cfg(feature = "serde")]
 #[test]
 fn damaged_memories_are_refused() {
-    use basemat::coupled::Checkpoint;
+    use super::sum::sealed;
     use serde_json::Value;
 
     let mut simulation = base().interface(WEAKENING).build().unwrap();
@@ -87,7 +87,7 @@ fn damaged_memories_are_refused() {
             1 => list.push(Value::from(0_u64)),
             _ => list[1] = Value::from(f64::NAN.to_bits()),
         }
-        let bad: Checkpoint = serde_json::from_value(value).unwrap();
+        let bad = sealed(value).unwrap();
         let quantity = "memory of the interface laws";
         assert_eq!(refusal(&mut simulation, &bad), CheckpointError::Corrupt { quantity });
     }

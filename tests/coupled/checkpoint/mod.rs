@@ -2,10 +2,14 @@
 //! SCENE: half-planes with every history, spring beds, structures with internal variables.
 //! REFERENCE: the uninterrupted run.
 
+#[cfg(feature = "serde")]
+mod damaged;
 mod histories;
 mod law_memory;
 mod refused;
 mod resumed;
+#[cfg(feature = "serde")]
+mod sum;
 #[cfg(feature = "serde")]
 mod text;
 

@@ -1,5 +1,6 @@
 //! GOAL: a checkpoint read from text is resumed or refused, never a panic.
-//! SCENE: texts with numbers missing or not finite, damaged texts, any bytes (feature `serde`).
+//! SCENE: texts with numbers missing or not finite under a check sum that is right, damaged texts, any
+//! bytes (feature `serde`).
 //! REFERENCE: typed errors, and a simulation that is unchanged.
 
 use basemat::coupled::Checkpoint;
@@ -9,6 +10,7 @@ use proptest::prelude::*;
 use serde_json::Value;
 
 use super::histories::auto;
+use super::sum::sealed;
 use super::{half_plane, refusal};
 use crate::support::scenes::{SI, block, friction, scene};
 
@@ -41,7 +43,7 @@ fn numbers_missing_or_not_finite_are_refused() {
                     1 => list.push(Value::from(0_u64)),
                     _ => list[1] = Value::from(f64::NAN.to_bits()),
                 }
-                let bad: Checkpoint = serde_json::from_value(value).unwrap();
+                let bad = sealed(value).unwrap();
                 let found = refusal(&mut simulation, &bad);
                 assert!(matches!(found, CheckpointError::Corrupt { .. }), "{found}");
             }
@@ -51,7 +53,7 @@ fn numbers_missing_or_not_finite_are_refused() {
         {
             let mut value = good.clone();
             value[name] = Value::from(wrong);
-            let bad: Checkpoint = serde_json::from_value(value).unwrap();
+            let bad = sealed(value).unwrap();
             refusal(&mut simulation, &bad);
         }
     }
@@ -67,7 +69,7 @@ fn a_damaged_choice_of_the_history_is_refused() {
     for (place, wrong) in wrong.iter().flat_map(|w| [(0, *w), (1, *w)]).chain(kinds) {
         let mut value = good.clone();
         value["ground"][place] = Value::from(wrong.to_bits());
-        let bad: Checkpoint = serde_json::from_value(value).unwrap();
+        let bad = sealed(value).unwrap();
         let mut fresh = auto(10, 1 << 30).build().unwrap();
         for simulation in [&mut fresh, &mut whole] {
             let before = simulation.history_choice();
@@ -80,7 +82,7 @@ fn a_damaged_choice_of_the_history_is_refused() {
     let changed = |place: usize, other: f64| -> Checkpoint {
         let mut value = good.clone();
         value["ground"][place] = Value::from(other.to_bits());
-        serde_json::from_value(value).unwrap()
+        sealed(value).unwrap()
     };
     for kind in [0.0, 1.0, 3.0] {
         let mut fresh = auto(10, 1 << 30).build().unwrap();
@@ -115,7 +117,7 @@ proptest! {
             let place = place.index(leaves.len());
             *leaves[place] = Value::from(bits);
         }
-        if let Ok(checkpoint) = serde_json::from_value::<Checkpoint>(value)
+        if let Ok(checkpoint) = sealed(value)
             && simulation.resume(&checkpoint).is_ok()
         {
             let _ = simulation.step();

@@ -1,0 +1,86 @@
+//! The check sum of all files: coefficients, checkpoints, rows of sweeps.
+
+/// A check sum of words: a change within one word always changes it, any other damage all but
+/// surely (FNV-1a over words of 64 bits, rotated after each).
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CheckSum(u64);
+
+impl Default for CheckSum {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl CheckSum {
+    pub(crate) fn add(&mut self, word: u64) {
+        self.0 = (self.0 ^ word).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(23);
+    }
+
+    pub(crate) fn add_number(&mut self, number: f64) {
+        self.add(number.to_bits());
+    }
+
+    /// The length of a list and its entries, so that no entry can move to the next list.
+    pub(crate) fn add_list(&mut self, words: impl ExactSizeIterator<Item = u64>) {
+        self.add(words.len() as u64);
+        words.for_each(|word| self.add(word));
+    }
+
+    pub(crate) fn add_numbers(&mut self, numbers: &[f64]) {
+        self.add_list(numbers.iter().map(|number| number.to_bits()));
+    }
+
+    /// A text by its bytes.
+    pub(crate) fn add_text(&mut self, text: &str) {
+        self.add_list(text.bytes().map(u64::from));
+    }
+
+    pub(crate) fn value(self) -> u64 {
+        self.0
+    }
+
+    /// Sixteen hexadecimal digits.
+    pub(crate) fn text(self) -> String {
+        format!("{:016x}", self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sum(words: &[u64]) -> u64 {
+        let mut sum = CheckSum::default();
+        words.iter().for_each(|word| sum.add(*word));
+        sum.value()
+    }
+
+    #[test]
+    fn every_bit_of_every_word_counts() {
+        let words = [0, 1, u64::MAX, 0x3ff0_0000_0000_0000, 0];
+        let whole = sum(&words);
+        for place in 0..words.len() {
+            for bit in 0..64 {
+                let mut other = words;
+                other[place] ^= 1 << bit;
+                assert_ne!(sum(&other), whole, "bit {bit} of word {place}");
+            }
+            let mut swapped = words;
+            swapped.swap(place, (place + 1) % words.len());
+            assert!(sum(&swapped) != whole || swapped == words, "{place}");
+        }
+        assert_ne!(sum(&words[..4]), whole);
+    }
+
+    #[test]
+    fn lists_and_texts_keep_their_ends() {
+        let of = |texts: &[&str]| {
+            let mut sum = CheckSum::default();
+            texts.iter().for_each(|text| sum.add_text(text));
+            sum.text()
+        };
+        assert_ne!(of(&["ab", "c"]), of(&["a", "bc"]));
+        assert_ne!(of(&["", "a"]), of(&["a", ""]));
+        assert_eq!(of(&[]), "cbf29ce484222325");
+    }
+}

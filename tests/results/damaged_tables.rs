@@ -1,0 +1,230 @@
+//! GOAL: no row of a file of cases is taken with other contents than were written, none is lost
+//! without a word, and a disk that is full ends a sweep with what was computed.
+//! SCENE: tables of a formula, every bit of their files flipped, quotation marks put in anywhere,
+//! files that may not grow.
+//! REFERENCE: the table as it was computed; the check sum worked out from the cells.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use basemat::sweep::{CaseTable, Parameter, Sweep, SweepCase};
+use basemat::{CaseFileError, Error, Result, SweepError};
+
+use crate::support::check_sum::{check_sum, text_words};
+
+fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("damaged_tables").join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
+
+/// A file anew: some systems flush one that is cut to nothing and written again.
+fn write(path: &Path, content: &[u8]) {
+    let _ = std::fs::remove_file(path);
+    std::fs::write(path, content).unwrap();
+}
+
+const COLUMNS: [&str; 2] = ["slip_m", "ratio"];
+
+/// `count` × 2 cases.
+fn sweep(count: u32) -> Sweep<'static> {
+    Sweep::grid([
+        Parameter::numbers("friction", (1..=count).map(|k| 0.1 * f64::from(k))),
+        Parameter::texts("record", ["El Centro", "two\nlines"]),
+    ])
+    .unwrap()
+}
+
+fn compute(case: &SweepCase<'_>) -> std::result::Result<[f64; 2], String> {
+    match case.index() {
+        3 => Err("of \"two\"\nlines".to_owned()),
+        4 => Ok([f64::NAN, -0.0]),
+        index => Ok([(index as f64).sqrt(), case.value("friction").unwrap() / 3.0]),
+    }
+}
+
+fn whole(count: u32) -> CaseTable {
+    sweep(count).table(COLUMNS, compute).unwrap()
+}
+
+#[test]
+fn the_check_is_that_of_the_row() {
+    let table = whole(3);
+    let text = table.csv();
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let names: Vec<_> = reader.headers().unwrap().iter().map(text_words).collect();
+    let names = names.concat();
+    for (row, cells) in table.rows().zip(reader.records()) {
+        let cells = cells.unwrap();
+        let mut words = names.clone();
+        words.push(row.index() as u64);
+        words.extend(text_words(&cells[1]));
+        words.extend(text_words(&cells[2]));
+        match row.results() {
+            Ok(results) => {
+                words.push(results.len() as u64);
+                words.extend(results.iter().map(|value| value.to_bits()));
+            }
+            Err(reason) => words.extend(text_words(reason)),
+        }
+        assert_eq!(cells[6], format!("{:016x}", check_sum(&words)), "{cells:?}");
+    }
+}
+
+#[test]
+fn every_damaged_byte_is_refused() {
+    let (table, path) = (whole(3), folder("bytes").join("cases.csv"));
+    let text = table.csv().into_bytes();
+    let mut refused = 0;
+    for place in 0..text.len() {
+        for bit in 0..8 {
+            let mut other = text.clone();
+            other[place] ^= 1 << bit;
+            write(&path, &other);
+            match sweep(3).merge([&path]) {
+                Ok(merged) => assert_eq!(merged, table, "byte {place}, bit {bit}"),
+                Err(Error::Sweep(_) | Error::DuplicateName { .. }) => refused += 1,
+                Err(other) => panic!("byte {place}, bit {bit}: {other}"),
+            }
+        }
+    }
+    assert!(refused > 7 * text.len(), "{refused}");
+}
+
+/// Digits that stay digits: the damage that a reader of numbers cannot see.
+#[test]
+fn edited_digits_are_refused_by_their_row() {
+    let (table, path) = (whole(4), folder("digits").join("cases.csv"));
+    let text = table.csv();
+    let mut damaged = 0;
+    for case in [0, 2, 6] {
+        let line = text.lines().find(|line| line.starts_with(&format!("{case},"))).unwrap();
+        let begin = text.find(line).unwrap();
+        let results = line.find("El Centro").unwrap()..line.rfind(',').unwrap();
+        let digits =
+            results.map(|at| begin + at).filter(|&at| text.as_bytes()[at].is_ascii_digit());
+        for at in digits {
+            let mut other = text.clone().into_bytes();
+            other[at] = b'0' + (other[at] - b'0' + 1) % 10;
+            write(&path, &other);
+            match sweep(4).merge([&path]) {
+                Err(Error::Sweep(SweepError::File { reason, .. })) => {
+                    assert_eq!(reason, CaseFileError::Damaged { case });
+                    damaged += 1;
+                }
+                // The seventeenth digit may be another without another number.
+                merged => assert_eq!(merged.unwrap(), table, "byte {at} of case {case}"),
+            }
+        }
+    }
+    assert!(damaged > 30, "{damaged}");
+}
+
+#[test]
+fn a_stray_quotation_mark_drops_no_rows() {
+    let folder = folder("quotes");
+    let (path, part) = (folder.join("cases.csv"), folder.join("cases.csv.part"));
+    let (table, count) = (whole(25), 50);
+    let text = table.csv();
+    let runs = AtomicUsize::new(0);
+    let (mut kept, mut refused) = (0, 0);
+    for at in (0..text.len()).filter(|&at| text.is_char_boundary(at)) {
+        let spoilt = format!("{}\"{}", &text[..at], &text[at..]);
+        let _ = std::fs::remove_file(&path);
+        write(&part, spoilt.as_bytes());
+        runs.store(0, Ordering::Relaxed);
+        let found = sweep(25).table_in(&path, COLUMNS, |case| {
+            runs.fetch_add(1, Ordering::Relaxed);
+            compute(case)
+        });
+        match found {
+            Ok(found) => {
+                assert_eq!(found, table, "{at}");
+                // The last row, which may have been cut, and one before it.
+                assert!(runs.load(Ordering::Relaxed) <= 2, "{at}");
+                kept += 1;
+            }
+            Err(Error::Sweep(SweepError::File { reason, .. })) => {
+                assert_eq!(std::fs::read_to_string(&part).unwrap(), spoilt, "{at}");
+                refused += usize::from(reason == CaseFileError::Quote);
+            }
+            Err(other) => panic!("{at}: {other}"),
+        }
+    }
+    assert!(
+        kept < 100 && refused > 40 * count,
+        "{kept} taken, {refused} refused of {}",
+        text.len()
+    );
+}
+
+/// Runs in a process of its own whose files may have 2 or 4 kB: `ulimit` counts in blocks.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_ends_the_sweep_with_its_rows() {
+    const CASES: u32 = 200;
+    const NAME: &str = "damaged_tables::a_full_disk_ends_the_sweep_with_its_rows";
+    let (begin, end) = ("rows begin\n", "rows end\n");
+    let compute = |case: &SweepCase<'_>| Result::Ok([case.index() as f64, 0.5]);
+    if let Some(path) = std::env::var_os("BASEMAT_FULL_DISK") {
+        let runs = AtomicUsize::new(0);
+        let fault = sweep(CASES).table_in(path, COLUMNS, |case| {
+            runs.fetch_add(1, Ordering::Relaxed);
+            compute(case)
+        });
+        let Err(Error::Sweep(error)) = fault else { panic!("{fault:?}") };
+        let SweepError::Unwritten { computed, left, rows, .. } = &error else { panic!("{error}") };
+        assert_eq!((*computed, computed + left), (runs.load(Ordering::Relaxed), 400), "{error}");
+        // Nothing is begun after the first row that found no place.
+        assert!(*computed < 150, "{error}");
+        assert!(!error.to_string().contains("El Centro"), "{error}");
+        println!("{begin}{rows}{end}");
+        return;
+    }
+    let folder = folder("full");
+    let (path, part) = (folder.join("cases.csv"), folder.join("cases.csv.part"));
+    let test = std::env::current_exe().unwrap();
+    let output = std::process::Command::new("sh")
+        .args(["-c", "trap '' XFSZ; ulimit -f 4; exec \"$0\" --exact \"$1\" --nocapture"])
+        .arg(test)
+        .arg(NAME)
+        .env("BASEMAT_FULL_DISK", &path)
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{text}{}", String::from_utf8_lossy(&output.stderr));
+    let rows = text.split_once(begin).unwrap().1.split_once(end).unwrap().0;
+    let whole = sweep(CASES).table(COLUMNS, compute).unwrap();
+    // From the file that was cut, and from the rows handed over.
+    for from in [std::fs::read_to_string(&part).unwrap(), rows.to_owned()] {
+        let _ = std::fs::remove_file(&path);
+        write(&part, from.as_bytes());
+        let before = from.matches("El Centro").count();
+        let runs = AtomicUsize::new(0);
+        let table = sweep(CASES).table_in(&path, COLUMNS, |case| {
+            runs.fetch_add(1, Ordering::Relaxed);
+            compute(case)
+        });
+        assert_eq!(table.unwrap(), whole);
+        let runs = runs.load(Ordering::Relaxed);
+        assert!(before > 5 && runs <= 400 - 2 * before + 2, "{runs} runs, {before} there");
+    }
+}
+
+#[test]
+fn many_values_are_compared_in_no_time() {
+    let clock = std::time::Instant::now();
+    let many = 300_000;
+    let numbers = || Parameter::numbers("x", (0..many).map(f64::from));
+    let texts = Parameter::texts("y", (0..many).map(|k| k.to_string()));
+    assert_eq!(Sweep::grid([numbers()]).unwrap().cases().len(), 300_000);
+    assert!(Sweep::grid([texts]).is_ok());
+    let twice = Parameter::numbers("x", (0..many).map(f64::from).chain([7.0]));
+    assert!(matches!(
+        Sweep::grid([twice]).unwrap_err(),
+        Error::Sweep(SweepError::RepeatedValue { value, .. }) if value == "7"
+    ));
+    // A comparison of each with each takes 4.5e10 comparisons.
+    assert!(clock.elapsed().as_secs_f64() < 3.0, "{:?}", clock.elapsed());
+}
