@@ -126,9 +126,9 @@ impl Containment {
         self.width * FOOT * height * SUPERSTRUCTURE_DENSITY * SLUG_PER_CUBIC_FOOT
     }
 
-    /// Weight of the superstructure per metre of thickness, N/m.
-    pub(crate) fn superstructure_weight(&self) -> f64 {
-        STANDARD_GRAVITY * self.superstructure_mass()
+    /// Weights of all and of the superstructure per metre of thickness, N/m.
+    pub(crate) fn weights(&self) -> [f64; 2] {
+        [self.mass(), self.superstructure_mass()].map(|mass| STANDARD_GRAVITY * mass)
     }
 
     /// Mean horizontal motion of the nodes at the foundation's top, as terms of a probe.

@@ -31,7 +31,7 @@ pub(crate) fn rigid_difference(outcome: &Outcome) -> f64 {
 
 /// A table of the quantities that the paper concludes about, against uplift only; what sliding without
 /// deformation would give; the checks of service.
-pub(crate) fn print(results: &[Outcome], superstructure_weight: f64) {
+pub(crate) fn print(results: &[Outcome], weights: [f64; 2]) {
     let Some(uplift) = results.get(1) else { return };
     println!(
         "\n| case | base shear | slip of the base, mm | A to a side, mm | A up, mm | shear if the \
@@ -61,7 +61,7 @@ pub(crate) fn print(results: &[Outcome], superstructure_weight: f64) {
         );
         last = Some(outcome.peak_shear);
     }
-    print_rigid_sliding(results, superstructure_weight);
+    print_rigid_sliding(results, weights);
     println!("\nserviceability");
     for outcome in results {
         let checks: Vec<_> = outcome.run.serviceability.iter().map(ToString::to_string).collect();
@@ -71,11 +71,11 @@ pub(crate) fn print(results: &[Outcome], superstructure_weight: f64) {
 
 /// Base shear over the friction coefficient, which in rigid sliding is the superstructure's weight,
 /// kip/ft.
-fn print_rigid_sliding(results: &[Outcome], superstructure_weight: f64) {
+fn print_rigid_sliding(results: &[Outcome], weights: [f64; 2]) {
+    let [all, superstructure] = weights.map(pounds_per_foot);
     println!(
-        "\nbase shear over friction, kip/ft; the superstructure weighs {:.1} kip/ft, which this is in \
-         rigid sliding",
-        1e-3 * pounds_per_foot(superstructure_weight)
+        "\nweight {all:.0} lb/ft, of it superstructure {superstructure:.0}; base shear over friction, \
+         which is the latter in rigid sliding, kip/ft:"
     );
     for outcome in results {
         let Kind::Coulomb(friction) = outcome.case.kind else { continue };

@@ -84,7 +84,7 @@ fn main() -> Result<(), AnyError> {
     report::write_summary(&options.out, &results)?;
     report::write_histories(&options.out, &results)?;
     plots::draw_all(&options.out, &results)?;
-    conclusions::print(&results, options.containment().superstructure_weight());
+    conclusions::print(&results, options.containment().weights());
     report::write_serviceability(&options.out, &results)?;
     figures::draw(&options.out, &results)?;
     if options.sweep {
