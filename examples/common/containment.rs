@@ -1,7 +1,7 @@
 //! The containment of Patel & Spyrakos: soil, structure and time step, in the paper's units.
 //!
-//! Contact length, height and the soil's density are not printed in the paper: see
-//! docs/containment.md.
+//! Contact length and height are calibrated on the first two rows of the paper's Table 1; what else is
+//! not printed is assumed: see docs/paper.md.
 #![allow(dead_code, reason = "each example uses its own part")]
 
 use std::ops::Range;
@@ -9,6 +9,7 @@ use std::ops::Range;
 use basemat::Soil;
 use basemat::coupled::Probe;
 use basemat::fem::{Direction, Layer, Material, Mesh, QuadFormulation};
+use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{FemModel, RayleighDamping};
 
 pub(crate) const FOOT: f64 = 0.3048;
@@ -16,17 +17,17 @@ pub(crate) const POUND_FORCE_PER_FOOT: f64 = 14.593_902_937_206_364;
 pub(crate) const PSF: f64 = 47.880_258_980_335_84;
 pub(crate) const SLUG_PER_CUBIC_FOOT: f64 = 515.378_818_393_229_5;
 
-/// Peak base shears of the paper's Table 1, lb/ft: bonded, uplift only, friction 0.4, 0.3, 0.2.
+/// Peak base shears of the paper's Table 1, printed in lb, taken as lb/ft: bonded, uplift only, friction 0.4, 0.3, 0.2.
 pub(crate) const PAPER_SHEARS: [f64; 5] = [28_970.0, 20_130.0, 10_233.0, 6_415.0, 5_958.0];
 
-/// What is to be chosen; the defaults are the paper's, or assumed.
+/// What is to be chosen; the defaults are given in the paper, calibrated, or assumed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Containment {
-    /// Contact length, ft.
+    /// Contact length, ft; calibrated.
     pub(crate) width: f64,
-    /// Height, ft.
+    /// Height, ft; calibrated.
     pub(crate) height: f64,
-    /// Layers of rectangles, the lowest of them the basemat.
+    /// Layers of rectangles, of equal height; that the lowest is the basemat is assumed.
     pub(crate) layers: usize,
     /// Elements along the base.
     pub(crate) elements: usize,
@@ -125,6 +126,11 @@ impl Containment {
         self.width * FOOT * height * SUPERSTRUCTURE_DENSITY * SLUG_PER_CUBIC_FOOT
     }
 
+    /// Weights of all and of the superstructure per metre of thickness, N/m.
+    pub(crate) fn weights(&self) -> [f64; 2] {
+        [self.mass(), self.superstructure_mass()].map(|mass| STANDARD_GRAVITY * mass)
+    }
+
     /// Mean horizontal motion of the nodes at the foundation's top, as terms of a probe.
     pub(crate) fn foundation_top(&self, model: &FemModel) -> basemat::Result<Vec<(usize, f64)>> {
         let share = 1.0 / (self.elements + 1) as f64;
@@ -138,7 +144,7 @@ impl Containment {
         Ok(terms)
     }
 
-    /// A roof corner: its place, m.
+    /// The roof's left corner, m; that it is the paper's location A is assumed.
     pub(crate) fn corner(&self) -> [f64; 2] {
         [self.base().start, self.layer_height() + self.superstructure_height()]
     }

@@ -35,13 +35,13 @@ pub(crate) struct Options {
     /// Friction coefficients of the sliding cases.
     #[arg(long, value_delimiter = ',', default_value = "0.4,0.3,0.2")]
     pub(crate) friction: Vec<f64>,
-    /// Contact length, ft (reconstructed: the paper's figure is lost).
+    /// Contact length, ft (the paper's figure is lost: calibrated on Table 1's first two rows).
     #[arg(long = "width", default_value_t = 34.0, value_parser = positive)]
     pub(crate) width_ft: f64,
-    /// Height, ft (reconstructed).
+    /// Height, ft (calibrated as the contact length is).
     #[arg(long = "height", default_value_t = 80.0, value_parser = positive)]
     pub(crate) height_ft: f64,
-    /// Layers of elements, the lowest of them the basemat.
+    /// Layers of elements, the lowest of them the basemat (which of them it is, is an assumption).
     #[arg(long, default_value_t = 13, value_parser = clap::value_parser!(u16).range(2..=200))]
     layers: u16,
     /// Elements along the base.
@@ -53,9 +53,12 @@ pub(crate) struct Options {
     /// Hourglass stiffness in percent of full integration's, with --quadrilateral hourglass.
     #[arg(long, default_value_t = 5)]
     hourglass: u8,
-    /// Also compare the time series with those of 15 elements along the base.
+    /// Also compute 15 elements along the base: peaks and time series beside those of 10.
     #[arg(long)]
     pub(crate) meshes: bool,
+    /// Also compute friction from 0.05 to 0.8: 16 runs, about four times as long.
+    #[arg(long)]
+    pub(crate) sweep: bool,
     /// Allowable slip of the base, mm.
     #[arg(long, default_value_t = 25.0, value_parser = positive)]
     allowable_slip: f64,
@@ -74,7 +77,7 @@ pub(crate) struct Options {
     /// Pressure wave speed of the soil, ft/s.
     #[arg(long = "pressure-speed", default_value_t = 1300.0, value_parser = positive)]
     pub(crate) pressure_speed_fts: f64,
-    /// Density of the soil, slug/ft³ (not printed in the paper: an assumption).
+    /// Density of the soil, slug/ft³ (not printed in the paper: assumed).
     #[arg(long = "soil-density", default_value_t = 3.5, value_parser = positive)]
     soil_density: f64,
     /// Damping ratio of the structure at 1 and 10 Hz (Rayleigh).
@@ -111,7 +114,7 @@ enum Quadrilateral {
     Full,
     /// With incompatible modes, good in bending.
     Incompatible,
-    /// One point, constant strain, as the paper's: without resistance to hourglass patterns.
+    /// One point, constant strain, as the paper says: without resistance to hourglass patterns.
     OnePoint,
     /// One point and some hourglass stiffness, see --hourglass.
     Hourglass,

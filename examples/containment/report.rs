@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::AnyError;
 use super::case::{Kind, Outcome};
+use super::conclusions::rigid_difference;
 use super::containment::{PAPER_SHEARS, pounds_per_foot};
 
 /// Peak base shear of the paper's Table 1, lb/ft, for the cases it has.
@@ -61,6 +62,11 @@ pub(crate) fn print_table(results: &[Outcome]) {
             1e6 * run.wall.as_secs_f64() / run.steps.max(1) as f64,
         );
     }
+    println!(
+        "ratio: shear at the foundation over that of the bonded case; (paper): the same ratio of the \
+         printed Table 1. The default length and height are calibrated on its bonded and uplift-only \
+         rows: only the sliding rows can be judged by it"
+    );
     for outcome in results {
         for warning in &outcome.run.warnings {
             println!("{}: {warning}", outcome.case.name);
@@ -85,6 +91,10 @@ pub(crate) fn write_summary(folder: &Path, results: &[Outcome]) -> Result<(), An
         "ledger_residual",
         "steps",
         "wall_s",
+        "peak_roof_rise_m",
+        "peak_mean_slip_m",
+        "peak_roof_over_base_m",
+        "rigid_superstructure_rms_difference",
     ])?;
     for outcome in results {
         let run = &outcome.run;
@@ -105,7 +115,31 @@ pub(crate) fn write_summary(folder: &Path, results: &[Outcome]) -> Result<(), An
             run.ledger_residual.to_string(),
             run.steps.to_string(),
             run.wall.as_secs_f64().to_string(),
+            outcome.peak_lift.to_string(),
+            run.mean_slip.magnitude().to_string(),
+            outcome.peak_sway.to_string(),
+            rigid_difference(outcome).to_string(),
         ])?;
+    }
+    writer.flush()?;
+    Ok(())
+}
+
+/// Writes `serviceability.csv`, a row per case and criterion.
+pub(crate) fn write_serviceability(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> {
+    let mut writer = csv::Writer::from_path(folder.join("serviceability.csv"))?;
+    writer.write_record(["case", "criterion", "largest", "limit", "margin", "first_excess_s"])?;
+    for outcome in results {
+        for check in &outcome.run.serviceability {
+            writer.write_record([
+                outcome.case.name.clone(),
+                check.criterion.name().to_owned(),
+                check.largest.value.to_string(),
+                check.limit.to_string(),
+                check.margin().to_string(),
+                check.first_excess.map_or_else(String::new, |time| time.to_string()),
+            ])?;
+        }
     }
     writer.flush()?;
     Ok(())

@@ -1,4 +1,4 @@
-//! Evidence for and against readings: geometries, meshes, motions at A.
+//! Evidence for and against readings: geometries.
 
 use super::containment::PAPER_SHEARS;
 use super::options::{Law, Reading, Scheme};
@@ -73,32 +73,6 @@ pub(crate) fn print_geometries(reading: &Reading, short: bool) {
     );
 }
 
-/// Peaks of a reading over meshes, and the motion at A of its rows against uplift only.
-pub(crate) fn print_meshes(reading: &Reading, short: bool) {
-    println!(
-        "\n| element's length left out of eq. 12: elements | bonded | uplift only | 0.4 | 0.3 | 0.2 | \
-         roof to a side, uplift only and 0.4, mm | roof up, mm |\n|---|---|---|---|---|---|---|---|"
-    );
-    for elements in if short { &[10][..] } else { &[10, 15, 20] } {
-        let reading = Reading { elements: *elements, length_left_out: true, ..own(reading) };
-        print!("| {elements} |");
-        let rows: Vec<_> = (0..5).map(|row| reading.run(row)).collect();
-        for row in &rows {
-            match row {
-                Ok(row) => print!(" {:.0} |", row.shear[0]),
-                Err(error) => print!(" {error} |"),
-            }
-        }
-        if let [_, Ok(uplift), Ok(sliding), ..] = &rows[..] {
-            for axis in [0, 1] {
-                let [a, b] = [uplift, sliding].map(|row| 1e3 * row.roof[axis]);
-                print!(" {a:.1}, {b:.1} |");
-            }
-        }
-        println!();
-    }
-}
-
 /// Root mean square of the log ratios of some rows to the paper's.
 fn misfit(reading: &Reading, rows: &[usize]) -> f64 {
     let logarithms: Result<Vec<f64>, _> = rows
@@ -108,47 +82,73 @@ fn misfit(reading: &Reading, rows: &[usize]) -> f64 {
     logarithms.map_or(f64::INFINITY, |logarithms| root_mean_square(&logarithms))
 }
 
+/// Width and height of least `misfit` near `start`, by smaller and smaller steps.
+fn refine(
+    misfit: &impl Fn([f64; 2]) -> f64,
+    start: ([f64; 2], f64),
+    short: bool,
+) -> ([f64; 2], f64) {
+    let mut best = start;
+    let (mut step, least) = (0.16, if short { 0.1 } else { 0.008 });
+    while step > least {
+        let before = best.1;
+        for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
+            let mut trial = best.0;
+            trial[axis] *= 1.0 + sign * step;
+            let found = misfit(trial);
+            if found < best.1 {
+                best = (trial, found);
+            }
+        }
+        if best.1 == before {
+            step *= 0.5;
+        }
+    }
+    best
+}
+
+/// Geometries that meet the bonded and the uplift-only row, by searches from several heights, and how
+/// far the sliding rows are from Table 1 there.
+pub(crate) fn print_calibration(reading: &Reading, short: bool) {
+    let own = own(reading);
+    let at = |[width, height]: [f64; 2], rows: &[usize]| {
+        misfit(&Reading { width, height, ..own.clone() }, rows)
+    };
+    let first = |place: [f64; 2]| at(place, &[0, 1]);
+    println!("\ngeometries that meet the bonded and the uplift-only row of Table 1 best:");
+    let heights: &[f64] = if short { &[80.0] } else { &[50.0, 80.0, 110.0, 140.0, 170.0, 200.0] };
+    for &height in heights {
+        let start = [34.0, height];
+        let (place, found) = refine(&first, (start, first(start)), short);
+        println!(
+            "from {height:.0} ft: {:.1} x {:.1} ft, rms of log ratios {found:.3}; sliding rows {:.2}",
+            place[0],
+            place[1],
+            at(place, &[2, 3, 4])
+        );
+    }
+}
+
 /// Searches width and height that fit Table 1 best: a coarse grid, then smaller and smaller steps.
 pub(crate) fn print_search(reading: &Reading, short: bool) {
     let own = own(reading);
     println!();
+    let count = if short { 2 } else { 7 };
+    let sizes = Sizes {
+        widths: (0..count).map(|k| 15.0 * 1.4_f64.powi(k)).collect(),
+        heights: (0..count).map(|k| 25.0 * 1.4_f64.powi(k)).collect(),
+    };
     for length_left_out in [false, true] {
         for rows in [&[0, 1, 2, 3, 4][..], &[2, 3, 4]] {
             let at = |[width, height]: [f64; 2]| {
                 misfit(&Reading { length_left_out, width, height, ..own.clone() }, rows)
             };
-            let count = if short { 2 } else { 7 };
-            let sizes = Sizes {
-                widths: (0..count).map(|k| 15.0 * 1.4_f64.powi(k)).collect(),
-                heights: (0..count).map(|k| 25.0 * 1.4_f64.powi(k)).collect(),
-            };
-            let mut best = ([f64::NAN; 2], f64::INFINITY);
-            let mut see = |place: [f64; 2]| {
-                let found = at(place);
-                let better = found < best.1;
-                if better {
-                    best = (place, found);
-                }
-                (better, best.0)
-            };
-            let mut place = [f64::NAN; 2];
-            for pair in sizes.pairs() {
-                place = see(pair).1;
-            }
-            let (mut step, least) = (0.16, if short { 0.1 } else { 0.008 });
-            while step > least {
-                let mut moved = false;
-                for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
-                    let mut trial = place;
-                    trial[axis] *= 1.0 + sign * step;
-                    let (better, now) = see(trial);
-                    moved |= better;
-                    place = now;
-                }
-                if !moved {
-                    step *= 0.5;
-                }
-            }
+            let best = sizes
+                .pairs()
+                .map(|place| (place, at(place)))
+                .min_by(|a, b| a.1.total_cmp(&b.1))
+                .unwrap_or(([f64::NAN; 2], f64::INFINITY));
+            let best = refine(&at, best, short);
             println!(
                 "best geometry for {} of Table 1, friction {}: {:.1} x {:.1} ft, rms of log ratios \
                  {:.3}",

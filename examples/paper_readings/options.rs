@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use super::containment::{Containment, FOOT};
 
 /// One reading.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, PartialEq, Args)]
 #[allow(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub(crate) struct Reading {
     /// Interface.
@@ -42,10 +42,10 @@ pub(crate) struct Reading {
     /// Change modes by what the step before ended with, without iteration.
     #[arg(long)]
     pub(crate) lag_modes: bool,
-    /// Gravity over standard gravity.
+    /// Gravity over standard gravity: pressures under weight are multiplied, friction is not.
     #[arg(long, default_value_t = 1.0)]
     pub(crate) gravity: f64,
-    /// Factor on all friction coefficients.
+    /// Factor on all friction coefficients: the weight stays.
     #[arg(long, default_value_t = 1.0)]
     pub(crate) friction_factor: f64,
     /// Read μσ of eq. 12 as the force at a node, without the element's length in ft.
@@ -60,10 +60,10 @@ pub(crate) struct Reading {
     /// Elements along the base.
     #[arg(long, default_value_t = 10)]
     pub(crate) elements: usize,
-    /// Contact length, ft.
+    /// Contact length, ft (the default is calibrated on Table 1's first two rows).
     #[arg(long, default_value_t = 34.0)]
     pub(crate) width: f64,
-    /// Height, ft.
+    /// Height, ft (calibrated likewise).
     #[arg(long, default_value_t = 80.0)]
     pub(crate) height: f64,
     /// Factor on the foundation's density.
@@ -72,7 +72,7 @@ pub(crate) struct Reading {
     /// Factor on the record.
     #[arg(long, default_value_t = 1.0)]
     pub(crate) record: f64,
-    /// Soil density, slug/ft³.
+    /// Soil density, slug/ft³ (assumed).
     #[arg(long, default_value_t = 3.5)]
     pub(crate) soil_density: f64,
     /// Damping ratio of the structure at 1 and 10 Hz (Rayleigh).
@@ -81,7 +81,7 @@ pub(crate) struct Reading {
     /// Newmark's gamma; beta = (gamma + 1/2)²/4.
     #[arg(long, default_value_t = 0.5)]
     pub(crate) gamma: f64,
-    /// Elements integrated at their centre, as the paper's are.
+    /// Elements integrated at their centre: constant strain, as the paper says.
     #[arg(long)]
     pub(crate) one_point: bool,
     /// End a case where the paper's flow chart does not settle (instead of counting such steps).
@@ -103,7 +103,7 @@ pub(crate) enum Law {
     Hard,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
 pub(crate) enum Scheme {
     Newmark,
     Hht,
@@ -123,7 +123,7 @@ pub(crate) enum Limit {
     Weight,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
 pub(crate) enum Sense {
     Inelastic,
     Velocity,

@@ -1,13 +1,13 @@
 //! A reading's runs.
 
+use basemat::Simulation;
 use basemat::bem::HalfPlaneGround;
 use basemat::coupled::{ContactSearch, HhtAlpha, Midpoint, Newmark, Probe, SimulationBuilder};
 use basemat::fem::Direction;
 use basemat::interface::{Bonded, InterfaceLaw};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
-use basemat::{Simulation, StepError};
 
-use super::containment::{FOOT, PAPER_SHEARS, pounds_per_foot};
+use super::containment::{FOOT, pounds_per_foot};
 use super::forcing::PrintedForcing;
 use super::options::{Law, Reading, Scheme};
 
@@ -18,11 +18,11 @@ pub(crate) struct Row {
     /// Largest uplifted fraction.
     pub(crate) uplift: f64,
     /// Largest slip of an element, m.
-    slip: f64,
+    pub(crate) slip: f64,
     /// Largest absolute motion of A to a side, and upwards, m.
     pub(crate) roof: [f64; 2],
     /// Steps in which the flow chart did not settle.
-    cycles: usize,
+    pub(crate) cycles: usize,
 }
 
 impl Reading {
@@ -90,47 +90,6 @@ impl Reading {
         } else {
             builder
         })
-    }
-
-    /// Runs the rows asked for and prints them as one line of a table, with the root mean square of
-    /// ln(peak/paper's) over all of them and over those that slide.
-    pub(crate) fn print(&self, name: &str) {
-        print!("| {} |", if name.is_empty() { "the paper's parts" } else { name });
-        let mut logarithms = Vec::new();
-        for &row in &self.rows {
-            let row = row.min(4);
-            match self.run(row) {
-                Ok(r) => {
-                    let ratio = r.shear[0] / PAPER_SHEARS[row];
-                    logarithms.push((row, ratio.ln()));
-                    print!(
-                        " {:.0} ({:+.0} %; {:.0}; {:.0} %; {:.0} mm; {}) |",
-                        r.shear[0],
-                        100.0 * (ratio - 1.0),
-                        r.shear[1],
-                        100.0 * r.uplift,
-                        1e3 * r.slip.abs(),
-                        r.cycles
-                    );
-                }
-                Err(basemat::Error::Step {
-                    step, time, source: StepError::Contact { .. }, ..
-                }) => print!(" step {step} (t = {time:.3} s): no modes |"),
-                Err(error) => print!(" {error} |"),
-            }
-        }
-        for first in [0, 2] {
-            let wanted = self.rows.iter().filter(|row| **row >= first).count();
-            let found = logarithms.iter().filter(|(row, _)| *row >= first).map(|(_, l)| *l);
-            let found: Vec<f64> = found.collect();
-            // A reading that some row does not survive has none.
-            if found.len() == wanted && wanted > 0 {
-                print!(" {:.2} |", root_mean_square(&found));
-            } else {
-                print!(" – |");
-            }
-        }
-        println!();
     }
 }
 

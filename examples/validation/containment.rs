@@ -14,8 +14,8 @@ use super::paper::options::Options;
 pub(crate) const CASE: Validation = Validation {
     name: "containment",
     title: "The containment of Patel & Spyrakos",
-    reference: "the paper's Table 1 (bonded and uplift only)",
-    settings: "10 uniform elements, Δt = 1.31 ms, El Centro; dimensions reconstructed",
+    reference: "the paper's Table 1; the dimensions are calibrated on its rows bonded and uplift only",
+    settings: "10 uniform elements, Δt = 1.31 ms, El Centro",
     run,
 };
 
@@ -38,9 +38,13 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         computed.iter().map(|outcome| outcome.peak_shear / POUND_FORCE_PER_FOOT).collect();
     let ledger = computed.iter().fold(0.0_f64, |m, outcome| worse(m, outcome.run.ledger_residual));
     let mut checks = vec![
-        Check::below("bonded: peak base shear, relative", (shear[0] / PAPER[0] - 1.0).abs(), 1e-2),
         Check::below(
-            "uplift only: peak base shear, relative",
+            "bonded: peak base shear, relative (calibrated)",
+            (shear[0] / PAPER[0] - 1.0).abs(),
+            1e-2,
+        ),
+        Check::below(
+            "uplift only: peak base shear, relative (calibrated)",
             (shear[1] / PAPER[1] - 1.0).abs(),
             4e-2,
         ),

@@ -67,7 +67,8 @@ def test_the_containments_command_prints_its_table(capsys: pytest.CaptureFixture
 
     containment.main(["--duration", "3", "--friction", "0.2"])
     lines = capsys.readouterr().out.splitlines()
-    assert [line[:13].strip() for line in lines[2:]] == ["bonded", "uplift only", "friction 0.2"]
+    assert [line[:13].strip() for line in lines[2:5]] == ["bonded", "uplift only", "friction 0.2"]
+    assert "\n".join(lines[5:]) == containment.NOTE
 
 
 def test_every_public_name_has_a_docstring() -> None:

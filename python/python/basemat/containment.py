@@ -1,8 +1,9 @@
 """El Centro on a containment that may uplift and slide: ``python -m basemat.containment``.
 
 The problem of Patel & Spyrakos, "Uplifting-sliding response of flexible structures to seismic
-loads": bonded, uplift only, friction 0.4, 0.3 and 0.2. Contact length, height and the soil's
-density are not printed in the paper: see docs/containment.md of the repository.
+loads": bonded, uplift only, friction 0.4, 0.3 and 0.2. Contact length and height are calibrated on
+the first two rows of the paper's Table 1; what else is not printed is assumed: see docs/paper.md of
+the repository.
 """
 
 from __future__ import annotations
@@ -37,13 +38,20 @@ PSF = 47.88025898033584
 SLUG_PER_CUBIC_FOOT = 515.3788183932295
 """kg/m³."""
 WIDTH, HEIGHT = 34.0, 80.0
-"""Contact length and height, ft."""
+"""Contact length and height, ft; calibrated."""
 LAYERS, ELEMENTS = 13, 10
-"""Layers of rectangles, the lowest of them the basemat, and elements along the base."""
+"""Layers of rectangles, the lowest of them (assumed) the basemat, and elements along the base."""
 SHEAR_SPEED, PRESSURE_SPEED, SOIL_DENSITY = 650.0, 1300.0, 3.5
-"""Wave speeds of the soil, ft/s, and its density, slug/ft³."""
+"""Wave speeds of the soil, ft/s, and its density (assumed), slug/ft³."""
 PAPER_SHEARS = {None: 28970.0, math.inf: 20130.0, 0.4: 10233.0, 0.3: 6415.0, 0.2: 5958.0}
-"""Peak base shears of the paper's Table 1, lb/ft, by friction (None: bonded)."""
+"""Peak base shears of the paper's Table 1, printed in lb, by friction (None: bonded)."""
+
+NOTE = (
+    "ratio: shear over that of the bonded case; paper: the same ratio of the printed Table 1. The\n"
+    "length and height are calibrated on its bonded and uplift-only rows: only the sliding rows can\n"
+    "be judged by it"
+)
+"""What the columns ratio and paper mean."""
 
 
 class Scene(NamedTuple):
@@ -158,6 +166,7 @@ def main(arguments: list[str] | None = None) -> None:
         if options.csv is not None:
             options.csv.mkdir(parents=True, exist_ok=True)
             run.to_frame().to_csv(options.csv / f"{name(friction).replace(' ', '_')}.csv")
+    print(NOTE)
 
 
 if __name__ == "__main__":
