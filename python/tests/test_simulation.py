@@ -5,8 +5,11 @@ from __future__ import annotations
 import os
 import pickle
 import signal
+import subprocess
+import sys
 import threading
 import time
+import warnings
 
 import numpy as np
 import pytest
@@ -180,16 +183,47 @@ def test_records_pickle() -> None:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="os.kill ends the process on Windows")
+@pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_is_heard(rocking) -> None:
-    simulation = rocking(expected_steps=1000)
-    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+    steps = 1_000_000
+    simulation = rocking(expected_steps=steps)
+    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     begin = time.monotonic()
-    with pytest.raises(KeyboardInterrupt):
-        simulation.run(50_000_000, series=False)
+    timer.start()
+    with warnings.catch_warnings(), pytest.raises(KeyboardInterrupt):
+        warnings.simplefilter("error")
+        simulation.run(steps, series=False)
     assert time.monotonic() - begin < 5.0
     reached = simulation.state.step
-    assert 0 < reached < 50_000_000
+    assert 0 < reached < steps
     assert simulation.step().step == reached + 1
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no shell that ignores a signal")
+def test_a_run_says_that_nobody_hears_ctrl_c() -> None:
+    """As in a job that a script starts in the background."""
+    program = """if True:
+        import time, warnings
+        import basemat as bm
+        block = bm.RigidBlock(6.0, 9.0, 1000.0)
+        ground = bm.SpringGround.under(block, 4, 1e8, 1e8)
+        simulation = bm.Simulation(0.01, block, ground, bm.Bonded())
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            simulation.run(10, observe=lambda state: time.sleep(0.02))
+        print([str(own.message)[:28] for own in caught if own.category is bm.BasematWarning])
+    """
+    for trap, expected in (("trap '' INT;", "['Ctrl-C does not end this run']"), ("", "[]")):
+        command = f'{trap} exec "$@"'
+        # A child of a job in the background starts with SIGINT ignored and must not here.
+        done = subprocess.run(
+            ["sh", "-c", command, "sh", sys.executable, "-c", program],
+            capture_output=True,
+            text=True,
+            check=True,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        )
+        assert done.stdout.strip() == expected
 
 
 def test_progress_is_told_and_other_threads_run(rocking) -> None:

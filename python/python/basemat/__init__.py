@@ -85,7 +85,7 @@ from ._core import (
     travelling_wave,
     vertical_incidence,
 )
-from ._errors import CheckpointError, Error, FileError, InputError, StepError
+from ._errors import BasematWarning, CheckpointError, Error, FileError, InputError, StepError
 from ._protocols import UserLaw, UserStructure
 from ._sweep import sweep
 
@@ -101,6 +101,7 @@ __all__ = [
     "Advice",
     "Bilinear",
     "Bonded",
+    "BasematWarning",
     "BoucWen",
     "Checkpoint",
     "CheckpointError",

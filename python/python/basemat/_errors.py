@@ -1,4 +1,4 @@
-"""Exceptions of the package."""
+"""Exceptions and warnings of the package."""
 
 
 class Error(Exception):
@@ -27,6 +27,10 @@ class StepError(Error, RuntimeError):
     time: float
 
 
-for _class in (Error, InputError, FileError, CheckpointError, StepError):
+class BasematWarning(UserWarning):
+    """What a user should know of a run that is no error: ``warnings`` filters it by this class."""
+
+
+for _class in (Error, InputError, FileError, CheckpointError, StepError, BasematWarning):
     _class.__module__ = "basemat"
 del _class

@@ -153,8 +153,9 @@ impl PySimulation {
     ///
     /// ``progress``: True for a line on stderr, or a function ``(steps done, steps in all)`` that is
     /// called about every 50 ms. ``observe(state)`` is called after every ``observe_every``th step
-    /// and ends the run when it returns True; what it raises comes out of here. Ctrl-C is heard. In
-    /// all three cases the simulation stays at the last accepted step.
+    /// and ends the run when it returns True; what it raises comes out of here. Ctrl-C is heard, or
+    /// a :class:`BasematWarning` says that the process ignores it. In all three cases the
+    /// simulation stays at the last accepted step.
     ///
     /// Time series are kept of every ``every``th step (all: needed for floor spectra), contact of
     /// every ``contact_every``th and the structure's motion of every ``motion_every``th (none unless
