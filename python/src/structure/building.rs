@@ -73,7 +73,7 @@ impl PyShearBuilding {
         self.0.total_mass()
     }
 
-    /// First natural frequency on a fixed base, rad/s.
+    /// First natural frequency on a fixed base without P–Δ, Hz.
     #[getter]
     fn fixed_base_frequency(&self) -> f64 {
         self.0.fixed_base_frequency()
