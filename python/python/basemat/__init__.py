@@ -80,6 +80,7 @@ from ._core import (
     Yielding,
     advise,
     el_centro_1940,
+    free_field,
     log_spaced,
     ricker,
     travelling_wave,
@@ -90,6 +91,7 @@ from ._protocols import UserLaw, UserStructure
 from ._sweep import sweep
 
 _pickling.prepare()
+free_field = _pickling.function(free_field)
 ricker = _pickling.function(ricker)
 travelling_wave = _pickling.function(travelling_wave)
 vertical_incidence = _pickling.function(vertical_incidence)
@@ -99,9 +101,9 @@ __all__ = [
     "STANDARD_GRAVITY",
     "Adhesive",
     "Advice",
+    "BasematWarning",
     "Bilinear",
     "Bonded",
-    "BasematWarning",
     "BoucWen",
     "Checkpoint",
     "CheckpointError",
@@ -174,6 +176,7 @@ __all__ = [
     "Yielding",
     "advise",
     "el_centro_1940",
+    "free_field",
     "log_spaced",
     "ricker",
     "sweep",

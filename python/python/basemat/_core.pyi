@@ -637,7 +637,7 @@ class Simulation:
         ground: Ground,
         interface: _Interface | Sequence[_Interface],
         *,
-        motion: FreeField | Callable[[float, float], tuple[float, float]] | None = None,
+        motion: FreeField | None = None,
         probes: Sequence[Probe] | None = None,
         loads: Sequence[Load] | None = None,
         gravity: float | None = None,
@@ -1205,15 +1205,18 @@ def advise(
     damping_ratio: float = 0.05,
 ) -> Advice: ...
 def el_centro_1940() -> Record: ...
+def free_field(
+    *,
+    displacement: Callable[[float, float], float | Sequence[float]] | None = None,
+    acceleration: Callable[[float], float | Sequence[float]] | None = None,
+    time_step: float | None = None,
+    duration: float | None = None,
+) -> FreeField: ...
 def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]: ...
 def vertical_incidence(
     horizontal: Record | None = None, vertical: Record | None = None
 ) -> FreeField: ...
-def travelling_wave(
-    motion: FreeField | Callable[[float, float], tuple[float, float]],
-    apparent_velocity: float,
-    origin: float,
-) -> FreeField: ...
+def travelling_wave(motion: FreeField, apparent_velocity: float, origin: float) -> FreeField: ...
 def ricker(
     amplitude: float, sigma: float, center: float, *, vertical: bool = False
 ) -> FreeField: ...

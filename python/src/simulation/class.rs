@@ -13,7 +13,7 @@ use super::{PyCheckpoint, PyLoad, PyState, PyTimeScheme};
 use crate::array::Numbers;
 use crate::error::{OrRaise, locked, refuse, take_raised};
 use crate::ground::PyGround;
-use crate::motion::PyRecord;
+use crate::motion::PyFreeField;
 use crate::probe::PyProbe;
 use crate::results::PyRun;
 use crate::{interface, motion, structure};
@@ -22,7 +22,7 @@ use crate::{interface, motion, structure};
 #[pyclass(name = "Simulation", module = "basemat", frozen)]
 pub(crate) struct PySimulation {
     simulation: Mutex<Simulation>,
-    /// Length of the record that it was given, s.
+    /// Length of the motion that it was given, s.
     duration: Option<f64>,
 }
 
@@ -114,7 +114,7 @@ impl PySimulation {
             builder = builder.load((load.get().make)().or_raise()?);
         }
         if let Some(motion) = &motion {
-            builder = builder.motion(motion::recipe(motion)?().or_raise()?);
+            builder = builder.motion((motion::given(motion)?.get().make)().or_raise()?);
         }
         if let Some(gravity) = gravity {
             builder = builder.gravity(gravity);
@@ -144,8 +144,8 @@ impl PySimulation {
             builder = builder.safety_friction(coefficient);
         }
         let simulation = build::build(py, builder)?;
-        let record = motion.as_ref().and_then(|motion| motion.cast::<PyRecord>().ok());
-        let duration = record.map(|record| record.get().0.duration());
+        let motion = motion.as_ref().and_then(|motion| motion.cast::<PyFreeField>().ok());
+        let duration = motion.and_then(|motion| motion.get().duration);
         Ok(Self { simulation: Mutex::new(simulation), duration })
     }
 
