@@ -7,6 +7,7 @@ use basemat::motion::{FreeFieldFn, Record, VerticalIncidence};
 use pyo3::prelude::*;
 
 use super::PyFreeField;
+use crate::array::real;
 use crate::error::{OrRaise, has_raised, heard, keep, refuse};
 
 /// A motion of functions, named by what they return: give one of the two.
@@ -92,8 +93,12 @@ fn asked(name: &str, call: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>) -> [f
     Python::attach(|py| {
         let found = call(py).and_then(|value| {
             let value = value.bind(py);
-            let right = value.extract::<f64>().map(|right| [right, 0.0]);
-            right.or_else(|_| value.extract()).or_else(|_| {
+            let pair = || {
+                let [right, up]: [Bound<'_, PyAny>; 2] = value.extract()?;
+                Ok([real(name, &right)?, real(name, &up)?])
+            };
+            let right = real(name, value).map(|right| [right, 0.0]);
+            right.or_else(|_: PyErr| pair()).or_else(|_: PyErr| {
                 Err(refuse(format!(
                     "the function of the motion's {name} returned {}, but must return a pair of \
                      numbers (to the right, up) or a number (to the right)",

@@ -97,8 +97,10 @@ impl PySimulation {
         take_raised();
         let laws = interface::recipes(&interface)?;
         let laws = laws.iter().map(|make| make()).collect::<basemat::Result<_>>().or_raise()?;
+        let structure = structure::recipe(&structure)?().or_raise()?;
+        let unknowns = structure.unknowns();
         let mut builder = Simulation::builder(time_step)
-            .structure(structure::recipe(&structure)?().or_raise()?)
+            .structure(structure)
             .ground((ground.get().make)().or_raise()?)
             .interfaces(laws)
             .placement(build::placement(placement)?)
@@ -109,8 +111,9 @@ impl PySimulation {
                 allowable_uplifted_fraction,
                 allowable_rotation,
             )?)
-            .probes(build::probes(probes.iter().flatten())?);
+            .probes(build::probes(probes.iter().flatten(), unknowns)?);
         for load in loads.iter().flatten() {
+            load.get().order.check("a load", unknowns)?;
             builder = builder.load((load.get().make)().or_raise()?);
         }
         if let Some(motion) = &motion {

@@ -92,16 +92,16 @@ impl PyShearBuilding {
 
     /// Drift of a storey: its floors' relative displacement less the turn of the base, m.
     fn drift(&self, storey: usize) -> PyResult<PyRow> {
-        Ok(PyRow(self.0.drift(storey).or_raise()?))
+        Ok(self.0.drift(storey).or_raise()?.into())
     }
 
     /// Displacement of a storey's floor less the motion of the base, m.
     fn sway(&self, storey: usize) -> PyResult<PyRow> {
-        Ok(PyRow(self.0.sway(storey).or_raise()?))
+        Ok(self.0.sway(storey).or_raise()?.into())
     }
 
     /// Force of what is above a storey's columns on what is below, N/m.
     fn shear(&self, storey: usize) -> PyResult<PySectionRows> {
-        Ok(PySectionRows(self.0.shear(storey).or_raise()?))
+        Ok(self.0.shear(storey).or_raise()?.into())
     }
 }

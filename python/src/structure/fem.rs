@@ -71,7 +71,7 @@ impl PyFemModel {
 
     /// Motion of a node in a direction ("x", "y" or "rotation") as a weighted sum of unknowns.
     fn row(&self, node: usize, direction: &str) -> PyResult<PyRow> {
-        Ok(PyRow(self.0.row(node, self::direction(direction)?).or_raise()?))
+        Ok(self.0.row(node, self::direction(direction)?).or_raise()?.into())
     }
 
     /// Unknown of a node in a direction; None if it has none of its own.
@@ -94,13 +94,13 @@ impl PyFemModel {
     ) -> PyResult<(PySectionRows, PySectionRows, PySectionRows)> {
         let section = self.0.section(height, reference).or_raise()?;
         let [shear, compression, moment] =
-            [section.shear, section.compression, section.moment].map(PySectionRows);
+            [section.shear, section.compression, section.moment].map(PySectionRows::from);
         Ok((shear, compression, moment))
     }
 
     /// Row of a uniform pressure (Pa) on a line of nodes.
     fn pressure_row(&self, nodes: Vec<usize>) -> PyResult<PyRow> {
-        Ok(PyRow(self.0.pressure_row(&nodes).or_raise()?))
+        Ok(self.0.pressure_row(&nodes).or_raise()?.into())
     }
 
     /// Share of the axial forces of its static state at which it buckles.

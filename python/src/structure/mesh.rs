@@ -4,10 +4,10 @@ use basemat::fem::{
     Beam, Dashpot, Direction, Element, Layer, LumpedMass, Material, Mesh, Quad4, Quad8,
     QuadFormulation, Spring, Truss,
 };
-use numpy::{AllowTypeChange, PyArray2, PyArrayLike2};
+use numpy::PyArray2;
 use pyo3::prelude::*;
 
-use crate::array::{Numbers, Pairs};
+use crate::array::{Numbers, Pairs, Table};
 use crate::error::{OrRaise, refuse};
 
 /// A direction by its name: "x", "y" or "rotation".
@@ -101,7 +101,7 @@ impl<'py> FromPyObject<'_, 'py> for Connectivity {
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         // As integers, numpy would cut what is not whole.
-        let array: PyArrayLike2<'py, f64, AllowTypeChange> = object.extract()?;
+        let Table { columns, rows } = Table::of(&object, "(elements, nodes of each)")?;
         let node = |value: &f64| {
             if *value < 0.0 || value.fract() != 0.0 {
                 let needed = "must be a whole number of 0 or more";
@@ -110,9 +110,8 @@ impl<'py> FromPyObject<'_, 'py> for Connectivity {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
             Ok(*value as usize)
         };
-        let array = array.as_array();
-        let rows = array.rows().into_iter().map(|row| row.iter().map(node).collect());
-        Ok(Self { each: array.ncols(), rows: rows.collect::<PyResult<_>>()? })
+        let rows = rows.iter().map(|row| row.iter().map(node).collect());
+        Ok(Self { each: columns, rows: rows.collect::<PyResult<_>>()? })
     }
 }
 

@@ -51,7 +51,7 @@ impl UserStructure {
         };
         Ok(Self {
             unknowns,
-            contact: nodes.iter().map(|node| node.get().0.clone()).collect(),
+            contact: crate::structure::nodes(&nodes, unknowns)?,
             ends,
             active_damping,
             has_damping: object.hasattr("damping")?,
