@@ -68,6 +68,20 @@ pub(crate) fn real(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     }
 }
 
+/// Whole numbers from 0 on: a count, an index, or a list of them.
+pub(crate) fn whole<'py, T>(object: &Bound<'py, PyAny>) -> PyResult<T>
+where
+    T: for<'a> FromPyObject<'a, 'py>,
+{
+    match object.extract() {
+        Ok(found) => Ok(found),
+        Err(_) => {
+            let found = object.repr()?;
+            Err(refuse(format!("{found}, but only whole numbers from 0 on will do")))
+        }
+    }
+}
+
 /// Numbers of anything that numpy takes for a list of them.
 pub(crate) struct Numbers(pub(crate) Vec<f64>);
 

@@ -62,6 +62,16 @@ pub(crate) fn refuse(text: impl Into<String>) -> PyErr {
     classes::InputError::new_err(text.into())
 }
 
+/// What a function of the user's returned, taken as a `T`; `name` is that of the function.
+pub(crate) fn returned<'py, T>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<T>
+where
+    T: for<'a> FromPyObject<'a, 'py>,
+{
+    value.extract::<T>().map_err(Into::into).map_err(|reason: PyErr| {
+        refuse(format!("{name} returned what will not do: {}", reason.value(value.py())))
+    })
+}
+
 /// A warning of the package, at the line of Python that is being run.
 pub(crate) fn warn(py: Python<'_>, text: String) -> PyResult<()> {
     let text = CString::new(text)?;

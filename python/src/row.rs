@@ -6,7 +6,7 @@ use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyInt};
 
-use crate::array::Numbers;
+use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::structure;
 
@@ -69,7 +69,7 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
             return Ok(Self(row.clone(), *order));
         }
         if object.is_instance_of::<PyInt>() {
-            return Ok(Self(object.extract::<usize>()?.into(), Order::default()));
+            return Ok(Self(whole::<usize>(&object)?.into(), Order::default()));
         }
         if let Ok(terms) = object.cast::<PyDict>() {
             let terms: Vec<(usize, f64)> = terms
@@ -125,7 +125,7 @@ impl PyRow {
     fn weights<'py>(
         &self,
         py: Python<'py>,
-        unknowns: usize,
+        #[pyo3(from_py_with = whole)] unknowns: usize,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.1.check("the row", unknowns)?;
         let mut weights = Vec::new();

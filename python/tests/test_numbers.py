@@ -123,3 +123,128 @@ def test_rows_of_all_weights_belong_to_a_structure_of_as_many_unknowns(soil: bm.
         with pytest.raises(bm.InputError, match="weights"):
             refused()
     assert bm.Row(three) == bm.Row(0) == pickle.loads(pickle.dumps(bm.Row(three)))
+
+
+MATRICES = np.ones((2, 3))
+
+
+@pytest.mark.parametrize(
+    ("text", "call"),
+    [
+        (
+            r"acceleration: an array of shape \(2, 3\), but must be of shape \(n,\)",
+            lambda: bm.Record(0.01, MATRICES),
+        ),
+        (r"acceleration: no array of numbers", lambda: bm.Record(0.01, [[0.0], [1.0, 2.0]])),
+        (r"^acceleration has 0 samples, but must have 2 or more", lambda: bm.Record(0.01, [])),
+        (
+            "duration is 0.0001 s, but must be the time_step",
+            lambda: bm.free_field(acceleration=abs, time_step=1e-3, duration=1e-4),
+        ),
+        (
+            r"stiffness: a matrix of shape \(2, 3\), but must be square",
+            lambda: bm.MatrixModel(np.eye(3), MATRICES, BASE),
+        ),
+        (r"damping: an array of shape \(3,\), but must", lambda: model(damping=np.ones(3))),
+        (r"nodes: an array of 3 columns, but must be of shape \(n, 2\)", lambda: bm.Mesh(MATRICES)),
+        ("count: -1, but only whole", lambda: bm.Strip(-1.0, 1.0, -1)),
+        ("count: 2.5, but only whole", lambda: bm.Strip(-1.0, 1.0, 2.5)),
+        ("order: -4, but only whole", lambda: bm.el_centro_1940().high_pass(0.2, order=-4)),
+        ("degree: -1, but only", lambda: bm.el_centro_1940().with_baseline("none", degree=-1)),
+        ("unknowns: .*-1.*, but only", lambda: bm.ContactNode.rigid_base(-1.0, 1.0, [0, 1, -1])),
+        ("row: -1, but only whole", lambda: bm.Load.constant(-1, 1.0)),
+        ("storey: -1, but only whole", lambda: BUILDING.drift(-1)),
+        ("keep: .*, but only whole", lambda: bm.ReducedModel(BUILDING, 1, keep=[-3])),
+        ("modes: -1, but only whole", lambda: bm.ReducedModel(BUILDING, -1)),
+    ],
+)
+def test_errors_name_the_argument_and_what_it_should_be(
+    text: str, call: Callable[[], object]
+) -> None:
+    with pytest.raises(bm.InputError, match=text):
+        call()
+
+
+def test_counts_of_a_run_are_whole_and_not_negative(rocking) -> None:
+    simulation = rocking()
+    for name in ("steps", "observe_every", "every", "contact_every", "motion_every"):
+        with pytest.raises(bm.InputError, match=f"{name}: -1, but only whole numbers from 0 on"):
+            simulation.run(**{"steps": 1, name: -1})
+    with pytest.raises(bm.InputError, match="expected_steps: 1000000000.0, but"):
+        rocking(expected_steps=1e9)
+    assert simulation.state.step == 0
+
+
+class Block:
+    """A block from Python, whose methods may be replaced."""
+
+    unknowns = 3
+
+    def __init__(self, **others: object) -> None:
+        self.block = bm.RigidBlock(6.0, 9.0, 1000.0)
+        vars(self).update(others)
+
+    def contact_nodes(self) -> list[bm.ContactNode]:
+        return self.block.contact_nodes()
+
+    def mass(self) -> np.ndarray:
+        return self.block.mass()
+
+    def stiffness(self) -> np.ndarray:
+        return self.block.stiffness()
+
+
+class Law:
+    """Coulomb's law from Python, whose methods may be replaced."""
+
+    modes = ("stick", "slip left", "slip right", "open")
+    law = bm.Coulomb(0.4)
+
+    def __init__(self, **others: object) -> None:
+        vars(self).update(others)
+
+    def conditions(self, mode, start):
+        return self.law.conditions(mode, start)
+
+    def next_mode(self, mode, start, trial, tolerance):
+        return self.law.next_mode(mode, start, trial, tolerance)
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        (r"mass of the structure returned .* matrix of shape \(2, 3\)", {"mass": lambda: MATRICES}),
+        (r"stiffness of the structure returned a .*\(2, 2\)", {"stiffness": lambda: np.eye(2)}),
+        ("damping of the structure returned", {"damping": lambda: "none"}),
+        ("unknowns of the structure returned", {"unknowns": "three"}),
+        ("contact_nodes of the structure returned", {"contact_nodes": lambda: [1, 2]}),
+        (r"load of the structure returned .* \(2,\), .* \(3,\)", {"load": lambda t: [0.0, 1.0]}),
+    ],
+)
+def test_what_a_structures_method_returns_badly_names_the_method(
+    rocking, text: str, parts: dict[str, object]
+) -> None:
+    with pytest.raises(bm.InputError, match=text):
+        rocking(structure=Block(**parts)).run(3)
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("modes of the interface law returned", {"modes": 3}),
+        ("conditions of the interface law returned", {"conditions": lambda *_: None}),
+        ("next_mode of the interface law returned", {"next_mode": lambda *_: 3}),
+        ("compliance of the interface law returned", {"compliance": lambda *_: 1.0}),
+        ("memory of the interface law returned", {"memory": -1}),
+    ],
+)
+def test_what_a_laws_method_returns_badly_names_the_method(
+    rocking, text: str, parts: dict[str, object]
+) -> None:
+    with pytest.raises(bm.InputError, match=text):
+        rocking(interface=Law(**parts)).run(200)
+
+
+def test_what_a_coefficient_returns_badly_is_named(rocking) -> None:
+    with pytest.raises(bm.InputError, match="coefficient's function is 'much', but must be a real"):
+        rocking(interface=bm.VariableFriction(lambda start: "much")).run(3)

@@ -1,5 +1,7 @@
 """Exceptions and warnings of the package."""
 
+import re
+
 
 class Error(Exception):
     """Any fault that basemat reports."""
@@ -7,6 +9,11 @@ class Error(Exception):
 
 class InputError(Error, ValueError):
     """A part of a scene that is out of its range, or does not fit the others."""
+
+    def add_note(self, note: str) -> None:
+        """Takes a note into the text; of the argument that was refused, which PyO3 notes, the name."""
+        name = re.fullmatch(r"while processing '(\w+)'", note)
+        self.args = (f"{name[1]}: {self}" if name else f"{self}\n{note}",)
 
 
 class FileError(Error):

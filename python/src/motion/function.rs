@@ -50,6 +50,11 @@ pub(crate) fn free_field(
             let (Some(time_step), Some(duration)) = (time_step, duration) else {
                 return Err(refuse("an acceleration is sampled: give its time_step and duration"));
             };
+            if duration < time_step {
+                return Err(refuse(format!(
+                    "duration is {duration} s, but must be the time_step ({time_step} s) or more"
+                )));
+            }
             let (field, end) = heard(|| sampled(&function, time_step, duration).or_raise())?;
             Ok(PyFreeField {
                 make: Arc::new(move || Ok(Box::new(field.clone()))),

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use super::build;
 use super::watched::{Watched, progress_function};
 use super::{PyCheckpoint, PyLoad, PyState, PyTimeScheme};
-use crate::array::Numbers;
+use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, locked, refuse, take_raised};
 use crate::ground::PyGround;
 use crate::motion::PyFreeField;
@@ -84,7 +84,7 @@ impl PySimulation {
         initial_velocity: Option<Numbers>,
         scheme: Option<Bound<'_, PyTimeScheme>>,
         coordinates: Option<Bound<'_, PyAny>>,
-        expected_steps: Option<usize>,
+        #[pyo3(from_py_with = whole)] expected_steps: Option<usize>,
         moment_center: Option<f64>,
         ledger: bool,
         safety_friction: Option<f64>,
@@ -92,7 +92,7 @@ impl PySimulation {
         allowable_gap: Option<f64>,
         allowable_uplifted_fraction: Option<f64>,
         allowable_rotation: Option<f64>,
-        flow_chart_iterations: Option<usize>,
+        #[pyo3(from_py_with = whole)] flow_chart_iterations: Option<usize>,
     ) -> PyResult<Self> {
         take_raised();
         let laws = interface::recipes(&interface)?;
@@ -170,15 +170,15 @@ impl PySimulation {
     fn run(
         &self,
         py: Python<'_>,
-        steps: Option<usize>,
+        #[pyo3(from_py_with = whole)] steps: Option<usize>,
         duration: Option<f64>,
         progress: Option<Bound<'_, PyAny>>,
         observe: Option<Py<PyAny>>,
-        observe_every: usize,
+        #[pyo3(from_py_with = whole)] observe_every: usize,
         series: bool,
-        every: usize,
-        contact_every: Option<usize>,
-        motion_every: Option<usize>,
+        #[pyo3(from_py_with = whole)] every: usize,
+        #[pyo3(from_py_with = whole)] contact_every: Option<usize>,
+        #[pyo3(from_py_with = whole)] motion_every: Option<usize>,
     ) -> PyResult<PyRun> {
         let steps = self.count(steps, duration)?;
         if observe_every == 0 {
@@ -221,7 +221,7 @@ impl PySimulation {
     #[pyo3(signature = (steps=None, *, duration=None))]
     fn steps(
         slf: Bound<'_, Self>,
-        steps: Option<usize>,
+        #[pyo3(from_py_with = whole)] steps: Option<usize>,
         duration: Option<f64>,
     ) -> PyResult<PySteps> {
         let left = slf.get().count(steps, duration)?;

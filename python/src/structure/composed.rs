@@ -9,7 +9,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use super::{PyStructure, recipe};
-use crate::array::Numbers;
+use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::recipe::{Recipe, Shared};
 use crate::row::{PyRow, RowLike};
@@ -61,8 +61,8 @@ impl PyReducedModel {
     #[pyo3(signature = (structure, modes, *, keep=None, damping_ratio=None))]
     fn new(
         structure: Bound<'_, PyAny>,
-        modes: usize,
-        keep: Option<Vec<usize>>,
+        #[pyo3(from_py_with = whole)] modes: usize,
+        #[pyo3(from_py_with = whole)] keep: Option<Vec<usize>>,
         damping_ratio: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let py = structure.py();
@@ -134,7 +134,7 @@ impl PyStructureGroup {
     }
 
     /// A row of the structure ``member`` (0: the leftmost) in the unknowns of the group.
-    fn row(&self, member: usize, row: RowLike) -> PyResult<PyRow> {
+    fn row(&self, #[pyo3(from_py_with = whole)] member: usize, row: RowLike) -> PyResult<PyRow> {
         let RowLike(row, order) = row;
         if let Some(unknowns) = self.unknowns.get(member) {
             order.check("the row", *unknowns)?;

@@ -3,6 +3,7 @@
 use basemat::structure::ContactNode;
 use pyo3::prelude::*;
 
+use crate::array::whole;
 use crate::row::{Order, PyRow, RowLike};
 
 /// A point of the base: its coordinate x (m), and rows for its displacement to the right and up.
@@ -26,14 +27,18 @@ impl PyContactNode {
 
     /// A point of a rigid flat base with ``unknowns`` (horizontal, vertical, rotation) at ``center`` (m).
     #[staticmethod]
-    fn rigid(x: f64, center: f64, unknowns: [usize; 3]) -> Self {
+    fn rigid(x: f64, center: f64, #[pyo3(from_py_with = whole)] unknowns: [usize; 3]) -> Self {
         ContactNode::rigid(x, center, unknowns).into()
     }
 
     /// The two ends of a rigid flat base from ``left`` to ``right`` (m), with ``unknowns``
     /// (horizontal, vertical, rotation) at its middle.
     #[staticmethod]
-    fn rigid_base(left: f64, right: f64, unknowns: [usize; 3]) -> Vec<Self> {
+    fn rigid_base(
+        left: f64,
+        right: f64,
+        #[pyo3(from_py_with = whole)] unknowns: [usize; 3],
+    ) -> Vec<Self> {
         ContactNode::rigid_base(left, right, unknowns).into_iter().map(Self::from).collect()
     }
 

@@ -7,7 +7,7 @@ use basemat::fem::{
 use numpy::PyArray2;
 use pyo3::prelude::*;
 
-use crate::array::{Numbers, Pairs, Table};
+use crate::array::{Numbers, Pairs, Table, whole};
 use crate::error::{OrRaise, refuse};
 
 /// A direction by its name: "x", "y" or "rotation".
@@ -51,7 +51,7 @@ impl PyLayer {
     #[pyo3(signature = (height, rows, material, *, formulation="incompatible modes", hourglass_percent=5))]
     fn new(
         height: f64,
-        rows: usize,
+        #[pyo3(from_py_with = whole)] rows: usize,
         material: &PyMaterial,
         formulation: &str,
         hourglass_percent: u8,
@@ -163,7 +163,7 @@ impl PyMesh {
     fn layered_block(
         left: f64,
         right: f64,
-        columns: usize,
+        #[pyo3(from_py_with = whole)] columns: usize,
         layers: Vec<Bound<'_, PyLayer>>,
     ) -> PyResult<Self> {
         let layers: Vec<Layer> = layers.iter().map(|layer| layer.get().0).collect();
@@ -269,7 +269,12 @@ impl PyMesh {
 
     /// Adds a mass (kg/m) at a node, with a rotary inertia (kg m²/m) if that is given.
     #[pyo3(signature = (node, mass, *, rotary_inertia=None))]
-    fn add_mass(&mut self, node: usize, mass: f64, rotary_inertia: Option<f64>) -> PyResult<()> {
+    fn add_mass(
+        &mut self,
+        #[pyo3(from_py_with = whole)] node: usize,
+        mass: f64,
+        rotary_inertia: Option<f64>,
+    ) -> PyResult<()> {
         let mut element = LumpedMass::new(node, mass).or_raise()?;
         if let Some(inertia) = rotary_inertia {
             element = element.with_rotary_inertia(inertia).or_raise()?;

@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 
 use super::hysteresis::PyHysteresis;
 use super::{PyShearBuilding, PyStructure, recipe};
+use crate::array::whole;
 use crate::error::OrRaise;
 use crate::recipe::Recipe;
 use crate::row::{PyRow, PySectionRows, RowLike};
@@ -97,22 +98,22 @@ impl PyNonlinearShearBuilding {
     }
 
     /// Unknown of the floor above a storey.
-    fn floor(&self, storey: usize) -> PyResult<usize> {
+    fn floor(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<usize> {
         (self.0)().or_raise()?.building().floor(storey).or_raise()
     }
 
     /// Drift of a storey, m.
-    fn drift(&self, storey: usize) -> PyResult<PyRow> {
+    fn drift(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PyRow> {
         Ok((self.0)().or_raise()?.building().drift(storey).or_raise()?.into())
     }
 
     /// Displacement of a storey's floor less the motion of the base, m.
-    fn sway(&self, storey: usize) -> PyResult<PyRow> {
+    fn sway(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PyRow> {
         Ok((self.0)().or_raise()?.building().sway(storey).or_raise()?.into())
     }
 
     /// Force of what is above a storey's columns on what is below, N/m, from the inertia above.
-    fn shear(&self, storey: usize) -> PyResult<PySectionRows> {
+    fn shear(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PySectionRows> {
         Ok((self.0)().or_raise()?.shear(storey).or_raise()?.into())
     }
 }
