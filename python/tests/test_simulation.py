@@ -82,6 +82,58 @@ def test_run_lasts_as_long_as_the_record(rocking) -> None:
         rocking().run(10, duration=1.0)
 
 
+def test_a_run_ends_with_the_motion_and_says_when_it_is_over(rocking) -> None:
+    short = bm.Record(0.02, np.sin(np.arange(101)))
+    simulation = rocking(motion=short)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        simulation.run(50)
+        rest = simulation.run()
+        assert (rest.start, rest.end, rest.steps) == (0.5, 2.0, 150)
+        simulation.run(10)
+        simulation.run(duration=0.1)
+    for again in (simulation.run, lambda: list(simulation.steps())):
+        with pytest.warns(bm.BasematWarning, match=r"ended at 2 s, before these 200 steps.*reset\(\)"):
+            again()
+    assert simulation.state.step == 50 + 150 + 10 + 10 + 2 * 200
+
+
+def test_reset_goes_back_to_the_first_bit(rocking) -> None:
+    simulation = rocking(initial_velocity=[0.0, 0.0, 0.01])
+    first = simulation.run(200)
+    simulation.reset()
+    assert (simulation.state.step, simulation.state.time) == (0, 0.0)
+    again = simulation.run(200)
+    for name, series in first.series.items():
+        assert same_bits(again[name], series), name
+    assert again.summary() == first.summary()
+
+    class Unsaved:
+        """Takes steps over and does not say what it took."""
+
+        unknowns = 3
+        block = bm.RigidBlock(6.0, 9.0, 1000.0)
+        contact_nodes, mass, stiffness = block.contact_nodes, block.mass, block.stiffness
+
+        def __deepcopy__(self, memo: dict) -> "Unsaved":
+            return self
+
+        def force(self, u):
+            return np.zeros(3)
+
+        def tangent(self, u):
+            return np.zeros((3, 3))
+
+        def commit(self, u):
+            pass
+
+    simulation = rocking(structure=Unsaved())
+    simulation.run(5)
+    with pytest.raises(bm.CheckpointError, match="structure"):
+        simulation.reset()
+    assert simulation.state.step == 5
+
+
 @pytest.mark.parametrize("duration", [-1.0, float("nan"), float("inf")])
 def test_a_duration_is_finite_and_not_negative(rocking, duration: float) -> None:
     simulation = rocking()

@@ -3,6 +3,7 @@
 use std::sync::{Mutex, MutexGuard};
 
 use basemat::Simulation;
+use basemat::coupled::Checkpoint;
 use basemat::results::Recorder;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -11,7 +12,7 @@ use super::build;
 use super::watched::{Watched, progress_function};
 use super::{PyCheckpoint, PyLoad, PyState, PyTimeScheme};
 use crate::array::{Numbers, whole};
-use crate::error::{OrRaise, locked, refuse, take_raised};
+use crate::error::{OrRaise, locked, raise, refuse, take_raised, warn};
 use crate::ground::PyGround;
 use crate::motion::PyFreeField;
 use crate::probe::PyProbe;
@@ -24,6 +25,8 @@ pub(crate) struct PySimulation {
     simulation: Mutex<Simulation>,
     /// Length of the motion that it was given, s.
     duration: Option<f64>,
+    /// Where it began, or why it cannot go back there.
+    start: basemat::Result<Checkpoint>,
 }
 
 /// Steps as an iterator: see :meth:`Simulation.steps`.
@@ -39,13 +42,33 @@ impl PySimulation {
         self.simulation.try_lock().map_err(locked)
     }
 
-    /// Steps asked for directly, by a duration, or by the length of the record.
-    fn count(&self, steps: Option<usize>, duration: Option<f64>) -> PyResult<usize> {
-        match (steps, duration.or(self.duration)) {
-            (Some(_), _) if duration.is_some() => Err(refuse("give steps or a duration, not both")),
-            (Some(steps), _) => Ok(steps),
-            (None, Some(duration)) => self.steps_for(duration),
-            (None, None) => Err(refuse("give steps or a duration: no record says how long to run")),
+    /// Steps asked for directly, by a duration, or to the end of the motion.
+    fn count(
+        &self,
+        py: Python<'_>,
+        steps: Option<usize>,
+        duration: Option<f64>,
+    ) -> PyResult<usize> {
+        match (steps, duration, self.duration) {
+            (Some(_), Some(_), _) => Err(refuse("give steps or a duration, not both")),
+            (Some(steps), None, _) => Ok(steps),
+            (None, Some(duration), _) => self.steps_for(duration),
+            (None, None, Some(end)) => {
+                let (all, made) = (self.steps_for(end)?, self.lock()?.state().step);
+                if made < all {
+                    return Ok(all - made);
+                }
+                let text = format!(
+                    "the motion ended at {end} s, before these {all} steps: the ground does not \
+                     accelerate in them; reset() goes back to the start, and steps or a duration \
+                     say that they are meant"
+                );
+                warn(py, text)?;
+                Ok(all)
+            }
+            (None, None, None) => {
+                Err(refuse("give steps or a duration: no record says how long to run"))
+            }
         }
     }
 }
@@ -149,10 +172,14 @@ impl PySimulation {
         let simulation = build::build(py, builder)?;
         let motion = motion.as_ref().and_then(|motion| motion.cast::<PyFreeField>().ok());
         let duration = motion.and_then(|motion| motion.get().duration);
-        Ok(Self { simulation: Mutex::new(simulation), duration })
+        let start = simulation.checkpoint();
+        take_raised();
+        Ok(Self { simulation: Mutex::new(simulation), duration, start })
     }
 
-    /// Makes ``steps`` steps, or those of a ``duration`` (s); without either, those of the record.
+    /// Makes ``steps`` steps, or those of a ``duration`` (s); without either, those to the end of the
+    /// motion. If that is past, as many as it has, under rest, with a :class:`BasematWarning`:
+    /// :meth:`reset` goes back to the start.
     ///
     /// ``progress``: True for a line on stderr, or a function ``(steps done, steps in all)`` that is
     /// called about every 50 ms. ``observe(state)`` is called after every ``observe_every``th step
@@ -180,7 +207,7 @@ impl PySimulation {
         #[pyo3(from_py_with = whole)] contact_every: Option<usize>,
         #[pyo3(from_py_with = whole)] motion_every: Option<usize>,
     ) -> PyResult<PyRun> {
-        let steps = self.count(steps, duration)?;
+        let steps = self.count(py, steps, duration)?;
         if observe_every == 0 {
             return Err(refuse("observe_every is 0, but must be one or more"));
         }
@@ -217,14 +244,14 @@ impl PySimulation {
     }
 
     /// An iterator that makes a step and yields its state, ``steps`` times or those of a
-    /// ``duration`` (s); without either, those of the record.
+    /// ``duration`` (s); without either, those to the end of the motion.
     #[pyo3(signature = (steps=None, *, duration=None))]
     fn steps(
         slf: Bound<'_, Self>,
         #[pyo3(from_py_with = whole)] steps: Option<usize>,
         duration: Option<f64>,
     ) -> PyResult<PySteps> {
-        let left = slf.get().count(steps, duration)?;
+        let left = slf.get().count(slf.py(), steps, duration)?;
         Ok(PySteps { simulation: slf.unbind(), left })
     }
 
@@ -291,6 +318,16 @@ impl PySimulation {
     fn resume(&self, checkpoint: &PyCheckpoint) -> PyResult<()> {
         take_raised();
         settled(self.lock()?.resume(&checkpoint.0))
+    }
+
+    /// Goes back to the start: what follows has the bits that it had from there.
+    ///
+    /// Needs what :meth:`checkpoint` needs: a structure of the user's that has ``commit`` also has
+    /// ``save`` and ``restore``.
+    fn reset(&self) -> PyResult<()> {
+        take_raised();
+        let start = self.start.as_ref().map_err(|reason| raise(reason.clone()))?;
+        settled(self.lock()?.resume(start))
     }
 
     fn __repr__(&self) -> String {
