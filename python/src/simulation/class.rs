@@ -12,12 +12,12 @@ use super::build;
 use super::watched::{Watched, progress_function};
 use super::{PyCheckpoint, PyLoad, PyState, PyTimeScheme};
 use crate::array::{Numbers, whole};
-use crate::error::{OrRaise, locked, raise, refuse, take_raised, warn};
+use crate::error::{OrRaise, locked, raise, refuse, take_raised};
 use crate::ground::PyGround;
 use crate::motion::PyFreeField;
 use crate::probe::PyProbe;
 use crate::results::PyRun;
-use crate::{interface, motion, structure};
+use crate::{error, interface, motion, structure};
 
 /// A structure on a ground, ready to march.
 #[pyclass(name = "Simulation", module = "basemat", frozen)]
@@ -63,7 +63,7 @@ impl PySimulation {
                      accelerate in them; reset() goes back to the start, and steps or a duration \
                      say that they are meant"
                 );
-                warn(py, text)?;
+                error::warn(py, text)?;
                 Ok(all)
             }
             (None, None, None) => {
@@ -190,9 +190,11 @@ impl PySimulation {
     /// Time series are kept of every ``every``th step (all: needed for floor spectra), contact of
     /// every ``contact_every``th and the structure's motion of every ``motion_every``th (none unless
     /// given). ``series=False`` keeps no time series at all.
+    ///
+    /// Every warning in :attr:`Run.warnings` is also a :class:`BasematWarning`, unless ``warn=False``.
     #[pyo3(signature = (
         steps=None, *, duration=None, progress=None, observe=None, observe_every=1, series=true,
-        every=1, contact_every=None, motion_every=None,
+        every=1, contact_every=None, motion_every=None, warn=true,
     ))]
     fn run(
         &self,
@@ -206,6 +208,7 @@ impl PySimulation {
         #[pyo3(from_py_with = whole)] every: usize,
         #[pyo3(from_py_with = whole)] contact_every: Option<usize>,
         #[pyo3(from_py_with = whole)] motion_every: Option<usize>,
+        warn: bool,
     ) -> PyResult<PyRun> {
         let steps = self.count(py, steps, duration)?;
         if observe_every == 0 {
@@ -220,7 +223,7 @@ impl PySimulation {
         }
         let progress = progress_function(progress)?;
         take_raised();
-        py.detach(|| {
+        let run = py.detach(|| {
             let mut simulation = self.lock()?;
             let mut histories =
                 series.then(|| recorder.start(&simulation)).transpose().or_raise()?;
@@ -230,7 +233,11 @@ impl PySimulation {
             let mut watched = Watched::new(progress, steps, observe, observe_every, histories);
             let result = simulation.run(steps, |state| watched.see(state));
             watched.end(result)
-        })
+        })?;
+        if warn {
+            run.warnings().into_iter().try_for_each(|text| error::warn(py, text))?;
+        }
+        Ok(run)
     }
 
     /// Makes one step and returns the new state. Raises :class:`StepError` if the step could not be
