@@ -40,7 +40,7 @@ RESULTS = [
     "base_shear_over_weight",
     "steps",
 ]
-COLUMNS = ["case", *fragility.grid(True), *RESULTS, "warnings", "error"]
+COLUMNS = ["case", *fragility.grid(True), *RESULTS, "error"]
 # Cases of the study that runs on Dask: its two frictions, its motions, more levels.
 GRID = {**fragility.grid(True), "peak_velocity_m_per_s": [0.05 * k for k in range(1, 31)]}
 
