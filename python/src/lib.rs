@@ -22,6 +22,7 @@ use pyo3::prelude::*;
 
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("MODES", names::MODE_NAMES)?;
     module.add("STANDARD_GRAVITY", basemat::motion::STANDARD_GRAVITY)?;
     module.add_class::<advice::PyAdvice>()?;

@@ -78,6 +78,7 @@ from ._core import (
     WithModalDamping,
     WithSprings,
     Yielding,
+    __version__,
     advise,
     el_centro_1940,
     free_field,

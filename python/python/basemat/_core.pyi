@@ -10,6 +10,7 @@ from typing_extensions import Self, TypeAlias, disjoint_base
 
 from ._protocols import UserLaw, UserStructure
 
+__version__: str
 MODES: list[str]
 STANDARD_GRAVITY: float
 
@@ -809,6 +810,8 @@ class Soil:
     @property
     def pressure_wave_speed(self) -> float: ...
     def __getnewargs__(self) -> tuple[float, float, float]: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
 
 @disjoint_base
 class Structure:
