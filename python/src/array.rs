@@ -39,13 +39,11 @@ fn reals<'py, D: numpy::ndarray::Dimension>(
         }
     };
     let array = array.call_method1("astype", ("float64",))?;
-    match array.cast::<PyArray<f64, D>>() {
-        Ok(array) => readonly(array),
-        Err(_) => {
-            let found = array.getattr("shape")?;
-            Err(refuse(format!("an array of shape {found}, but must be of shape {shape}")))
-        }
+    if let Ok(array) = array.cast::<PyArray<f64, D>>() {
+        return readonly(array);
     }
+    let found = array.getattr("shape")?;
+    Err(refuse(format!("an array of shape {found}, but must be of shape {shape}")))
 }
 
 fn readonly<'py, T: Element, D: numpy::ndarray::Dimension>(
@@ -73,13 +71,11 @@ pub(crate) fn whole<'py, T>(object: &Bound<'py, PyAny>) -> PyResult<T>
 where
     T: for<'a> FromPyObject<'a, 'py>,
 {
-    match object.extract() {
-        Ok(found) => Ok(found),
-        Err(_) => {
-            let found = object.repr()?;
-            Err(refuse(format!("{found}, but only whole numbers from 0 on will do")))
-        }
+    if let Ok(found) = object.extract() {
+        return Ok(found);
     }
+    let found = object.repr()?;
+    Err(refuse(format!("{found}, but only whole numbers from 0 on will do")))
 }
 
 /// Numbers of anything that numpy takes for a list of them.
