@@ -1,10 +1,82 @@
 //! Arrays and matrices that come from Python.
 
 use basemat::structure::Triplets;
-use numpy::{AllowTypeChange, PyArrayLike1, PyArrayLike2, PyUntypedArrayMethods};
+use numpy::ndarray::{Ix1, Ix2};
+use numpy::{Element, PyArray, PyArrayMethods, PyReadonlyArray};
 use pyo3::prelude::*;
+use pyo3::types::PyFloat;
 
 use crate::error::refuse;
+
+/// Anything that numpy takes for an array of real numbers, of as many axes as `shape` names.
+///
+/// Numpy by itself would cut the imaginary part off complex numbers, read texts as numbers and take
+/// None for NaN.
+fn reals<'py, D: numpy::ndarray::Dimension>(
+    object: &Bound<'py, PyAny>,
+    shape: &str,
+) -> PyResult<PyReadonlyArray<'py, f64, D>> {
+    if let Ok(array) = object.cast::<PyArray<f64, D>>() {
+        return readonly(array);
+    }
+    let numpy = object.py().import("numpy")?;
+    let array = numpy.call_method1("asarray", (object,)).map_err(|error| {
+        refuse(format!("no array of numbers, but must be one of shape {shape} ({error})"))
+    })?;
+    let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+    let array = match kind.as_str() {
+        "f" | "i" | "u" | "b" => array,
+        "O" => {
+            let values = array.call_method0("ravel")?.call_method0("tolist")?;
+            let each = values.try_iter()?.map(|value| real("an entry", &value?));
+            let values = each.collect::<PyResult<Vec<f64>>>()?;
+            let list = numpy.call_method1("array", (values,))?;
+            list.call_method1("reshape", (array.getattr("shape")?,))?
+        }
+        _ => {
+            let found = array.getattr("dtype")?;
+            return Err(refuse(format!("an array of {found}, but must be of real numbers")));
+        }
+    };
+    let array = array.call_method1("astype", ("float64",))?;
+    if let Ok(array) = array.cast::<PyArray<f64, D>>() {
+        return readonly(array);
+    }
+    let found = array.getattr("shape")?;
+    Err(refuse(format!("an array of shape {found}, but must be of shape {shape}")))
+}
+
+fn readonly<'py, T: Element, D: numpy::ndarray::Dimension>(
+    array: &Bound<'py, PyArray<T, D>>,
+) -> PyResult<PyReadonlyArray<'py, T, D>> {
+    Ok(array.try_readonly()?)
+}
+
+/// A real number: not complex, whose imaginary part numpy's scalars drop, and no text.
+pub(crate) fn real(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    if let Ok(number) = value.cast::<PyFloat>() {
+        return Ok(number.value());
+    }
+    let numpy = value.py().import("numpy")?;
+    let complex = numpy.call_method1("iscomplexobj", (value,))?.is_truthy()?;
+    let number = if complex { None } else { value.extract::<f64>().ok() };
+    match number {
+        Some(number) => Ok(number),
+        None => Err(refuse(format!("{name} is {}, but must be a real number", value.repr()?))),
+    }
+}
+
+/// Whole numbers from 0 on: a count, an index, or a list of them.
+pub(crate) fn whole<'py, T>(object: &Bound<'py, PyAny>) -> PyResult<T>
+where
+    T: for<'a> FromPyObject<'a, 'py>,
+{
+    if let Ok(found) = object.extract() {
+        return Ok(found);
+    }
+    let found = object.repr()?;
+    Err(refuse(format!("{found}, but only whole numbers from 0 on will do")))
+}
 
 /// Numbers of anything that numpy takes for a list of them.
 pub(crate) struct Numbers(pub(crate) Vec<f64>);
@@ -13,8 +85,7 @@ impl<'py> FromPyObject<'_, 'py> for Numbers {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let array: PyArrayLike1<'py, f64, AllowTypeChange> = object.extract()?;
-        Ok(Self(array.as_array().to_vec()))
+        Ok(Self(reals::<Ix1>(&object, "(n,)")?.as_array().to_vec()))
     }
 }
 
@@ -25,14 +96,26 @@ impl<'py> FromPyObject<'_, 'py> for Pairs {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let array: PyArrayLike2<'py, f64, AllowTypeChange> = object.extract()?;
-        if array.shape()[1] != 2 {
-            return Err(refuse(format!(
-                "an array of shape (n, 2) is needed, not {:?}",
-                array.shape()
-            )));
-        }
-        Ok(Self(array.as_array().rows().into_iter().map(|row| [row[0], row[1]]).collect()))
+        let Table { columns, rows } = Table::of(&object, "(n, 2)")?;
+        let pairs = rows.into_iter().map(<[f64; 2]>::try_from).collect::<Result<Vec<_>, _>>();
+        Ok(Self(pairs.map_err(|row| {
+            refuse(format!("an array of {columns} columns, but must be of shape (n, 2): {row:?}"))
+        })?))
+    }
+}
+
+/// Rows of numbers: anything that numpy takes for an array of two axes.
+pub(crate) struct Table {
+    pub(crate) columns: usize,
+    pub(crate) rows: Vec<Vec<f64>>,
+}
+
+impl Table {
+    pub(crate) fn of(object: &Bound<'_, PyAny>, shape: &str) -> PyResult<Self> {
+        let array = reals::<Ix2>(object, shape)?;
+        let array = array.as_array();
+        let rows = array.rows().into_iter().map(|row| row.to_vec()).collect();
+        Ok(Self { columns: array.ncols(), rows })
     }
 }
 
@@ -51,31 +134,25 @@ fn square(shape: (usize, usize)) -> PyResult<Triplets> {
     if shape.0 == shape.1 {
         return Ok(Triplets::new(shape.0));
     }
-    Err(refuse(format!(
-        "a matrix has {} rows and {} columns, but must be square",
-        shape.0, shape.1
-    )))
+    Err(refuse(format!("a matrix of shape {shape:?}, but must be square")))
 }
 
 fn sparse(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {
     let list = object.call_method0("tocoo")?;
     let mut matrix = square(list.getattr("shape")?.extract()?)?;
-    let indices = |name: &str| -> PyResult<Vec<i64>> {
-        let array: PyArrayLike1<'_, i64, AllowTypeChange> = list.getattr(name)?.extract()?;
-        Ok(array.as_array().to_vec())
+    let indices = |name: &str| -> PyResult<Vec<usize>> {
+        let whole = list.getattr(name)?.call_method0("tolist")?;
+        whole.extract().map_err(|error| refuse(format!("indices of a sparse matrix: {error}")))
     };
     let Numbers(values) = list.getattr("data")?.extract()?;
     for ((row, column), value) in indices("row")?.into_iter().zip(indices("col")?).zip(values) {
-        let index = |value: i64| {
-            usize::try_from(value).map_err(|_| refuse(format!("index {value} of a sparse matrix")))
-        };
-        matrix.add(index(row)?, index(column)?, value);
+        matrix.add(row, column, value);
     }
     Ok(Matrix(matrix))
 }
 
 fn dense(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {
-    let array: PyArrayLike2<'_, f64, AllowTypeChange> = object.extract()?;
+    let array = reals::<Ix2>(object, "(n, n)")?;
     let array = array.as_array();
     let mut matrix = square(array.dim())?;
     for ((row, column), &value) in array.indexed_iter() {

@@ -1,12 +1,14 @@
 //! Errors of the core as Python's exceptions, and exceptions that user code raised inside a step.
 
 use std::cell::RefCell;
+use std::ffi::CString;
 use std::sync::TryLockError;
 
 use pyo3::prelude::*;
 
 /// The exception classes, defined in Python.
 mod classes {
+    pyo3::import_exception!(basemat._errors, BasematWarning);
     pyo3::import_exception!(basemat._errors, CheckpointError);
     pyo3::import_exception!(basemat._errors, Error);
     pyo3::import_exception!(basemat._errors, FileError);
@@ -58,6 +60,22 @@ pub(crate) fn kept(part: &'static str, error: PyErr) -> basemat::Error {
 /// An `InputError` with this text.
 pub(crate) fn refuse(text: impl Into<String>) -> PyErr {
     classes::InputError::new_err(text.into())
+}
+
+/// What a function of the user's returned, taken as a `T`; `name` is that of the function.
+pub(crate) fn returned<'py, T>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<T>
+where
+    T: for<'a> FromPyObject<'a, 'py>,
+{
+    value.extract::<T>().map_err(Into::into).map_err(|reason: PyErr| {
+        refuse(format!("{name} returned what will not do: {}", reason.value(value.py())))
+    })
+}
+
+/// A warning of the package, at the line of Python that is being run.
+pub(crate) fn warn(py: Python<'_>, text: String) -> PyResult<()> {
+    let text = CString::new(text)?;
+    PyErr::warn(py, &py.get_type::<classes::BasematWarning>(), &text, 1)
 }
 
 /// An `Error` that says why a simulation cannot be used.

@@ -23,6 +23,7 @@ use pyo3::prelude::*;
 
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("MODES", names::MODE_NAMES)?;
     module.add("STANDARD_GRAVITY", basemat::motion::STANDARD_GRAVITY)?;
     module.add_class::<advice::PyAdvice>()?;
@@ -83,6 +84,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<motion::PyColumn>()?;
     module.add_class::<motion::PyInclinedWave>()?;
     module.add_function(wrap_pyfunction!(motion::el_centro_1940, module)?)?;
+    module.add_function(wrap_pyfunction!(motion::free_field, module)?)?;
     module.add_function(wrap_pyfunction!(motion::log_spaced, module)?)?;
     module.add_function(wrap_pyfunction!(motion::vertical_incidence, module)?)?;
     module.add_function(wrap_pyfunction!(motion::travelling_wave, module)?)?;

@@ -3,7 +3,7 @@
 use basemat::coupled::Probe;
 use pyo3::prelude::*;
 
-use crate::row::{PyRow, PySectionRows, RowLike};
+use crate::row::{Order, PyRow, PySectionRows, RowLike};
 
 /// A quantity read off at every step: a weighted sum of displacements, velocities or accelerations.
 ///
@@ -11,14 +11,15 @@ use crate::row::{PyRow, PySectionRows, RowLike};
 /// field; :meth:`absolute_displacement` includes it. Velocities and accelerations are total. No two
 /// probes of a simulation have the same name, and none that of another time series of a run.
 #[pyclass(name = "Probe", module = "basemat", frozen, dict)]
-pub(crate) struct PyProbe(pub(crate) Probe);
+pub(crate) struct PyProbe(pub(crate) Probe, pub(crate) Order);
 
 impl PyProbe {
-    fn labelled(probe: Probe, unit: Option<String>) -> Self {
-        Self(match unit {
+    fn labelled(probe: Probe, order: Order, unit: Option<String>) -> Self {
+        let probe = match unit {
             Some(unit) => probe.in_unit(unit),
             None => probe,
-        })
+        };
+        Self(probe, order)
     }
 }
 
@@ -28,35 +29,35 @@ impl PyProbe {
     #[staticmethod]
     #[pyo3(signature = (name, row, *, unit=None))]
     fn displacement(name: String, row: RowLike, unit: Option<String>) -> Self {
-        Self::labelled(Probe::displacement(name, row.0), unit)
+        Self::labelled(Probe::displacement(name, row.0), row.1, unit)
     }
 
     /// The same with the translation of the free field.
     #[staticmethod]
     #[pyo3(signature = (name, row, *, unit=None))]
     fn absolute_displacement(name: String, row: RowLike, unit: Option<String>) -> Self {
-        Self::labelled(Probe::absolute_displacement(name, row.0), unit)
+        Self::labelled(Probe::absolute_displacement(name, row.0), row.1, unit)
     }
 
     /// Total velocity, m/s.
     #[staticmethod]
     #[pyo3(signature = (name, row, *, unit=None))]
     fn velocity(name: String, row: RowLike, unit: Option<String>) -> Self {
-        Self::labelled(Probe::velocity(name, row.0), unit)
+        Self::labelled(Probe::velocity(name, row.0), row.1, unit)
     }
 
     /// Total acceleration, m/s².
     #[staticmethod]
     #[pyo3(signature = (name, row, *, unit=None))]
     fn acceleration(name: String, row: RowLike, unit: Option<String>) -> Self {
-        Self::labelled(Probe::acceleration(name, row.0), unit)
+        Self::labelled(Probe::acceleration(name, row.0), row.1, unit)
     }
 
     /// A section's resultant: a force (N/m) or a moment (N·m/m).
     #[staticmethod]
     #[pyo3(signature = (name, section, *, unit=None))]
     fn section(name: String, section: &PySectionRows, unit: Option<String>) -> Self {
-        Self::labelled(Probe::section(name, &section.0), unit)
+        Self::labelled(Probe::section(name, &section.0), section.1, unit)
     }
 
     /// Its name.
@@ -74,7 +75,8 @@ impl PyProbe {
     /// Its rows: of displacements, velocities, accelerations.
     #[getter]
     fn rows(&self) -> [PyRow; 3] {
-        [&self.0.displacement, &self.0.velocity, &self.0.acceleration].map(|row| PyRow(row.clone()))
+        [&self.0.displacement, &self.0.velocity, &self.0.acceleration]
+            .map(|row| PyRow(row.clone(), self.1))
     }
 
     fn __repr__(&self) -> String {

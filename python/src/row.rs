@@ -6,7 +6,7 @@ use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyInt};
 
-use crate::array::Numbers;
+use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::structure;
 
@@ -16,40 +16,80 @@ use crate::structure;
 /// Rows add, subtract and scale. Wherever a row is asked for, an unknown's number, a dict
 /// ``{unknown: weight}``, a list of pairs ``(unknown, weight)`` or an array of all n weights will do.
 #[pyclass(name = "Row", module = "basemat", frozen, eq)]
-#[derive(Clone, PartialEq)]
-pub(crate) struct PyRow(pub(crate) Row);
+#[derive(Clone)]
+pub(crate) struct PyRow(pub(crate) Row, pub(crate) Order);
+
+impl PartialEq for PyRow {
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+impl From<Row> for PyRow {
+    fn from(row: Row) -> Self {
+        Self(row, Order::default())
+    }
+}
 
 /// A row in any of the forms that Python may give it.
-pub(crate) struct RowLike(pub(crate) Row);
+pub(crate) struct RowLike(pub(crate) Row, pub(crate) Order);
+
+/// The number of unknowns of the structure that a row is for, known if it was given all weights.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Order(Option<usize>);
+
+impl Order {
+    /// That of two rows for one structure.
+    pub(crate) fn and(self, other: Self) -> PyResult<Self> {
+        match (self.0, other.0) {
+            (Some(one), Some(two)) if one != two => {
+                Err(refuse(format!("rows of {one} and of {two} weights are for no one structure")))
+            }
+            _ => Ok(Self(self.0.or(other.0))),
+        }
+    }
+
+    /// Refuses a row for another structure; `name` says whose it is.
+    pub(crate) fn check(self, name: &str, unknowns: usize) -> PyResult<()> {
+        match self.0 {
+            Some(weights) if weights != unknowns => Err(refuse(format!(
+                "{name} has an array of {weights} weights, but the structure has {unknowns} unknowns"
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
 
 impl<'py> FromPyObject<'_, 'py> for RowLike {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(row) = object.cast::<PyRow>() {
-            return Ok(Self(row.get().0.clone()));
+            let PyRow(row, order) = row.get();
+            return Ok(Self(row.clone(), *order));
         }
         if object.is_instance_of::<PyInt>() {
-            return Ok(Self(object.extract::<usize>()?.into()));
+            return Ok(Self(whole::<usize>(&object)?.into(), Order::default()));
         }
         if let Ok(terms) = object.cast::<PyDict>() {
             let terms: Vec<(usize, f64)> = terms
                 .iter()
                 .map(|(k, w)| Ok((k.extract()?, w.extract()?)))
                 .collect::<PyResult<_>>()?;
-            return Ok(Self(terms.into()));
+            return Ok(Self(terms.into(), Order::default()));
         }
         if object.cast::<PyUntypedArray>().is_ok_and(|array| array.ndim() == 1) {
             let Numbers(weights) = object.extract()?;
+            let order = Order(Some(weights.len()));
             let terms = weights.into_iter().enumerate().filter(|(_, weight)| *weight != 0.0);
-            return Ok(Self(terms.collect()));
+            return Ok(Self(terms.collect(), order));
         }
         if let Ok(unknown) = object.extract::<usize>() {
             // Integers of numpy.
-            return Ok(Self(unknown.into()));
+            return Ok(Self(unknown.into(), Order::default()));
         }
         match object.extract::<Vec<(usize, f64)>>() {
-            Ok(terms) => Ok(Self(terms.into())),
+            Ok(terms) => Ok(Self(terms.into(), Order::default())),
             Err(_) => Err(refuse(
                 "a row must be a Row, an unknown's number, a dict {unknown: weight}, a list of \
                  pairs (unknown, weight) or an array of weights",
@@ -62,7 +102,7 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
 impl PyRow {
     #[new]
     fn new(terms: RowLike) -> Self {
-        Self(terms.0)
+        Self(terms.0, terms.1)
     }
 
     /// Pairs ``(unknown, weight)``.
@@ -74,6 +114,7 @@ impl PyRow {
     /// The sum for given unknowns (array of shape (n,)).
     fn value(&self, unknowns: Numbers) -> PyResult<f64> {
         let Numbers(unknowns) = unknowns;
+        self.1.check("the row", unknowns.len())?;
         if let Some((index, _)) = self.0.iter().find(|(index, _)| *index >= unknowns.len()) {
             return Err(refuse(format!("unknown {index} of a row, of {} given", unknowns.len())));
         }
@@ -84,8 +125,9 @@ impl PyRow {
     fn weights<'py>(
         &self,
         py: Python<'py>,
-        unknowns: usize,
+        #[pyo3(from_py_with = whole)] unknowns: usize,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        self.1.check("the row", unknowns)?;
         let mut weights = Vec::new();
         weights.try_reserve_exact(unknowns).map_err(|_| {
             PyMemoryError::new_err(format!("an array of {unknowns} weights does not fit"))
@@ -103,29 +145,31 @@ impl PyRow {
     /// This displacement to the right less that of the middle of the structure's base.
     fn relative_to_base(&self, structure: Bound<'_, PyAny>) -> PyResult<Self> {
         let structure = structure::recipe(&structure)?().or_raise()?;
-        Ok(Self(self.0.relative_to_base(structure.as_ref()).or_raise()?))
+        self.1.check("the row", structure.unknowns())?;
+        Ok(Self(self.0.relative_to_base(structure.as_ref()).or_raise()?, self.1))
     }
 
     /// The same less what the base's rotation makes of it at ``height`` (m): the sway.
     fn sway(&self, structure: Bound<'_, PyAny>, height: f64) -> PyResult<Self> {
         let structure = structure::recipe(&structure)?().or_raise()?;
-        Ok(Self(self.0.sway(structure.as_ref(), height).or_raise()?))
+        self.1.check("the row", structure.unknowns())?;
+        Ok(Self(self.0.sway(structure.as_ref(), height).or_raise()?, self.1))
     }
 
-    fn __add__(&self, other: RowLike) -> Self {
-        Self(self.0.clone() + other.0)
+    fn __add__(&self, other: RowLike) -> PyResult<Self> {
+        Ok(Self(self.0.clone() + other.0, self.1.and(other.1)?))
     }
 
-    fn __sub__(&self, other: RowLike) -> Self {
-        Self(self.0.clone() - other.0)
+    fn __sub__(&self, other: RowLike) -> PyResult<Self> {
+        Ok(Self(self.0.clone() - other.0, self.1.and(other.1)?))
     }
 
     fn __neg__(&self) -> Self {
-        Self(-self.0.clone())
+        Self(-self.0.clone(), self.1)
     }
 
     fn __mul__(&self, factor: f64) -> Self {
-        Self(factor * self.0.clone())
+        Self(factor * self.0.clone(), self.1)
     }
 
     fn __rmul__(&self, factor: f64) -> Self {
@@ -140,15 +184,24 @@ impl PyRow {
         format!("Row({:?})", self.0.terms())
     }
 
-    fn __getnewargs__(&self) -> (Vec<(usize, f64)>,) {
-        (self.terms(),)
+    fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>,)> {
+        match self.1.0 {
+            Some(unknowns) => Ok((self.weights(py, unknowns)?.into_any(),)),
+            None => Ok((self.terms().into_pyobject(py)?,)),
+        }
     }
 }
 
 /// A section's resultant: weighted sums of displacements, velocities and accelerations that give a
 /// force (N/m) or a moment (N·m/m). For :meth:`Probe.section`.
 #[pyclass(name = "SectionRows", module = "basemat", frozen)]
-pub(crate) struct PySectionRows(pub(crate) SectionRows);
+pub(crate) struct PySectionRows(pub(crate) SectionRows, pub(crate) Order);
+
+impl From<SectionRows> for PySectionRows {
+    fn from(rows: SectionRows) -> Self {
+        Self(rows, Order::default())
+    }
+}
 
 #[pymethods]
 impl PySectionRows {
@@ -165,8 +218,9 @@ impl PySectionRows {
             "N·m/m" => "N·m/m",
             _ => return Err(refuse(format!("unit is '{unit}', but must be 'N/m' or 'N·m/m'"))),
         };
+        let order = displacement.1.and(velocity.1)?.and(acceleration.1)?;
         let (displacement, velocity, acceleration) = (displacement.0, velocity.0, acceleration.0);
-        Ok(Self(SectionRows { unit, displacement, velocity, acceleration }))
+        Ok(Self(SectionRows { unit, displacement, velocity, acceleration }, order))
     }
 
     fn __getnewargs_ex__<'py>(
@@ -187,18 +241,18 @@ impl PySectionRows {
     /// Weights of the displacements.
     #[getter]
     fn displacement(&self) -> PyRow {
-        PyRow(self.0.displacement.clone())
+        PyRow(self.0.displacement.clone(), self.1)
     }
 
     /// Weights of the velocities.
     #[getter]
     fn velocity(&self) -> PyRow {
-        PyRow(self.0.velocity.clone())
+        PyRow(self.0.velocity.clone(), self.1)
     }
 
     /// Weights of the accelerations.
     #[getter]
     fn acceleration(&self) -> PyRow {
-        PyRow(self.0.acceleration.clone())
+        PyRow(self.0.acceleration.clone(), self.1)
     }
 }

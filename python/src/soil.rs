@@ -6,8 +6,8 @@ use pyo3::prelude::*;
 use crate::error::OrRaise;
 
 /// Elastic soil: shear modulus (Pa), Poisson's ratio (−1 to 0.5), density (kg/m³).
-#[pyclass(name = "Soil", module = "basemat", frozen)]
-#[derive(Clone, Copy)]
+#[pyclass(name = "Soil", module = "basemat", frozen, eq)]
+#[derive(Clone, Copy, PartialEq)]
 pub(crate) struct PySoil(pub(crate) Soil);
 
 #[pymethods]
@@ -67,6 +67,10 @@ impl PySoil {
             soil.poisson(),
             soil.density()
         )
+    }
+
+    fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
+        self.__getnewargs__().into_pyobject(py)?.hash()
     }
 
     fn __getnewargs__(&self) -> (f64, f64, f64) {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import signal
 import subprocess
 from pathlib import Path
 
@@ -52,6 +53,14 @@ def rocking(soil: bm.Soil, block: bm.RigidBlock):
         return bm.Simulation(0.01, **{**parts, **others})
 
     return make
+
+
+@pytest.fixture
+def interruptible():
+    """Ctrl-C raises, also where the tests were started with SIGINT ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def same_bits(one: np.ndarray, other: np.ndarray) -> bool:

@@ -109,5 +109,79 @@ def test_a_motion_that_runs_turns_a_long_base(rocking) -> None:
     )
     assert still.base_rotation.magnitude < 1e-9 < 1e-5 < running.base_rotation.magnitude
     # A function of x and time does the same.
-    own = rocking(interface=bm.Bonded(), motion=lambda x, t: tuple(record.displacement(x, t)))
+    own = rocking(interface=bm.Bonded(), motion=bm.free_field(displacement=record.displacement))
     np.testing.assert_allclose(own.run(300)["normal_force"], still["normal_force"], rtol=1e-12)
+
+
+def shaking(time: float) -> float:
+    """A sine of 2 Hz that begins and ends gently, m/s²."""
+    return 3.0 * np.sin(4.0 * np.pi * time) * np.sin(np.pi * time / 4.0) ** 2
+
+
+def test_functions_say_whether_they_return_displacement_or_acceleration(rocking) -> None:
+    """A function alone is refused; the same motion, given as either, shakes alike."""
+    for refused in (
+        lambda: rocking(motion=lambda x, time: (shaking(time), 0.0)),
+        lambda: bm.travelling_wave(lambda x, time: (0.0, 0.0), 300.0, 0.0),
+    ):
+        with pytest.raises(bm.InputError, match=r"free_field\(displacement=function\)"):
+            refused()
+    record = bm.Record(0.01, [shaking(time) for time in 0.01 * np.arange(401)])
+    field = bm.free_field(acceleration=shaking, time_step=0.01, duration=4.0)
+    for time in (0.0, 0.013, 1.0, 4.0, 7.5):
+        assert field.displacement(3.0, time) == record.displacement(3.0, time)
+        assert field.velocity(3.0, time) == record.velocity(3.0, time)
+    expected = rocking(motion=record).run()
+    found = rocking(motion=field).run()
+    assert found.end == expected.end == 4.0
+    assert (found["base_shear"] == expected["base_shear"]).all()
+    # Twice integrated by hand: the sine's product is three cosines.
+    numbers = [(1.5, 4.0 * np.pi), (-0.75, 4.5 * np.pi), (-0.75, 3.5 * np.pi)]
+
+    def moved(x: float, time: float) -> float:
+        return sum(a * (time / w - np.sin(w * time) / w**2) for a, w in numbers)
+
+    for time in (0.5, 1.7, 3.9):
+        assert moved(0.0, time) == pytest.approx(record.displacement(0.0, time)[0], rel=2e-3)
+    own = rocking(motion=bm.free_field(displacement=moved)).run(400)
+    scale = expected.base_shear.magnitude
+    np.testing.assert_allclose(own["base_shear"], expected["base_shear"], atol=0.02 * scale)
+
+
+def test_functions_of_both_directions_and_their_mistakes() -> None:
+    both = bm.free_field(
+        acceleration=lambda time: np.array([shaking(time), 0.5 * shaking(time)]),
+        time_step=0.01,
+        duration=4.0,
+    )
+    right, up = both.displacement(0.0, 3.0)
+    assert up == pytest.approx(0.5 * right, rel=1e-12) and right != 0.0
+    assert bm.free_field(displacement=lambda x, t: 2.0 * x).displacement(3.0, 1.0) == [6.0, 0.0]
+    sampled = {"time_step": 0.01, "duration": 1.0}
+    for text, arguments in {
+        "one of them": {},
+        "one of them ": {"displacement": shaking, "acceleration": shaking},
+        "give its time_step and duration": {"acceleration": shaking},
+        "are those of an acceleration": {"displacement": shaking, "duration": 1.0},
+        "displacement is of the type float": {"displacement": 3.0},
+        "acceleration returned 'a', but must": {"acceleration": lambda time: "a", **sampled},
+        "acceleration returned \\(0.0, 0.0, 0.0\\)": {
+            "acceleration": lambda time: (0.0,) * 3,
+            **sampled,
+        },
+        "time step of the record is 0": {"acceleration": shaking, "time_step": 0, "duration": 1.0},
+        "acceleration of the record is NaN": {"acceleration": lambda t: np.nan, **sampled},
+    }.items():
+        with pytest.raises(bm.InputError, match=text.strip()):
+            bm.free_field(**arguments)
+    with pytest.raises(ZeroDivisionError):
+        bm.free_field(acceleration=lambda time: 1 / 0, **sampled)
+    with pytest.raises(bm.InputError, match="motion's displacement returned None"):
+        bm.free_field(displacement=lambda x, time: None).displacement(0.0, 1.0)
+
+
+def test_a_filter_adds_the_quiet_time_that_its_text_says() -> None:
+    record = bm.el_centro_1940()
+    filtered = record.high_pass(0.2)
+    assert filtered.duration == pytest.approx(record.duration + 2.0 * 1.5 * 4.0 / 0.2, abs=0.05)
+    assert "1.5 ``order / corner`` s before and after" in " ".join(bm.Record.high_pass.__doc__.split())

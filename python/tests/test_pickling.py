@@ -132,6 +132,28 @@ def test_motions_laws_loads_and_probes() -> None:
         assert same_bits(*runs) and np.abs(runs[0]).max() > 0.0
 
 
+def test_descriptions_show_how_they_were_made() -> None:
+    for value in (
+        bm.RigidBlock(6.0, 9.0, 1000.0, center=1.0),
+        bm.Coulomb(0.4),
+        bm.Bilinear(40e6, 1e5, 0.05),
+        bm.TimeScheme.newmark(0.6, beta=0.3025),
+        SOIL,
+    ):
+        text = repr(value)
+        assert text.startswith(type(value).__name__)
+        assert repr(eval(text, {}, {**vars(bm)})) == text
+    assert repr(matrices()).startswith("MatrixModel(<array of shape (6, 6)>, <array of shape (6, 6)>")
+    assert "Mesh(…)" in repr(finite_elements())
+    wave = bm.PlaneWave.sv(SOIL, 0.3).reversed()
+    assert repr(wave) == "PlaneWave.reversed()"
+
+
+def test_soils_are_equal_by_their_numbers() -> None:
+    assert bm.Soil(80.0e6, 0.33, 1900.0) == SOIL != bm.Soil(80.0e6, 0.33, 1901.0)
+    assert len({SOIL, bm.Soil(80.0e6, 0.33, 1900.0), copied(SOIL)}) == 1
+
+
 def test_what_cannot_pickle_says_so() -> None:
     with pytest.raises((pickle.PicklingError, AttributeError), match="lambda"):
         pickle.dumps(bm.VariableFriction(lambda start: 0.3))

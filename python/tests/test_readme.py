@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +19,6 @@ PROGRAMS = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text("ut
 @pytest.fixture(scope="module")
 def names() -> dict[str, object]:
     """Names that the first program defines."""
-    pytest.importorskip("scipy")
     found: dict[str, object] = {}
     exec(PROGRAMS[0], found)
     return found
@@ -35,6 +36,20 @@ def test_the_first_program_is_short_and_uplifts(names: dict[str, object]) -> Non
     peak = run.probes["roof"].magnitude
     shortest = spectra["roof"].acceleration[0]
     assert peak < shortest < 2.0 * peak
+
+
+def test_what_the_first_program_needs_comes_with_the_package() -> None:
+    """It runs where numpy is all that is installed."""
+    others = ("scipy", "pandas", "matplotlib", "distributed")
+    without = f"import sys\nsys.modules.update(dict.fromkeys({others!r}))\n"
+    done = subprocess.run([sys.executable, "-c", without + PROGRAMS[0]], capture_output=True)
+    assert done.returncode == 0, done.stderr.decode()
+
+
+def test_what_is_missing_is_named_as_pip_knows_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ImportError, match="need pandas: pip install pandas$"):
+        bm.sweep(lambda a: {"b": a}, {"a": [1]})
 
 
 def test_its_matrices_are_those_of_a_shear_building(names: dict[str, object]) -> None:

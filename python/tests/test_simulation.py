@@ -5,8 +5,11 @@ from __future__ import annotations
 import os
 import pickle
 import signal
+import subprocess
+import sys
 import threading
 import time
+import warnings
 
 import numpy as np
 import pytest
@@ -77,6 +80,58 @@ def test_run_lasts_as_long_as_the_record(rocking) -> None:
         rocking(motion=None).run()
     with pytest.raises(bm.InputError, match="not both"):
         rocking().run(10, duration=1.0)
+
+
+def test_a_run_ends_with_the_motion_and_says_when_it_is_over(rocking) -> None:
+    short = bm.Record(0.02, np.sin(np.arange(101)))
+    simulation = rocking(motion=short)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        simulation.run(50)
+        rest = simulation.run()
+        assert (rest.start, rest.end, rest.steps) == (0.5, 2.0, 150)
+        simulation.run(10)
+        simulation.run(duration=0.1)
+    for again in (simulation.run, lambda: list(simulation.steps())):
+        with pytest.warns(bm.BasematWarning, match=r"ended at 2 s, before these 200 steps.*reset\(\)"):
+            again()
+    assert simulation.state.step == 50 + 150 + 10 + 10 + 2 * 200
+
+
+def test_reset_goes_back_to_the_first_bit(rocking) -> None:
+    simulation = rocking(initial_velocity=[0.0, 0.0, 0.01])
+    first = simulation.run(200)
+    simulation.reset()
+    assert (simulation.state.step, simulation.state.time) == (0, 0.0)
+    again = simulation.run(200)
+    for name, series in first.series.items():
+        assert same_bits(again[name], series), name
+    assert again.summary() == first.summary()
+
+    class Unsaved:
+        """Takes steps over and does not say what it took."""
+
+        unknowns = 3
+        block = bm.RigidBlock(6.0, 9.0, 1000.0)
+        contact_nodes, mass, stiffness = block.contact_nodes, block.mass, block.stiffness
+
+        def __deepcopy__(self, memo: dict) -> "Unsaved":
+            return self
+
+        def force(self, u):
+            return np.zeros(3)
+
+        def tangent(self, u):
+            return np.zeros((3, 3))
+
+        def commit(self, u):
+            pass
+
+    simulation = rocking(structure=Unsaved())
+    simulation.run(5)
+    with pytest.raises(bm.CheckpointError, match="structure"):
+        simulation.reset()
+    assert simulation.state.step == 5
 
 
 @pytest.mark.parametrize("duration", [-1.0, float("nan"), float("inf")])
@@ -215,16 +270,47 @@ def test_records_pickle() -> None:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="os.kill ends the process on Windows")
+@pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_is_heard(rocking) -> None:
-    simulation = rocking(expected_steps=1000)
-    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+    steps = 1_000_000
+    simulation = rocking(expected_steps=steps)
+    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     begin = time.monotonic()
-    with pytest.raises(KeyboardInterrupt):
-        simulation.run(50_000_000, series=False)
+    timer.start()
+    with warnings.catch_warnings(), pytest.raises(KeyboardInterrupt):
+        warnings.simplefilter("error")
+        simulation.run(steps, series=False)
     assert time.monotonic() - begin < 5.0
     reached = simulation.state.step
-    assert 0 < reached < 50_000_000
+    assert 0 < reached < steps
     assert simulation.step().step == reached + 1
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no shell that ignores a signal")
+def test_a_run_says_that_nobody_hears_ctrl_c() -> None:
+    """As in a job that a script starts in the background."""
+    program = """if True:
+        import time, warnings
+        import basemat as bm
+        block = bm.RigidBlock(6.0, 9.0, 1000.0)
+        ground = bm.SpringGround.under(block, 4, 1e8, 1e8)
+        simulation = bm.Simulation(0.01, block, ground, bm.Bonded())
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            simulation.run(10, observe=lambda state: time.sleep(0.02))
+        print([str(own.message)[:28] for own in caught if own.category is bm.BasematWarning])
+    """
+    for trap, expected in (("trap '' INT;", "['Ctrl-C does not end this run']"), ("", "[]")):
+        command = f'{trap} exec "$@"'
+        # A child of a job in the background starts with SIGINT ignored and must not here.
+        done = subprocess.run(
+            ["sh", "-c", command, "sh", sys.executable, "-c", program],
+            capture_output=True,
+            text=True,
+            check=True,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        )
+        assert done.stdout.strip() == expected
 
 
 def test_progress_is_told_and_other_threads_run(rocking) -> None:

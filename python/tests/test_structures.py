@@ -49,12 +49,22 @@ def test_rayleigh_damping_is_a_sum_of_the_matrices() -> None:
         bm.MatrixModel(*matrices, damping=expected, rayleigh=damping)
 
 
+def test_a_frequency_is_in_hertz() -> None:
+    building = bm.ShearBuilding(8.0, 50e3, 4e5, [bm.Storey(3.0, 1e3, 4e6)])
+    expected = np.sqrt(4e6 / 1e3) / (2.0 * np.pi)
+    assert building.fixed_base_frequency == pytest.approx(expected, rel=1e-12)
+    assert bm.ShearBuilding.fixed_base_frequency.__doc__.endswith("Hz.")
+
+
 def test_a_law_that_never_yields_is_a_linear_storey(soil: bm.Soil) -> None:
-    building = bm.ShearBuilding(8.0, 50e3, 4e5, STOREYS)
-    strong = bm.NonlinearShearBuilding(building, {0: bm.Bilinear(40e6, 1e12, 0.05)})
+    building = bm.ShearBuilding(8.0, 50e3, 4e5, STOREYS, damping=0.05)
+    strong = bm.NonlinearShearBuilding(
+        building, {storey: bm.Bilinear(40e6, 1e12, 0.05) for storey in range(3)}
+    )
+    assert same_bits(strong.damping(), building.damping())
     scale = shaken(building, soil).base_shear.magnitude
     np.testing.assert_allclose(
-        shaken(strong, soil)["base_shear"], shaken(building, soil)["base_shear"], atol=1e-6 * scale
+        shaken(strong, soil)["base_shear"], shaken(building, soil)["base_shear"], atol=1e-9 * scale
     )
     weak = bm.NonlinearShearBuilding(building, {0: bm.Bilinear(40e6, 100e3, 0.05)})
     assert shaken(weak, soil).base_shear.magnitude < 0.8 * scale

@@ -7,6 +7,7 @@ import os
 import signal
 import threading
 import time
+import warnings
 
 import pytest
 
@@ -33,7 +34,7 @@ GRID = {"friction": [0.2, 0.25, 0.3], "peak": [1.0, 3.0]}
 
 def test_one_row_per_case_in_order_and_errors_beside_results() -> None:
     table = bm.sweep(make, GRID, steps=300, results=results)
-    assert list(table.columns) == ["friction", "peak", "shear", "slip", "error"]
+    assert list(table.columns) == ["friction", "peak", "shear", "slip", "warnings", "error"]
     assert list(zip(table["friction"], table["peak"])) == [
         (0.2, 1.0),
         (0.2, 3.0),
@@ -89,6 +90,26 @@ def test_make_may_return_a_run_or_a_mapping() -> None:
     assert table["error"].iloc[0].startswith("TypeError: make returned int")
 
 
+def test_warnings_are_a_column() -> None:
+    """One of the cases slides further than an element is long; nothing is said beside the table."""
+
+    def shaken(peak: float) -> bm.Simulation:
+        return make(0.05, peak)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        table = bm.sweep(shaken, {"peak": [0.5, 60.0]}, steps=400)
+    quiet, loud = table["warnings"]
+    own = make(0.05, 60.0).run(400, warn=False)
+    assert pandas.isna(quiet) and loud == "; ".join(own.warnings) and "slip" in loud
+    with pytest.warns(bm.BasematWarning) as caught:
+        make(0.05, 60.0).run(400)
+    assert [str(warning.message) for warning in caught] == own.warnings
+    assert {warning.filename for warning in caught} == {__file__}
+    with pytest.raises(ValueError, match="'warnings'"):
+        bm.sweep(shaken, {"warnings": [1.0]})
+
+
 def test_a_parameter_called_error_is_refused_before_anything_runs() -> None:
     made = []
     with pytest.raises(ValueError, match="'error'"):
@@ -99,7 +120,7 @@ def test_a_parameter_called_error_is_refused_before_anything_runs() -> None:
 def test_a_result_with_the_name_of_another_column_is_an_error_of_its_row() -> None:
     results = {2: {"a": 0.0, "b": 0.0}, 3: {"b": 5.0}, 4: {"error": "none"}}
     table = bm.sweep(lambda a: results[a], {"a": [2, 3, 4]})
-    assert list(table.columns) == ["a", "b", "error"] and list(table["a"]) == [2, 3, 4]
+    assert list(table.columns) == ["a", "b", "warnings", "error"] and list(table["a"]) == [2, 3, 4]
     assert table["b"].iloc[1] == 5.0 and table["b"].isna().tolist() == [True, False, True]
     assert "another column, 'a'" in table["error"].iloc[0]
     assert "another column, 'error'" in table["error"].iloc[2]
@@ -107,9 +128,10 @@ def test_a_result_with_the_name_of_another_column_is_an_error_of_its_row() -> No
 
 
 @pytest.mark.skipif(os.name == "nt", reason="os.kill ends the process on Windows")
+@pytest.mark.usefixtures("interruptible")
 def test_ctrl_c_ends_all_threads() -> None:
     threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
     begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
-        bm.sweep(lambda k: make(0.3, 1.0).run(10**7, series=False), {"k": range(8)}, jobs=2)
+        bm.sweep(lambda k: make(0.3, 1.0).run(10**6, series=False), {"k": range(8)}, jobs=2)
     assert time.monotonic() - begin < 10.0

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+import basemat as bm
+
 ROOT = Path(__file__).parents[1]
 
 
@@ -37,5 +39,5 @@ def test_there_is_one_version() -> None:
         stated.findall((folder / "Cargo.toml").read_text(encoding="utf-8"))
         for folder in (ROOT, ROOT.parent)
     )
-    assert own == crate == importlib.metadata.version("basemat")
+    assert own == crate == importlib.metadata.version("basemat") == bm.__version__
     assert not stated.findall((ROOT / "pyproject.toml").read_text(encoding="utf-8"))

@@ -78,8 +78,10 @@ from ._core import (
     WithModalDamping,
     WithSprings,
     Yielding,
+    __version__,
     advise,
     el_centro_1940,
+    free_field,
     log_spaced,
     memory_limit,
     ricker,
@@ -87,11 +89,12 @@ from ._core import (
     travelling_wave,
     vertical_incidence,
 )
-from ._errors import CheckpointError, Error, FileError, InputError, StepError
+from ._errors import BasematWarning, CheckpointError, Error, FileError, InputError, StepError
 from ._protocols import UserLaw, UserStructure
 from ._sweep import sweep
 
 _pickling.prepare()
+free_field = _pickling.function(free_field)
 ricker = _pickling.function(ricker)
 travelling_wave = _pickling.function(travelling_wave)
 vertical_incidence = _pickling.function(vertical_incidence)
@@ -101,6 +104,7 @@ __all__ = [
     "STANDARD_GRAVITY",
     "Adhesive",
     "Advice",
+    "BasematWarning",
     "Bilinear",
     "Bonded",
     "BoucWen",
@@ -175,6 +179,7 @@ __all__ = [
     "Yielding",
     "advise",
     "el_centro_1940",
+    "free_field",
     "log_spaced",
     "memory_limit",
     "ricker",

@@ -31,7 +31,7 @@ def outcomes(
     """
     from distributed import KilledWorker, as_completed
 
-    found: list[Outcome] = [({}, "was not run")] * len(cases)
+    found: list[Outcome] = [({}, None, "was not run")] * len(cases)
     done = 0
 
     def run(numbers: Sequence[int]) -> list[int]:
@@ -51,7 +51,7 @@ def outcomes(
                 except (KeyboardInterrupt, SystemExit):
                     raise
                 except BaseException as error:  # Cancelled futures are no Exception.
-                    found[number] = {}, described(error)
+                    found[number] = {}, None, described(error)
                     if isinstance(error, KilledWorker):
                         given_up.append(number)
                         continue

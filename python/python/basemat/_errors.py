@@ -1,4 +1,6 @@
-"""Exceptions of the package."""
+"""Exceptions and warnings of the package."""
+
+import re
 
 
 class Error(Exception):
@@ -7,6 +9,11 @@ class Error(Exception):
 
 class InputError(Error, ValueError):
     """A part of a scene that is out of its range, or does not fit the others."""
+
+    def add_note(self, note: str) -> None:
+        """Takes a note into the text; of the argument that was refused, which PyO3 notes, the name."""
+        name = re.fullmatch(r"while processing '(\w+)'", note)
+        self.args = (f"{name[1]}: {self}" if name else f"{self}\n{note}",)
 
 
 class FileError(Error):
@@ -27,6 +34,10 @@ class StepError(Error, RuntimeError):
     time: float
 
 
-for _class in (Error, InputError, FileError, CheckpointError, StepError):
+class BasematWarning(UserWarning):
+    """What a user should know of a run that is no error: ``warnings`` filters it by this class."""
+
+
+for _class in (Error, InputError, FileError, CheckpointError, StepError, BasematWarning):
     _class.__module__ = "basemat"
 del _class

@@ -14,7 +14,7 @@ def pandas() -> Any:
     try:
         import pandas
     except ImportError as error:
-        raise ImportError("frames need pandas: pip install 'basemat[pandas]'") from error
+        raise ImportError("frames and sweeps need pandas: pip install pandas") from error
     return pandas
 
 

@@ -166,6 +166,25 @@ def _reduce(self: Any) -> Any:
     return _again, (_how(self),)
 
 
+def _repr(self: Any) -> str:
+    """The call that makes it."""
+    made = _how(self)
+    owner = made.owner if isinstance(made.owner, type) else type(self)
+    name = owner.__name__ if made.name is None else f"{owner.__name__}.{made.name}"
+    keywords = [f"{name}={_short(value)}" for name, value in made.keywords.items()]
+    return f"{name}({', '.join([*map(_short, made.arguments), *keywords])})"
+
+
+def _short(value: Any) -> str:
+    """An argument in a few words."""
+    if isinstance(value, Made):
+        return f"{value.owner.__name__}(…)"
+    if hasattr(value, "shape") and value.shape:
+        return f"<array of shape {value.shape}>"
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
 def _prepare(described: Any) -> None:
     """Lets a class remember what its instances are made of."""
     signature = inspect.signature(described) if described.__text_signature__ else None
@@ -182,6 +201,8 @@ def _prepare(described: Any) -> None:
             pass
     described.__init__ = __init__
     described.__reduce__ = _reduce
+    if described.__repr__ is object.__repr__:
+        described.__repr__ = _repr
     for name, method in list(vars(described).items()):
         if isinstance(method, staticmethod) and not name.startswith("_"):
             make = getattr(described, name)

@@ -13,8 +13,10 @@ from typing import Any, Optional
 from . import _core
 from ._core import Run, Simulation
 
-# Results of a case, and the text of its error.
-Outcome = tuple[dict[str, Any], Optional[str]]
+# Results of a case, the texts of its run's warnings, and that of its error.
+Outcome = tuple[dict[str, Any], Optional[str], Optional[str]]
+_OWN = ("warnings", "error")
+"""Columns that every table has."""
 
 
 def cases_of(grid: Any) -> list[dict[str, Any]]:
@@ -31,14 +33,16 @@ def results_of(
     steps: int | None,
     duration: float | None,
     results: Callable[[Run], Mapping[str, Any]] | None,
-) -> dict[str, Any]:
+) -> Outcome:
     """Columns of a row from what ``make`` returned."""
     if isinstance(found, Simulation):
-        found = found.run(steps, duration=duration, series=results is not None)
+        # A table says it in its column, once for every case.
+        found = found.run(steps, duration=duration, series=results is not None, warn=False)
     if isinstance(found, Run):
-        return dict(found.summary() if results is None else results(found))
+        warnings = "; ".join(found.warnings) or None
+        return dict(found.summary() if results is None else results(found)), warnings, None
     if isinstance(found, Mapping):
-        return dict(found)
+        return dict(found), None, None
     raise TypeError(
         f"make returned {type(found).__name__}, but must return a Simulation, a Run or a mapping"
     )
@@ -53,9 +57,9 @@ def run_case(
 ) -> Outcome:
     """Results of a case and the text of its error; importable, for other processes."""
     try:
-        return results_of(make(**case), steps, duration, results), None
+        return results_of(make(**case), steps, duration, results)
     except Exception as error:
-        return {}, described(error)
+        return {}, None, described(error)
 
 
 def described(error: BaseException) -> str:
@@ -83,7 +87,7 @@ def _outcome(future: Future[Any]) -> Outcome:
     except (KeyboardInterrupt, SystemExit):
         raise
     except BaseException as error:  # Cancelled futures of Dask are no Exception.
-        return {}, described(error)
+        return {}, None, described(error)
 
 
 def sweep(
@@ -102,10 +106,10 @@ def sweep(
     Args:
         make: ``make(**case)`` returns a :class:`Simulation` (which is then run), a :class:`Run`, or
             a mapping of results. What it raises goes into the row's ``error``, as does a result
-            with the name of a parameter; others go on.
+            with the name of a parameter, "warnings" or "error"; others go on.
         grid: names and values, ``{"friction": [0.2, 0.3], "peak": [1.0, 2.0]}``, of which all
             combinations are made, the last name fastest; or a list of cases, each a mapping. No
-            parameter is called "error".
+            parameter is called "warnings" or "error".
         steps, duration: how long to run a simulation (s); the record's length unless given.
         results: columns of a row, from its run; :meth:`Run.summary` unless given.
         jobs: threads (the GIL is released while steps are made); one unless given, all processors
@@ -115,8 +119,8 @@ def sweep(
         progress: True for a line on stderr, or a function ``(cases done, cases in all)``.
 
     Returns:
-        Frame with the columns of the parameters, of the results, and ``error`` (None, or its text),
-        rows in the order of the cases.
+        Frame with the columns of the parameters, of the results, ``warnings`` (None, or the texts of
+        :attr:`Run.warnings`) and ``error`` (None, or its text), rows in the order of the cases.
     """
     from . import _dask
     from ._frames import pandas
@@ -124,8 +128,9 @@ def sweep(
     frames = pandas()
     cases = cases_of(grid)
     parameters = list(dict.fromkeys(name for case in cases for name in case))
-    if "error" in parameters:
-        raise ValueError("a parameter is called 'error', as the column of what a case raises")
+    for name in _OWN:
+        if name in parameters:
+            raise ValueError(f"a parameter is called {name!r}, as a column of every table")
     tell = _teller(progress, len(cases))
     arguments = [(make, case, steps, duration, results) for case in cases]
     if _dask.is_client(executor):
@@ -140,7 +145,7 @@ def sweep(
             tell(len(outcomes))
     else:
         outcomes = _in_threads(arguments, jobs or os.cpu_count() or 1, tell)
-    taken = {*parameters, "error"}
+    taken = {*parameters, *_OWN}
     return frames.DataFrame(_table(cases, parameters, [_distinct(own, taken) for own in outcomes]))
 
 
@@ -186,7 +191,7 @@ def _distinct(outcome: Outcome, taken: set[str]) -> Outcome:
     clash = next((name for name in outcome[0] if name in taken), None)
     if clash is None:
         return outcome
-    return {}, described(ValueError(f"a result has the name of another column, {clash!r}"))
+    return {}, None, described(ValueError(f"a result has the name of another column, {clash!r}"))
 
 
 def _table(
@@ -194,7 +199,8 @@ def _table(
 ) -> dict[str, list[Any]]:
     """Columns: parameters, results, error; what a row lacks is None."""
     table: dict[str, list[Any]] = {name: [case.get(name) for case in cases] for name in parameters}
-    for name in dict.fromkeys(name for results, _ in outcomes for name in results):
-        table[name] = [results.get(name) for results, _ in outcomes]
-    table["error"] = [error for _, error in outcomes]
+    for name in dict.fromkeys(name for results, *_ in outcomes for name in results):
+        table[name] = [results.get(name) for results, *_ in outcomes]
+    table["warnings"] = [warnings for _, warnings, _ in outcomes]
+    table["error"] = [error for *_, error in outcomes]
     return table

@@ -7,7 +7,7 @@ use super::PyGround;
 use super::history::{Options, PySharedKernels};
 use super::impedance::{PyImpedances, contact};
 use super::strip::{PyStrip, grading, strips};
-use crate::array::Numbers;
+use crate::array::{Numbers, whole};
 use crate::error::OrRaise;
 use crate::soil::PySoil;
 use crate::structure;
@@ -40,7 +40,7 @@ impl PyHalfPlaneGround {
         strips: Vec<Bound<'_, PyStrip>>,
         history: &str,
         history_tolerance: Option<f64>,
-        history_memory: Option<usize>,
+        #[pyo3(from_py_with = whole)] history_memory: Option<usize>,
         kernels: Option<Bound<'_, PySharedKernels>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let options = Options::new(history, history_tolerance, history_memory, kernels.as_ref())?;
@@ -56,11 +56,11 @@ impl PyHalfPlaneGround {
         soil: Bound<'_, PySoil>,
         left: f64,
         right: f64,
-        count: usize,
+        #[pyo3(from_py_with = whole)] count: usize,
         grading: &str,
         history: &str,
         history_tolerance: Option<f64>,
-        history_memory: Option<usize>,
+        #[pyo3(from_py_with = whole)] history_memory: Option<usize>,
         kernels: Option<Bound<'_, PySharedKernels>>,
     ) -> PyResult<Py<Self>> {
         let options = Options::new(history, history_tolerance, history_memory, kernels.as_ref())?;
@@ -78,11 +78,11 @@ impl PyHalfPlaneGround {
     fn under(
         soil: Bound<'_, PySoil>,
         structure: Bound<'_, PyAny>,
-        count: usize,
+        #[pyo3(from_py_with = whole)] count: usize,
         grading: &str,
         history: &str,
         history_tolerance: Option<f64>,
-        history_memory: Option<usize>,
+        #[pyo3(from_py_with = whole)] history_memory: Option<usize>,
         kernels: Option<Bound<'_, PySharedKernels>>,
     ) -> PyResult<Py<Self>> {
         let options = Options::new(history, history_tolerance, history_memory, kernels.as_ref())?;

@@ -11,7 +11,7 @@ use super::PyGround;
 use super::history::PySharedKernels;
 use super::impedance::{PyImpedances, contact};
 use super::strip::{PyStrip, grading, strips};
-use crate::array::Numbers;
+use crate::array::{Numbers, whole};
 use crate::error::OrRaise;
 use crate::profile::PySoilProfile;
 use crate::structure;
@@ -83,7 +83,7 @@ impl PyLayeredGround {
     fn new(
         profile: &PySoilProfile,
         strips: Vec<Bound<'_, PyStrip>>,
-        stages: Option<usize>,
+        #[pyo3(from_py_with = whole)] stages: Option<usize>,
         tolerance: Option<f64>,
         kernel_file: Option<PathBuf>,
         history: &str,
@@ -102,9 +102,9 @@ impl PyLayeredGround {
         profile: &PySoilProfile,
         left: f64,
         right: f64,
-        count: usize,
+        #[pyo3(from_py_with = whole)] count: usize,
         grading: &str,
-        stages: Option<usize>,
+        #[pyo3(from_py_with = whole)] stages: Option<usize>,
         tolerance: Option<f64>,
         kernel_file: Option<PathBuf>,
         history: &str,
@@ -125,9 +125,9 @@ impl PyLayeredGround {
     fn under(
         profile: &PySoilProfile,
         structure: Bound<'_, PyAny>,
-        count: usize,
+        #[pyo3(from_py_with = whole)] count: usize,
         grading: &str,
-        stages: Option<usize>,
+        #[pyo3(from_py_with = whole)] stages: Option<usize>,
         tolerance: Option<f64>,
         kernel_file: Option<PathBuf>,
         history: &str,

@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 
 use super::PyGround;
 use super::strip::{PyStrip, strips};
+use crate::array::whole;
 use crate::structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).
@@ -55,7 +56,7 @@ impl PySpringGround {
         py: Python<'_>,
         left: f64,
         right: f64,
-        count: usize,
+        #[pyo3(from_py_with = whole)] count: usize,
         normal_stiffness: f64,
         tangential_stiffness: f64,
         dashpots: Option<[f64; 2]>,
@@ -71,7 +72,7 @@ impl PySpringGround {
     #[pyo3(signature = (structure, count, normal_stiffness, tangential_stiffness, *, dashpots=None, theta=None))]
     fn under(
         structure: Bound<'_, PyAny>,
-        count: usize,
+        #[pyo3(from_py_with = whole)] count: usize,
         normal_stiffness: f64,
         tangential_stiffness: f64,
         dashpots: Option<[f64; 2]>,

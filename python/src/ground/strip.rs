@@ -3,7 +3,7 @@
 use basemat::bem::{Grading, Strip};
 use pyo3::prelude::*;
 
-use crate::array::Numbers;
+use crate::array::{Numbers, whole};
 use crate::error::OrRaise;
 
 /// A strip of contact elements from ``left`` to ``right`` (m): ``count`` elements with the
@@ -20,7 +20,12 @@ pub(super) fn grading(name: &str) -> PyResult<Grading> {
 impl PyStrip {
     #[new]
     #[pyo3(signature = (left, right, count, *, grading="cosine"))]
-    fn new(left: f64, right: f64, count: usize, grading: &str) -> PyResult<Self> {
+    fn new(
+        left: f64,
+        right: f64,
+        #[pyo3(from_py_with = whole)] count: usize,
+        grading: &str,
+    ) -> PyResult<Self> {
         Ok(Self(Strip::new(left..right, count, self::grading(grading)?).or_raise()?))
     }
 

@@ -6,6 +6,7 @@ use basemat::interface::{StepStart, VariableFriction};
 use pyo3::prelude::*;
 
 use super::PyInterfaceLaw;
+use crate::array::real;
 use crate::error::{OrRaise, keep, refuse};
 use crate::user::PyStepStart;
 
@@ -43,7 +44,8 @@ impl PyVariableFriction {
 fn coefficient_of(function: &Py<PyAny>, start: &StepStart<'_>) -> f64 {
     Python::attach(|py| {
         let found = function.call1(py, (PyStepStart::of(start),));
-        found.and_then(|value| value.extract(py)).unwrap_or_else(|error: PyErr| {
+        let found = found.and_then(|value| real("the coefficient's function", value.bind(py)));
+        found.unwrap_or_else(|error: PyErr| {
             keep(error);
             f64::NAN
         })

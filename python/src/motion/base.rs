@@ -1,17 +1,18 @@
-//! The base class of free fields, and functions written in Python.
+//! The base class of free fields.
 
-use std::sync::Arc;
-
-use basemat::motion::{FreeField, FreeFieldFn};
+use basemat::motion::FreeField;
 use pyo3::prelude::*;
 
-use crate::error::{OrRaise, heard, keep, refuse};
+use crate::error::{OrRaise, heard, refuse};
 use crate::recipe::Recipe;
 
-/// Motion of the ground's surface without the structure.
+/// Motion of the ground's surface without the structure: a :class:`Record`, a wave, or what
+/// :func:`free_field` makes of a function.
 #[pyclass(name = "FreeField", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyFreeField {
     pub(crate) make: Recipe<dyn FreeField>,
+    /// Time at which it ends (s), if that is known.
+    pub(crate) duration: Option<f64>,
 }
 
 #[pymethods]
@@ -27,29 +28,19 @@ impl PyFreeField {
     }
 }
 
-/// The recipe of a free field: of this package, or a function ``(x, time) -> (right, up)`` in m.
-pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn FreeField>> {
+/// The free field that Python gives.
+pub(crate) fn given<'a, 'py>(
+    object: &'a Bound<'py, PyAny>,
+) -> PyResult<&'a Bound<'py, PyFreeField>> {
     if let Ok(own) = object.cast::<PyFreeField>() {
-        return Ok(own.get().make.clone());
+        return Ok(own);
     }
-    if !object.is_callable() {
-        let name = object.get_type().name()?;
-        return Err(refuse(format!("{name} is no motion: neither a free field nor a function")));
-    }
-    let function = Arc::new(object.clone().unbind());
-    Ok(Arc::new(move || {
-        let function = Arc::clone(&function);
-        Ok(Box::new(FreeFieldFn::new(move |x, time| displacement(&function, x, time))))
+    Err(refuse(if object.is_callable() {
+        "a function is no motion before it is said what it returns: \
+         free_field(displacement=function), or free_field(acceleration=function, time_step=…, \
+         duration=…)"
+            .into()
+    } else {
+        format!("{} is no motion: no FreeField, Record or wave", object.get_type().name()?)
     }))
-}
-
-/// Value of the function, or NaN (which ends the step) if it raises.
-fn displacement(function: &Py<PyAny>, x: f64, time: f64) -> [f64; 2] {
-    Python::attach(|py| {
-        let found = function.call1(py, (x, time));
-        found.and_then(|value| value.extract(py)).unwrap_or_else(|error: PyErr| {
-            keep(error);
-            [f64::NAN; 2]
-        })
-    })
 }

@@ -9,8 +9,8 @@ use pyo3::prelude::*;
 
 use super::formats::{baseline, read, unit};
 use super::{PyFreeField, PySpectrum};
-use crate::array::Numbers;
-use crate::error::OrRaise;
+use crate::array::{Numbers, whole};
+use crate::error::{OrRaise, refuse};
 
 /// Ground acceleration at equal time steps, linear between samples; velocity and displacement are
 /// its exact integrals from rest.
@@ -25,7 +25,10 @@ impl PyRecord {
     fn from_core(record: Record) -> PyClassInitializer<Self> {
         let record = Arc::new(record);
         let own = Arc::clone(&record);
-        let base = PyFreeField { make: Arc::new(move || Ok(Box::new(Record::clone(&own)))) };
+        let base = PyFreeField {
+            duration: Some(record.duration()),
+            make: Arc::new(move || Ok(Box::new(Record::clone(&own)))),
+        };
         PyClassInitializer::from(base).add_subclass(Self(record))
     }
 
@@ -49,6 +52,12 @@ impl PyRecord {
         acceleration: Numbers,
         unit: &str,
     ) -> PyResult<PyClassInitializer<Self>> {
+        let samples = acceleration.0.len();
+        if samples < 2 {
+            return Err(refuse(format!(
+                "acceleration has {samples} samples, but must have 2 or more"
+            )));
+        }
         let unit = self::unit(unit)?.in_metres_per_second_squared();
         let samples = acceleration.0.into_iter().map(|value| value * unit).collect();
         Ok(Self::from_core(Record::new(time_step, samples).or_raise()?))
@@ -65,8 +74,8 @@ impl PyRecord {
         format: &str,
         unit: Option<&str>,
         time_step: Option<f64>,
-        columns: Option<[usize; 2]>,
-        channel: Option<usize>,
+        #[pyo3(from_py_with = whole)] columns: Option<[usize; 2]>,
+        #[pyo3(from_py_with = whole)] channel: Option<usize>,
     ) -> PyResult<Py<Self>> {
         Self::create(py, Ok(read(path, format, unit, time_step, columns, channel)?))
     }
@@ -155,13 +164,28 @@ impl PyRecord {
     /// With its baseline treated: "remove mean", "newmark parabola", "velocity polynomial",
     /// "displacement polynomial" or "rest to rest", polynomials of the ``degree``.
     #[pyo3(signature = (treatment, *, degree=4))]
-    fn with_baseline(&self, py: Python<'_>, treatment: &str, degree: usize) -> PyResult<Py<Self>> {
+    fn with_baseline(
+        &self,
+        py: Python<'_>,
+        treatment: &str,
+        #[pyo3(from_py_with = whole)] degree: usize,
+    ) -> PyResult<Py<Self>> {
         Self::create(py, self.0.with_baseline(baseline(treatment, degree)?))
     }
 
-    /// High-pass filtered at a corner frequency (Hz), without phase shift.
+    /// High-pass filtered at a ``corner`` frequency (Hz): a Butterworth filter of ``order`` (1 to 8),
+    /// forwards and backwards, so without phase shift.
+    ///
+    /// The record gets longer by quiet time of 1.5 ``order / corner`` s before and after it, 30 s each
+    /// for a corner of 0.2 Hz, into which such a filter reaches. Keep it: without it velocity and
+    /// displacement do not return to zero.
     #[pyo3(signature = (corner, *, order=4))]
-    fn high_pass(&self, py: Python<'_>, corner: f64, order: u32) -> PyResult<Py<Self>> {
+    fn high_pass(
+        &self,
+        py: Python<'_>,
+        corner: f64,
+        #[pyo3(from_py_with = whole)] order: u32,
+    ) -> PyResult<Py<Self>> {
         Self::create(py, self.0.high_pass(corner, order))
     }
 

@@ -4,6 +4,7 @@ use basemat::motion::SpectralOrdinate;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
+use crate::array::whole;
 use crate::error::OrRaise;
 
 /// A response spectrum: arrays of shape (m,), one value per period.
@@ -24,7 +25,7 @@ pub(crate) fn log_spaced(
     py: Python<'_>,
     first: f64,
     last: f64,
-    count: usize,
+    #[pyo3(from_py_with = whole)] count: usize,
 ) -> PyResult<Array<'_>> {
     Ok(PyArray1::from_vec(py, basemat::results::log_spaced(first, last, count).or_raise()?))
 }

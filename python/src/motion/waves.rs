@@ -10,7 +10,7 @@ use basemat::site::{Column, ControlPoint, InclinedControl, InclinedWave, Vertica
 use numpy::{Complex64, PyArray1};
 use pyo3::prelude::*;
 
-use super::{PyFreeField, PyRecord, recipe};
+use super::{PyFreeField, PyRecord, given};
 use crate::array::Numbers;
 use crate::error::{OrRaise, refuse};
 use crate::profile::PySoilProfile;
@@ -21,7 +21,7 @@ fn field<F: FreeField + 'static>(
     make: impl Fn() -> basemat::Result<F> + Send + Sync + 'static,
 ) -> PyResult<PyFreeField> {
     make().or_raise()?;
-    Ok(PyFreeField { make: Arc::new(move || Ok(Box::new(make()?))) })
+    Ok(PyFreeField { make: Arc::new(move || Ok(Box::new(make()?))), duration: None })
 }
 
 /// Records of horizontal and vertical (up) motion, the same everywhere at once.
@@ -40,7 +40,9 @@ pub(crate) fn vertical_incidence(
         (None, Some(second)) => VerticalIncidence::vertical(own(second)),
         (None, None) => return Err(refuse("give a horizontal record, a vertical one, or both")),
     };
-    field(move || Ok(incidence.clone()))
+    let ends = [&horizontal, &vertical].into_iter().flatten();
+    let duration = ends.map(|record| record.get().0.duration()).reduce(f64::max);
+    Ok(PyFreeField { duration, ..field(move || Ok(incidence.clone()))? })
 }
 
 /// A motion that runs along x with an apparent velocity (m/s), as it is at ``origin`` (m).
@@ -50,7 +52,7 @@ pub(crate) fn travelling_wave(
     apparent_velocity: f64,
     origin: f64,
 ) -> PyResult<PyFreeField> {
-    let motion = recipe(&motion)?;
+    let motion = given(&motion)?.get().make.clone();
     field(move || TravellingWave::new(motion()?, apparent_velocity, origin))
 }
 

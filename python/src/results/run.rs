@@ -322,7 +322,7 @@ impl PyRun {
 
     /// Warnings, in words.
     #[getter]
-    fn warnings(&self) -> Vec<String> {
+    pub(crate) fn warnings(&self) -> Vec<String> {
         self.run.warnings.iter().map(ToString::to_string).collect()
     }
 

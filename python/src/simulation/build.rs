@@ -22,13 +22,15 @@ pub(super) fn coordinates(given: &Bound<'_, PyAny>) -> PyResult<Coordinates> {
     }
 }
 
-/// The probes, none of which has the name of another time series of a run.
+/// The probes of a structure of so many unknowns, none of which has the name of another time series of a run.
 pub(super) fn probes<'a, 'py: 'a>(
     given: impl Iterator<Item = &'a Bound<'py, PyProbe>>,
+    unknowns: usize,
 ) -> PyResult<Vec<Probe>> {
     given
         .map(|probe| {
-            let probe = &probe.get().0;
+            let PyProbe(probe, order) = probe.get();
+            order.check(&format!("the probe '{}'", probe.name), unknowns)?;
             let name = probe.name.as_str();
             if name == "time" || SERIES.iter().any(|(_, key)| *key == name) {
                 return Err(refuse(format!(

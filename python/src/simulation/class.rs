@@ -3,6 +3,7 @@
 use std::sync::{Mutex, MutexGuard};
 
 use basemat::Simulation;
+use basemat::coupled::Checkpoint;
 use basemat::results::Recorder;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -10,20 +11,22 @@ use pyo3::prelude::*;
 use super::build;
 use super::watched::{Watched, progress_function};
 use super::{PyCheckpoint, PyLoad, PyState, PyTimeScheme};
-use crate::array::Numbers;
-use crate::error::{OrRaise, locked, refuse, take_raised};
+use crate::array::{Numbers, whole};
+use crate::error::{OrRaise, locked, raise, refuse, take_raised};
 use crate::ground::PyGround;
-use crate::motion::PyRecord;
+use crate::motion::PyFreeField;
 use crate::probe::PyProbe;
 use crate::results::PyRun;
-use crate::{interface, motion, structure};
+use crate::{error, interface, motion, structure};
 
 /// A structure on a ground, ready to march.
 #[pyclass(name = "Simulation", module = "basemat", frozen)]
 pub(crate) struct PySimulation {
     simulation: Mutex<Simulation>,
-    /// Length of the record that it was given, s.
+    /// Length of the motion that it was given, s.
     duration: Option<f64>,
+    /// Where it began, or why it cannot go back there.
+    start: basemat::Result<Checkpoint>,
 }
 
 /// Steps as an iterator: see :meth:`Simulation.steps`.
@@ -39,13 +42,33 @@ impl PySimulation {
         self.simulation.try_lock().map_err(locked)
     }
 
-    /// Steps asked for directly, by a duration, or by the length of the record.
-    fn count(&self, steps: Option<usize>, duration: Option<f64>) -> PyResult<usize> {
-        match (steps, duration.or(self.duration)) {
-            (Some(_), _) if duration.is_some() => Err(refuse("give steps or a duration, not both")),
-            (Some(steps), _) => Ok(steps),
-            (None, Some(duration)) => self.steps_for(duration),
-            (None, None) => Err(refuse("give steps or a duration: no record says how long to run")),
+    /// Steps asked for directly, by a duration, or to the end of the motion.
+    fn count(
+        &self,
+        py: Python<'_>,
+        steps: Option<usize>,
+        duration: Option<f64>,
+    ) -> PyResult<usize> {
+        match (steps, duration, self.duration) {
+            (Some(_), Some(_), _) => Err(refuse("give steps or a duration, not both")),
+            (Some(steps), None, _) => Ok(steps),
+            (None, Some(duration), _) => self.steps_for(duration),
+            (None, None, Some(end)) => {
+                let (all, made) = (self.steps_for(end)?, self.lock()?.state().step);
+                if made < all {
+                    return Ok(all - made);
+                }
+                let text = format!(
+                    "the motion ended at {end} s, before these {all} steps: the ground does not \
+                     accelerate in them; reset() goes back to the start, and steps or a duration \
+                     say that they are meant"
+                );
+                error::warn(py, text)?;
+                Ok(all)
+            }
+            (None, None, None) => {
+                Err(refuse("give steps or a duration: no record says how long to run"))
+            }
         }
     }
 }
@@ -84,7 +107,7 @@ impl PySimulation {
         initial_velocity: Option<Numbers>,
         scheme: Option<Bound<'_, PyTimeScheme>>,
         coordinates: Option<Bound<'_, PyAny>>,
-        expected_steps: Option<usize>,
+        #[pyo3(from_py_with = whole)] expected_steps: Option<usize>,
         moment_center: Option<f64>,
         ledger: bool,
         safety_friction: Option<f64>,
@@ -92,13 +115,15 @@ impl PySimulation {
         allowable_gap: Option<f64>,
         allowable_uplifted_fraction: Option<f64>,
         allowable_rotation: Option<f64>,
-        flow_chart_iterations: Option<usize>,
+        #[pyo3(from_py_with = whole)] flow_chart_iterations: Option<usize>,
     ) -> PyResult<Self> {
         take_raised();
         let laws = interface::recipes(&interface)?;
         let laws = laws.iter().map(|make| make()).collect::<basemat::Result<_>>().or_raise()?;
+        let structure = structure::recipe(&structure)?().or_raise()?;
+        let unknowns = structure.unknowns();
         let mut builder = Simulation::builder(time_step)
-            .structure(structure::recipe(&structure)?().or_raise()?)
+            .structure(structure)
             .ground((ground.get().make)().or_raise()?)
             .interfaces(laws)
             .placement(build::placement(placement)?)
@@ -109,12 +134,13 @@ impl PySimulation {
                 allowable_uplifted_fraction,
                 allowable_rotation,
             )?)
-            .probes(build::probes(probes.iter().flatten())?);
+            .probes(build::probes(probes.iter().flatten(), unknowns)?);
         for load in loads.iter().flatten() {
+            load.get().order.check("a load", unknowns)?;
             builder = builder.load((load.get().make)().or_raise()?);
         }
         if let Some(motion) = &motion {
-            builder = builder.motion(motion::recipe(motion)?().or_raise()?);
+            builder = builder.motion((motion::given(motion)?.get().make)().or_raise()?);
         }
         if let Some(gravity) = gravity {
             builder = builder.gravity(gravity);
@@ -144,39 +170,47 @@ impl PySimulation {
             builder = builder.safety_friction(coefficient);
         }
         let simulation = build::build(py, builder)?;
-        let record = motion.as_ref().and_then(|motion| motion.cast::<PyRecord>().ok());
-        let duration = record.map(|record| record.get().0.duration());
-        Ok(Self { simulation: Mutex::new(simulation), duration })
+        let motion = motion.as_ref().and_then(|motion| motion.cast::<PyFreeField>().ok());
+        let duration = motion.and_then(|motion| motion.get().duration);
+        let start = simulation.checkpoint();
+        take_raised();
+        Ok(Self { simulation: Mutex::new(simulation), duration, start })
     }
 
-    /// Makes ``steps`` steps, or those of a ``duration`` (s); without either, those of the record.
+    /// Makes ``steps`` steps, or those of a ``duration`` (s); without either, those to the end of the
+    /// motion. If that is past, as many as it has, under rest, with a :class:`BasematWarning`:
+    /// :meth:`reset` goes back to the start.
     ///
     /// ``progress``: True for a line on stderr, or a function ``(steps done, steps in all)`` that is
     /// called about every 50 ms. ``observe(state)`` is called after every ``observe_every``th step
-    /// and ends the run when it returns True; what it raises comes out of here. Ctrl-C is heard. In
-    /// all three cases the simulation stays at the last accepted step.
+    /// and ends the run when it returns True; what it raises comes out of here. Ctrl-C is heard, or
+    /// a :class:`BasematWarning` says that the process ignores it. In all three cases the
+    /// simulation stays at the last accepted step.
     ///
     /// Time series are kept of every ``every``th step (all: needed for floor spectra), contact of
     /// every ``contact_every``th and the structure's motion of every ``motion_every``th (none unless
     /// given). ``series=False`` keeps no time series at all.
+    ///
+    /// Every warning in :attr:`Run.warnings` is also a :class:`BasematWarning`, unless ``warn=False``.
     #[pyo3(signature = (
         steps=None, *, duration=None, progress=None, observe=None, observe_every=1, series=true,
-        every=1, contact_every=None, motion_every=None,
+        every=1, contact_every=None, motion_every=None, warn=true,
     ))]
     fn run(
         &self,
         py: Python<'_>,
-        steps: Option<usize>,
+        #[pyo3(from_py_with = whole)] steps: Option<usize>,
         duration: Option<f64>,
         progress: Option<Bound<'_, PyAny>>,
         observe: Option<Py<PyAny>>,
-        observe_every: usize,
+        #[pyo3(from_py_with = whole)] observe_every: usize,
         series: bool,
-        every: usize,
-        contact_every: Option<usize>,
-        motion_every: Option<usize>,
+        #[pyo3(from_py_with = whole)] every: usize,
+        #[pyo3(from_py_with = whole)] contact_every: Option<usize>,
+        #[pyo3(from_py_with = whole)] motion_every: Option<usize>,
+        warn: bool,
     ) -> PyResult<PyRun> {
-        let steps = self.count(steps, duration)?;
+        let steps = self.count(py, steps, duration)?;
         if observe_every == 0 {
             return Err(refuse("observe_every is 0, but must be one or more"));
         }
@@ -189,7 +223,7 @@ impl PySimulation {
         }
         let progress = progress_function(progress)?;
         take_raised();
-        py.detach(|| {
+        let run = py.detach(|| {
             let mut simulation = self.lock()?;
             let mut histories =
                 series.then(|| recorder.start(&simulation)).transpose().or_raise()?;
@@ -199,7 +233,11 @@ impl PySimulation {
             let mut watched = Watched::new(progress, steps, observe, observe_every, histories);
             let result = simulation.run(steps, |state| watched.see(state));
             watched.end(result)
-        })
+        })?;
+        if warn {
+            run.warnings().into_iter().try_for_each(|text| error::warn(py, text))?;
+        }
+        Ok(run)
     }
 
     /// Makes one step and returns the new state. Raises :class:`StepError` if the step could not be
@@ -213,14 +251,14 @@ impl PySimulation {
     }
 
     /// An iterator that makes a step and yields its state, ``steps`` times or those of a
-    /// ``duration`` (s); without either, those of the record.
+    /// ``duration`` (s); without either, those to the end of the motion.
     #[pyo3(signature = (steps=None, *, duration=None))]
     fn steps(
         slf: Bound<'_, Self>,
-        steps: Option<usize>,
+        #[pyo3(from_py_with = whole)] steps: Option<usize>,
         duration: Option<f64>,
     ) -> PyResult<PySteps> {
-        let left = slf.get().count(steps, duration)?;
+        let left = slf.get().count(slf.py(), steps, duration)?;
         Ok(PySteps { simulation: slf.unbind(), left })
     }
 
@@ -287,6 +325,16 @@ impl PySimulation {
     fn resume(&self, checkpoint: &PyCheckpoint) -> PyResult<()> {
         take_raised();
         settled(self.lock()?.resume(&checkpoint.0))
+    }
+
+    /// Goes back to the start: what follows has the bits that it had from there.
+    ///
+    /// Needs what :meth:`checkpoint` needs: a structure of the user's that has ``commit`` also has
+    /// ``save`` and ``restore``.
+    fn reset(&self) -> PyResult<()> {
+        take_raised();
+        let start = self.start.as_ref().map_err(|reason| raise(reason.clone()))?;
+        settled(self.lock()?.resume(start))
     }
 
     fn __repr__(&self) -> String {

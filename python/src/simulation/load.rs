@@ -3,13 +3,12 @@
 use std::sync::Arc;
 
 use basemat::coupled::Load;
-use basemat::structure::Row;
 use pyo3::prelude::*;
 
-use crate::array::Numbers;
+use crate::array::{Numbers, real};
 use crate::error::{OrRaise, keep, refuse};
 use crate::motion::PyRecord;
-use crate::row::RowLike;
+use crate::row::{Order, RowLike};
 
 /// A force that acts on a structure from outside, on a row of unknowns.
 ///
@@ -18,11 +17,12 @@ use crate::row::RowLike;
 #[pyclass(name = "Load", module = "basemat", frozen, dict)]
 pub(crate) struct PyLoad {
     pub(super) make: Arc<dyn Fn() -> basemat::Result<Load> + Send + Sync>,
+    pub(super) order: Order,
 }
 
 impl PyLoad {
-    fn of(make: impl Fn() -> basemat::Result<Load> + Send + Sync + 'static) -> Self {
-        Self { make: Arc::new(make) }
+    fn of(order: Order, make: impl Fn() -> basemat::Result<Load> + Send + Sync + 'static) -> Self {
+        Self { make: Arc::new(make), order }
     }
 }
 
@@ -33,8 +33,8 @@ impl PyLoad {
         if !value.is_callable() {
             return Err(refuse("the value of a load must be a function of time"));
         }
-        let (row, value) = (row.0, Arc::new(value.unbind()));
-        Ok(Self::of(move || {
+        let (RowLike(row, order), value) = (row, Arc::new(value.unbind()));
+        Ok(Self::of(order, move || {
             let value = Arc::clone(&value);
             Ok(Load::new(row.clone(), move |time| value_of(&value, time)))
         }))
@@ -43,27 +43,27 @@ impl PyLoad {
     /// The same force (N/m) at any time, the static state included.
     #[staticmethod]
     fn constant(row: RowLike, force: f64) -> Self {
-        Self::of(move || Ok(Load::constant(row.0.clone(), force)))
+        Self::of(row.1, move || Ok(Load::constant(row.0.clone(), force)))
     }
 
     /// A force (N/m) of the static state that is gone from the first step on (snap-back).
     #[staticmethod]
     fn released(row: RowLike, force: f64) -> Self {
-        Self::of(move || Ok(Load::released(row.0.clone(), force)))
+        Self::of(row.1, move || Ok(Load::released(row.0.clone(), force)))
     }
 
     /// ``force`` times the samples of a record, linear between them and zero beyond its ends.
     #[staticmethod]
     fn record(row: RowLike, record: &PyRecord, force: f64) -> Self {
-        let (row, record): (Row, _) = (row.0, Arc::clone(&record.0));
-        Self::of(move || Ok(Load::record(row.clone(), &record, force)))
+        let (RowLike(row, order), record) = (row, Arc::clone(&record.0));
+        Self::of(order, move || Ok(Load::record(row.clone(), &record, force)))
     }
 
     /// ``forces`` (array, N/m) at ``times`` (array, s, ascending), linear between them, zero outside.
     #[staticmethod]
     fn table(row: RowLike, times: Numbers, forces: Numbers) -> PyResult<Self> {
         Load::table(row.0.clone(), &times.0, &forces.0).or_raise()?;
-        Ok(Self::of(move || Load::table(row.0.clone(), &times.0, &forces.0)))
+        Ok(Self::of(row.1, move || Load::table(row.0.clone(), &times.0, &forces.0)))
     }
 }
 
@@ -71,7 +71,8 @@ impl PyLoad {
 fn value_of(function: &Py<PyAny>, time: f64) -> f64 {
     Python::attach(|py| {
         let found = function.call1(py, (time,));
-        found.and_then(|value| value.extract(py)).unwrap_or_else(|error: PyErr| {
+        let found = found.and_then(|value| real("the value of a load's function", value.bind(py)));
+        found.unwrap_or_else(|error: PyErr| {
             keep(error);
             f64::NAN
         })

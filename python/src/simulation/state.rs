@@ -4,6 +4,7 @@ use basemat::coupled::{Foundation, SearchMethod, State};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
+use crate::array::whole;
 use crate::names::{mode_name, mode_number};
 use crate::results::PyLedger;
 
@@ -205,7 +206,7 @@ impl PyState {
     }
 
     /// Numbers that the law of an element remembers.
-    fn law_memory(&self, element: usize) -> Vec<f64> {
+    fn law_memory(&self, #[pyo3(from_py_with = whole)] element: usize) -> Vec<f64> {
         self.0.law_memory(element).to_vec()
     }
 

@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
+use crate::error::warn;
+
 /// Time between two looks at Python.
 const INTERVAL: Duration = Duration::from_millis(50);
 
@@ -22,9 +24,24 @@ pub(crate) fn cancel_when(event: Option<Py<PyAny>>) {
     drop(before);
 }
 
+/// Warns where Ctrl-C does not come to Python's ears.
+fn check_interrupt(py: Python<'_>) -> PyResult<()> {
+    let signal = py.import("signal")?;
+    let handler = signal.call_method1("getsignal", (signal.getattr("SIGINT")?,))?;
+    if handler.eq(signal.getattr("SIG_IGN")?)? {
+        let text = "Ctrl-C does not end this run: the process ignores SIGINT, as one does that a script \
+                    starts in the background; signal.signal(signal.SIGINT, \
+                    signal.default_int_handler) before it changes that";
+        warn(py, text.into())?;
+    }
+    Ok(())
+}
+
 /// Looks at Python every 50 ms.
 pub(super) struct Ticker {
     last: Instant,
+    /// Whether it has looked for somebody who hears Ctrl-C.
+    asked: bool,
     /// Called with the steps made and the steps in all.
     progress: Option<Py<PyAny>>,
     steps: usize,
@@ -32,7 +49,7 @@ pub(super) struct Ticker {
 
 impl Ticker {
     pub(super) fn new(progress: Option<Py<PyAny>>, steps: usize) -> Self {
-        Self { last: Instant::now(), progress, steps }
+        Self { last: Instant::now(), asked: false, progress, steps }
     }
 
     /// After a step, `done` of them in all; to be called without the GIL.
@@ -40,7 +57,12 @@ impl Ticker {
         if self.last.elapsed() < INTERVAL {
             return Ok(());
         }
-        let result = Python::attach(|py| self.look(py, done));
+        let result = Python::attach(|py| {
+            if !std::mem::replace(&mut self.asked, true) {
+                check_interrupt(py)?;
+            }
+            self.look(py, done)
+        });
         self.last = Instant::now();
         result
     }

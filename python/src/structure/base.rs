@@ -89,7 +89,7 @@ impl PyStructure {
 
     /// Points of the base that touch the ground, from left to right.
     fn contact_nodes(&self) -> PyResult<Vec<PyContactNode>> {
-        Ok((self.make)().or_raise()?.contact_nodes().into_iter().map(PyContactNode).collect())
+        Ok((self.make)().or_raise()?.contact_nodes().into_iter().map(PyContactNode::from).collect())
     }
 
     /// Mass matrix (n × n array, kg/m); this and the others of up to 20 000 unknowns.

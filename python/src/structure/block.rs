@@ -83,11 +83,11 @@ impl PyRigidBlock {
 
     /// Horizontal displacement at a height (m) above the base.
     fn horizontal_at(&self, height: f64) -> PyRow {
-        PyRow(self.0.horizontal_at(height))
+        self.0.horizontal_at(height).into()
     }
 
     /// Vertical displacement at x (m).
     fn vertical_at(&self, x: f64) -> PyRow {
-        PyRow(self.0.vertical_at(x))
+        self.0.vertical_at(x).into()
     }
 }

@@ -4,6 +4,7 @@ use basemat::structure::{ShearBuilding, Storey};
 use pyo3::prelude::*;
 
 use super::PyStructure;
+use crate::array::whole;
 use crate::error::OrRaise;
 use crate::row::{PyRow, PySectionRows};
 
@@ -73,7 +74,7 @@ impl PyShearBuilding {
         self.0.total_mass()
     }
 
-    /// First natural frequency on a fixed base, rad/s.
+    /// First natural frequency on a fixed base without P–Δ, Hz.
     #[getter]
     fn fixed_base_frequency(&self) -> f64 {
         self.0.fixed_base_frequency()
@@ -86,22 +87,22 @@ impl PyShearBuilding {
     }
 
     /// Unknown of the floor above a storey (0: the lowest).
-    fn floor(&self, storey: usize) -> PyResult<usize> {
+    fn floor(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<usize> {
         self.0.floor(storey).or_raise()
     }
 
     /// Drift of a storey: its floors' relative displacement less the turn of the base, m.
-    fn drift(&self, storey: usize) -> PyResult<PyRow> {
-        Ok(PyRow(self.0.drift(storey).or_raise()?))
+    fn drift(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PyRow> {
+        Ok(self.0.drift(storey).or_raise()?.into())
     }
 
     /// Displacement of a storey's floor less the motion of the base, m.
-    fn sway(&self, storey: usize) -> PyResult<PyRow> {
-        Ok(PyRow(self.0.sway(storey).or_raise()?))
+    fn sway(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PyRow> {
+        Ok(self.0.sway(storey).or_raise()?.into())
     }
 
     /// Force of what is above a storey's columns on what is below, N/m.
-    fn shear(&self, storey: usize) -> PyResult<PySectionRows> {
-        Ok(PySectionRows(self.0.shear(storey).or_raise()?))
+    fn shear(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PySectionRows> {
+        Ok(self.0.shear(storey).or_raise()?.into())
     }
 }

@@ -9,7 +9,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use super::{PyStructure, recipe};
-use crate::array::Numbers;
+use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::recipe::{Recipe, Shared};
 use crate::row::{PyRow, RowLike};
@@ -61,8 +61,8 @@ impl PyReducedModel {
     #[pyo3(signature = (structure, modes, *, keep=None, damping_ratio=None))]
     fn new(
         structure: Bound<'_, PyAny>,
-        modes: usize,
-        keep: Option<Vec<usize>>,
+        #[pyo3(from_py_with = whole)] modes: usize,
+        #[pyo3(from_py_with = whole)] keep: Option<Vec<usize>>,
         damping_ratio: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let py = structure.py();
@@ -88,7 +88,8 @@ impl PyReducedModel {
 
     /// A row of the full structure in the unknowns of the reduced one, for a probe or a load.
     fn row(&self, row: RowLike) -> PyResult<PyRow> {
-        Ok(PyRow(self.0.recovery().row(row.0).or_raise()?))
+        row.1.check("the row", self.0.recovery().full_unknowns())?;
+        Ok(self.0.recovery().row(row.0).or_raise()?.into())
     }
 
     /// Unknowns of the full structure (array of shape (n,)) from those of the reduced one.
@@ -102,6 +103,8 @@ impl PyReducedModel {
 #[pyclass(name = "StructureGroup", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyStructureGroup {
     make: Arc<dyn Fn() -> basemat::Result<StructureGroup> + Send + Sync>,
+    /// Unknowns of each structure.
+    unknowns: Vec<usize>,
 }
 
 #[pymethods]
@@ -115,6 +118,8 @@ impl PyStructureGroup {
         if members.is_empty() {
             return Err(refuse("a group needs at least one structure"));
         }
+        let unknowns = members.iter().map(|(structure, _)| Ok(structure()?.unknowns()));
+        let unknowns = unknowns.collect::<basemat::Result<_>>().or_raise()?;
         let make = Arc::new(move || {
             let mut group = StructureGroup::new();
             for (structure, shift) in &members {
@@ -125,12 +130,16 @@ impl PyStructureGroup {
         make().or_raise()?;
         let own = Arc::clone(&make);
         let base = PyStructure { make: Arc::new(move || Ok(Box::new(own()?))) };
-        Ok(PyClassInitializer::from(base).add_subclass(Self { make }))
+        Ok(PyClassInitializer::from(base).add_subclass(Self { make, unknowns }))
     }
 
     /// A row of the structure ``member`` (0: the leftmost) in the unknowns of the group.
-    fn row(&self, member: usize, row: RowLike) -> PyResult<PyRow> {
-        Ok(PyRow((self.make)().or_raise()?.row(member, row.0).or_raise()?))
+    fn row(&self, #[pyo3(from_py_with = whole)] member: usize, row: RowLike) -> PyResult<PyRow> {
+        let RowLike(row, order) = row;
+        if let Some(unknowns) = self.unknowns.get(member) {
+            order.check("the row", *unknowns)?;
+        }
+        Ok((self.make)().or_raise()?.row(member, row).or_raise()?.into())
     }
 }
 

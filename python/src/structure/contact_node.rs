@@ -3,31 +3,43 @@
 use basemat::structure::ContactNode;
 use pyo3::prelude::*;
 
-use crate::row::{PyRow, RowLike};
+use crate::array::whole;
+use crate::row::{Order, PyRow, RowLike};
 
 /// A point of the base: its coordinate x (m), and rows for its displacement to the right and up.
 #[pyclass(name = "ContactNode", module = "basemat", frozen)]
 #[derive(Clone)]
-pub(crate) struct PyContactNode(pub(crate) ContactNode);
+pub(crate) struct PyContactNode(pub(crate) ContactNode, Order);
+
+impl From<ContactNode> for PyContactNode {
+    fn from(node: ContactNode) -> Self {
+        Self(node, Order::default())
+    }
+}
 
 #[pymethods]
 impl PyContactNode {
     #[new]
-    fn new(x: f64, horizontal: RowLike, vertical: RowLike) -> Self {
-        Self(ContactNode { x, horizontal: horizontal.0, vertical: vertical.0 })
+    fn new(x: f64, horizontal: RowLike, vertical: RowLike) -> PyResult<Self> {
+        let order = horizontal.1.and(vertical.1)?;
+        Ok(Self(ContactNode { x, horizontal: horizontal.0, vertical: vertical.0 }, order))
     }
 
     /// A point of a rigid flat base with ``unknowns`` (horizontal, vertical, rotation) at ``center`` (m).
     #[staticmethod]
-    fn rigid(x: f64, center: f64, unknowns: [usize; 3]) -> Self {
-        Self(ContactNode::rigid(x, center, unknowns))
+    fn rigid(x: f64, center: f64, #[pyo3(from_py_with = whole)] unknowns: [usize; 3]) -> Self {
+        ContactNode::rigid(x, center, unknowns).into()
     }
 
     /// The two ends of a rigid flat base from ``left`` to ``right`` (m), with ``unknowns``
     /// (horizontal, vertical, rotation) at its middle.
     #[staticmethod]
-    fn rigid_base(left: f64, right: f64, unknowns: [usize; 3]) -> Vec<Self> {
-        ContactNode::rigid_base(left, right, unknowns).into_iter().map(Self).collect()
+    fn rigid_base(
+        left: f64,
+        right: f64,
+        #[pyo3(from_py_with = whole)] unknowns: [usize; 3],
+    ) -> Vec<Self> {
+        ContactNode::rigid_base(left, right, unknowns).into_iter().map(Self::from).collect()
     }
 
     /// Coordinate, m.
@@ -39,13 +51,13 @@ impl PyContactNode {
     /// Displacement to the right.
     #[getter]
     fn horizontal(&self) -> PyRow {
-        PyRow(self.0.horizontal.clone())
+        PyRow(self.0.horizontal.clone(), self.1)
     }
 
     /// Displacement up.
     #[getter]
     fn vertical(&self) -> PyRow {
-        PyRow(self.0.vertical.clone())
+        PyRow(self.0.vertical.clone(), self.1)
     }
 
     fn __repr__(&self) -> String {
@@ -62,7 +74,15 @@ impl PyContactNode {
     }
 }
 
-/// Contact nodes as Python gives them.
-pub(super) fn nodes(list: &[Bound<'_, PyContactNode>]) -> Vec<ContactNode> {
-    list.iter().map(|node| node.get().0.clone()).collect()
+/// Contact nodes as Python gives them, of a structure of so many unknowns.
+pub(crate) fn nodes(
+    list: &[Bound<'_, PyContactNode>],
+    unknowns: usize,
+) -> PyResult<Vec<ContactNode>> {
+    let own = |node: &Bound<'_, PyContactNode>| {
+        let PyContactNode(node, order) = node.get();
+        order.check(&format!("the contact node at {} m", node.x), unknowns)?;
+        Ok(node.clone())
+    };
+    list.iter().map(own).collect()
 }

@@ -12,6 +12,7 @@ use pyo3::prelude::*;
 use super::PyStructure;
 use super::composed::PyRayleighDamping;
 use super::mesh::{PyMaterial, PyMesh, direction, formulation};
+use crate::array::whole;
 use crate::error::OrRaise;
 use crate::recipe::Shared;
 use crate::row::{PyRow, PySectionRows};
@@ -40,7 +41,7 @@ impl PyFemModel {
         contact: Option<Contact>,
         rayleigh: Option<&PyRayleighDamping>,
         mass: &str,
-        rigid_links: Option<Vec<(usize, Vec<usize>)>>,
+        #[pyo3(from_py_with = whole)] rigid_links: Option<Vec<(usize, Vec<usize>)>>,
         p_delta: Option<f64>,
         active_damping: bool,
     ) -> PyResult<PyClassInitializer<Self>> {
@@ -70,12 +71,16 @@ impl PyFemModel {
     }
 
     /// Motion of a node in a direction ("x", "y" or "rotation") as a weighted sum of unknowns.
-    fn row(&self, node: usize, direction: &str) -> PyResult<PyRow> {
-        Ok(PyRow(self.0.row(node, self::direction(direction)?).or_raise()?))
+    fn row(&self, #[pyo3(from_py_with = whole)] node: usize, direction: &str) -> PyResult<PyRow> {
+        Ok(self.0.row(node, self::direction(direction)?).or_raise()?.into())
     }
 
     /// Unknown of a node in a direction; None if it has none of its own.
-    fn unknown(&self, node: usize, direction: &str) -> PyResult<Option<usize>> {
+    fn unknown(
+        &self,
+        #[pyo3(from_py_with = whole)] node: usize,
+        direction: &str,
+    ) -> PyResult<Option<usize>> {
         Ok(self.0.unknown(node, self::direction(direction)?))
     }
 
@@ -94,13 +99,13 @@ impl PyFemModel {
     ) -> PyResult<(PySectionRows, PySectionRows, PySectionRows)> {
         let section = self.0.section(height, reference).or_raise()?;
         let [shear, compression, moment] =
-            [section.shear, section.compression, section.moment].map(PySectionRows);
+            [section.shear, section.compression, section.moment].map(PySectionRows::from);
         Ok((shear, compression, moment))
     }
 
     /// Row of a uniform pressure (Pa) on a line of nodes.
-    fn pressure_row(&self, nodes: Vec<usize>) -> PyResult<PyRow> {
-        Ok(PyRow(self.0.pressure_row(&nodes).or_raise()?))
+    fn pressure_row(&self, #[pyo3(from_py_with = whole)] nodes: Vec<usize>) -> PyResult<PyRow> {
+        Ok(self.0.pressure_row(&nodes).or_raise()?.into())
     }
 
     /// Share of the axial forces of its static state at which it buckles.

@@ -33,7 +33,8 @@ impl PyMatrixModel {
         active_damping: bool,
         rayleigh: Option<&PyRayleighDamping>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let mut model = MatrixModel::new(mass.0, stiffness.0, nodes(&contact)).or_raise()?;
+        let contact = nodes(&contact, mass.0.order())?;
+        let mut model = MatrixModel::new(mass.0, stiffness.0, contact).or_raise()?;
         model = match (damping, rayleigh) {
             (Some(_), Some(_)) => {
                 return Err(refuse("give a damping matrix or Rayleigh damping, not both"));

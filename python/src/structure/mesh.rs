@@ -4,10 +4,10 @@ use basemat::fem::{
     Beam, Dashpot, Direction, Element, Layer, LumpedMass, Material, Mesh, Quad4, Quad8,
     QuadFormulation, Spring, Truss,
 };
-use numpy::{AllowTypeChange, PyArray2, PyArrayLike2};
+use numpy::PyArray2;
 use pyo3::prelude::*;
 
-use crate::array::{Numbers, Pairs};
+use crate::array::{Numbers, Pairs, Table, whole};
 use crate::error::{OrRaise, refuse};
 
 /// A direction by its name: "x", "y" or "rotation".
@@ -51,7 +51,7 @@ impl PyLayer {
     #[pyo3(signature = (height, rows, material, *, formulation="incompatible modes", hourglass_percent=5))]
     fn new(
         height: f64,
-        rows: usize,
+        #[pyo3(from_py_with = whole)] rows: usize,
         material: &PyMaterial,
         formulation: &str,
         hourglass_percent: u8,
@@ -101,7 +101,7 @@ impl<'py> FromPyObject<'_, 'py> for Connectivity {
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         // As integers, numpy would cut what is not whole.
-        let array: PyArrayLike2<'py, f64, AllowTypeChange> = object.extract()?;
+        let Table { columns, rows } = Table::of(&object, "(elements, nodes of each)")?;
         let node = |value: &f64| {
             if *value < 0.0 || value.fract() != 0.0 {
                 let needed = "must be a whole number of 0 or more";
@@ -110,9 +110,8 @@ impl<'py> FromPyObject<'_, 'py> for Connectivity {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
             Ok(*value as usize)
         };
-        let array = array.as_array();
-        let rows = array.rows().into_iter().map(|row| row.iter().map(node).collect());
-        Ok(Self { each: array.ncols(), rows: rows.collect::<PyResult<_>>()? })
+        let rows = rows.iter().map(|row| row.iter().map(node).collect());
+        Ok(Self { each: columns, rows: rows.collect::<PyResult<_>>()? })
     }
 }
 
@@ -164,7 +163,7 @@ impl PyMesh {
     fn layered_block(
         left: f64,
         right: f64,
-        columns: usize,
+        #[pyo3(from_py_with = whole)] columns: usize,
         layers: Vec<Bound<'_, PyLayer>>,
     ) -> PyResult<Self> {
         let layers: Vec<Layer> = layers.iter().map(|layer| layer.get().0).collect();
@@ -270,7 +269,12 @@ impl PyMesh {
 
     /// Adds a mass (kg/m) at a node, with a rotary inertia (kg m²/m) if that is given.
     #[pyo3(signature = (node, mass, *, rotary_inertia=None))]
-    fn add_mass(&mut self, node: usize, mass: f64, rotary_inertia: Option<f64>) -> PyResult<()> {
+    fn add_mass(
+        &mut self,
+        #[pyo3(from_py_with = whole)] node: usize,
+        mass: f64,
+        rotary_inertia: Option<f64>,
+    ) -> PyResult<()> {
         let mut element = LumpedMass::new(node, mass).or_raise()?;
         if let Some(inertia) = rotary_inertia {
             element = element.with_rotary_inertia(inertia).or_raise()?;

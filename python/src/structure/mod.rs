@@ -17,7 +17,7 @@ pub(crate) use building::{PyShearBuilding, PyStorey};
 pub(crate) use composed::{
     PyRayleighDamping, PyReducedModel, PyStructureGroup, PyWithModalDamping,
 };
-pub(crate) use contact_node::PyContactNode;
+pub(crate) use contact_node::{PyContactNode, nodes};
 pub(crate) use fem::{PyFemModel, PyGmshMesh};
 pub(crate) use hysteresis::{
     PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber,

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use basemat::structure::{
-    Hysteresis, IsolationLevel, NonlinearShearBuilding, Row, ShearBuilding, WithSprings,
+    Hysteresis, IsolationLevel, NonlinearShearBuilding, Row, ShearBuilding, Structure, WithSprings,
 };
 use pyo3::prelude::*;
 
 use super::hysteresis::PyHysteresis;
 use super::{PyShearBuilding, PyStructure, recipe};
+use crate::array::whole;
 use crate::error::OrRaise;
 use crate::recipe::Recipe;
 use crate::row::{PyRow, PySectionRows, RowLike};
@@ -97,23 +98,23 @@ impl PyNonlinearShearBuilding {
     }
 
     /// Unknown of the floor above a storey.
-    fn floor(&self, storey: usize) -> PyResult<usize> {
+    fn floor(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<usize> {
         (self.0)().or_raise()?.building().floor(storey).or_raise()
     }
 
     /// Drift of a storey, m.
-    fn drift(&self, storey: usize) -> PyResult<PyRow> {
-        Ok(PyRow((self.0)().or_raise()?.building().drift(storey).or_raise()?))
+    fn drift(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PyRow> {
+        Ok((self.0)().or_raise()?.building().drift(storey).or_raise()?.into())
     }
 
     /// Displacement of a storey's floor less the motion of the base, m.
-    fn sway(&self, storey: usize) -> PyResult<PyRow> {
-        Ok(PyRow((self.0)().or_raise()?.building().sway(storey).or_raise()?))
+    fn sway(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PyRow> {
+        Ok((self.0)().or_raise()?.building().sway(storey).or_raise()?.into())
     }
 
     /// Force of what is above a storey's columns on what is below, N/m, from the inertia above.
-    fn shear(&self, storey: usize) -> PyResult<PySectionRows> {
-        Ok(PySectionRows((self.0)().or_raise()?.shear(storey).or_raise()?))
+    fn shear(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PySectionRows> {
+        Ok((self.0)().or_raise()?.shear(storey).or_raise()?.into())
     }
 }
 
@@ -130,8 +131,14 @@ impl PyWithSprings {
         springs: Vec<(RowLike, Bound<'_, PyHysteresis>)>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let structure = recipe(&structure)?;
-        let springs: Vec<(Row, Recipe<dyn Hysteresis>)> =
-            springs.into_iter().map(|(row, law)| (row.0, law.get().make.clone())).collect();
+        let unknowns = structure().or_raise()?.unknowns();
+        let springs: Vec<(Row, Recipe<dyn Hysteresis>)> = springs
+            .into_iter()
+            .map(|(RowLike(row, order), law)| {
+                order.check("the row of a spring", unknowns)?;
+                Ok((row, law.get().make.clone()))
+            })
+            .collect::<PyResult<_>>()?;
         let make = move || {
             let mut own = WithSprings::new(structure()?);
             for (row, law) in &springs {

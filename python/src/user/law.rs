@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 
 use super::PyStepStart;
 use crate::array::Numbers;
-use crate::error::{has_raised, keep, kept};
+use crate::error::{has_raised, keep, kept, returned};
 use crate::names::{mode, mode_name};
 
 /// One linear condition on the end of a step:
@@ -147,15 +147,16 @@ const NOTHING: Condition = Condition {
 
 impl UserLaw {
     pub(crate) fn new(object: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let names: Vec<String> = object.getattr("modes")?.extract()?;
+        let names: Vec<String> = returned("modes of the interface law", &object.getattr("modes")?)?;
         let optional = |name: &str| -> PyResult<Option<Bound<'_, PyAny>>> {
             Ok(object.getattr_opt(name)?.filter(|value| !value.is_none()))
         };
         Ok(Self {
             modes: names.iter().map(|name| mode(name)).collect::<PyResult<_>>()?,
-            memory: optional("memory")?.map_or(Ok(0), |count| count.extract())?,
+            memory: optional("memory")?
+                .map_or(Ok(0), |count| returned("memory of the interface law", &count))?,
             friction_coefficient: optional("friction_coefficient")?
-                .map(|value| value.extract())
+                .map(|value| returned("friction_coefficient of the interface law", &value))
                 .transpose()?,
             has_compliance: object.hasattr("compliance")?,
             has_initial_memory: object.hasattr("initial_memory")?,
@@ -188,7 +189,7 @@ impl UserLaw {
     ) {
         let count = memory.len();
         let found = self.ask(None, |_, object| {
-            let Numbers(values) = ask(object)?.extract()?;
+            let Numbers(values) = returned("a memory of the interface law", &ask(object)?)?;
             if values.len() == count {
                 return Ok(Some(values));
             }
@@ -211,7 +212,8 @@ impl InterfaceLaw for UserLaw {
         self.ask([NOTHING; 2], |_, object| {
             let found =
                 object.call_method1("conditions", (mode_name(mode)?, PyStepStart::of(start)))?;
-            let [first, second]: [Bound<'_, PyCondition>; 2] = found.extract()?;
+            let [first, second]: [Bound<'_, PyCondition>; 2] =
+                returned("conditions of the interface law", &found)?;
             Ok([first.get().0, second.get().0])
         })
     }
@@ -231,7 +233,10 @@ impl InterfaceLaw for UserLaw {
                 PyContactState::of(trial),
                 PyTolerance { length, traction },
             );
-            let next: String = object.call_method1("next_mode", arguments)?.extract()?;
+            let next: String = returned(
+                "next_mode of the interface law",
+                &object.call_method1("next_mode", arguments)?,
+            )?;
             crate::names::mode(&next)
         })
     }
@@ -242,7 +247,9 @@ impl InterfaceLaw for UserLaw {
             return if has_raised() { [f64::NAN; 2] } else { [0.0; 2] };
         }
         self.ask([f64::NAN; 2], |_, object| {
-            object.call_method1("compliance", (mode_name(mode)?, PyStepStart::of(start)))?.extract()
+            let found =
+                object.call_method1("compliance", (mode_name(mode)?, PyStepStart::of(start)))?;
+            returned("compliance of the interface law", &found)
         })
     }
 

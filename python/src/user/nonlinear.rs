@@ -5,9 +5,9 @@ use basemat::{CheckpointError, Error, Result};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use super::structure::{PART, add_matrix, add_numbers};
-use crate::array::{Matrix, Numbers};
-use crate::error::{keep, kept};
+use super::structure::{PART, add_matrix, add_numbers, matrix_of, vector_of};
+use crate::array::Numbers;
+use crate::error::{keep, kept, returned};
 
 /// `force(u)` and `tangent(u)`, and as it may be `energy(u)`, `commit(u)`, `save()`, `restore(values)`.
 pub(super) struct UserForce {
@@ -44,16 +44,18 @@ impl UserForce {
 impl NonlinearForce for UserForce {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
         let found = Python::attach(|py| -> PyResult<Vec<f64>> {
-            Ok(self.call(py, "force", displacement)?.extract::<Numbers>()?.0)
+            vector_of("force", &self.call(py, "force", displacement)?, force.len())
         });
-        add_numbers("force of the structure", &found.map_err(|error| kept(PART, error))?, force)
+        add_numbers(&found.map_err(|error| kept(PART, error))?, force);
+        Ok(())
     }
 
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
         let found = Python::attach(|py| -> PyResult<Triplets> {
-            Ok(self.call(py, "tangent", displacement)?.extract::<Matrix>()?.0)
+            matrix_of("tangent", &self.call(py, "tangent", displacement)?, self.unknowns)
         });
-        add_matrix(&found.map_err(|error| kept(PART, error))?, self.unknowns, matrix)
+        add_matrix(&found.map_err(|error| kept(PART, error))?, matrix);
+        Ok(())
     }
 
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
@@ -61,7 +63,7 @@ impl NonlinearForce for UserForce {
             return None;
         }
         let found = Python::attach(|py| -> PyResult<(f64, f64)> {
-            self.call(py, "energy", displacement)?.extract()
+            returned("energy of the structure", &self.call(py, "energy", displacement)?)
         });
         let (stored, dissipated) = found.unwrap_or_else(|error| {
             keep(error);
@@ -81,7 +83,8 @@ impl NonlinearForce for UserForce {
     fn save(&self) -> Result<Vec<f64>> {
         if self.has_save {
             let found = Python::attach(|py| -> PyResult<Vec<f64>> {
-                Ok(self.object.bind(py).call_method0("save")?.extract::<Numbers>()?.0)
+                let found = self.object.bind(py).call_method0("save")?;
+                Ok(returned::<Numbers>("save of the structure", &found)?.0)
             });
             return found.map_err(|error| kept(PART, error));
         }

@@ -1,12 +1,12 @@
 //! A structure written in Python.
 
+use basemat::Result;
 use basemat::structure::{ContactNode, NonlinearForce, Structure, Triplets};
-use basemat::{Error, Result};
 use pyo3::prelude::*;
 
 use super::nonlinear::UserForce;
 use crate::array::{Matrix, Numbers};
-use crate::error::kept;
+use crate::error::{kept, refuse, returned};
 use crate::structure::PyContactNode;
 
 /// Its name in errors.
@@ -37,11 +37,11 @@ impl UserStructure {
         };
         let unknowns = object.getattr("unknowns")?;
         let unknowns = if unknowns.is_callable() { unknowns.call0()? } else { unknowns };
-        let unknowns: usize = unknowns.extract()?;
+        let unknowns: usize = returned("unknowns of the structure", &unknowns)?;
         let nodes: Vec<Bound<'_, PyContactNode>> =
-            object.call_method0("contact_nodes")?.extract()?;
+            returned("contact_nodes of the structure", &object.call_method0("contact_nodes")?)?;
         let ends = if object.hasattr("foundation_ends")? {
-            object.call_method0("foundation_ends")?.extract()?
+            returned("foundation_ends of the structure", &object.call_method0("foundation_ends")?)?
         } else {
             Vec::new()
         };
@@ -51,7 +51,7 @@ impl UserStructure {
         };
         Ok(Self {
             unknowns,
-            contact: nodes.iter().map(|node| node.get().0.clone()).collect(),
+            contact: crate::structure::nodes(&nodes, unknowns)?,
             ends,
             active_damping,
             has_damping: object.hasattr("damping")?,
@@ -64,31 +64,58 @@ impl UserStructure {
     /// Adds the matrix that a method returns.
     fn add(&self, method: &str, matrix: &mut Triplets) -> Result<()> {
         let found = Python::attach(|py| -> PyResult<Triplets> {
-            Ok(self.object.bind(py).call_method0(method)?.extract::<Matrix>()?.0)
+            matrix_of(method, &self.object.bind(py).call_method0(method)?, self.unknowns)
         });
-        add_matrix(&found.map_err(|error| kept(PART, error))?, self.unknowns, matrix)
+        add_matrix(&found.map_err(|error| kept(PART, error))?, matrix);
+        Ok(())
     }
+}
+
+/// The matrix that a method of the structure returned.
+pub(super) fn matrix_of(
+    method: &str,
+    found: &Bound<'_, PyAny>,
+    order: usize,
+) -> PyResult<Triplets> {
+    let name = format!("{method} of the structure");
+    let Matrix(matrix) = returned(&name, found)?;
+    if matrix.order() == order {
+        return Ok(matrix);
+    }
+    let shape = (matrix.order(), matrix.order());
+    let needed = (order, order);
+    Err(refuse(format!(
+        "{name} returned a matrix of shape {shape:?}, but must return one of {needed:?}"
+    )))
+}
+
+/// The vector that a method of the structure returned.
+pub(super) fn vector_of(
+    method: &str,
+    found: &Bound<'_, PyAny>,
+    order: usize,
+) -> PyResult<Vec<f64>> {
+    let name = format!("{method} of the structure");
+    let Numbers(values) = returned(&name, found)?;
+    if values.len() == order {
+        return Ok(values);
+    }
+    let shape = values.len();
+    Err(refuse(format!(
+        "{name} returned an array of shape ({shape},), but must return one of ({order},)"
+    )))
 }
 
 /// Adds a matrix of Python to one of the core.
-pub(super) fn add_matrix(own: &Triplets, order: usize, matrix: &mut Triplets) -> Result<()> {
-    if own.order() != order {
-        let quantity = "matrix of a structure";
-        return Err(Error::Size { quantity, found: own.order(), needed: order });
-    }
+pub(super) fn add_matrix(own: &Triplets, matrix: &mut Triplets) {
     for &(row, column, value) in own.entries() {
         matrix.add(row, column, value);
     }
-    Ok(())
 }
 
 /// Adds numbers of Python to a vector of the core.
-pub(super) fn add_numbers(quantity: &'static str, own: &[f64], sum: &mut [f64]) -> Result<()> {
-    if own.len() != sum.len() {
-        return Err(Error::Size { quantity, found: own.len(), needed: sum.len() });
-    }
+pub(super) fn add_numbers(own: &[f64], sum: &mut [f64]) {
     sum.iter_mut().zip(own).for_each(|(sum, value)| *sum += value);
-    Ok(())
 }
 
 impl Structure for UserStructure {
@@ -125,9 +152,11 @@ impl Structure for UserStructure {
             return Ok(());
         }
         let found = Python::attach(|py| -> PyResult<Vec<f64>> {
-            Ok(self.object.bind(py).call_method1("load", (time,))?.extract::<Numbers>()?.0)
+            let found = self.object.bind(py).call_method1("load", (time,))?;
+            vector_of("load", &found, load.len())
         });
-        add_numbers("load of the structure", &found.map_err(|error| kept(PART, error))?, load)
+        add_numbers(&found.map_err(|error| kept(PART, error))?, load);
+        Ok(())
     }
 
     fn nonlinear(&self) -> Option<&dyn NonlinearForce> {

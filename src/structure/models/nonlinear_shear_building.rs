@@ -22,9 +22,11 @@ pub struct IsolationLevel {
 
 /// A [`ShearBuilding`] some of whose storeys follow a [`Hysteresis`] law.
 ///
-/// The law sees the storey's drift and takes the place of its columns' stiffness, and of the
-/// stiffness-proportional damping that came with it; the storey's dashpot stays. Unknowns, drifts
-/// and P–Δ are those of the shear building.
+/// The law sees the storey's drift and takes the place of its columns' stiffness. Everything else is
+/// that of the shear building: unknowns, drifts, P–Δ, and damping. Stiffness-proportional damping
+/// stays that of the stiffness in [`Storey`], however far the columns yield. Where it shall not act
+/// in a yielding storey, leave [`ShearBuilding::with_stiffness_damping`] out and give the others
+/// dashpots ([`Storey::damping`]) of ζ k/(π f₁).
 ///
 /// ```
 /// use basemat::structure::{Bilinear, NonlinearShearBuilding, ShearBuilding, Storey, Structure};
@@ -58,7 +60,8 @@ impl NonlinearShearBuilding {
     /// The building with its lowest columns on a slab that rests on isolators of this `law`; the
     /// isolators become storey 0, and the building's storeys count from 1.
     ///
-    /// The building's damping ratio, if set, stays that of its storeys.
+    /// The building's damping ratio, if set, stays that of its storeys; the isolators have the damping
+    /// of their law and of [`IsolationLevel::damping`], and none in proportion to their stiffness.
     ///
     /// With [`ShearBuilding::with_p_delta`] the weight W on the isolators pushes them down the
     /// slope of a base that turns, with W θ, and turns it with W d by its drift d. The softening

@@ -212,7 +212,7 @@ impl ShearBuilding {
             let needed = "follows a law: take `NonlinearShearBuilding::shear`";
             return Err(Error::Scene { quantity: "shear of a storey", needed });
         }
-        let Storey { height, stiffness, damping, .. } = self.storeys[storey];
+        let Storey { height, stiffness, .. } = self.storeys[storey];
         let scaled = |factor: f64| self.drift_terms(storey).map(|(index, w)| (index, factor * w));
         let mut displacement = scaled(stiffness);
         if self.gravity > 0.0 {
@@ -222,7 +222,7 @@ impl ShearBuilding {
                 entry.0.1 -= sway * entry.1.1;
             }
         }
-        let velocity = scaled(damping + self.stiffness_damping * stiffness).into();
+        let velocity = scaled(self.dashpot(storey)).into();
         Ok(SectionRows { displacement: displacement.into(), velocity, ..SectionRows::default() })
     }
 
@@ -338,12 +338,21 @@ impl ShearBuilding {
         self.base_inertia + self.storeys.iter().map(|storey| storey.rotary_inertia).sum::<f64>()
     }
 
+    /// The storey's dashpot and the share of its columns in stiffness-proportional damping, which is
+    /// that of their stiffness as it was given, whoever it is left to. Isolators are no columns.
+    fn dashpot(&self, storey: usize) -> f64 {
+        let Storey { stiffness, damping, .. } = self.storeys[storey];
+        if self.isolated && storey == 0 {
+            damping
+        } else {
+            damping + self.stiffness_damping * stiffness
+        }
+    }
+
     /// Adds lᵀl of each storey's drift times `factor(storey)`.
-    /// The factor gets the columns' stiffness, zero where it was left to somebody else.
-    fn add_drifts(&self, matrix: &mut Triplets, factor: impl Fn(&Storey, f64) -> f64) {
-        for (index, storey) in self.storeys.iter().enumerate() {
-            let stiffness = if self.released[index] { 0.0 } else { storey.stiffness };
-            matrix.add_outer(self.drift_terms(index), factor(storey, stiffness));
+    fn add_drifts(&self, matrix: &mut Triplets, factor: impl Fn(usize) -> f64) {
+        for storey in 0..self.storeys.len() {
+            matrix.add_outer(self.drift_terms(storey), factor(storey));
         }
     }
 }
@@ -369,7 +378,9 @@ impl Structure for ShearBuilding {
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.add_drifts(matrix, |_, stiffness| stiffness);
+        self.add_drifts(matrix, |storey| {
+            if self.released[storey] { 0.0 } else { self.storeys[storey].stiffness }
+        });
         if self.gravity > 0.0 {
             self.add_p_delta(matrix);
         }
@@ -377,9 +388,7 @@ impl Structure for ShearBuilding {
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
-        self.add_drifts(matrix, |storey, stiffness| {
-            storey.damping + self.stiffness_damping * stiffness
-        });
+        self.add_drifts(matrix, |storey| self.dashpot(storey));
         Ok(())
     }
 }

@@ -3,6 +3,7 @@
 //! REFERENCE: differential equations, energies, closed-form loops.
 
 mod building;
+mod damping;
 mod laws;
 mod p_delta;
 mod refused;
