@@ -116,7 +116,7 @@ pub(crate) fn write_summary(folder: &Path, results: &[Outcome]) -> Result<(), An
             run.steps.to_string(),
             run.wall.as_secs_f64().to_string(),
             outcome.peak_lift.to_string(),
-            run.mean_slip.magnitude().to_string(),
+            run.whole.mean_slip.magnitude().to_string(),
             outcome.peak_sway.to_string(),
             rigid_difference(outcome).to_string(),
         ])?;

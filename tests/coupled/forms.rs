@@ -10,8 +10,8 @@ use basemat::bem::full_plane::CqMethod;
 use basemat::bem::layered::{Stages, StripContact};
 use basemat::bem::{ContactElement, Grading, SpringGround, Strip};
 use basemat::coupled::{
-    Checkpoint, ContactSearch, Coordinates, DissipativeMidpoint, HhtAlpha, Ledger, Midpoint, Newmark,
-    Outline, Peak, Placement, Probe, Run, Theta, Warning, advise,
+    Checkpoint, ContactSearch, Coordinates, DissipativeMidpoint, HhtAlpha, Ledger, Midpoint,
+    Newmark, Outline, Peak, Placement, Probe, Run, Theta, Warning, advise,
 };
 use basemat::fem::{Direction, Layer, MassKind, Material, Quad8Integration, QuadFormulation};
 use basemat::history::History;
