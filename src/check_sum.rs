@@ -51,7 +51,9 @@ mod tests {
 
     fn sum(words: &[u64]) -> u64 {
         let mut sum = CheckSum::default();
-        words.iter().for_each(|word| sum.add(*word));
+        for word in words {
+            sum.add(*word);
+        }
         sum.value()
     }
 
@@ -76,7 +78,9 @@ mod tests {
     fn lists_and_texts_keep_their_ends() {
         let of = |texts: &[&str]| {
             let mut sum = CheckSum::default();
-            texts.iter().for_each(|text| sum.add_text(text));
+            for text in texts {
+                sum.add_text(text);
+            }
             sum.text()
         };
         assert_ne!(of(&["ab", "c"]), of(&["a", "bc"]));

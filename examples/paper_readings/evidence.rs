@@ -82,15 +82,19 @@ fn misfit(reading: &Reading, rows: &[usize]) -> f64 {
     logarithms.map_or(f64::INFINITY, |logarithms| root_mean_square(&logarithms))
 }
 
-/// Width and height of least `misfit` near `start`, by smaller and smaller steps.
+/// Width and height of least `misfit` near `start`, by smaller and smaller steps; with `short`
+/// one step.
 fn refine(
     misfit: &impl Fn([f64; 2]) -> f64,
     start: ([f64; 2], f64),
     short: bool,
 ) -> ([f64; 2], f64) {
     let mut best = start;
-    let (mut step, least) = (0.16, if short { 0.1 } else { 0.008 });
-    while step > least {
+    let mut step = 0.16;
+    for _ in 0..if short { 1 } else { usize::MAX } {
+        if step <= 0.008 {
+            break;
+        }
         let before = best.1;
         for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
             let mut trial = best.0;

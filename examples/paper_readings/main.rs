@@ -112,7 +112,7 @@ struct Options {
     /// All readings, then geometries and searches.
     #[arg(long)]
     all: bool,
-    /// Three seconds of the record and few geometries: to see that all works, not to be quoted.
+    /// Three seconds of the record, few readings and geometries: to see that all works, not to be quoted.
     #[arg(long)]
     short: bool,
     /// Folder for readings.csv.
@@ -129,7 +129,9 @@ fn main() -> Result<(), AnyError> {
     }
     let duration = options.reading.duration;
     let mut lines: Vec<&str> = READINGS.to_vec();
-    if options.all {
+    if options.short {
+        lines.truncate(2);
+    } else if options.all {
         lines.extend(OTHERS);
     }
     let mut readings = Vec::new();

@@ -35,7 +35,7 @@ impl Record {
     ///
     /// # Errors
     /// [`Error::Input`] unless `corner` is above zero and below the highest frequency of the
-    /// samples, `order` is from 1 to 8, and the quiet time has at most 10⁸ samples.
+    /// samples, and `order` is from 1 to 8; [`Error::Memory`] for more quiet time than would fit.
     pub fn high_pass(&self, corner: f64, order: u32) -> Result<Self> {
         positive("corner frequency", corner)?;
         if corner >= 0.5 / self.time_step() {

@@ -31,9 +31,10 @@ fn high_pass_has_the_gain_of_its_formula() {
     let end = filtered.duration();
     let largest = filtered.velocities().iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     assert!(filtered.velocity_at(end).abs() < 1e-3 * largest);
-    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 50.0, 1e-12] {
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 50.0] {
         assert!(matches!(offset.high_pass(bad, 2), Err(Error::Input { .. })), "{bad}");
     }
+    assert!(matches!(offset.high_pass(1e-12, 2), Err(Error::Memory(_))));
     assert!(offset.high_pass(1.0, 0).is_err() && offset.high_pass(1.0, 9).is_err());
     for bad in [-1.0, f64::NAN, f64::INFINITY, 20.1] {
         assert!(matches!(offset.tapered(bad, 0.0), Err(Error::Input { .. })), "{bad}");

@@ -2,11 +2,12 @@
 //! h ← rotate((h ⊕ word) · 0x100000001b3 mod 2⁶⁴, 23 to the left) from 0xcbf29ce484222325.
 
 pub(crate) fn check_sum(words: &[u64]) -> u64 {
-    words.iter().fold(0xcbf2_9ce4_8422_2325_u64, |sum, word| {
-        let product = u128::from(sum ^ word) * 0x0100_0000_01b3;
-        let low = (product & u128::from(u64::MAX)) as u64;
-        low << 23 | low >> 41
-    })
+    const ALL: u128 = 1 << 64;
+    let sum = words.iter().fold(0xcbf2_9ce4_8422_2325_u128, |sum, word| {
+        let turned = (sum ^ u128::from(*word)) * 0x0100_0000_01b3 % ALL * (1 << 23);
+        turned % ALL + turned / ALL
+    });
+    u64::try_from(sum).unwrap()
 }
 
 /// The words of a text: its length, and its bytes.

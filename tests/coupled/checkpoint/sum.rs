@@ -28,11 +28,15 @@ fn words(value: &Value, all: &mut Vec<u64>) {
         Value::String(text) => all.extend(text_words(text)),
         Value::Array(list) => {
             all.push(list.len() as u64);
-            list.iter().for_each(|entry| words(entry, all));
+            for entry in list {
+                words(entry, all);
+            }
         }
         Value::Object(identity) => {
             assert_eq!(identity.len(), IDENTITY.len());
-            IDENTITY.iter().for_each(|name| words(&identity[*name], all));
+            for name in IDENTITY {
+                words(&identity[name], all);
+            }
         }
         Value::Null => panic!("null"),
     }
@@ -48,7 +52,9 @@ pub(super) fn sum(form: &Value) -> u64 {
             all.push(modes.len() as u64);
             // A pair has no length of its own.
             let pairs = modes.iter().flat_map(|pair| pair.as_array().unwrap());
-            pairs.for_each(|entry| words(entry, &mut all));
+            for entry in pairs {
+                words(entry, &mut all);
+            }
         } else {
             words(&form[name], &mut all);
         }
