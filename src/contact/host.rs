@@ -214,6 +214,7 @@ impl ContactProblem {
             start,
             laws: &self.laws,
             length_scale: largest(free_jump),
+            bonds: &[],
         };
         let step = self.steps + 1;
         let time = step as f64 * start.time_step();

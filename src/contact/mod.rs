@@ -4,6 +4,7 @@
 //! take a [`Ground`](crate::bem::Ground) and a [`ContactProblem`].
 
 mod delassus;
+mod element;
 mod host;
 mod path;
 mod problem;

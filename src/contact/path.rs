@@ -82,7 +82,7 @@ impl Path {
             // Several modes may be admissible here: the path goes on in the one that continues it.
             let compliance = input.delassus[first * (2 * modes.len() + 1)];
             let mut best = (f64::INFINITY, leaving, direction);
-            for &mode in input.law(first).modes() {
+            for &mode in input.modes(first) {
                 modes[first] = mode;
                 if mode == leaving || !self.line(solver, input, modes, lambda) {
                     continue;
@@ -131,7 +131,7 @@ impl Path {
         let count = modes.len();
         let mut largest = 0.0_f64;
         for (e, mode) in modes.iter_mut().enumerate() {
-            let known = input.law(e).modes();
+            let known = input.modes(e);
             *mode = if known.contains(&Mode::Open) { Mode::Open } else { known[0] };
             let row = &input.delassus[e * 2 * count..(e + 1) * 2 * count];
             let gap = input.free_jump[e] - dot(row, input.static_traction);
@@ -164,7 +164,7 @@ impl Path {
         }
         let mut change: Vec<f64> = input.static_traction.iter().map(|fixed| -fixed).collect();
         for (e, mode) in modes.iter_mut().enumerate() {
-            let (law, start) = (input.law(e), &input.start.of(e));
+            let (law, start) = (input.law(e), &input.start_of(e));
             *mode = law.modes()[0];
             let pressed = (10.0 + 5.0 * spread(e)) * pressure;
             let mut wanted =
@@ -180,7 +180,7 @@ impl Path {
             }
             // A law may not let an element close in this step, however hard it is pressed.
             let exact = Tolerance { length: 0.0, traction: 0.0 };
-            let next = law.next_mode(*mode, start, &wanted, exact);
+            let next = input.next_mode(e, *mode, &wanted, exact).unwrap_or(*mode);
             if next != *mode {
                 *mode = next;
                 wanted = ContactState { gap: start.state.gap, pressure: 0.0, shear: 0.0, ..wanted };
@@ -243,7 +243,7 @@ impl Path {
         for (e, &mode) in modes.iter().enumerate() {
             let admits = |distance: f64| {
                 let there = self.states[e].along(&self.rates[e], direction * distance);
-                input.next_mode(e, mode, &there, tolerance) == mode
+                input.next_mode(e, mode, &there, tolerance) == Ok(mode)
             };
             let Some(begin) = STEPS.into_iter().find(|&step| admits(step)) else {
                 return (0.0, e);

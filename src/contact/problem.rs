@@ -12,9 +12,20 @@
 use super::delassus::Delassus;
 use crate::error::LawError;
 use crate::interface::{
-    Condition, ContactState, InterfaceLaw, Mode, StepStarts, Tolerance, law_of,
+    Condition, ContactState, InterfaceLaw, Mode, StepStart, StepStarts, Tolerance, law_of,
 };
 use crate::linalg::{DenseFactor, dense_condition, largest};
+
+/// What the search for the modes of a step takes an element's bond for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Bond {
+    /// The law decides: it has none, or the search does not care.
+    Free,
+    /// It holds the element in its mode of rest, whatever the tractions.
+    Held,
+    /// It has broken in this step.
+    Broken,
+}
 
 /// Data of a step for the contact problem.
 #[derive(Clone, Copy)]
@@ -31,12 +42,33 @@ pub(crate) struct ContactInput<'a> {
     pub(crate) laws: &'a [Box<dyn InterfaceLaw>],
     /// Largest displacement that went into j₀: its rounding is the finest gap that can be told.
     pub(crate) length_scale: f64,
+    /// Bonds, one per element; empty if all are free.
+    pub(crate) bonds: &'a [Bond],
 }
 
 impl ContactInput<'_> {
     /// The law of an element.
     pub(crate) fn law(&self, element: usize) -> &dyn InterfaceLaw {
         law_of(self.laws, element)
+    }
+
+    /// Bond of an element.
+    pub(super) fn bond(&self, element: usize) -> Bond {
+        self.bonds.get(element).copied().unwrap_or(Bond::Free)
+    }
+
+    /// Start of the step as an element's law is to see it: a bond that breaks in the step is gone.
+    #[inline]
+    pub(super) fn start_of(&self, element: usize) -> StepStart<'_> {
+        let mut start = self.start.of(element);
+        start.has_opened |= self.bond(element) == Bond::Broken;
+        start
+    }
+
+    /// Modes that an element may be in.
+    pub(super) fn modes(&self, element: usize) -> &[Mode] {
+        let modes = self.law(element).modes();
+        if self.bond(element) == Bond::Held { &modes[..1] } else { modes }
     }
 
     /// Conditions of its law in `mode`, all finite.
@@ -46,25 +78,52 @@ impl ContactInput<'_> {
         element: usize,
         mode: Mode,
     ) -> Result<[Condition; 2], LawError> {
-        let pair = self.law(element).conditions(mode, &self.start.of(element));
+        let (law, start) = (self.law(element), self.start_of(element));
+        let pair = law.conditions(mode, &start);
         // Not finite, or a sum that overflows.
         if !(pair[0].sum() + pair[1].sum()).is_finite()
             && let Some((quantity, value)) = pair.iter().find_map(Condition::not_finite)
         {
-            return Err(LawError { element, mode, quantity, value });
+            return Err(match law.check_start(&start) {
+                Ok(()) => LawError::NotFinite { element, mode, quantity, value },
+                Err(reason) => LawError::Refused { element, mode, reason: Box::new(reason) },
+            });
         }
         Ok(pair)
     }
 
-    /// The mode that its law wants next.
+    /// The mode that its law wants next, which must be one of its own.
     pub(super) fn next_mode(
         &self,
         element: usize,
         mode: Mode,
         trial: &ContactState,
         tolerance: Tolerance,
-    ) -> Mode {
-        self.law(element).next_mode(mode, &self.start.of(element), trial, tolerance)
+    ) -> Result<Mode, LawError> {
+        if self.bond(element) == Bond::Held {
+            return Ok(mode);
+        }
+        let law = self.law(element);
+        let next = law.next_mode(mode, &self.start_of(element), trial, tolerance);
+        if next == mode || law.modes().contains(&next) {
+            return Ok(next);
+        }
+        Err(LawError::UnknownMode { element, mode, next })
+    }
+
+    /// Traction by which a trial exceeds the strength of an element's bond; `None` without one.
+    pub(super) fn overload(
+        &self,
+        element: usize,
+        trial: &ContactState,
+    ) -> Result<Option<f64>, LawError> {
+        match self.law(element).bond_overload(&self.start_of(element), trial) {
+            Some(value) if !value.is_finite() => {
+                let (mode, quantity) = (self.law(element).modes()[0], "overload of the bond");
+                Err(LawError::NotFinite { element, mode, quantity, value })
+            }
+            overload => Ok(overload),
+        }
     }
 }
 
@@ -128,9 +187,9 @@ impl ContactSolver {
         start: &StepStarts,
         laws: &[Box<dyn InterfaceLaw>],
     ) -> Result<f64, LawError> {
-        let (free_jump, length_scale) = (static_traction, 0.0);
+        let (free_jump, length_scale, bonds) = (static_traction, 0.0, &[]);
         let input =
-            ContactInput { delassus, free_jump, static_traction, start, laws, length_scale };
+            ContactInput { delassus, free_jump, static_traction, start, laws, length_scale, bonds };
         for (e, conditions) in self.conditions.iter_mut().enumerate() {
             let at_rest = input.law(e).modes().first().copied().unwrap_or(Mode::Stick);
             *conditions = input.conditions(e, at_rest)?;

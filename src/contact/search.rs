@@ -6,11 +6,20 @@
 //!    its modes with the other tractions held, then the modes so found solved together.
 //! 3. If that does not settle: follow the solution from a load under which every element is open,
 //!    one change of mode at a time (see [`super::path`]).
+//! 4. If that does not end, and there are few elements: try all sets of modes.
+//!
+//! Laws with bonds that break are not monotone, and these methods may come back to bonds that they
+//! have broken. So bonds are held in all of them, and break in between: each time those whose overload
+//! is at least half of the largest, until none is overloaded. Each time the problem is one of Coulomb
+//! friction beside elements that stick, and at most as many times as there are bonds. If one of these
+//! problems is not solved, all bonds break: what glue carries where friction alone sticks is within its
+//! strength, so that the solution without bonds satisfies the law, too.
 
+use super::element::local_mode;
 use super::path::Path;
-use super::problem::{ContactInput, ContactSolver};
+use super::problem::{Bond, ContactInput, ContactSolver};
 use crate::error::StepError;
-use crate::interface::{Condition, ContactState, Mode, Tolerance};
+use crate::interface::Mode;
 
 /// Trials of the active set before it counts as cycling.
 const ACTIVE_SET_TRIALS: usize = 60;
@@ -19,6 +28,11 @@ const SWEEPS: usize = 400;
 /// Paths followed. At infinite friction and c₁Δt/l from 13 to 60 one run in 5000 has a step that
 /// needs more than eight, one in 100 000 one that needs more than sixty.
 const PATHS: usize = 128;
+/// Sets of modes that are all tried, at most.
+const MOST_SETS: usize = 1 << 16;
+/// Bonds break together whose overload is at least this share of the largest: mirror images do so in
+/// spite of rounding.
+const SHARE: f64 = 0.5;
 
 /// Search for the contact modes of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
@@ -26,7 +40,8 @@ const PATHS: usize = 128;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum ContactSearch {
-    /// Active set, then Gauss–Seidel, then path following: finds what there is to find.
+    /// Active set, then Gauss–Seidel, then path following, then, if there are no more than 65 536 sets
+    /// of modes, all of them: finds what there is to find.
     #[default]
     Robust,
     /// The flow chart in the Appendix of Patel & Spyrakos alone: assume the modes of the step
@@ -49,7 +64,7 @@ pub enum SearchMethod {
     ActiveSet,
     /// Gauss–Seidel with local enumeration was needed.
     GaussSeidel,
-    /// The solution was followed from a known one.
+    /// The solution was followed from a known one, or found among all sets of modes.
     Path,
 }
 
@@ -65,6 +80,10 @@ pub(crate) struct ModeSearch {
     next: Vec<Mode>,
     before: Vec<Mode>,
     path: Path,
+    bonds: Vec<Bond>,
+    overloads: Vec<f64>,
+    /// Number of all sets of modes, if the last search has tried them in vain.
+    sets: Option<usize>,
     search: ContactSearch,
 }
 
@@ -76,6 +95,9 @@ impl ModeSearch {
             next: vec![Mode::Stick; count],
             before: vec![Mode::Stick; count],
             path: Path::new(count),
+            bonds: vec![Bond::Free; count],
+            overloads: Vec::with_capacity(count),
+            sets: None,
         }
     }
 
@@ -108,19 +130,123 @@ impl ModeSearch {
         if bonded && solver.trial(input, modes) {
             return Ok((1, SearchMethod::ActiveSet));
         }
-        if self.active_set(solver, input, modes, &mut trials) {
-            return Ok((trials, SearchMethod::ActiveSet));
+        let mut bonds = std::mem::take(&mut self.bonds);
+        let found = self.break_bonds(solver, input, modes, &mut bonds, &mut trials);
+        self.bonds = bonds;
+        match found {
+            Some(method) => Ok((trials, method)),
+            None => Err(self.failure(solver, input, modes, trials)),
+        }
+    }
+
+    /// Finds modes with all bonds held, breaks those that are overloaded most, and so on; `None` if the
+    /// modes are not found without bonds either.
+    fn break_bonds(
+        &mut self,
+        solver: &mut ContactSolver,
+        input: &ContactInput<'_>,
+        modes: &mut [Mode],
+        bonds: &mut [Bond],
+        trials: &mut usize,
+    ) -> Option<SearchMethod> {
+        self.sets = None;
+        bonds.fill(Bond::Free);
+        if self.search == ContactSearch::Robust {
+            for (e, bond) in bonds.iter_mut().enumerate() {
+                let overload = input.law(e).bond_overload(&input.start.of(e), input.start.state(e));
+                if overload.is_some() {
+                    (*bond, modes[e]) = (Bond::Held, input.law(e).modes()[0]);
+                }
+            }
+        }
+        let mut most = SearchMethod::ActiveSet;
+        loop {
+            let found = self.settle(solver, &ContactInput { bonds, ..*input }, modes, trials);
+            if solver.fault.is_some() || found.is_none() && !bonds.contains(&Bond::Held) {
+                return None;
+            }
+            let Some(method) = found else {
+                bonds
+                    .iter_mut()
+                    .filter(|bond| **bond == Bond::Held)
+                    .for_each(|b| *b = Bond::Broken);
+                continue;
+            };
+            most = most.max(method);
+            let tolerance = solver.tolerance(input).traction;
+            self.overloads.clear();
+            for (e, state) in solver.states.iter().enumerate() {
+                let held = bonds[e] == Bond::Held;
+                match if held { input.overload(e, state) } else { Ok(None) } {
+                    Ok(overload) => self.overloads.push(overload.unwrap_or(0.0)),
+                    Err(fault) => {
+                        solver.fault = Some(fault);
+                        return None;
+                    }
+                }
+            }
+            let largest = self.overloads.iter().copied().fold(0.0, f64::max);
+            if largest <= tolerance {
+                return Some(most);
+            }
+            for (bond, overload) in bonds.iter_mut().zip(&self.overloads) {
+                if *overload >= SHARE * largest {
+                    *bond = Bond::Broken;
+                }
+            }
+        }
+    }
+
+    /// Finds modes, as far as bonds leave a choice, by one method after the other.
+    fn settle(
+        &mut self,
+        solver: &mut ContactSolver,
+        input: &ContactInput<'_>,
+        modes: &mut [Mode],
+        trials: &mut usize,
+    ) -> Option<SearchMethod> {
+        if self.active_set(solver, input, modes, trials) {
+            return Some(SearchMethod::ActiveSet);
         }
         if self.search != ContactSearch::Robust || solver.fault.is_some() {
-            return Err(self.failure(solver, input, modes, trials));
+            return None;
         }
-        if self.gauss_seidel(solver, input, modes, &mut trials) {
-            return Ok((trials, SearchMethod::GaussSeidel));
+        if self.gauss_seidel(solver, input, modes, trials) {
+            return Some(SearchMethod::GaussSeidel);
         }
-        if solver.fault.is_none() && self.along_path(solver, input, modes, &mut trials) {
-            return Ok((trials, SearchMethod::Path));
+        let mut found = solver.fault.is_none() && self.along_path(solver, input, modes, trials);
+        found |= solver.fault.is_none() && !found && self.enumerate(solver, input, modes, trials);
+        found.then_some(SearchMethod::Path)
+    }
+
+    /// Tries all sets of modes, if there are few enough.
+    fn enumerate(
+        &mut self,
+        solver: &mut ContactSolver,
+        input: &ContactInput<'_>,
+        modes: &mut [Mode],
+        trials: &mut usize,
+    ) -> bool {
+        let choices = |e: usize| input.modes(e).len();
+        let sets = (0..modes.len()).try_fold(1, |sets: usize, e| sets.checked_mul(choices(e)));
+        let Some(sets) = sets.filter(|sets| *sets <= MOST_SETS) else { return false };
+        for set in 0..sets {
+            let mut rest = set;
+            for (e, mode) in modes.iter_mut().enumerate() {
+                *mode = input.modes(e)[rest % choices(e)];
+                rest /= choices(e);
+            }
+            *trials += 1;
+            if solver.trial(input, modes) && self.ask_laws(solver, input, modes) {
+                return true;
+            }
+            if solver.fault.is_some() {
+                return false;
+            }
         }
-        Err(self.failure(solver, input, modes, trials))
+        // With bonds that were broken the laws allow more.
+        self.sets = input.bonds.iter().all(|bond| *bond == Bond::Free).then_some(sets);
+        false
     }
 
     fn failure(
@@ -131,7 +257,7 @@ impl ModeSearch {
         iterations: usize,
     ) -> StepError {
         let residual = self.disagreement(solver, input, modes);
-        StepError::Contact { iterations, residual, modes: modes.to_vec() }
+        StepError::Contact { iterations, residual, modes: modes.to_vec(), sets: self.sets }
     }
 
     /// Distance of the tractions of `modes` from those of the modes that the laws ask for instead,
@@ -163,15 +289,20 @@ impl ModeSearch {
     /// Next modes of all elements; whether all agree with `modes`.
     fn ask_laws(
         &mut self,
-        solver: &ContactSolver,
+        solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &[Mode],
     ) -> bool {
         let tolerance = solver.tolerance(input);
         let mut settled = true;
         for (e, &mode) in modes.iter().enumerate() {
-            let trial = &solver.states[e];
-            self.next[e] = input.next_mode(e, mode, trial, tolerance);
+            match input.next_mode(e, mode, &solver.states[e], tolerance) {
+                Ok(next) => self.next[e] = next,
+                Err(fault) => {
+                    solver.fault = Some(fault);
+                    return false;
+                }
+            }
             settled &= self.next[e] == mode;
         }
         settled
@@ -197,6 +328,9 @@ impl ModeSearch {
             if self.ask_laws(solver, input, modes) {
                 return true;
             }
+            if solver.fault.is_some() {
+                return false;
+            }
             self.visited.extend_from_slice(modes);
             modes.copy_from_slice(&self.next);
             if self.visited.chunks_exact(modes.len()).any(|seen| seen == modes) {
@@ -218,6 +352,9 @@ impl ModeSearch {
             // Where a path was lost, the solution is often near.
             if self.active_set(solver, input, modes, trials) {
                 return true;
+            }
+            if solver.fault.is_some() {
+                return false;
             }
         }
         false
@@ -253,76 +390,6 @@ impl ModeSearch {
         }
         false
     }
-}
-
-/// Solves element `e` alone, the tractions of the others held, and returns its mode.
-fn local_mode(
-    solver: &mut ContactSolver,
-    input: &ContactInput<'_>,
-    e: usize,
-    current: Mode,
-) -> Mode {
-    let count = solver.states.len();
-    let size = 2 * count;
-    let (n, t) = (e, count + e);
-    let row = |i: usize| &input.delassus[i * size..(i + 1) * size];
-    let others = |i: usize| {
-        let all: f64 = crate::linalg::dot(row(i), &solver.traction);
-        input.free_jump[i] + all - row(i)[n] * solver.traction[n] - row(i)[t] * solver.traction[t]
-    };
-    let jump = [others(n), others(t)];
-    let block = [[row(n)[n], row(n)[t]], [row(t)[n], row(t)[t]]];
-    let fixed = [input.static_traction[n], input.static_traction[t]];
-    let law = input.law(e);
-    let scale = fixed[0].abs().max(jump[0].abs() / block[0][0].abs()).max(fixed[1].abs());
-    let tolerance = Tolerance { length: 1e-13 * input.length_scale, traction: 1e-12 * scale };
-    let candidates = std::iter::once(current).chain(law.modes().iter().copied());
-    for mode in candidates {
-        let conditions = match input.conditions(e, mode) {
-            Ok(conditions) => conditions,
-            Err(fault) => {
-                solver.fault = Some(fault);
-                return current;
-            }
-        };
-        let Some(change) = solve_element(conditions, jump, block, fixed) else { continue };
-        let gap = jump[0] + block[0][0] * change[0] + block[0][1] * change[1];
-        let tangential = jump[1] + block[1][0] * change[0] + block[1][1] * change[1];
-        let state = ContactState {
-            gap,
-            slip: -tangential,
-            pressure: fixed[0] + change[0],
-            shear: fixed[1] + change[1],
-        };
-        if input.next_mode(e, mode, &state, tolerance) == mode {
-            solver.traction[n] = change[0];
-            solver.traction[t] = change[1];
-            solver.states[e] = state;
-            return mode;
-        }
-    }
-    current
-}
-
-/// The change of traction of one element from its two conditions; `None` if they are dependent.
-fn solve_element(
-    conditions: [Condition; 2],
-    jump: [f64; 2],
-    block: [[f64; 2]; 2],
-    fixed: [f64; 2],
-) -> Option<[f64; 2]> {
-    let [[a, b, r], [c, d, s]] = conditions.map(|k| {
-        [
-            k.gap * block[0][0] - k.slip * block[1][0] + k.pressure,
-            k.gap * block[0][1] - k.slip * block[1][1] + k.shear,
-            k.value - k.gap * jump[0] + k.slip * jump[1]
-                - k.pressure * fixed[0]
-                - k.shear * fixed[1],
-        ]
-    });
-    let determinant = a * d - b * c;
-    let change = [(r * d - b * s) / determinant, (a * s - r * c) / determinant];
-    (determinant != 0.0 && change.iter().all(|x| x.is_finite())).then_some(change)
 }
 
 #[cfg(test)]

@@ -1,5 +1,8 @@
 //! The mode search against brute force: every mode vector of up to six elements is tried.
 
+#[path = "bond_tests.rs"]
+mod bonds;
+
 use std::sync::Arc;
 
 use super::*;
@@ -10,7 +13,7 @@ use crate::coupled::scene::model::{Model, Tangent};
 use crate::coupled::scene::operators::{Factor, Operators};
 use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
-use crate::interface::{Activation, Coulomb, InterfaceLaw, StepStart, StepStarts};
+use crate::interface::{Activation, ContactState, Coulomb, InterfaceLaw, StepStart, StepStarts};
 use crate::linalg::dense_multiply_add;
 use crate::matrix::Thinned;
 use crate::random::Random;
@@ -53,6 +56,7 @@ impl Problem {
             start: &self.start,
             laws: &self.laws,
             length_scale: self.free_jump.iter().fold(0.0, |m, j| m.max(j.abs())),
+            bonds: &[],
         }
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::books::Books;
-use super::builder_checks::{check_unknowns, motion_at_start};
+use super::builder_checks::{check_unknowns, instantaneous_operator, motion_at_start};
 use super::coordinates::{Chooser, Coordinates};
 use super::initial::Beginning;
 use super::ledger::Ledger;
@@ -299,15 +299,13 @@ impl SimulationBuilder {
 
         let coefficients = self.scheme.coefficients(time_step);
         coefficients.check()?;
-        let mut soil = vec![0.0; 4 * count * count];
-        ground.instantaneous(&mut soil)?;
-        if let Some(bad) = soil.iter().find(|g| !g.is_finite()) {
-            finite("instantaneous operator of the ground", *bad)?;
-        }
+        let soil = instantaneous_operator(ground.as_ref(), base.lengths())?;
         let soil = Arc::new(Thinned::new(soil, 2 * count));
         let mut tangent = Tangent::new(unknowns);
         tangent.refill(structure.as_ref(), &static_state.displacement)?;
-        let mut factor = Factor::new(&model, &coefficients, &tangent.matrix)?;
+        let factor = Factor::new(&model, &coefficients, &tangent.matrix);
+        let cause = |error| model.cause(structure.as_ref(), &tangent.matrix, error);
+        let mut factor = factor.map_err(cause)?;
         let chooser = self.chooser(&coefficients, structure.as_ref(), &model, &base);
         if let Some(modes) = chooser.basis(&factor)? {
             base.decouple(&modes);

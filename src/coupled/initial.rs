@@ -9,7 +9,7 @@ use super::scene::static_state::StaticState;
 use super::scene::stepped_row::SteppedRow;
 use super::state::State;
 use crate::bem::Ground;
-use crate::error::{Error, Result, finite, same_length};
+use crate::error::{Error, Result, all_finite, finite, same_length};
 use crate::interface::{InterfaceLaw, Mode, StepStart, StepStarts};
 use crate::linalg::{SparseFactor, largest};
 use crate::matrix::SparseMatrix;
@@ -45,13 +45,14 @@ impl Beginning {
     /// Refuses loads and motions of other unknowns than the structure's, and numbers that are not
     /// finite.
     pub(super) fn check(&self, unknowns: usize) -> Result<()> {
-        self.loads.iter().try_for_each(|load| load.check(unknowns))?;
+        let mut loads = self.loads.iter().enumerate();
+        loads.try_for_each(|(index, load)| load.check(index, unknowns))?;
         for (values, quantity) in
             [(&self.displacement, "initial displacement"), (&self.velocity, "initial velocity")]
         {
             if !values.is_empty() {
                 same_length(quantity, values.len(), unknowns)?;
-                values.iter().try_for_each(|value| finite(quantity, *value).map(|_| ()))?;
+                all_finite(quantity, values)?;
             }
         }
         Ok(())
@@ -76,14 +77,14 @@ impl Beginning {
         if self.is_static() {
             let mut own = vec![0.0; unknowns];
             structure.load(0.0, &mut own)?;
+            all_finite("load of the structure at t = 0", &own)?;
             let mut load = own.clone();
             for external in &self.loads {
                 SteppedRow::new(external.row().terms(), None).add(external.value(0.0), &mut load);
             }
             let weight = self.weight(model);
-            for force in weight.iter().chain(&load) {
-                finite("load at t = 0", *force)?;
-            }
+            all_finite("weight", &weight)?;
+            all_finite("load at t = 0", &load)?;
             let stage = (model, &*structure, base);
             state = stages::solve(stage, ground, laws, self.placement, [&weight, &load])?;
             state.load = own;
@@ -92,6 +93,11 @@ impl Beginning {
             }
         }
         (state.force, state.energy) = model.nonlinear_state(structure, &state.displacement)?;
+        all_finite("nonlinear force at t = 0", &state.force)?;
+        if let Some(energy) = &state.energy {
+            finite("energy that the nonlinear force stores at t = 0", energy.stored)?;
+            finite("energy that the nonlinear force has dissipated at t = 0", energy.dissipated)?;
+        }
         Ok(state)
     }
 

@@ -112,10 +112,12 @@ impl Load {
         (self.value)(time)
     }
 
-    /// Refuses a row with other unknowns than the structure's, and a value at t = 0 that is not finite.
-    pub(crate) fn check(&self, unknowns: usize) -> Result<()> {
+    /// Refuses a row with other unknowns than the structure's, and a value at t = 0 that is not finite;
+    /// `index` is the load's number.
+    pub(crate) fn check(&self, index: usize, unknowns: usize) -> Result<()> {
         self.row.check("unknown of a load", unknowns)?;
-        finite("value of a load at t = 0", self.value(0.0)).map(|_| ())
+        let (quantity, value) = ("external load at t = 0", self.value(0.0));
+        if value.is_finite() { Ok(()) } else { Err(Error::NotFinite { quantity, index, value }) }
     }
 }
 
@@ -140,13 +142,12 @@ impl SteppedLoad {
         Self { load, row, at_start }
     }
 
-    /// Adds the force at `time`, less that of the static state, to `force`; false if it is not
-    /// finite.
-    pub(crate) fn add(&self, time: f64, force: &mut [f64]) -> bool {
+    /// Adds the force at `time`, less that of the static state, to `force`; returns its value.
+    pub(crate) fn add(&self, time: f64, force: &mut [f64]) -> f64 {
         let value = self.load.value(time) - self.at_start;
         if value != 0.0 {
             self.row.add(value, force);
         }
-        value.is_finite()
+        value
     }
 }

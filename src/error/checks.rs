@@ -37,6 +37,19 @@ pub(crate) fn finite(quantity: &'static str, value: f64) -> Result<f64> {
     }
 }
 
+/// The first of `values` that is not finite, with its place.
+pub(crate) fn not_finite(values: &[f64]) -> Option<(usize, f64)> {
+    values.iter().copied().enumerate().find(|(_, value)| !value.is_finite())
+}
+
+/// Refuses `values` of which one is not finite.
+pub(crate) fn all_finite(quantity: &'static str, values: &[f64]) -> Result<()> {
+    match not_finite(values) {
+        None => Ok(()),
+        Some((index, value)) => Err(Error::NotFinite { quantity, index, value }),
+    }
+}
+
 /// Error unless `found == needed`.
 pub(crate) fn same_length(quantity: &'static str, found: usize, needed: usize) -> Result<()> {
     if found == needed { Ok(()) } else { Err(Error::Size { quantity, found, needed }) }

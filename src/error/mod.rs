@@ -22,7 +22,9 @@ mod step;
 
 pub use case::{CaseError, CaseFileError, SweepError};
 pub use checkpoint::CheckpointError;
-pub(crate) use checks::{finite, not_negative, positive, same_length, write_file};
+pub(crate) use checks::{
+    all_finite, finite, not_finite, not_negative, positive, same_length, write_file,
+};
 pub use law::LawError;
 pub use layered::{KernelFileError, LayeredError};
 #[cfg(feature = "io")]
@@ -56,6 +58,16 @@ pub enum Error {
         value: f64,
         /// Requirement.
         needed: &'static str,
+    },
+    /// A number of a list that is NaN or infinite.
+    #[error("{quantity} is not finite: entry {index} is {value}")]
+    NotFinite {
+        /// Name of the list.
+        quantity: &'static str,
+        /// Place in the list, from 0: an unknown, or the number of a load.
+        index: usize,
+        /// The value.
+        value: f64,
     },
     /// A slice or list of the wrong length.
     #[error("{quantity} has length {found}, but must have {needed}")]
@@ -295,7 +307,7 @@ pub enum Error {
     /// Weight and loads at t = 0 cannot be carried, and why.
     #[error("the structure cannot stand: {0}")]
     Standing(Box<StandingError>),
-    /// An interface law returned a number that is not finite before the first step.
+    /// An interface law answered what it must not before the first step.
     #[error(transparent)]
     Law(#[from] LawError),
     /// A structure that cannot be stepped in reduced coordinates, or not as accurately as asked.

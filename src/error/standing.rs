@@ -68,6 +68,37 @@ pub enum StandingError {
         /// Normal force over capacity.
         ratio: f64,
     },
+    /// The resultant of weight and loads passes through the base, but beyond the middle of its outermost
+    /// element: the traction on an element is constant, so that its resultant is there.
+    #[error(
+        "the resultant of weight and loads at t = 0 passes at x = {resultant:.4} m{}, but {}",
+        on(ends),
+        grip(*elements, *reach)
+    )]
+    Beyond {
+        /// Left and right end of the base of the part, m.
+        ends: [f64; 2],
+        /// Number of its elements.
+        elements: usize,
+        /// Where the resultant passes, m.
+        resultant: f64,
+        /// Middles of the first and the last element, m.
+        reach: [f64; 2],
+    },
+    /// A bond of the interface breaks, and without it the rest follows.
+    #[error("the bond of the interface breaks, and without it: {then}")]
+    BondBreaks {
+        /// What follows.
+        then: Box<StandingError>,
+    },
+    /// Part of the structure has neither stiffness nor damping nor mass against a motion.
+    #[error("nothing resists a motion of {place}: neither stiffness nor damping nor mass")]
+    Massless {
+        /// The unknowns that take part in it, ascending.
+        unknowns: Vec<usize>,
+        /// The structure's own names of them.
+        place: String,
+    },
     /// Part of the structure moves without resistance while the base is at rest.
     #[error(
         "the structure is a mechanism: with its base at rest nothing resists a motion of {place}"
@@ -78,6 +109,19 @@ pub enum StandingError {
         /// The structure's own names of them.
         place: String,
     },
+}
+
+/// The end of the message of [`StandingError::Beyond`].
+fn grip(elements: usize, reach: [f64; 2]) -> String {
+    if elements == 1 {
+        "a base of one element resists no moment".to_owned()
+    } else {
+        let [left, right] = reach;
+        format!(
+            "{elements} elements, on each of which the traction is constant, carry it from x = {left:.4} to \
+             {right:.4} m only, the middles of the outermost ones (shorter ones there reach further)"
+        )
+    }
 }
 
 /// The base that is meant.

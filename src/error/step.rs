@@ -1,6 +1,6 @@
 //! Steps that fail.
 
-use super::{Error, LawError};
+use super::{Error, LawError, not_finite};
 use crate::interface::Mode;
 
 /// Why a step failed.
@@ -9,8 +9,9 @@ use crate::interface::Mode;
 pub enum StepError {
     /// No set of contact modes satisfied the interface laws.
     #[error(
-        "contact modes not found in {iterations} trials, residual {residual:e}, modes {modes:?} \
-         (`coupled::workable_step` finds a time step that gets through)"
+        "contact modes not found in {iterations} trials{}, residual {residual:e}, modes {modes:?} \
+         (`coupled::workable_step` finds a time step that gets through)",
+        all(*sets)
     )]
     Contact {
         /// Trials made, fallbacks included.
@@ -20,6 +21,9 @@ pub enum StepError {
         residual: f64,
         /// Modes of the last trial, left to right.
         modes: Vec<Mode>,
+        /// Number of all sets of modes, if every one was tried: the step has no solution. `None` if
+        /// there are more than 65 536 of them.
+        sets: Option<usize>,
     },
     /// Newton's iteration for a nonlinear structure did not converge.
     #[error(
@@ -45,14 +49,20 @@ pub enum StepError {
         /// The structure's reason.
         r#source: Box<Error>,
     },
-    /// An interface law returned a number that is not finite.
+    /// An interface law answered what it must not.
     #[error(transparent)]
     Law(#[from] LawError),
     /// A number became NaN or infinite.
-    #[error("{quantity} is not finite")]
+    #[error("{quantity} is not finite: entry {index} is {value}")]
     NotFinite {
         /// Name of the quantity.
         quantity: &'static str,
+        /// Place in it, from 0: the unknown (or mode, where those are stepped) of a quantity of the
+        /// structure, the component of one of the base (normal ones first, then tangential ones),
+        /// the number of an external load.
+        index: usize,
+        /// The value.
+        value: f64,
     },
     /// The structure has lost its stability and runs away: under its weight on yielding columns
     /// (P–Δ), by a negative damping, with a ground that grows. The ledger closes all the same.
@@ -69,7 +79,27 @@ pub enum StepError {
     },
 }
 
+/// Number of sets of modes, where all were tried.
+fn all(sets: Option<usize>) -> String {
+    sets.map_or_else(String::new, |sets| {
+        format!(
+            ": the step has no solution, as none of all {sets} sets of modes satisfies the laws"
+        )
+    })
+}
+
 impl StepError {
+    /// Refuses `values` of which one is not finite.
+    pub(crate) fn check_finite(
+        quantity: &'static str,
+        values: &[f64],
+    ) -> std::result::Result<(), Self> {
+        match not_finite(values) {
+            None => Ok(()),
+            Some((index, value)) => Err(Self::NotFinite { quantity, index, value }),
+        }
+    }
+
     /// The structure's own reason, for [`StepError::Structure`].
     pub(crate) fn structure(quantity: &'static str) -> impl FnOnce(Error) -> Self {
         move |source| Self::Structure { quantity, source: Box::new(source) }

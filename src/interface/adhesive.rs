@@ -9,7 +9,8 @@ use crate::error::{Result, not_negative};
 /// Glued, p ≥ −tension and |τ| ≤ cohesion + friction · max(p, 0). Each element remembers whether it is
 /// glued (1) or broken (0); one that stands open at first is broken. What broken elements carried goes
 /// over to their neighbours at once, so that a base may unzip in a step, and the elastic energy that
-/// is set free is radiated.
+/// is set free is radiated. Within a step bonds only break: first those that are loaded most beyond
+/// their strength while the others hold, then, with what these carried handed over, the next.
 ///
 /// ```
 /// use basemat::Simulation;
@@ -78,20 +79,19 @@ impl Adhesive {
         self.broken.friction()
     }
 
-    /// Whether a glued element holds.
-    fn holds(&self, trial: &ContactState, tolerance: Tolerance) -> bool {
+    /// Traction by which a glued element exceeds its strength, below zero while it holds.
+    fn overload(&self, trial: &ContactState) -> f64 {
         let friction = match self.friction() * trial.pressure.max(0.0) {
             limit if limit.is_nan() => 0.0,
             limit => limit,
         };
-        trial.pressure >= -self.tension - tolerance.traction
-            && trial.shear.abs() <= self.cohesion + friction + tolerance.traction
+        (-trial.pressure - self.tension).max(trial.shear.abs() - self.cohesion - friction)
     }
 }
 
-/// Whether the element was glued at the start of the step.
+/// Whether the element was glued at the start of the step, and is so far in it.
 fn is_glued(start: &StepStart) -> bool {
-    start.memory.first().is_some_and(|glued| *glued > 0.0)
+    !start.has_opened && start.memory.first().is_some_and(|glued| *glued > 0.0)
 }
 
 impl InterfaceLaw for Adhesive {
@@ -110,10 +110,15 @@ impl InterfaceLaw for Adhesive {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
-        if mode == Mode::Stick && is_glued(start) && self.holds(trial, tolerance) {
+        let holds = || is_glued(start) && self.overload(trial) <= tolerance.traction;
+        if mode == Mode::Stick && holds() {
             return Mode::Stick;
         }
         self.broken.next_mode(mode, start, trial, tolerance)
+    }
+
+    fn bond_overload(&self, start: &StepStart, trial: &ContactState) -> Option<f64> {
+        is_glued(start).then(|| self.overload(trial))
     }
 
     fn memory(&self) -> usize {

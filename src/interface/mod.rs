@@ -236,7 +236,7 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 /// A law is a rule and keeps nothing itself. The end of the step before is in [`StepStart`]; what
 /// else it needs of the past it declares as a memory of a few numbers per element, which the
 /// simulation keeps, shows in [`StepStart::memory`] and saves in checkpoints. Numbers of a law that
-/// are not finite are a [`LawError`](crate::LawError).
+/// are not finite, and a next mode that is none of its modes, are a [`LawError`](crate::LawError).
 ///
 /// Friction that falls from 0.5 to 0.3 with the distance that an element has slid:
 /// ```
@@ -342,6 +342,25 @@ pub trait InterfaceLaw: Send {
     /// Infinite for a law that never slides, `None` (the default) for one without such a number.
     fn friction_coefficient(&self) -> Option<f64> {
         None
+    }
+
+    /// Traction (Pa) by which `trial` exceeds the strength of a bond that breaks for good, below zero
+    /// while it holds; `None` (the default) for an element without a bond, or with a broken one.
+    ///
+    /// A step holds elements with a bond in their mode of rest, whatever their tractions, until all
+    /// other modes are found; then bonds break where the overload is largest, the modes are found anew,
+    /// and so on. From there on the law sees a broken bond as `start.has_opened`.
+    fn bond_overload(&self, _start: &StepStart, _trial: &ContactState) -> Option<f64> {
+        None
+    }
+
+    /// Asked after a condition that is not finite: the reason, if the law knows it.
+    ///
+    /// # Errors
+    /// With the number behind it, as [`Error::Input`](crate::Error::Input) or
+    /// [`Error::part`](crate::Error::part).
+    fn check_start(&self, _start: &StepStart) -> Result<()> {
+        Ok(())
     }
 
     /// This law without friction and adhesion, for setting the structure down on the ground; hard

@@ -14,7 +14,8 @@ pub struct StepStart<'a> {
     pub state: ContactState,
     /// Mode of the step before.
     pub mode: Mode,
-    /// Whether the element has been open at any time since the start of the run.
+    /// Whether the element has been open at any time since the start of the run, or its bond
+    /// ([`InterfaceLaw::bond_overload`]) has broken in this step.
     pub has_opened: bool,
     /// Slip velocity of the step before, m/s: its change of slip over its length.
     pub slip_rate: f64,
@@ -263,7 +264,7 @@ impl StepStarts {
 fn check_memory(element: usize, mode: Mode, memory: &[f64]) -> std::result::Result<(), LawError> {
     let quantity = "memory";
     match memory.iter().find(|value| !value.is_finite()) {
-        Some(&value) => Err(LawError { element, mode, quantity, value }),
+        Some(&value) => Err(LawError::NotFinite { element, mode, quantity, value }),
         None => Ok(()),
     }
 }

@@ -82,7 +82,7 @@ words! { SlipSense, "sense of slip", {
 /// closed element vanishes with its pressure, as friction's limit does. An open element with r > 0
 /// carries some up to the moment it lands, when nothing is left of it: a few steps in a hundred
 /// thousand then have no solution, closed or open, and are a
-/// [`StepError::Contact`](crate::StepError::Contact).
+/// [`StepError::Contact`](crate::StepError::Contact), which says so where there are up to eight elements.
 /// [`with_debonded_share(0.0)`](ThinLayer::with_debonded_share) has none of them. The other
 /// readings let a closed element carry shear up to its opening, or slide against its traction, and
 /// meet such steps more often.

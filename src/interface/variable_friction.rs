@@ -46,7 +46,8 @@ short_debug! { VariableFriction; self; contact: self.contact }
 
 impl VariableFriction {
     /// Law with the friction coefficient `coefficient(start)`: zero or more, infinite where nothing
-    /// slides. Where it is negative or NaN, the step is refused with a [`LawError`](crate::LawError).
+    /// slides. Where it is negative or NaN, the step is refused with a
+    /// [`LawError`](crate::LawError) that names it.
     pub fn new(coefficient: impl Fn(&StepStart) -> f64 + Send + 'static) -> Self {
         Self { coefficient: Box::new(coefficient), contact: Coulomb::smooth() }
     }
@@ -82,10 +83,10 @@ impl InterfaceLaw for VariableFriction {
 
     fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
         let law = self.at(start);
-        if law.friction_coefficient().is_some_and(|friction| friction >= 0.0) {
+        if law.friction() >= 0.0 {
             law.conditions(mode, start)
         } else {
-            // No mode may pass with a coefficient that is none.
+            // No mode may pass with a coefficient that is none: see `check_start`.
             [Condition::gap_is(f64::NAN), Condition::slip_is(f64::NAN)]
         }
     }
@@ -98,5 +99,9 @@ impl InterfaceLaw for VariableFriction {
         tolerance: Tolerance,
     ) -> Mode {
         self.at(start).next_mode(mode, start, trial, tolerance)
+    }
+
+    fn check_start(&self, start: &StepStart) -> Result<()> {
+        Coulomb::new(self.at(start).friction()).map(|_| ())
     }
 }

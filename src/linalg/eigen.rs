@@ -2,6 +2,7 @@
 
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltError;
 use faer::linalg::evd::{
     ComputeEigenvectors, SelfAdjointEvdParams, self_adjoint_evd, self_adjoint_evd_scratch,
 };
@@ -20,6 +21,15 @@ pub(crate) fn least_eigenvalue(matrix: &[f64], order: usize) -> f64 {
             values.into_iter().fold(f64::INFINITY, f64::min)
         }
         _ => f64::NAN,
+    }
+}
+
+/// Row at which a symmetric row-major matrix is found not to be positive definite, if it is not.
+pub(crate) fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {
+    let matrix = MatRef::from_row_major_slice(matrix, order, order);
+    match matrix.llt(Side::Lower) {
+        Ok(_) => None,
+        Err(LltError::NonPositivePivot { index }) => Some(index),
     }
 }
 

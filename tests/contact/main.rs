@@ -1,8 +1,10 @@
 //! Contact: the problem of a step, its laws, and events inside a step.
 
+mod adhesion;
 mod chatter;
 mod contact_problems;
 mod events;
+mod extreme_layers;
 mod host;
 mod long_steps;
 mod paper_parts;

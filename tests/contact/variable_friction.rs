@@ -5,7 +5,7 @@
 
 use basemat::coupled::State;
 use basemat::interface::{Activation, Coulomb, InterfaceLaw, VariableFriction};
-use basemat::{Error, StepError};
+use basemat::{Error, LawError, StepError};
 
 use crate::support::scenes::{SI, TIME_STEP, block, friction, scene, states};
 
@@ -95,6 +95,10 @@ fn a_coefficient_that_is_none_is_an_error() {
         println!("{error}");
         let Error::Step { source, .. } = error else { panic!("{error:?}") };
         let StepError::Law(error) = source else { panic!("{source:?}") };
-        assert!(error.element < 8 && error.value.is_nan(), "{error}");
+        let LawError::Refused { element, reason, .. } = &error else { panic!("{error:?}") };
+        let Error::Input { quantity: "friction coefficient", value, .. } = **reason else {
+            panic!("{reason:?}")
+        };
+        assert!(*element < 8 && value.to_bits() == bad.to_bits(), "{error}");
     }
 }

@@ -124,11 +124,14 @@ fn expected(place: Place) -> &'static str {
 }
 
 fn assert_named(error: &LawError, place: Place, value: f64) {
-    assert_eq!((error.element, error.quantity), (ELEMENT, expected(place)), "{error}");
-    assert_eq!(error.value.to_bits(), value.to_bits());
+    let LawError::NotFinite { element, mode, quantity, value: found } = error else {
+        panic!("{error:?}")
+    };
+    assert_eq!((*element, *quantity), (ELEMENT, expected(place)), "{error}");
+    assert_eq!(found.to_bits(), value.to_bits());
     let message = error.to_string();
-    let mode = format!("mode {:?}", error.mode);
-    for part in ["element 2", &mode, error.quantity, &value.to_string()] {
+    let mode = format!("mode {mode:?}");
+    for part in ["element 2", &mode, quantity, &value.to_string()] {
         assert!(message.contains(part), "'{part}' is not in '{message}'");
     }
 }
@@ -179,7 +182,7 @@ fn numbers_that_are_broken_from_the_start_are_named_by_build() {
     let Err(Error::Law(error)) = built.placement(Placement::WithInterfaceLaw).build() else {
         panic!("accepted");
     };
-    assert_eq!((error.element, error.mode), (0, Mode::Stick));
+    assert!(matches!(error, LawError::NotFinite { element: 0, mode: Mode::Stick, .. }));
 }
 
 /// Remembers as many numbers as it is told to.
@@ -231,7 +234,8 @@ fn hosts_are_told_too_and_keep_their_start() {
         let Err(Error::Step { step: 1, source: StepError::Law(error), .. }) = done else {
             panic!("{place:?}: {done:?}");
         };
-        assert_eq!((error.element, error.quantity), (0, expected(place)));
+        let LawError::NotFinite { element: 0, quantity, .. } = error else { panic!("{error:?}") };
+        assert_eq!(quantity, expected(place));
         assert_eq!(start, before);
     }
     let spoilt = Spoilt { place: Some(Place::InitialMemory), value: f64::NAN, slid: 0.0 };

@@ -4,6 +4,7 @@
 //! REFERENCE: the fields of the error. Elements, record files and closed forms are tested in their
 //! own files.
 
+mod blame;
 mod builder;
 mod chains;
 mod law_numbers;

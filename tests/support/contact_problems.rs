@@ -52,8 +52,8 @@ impl Ground for Prescribed {
     }
 }
 
-/// Delassus operator of a rigid block on a half-plane.
-fn of_a_scene(count: usize, random: &mut Random) -> Vec<f64> {
+/// Delassus operator of a rigid block on a half-plane, and its elements.
+fn of_a_scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<ContactElement>) {
     let poisson = random.pick(&[0.0, 0.2, 1.0 / 3.0, 0.45, 0.4999]);
     let soil = Soil::new(1e8, poisson, 2000.0).unwrap();
     let strip =
@@ -80,7 +80,7 @@ fn of_a_scene(count: usize, random: &mut Random) -> Vec<f64> {
         };
         matrix[i * size + j] += scale * mean * elements[j % count].length();
     }
-    matrix
+    (matrix, elements.to_vec())
 }
 
 /// Any symmetric positive definite matrix.
@@ -300,14 +300,18 @@ impl Tally {
 
 /// One sequence of problems with one matrix of `count` elements.
 pub(crate) fn sequence(count: usize, friction: f64, real: bool, random: &mut Random) -> Tally {
-    let matrix = if real { of_a_scene(count, random) } else { invented(count, random) };
+    let (matrix, elements) = if real {
+        of_a_scene(count, random)
+    } else {
+        (invented(count, random), Strip::uniform(0.0..count as f64, count).unwrap().elements())
+    };
     let size = 2 * count;
     let motion = Arc::new(Mutex::new(vec![0.0; size]));
-    let elements = Strip::uniform(0.0..count as f64, count).unwrap().elements();
+    let (left, right) = (elements[0].left, elements[count - 1].right);
     let ground = Prescribed { elements, matrix: matrix.clone(), motion: Arc::clone(&motion) };
-    let body = RigidBlock::from_mass(count as f64, 1e60, 1e60, 0.0).unwrap();
+    let body = RigidBlock::from_mass(right - left, 1e60, 1e60, 0.0).unwrap();
     let mut simulation = Simulation::builder(1.0)
-        .structure(body.centered_at(0.5 * count as f64).unwrap())
+        .structure(body.centered_at(0.5 * (left + right)).unwrap())
         .ground(ground)
         .interface(Coulomb::new(friction).unwrap())
         .gravity(0.0)

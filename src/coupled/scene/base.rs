@@ -25,6 +25,7 @@ pub(crate) struct Base {
     modal: Vec<f64>,
     foundations: Vec<Outline>,
     lengths: Vec<f64>,
+    middles: Vec<f64>,
     nodes: Vec<ContactNode>,
 }
 
@@ -85,7 +86,8 @@ impl Base {
             }
         }
         let lengths = elements.iter().map(ContactElement::length).collect();
-        Ok(Self { rows, modal: Vec::new(), foundations, lengths, nodes })
+        let middles = elements.iter().map(ContactElement::center).collect();
+        Ok(Self { rows, modal: Vec::new(), foundations, lengths, middles, nodes })
     }
 
     /// Goes over to modal coordinates.
@@ -102,6 +104,11 @@ impl Base {
         }
     }
 
+    /// Number of contact nodes.
+    pub(crate) fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
     /// The unknowns that move a contact node, some more than once.
     pub(crate) fn unknowns(&self) -> Vec<usize> {
         self.nodes.iter().flat_map(ContactNode::unknowns).collect()
@@ -116,6 +123,11 @@ impl Base {
     /// Lengths A of the elements.
     pub(crate) fn lengths(&self) -> &[f64] {
         &self.lengths
+    }
+
+    /// Coordinate of the middle of an element.
+    pub(crate) fn middle(&self, element: usize) -> f64 {
+        self.middles[element]
     }
 
     /// Length that goes with contact component `i`.

@@ -105,12 +105,14 @@ impl Influence {
     fn check(&self, base: &Base, unknowns: usize) -> Result<()> {
         let count = base.lengths().len();
         let mut means = vec![0.0; 2 * count];
+        // A mean is a sum over the nodes above an element, each of which may be rounded.
+        let exact = 10.0 * EXACT + base.node_count() as f64 * f64::EPSILON;
         for part in &self.parts {
             for (direction, vector) in part.vectors.iter().enumerate() {
                 base.means(&spread(vector, unknowns), &mut means);
                 for &e in part.elements.iter().filter(|_| !vector.is_empty()) {
                     let moved = if direction == 0 { means[count + e] } else { -means[e] };
-                    if (moved - 1.0).abs() > 10.0 * EXACT {
+                    if (moved - 1.0).abs() > exact {
                         return Err(Error::Input {
                             quantity: "mean of the base under a rigid translation of 1 m",
                             value: moved,

@@ -1,8 +1,9 @@
-//! Mechanisms: structures with a motion that nothing resists while their base is at rest.
+//! Mechanisms: structures with a motion that nothing resists while their base is at rest, or nothing at
+//! all.
 
 use super::base::Base;
 use crate::error::StandingError;
-use crate::linalg::{SparseFactor, largest};
+use crate::linalg::{SparseFactor, largest, weighted_dot};
 use crate::matrix::{Matrix, SparseMatrix};
 use crate::structure::{ContactNode, Structure, Triplets, unknown_numbers};
 
@@ -18,6 +19,10 @@ const FREE: f64 = 1e-12;
 const SURELY_FREE: f64 = f64::EPSILON;
 /// Share of the largest displacement from which on an unknown takes part in a mechanism.
 const TAKES_PART: f64 = 0.1;
+/// Independent mechanisms that are told, at most.
+const MOST_MOTIONS: usize = 32;
+/// Passes of inverse iteration for each.
+const ITERATIONS: usize = 3;
 
 /// Stiffness (tangent of the nonlinear force at rest included), mass and base of a structure.
 #[derive(Clone, Copy)]
@@ -39,41 +44,39 @@ impl AtRest<'_> {
         self.motion(FREE)
     }
 
-    /// A displacement with the base at rest that does work of at most `free` on the stiffness.
+    /// Displacements with the base at rest that do work of at most `free` on the stiffness.
     fn motion(&self, free: f64) -> Option<StandingError> {
         if self.base.unknowns().is_empty() {
             return None;
         }
         let mut held = Held::new(self)?;
-        let n = self.stiffness.order();
-        // Inverse iteration from a vector of all signs and sizes.
-        let mut motion: Vec<f64> = (0..n).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
-        for _ in 0..3 {
-            let mut force = vec![0.0; n];
-            self.mass.multiply_add(1.0, &motion, &mut force);
-            held.factor.solve(&mut force);
-            let size = largest(&force);
-            if !(size.is_finite() && size > 0.0) {
-                return None;
-            }
-            motion = force.into_iter().map(|x| x / size).collect();
-        }
-        let mut work = 0.0;
-        let mut around = 0.0;
-        for &(row, column, value) in held.matrix.entries() {
-            let product = motion[row] * value * motion[column];
-            work += product;
-            around += product.abs();
-        }
-        if work.abs() > free * around {
-            return None;
-        }
-        let moves = |i: &usize| motion[*i].abs() > TAKES_PART;
-        let unknowns: Vec<usize> = (0..n).filter(moves).collect();
-        let place = self.structure.describe(&unknowns);
-        let place = place.unwrap_or_else(|| unknown_numbers(&unknowns));
+        let unknowns = held.free_unknowns(free)?;
+        let place = place(self.structure, &unknowns);
         Some(StandingError::Mechanism { unknowns, place })
     }
+}
+
+/// A motion that neither stiffness nor damping nor mass resist.
+pub(super) fn unresisted(
+    structure: &dyn Structure,
+    stiffness: &SparseMatrix,
+    others: [&Matrix; 2],
+) -> Option<StandingError> {
+    let mut sum = Triplets::new(stiffness.order());
+    let scale = |largest: f64| if largest > 0.0 { largest.recip() } else { 0.0 };
+    stiffness.add_to(scale(largest(&stiffness.diagonal())), &mut sum);
+    for matrix in others {
+        matrix.add_to(scale(largest(&matrix.diagonal())), &mut sum);
+    }
+    let mut all = Held::of(sum, 1.0, &[])?;
+    let unknowns = all.free_unknowns(FREE)?;
+    let place = place(structure, &unknowns);
+    Some(StandingError::Massless { unknowns, place })
+}
+
+/// The structure's own names of unknowns, or their numbers.
+fn place(structure: &dyn Structure, unknowns: &[usize]) -> String {
+    structure.describe(unknowns).unwrap_or_else(|| unknown_numbers(unknowns))
 }
 
 /// The stiffness at rest with springs under the contact nodes.
@@ -81,6 +84,10 @@ pub(super) struct Held {
     matrix: Triplets,
     spring: f64,
     factor: SparseFactor,
+    /// What keeps mechanisms regular, on the diagonal.
+    regular: Vec<f64>,
+    /// Unknowns with nothing on the diagonal.
+    absent: Vec<usize>,
 }
 
 impl Held {
@@ -89,13 +96,89 @@ impl Held {
         let stiffest = stiffness.entries().fold(0.0_f64, |m, (_, _, k)| m.max(k.abs()));
         let spring = HELD * if stiffest > 0.0 { stiffest } else { 1.0 };
         let (matrix, _) = base.held(stiffness, spring);
-        let mut regular = matrix.clone();
-        let heaviest = largest(&mass.diagonal());
-        if heaviest > 0.0 {
-            mass.add_to(REGULAR * spring / heaviest, &mut regular);
+        Self::of(matrix, spring, &mass.diagonal())
+    }
+
+    /// A matrix whose largest entry is about `spring`, kept regular by `mass`, or by what stands on its
+    /// diagonal where there is none.
+    fn of(matrix: Triplets, spring: f64, mass: &[f64]) -> Option<Self> {
+        let heaviest = largest(mass);
+        let mut diagonal = vec![0.0; matrix.order()];
+        for &(row, _, value) in matrix.entries().iter().filter(|entry| entry.0 == entry.1) {
+            diagonal[row] += value;
         }
-        let factor = SparseFactor::new(NAME, &regular).ok()?;
-        Some(Self { matrix, spring, factor })
+        let absent = (0..diagonal.len()).filter(|&i| diagonal[i] == 0.0).collect();
+        let regular: Vec<f64> = diagonal
+            .into_iter()
+            .enumerate()
+            .map(|(i, own)| match mass.get(i) {
+                Some(mass) if *mass > 0.0 => REGULAR * spring * mass / heaviest,
+                _ if own > 0.0 => REGULAR * own,
+                _ => REGULAR * spring,
+            })
+            .collect();
+        let mut sum = matrix.clone();
+        regular.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
+        let factor = SparseFactor::new(NAME, &sum).ok()?;
+        Some(Self { matrix, spring, factor, regular, absent })
+    }
+
+    /// The unknowns that take part in displacements which do work of at most `free`, ascending.
+    ///
+    /// All such displacements together: by the length of their rows in a basis that the regular part
+    /// makes orthonormal, so that neither its choice nor the numbering of unknowns matters.
+    fn free_unknowns(&mut self, free: f64) -> Option<Vec<usize>> {
+        let n = self.regular.len();
+        let mut basis: Vec<Vec<f64>> = Vec::new();
+        while basis.len() < MOST_MOTIONS.min(n) {
+            match self.softest(&basis) {
+                Some(motion) if self.share_of_work(&motion) <= free => basis.push(motion),
+                _ => break,
+            }
+        }
+        let part = |i: usize| basis.iter().map(|motion| motion[i] * motion[i]).sum::<f64>().sqrt();
+        let parts: Vec<f64> = (0..n).map(part).collect();
+        let most = largest(&parts);
+        (!basis.is_empty()).then(|| (0..n).filter(|&i| parts[i] > TAKES_PART * most).collect())
+    }
+
+    /// The softest displacement beside those of `basis`.
+    fn softest(&mut self, basis: &[Vec<f64>]) -> Option<Vec<f64>> {
+        // Inverse iteration from a vector of all signs and sizes.
+        let mut motion: Vec<f64> =
+            (0..self.regular.len()).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
+        for _ in 0..ITERATIONS {
+            let mut force: Vec<f64> =
+                motion.iter().zip(&self.regular).map(|(u, r)| u * r).collect();
+            self.factor.solve(&mut force);
+            motion = force;
+            for known in basis.iter().chain(basis) {
+                let share = weighted_dot(&self.regular, known, &motion);
+                motion.iter_mut().zip(known).for_each(|(u, known)| *u -= share * known);
+            }
+            // First by the largest: squares may overflow.
+            let size = largest(&motion);
+            motion = motion.into_iter().map(|u| u / size).collect();
+            let size = weighted_dot(&self.regular, &motion, &motion).sqrt();
+            if !(size.is_finite() && size > 0.0) {
+                return None;
+            }
+            motion = motion.into_iter().map(|u| u / size).collect();
+        }
+        Some(motion)
+    }
+
+    /// Work of a displacement on the matrix, relative to that of its largest entries, and to that of a
+    /// spring where there are none: beside such a displacement all others are rounding.
+    fn share_of_work(&self, motion: &[f64]) -> f64 {
+        let mut around: f64 = self.absent.iter().map(|&i| self.spring * motion[i].powi(2)).sum();
+        let mut work = 0.0_f64;
+        for &(row, column, value) in self.matrix.entries() {
+            let product = motion[row] * value * motion[column];
+            work += product;
+            around += product.abs();
+        }
+        if around > 0.0 { work.abs() / around } else { 0.0 }
     }
 
     /// r of a rotation of `nodes` by 1 rad about `middle`.

@@ -145,10 +145,11 @@ impl Scene {
         !(self.weight.is_empty() && self.loads.is_empty())
     }
 
-    /// Adds the weight and the external loads at `time`, less those of the static state, to `force`;
-    /// false if one is not finite.
-    pub(crate) fn add_loads(&self, time: f64, force: &mut [f64]) -> bool {
+    /// Adds the weight and the external loads at `time`, less those of the static state, to `force`,
+    /// up to a load that is not finite: its number and its value.
+    pub(crate) fn add_loads(&self, time: f64, force: &mut [f64]) -> Option<(usize, f64)> {
         force.iter_mut().zip(&self.weight).for_each(|(force, weight)| *force += weight);
-        self.loads.iter().all(|load| load.add(time, force))
+        let mut added = self.loads.iter().map(|load| load.add(time, force)).enumerate();
+        added.find(|(_, value)| !value.is_finite())
     }
 }

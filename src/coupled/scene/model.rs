@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::base::Base;
 use super::influence::Influence;
-use super::mechanism::AtRest;
+use super::mechanism::{AtRest, unresisted};
 use super::modal_basis::ModalBasis;
 use crate::error::{Error, Result, StandingError, same_length};
 use crate::linalg::{SparseMatrix, indefinite_row};
@@ -90,17 +90,31 @@ impl Model {
             let check_sign = |tie| if linear { model.check_stiffness(base, tie) } else { Ok(()) };
             let influence = Influence::new(base, &at_rest, [mass, damping], &check_sign);
             let held = AtRest { structure, stiffness: &at_rest, mass: &model.mass, base };
-            let influence = influence.map_err(|error| match error {
-                Error::Singular { .. } => {
-                    held.mechanism().map_or(error, |cause| Error::Standing(Box::new(cause)))
-                }
-                error => error,
+            // A mechanism fails in one way or another, as rounding has it.
+            let influence = influence.map_err(|error| {
+                held.mechanism().map_or(error, |cause| Error::Standing(Box::new(cause)))
             })?;
             let free = if linear { held.free_motion() } else { None };
             model.free_motion = free.map(Box::new);
             model.influence = Arc::new(influence);
         }
         Ok(model)
+    }
+
+    /// What to say of `error`, that the effective stiffness has no factors.
+    pub(crate) fn cause(
+        &self,
+        structure: &dyn Structure,
+        tangent: &SparseMatrix,
+        error: Error,
+    ) -> Error {
+        let Some([_, _, stiffness]) = self.sparse() else { return error };
+        let mut sum = Triplets::new(self.unknowns);
+        stiffness.add_to(1.0, &mut sum);
+        tangent.add_to(1.0, &mut sum);
+        let sum = SparseMatrix::new("stiffness matrix", &sum).ok();
+        let found = sum.and_then(|sum| unresisted(structure, &sum, [&self.damping, &self.mass]));
+        found.map_or(error, |cause| Error::Standing(Box::new(cause)))
     }
 
     /// Refuses a mechanism. Call it after the check of conditioning: stiffnesses too far apart for double

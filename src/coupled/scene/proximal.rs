@@ -63,9 +63,10 @@ impl Standing<'_> {
         let Self { model, structure, base, soil } = *self;
         let (n, count) = (model.unknowns, base.lengths().len());
         let size = 2 * count;
-        let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(soil, base)
-            / total_mass(model).max(f64::MIN_POSITIVE);
-
+        let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(soil, base) / total_mass(model);
+        if !epsilon.is_finite() {
+            return Err(Error::Singular { matrix: NAME, order: n });
+        }
         let stiffest = epsilon;
 
         let mut solver = ContactSolver::new(count);
@@ -107,6 +108,7 @@ impl Standing<'_> {
                 start,
                 laws,
                 length_scale: largest(&free_jump),
+                bonds: &[],
             };
             let found = search.solve(&mut solver, &input, &mut state.modes);
             found.map_err(|error| match error {

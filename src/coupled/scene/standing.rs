@@ -8,7 +8,7 @@
 
 use super::base::Base;
 use super::influence::Part;
-use super::mechanism::{AtRest, Held};
+use super::mechanism::{AtRest, Held, unresisted};
 use super::model::Tangent;
 use super::proximal::Standing;
 use crate::error::{Error, StandingError};
@@ -31,8 +31,11 @@ pub(super) fn cause(
     let Some(stiffness) = stiffness_at_rest(stage) else { return error };
     let Standing { model, structure, base, .. } = *stage;
     let at_rest = AtRest { structure, stiffness: &stiffness, mass: &model.mass, base };
+    let is_singular = matches!(error, Singular { .. });
+    let massless = || unresisted(structure, &stiffness, [&model.damping, &model.mass]);
     at_rest
         .mechanism()
+        .or_else(|| if is_singular { massless() } else { None })
         .or_else(|| resultants(stage, &at_rest, laws, load))
         .map_or(error, |cause| Error::Standing(Box::new(cause)))
 }
@@ -63,35 +66,59 @@ fn resultants(
         let nodes = nodes_under(stage.base, part);
         let (left, right) = (nodes.first()?.x, nodes.last()?.x);
         let ends = [left, right];
-        // What glue carries is not to be told from resultants.
+        let laws = || part.elements().iter().map(|&e| law_of(laws, e));
         let little = 1e-6 * normal.abs().max(1.0);
-        let glued = |trial| part.elements().iter().any(|&e| sticks_at(law_of(laws, e), trial));
-        if glued(ContactState { pressure: -little, ..ContactState::default() }) {
-            return None;
-        }
+        let glued = |trial| laws().any(|law| sticks_at(law, trial));
+        // With a bond something must have broken it: without one the state would have been found.
+        let pulls = glued(ContactState { pressure: -little, ..ContactState::default() });
+        let coheres = glued(ContactState { shear: little, ..ContactState::default() });
+        let broken = |bonded: bool, then: StandingError| {
+            let then = Box::new(then);
+            Some(if bonded { StandingError::BondBreaks { then } } else { *then })
+        };
+        let opens = laws().any(|law| law.modes().contains(&Mode::Open));
         if normal <= 0.0 {
-            return Some(StandingError::Lifted { ends, upward });
+            let lifted = StandingError::Lifted { ends, upward };
+            return if opens { broken(pulls, lifted) } else { None };
         }
-        let friction = part.elements().iter().map(|&e| law_of(laws, e).friction_coefficient());
-        let friction = friction.map(|known| known.unwrap_or(f64::INFINITY)).fold(0.0, f64::max);
+        let lengths = || part.elements().iter().map(|&e| stage.base.lengths()[e]);
+        let pressure = normal / lengths().sum::<f64>();
+        let friction = laws().map(|law| friction(law, pressure)).fold(0.0, f64::max);
         let resistance = friction * normal;
-        let cohesive = glued(ContactState { shear: little, ..ContactState::default() });
-        if horizontal.abs() > resistance && !cohesive {
+        let slides = || {
             let ratio = horizontal.abs() / resistance;
-            return Some(StandingError::Slides { ends, horizontal, normal, resistance, ratio });
+            let error = StandingError::Slides { ends, horizontal, normal, resistance, ratio };
+            if ratio > 1.0 { broken(coheres, error) } else { None }
+        };
+        if !coheres && let Some(slides) = slides() {
+            return Some(slides);
         }
         let (middle, half_width) = (0.5 * (left + right), 0.5 * (right - left));
         let moment = dot(&held.rotation(&nodes, middle), load);
         // The soil's pressure stands at the distance e: M + N e = 0.
         let eccentricity = -moment / normal;
         let ratio = eccentricity.abs() / half_width;
-        if ratio >= 1.0 {
-            return Some(StandingError::Overturns { ends, moment, normal, eccentricity, ratio });
+        if ratio >= 1.0 && opens {
+            let error = StandingError::Overturns { ends, moment, normal, eccentricity, ratio };
+            return broken(pulls, error);
+        }
+        let elements = part.elements().len();
+        let middles = part.elements().iter().map(|&e| stage.base.middle(e));
+        let reach = [
+            middles.clone().fold(f64::INFINITY, f64::min),
+            middles.fold(f64::NEG_INFINITY, f64::max),
+        ];
+        let resultant = middle + eccentricity;
+        let slack = 1e-9 * half_width;
+        if opens && (resultant < reach[0] - slack || resultant > reach[1] + slack) {
+            return broken(pulls, StandingError::Beyond { ends, elements, resultant, reach });
+        }
+        if let Some(slides) = slides() {
+            return Some(slides);
         }
         // At most the bearing pressure everywhere between the resultant's two equal distances.
-        let pressures = || part.elements().iter().map(|&e| (e, bearing_pressure(law_of(laws, e))));
-        let largest = pressures().fold(0.0, |most: f64, (_, pressure)| most.max(pressure));
-        let all: f64 = pressures().map(|(e, pressure)| pressure * stage.base.lengths()[e]).sum();
+        let largest = laws().map(bearing_pressure).fold(0.0, f64::max);
+        let all: f64 = laws().zip(lengths()).map(|(law, l)| bearing_pressure(law) * l).sum();
         let width = 2.0 * half_width * (1.0 - ratio);
         let capacity = all.min(largest * width);
         let ratio = normal / capacity;
@@ -99,11 +126,36 @@ fn resultants(
     })
 }
 
+/// The friction coefficient of a law, or the ratio of traction at which it lets an element under this
+/// pressure go; infinite if it does not.
+fn friction(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
+    const MOST: f64 = 1e6;
+    if let Some(known) = law.friction_coefficient() {
+        return known;
+    }
+    let holds = |ratio: f64| {
+        sticks_at(
+            law,
+            ContactState { pressure, shear: ratio * pressure, ..ContactState::default() },
+        )
+    };
+    if law.modes().len() == 1 || holds(MOST) {
+        return f64::INFINITY;
+    }
+    let (mut low, mut high) = (0.0, MOST);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if holds(middle) { low = middle } else { high = middle }
+    }
+    high
+}
+
 /// Whether a law holds an element that nobody has moved so far at these tractions, without sliding
 /// or opening.
 fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
     let mut memory = vec![0.0; law.memory()];
-    let start = StepStart::new(ContactState::default(), Mode::Stick, 1.0);
+    let pressed = ContactState { pressure: trial.pressure.max(0.0), ..ContactState::default() };
+    let start = StepStart::new(pressed, Mode::Stick, 1.0);
     if !memory.is_empty() {
         law.initial_memory(&start, &mut memory);
     }

@@ -72,9 +72,7 @@ impl Forcing {
         for (values, quantity) in
             [(&self.free_field, "free field"), (&self.history, "history of the ground")]
         {
-            if values.iter().any(|value| !value.is_finite()) {
-                return Err(StepError::NotFinite { quantity });
-            }
+            StepError::check_finite(quantity, values)?;
         }
         self.distortion.copy_from_slice(&self.free_field);
         let influence = &scene.model.influence;
@@ -101,8 +99,15 @@ impl Forcing {
             .model
             .load(structure, within, at_start, &mut self.unknowns, &mut self.load)
             .map_err(StepError::structure("load of the structure"))?;
+        if own {
+            StepError::check_finite("load of the structure", &self.unknowns)?;
+        }
         self.loaded = own || scene.has_loads();
-        let is_finite = scene.add_loads(within, &mut self.load);
-        if is_finite { Ok(()) } else { Err(StepError::NotFinite { quantity: "external load" }) }
+        match scene.add_loads(within, &mut self.load) {
+            None => Ok(()),
+            Some((index, value)) => {
+                Err(StepError::NotFinite { quantity: "external load", index, value })
+            }
+        }
     }
 }

@@ -133,7 +133,9 @@ impl LinearStep {
         }
         // `max` ignores NaN, so the jumps themselves are looked at.
         if !(length_scale.is_finite() && free_jump.iter().all(|jump| jump.is_finite())) {
-            return Err(StepError::NotFinite { quantity: "displacement of the structure" });
+            StepError::check_finite("displacement of the structure", &increment.end)?;
+            StepError::check_finite("jump between soil and base", free_jump)?;
+            StepError::check_finite("displacement of the base", means)?;
         }
         let input = ContactInput {
             delassus: &operators.delassus,
@@ -142,6 +144,7 @@ impl LinearStep {
             start: &state.start,
             laws: &scene.laws,
             length_scale,
+            bonds: &[],
         };
         increment.modes.copy_from_slice(&state.modes);
         let (trials, method) = search.solve(contact, &input, &mut increment.modes)?;

@@ -202,9 +202,7 @@ impl Newton {
         tangent.multiply_add(weight, &increment.displacement, &mut self.linearised);
         self.guess.copy_from_slice(&increment.displacement);
         self.evaluate(linear, data, increment)?;
-        if increment.force.iter().any(|f| !f.is_finite()) {
-            return Err(StepError::NotFinite { quantity: "nonlinear force of the structure" });
-        }
+        StepError::check_finite("nonlinear force of the structure", &increment.force)?;
         let scale = largest(&linear.known).max(largest(&increment.force));
         let open = self
             .linearised

@@ -67,9 +67,7 @@ fn check(increment: &[f64]) -> Result<(), StepError> {
     if magnitude(increment) <= RUNAWAY {
         return Ok(());
     }
-    if increment.iter().any(|x| !x.is_finite()) {
-        return Err(StepError::NotFinite { quantity: "displacement of the structure" });
-    }
+    StepError::check_finite("displacement of the structure", increment)?;
     let change = largest(increment);
     if change > RUNAWAY { Err(StepError::Runaway { increment: change }) } else { Ok(()) }
 }

@@ -30,7 +30,7 @@ fn flow_chart_follows_the_robust_search_until_it_cycles() {
             }
             let error = chart.step().unwrap_err();
             let Error::Step { step: failed, source, .. } = &error else { panic!("{error}") };
-            let StepError::Contact { iterations, residual, modes } = source else {
+            let StepError::Contact { iterations, residual, modes, .. } = source else {
                 panic!("{error}")
             };
             assert_eq!(*failed, step);

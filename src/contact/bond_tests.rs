@@ -1,0 +1,66 @@
+//! Bonds that break within a step, against brute force.
+
+use super::*;
+use crate::interface::Adhesive;
+
+/// The same problem with glue of random strength under every closed element.
+fn glue(problem: &mut Problem, random: &mut Random) {
+    let pressure = problem.static_traction[0];
+    let [tension, cohesion] = [(); 2].map(|()| pressure * random.log_within(0.03, 3.0));
+    let law = Adhesive::new(tension, cohesion, problem.parameters.friction).unwrap();
+    problem.laws = vec![Box::new(law)];
+    let starts = problem.start.iter().map(|start| {
+        let mode = if start.mode.is_closed() { Mode::Stick } else { Mode::Open };
+        StepStart::new(start.state, mode, 1e-3)
+    });
+    problem.start = StepStarts::new(&problem.laws, &starts.collect::<Vec<_>>()).unwrap();
+    problem.modes = problem.start.iter().map(|start| start.mode).collect();
+    problem.parameters.activation = Activation::Gap;
+}
+
+#[test]
+fn bonds_break_where_brute_force_says_they_may() {
+    let mut random = Random(5);
+    let (mut problems, mut breaking, mut several, mut cut) = (0, 0, 0, 0);
+    for (count, sequences) in [(1, 60), (2, 120), (3, 120), (4, 60), (5, 12)] {
+        for sequence in 0..sequences {
+            let delassus = if sequence % 2 == 0 {
+                scene(count, &mut random).0
+            } else {
+                invented(count, &mut random)
+            };
+            let mut problem = begin(delassus, count, &mut random);
+            glue(&mut problem, &mut random);
+            let mut solver = ContactSolver::new(count);
+            let mut search = ModeSearch::new(count, ContactSearch::Robust);
+            let mut memory = problem.start.memory().to_vec();
+            for _ in 0..10 {
+                push(&mut problem, &mut random);
+                problems += 1;
+                solver.invalidate();
+                let all = brute_force(&problem, &mut solver);
+                solver.invalidate();
+                let mut modes = problem.modes.clone();
+                search.solve(&mut solver, &problem.input(), &mut modes).unwrap();
+                assert!(all.iter().any(|(m, _)| *m == modes), "{modes:?} is not among {all:?}");
+                let glued = |e: usize| problem.start.memory_of(e) == [1.0];
+                let keeps_all =
+                    |modes: &[Mode]| (0..count).all(|e| !glued(e) || modes[e] == Mode::Stick);
+                // No bond breaks where all of them may hold.
+                let may_hold = all.iter().any(|(modes, _)| keeps_all(modes));
+                assert!(keeps_all(&modes) || !may_hold, "{modes:?} {all:?}");
+                breaking += usize::from(!may_hold);
+                several += usize::from(distinct(&all) > 1);
+                cut += usize::from(problem.start.memory().contains(&0.0));
+                let (laws, states) = (&problem.laws, &solver.states);
+                problem.start.remember(laws, states, &modes, &mut memory).unwrap();
+                problem.start.advance(states, &modes, &memory);
+                problem.modes = modes;
+            }
+        }
+    }
+    println!(
+        "{problems} problems, {breaking} break bonds, {several} have several solutions, {cut}"
+    );
+    assert!(breaking > problems / 20 && several > problems / 50 && cut < problems);
+}

@@ -1,0 +1,80 @@
+//! The contact problem of one element, the tractions of the others held.
+
+use super::problem::{ContactInput, ContactSolver};
+use crate::interface::{Condition, ContactState, Mode, Tolerance};
+
+/// Solves element `e` alone, the tractions of the others held, and returns its mode.
+pub(super) fn local_mode(
+    solver: &mut ContactSolver,
+    input: &ContactInput<'_>,
+    e: usize,
+    current: Mode,
+) -> Mode {
+    let count = solver.states.len();
+    let size = 2 * count;
+    let (n, t) = (e, count + e);
+    let row = |i: usize| &input.delassus[i * size..(i + 1) * size];
+    let others = |i: usize| {
+        let all: f64 = crate::linalg::dot(row(i), &solver.traction);
+        input.free_jump[i] + all - row(i)[n] * solver.traction[n] - row(i)[t] * solver.traction[t]
+    };
+    let jump = [others(n), others(t)];
+    let block = [[row(n)[n], row(n)[t]], [row(t)[n], row(t)[t]]];
+    let fixed = [input.static_traction[n], input.static_traction[t]];
+    let scale = fixed[0].abs().max(jump[0].abs() / block[0][0].abs()).max(fixed[1].abs());
+    let tolerance = Tolerance { length: 1e-13 * input.length_scale, traction: 1e-12 * scale };
+    let candidates = std::iter::once(current).chain(input.modes(e).iter().copied());
+    for mode in candidates {
+        let conditions = match input.conditions(e, mode) {
+            Ok(conditions) => conditions,
+            Err(fault) => {
+                solver.fault = Some(fault);
+                return current;
+            }
+        };
+        let Some(change) = solve_element(conditions, jump, block, fixed) else { continue };
+        let gap = jump[0] + block[0][0] * change[0] + block[0][1] * change[1];
+        let tangential = jump[1] + block[1][0] * change[0] + block[1][1] * change[1];
+        let state = ContactState {
+            gap,
+            slip: -tangential,
+            pressure: fixed[0] + change[0],
+            shear: fixed[1] + change[1],
+        };
+        match input.next_mode(e, mode, &state, tolerance) {
+            Ok(next) if next == mode => {
+                solver.traction[n] = change[0];
+                solver.traction[t] = change[1];
+                solver.states[e] = state;
+                return mode;
+            }
+            Ok(_) => {}
+            Err(fault) => {
+                solver.fault = Some(fault);
+                return current;
+            }
+        }
+    }
+    current
+}
+
+/// The change of traction of one element from its two conditions; `None` if they are dependent.
+fn solve_element(
+    conditions: [Condition; 2],
+    jump: [f64; 2],
+    block: [[f64; 2]; 2],
+    fixed: [f64; 2],
+) -> Option<[f64; 2]> {
+    let [[a, b, r], [c, d, s]] = conditions.map(|k| {
+        [
+            k.gap * block[0][0] - k.slip * block[1][0] + k.pressure,
+            k.gap * block[0][1] - k.slip * block[1][1] + k.shear,
+            k.value - k.gap * jump[0] + k.slip * jump[1]
+                - k.pressure * fixed[0]
+                - k.shear * fixed[1],
+        ]
+    });
+    let determinant = a * d - b * c;
+    let change = [(r * d - b * s) / determinant, (a * s - r * c) / determinant];
+    (determinant != 0.0 && change.iter().all(|x| x.is_finite())).then_some(change)
+}
