@@ -6,9 +6,9 @@
 //! on the first two rows of Table 1, and the soil's density is an assumption. All are options:
 //!
 //! ```text
-//! cargo run --release --example containment               # 2 s
-//! cargo run --release --example containment -- --sweep    # friction from 0.05 to 0.8 as well: 6 s
-//! cargo run --release --example containment -- --meshes   # 15 elements as well: 4 s
+//! cargo run --release --example containment               # 1 s
+//! cargo run --release --example containment -- --sweep    # friction from 0.05 to 0.8 as well: 4 s
+//! cargo run --release --example containment -- --meshes   # 15 elements as well: 3 s
 //! cargo run --release --features rayon --example containment -- --help
 //! ```
 
