@@ -173,10 +173,10 @@ impl Recipe {
     /// The same scene with no tower reduced: a reduced one keeps the rounding of the whole one's stiffness.
     pub(crate) fn whole(&self) -> Self {
         let mut whole = self.clone();
-        if let Building::Tower(Tower { form, .. }) = &mut whole.building {
-            if *form == Form::Reduced {
-                *form = Form::Quad4;
-            }
+        if let Building::Tower(Tower { form, .. }) = &mut whole.building
+            && *form == Form::Reduced
+        {
+            *form = Form::Quad4;
         }
         whole
     }
