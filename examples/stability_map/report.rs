@@ -163,7 +163,8 @@ pub(crate) fn document(maps: &[Map], cells: &[Cell]) -> String {
     );
     let of = |scheme: Scheme, map: Option<usize>| -> Vec<&Cell> {
         let all = cells.iter().filter(|cell| cell.scheme == scheme);
-        all.filter(|cell| map.is_none_or(|map| cell.map == map)).collect()
+        let others = |cell: &&Cell| maps[cell.map].name != SCHEME_MAP;
+        all.filter(|cell| map.map_or(others(cell), |map| cell.map == map)).collect()
     };
     let others = maps.iter().enumerate().filter(|(_, map)| map.name != SCHEME_MAP);
     let names = others.map(|(index, map)| (map.name, Some(index)));
