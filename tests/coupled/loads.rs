@@ -392,7 +392,7 @@ fn initial_motions_and_loads_that_make_no_sense_are_refused() {
         "does not open",
         "unknown of a load",
         "weight of an unknown",
-        "value of a load at t = 0",
+        "external load at t = 0",
     ]) {
         assert!(text.contains(word), "{text}: {word}");
     }
@@ -546,7 +546,7 @@ fn a_weight_that_acts_from_the_start_accelerates_at_once() {
     assert!(scene().interface(layer).build().is_err());
 }
 
-/// Glue is no friction: what it carries is not judged by resultants.
+/// Glue is no friction: where it breaks, what follows without it is told apart.
 #[test]
 fn glued_bases_are_not_said_to_slide() {
     let glued = |height: f64, share: f64| {

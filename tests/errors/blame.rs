@@ -53,7 +53,7 @@ fn a_resultant_beyond_the_last_middle_is_said_to_be_there() {
             standing(elements, graded).interface(Coulomb::new(2.0).unwrap()).load(push)
         };
         pushed(0.99 * reach).build().unwrap();
-        let last = format!("from x = -{:.3}", 0.5 * WIDTH * reach);
+        let last = format!("from x = -{:.4}", 0.5 * WIDTH * reach);
         let resultant = 1.005 * reach;
         let passes = format!("passes at x = {:.4}", 0.5 * WIDTH * resultant);
         says(&[&passes, &last, "middles of the outermost"], pushed(resultant));

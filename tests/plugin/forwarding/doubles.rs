@@ -105,6 +105,16 @@ impl InterfaceLaw for Double {
         Some(CORRECT)
     }
 
+    fn bond_overload(&self, _: &StepStart, _: &ContactState) -> Option<f64> {
+        self.0.asked("bond_overload");
+        Some(CORRECT)
+    }
+
+    fn check_start(&self, _: &StepStart) -> Result<()> {
+        self.0.asked("check_start");
+        Err(refusal())
+    }
+
     /// Smooth contact whose only closed mode is another one than the default's first.
     fn smooth(&self) -> Box<dyn InterfaceLaw> {
         struct Smooth(Coulomb);

@@ -90,6 +90,8 @@ fn boxed_laws() {
         part.commit(&start, &ContactState::default(), Mode::Open, &mut memory);
         assert_eq!(memory, [2.0 * CORRECT; 3]);
         assert_eq!(part.friction_coefficient(), Some(CORRECT));
+        assert_eq!(part.bond_overload(&start, &ContactState::default()), Some(CORRECT));
+        assert_eq!(part.check_start(&start), Err(doubles::refusal()));
         assert_eq!(part.smooth().modes(), [Mode::SlipRight]);
     }
     let log = Log::default();
