@@ -23,7 +23,7 @@ mod step;
 pub use case::{CaseError, CaseFileError, SweepError};
 pub use checkpoint::CheckpointError;
 pub(crate) use checks::{
-    all_finite, finite, not_finite, not_negative, positive, same_length, write_file,
+    all_finite, damping_ratio, finite, not_finite, not_negative, positive, same_length, write_file,
 };
 pub use law::LawError;
 pub use layered::{KernelFileError, LayeredError};

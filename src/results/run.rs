@@ -192,6 +192,7 @@ impl Run {
             &self.ledger,
             self.least_numerical,
         );
+        self.warnings.extend(Warning::of_soils(&ground.soils()));
         self.resolution.warn(&mut self.warnings);
     }
 
