@@ -37,5 +37,10 @@ pub fn set_memory_limit(bytes: u64) {
 /// Refuses `asked` of `quantity` if the `needed` bytes are more than the limit, or NaN.
 pub(crate) fn check(quantity: &'static str, asked: f64, needed: f64) -> Result<(), MemoryError> {
     let limit = memory_limit() as f64;
-    if needed <= limit { Ok(()) } else { Err(MemoryError { quantity, asked, needed, limit }) }
+    let remedy = "`set_memory_limit` allows more";
+    if needed <= limit {
+        Ok(())
+    } else {
+        Err(MemoryError { quantity, asked, needed, limit, remedy })
+    }
 }

@@ -132,7 +132,8 @@ fn bad_files_are_refused_with_line_and_reason() {
     let entries = |found, needed| E::Entries { found, needed };
     let too_large = |asked, needed| {
         let quantity = "rows of the matrix";
-        E::Memory(MemoryError { quantity, asked, needed, limit: 4.0 * 1024.0_f64.powi(3) })
+        let remedy = "`set_memory_limit` allows more";
+        E::Memory(MemoryError { quantity, asked, needed, limit: 4.0 * 1024.0_f64.powi(3), remedy })
     };
     let long = "1".repeat(70_000);
     for (text, line, reason) in [
