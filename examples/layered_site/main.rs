@@ -104,7 +104,7 @@ fn shake(
 fn surface(profile: SoilProfile, record: &Record) -> Result<Record> {
     let column = Column::new(profile, VerticalWave::Shear)?;
     let outcrop = record.accelerations();
-    Record::new(STEP, column.to_surface(ControlPoint::Outcrop, STEP, outcrop)?)
+    Record::new(STEP, column.to_surface(ControlPoint::Outcrop, STEP, outcrop)?.samples)
 }
 
 fn main() -> std::result::Result<(), Box<dyn std::error::Error + Send + Sync>> {

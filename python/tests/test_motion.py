@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -99,6 +100,25 @@ def test_inclined_waves_without_layers_are_plane_waves() -> None:
     for time in (1.0, 2.5, 6.0):
         expected = plane.displacement(2.0, time)
         assert field.displacement(2.0, time) == pytest.approx(expected, rel=1e-3, abs=1e-5)
+
+
+def test_there_and_back_through_a_site() -> None:
+    layers = [bm.SoilLayer(bm.Soil.from_shear_wave_speed(200.0, 0.35, 1900.0), 15.0)]
+    rock = bm.Soil.from_shear_wave_speed(1000.0, 0.25, 2300.0)
+    column = bm.Column(bm.SoilProfile(layers, rock))
+    random = np.random.default_rng(23)
+    pulse = np.zeros(301)
+    pulse[150:180] = 1.0
+    for samples in (random.uniform(-1.0, 1.0, 777), pulse, [1.0, 0.0]):
+        bare = bm.Record(0.01, samples)
+        with pytest.warns(UserWarning, match="cut off before .* give the record quiet time"):
+            column.to_surface(bare)
+        record = bare.padded(20.0, 40.0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            back = column.from_surface(column.to_surface(record))
+        error = np.abs(back.accelerations - record.accelerations).max()
+        assert error < 1e-9 * record.peak_acceleration
 
 
 def test_a_motion_that_runs_turns_a_long_base(rocking) -> None:

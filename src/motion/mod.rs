@@ -46,6 +46,7 @@ pub(crate) use integral::quadratic_roots_within;
 pub use k_net::KNetFormat;
 pub use peer::PeerFormat;
 pub use plane_wave::PlaneWave;
+pub(crate) use plane_wave::check_prescribed;
 pub use reader::ColumnFormat;
 pub use record::Record;
 pub use ricker::RickerDisplacement;

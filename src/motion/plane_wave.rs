@@ -28,7 +28,7 @@ use crate::soil::Soil;
 
 /// Component below this share of the other cannot be prescribed: near the angles at which it
 /// vanishes, the other grows without bound.
-const SMALLEST: f64 = 0.01;
+const SMALLEST: f64 = 0.1;
 
 /// Rayleigh's function below this, in units of 1/c₂⁴, is what rounding leaves of zero.
 const VANISHING: f64 = 1e-14;
@@ -136,7 +136,7 @@ impl PlaneWave {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] if the horizontal component is less than a hundredth of the vertical one (SV
+    /// [`Error::Input`] if the horizontal component is less than a tenth of the vertical one (SV
     /// near 45°, P near the vertical), or if it is out of phase and the record's last velocity above
     /// 1 % of its peak.
     pub fn field_from_horizontal(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
@@ -158,7 +158,7 @@ impl PlaneWave {
     /// [`PlaneWave::field_from_horizontal`].
     ///
     /// # Errors
-    /// [`Error::Input`] if the vertical component is less than a hundredth of the horizontal one (SV
+    /// [`Error::Input`] if the vertical component is less than a tenth of the horizontal one (SV
     /// near the vertical and the critical angle, P near grazing for ν = 0), and as for
     /// [`PlaneWave::field_from_horizontal`].
     pub fn field_from_vertical(&self, record: &Record, origin: f64) -> Result<TravellingWave> {
@@ -200,10 +200,15 @@ fn slownesses(soil: Soil, angle: f64, speed: f64) -> Result<(f64, Complex, Compl
 
 /// `other` over `given`, unless `given` is too small a share of it.
 fn ratio(quantity: &'static str, other: Complex, given: Complex) -> Result<Complex> {
-    let share = given.abs() / other.abs().max(given.abs());
+    check_prescribed(quantity, given.abs(), other.abs())?;
+    Ok(other / given)
+}
+
+/// Error for a component of size `given` that is too small a share of the larger one.
+pub(crate) fn check_prescribed(quantity: &'static str, given: f64, other: f64) -> Result<()> {
+    let share = given / other.max(given);
     if share > SMALLEST {
-        Ok(other / given)
-    } else {
-        Err(Error::Input { quantity, value: share, needed: "above 0.01 to be prescribed" })
+        return Ok(());
     }
+    Err(Error::Input { quantity, value: share, needed: "above 0.1 to be prescribed" })
 }

@@ -7,10 +7,12 @@
 //!
 //! the outcrop of the base moves by 2Aₙ, its top within by Aₙ + Bₙ, the surface by 2.
 
-use super::transform::filtered;
+use super::motion::SiteMotion;
+use super::sampled::Sampled;
+use super::transform::{Contour, Place};
 use crate::complex::Complex;
 use crate::error::{Result, not_negative};
-use crate::soil::SoilProfile;
+use crate::soil::{Soil, SoilProfile};
 
 /// What travels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -79,7 +81,9 @@ impl Column {
     pub fn transfer(&self, control: ControlPoint, frequency: f64) -> Result<Complex> {
         not_negative("frequency of a transfer function", frequency)?;
         let s = Complex::new(0.0, std::f64::consts::TAU * frequency);
-        let (value, decay) = self.inverse_transfer(control, s, &mut vec![])?;
+        let mut layers =
+            Sampled::exact(&self.profile, |soil, modulus, _| self.slowness(soil, modulus));
+        let (value, decay) = self.inverse_transfer(control, &Place::alone(s), &mut layers)?;
         Ok(value.inverse() * (-decay).exp())
     }
 
@@ -92,7 +96,8 @@ impl Column {
     }
 
     /// Motion of the surface from `motion` at `control`, samples `time_step` seconds apart; any
-    /// of displacement, velocity and acceleration. The column is at rest at first.
+    /// of displacement, velocity and acceleration. The column is at rest at first. It rings after the
+    /// end of `motion`: give that quiet time if the rest matters, as it does on the way back.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a bad time step or samples that are not finite, [`Error::Size`](crate::Error::Size) for none,
@@ -102,18 +107,35 @@ impl Column {
         control: ControlPoint,
         time_step: f64,
         motion: &[f64],
-    ) -> Result<Vec<f64>> {
-        let mut moduli = vec![];
-        self.filtered(time_step, motion, |s| {
-            let (value, decay) = self.inverse_transfer(control, s, &mut moduli)?;
-            Ok(value.inverse() * (-decay).exp())
-        })
+    ) -> Result<SiteMotion> {
+        self.filtered(control, time_step, motion, |value, decay| value.inverse() * (-decay).exp())
     }
 
     /// Motion at `control` from `motion` of the surface (deconvolution). It comes before that of the
     /// surface, so the record should begin with rest for as long as waves take through the layers,
     /// and end with it: the surface is taken to stand still before and after. Damped layers
     /// amplify high frequencies on the way down, so the record should have none that are noise.
+    ///
+    /// ```
+    /// # use basemat::Soil;
+    /// # use basemat::motion::el_centro_1940;
+    /// # use basemat::site::{Column, ControlPoint, VerticalWave};
+    /// # use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+    /// let rock = Soil::from_shear_wave_speed(1000.0, 0.25, 2200.0)?;
+    /// let profile = SoilProfile::on_half_plane(rock)
+    ///     .with_layer(Soil::from_shear_wave_speed(200.0, 0.3, 1900.0)?, 15.0)?
+    ///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0)?);
+    /// let column = Column::new(profile, VerticalWave::Shear)?;
+    /// // Room for what comes before and after.
+    /// let record = el_centro_1940().padded(10.0, 30.0)?;
+    /// let surface = column.to_surface(ControlPoint::Outcrop, 0.02, record.accelerations())?;
+    /// let back = column.from_surface(ControlPoint::Outcrop, 0.02, &surface.samples)?;
+    /// assert!(surface.is_whole() && back.is_whole(), "{surface}; {back}");
+    /// for (found, given) in back.samples.iter().zip(record.accelerations()) {
+    ///     assert!((found - given).abs() < 1e-9 * record.peak_acceleration());
+    /// }
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
     ///
     /// # Errors
     /// As for [`to_surface`](Column::to_surface).
@@ -122,12 +144,21 @@ impl Column {
         control: ControlPoint,
         time_step: f64,
         motion: &[f64],
-    ) -> Result<Vec<f64>> {
-        let mut moduli = vec![];
-        self.filtered(time_step, motion, |s| {
-            let (value, decay) = self.inverse_transfer(control, s, &mut moduli)?;
-            Ok(value * decay.exp())
-        })
+    ) -> Result<SiteMotion> {
+        self.filtered(control, time_step, motion, |value, decay| value * decay.exp())
+    }
+
+    /// Stiffness of this kind of wave.
+    fn stiffness(&self, soil: Soil, modulus: Complex) -> Complex {
+        match self.wave {
+            VerticalWave::Shear => modulus,
+            VerticalWave::Pressure => modulus.scale(1.0 / soil.speed_ratio_squared()),
+        }
+    }
+
+    /// 1/c.
+    fn slowness(&self, soil: Soil, modulus: Complex) -> [Complex; 1] {
+        [self.stiffness(soil, modulus).scale(1.0 / soil.density()).sqrt().inverse()]
     }
 
     /// Control motion by surface motion, with a factor e^decay taken out: it may leave the range of
@@ -135,36 +166,30 @@ impl Column {
     fn inverse_transfer(
         &self,
         control: ControlPoint,
-        s: Complex,
-        moduli: &mut Vec<Complex>,
+        place: &Place,
+        layers: &mut Sampled<impl Fn(Soil, Complex, Complex) -> [Complex; 1], 1>,
     ) -> Result<(Complex, Complex)> {
-        self.profile.moduli(s, moduli)?;
-        let mut waves = self.profile.soils().zip(moduli.iter()).map(|((soil, _), modulus)| {
-            let stiffness = match self.wave {
-                VerticalWave::Shear => *modulus,
-                VerticalWave::Pressure => modulus.scale(1.0 / soil.speed_ratio_squared()),
-            };
-            // Impedance ρc and slowness 1/c.
-            let speed = stiffness.scale(1.0 / soil.density()).sqrt();
-            (speed.scale(soil.density()), speed.inverse())
+        let (moduli, travels) = layers.at(place)?;
+        let mut impedances = self.profile.soils().zip(moduli).map(|((soil, _), modulus)| {
+            let speed = self.stiffness(soil, *modulus).scale(1.0 / soil.density()).sqrt();
+            speed.scale(soil.density())
         });
         let (mut up, mut down) = (Complex::real(1.0), Complex::real(1.0));
         let mut total = Complex::default();
-        let Some((mut impedance, mut slowness)) = waves.next() else {
+        let Some(mut impedance) = impedances.next() else {
             return Ok((up, total));
         };
-        for layer in self.profile.layers() {
-            let travel = (s * slowness).scale(layer.thickness);
+        for [travel] in travels {
             down = down * travel.scale(-2.0).exp();
-            total += travel;
-            let Some((next, next_slowness)) = waves.next() else {
+            total += *travel;
+            let Some(next) = impedances.next() else {
                 // A rigid base moves as the layer's bottom does.
                 return Ok(((up + down).scale(0.5), total));
             };
             let ratio = impedance / next;
             let (sum, difference) = ((up + down).scale(0.5), (up - down) * ratio.scale(0.5));
             (up, down) = (sum + difference, sum - difference);
-            (impedance, slowness) = (next, next_slowness);
+            impedance = next;
         }
         Ok(match control {
             ControlPoint::Outcrop => (up, total),
@@ -172,15 +197,23 @@ impl Column {
         })
     }
 
-    /// `motion` times a function of s.
+    /// `motion` times a function of the inverse transfer function and its decay.
     fn filtered(
         &self,
+        control: ControlPoint,
         time_step: f64,
         motion: &[f64],
-        mut filter: impl FnMut(Complex) -> Result<Complex>,
-    ) -> Result<Vec<f64>> {
+        filter: impl Fn(Complex, Complex) -> Complex,
+    ) -> Result<SiteMotion> {
         self.profile.check_causal()?;
-        let [motion] = filtered(time_step, motion, |s| Ok([filter(s)?]))?;
-        Ok(motion)
+        let contour = Contour::new(time_step, motion.len(), self.profile.travel_time())?;
+        let slowness = |soil, modulus, _| self.slowness(soil, modulus);
+        let mut layers = Sampled::new(&self.profile, slowness, contour.end()?)?;
+        let [mut found] = contour.filtered(motion, |place| {
+            let (value, decay) = self.inverse_transfer(control, place, &mut layers)?;
+            Ok([filter(value, decay)])
+        })?;
+        found.cut(motion.len());
+        Ok(found)
     }
 }

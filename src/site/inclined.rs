@@ -2,11 +2,13 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::motion::SiteMotion;
+use super::sampled::Sampled;
 use super::slowness::{Medium, surface_motion};
-use super::transform::filtered;
+use super::transform::{Contour, Place};
 use crate::complex::Complex;
-use crate::error::{Error, LayeredError, Result, finite, not_negative, positive};
-use crate::motion::{PlaneWave, Record, TravellingWave, VerticalIncidence};
+use crate::error::{LayeredError, Result, finite, not_negative, positive};
+use crate::motion::{PlaneWave, Record, TravellingWave, VerticalIncidence, check_prescribed};
 use crate::soil::{Base, Soil, SoilProfile};
 
 /// Motion that is given of an inclined wave. All are at the depth of the base's top.
@@ -62,15 +64,12 @@ pub struct InclinedWave {
     outcrop: PlaneWave,
 }
 
-/// Component of the outcrop below this share of the other cannot be prescribed.
-const SMALLEST: f64 = 0.01;
-
 impl InclinedWave {
     /// SV wave below `profile`, its direction in the base at `angle` (rad) from the vertical, to the
     /// right if positive.
     ///
     /// # Errors
-    /// [`Error::Input`] unless |`angle`| < π/2, and as for [`PlaneWave::sv`];
+    /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2, and as for [`PlaneWave::sv`];
     /// [`LayeredError::InclinedOverRigidBase`].
     pub fn sv(profile: SoilProfile, angle: f64) -> Result<Self> {
         Self::new(profile, angle, true)
@@ -112,18 +111,22 @@ impl InclinedWave {
     /// Angles beyond the critical one and any damping are allowed.
     ///
     /// # Errors
-    /// [`Error::Input`] for a frequency that is negative or not finite, for a component of the outcrop
-    /// that is less than a hundredth of the other, and for a motion that is not finite (a free
+    /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite, for a component of the outcrop
+    /// that is less than a tenth of the other, and for a motion that is not finite (a free
     /// surface wave of an undamped layer); as for damping laws that are not passive.
     pub fn transfer(&self, control: InclinedControl, frequency: f64) -> Result<[Complex; 2]> {
         not_negative("frequency of a transfer function", frequency)?;
         self.check(control)?;
-        self.at(control, Complex::new(0.0, TAU * frequency), &mut vec![])
+        let mut layers = Sampled::exact(&self.profile, |soil, modulus, s| {
+            Medium::layer(soil, modulus, s, self.slowness).slownesses()
+        });
+        let place = Place::alone(Complex::new(0.0, TAU * frequency));
+        self.at(control, &place, &mut layers)
     }
 
     /// Motion of the surface, horizontal and up, from `motion` of `control` at the same x, samples
     /// `time_step` seconds apart; any of displacement, velocity and acceleration. The ground is at
-    /// rest at first.
+    /// rest at first. It rings after the end of `motion`, as under a [`Column`](super::Column).
     ///
     /// # Errors
     /// As for [`InclinedWave::transfer`] and [`Column::to_surface`](super::Column::to_surface);
@@ -133,21 +136,38 @@ impl InclinedWave {
         control: InclinedControl,
         time_step: f64,
         motion: &[f64],
-    ) -> Result<[Vec<f64>; 2]> {
+    ) -> Result<[SiteMotion; 2]> {
+        let mut found = self.filtered(control, time_step, motion)?;
+        for found in &mut found {
+            found.cut(motion.len());
+        }
+        Ok(found)
+    }
+
+    /// [`InclinedWave::to_surface`] with what follows.
+    fn filtered(
+        &self,
+        control: InclinedControl,
+        time_step: f64,
+        motion: &[f64],
+    ) -> Result<[SiteMotion; 2]> {
         positive("time step of a motion", time_step)?;
         self.check(control)?;
         self.profile.check_causal()?;
-        let mut moduli = vec![];
-        self.check_beginning(PI / time_step, &mut moduli)?;
-        filtered(time_step, motion, |s| self.at(control, s, &mut moduli))
+        self.check_beginning(PI / time_step)?;
+        let contour = Contour::new(time_step, motion.len(), self.profile.travel_time())?;
+        let slownesses =
+            |soil, modulus, s| Medium::layer(soil, modulus, s, self.slowness).slownesses();
+        let mut layers = Sampled::new(&self.profile, slownesses, contour.end()?)?;
+        contour.filtered(motion, |place| self.at(control, place, &mut layers))
     }
 
     /// The free field in which `record` is the motion of `control` below `origin` (m), the edge of the
-    /// base that the wave reaches first. It is as long as the record: give it quiet time after
-    /// its end for what the layers still send ([`Record::padded`]).
+    /// base that the wave reaches first. It goes on after the record's end until the layers are
+    /// at rest; [`InclinedWave::to_surface`] says how much of it is near the highest frequency or before t = 0.
     ///
     /// # Errors
-    /// As for [`InclinedWave::to_surface`]; [`Error::Input`] for an origin that is not finite.
+    /// As for [`InclinedWave::to_surface`]; [`Error::Input`](crate::Error::Input) for an origin that is not finite.
     pub fn field(
         &self,
         control: InclinedControl,
@@ -155,36 +175,37 @@ impl InclinedWave {
         origin: f64,
     ) -> Result<TravellingWave> {
         let step = record.time_step();
-        let [horizontal, vertical] = self.to_surface(control, step, record.accelerations())?;
-        let field = VerticalIncidence::new(Record::new(step, horizontal)?);
-        let field = field.with_vertical(Record::new(step, vertical)?);
+        let [mut horizontal, mut vertical] =
+            self.filtered(control, step, record.accelerations())?;
+        let count = horizontal.duration().max(vertical.duration()).max(record.len());
+        horizontal.cut(count);
+        vertical.cut(count);
+        let field = VerticalIncidence::new(Record::new(step, horizontal.samples)?);
+        let field = field.with_vertical(Record::new(step, vertical.samples)?);
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
 
     /// Error for a component of the outcrop that is too small to be prescribed.
     fn check(&self, control: InclinedControl) -> Result<()> {
         let [x, up] = self.outcrop.amplification().map(|[re, im]| re.hypot(im));
-        let (quantity, share) = match control {
+        match control {
             InclinedControl::OutcropHorizontal => {
-                ("horizontal motion of the outcrop over the largest", x / x.max(up))
+                check_prescribed("horizontal motion of the outcrop over the largest", x, up)
             }
             InclinedControl::OutcropVertical => {
-                ("vertical motion of the outcrop over the largest", up / x.max(up))
+                check_prescribed("vertical motion of the outcrop over the largest", up, x)
             }
-            InclinedControl::Incident => return Ok(()),
-        };
-        if share > SMALLEST {
-            return Ok(());
+            InclinedControl::Incident => Ok(()),
         }
-        Err(Error::Input { quantity, value: share, needed: "above 0.01 to be prescribed" })
     }
 
     /// Error if pressure waves of a layer are evanescent: then motion precedes its cause. Layers
     /// stiffen with frequency, so the highest decides.
-    fn check_beginning(&self, highest: f64, moduli: &mut Vec<Complex>) -> Result<()> {
+    fn check_beginning(&self, highest: f64) -> Result<()> {
+        let mut moduli = vec![];
         let s = Complex::real(finite("highest frequency of a motion", highest)?);
-        self.profile.moduli(s, moduli)?;
-        for (index, ((soil, _), modulus)) in self.profile.soils().zip(&*moduli).enumerate() {
+        self.profile.moduli(s, &mut moduli)?;
+        for (index, ((soil, _), modulus)) in self.profile.soils().zip(&moduli).enumerate() {
             let limit = (soil.density() * soil.speed_ratio_squared() / modulus.re).sqrt();
             let slowness = self.slowness.abs();
             if slowness >= limit {
@@ -195,22 +216,20 @@ impl InclinedWave {
         Ok(())
     }
 
-    /// [`InclinedWave::transfer`] at the Laplace variable `s`.
+    /// [`InclinedWave::transfer`] at one place.
     fn at(
         &self,
         control: InclinedControl,
-        s: Complex,
-        moduli: &mut Vec<Complex>,
+        place: &Place,
+        layers: &mut Sampled<impl Fn(Soil, Complex, Complex) -> [Complex; 2], 2>,
     ) -> Result<[Complex; 2]> {
-        self.profile.moduli(s, moduli)?;
-        let p = self.slowness;
+        let (moduli, travels) = layers.at(place)?;
+        let (s, p) = (place.s, self.slowness);
         let modulus = moduli.last().copied().unwrap_or_default();
         let base = Medium::base(self.base, modulus, s, p, self.own);
-        let layers =
-            self.profile.layers().iter().zip(&*moduli).map(|(layer, modulus)| {
-                (Medium::layer(layer.soil, *modulus, s, p), layer.thickness)
-            });
-        let [px, sx, pz, sz] = surface_motion(layers, &base, s);
+        let media = self.profile.layers().iter().zip(moduli);
+        let media = media.map(|(layer, modulus)| Medium::layer(layer.soil, *modulus, s, p));
+        let [px, sx, pz, sz] = surface_motion(media.zip(travels.iter().copied()), &base);
         let [px0, sx0, pz0, sz0] = base.free_surface();
         let (motion, outcrop) =
             if self.shear { ([sx, sz], [sx0, sz0]) } else { ([px, pz], [px0, pz0]) };

@@ -53,6 +53,11 @@ impl Medium {
         Self::new(soil, modulus, s, p, [floor(pressure), floor(shear)])
     }
 
+    /// Vertical slownesses (a, b).
+    pub(super) fn slownesses(&self) -> [Complex; 2] {
+        [self.a, self.b]
+    }
+
     /// Of the half-plane below, which the wave comes from; `own` is the elastic slowness of this wave
     /// and the cosine of its angle, which give its vertical slowness without cancellation.
     pub(super) fn base(soil: Soil, modulus: Complex, s: Complex, p: f64, own: [f64; 2]) -> Self {
@@ -149,11 +154,10 @@ fn inverse([a, b, c, d]: Square) -> Square {
 }
 
 /// Motion of the surface, to the right and up, by the waves A that come up in `base`: under `layers`
-/// (from the surface down, each with its thickness).
+/// (from the surface down, each with s h a and s h b).
 pub(super) fn surface_motion(
-    layers: impl Iterator<Item = (Medium, f64)>,
+    layers: impl Iterator<Item = (Medium, [Complex; 2])>,
     base: &Medium,
-    s: Complex,
 ) -> Square {
     // The surface by A at the bottom of a layer, and R there.
     let mut above: Option<(Medium, Square, Square)> = None;
@@ -172,10 +176,9 @@ pub(super) fn surface_motion(
             ([k * medium.a, l * medium.b, m * medium.a, n * medium.b], reflection)
         }
     };
-    for (medium, thickness) in layers {
+    for (medium, travels) in layers {
         let ([k, l, m, n], [p, q, r, t]) = enter(&medium, above);
-        let travel = s.scale(-thickness);
-        let [e, f] = [(travel * medium.a).exp(), (travel * medium.b).exp()];
+        let [e, f] = travels.map(|travel| (-travel).exp());
         let surface = [k * e, l * f, m * e, n * f];
         above = Some((medium, surface, [p * e * e, q * e * f, r * e * f, t * f * f]));
     }

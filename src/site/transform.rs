@@ -1,64 +1,178 @@
 //! Motions through transfer functions, by Fourier transform.
 //!
 //! All runs at Re s = η > 0: a window e^(−ηt) that makes what wraps around the transform negligible
-//! and undamped profiles regular.
+//! and undamped profiles regular. The transform has four times the samples that matter, so the window
+//! takes e^(−6) off the last of them and gives it back, with rounding e^6 times that of the transform.
+//! Filters that are real at the highest frequency, with all their slopes along the contour even about
+//! it, have responses that end; others would alternate and, without the window, grow.
 
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 
+use super::motion::SiteMotion;
 use crate::complex::Complex;
 use crate::error::{Error, Result, finite, positive};
 
-/// ηT: what wraps around is e^(−24), rounding in the first half e^12 times that of the transform.
+/// ηT: what wraps around is e^(−24).
 const WINDOW: f64 = 24.0;
-/// Most samples of a motion.
-const MOST_SAMPLES: usize = 1 << 27;
+/// Samples that matter are this share of the transform's.
+const PADDING: usize = 4;
+/// Most samples of a motion, and time steps that waves take through a site.
+const MOST_SAMPLES: usize = 1 << 24;
+/// Share of the frequencies, the highest, over which filters become real: narrow, for the transfer
+/// function holds below; not narrower, for responses last the longer.
+pub(super) const BAND: f64 = 0.02;
+/// Exponent of the transition's slope, e^(β(√(1 − x²) − 1)) over the band (Barnett, Magland & af
+/// Klinteberg 2019): its transform is e^(−β) from 2β/(π · band) samples on.
+const SHARPNESS: f64 = 24.0;
+/// Samples in which responses of the transition end.
+const TRANSITION: usize = 2000;
 
-/// `motion`, samples `time_step` seconds apart, times each of N functions of s.
-pub(super) fn filtered<const N: usize>(
+/// A place on the contour.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub(super) s: Complex,
+    /// Share of the highest frequency's rule: 0 below the band, 1 there.
+    pub(super) nearness: f64,
+    /// Frequency over the highest.
+    pub(super) ratio: f64,
+}
+
+impl Place {
+    /// A frequency by itself, without samples.
+    pub(super) fn alone(s: Complex) -> Self {
+        Self { s, nearness: 0.0, ratio: 0.0 }
+    }
+}
+
+/// The contour of a transform.
+#[derive(Debug)]
+pub(super) struct Contour {
     time_step: f64,
-    motion: &[f64],
-    mut filters: impl FnMut(Complex) -> Result<[Complex; N]>,
-) -> Result<[Vec<f64>; N]> {
-    positive("time step of a motion", time_step)?;
-    if motion.is_empty() || motion.len() > MOST_SAMPLES {
-        return Err(Error::Size {
-            quantity: "motion of a column",
-            found: motion.len(),
-            needed: motion.len().clamp(1, MOST_SAMPLES),
-        });
-    }
-    let length = (2 * motion.len()).next_power_of_two();
-    let duration = length as f64 * time_step;
-    let decay = positive("decay of the window", WINDOW / duration)?;
-    let mut planner = RealFftPlanner::<f64>::new();
-    let (forward, inverse) = (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
-    let mut values = forward.make_input_vec();
-    let window = |i: usize| (-WINDOW * i as f64 / length as f64).exp();
-    for (i, (value, sample)) in values.iter_mut().zip(motion).enumerate() {
-        *value = finite("sample of a motion", *sample)? * window(i);
-    }
-    let mut spectrum = forward.make_output_vec();
-    let failed = |_| Error::Singular { matrix: "spectrum of a motion", order: length };
-    forward.process(&mut values, &mut spectrum).map_err(failed)?;
-    let last = spectrum.len() - 1;
-    let mut spectra: [_; N] = std::array::from_fn(|_| spectrum.clone());
-    for (l, value) in spectrum.iter().enumerate() {
-        let s = Complex::new(decay, std::f64::consts::TAU * l as f64 / duration);
-        for (spectrum, filter) in spectra.iter_mut().zip(filters(s)?) {
-            let product = Complex::new(value.re, value.im) * filter;
-            let imaginary = if l == 0 || l == last { 0.0 } else { product.im };
-            spectrum[l] = Complex64::new(product.re, imaginary);
+    length: usize,
+    decay: f64,
+}
+
+impl Contour {
+    /// For `samples`, `time_step` seconds apart, and waves that take `travel` seconds.
+    pub(super) fn new(time_step: f64, samples: usize, travel: f64) -> Result<Self> {
+        positive("time step of a motion", time_step)?;
+        if samples == 0 || samples > MOST_SAMPLES {
+            return Err(Error::Size {
+                quantity: "motion through a site",
+                found: samples,
+                needed: samples.clamp(1, MOST_SAMPLES),
+            });
         }
+        let steps = travel / time_step;
+        if !(0.0..=MOST_SAMPLES as f64).contains(&steps) {
+            return Err(Error::Input {
+                quantity: "time that waves take through a site, in time steps of the motion",
+                value: steps,
+                needed: "at most 2^24",
+            });
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=2^24")]
+        let travel = steps.ceil() as usize;
+        // There and back, and later for damping that slows long waves.
+        let length = (PADDING * (samples + 2 * travel + TRANSITION)).next_power_of_two();
+        let decay = positive("decay of the window", WINDOW / (length as f64 * time_step))?;
+        Ok(Self { time_step, length, decay })
     }
-    let mut motions = std::array::from_fn(|_| vec![]);
-    for (mut spectrum, found) in spectra.into_iter().zip(&mut motions) {
-        inverse.process(&mut spectrum, &mut values).map_err(failed)?;
-        let samples = values[..motion.len()].iter().enumerate();
-        let back = |(i, value): (usize, &f64)| {
-            finite("motion through the column", value / (window(i) * length as f64))
+
+    /// Its end, the highest frequency.
+    pub(super) fn end(&self) -> Result<Complex> {
+        let highest =
+            finite("highest frequency of a motion", std::f64::consts::PI / self.time_step)?;
+        Ok(Complex::new(self.decay, highest))
+    }
+
+    /// Share of the highest frequency's rule at each frequency of the band, in order up to it.
+    fn transition(&self) -> Vec<f64> {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
+        let count = (BAND * (self.length / 2) as f64) as usize;
+        let slope = |l: usize| {
+            let x = 2.0 * (l as f64 + 0.5) / count as f64 - 1.0;
+            (SHARPNESS * ((1.0 - x * x).sqrt() - 1.0)).exp()
         };
-        *found = samples.map(back).collect::<Result<_>>()?;
+        let total: f64 = (0..count).map(slope).sum();
+        let mut sum = 0.0;
+        let add = |l: usize| {
+            sum += slope(l);
+            sum / total
+        };
+        (0..count).map(add).collect()
     }
-    Ok(motions)
+
+    /// `motion` times each of N functions of s; with what follows its end, as far as the window reaches.
+    pub(super) fn filtered<const N: usize>(
+        &self,
+        motion: &[f64],
+        mut filters: impl FnMut(&Place) -> Result<[Complex; N]>,
+    ) -> Result<[SiteMotion; N]> {
+        let Self { length, decay, .. } = *self;
+        let end = self.end()?.im;
+        let mut planner = RealFftPlanner::<f64>::new();
+        let (forward, inverse) =
+            (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
+        let mut values = forward.make_input_vec();
+        let window = |i: f64| (-WINDOW * i / length as f64).exp();
+        for (i, (value, sample)) in values.iter_mut().zip(motion).enumerate() {
+            *value = finite("sample of a motion", *sample)? * window(i as f64);
+        }
+        let size = values.iter().map(|value| value * value).sum::<f64>().sqrt();
+        let mut spectrum = forward.make_output_vec();
+        let failed = |_| Error::Singular { matrix: "spectrum of a motion", order: length };
+        forward.process(&mut values, &mut spectrum).map_err(failed)?;
+        let last = spectrum.len() - 1;
+        let transition = self.transition();
+        let below = last + 1 - transition.len();
+        let mut spectra: [_; N] = std::array::from_fn(|_| spectrum.clone());
+        // Σ|F|² and Σ|FX|², for rounding.
+        let mut sums = [[0.0; 2]; N];
+        for (l, value) in spectrum.iter().enumerate() {
+            let ratio = l as f64 / last as f64;
+            let nearness = if l < below { 0.0 } else { transition[l - below] };
+            let place = Place { s: Complex::new(decay, end * ratio), nearness, ratio };
+            let found = filters(&place)?;
+            for ((spectrum, filter), sums) in spectra.iter_mut().zip(found).zip(&mut sums) {
+                let product = Complex::new(value.re, value.im) * filter;
+                // Real by itself, but for rounding.
+                let imaginary = if l == 0 || l == last { 0.0 } else { product.im };
+                spectrum[l] = Complex64::new(product.re, imaginary);
+                sums[0] += filter.square();
+                sums[1] += product.square();
+            }
+        }
+        let mut found = std::array::from_fn(|_| SiteMotion::default());
+        for ((mut spectrum, [gain, power]), found) in spectra.into_iter().zip(sums).zip(&mut found)
+        {
+            let mut band = spectrum.clone();
+            band[..below].fill(Complex64::default());
+            for (value, nearness) in band[below..].iter_mut().zip(&transition) {
+                *value *= nearness;
+            }
+            // At a time in samples, which may be before the first.
+            let scale = 1.0 / length as f64;
+            let at = |value: f64, time: f64| {
+                finite("motion through a site", value * scale / window(time))
+            };
+            let count = motion.len();
+            inverse.process(&mut band, &mut values).map_err(failed)?;
+            for (i, value) in values[..count].iter().enumerate() {
+                found.near_nyquist = found.near_nyquist.max(at(*value, i as f64)?.abs());
+            }
+            inverse.process(&mut spectrum, &mut values).map_err(failed)?;
+            let (first, others) = values.split_at(length / 2);
+            let first = first.iter().enumerate();
+            found.samples = first.map(|(i, x)| at(*x, i as f64)).collect::<Result<_>>()?;
+            for (i, value) in others.iter().rev().take(length / 4).enumerate() {
+                found.before = found.before.max(at(*value, -1.0 - i as f64)?.abs());
+            }
+            let error = f64::EPSILON * (length as f64).log2().sqrt() * scale;
+            let error = error * (size * gain.sqrt() + power.sqrt());
+            found.rounding = error / window(count as f64);
+        }
+        Ok(found)
+    }
 }

@@ -59,7 +59,7 @@ fn vertical_incidence_is_the_column() {
             let motion: Vec<f64> = (0..900).map(|i| (0.3 * f64::from(i)).sin()).collect();
             let wanted = column.to_surface(ControlPoint::Outcrop, 0.01, &motion).unwrap();
             let found = inclined.to_surface(control, 0.01, &motion).unwrap();
-            for (a, b) in found[along].iter().zip(&wanted) {
+            for (a, b) in found[along].samples.iter().zip(&wanted.samples) {
                 worst = worst.max((a - b).abs());
             }
         }
@@ -402,7 +402,7 @@ fn motions_in_time_are_integrals_over_frequency() {
                     .iter()
                     .map(|(omega, values)| (values[component] * Complex::polar(1.0, omega * t)).re);
                 let wanted = terms.sum::<f64>() * step / std::f64::consts::PI;
-                worst = worst.max((found[component][i] - wanted).abs());
+                worst = worst.max((found[component].samples[i] - wanted).abs());
             }
         }
     }
@@ -419,7 +419,7 @@ fn fields_run_along_the_surface() {
     let control = InclinedControl::OutcropVertical;
     let field = wave.field(control, &record, 4.0).unwrap();
     let [x, up] = wave.to_surface(control, 0.01, &samples).unwrap();
-    let [x, up] = [x, up].map(|samples| Record::new(0.01, samples).unwrap());
+    let [x, up] = [x, up].map(|motion| Record::new(0.01, motion.samples).unwrap());
     for (place, time) in [(4.0, 1.6), (0.0, 1.7), (-6.0, 1.75)] {
         let then = time - wave.delay(place - 4.0);
         assert!(wave.delay(place - 4.0) >= 0.0);
@@ -510,7 +510,13 @@ fn extreme_scales_give_finite_numbers_or_errors() {
                             }
                         }
                         let motion = wave.to_surface(InclinedControl::Incident, 0.01, &[0.0, 1.0]);
-                        assert!(motion.iter().flatten().flatten().all(|x| x.is_finite()));
+                        assert!(
+                            motion
+                                .iter()
+                                .flatten()
+                                .flat_map(|motion| &motion.samples)
+                                .all(|x| x.is_finite())
+                        );
                     }
                 }
             }

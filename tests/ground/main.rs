@@ -11,5 +11,6 @@ mod layered_impedances;
 mod layered_passivity;
 mod passivity;
 mod site_response;
+mod site_round_trip;
 #[path = "../support/mod.rs"]
 mod support;

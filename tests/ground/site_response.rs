@@ -46,8 +46,8 @@ fn reflections_in_an_elastic_layer() {
         (VerticalWave::Pressure, [layer.pressure_wave_speed(), rock.pressure_wave_speed()]),
     ] {
         let column = Column::new(profile.clone(), wave).unwrap();
-        let surface = column.to_surface(ControlPoint::Outcrop, dt, &motion).unwrap();
-        let within = column.from_surface(ControlPoint::Within, dt, &surface).unwrap();
+        let surface = column.to_surface(ControlPoint::Outcrop, dt, &motion).unwrap().samples;
+        let within = column.from_surface(ControlPoint::Within, dt, &surface).unwrap().samples;
         let ratio = layer.density() * speeds[0] / (rock.density() * speeds[1]);
         let (r, travel) = ((1.0 - ratio) / (1.0 + ratio), height / speeds[0]);
         let wanted = |t: f64| -> f64 {
@@ -77,7 +77,7 @@ fn reflections_on_a_rigid_base_never_end() {
     let column = Column::new(profile, VerticalWave::Shear).unwrap();
     let (dt, count, travel) = (0.01, 1500, 35.0 / 200.0);
     let motion: Vec<f64> = (0..count).map(|i| ricker(dt * f64::from(i))).collect();
-    let surface = column.to_surface(ControlPoint::Outcrop, dt, &motion).unwrap();
+    let surface = column.to_surface(ControlPoint::Outcrop, dt, &motion).unwrap().samples;
     let mut worst = 0.0_f64;
     for (i, surface) in surface.iter().enumerate() {
         let late = |m: i32| ricker(dt * i as f64 - f64::from(2 * m + 1) * travel);
@@ -108,11 +108,15 @@ fn deconvolution_undoes_convolution() {
             let column = Column::new(profile.clone(), wave).unwrap();
             for control in [ControlPoint::Outcrop, ControlPoint::Within] {
                 let surface = column.to_surface(control, 0.005, &motion).unwrap();
-                let back = column.from_surface(control, 0.005, &surface).unwrap();
-                let worst =
-                    motion.iter().zip(&back).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-                let change =
-                    motion.iter().zip(&surface).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+                let back = column.from_surface(control, 0.005, &surface.samples).unwrap();
+                let worst = motion
+                    .iter()
+                    .zip(&back.samples)
+                    .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+                let change = motion
+                    .iter()
+                    .zip(&surface.samples)
+                    .fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
                 println!("{wave:?} {control:?}: {worst:e}");
                 assert!(worst < 1e-8 && change > 0.05, "{wave:?} {control:?} {worst:e} {change}");
             }

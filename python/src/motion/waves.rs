@@ -6,8 +6,11 @@ use basemat::Complex;
 use basemat::motion::{
     FreeField, PlaneWave, Record, RickerDisplacement, TravellingWave, VerticalIncidence,
 };
-use basemat::site::{Column, ControlPoint, InclinedControl, InclinedWave, VerticalWave};
+use basemat::site::{
+    Column, ControlPoint, InclinedControl, InclinedWave, SiteMotion, VerticalWave,
+};
 use numpy::{Complex64, PyArray1};
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 
 use super::{PyFreeField, PyRecord, recipe};
@@ -129,6 +132,16 @@ fn control(name: &str) -> PyResult<ControlPoint> {
     }
 }
 
+/// The record of a motion, with a warning if it lacks anything.
+fn record(py: Python<'_>, step: f64, motion: SiteMotion) -> PyResult<Py<PyRecord>> {
+    if !motion.is_whole() {
+        let text = format!("{motion}: give the record quiet time on both sides (padded)");
+        let text = std::ffi::CString::new(text)?;
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
+    }
+    PyRecord::create(py, Record::new(step, motion.samples))
+}
+
 #[pymethods]
 impl PyColumn {
     #[new]
@@ -160,7 +173,8 @@ impl PyColumn {
         Ok(PyArray1::from_iter(py, values.iter().map(|value| Complex64::new(value.re, value.im))))
     }
 
-    /// The record of the surface from one of the ``control``.
+    /// The record of the surface from one of the ``control``, as long. A ``UserWarning`` gives the
+    /// size of what comes before or after and is cut off: ``Record.padded`` makes room for it.
     #[pyo3(signature = (record, *, control="outcrop"))]
     fn to_surface(
         &self,
@@ -170,11 +184,10 @@ impl PyColumn {
     ) -> PyResult<Py<PyRecord>> {
         let control = self::control(control)?;
         let (step, samples) = (record.0.time_step(), record.0.accelerations());
-        let motion = self.0.to_surface(control, step, samples).or_raise()?;
-        PyRecord::create(py, Record::new(step, motion))
+        record(py, step, self.0.to_surface(control, step, samples).or_raise()?)
     }
 
-    /// The record of the ``control`` from one of the surface (deconvolution).
+    /// The record of the ``control`` from one of the surface (deconvolution), as ``to_surface``.
     #[pyo3(signature = (record, *, control="outcrop"))]
     #[allow(clippy::wrong_self_convention, reason = "the core's name")]
     fn from_surface(
@@ -185,8 +198,7 @@ impl PyColumn {
     ) -> PyResult<Py<PyRecord>> {
         let control = self::control(control)?;
         let (step, samples) = (record.0.time_step(), record.0.accelerations());
-        let motion = self.0.from_surface(control, step, samples).or_raise()?;
-        PyRecord::create(py, Record::new(step, motion))
+        record(py, step, self.0.from_surface(control, step, samples).or_raise()?)
     }
 }
 
