@@ -6,7 +6,7 @@ use std::fmt;
 use super::response_estimate::{Sketch, Steps, StiffnessError};
 use crate::Soil;
 use crate::bem::{Grading, HalfPlaneGround, Strip};
-use crate::error::{Error, Result, not_negative, positive};
+use crate::error::{Error, Result, damping_ratio, not_negative, positive};
 use crate::history::History;
 use crate::motion::FrequencyContent;
 
@@ -70,12 +70,12 @@ impl Outline {
     /// base, and this damping ratio.
     ///
     /// # Errors
-    /// [`Error::Input`] unless the frequency is finite and above zero and the ratio finite and not
-    /// negative.
-    pub fn with_frequency(self, frequency: f64, damping_ratio: f64) -> Result<Self> {
+    /// [`Error::Input`] unless the frequency is finite and above zero and the ratio from 0 to
+    /// below 1.
+    pub fn with_frequency(self, frequency: f64, ratio: f64) -> Result<Self> {
         positive("frequency of the outline", frequency)?;
-        not_negative("damping ratio of the outline", damping_ratio)?;
-        Ok(Self { sway: Some([frequency, damping_ratio]), ..self })
+        damping_ratio("damping ratio of the outline", ratio)?;
+        Ok(Self { sway: Some([frequency, ratio]), ..self })
     }
 }
 

@@ -266,6 +266,7 @@ impl SimulationBuilder {
     /// interface law that returns numbers which are not finite.
     pub fn build(mut self) -> Result<Simulation> {
         let time_step = positive("time step", self.time_step)?;
+        positive("square of the time step", time_step * time_step)?;
         not_negative("gravity", self.beginning.gravity)?;
         let gravity = self.beginning.static_gravity();
         let missing = |quantity, needed| Error::Scene { quantity, needed };

@@ -28,6 +28,15 @@ pub(crate) fn not_negative(quantity: &'static str, value: f64) -> Result<f64> {
     }
 }
 
+/// `value` if it is a damping ratio: that of critical damping is 1, and 5 % are 0.05.
+pub(crate) fn damping_ratio(quantity: &'static str, value: f64) -> Result<f64> {
+    if (0.0..1.0).contains(&value) {
+        Ok(value)
+    } else {
+        Err(Error::Input { quantity, value, needed: "from 0 to below 1 (0.05 is 5 %)" })
+    }
+}
+
 /// `value` if it is finite.
 pub(crate) fn finite(quantity: &'static str, value: f64) -> Result<f64> {
     if value.is_finite() {

@@ -21,7 +21,7 @@ mod step;
 
 pub use case::{CaseError, CaseFileError, SweepError};
 pub use checkpoint::CheckpointError;
-pub(crate) use checks::{finite, not_negative, positive, same_length, write_file};
+pub(crate) use checks::{damping_ratio, finite, not_negative, positive, same_length, write_file};
 pub use law::LawError;
 pub use layered::{KernelFileError, LayeredError};
 #[cfg(feature = "io")]

@@ -45,8 +45,8 @@ impl Record {
     /// Record from its time step (s) and at least two samples of acceleration (m/s²).
     ///
     /// # Errors
-    /// [`Error::Input`] unless the time step is positive and all samples, and the velocity and
-    /// displacement that follow, are finite; [`Error::Record`] for fewer than two samples.
+    /// [`Error::Input`] unless the time step is positive and all samples, the slopes between them and
+    /// the velocity and displacement that follow are finite; [`Error::Record`] for fewer than two samples.
     pub fn new(time_step: f64, acceleration: Vec<f64>) -> Result<Self> {
         positive("time step of the record", time_step)?;
         if acceleration.len() < 2 {
@@ -60,6 +60,10 @@ impl Record {
             finite("acceleration of the record", value)?;
         }
         let (velocity, displacement) = integrate(time_step, &acceleration);
+        for pair in acceleration.windows(2) {
+            let rate = (pair[1] - pair[0]) / time_step;
+            finite("rate of change of the record's acceleration", rate)?;
+        }
         for (&v, &u) in velocity.iter().zip(&displacement) {
             finite("velocity of the record", v)?;
             finite("displacement of the record", u)?;

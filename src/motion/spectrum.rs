@@ -8,7 +8,7 @@
 //! | h | substep: the record's interval divided so that a period has at least 40 of them |
 
 use super::Record;
-use crate::error::{Error, Result, positive};
+use crate::error::{Error, Result, damping_ratio, positive};
 
 /// Fewest substeps in a period.
 const SUBSTEPS_PER_PERIOD: f64 = 40.0;
@@ -55,10 +55,7 @@ impl Record {
         periods: &[f64],
         damping: f64,
     ) -> Result<Vec<SpectralOrdinate>> {
-        if !(0.0..1.0).contains(&damping) {
-            let quantity = "damping ratio of a response spectrum";
-            return Err(Error::Input { quantity, value: damping, needed: "from 0 to below 1" });
-        }
+        damping_ratio("damping ratio of a response spectrum", damping)?;
         periods.iter().map(|&period| self.ordinate(period, damping)).collect()
     }
 

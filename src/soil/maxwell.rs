@@ -3,7 +3,9 @@
 use super::nonnegative::least_squares;
 use super::relaxation::{Relaxation, rounded};
 use crate::complex::Complex;
-use crate::error::{Error, LayeredError, Result, not_negative, positive, same_length};
+use crate::error::{
+    Error, LayeredError, Result, damping_ratio, not_negative, positive, same_length,
+};
 
 /// A spring beside springs in series with dashpots (generalised Maxwell body):
 /// μ(s)/μ₀ = m (1 + Σ yᵢ s/(s + ωᵢ)), passive for yᵢ ≥ 0 (Emmerich & Korn 1987).
@@ -77,10 +79,10 @@ impl GeneralizedMaxwell {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] for a ratio below 0, frequencies that are not positive or a band that does not
+    /// [`Error::Input`] for a ratio not from 0 to below 1, frequencies that are not positive or a band that does not
     /// increase or spans more than a factor 1e6; [`LayeredError::Fit`] for a ratio that no body has.
     pub fn constant_q(ratio: f64, band: [f64; 2], reference: f64) -> Result<Self> {
-        not_negative("damping ratio of a layer", ratio)?;
+        damping_ratio("damping ratio of a layer", ratio)?;
         positive("lowest frequency of the damping band", band[0])?;
         positive("reference frequency of a damping law", reference)?;
         let width = band[1] / band[0];
@@ -196,7 +198,7 @@ mod tests {
             let found = GeneralizedMaxwell::constant_q(ratio, band, reference);
             assert!(matches!(found, Err(Error::Input { .. })), "{found:?}");
         }
-        let found = GeneralizedMaxwell::constant_q(5.0, [0.1, 10.0], 1.0);
+        let found = GeneralizedMaxwell::constant_q(0.99, [0.1, 10.0], 1.0);
         assert!(matches!(found, Err(Error::Layered(LayeredError::Fit { .. }))), "{found:?}");
         assert!(GeneralizedMaxwell::new(1.0, vec![-0.1], vec![1.0]).is_err());
         assert!(GeneralizedMaxwell::new(1.0, vec![0.1], vec![]).is_err());

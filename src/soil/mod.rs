@@ -69,7 +69,7 @@ impl Soil {
     pub fn from_shear_wave_speed(speed: f64, poisson: f64, density: f64) -> Result<Self> {
         positive("shear wave speed of the soil", speed)?;
         positive("density of the soil", density)?;
-        Self::new(density * speed * speed, poisson, density)
+        Self::new(modulus(density, speed)?, poisson, density)
     }
 
     /// Soil from its wave speeds `c_S`, `c_P` (m/s) and density ρ (kg/m³).
@@ -82,7 +82,7 @@ impl Soil {
         positive("density of the soil", density)?;
         let slowness = (shear / pressure).powi(2);
         let poisson = (1.0 - 2.0 * slowness) / (2.0 * (1.0 - slowness));
-        Self::new(density * shear * shear, poisson, density)
+        Self::new(modulus(density, shear)?, poisson, density)
     }
 
     /// Shear modulus μ, Pa.
@@ -114,4 +114,8 @@ impl Soil {
     pub fn speed_ratio_squared(&self) -> f64 {
         (1.0 - 2.0 * self.poisson) / (2.0 * (1.0 - self.poisson))
     }
+}
+
+fn modulus(density: f64, speed: f64) -> Result<f64> {
+    positive("shear modulus of the soil, by its density and speed", density * speed * speed)
 }

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use crate::complex::Complex;
-use crate::error::{Error, Result, not_negative, positive};
+use crate::error::{Result, damping_ratio, not_negative, positive};
 
 /// How the shear modulus of a soil depends on frequency, as a function of the Laplace variable s.
 ///
@@ -95,7 +95,7 @@ impl KelvinVoigt {
     /// Law with the relaxation time η (s).
     ///
     /// # Errors
-    /// [`Error::Input`] unless it is finite and not below zero.
+    /// [`Error::Input`](crate::Error::Input) unless it is finite and not below zero.
     pub fn new(time: f64) -> Result<Self> {
         Ok(Self { time: not_negative("relaxation time of Kelvin–Voigt damping", time)? })
     }
@@ -112,9 +112,9 @@ impl KelvinVoigt {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] for a ratio below zero or a frequency that is not positive.
+    /// [`Error::Input`](crate::Error::Input) for a ratio not from 0 to below 1 or a frequency that is not positive.
     pub fn with_ratio(ratio: f64, frequency: f64) -> Result<Self> {
-        not_negative("damping ratio of a layer", ratio)?;
+        damping_ratio("damping ratio of a layer", ratio)?;
         positive("frequency of the damping ratio", frequency)?;
         Self::new(2.0 * ratio / (std::f64::consts::TAU * frequency))
     }
@@ -154,9 +154,9 @@ impl Kjartansson {
     /// Law with the damping `ratio` ξ and |μ| = μ₀ at the frequency `reference` (Hz).
     ///
     /// # Errors
-    /// [`Error::Input`] for a ratio below zero or a frequency that is not positive.
+    /// [`Error::Input`](crate::Error::Input) for a ratio not from 0 to below 1 or a frequency that is not positive.
     pub fn new(ratio: f64, reference: f64) -> Result<Self> {
-        not_negative("damping ratio of a layer", ratio)?;
+        damping_ratio("damping ratio of a layer", ratio)?;
         positive("reference frequency of a damping law", reference)?;
         let exponent = 2.0 * (2.0 * ratio).atan() / std::f64::consts::PI;
         Ok(Self { exponent, reference: std::f64::consts::TAU * reference })
@@ -170,7 +170,7 @@ impl Kjartansson {
             return Ok(Self { exponent, reference });
         }
         let (quantity, needed) = ("exponent of Kjartansson's damping", "from 0 to 1");
-        Err(Error::Input { quantity, value: exponent, needed })
+        Err(crate::error::Error::Input { quantity, value: exponent, needed })
     }
 }
 
@@ -207,16 +207,9 @@ impl Hysteretic {
     /// Law with the damping `ratio` ξ.
     ///
     /// # Errors
-    /// [`Error::Input`] unless 0 ≤ ξ < 1.
+    /// [`Error::Input`](crate::Error::Input) unless 0 ≤ ξ < 1.
     pub fn new(ratio: f64) -> Result<Self> {
-        if (0.0..1.0).contains(&ratio) {
-            return Ok(Self { ratio });
-        }
-        Err(Error::Input {
-            quantity: "damping ratio of a layer",
-            value: ratio,
-            needed: "not below 0 and below 1",
-        })
+        Ok(Self { ratio: damping_ratio("damping ratio of a layer", ratio)? })
     }
 }
 

@@ -30,6 +30,9 @@ fn builders_refuse_missing_parts_and_bad_numbers() {
         Simulation::builder(x).structure(block()).ground(bed(4)).interface(Bonded).build().map(drop)
     };
     refused("time step", &BAD, step);
+    for x in [1e300, 1e155, 1e-300] {
+        error_with("square of the time step", step(x));
+    }
     refused("gravity", &NEGATIVE, |x| good().gravity(x).build().map(drop));
     refused("moment center", &NOT_FINITE, |x| good().moment_center(x).build().map(drop));
 

@@ -6,6 +6,10 @@ use basemat::bem::{
     ContactElement, Grading, Ground, HalfPlaneGround, InfluenceKernel, PatchKernel, SpringGround,
     StaticKernel, Strip,
 };
+use basemat::coupled::Outline;
+use basemat::motion::{Record, el_centro_1940};
+use basemat::soil::{GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson};
+use basemat::structure::{ModalDamping, RayleighDamping, RigidBlock, ShearBuilding, Storey};
 use basemat::{Error, Soil};
 
 use super::{BAD, NEGATIVE, NOT_FINITE, error_with, refused, soil};
@@ -120,4 +124,57 @@ fn kernels() {
     error_with("contact elements", PatchKernel::new(soil(), vec![], 1e-3));
     let overlapping = vec![unit, element(0.5, 1.5)];
     error_with("left end", PatchKernel::new(soil(), overlapping, 1e-3));
+}
+
+/// 5 is no damping ratio, 0.05 is: one rule, wherever a ratio is given.
+#[test]
+fn damping_ratios_in_per_cent() {
+    type Make<'a> = &'a dyn Fn(f64) -> basemat::Result<()>;
+    let building = || ShearBuilding::new(8.0, 60e3, 4e5, &[Storey::new(3.0, 30e3, 60e6)]).unwrap();
+    let outline = Outline::new(10.0, 15.0, 150e3).unwrap();
+    let bad = [5.0, 1.0, -0.1, f64::NAN, f64::INFINITY];
+    let kinds: [(&str, Make); 9] = [
+        ("building", &|x| building().with_stiffness_damping(x).map(drop)),
+        ("modal", &|x| ModalDamping::new(&[0.05, x]).map(drop)),
+        ("Rayleigh", &|x| RayleighDamping::from_ratios([1.0, 5.0], [0.9, x]).map(drop)),
+        ("Maxwell", &|x| GeneralizedMaxwell::constant_q(x, [0.1, 10.0], 1.0).map(drop)),
+        ("Kelvin–Voigt", &|x| KelvinVoigt::with_ratio(x, 1.0).map(drop)),
+        ("Kjartansson", &|x| Kjartansson::new(x, 1.0).map(drop)),
+        ("hysteretic", &|x| Hysteretic::new(x).map(drop)),
+        ("spectrum", &|x| el_centro_1940().response_spectrum(&[0.5], x).map(drop)),
+        ("outline", &|x| outline.with_frequency(2.0, x).map(drop)),
+    ];
+    for (kind, make) in kinds {
+        println!("{kind}");
+        refused("damping ratio", &bad, make);
+        error_with("0.05 is 5 %", make(5.0));
+    }
+    for (_, make) in kinds.iter().filter(|(kind, _)| !["Rayleigh", "Maxwell"].contains(kind)) {
+        make(0.05).unwrap();
+        make(0.99).unwrap();
+    }
+}
+
+/// What overflows is named with what it comes from.
+#[test]
+fn products_that_overflow() {
+    error_with("by its size and density", RigidBlock::new(1e200, 1e200, 1.0));
+    error_with("by its size and density", RigidBlock::new(1e200, 1.0, 1.0));
+    error_with("by its density and speed", Soil::from_shear_wave_speed(1e200, 0.3, 1.0));
+    error_with("by its density and speed", Soil::from_wave_speeds(1e200, 2e200, 1.0));
+    let storey = Storey::new(3.0, 30e3, 60e6);
+    let building = |storey| ShearBuilding::new(8.0, 60e3, 4e5, &[storey; 3]);
+    error_with("by masses and heights", building(Storey { height: 1e160, ..storey }));
+    error_with("by masses and heights", building(Storey { height: 1e300, ..storey }));
+    let heavy = building(Storey { mass: 1e300, ..storey }).unwrap();
+    error_with("by masses and stiffnesses", heavy.with_stiffness_damping(0.05));
+    // Neither sample is at fault, nor what is integrated of them.
+    let steep = Record::new(1e-3, vec![0.0, 1e308, -1e308, 0.0]);
+    error_with("rate of change of the record's acceleration", steep);
+    let high = Record::new(1.0, vec![0.0, 4e307, -4e307, 0.0]).unwrap();
+    for k in 0..=300 {
+        let time = 0.01 * f64::from(k);
+        let all = [high.acceleration_at(time), high.velocity_at(time), high.displacement_at(time)];
+        assert!(all.iter().all(|x| x.is_finite()), "{time}: {all:?}");
+    }
 }

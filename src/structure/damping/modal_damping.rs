@@ -1,7 +1,7 @@
 //! Damping given mode by mode.
 
 use super::rigid_motions::rigid_momenta;
-use crate::error::{Error, Result, not_negative};
+use crate::error::{Error, Result, damping_ratio};
 use crate::linalg::{SparseMatrix, dot, generalised_modes};
 use crate::structure::matrix_checks::SYMMETRIC;
 use crate::structure::{ContactNode, NonlinearForce, Structure, Triplets};
@@ -59,13 +59,13 @@ impl ModalDamping {
     /// that of all further ones.
     ///
     /// # Errors
-    /// [`Error::Size`] without ratios, [`Error::Input`] unless all are finite and not negative.
+    /// [`Error::Size`] without ratios, [`Error::Input`] unless all are from 0 to below 1.
     pub fn new(ratios: &[f64]) -> Result<Self> {
         if ratios.is_empty() {
             return Err(Error::Size { quantity: "list of damping ratios", found: 0, needed: 1 });
         }
         for ratio in ratios {
-            not_negative("damping ratio", *ratio)?;
+            damping_ratio("damping ratio", *ratio)?;
         }
         Ok(Self { ratios: ratios.to_vec() })
     }

@@ -1,6 +1,6 @@
 //! Damping proportional to mass and stiffness.
 
-use crate::error::{Error, Result, not_negative, positive};
+use crate::error::{Error, Result, damping_ratio, not_negative, positive};
 use std::f64::consts::TAU;
 
 /// Rayleigh damping C = α M + β K.
@@ -40,12 +40,12 @@ impl RayleighDamping {
     /// Damping with given damping ratios at two frequencies (Hz).
     ///
     /// # Errors
-    /// [`Error::Input`] when the frequencies are not positive or equal, a ratio is negative, or
+    /// [`Error::Input`] when the frequencies are not positive or equal, a ratio is not from 0 to below 1, or
     /// the ratios differ so much that α or β would be negative.
     pub fn from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) -> Result<Self> {
         for (frequency, ratio) in frequencies.into_iter().zip(ratios) {
             positive("frequency of Rayleigh damping", frequency)?;
-            not_negative("damping ratio", ratio)?;
+            damping_ratio("damping ratio", ratio)?;
         }
         let [low, high] = frequencies.map(|frequency| TAU * frequency);
         let spread = (high - low) * (high + low);

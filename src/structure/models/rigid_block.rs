@@ -45,8 +45,10 @@ impl RigidBlock {
         positive("width of the block", width)?;
         positive("height of the block", height)?;
         positive("density of the block", density)?;
-        let mass = width * height * density;
+        let mass =
+            positive("mass of the block, by its size and density", width * height * density)?;
         let rotary_inertia = mass * (width * width + height * height) / 12.0;
+        positive("rotary inertia of the block, by its size and density", rotary_inertia)?;
         Self::from_mass(width, mass, rotary_inertia, 0.5 * height)
     }
 

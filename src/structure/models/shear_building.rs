@@ -1,7 +1,7 @@
 //! Shear building on a rigid base.
 
 use super::section::SectionRows;
-use crate::error::{Error, Result, finite, not_negative, positive};
+use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive};
 use crate::structure::{ContactNode, Row, Structure, Triplets};
 use std::f64::consts::{PI, TAU};
 
@@ -105,6 +105,11 @@ impl ShearBuilding {
             gravity: 0.0,
         };
         finite("mass of the building", building.total_mass())?;
+        let rocking = |of: fn(&Storey) -> f64| -> f64 {
+            building.storeys.iter().map(|storey| of(storey) * storey.height.powi(2)).sum()
+        };
+        finite("rotary inertia of the building, by masses and heights", rocking(|s| s.mass))?;
+        finite("stiffness in rotation, by storeys and heights", rocking(|s| s.stiffness))?;
         positive("rotary inertia of base and floors", building.rotary_inertia())?;
         Ok(building)
     }
@@ -125,10 +130,12 @@ impl ShearBuilding {
     /// floors' accelerations heavily. [`ModalDamping`](crate::structure::ModalDamping) gives every mode its own.
     ///
     /// # Errors
-    /// [`Error::Input`] unless `ratio` is finite and not negative.
+    /// [`Error::Input`] unless `ratio` is from 0 to below 1.
     pub fn with_stiffness_damping(self, ratio: f64) -> Result<Self> {
-        not_negative("damping ratio", ratio)?;
-        let stiffness_damping = ratio / (PI * self.fixed_base_frequency());
+        damping_ratio("damping ratio", ratio)?;
+        let frequency = self.fixed_base_frequency();
+        positive("first frequency of the building, by masses and stiffnesses", frequency)?;
+        let stiffness_damping = ratio / (PI * frequency);
         finite("stiffness-proportional damping", stiffness_damping)?;
         Ok(Self { stiffness_damping, ..self })
     }

@@ -10,7 +10,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::recovery::{Basis, Recovery};
-use crate::error::{Error, Result, not_negative};
+use crate::error::{Error, Result, damping_ratio};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
 use crate::structure::detached::{check_attached, numbers};
 use crate::structure::matrix_checks::SYMMETRIC;
@@ -266,9 +266,9 @@ impl ReducedModel {
     /// of the damping it had. Motions of the kept unknowns alone are not damped.
     ///
     /// # Errors
-    /// [`Error::Input`] unless it is finite and not negative.
+    /// [`Error::Input`] unless it is from 0 to below 1.
     pub fn with_damping_ratio(mut self, ratio: f64) -> Result<Self> {
-        not_negative("damping ratio", ratio)?;
+        damping_ratio("damping ratio", ratio)?;
         self.damping.fill(0.0);
         self.active = false;
         let order = self.basis.order();
