@@ -210,4 +210,8 @@ impl Ground for HalfPlaneGround {
         fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
         fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]);
     }
+
+    fn soils(&self) -> Vec<Soil> {
+        vec![self.soil]
+    }
 }

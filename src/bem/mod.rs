@@ -40,6 +40,7 @@ pub use crate::contact_element::ContactElement;
 use crate::error::{CheckpointError, Result};
 use crate::history::HistoryChoice;
 use crate::motion::FreeField;
+use crate::soil::Soil;
 
 /// A soil as the time integrator sees it: implement this for a ground of your own.
 ///
@@ -109,6 +110,12 @@ pub trait Ground: Any + Send {
     /// a ground without waves.
     fn shear_wave_speed(&self) -> Option<f64> {
         None
+    }
+
+    /// The soils that it is made of; none (the default) if there are none to be named. A run warns of
+    /// one that is unlike any: [`Warning::UnusualSoil`](crate::coupled::Warning::UnusualSoil).
+    fn soils(&self) -> Vec<Soil> {
+        Vec::new()
     }
 
     /// Which history it keeps and why; `None` (the default) if there is nothing to choose.

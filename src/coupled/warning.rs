@@ -3,6 +3,8 @@
 use std::fmt;
 
 use super::ledger::Ledger;
+use crate::motion::STANDARD_GRAVITY;
+use crate::soil::Soil;
 
 /// Where the assumptions of a run are strained, or its time step or elements too coarse.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,6 +57,13 @@ pub enum Warning {
         /// Fewest that it needs.
         needed: usize,
     },
+    /// A soil unlike any: a number in another unit, unless the model is not to scale.
+    UnusualSoil {
+        /// Speed of its shear waves, m/s.
+        shear_wave_speed: f64,
+        /// Its density, kg/m³.
+        density: f64,
+    },
     /// Elements longer than a quarter of the soil's shear waves at the frequency of the base shear.
     LongElements {
         /// Longest element, m.
@@ -72,6 +81,20 @@ impl Warning {
     /// Ledger residual at the end of a run above which it warns. Earlier, while energies are still
     /// small, the relative residual may be larger: see [`Run::ledger_residual`](super::Run::ledger_residual).
     pub const LEDGER_LIMIT: f64 = 1e-9;
+
+    /// Speeds of shear waves in soils, m/s, from mud to rock.
+    pub const SOIL_SPEEDS: [f64; 2] = [10.0, 5000.0];
+    /// Densities of soils, kg/m³.
+    pub const SOIL_DENSITIES: [f64; 2] = [500.0, 10_000.0];
+
+    /// Those that the numbers of `soils` call for.
+    pub(crate) fn of_soils(soils: &[Soil]) -> impl Iterator<Item = Self> {
+        let numbers = soils.iter().map(|soil| [soil.shear_wave_speed(), soil.density()]);
+        let unusual = numbers.filter(|[speed, density]| {
+            !(within(Self::SOIL_SPEEDS, *speed) && within(Self::SOIL_DENSITIES, *density))
+        });
+        unusual.map(|[shear_wave_speed, density]| Self::UnusualSoil { shear_wave_speed, density })
+    }
 
     /// Those that largest slip, mean element length, largest rotation and the last ledger residual
     /// call for.
@@ -121,6 +144,11 @@ impl fmt::Display for Warning {
                 f,
                 "elements under foundation {foundation}: {elements}, its rocking needs {needed}"
             ),
+            Self::UnusualSoil { shear_wave_speed, density } => write!(
+                f,
+                "soil of {density:.3e} kg/m³, shear waves of {shear_wave_speed:.2e} m/s: {}",
+                likely_slip(*shear_wave_speed, *density)
+            ),
             Self::LongElements { element_length, wavelength, needed } => write!(
                 f,
                 "elements of {element_length:.2e} m for shear waves of {wavelength:.2e} m: \
@@ -128,4 +156,30 @@ impl fmt::Display for Warning {
             ),
         }
     }
+}
+
+fn within([least, most]: [f64; 2], value: f64) -> bool {
+    (least..=most).contains(&value)
+}
+
+/// Units in which the numbers of a soil would be usual ones.
+fn likely_slip(speed: f64, density: f64) -> String {
+    let densities = [
+        (1.0, ""),
+        (1000.0 / STANDARD_GRAVITY, "density in kN/m³"),
+        (1000.0, "density in t/m³"),
+        (1.0 / STANDARD_GRAVITY, "density in N/m³"),
+    ];
+    let moduli =
+        [(1.0, ""), (1e3, "modulus in kPa"), (1e6, "modulus in MPa"), (1e9, "modulus in GPa")];
+    for (by_density, first) in densities {
+        for (by_modulus, second) in moduli {
+            let speed = speed * (by_modulus / by_density).sqrt();
+            if within([1200.0, 3500.0], density * by_density) && within([50.0, 3000.0], speed) {
+                let words = [first, second].into_iter().filter(|word| !word.is_empty());
+                return format!("{}?", words.collect::<Vec<_>>().join(", "));
+            }
+        }
+    }
+    "a model not to scale?".into()
 }

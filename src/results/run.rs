@@ -239,6 +239,7 @@ impl Run {
             self.base_rotation.largest().value,
             &self.ledger,
         );
+        self.warnings.extend(Warning::of_soils(&ground.soils()));
         self.resolution.warn(&mut self.warnings);
     }
 

@@ -3,14 +3,16 @@
 //! REFERENCE: the fields of the error, and the clock.
 
 use basemat::bem::layered::{
-    LayeredKernel, Stages, StripContact, rigid_strip_impedances, static_compliance,
+    LayeredGround, LayeredKernel, Stages, StripContact, rigid_strip_impedances, static_compliance,
 };
-use basemat::bem::{ContactElement, Grading, Strip};
+use basemat::bem::{ContactElement, Grading, Ground, Strip};
 use basemat::history::LagKernel;
+use basemat::interface::Bonded;
 use basemat::soil::{
     Base, Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation, SoilLayer,
     SoilProfile,
 };
+use basemat::structure::RigidBlock;
 use basemat::{Complex, Error, LayeredError, Soil};
 
 use crate::support::profiles::{gmb, p1};
@@ -35,6 +37,26 @@ fn hysteretic_damping_is_refused_in_time() {
         found.to_string().contains("hysteretic") && found.to_string().contains("constant_q"),
         "{found}"
     );
+    // A ground of it has impedances, those of its profile, and does not march.
+    let profile = SoilProfile::on_half_plane(soil())
+        .with_layer(soil(), 3.0)
+        .unwrap()
+        .with_damping(Hysteretic::new(0.05).unwrap());
+    let mut ground = LayeredGround::uniform_strip(profile.clone(), -3.0..3.0, 3).unwrap();
+    let found = ground.impedances(&[2.0], StripContact::Bonded).unwrap();
+    let known =
+        rigid_strip_impedances(&profile, &elements(), &[2.0], StripContact::Bonded).unwrap();
+    assert_eq!(found[0].vertical, known[0].vertical);
+    let not_causal = |found: basemat::Result<()>| {
+        matches!(found, Err(Error::Layered(LayeredError::NotCausal { layer: 1, .. })))
+    };
+    assert!(not_causal(ground.prepare(0.01)));
+    let built = basemat::Simulation::builder(0.01)
+        .structure(RigidBlock::new(6.0, 3.0, 2000.0).unwrap())
+        .ground(ground)
+        .interface(Bonded)
+        .build();
+    assert!(not_causal(built.map(drop)));
 }
 
 #[test]

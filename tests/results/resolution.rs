@@ -2,9 +2,12 @@
 
 use std::f64::consts::PI;
 
+use basemat::bem::Ground;
+use basemat::bem::layered::LayeredGround;
 use basemat::coupled::{Run, Warning};
 use basemat::motion::{FreeFieldFn, RickerDisplacement, TravellingWave};
 use basemat::prelude::*;
+use basemat::soil::SoilProfile;
 
 /// Largest base shear of the three storeys under El Centro with steps of 1 ms, N/m.
 const THREE_STOREYS: f64 = 703.6e3;
@@ -161,4 +164,51 @@ fn elements_longer_than_waves() {
         panic!("{:?}", coarse.warnings)
     };
     assert!((element_length - 8.0).abs() < 1e-12 && wavelength < 32.0 && needed < 4.0);
+}
+
+/// Soils whose numbers are of another unit, and those that only are soft or hard.
+#[test]
+fn soils_in_other_units() {
+    let short = |soil: Soil| {
+        let block = RigidBlock::new(4.0, 2.0, 1.0).unwrap();
+        let mut simulation = Simulation::builder(1e-3)
+            .ground(HalfPlaneGround::under(soil, &block, 4).unwrap())
+            .structure(block)
+            .interface(Bonded)
+            .gravity(0.0)
+            .build()
+            .unwrap();
+        simulation.run(2, |_| {}).unwrap()
+    };
+    for (modulus, density, slip) in [
+        (80.0, 1900.0, "modulus in MPa?"),
+        (80e3, 1900.0, "modulus in kPa?"),
+        (80e6, 19.0, "density in kN/m³?"),
+        (80e6, 1.9, "density in t/m³?"),
+        (80.0, 19.0, "density in kN/m³, modulus in MPa?"),
+        (80e3, 1.9, "density in t/m³, modulus in kPa?"),
+        (80e6, 19_000.0, "density in N/m³?"),
+        (1.0, 1.0, "a model not to scale?"),
+    ] {
+        let soil = Soil::new(modulus, 0.33, density).unwrap();
+        let run = short(soil);
+        let speed = soil.shear_wave_speed();
+        let wanted = Warning::UnusualSoil { shear_wave_speed: speed, density };
+        assert_eq!(run.warnings, [wanted], "{modulus} {density}");
+        let line = format!("warning: {wanted}");
+        assert!(line.ends_with(slip) && line.chars().count() <= 100, "{line}");
+        assert!(run.to_string().contains(&line));
+    }
+    for (speed, density) in [(10.001, 500.0), (25.0, 1100.0), (4999.0, 10_000.0)] {
+        let soil = Soil::from_shear_wave_speed(speed, 0.33, density).unwrap();
+        assert_eq!(short(soil).warnings, [], "{speed} {density}");
+    }
+    // Each layer has a name of its own to answer for.
+    let profile = SoilProfile::on_half_plane(soil(800.0)).with_layer(soil(200.0), 4.0).unwrap();
+    let thin = Soil::from_shear_wave_speed(150.0, 0.33, 18.0).unwrap();
+    let profile = profile.with_layer(thin, 3.0).unwrap();
+    let block = RigidBlock::new(4.0, 2.0, 1000.0).unwrap();
+    let ground = LayeredGround::under(profile, &block, 2).unwrap();
+    assert_eq!(ground.soils().len(), 3);
+    assert_eq!(ground.soils()[1], thin);
 }

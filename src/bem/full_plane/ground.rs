@@ -257,6 +257,10 @@ impl Ground for FullPlaneGround {
         Ok(())
     }
 
+    fn soils(&self) -> Vec<Soil> {
+        vec![self.soil]
+    }
+
     fn shear_wave_speed(&self) -> Option<f64> {
         Some(self.soil.shear_wave_speed())
     }

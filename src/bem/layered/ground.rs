@@ -16,7 +16,7 @@ use crate::contact_element::{ContactElement, check_order};
 use crate::error::Result;
 use crate::history::{ConvolutionHistory, History, HistoryChoice, LagKernel};
 use crate::motion::FreeField;
-use crate::soil::{Base, SoilProfile};
+use crate::soil::{Base, Soil, SoilProfile};
 use crate::structure::Structure;
 
 /// Horizontal layers, damped or not, on a half-plane or a rigid base, with one or several strips on
@@ -168,17 +168,18 @@ impl LayeredGround {
         Self::new(profile, &strips_under(structure, count, Grading::Uniform)?)
     }
 
-    /// Several strips from left to right, which talk through the ground.
+    /// Several strips from left to right, coupled through the ground.
+    ///
+    /// Damping that is not causal serves [`impedances`](LayeredGround::impedances) only: a simulation
+    /// refuses it with [`LayeredError::NotCausal`](crate::LayeredError::NotCausal).
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for no strips or a rigid base without layers,
-    /// [`Error::Input`](crate::Error::Input) for strips that overlap or are out of order,
-    /// [`LayeredError::NotCausal`](crate::LayeredError::NotCausal) for hysteretic damping.
+    /// [`Error::Input`](crate::Error::Input) for strips that overlap or are out of order.
     pub fn new(profile: SoilProfile, strips: &[Strip]) -> Result<Self> {
         let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
         check_order(&elements)?;
         profile.check()?;
-        profile.check_causal()?;
         let layered = Layered { profile, stages: None, tolerance: TOLERANCE, file: None };
         let ground = KernelGround::new(layered.clone(), elements)?;
         Ok(Self { layered, used: None, ground })
@@ -285,9 +286,14 @@ impl Ground for LayeredGround {
     }
 
     fn prepare(&mut self, time_step: f64) -> Result<()> {
+        self.layered.profile.check_causal()?;
         self.ground.prepare(time_step)?;
         self.used = self.layered.stages(time_step);
         Ok(())
+    }
+
+    fn soils(&self) -> Vec<Soil> {
+        self.profile().soils().map(|(soil, _)| soil).collect()
     }
 
     fn history_choice(&self) -> Option<HistoryChoice> {

@@ -10,7 +10,7 @@ use basemat::interface::{
 };
 use basemat::motion::{FreeField, Record, RecordFormat};
 use basemat::structure::{Hysteresis, InternalEnergy, SpringResponse};
-use basemat::{Error, Result};
+use basemat::{Error, Result, Soil};
 
 use super::Log;
 
@@ -20,6 +20,10 @@ pub(crate) const CORRECT: f64 = 0.625;
 /// An error of the double's own.
 pub(crate) fn refusal() -> Error {
     Error::part("double", "refuses")
+}
+
+pub(crate) fn soil() -> Soil {
+    Soil::new(CORRECT, CORRECT / 2.0, CORRECT).unwrap()
 }
 
 pub(crate) fn start() -> StepStart<'static> {
@@ -164,6 +168,11 @@ impl Ground for Double {
 
     fn commit(&mut self, _: &[f64]) {
         self.0.asked("commit");
+    }
+
+    fn soils(&self) -> Vec<Soil> {
+        self.0.asked("soils");
+        vec![soil()]
     }
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
