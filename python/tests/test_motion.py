@@ -113,7 +113,7 @@ def test_there_and_back_through_a_site() -> None:
         bare = bm.Record(0.01, samples)
         with pytest.warns(UserWarning, match="cut off before .* give the record quiet time"):
             column.to_surface(bare)
-        record = bare.padded(20.0, 40.0)
+        record = bare.padded(25.0, 40.0)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             back = column.from_surface(column.to_surface(record))
