@@ -5,9 +5,7 @@ use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive}
 use crate::structure::{ContactNode, Row, Structure, Triplets};
 use std::f64::consts::{PI, TAU};
 
-/// Storey of a [`ShearBuilding`]: the columns and the floor they carry.
-///
-/// All per metre of thickness.
+/// Storey of a [`ShearBuilding`]: the columns and the floor they carry, per metre of thickness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
