@@ -24,7 +24,23 @@ pub(crate) struct ChosenHistory {
     options: HistoryOptions,
     choice: HistoryChoice,
     announced: Option<usize>,
+    /// Steps whose memory is allowed.
+    room: usize,
     kept: Kept,
+}
+
+/// Steps that a history of this kind holds in the memory allowed.
+fn room(options: HistoryOptions, kind: History, kernel: &dyn LagKernel) -> Result<usize> {
+    let mut most = 0;
+    // Memory grows by doubling, so that a power of two fills it.
+    for power in LEAF.ilog2() + 1..usize::BITS {
+        let estimate = Estimate::new(kind, kernel, 1 << power)?;
+        if estimate.memory > options.memory {
+            break;
+        }
+        most = 1 << power;
+    }
+    Ok(most)
 }
 
 impl ChosenHistory {
@@ -35,8 +51,8 @@ impl ChosenHistory {
         steps: Option<usize>,
     ) -> Result<Self> {
         let (kept, choice) = options.make(kernel, steps)?;
-        let announced = choice.steps;
-        Ok(Self { kernel: Arc::clone(kernel), options, choice, announced, kept })
+        let (announced, room) = (choice.steps, room(options, choice.kind, &**kernel)?);
+        Ok(Self { kernel: Arc::clone(kernel), options, choice, announced, room, kept })
     }
 
     /// Which one, and why.
@@ -52,17 +68,8 @@ impl ChosenHistory {
     }
 
     /// Steps that an exact history is kept for.
-    fn most(&self) -> Result<usize> {
-        let mut most = 0;
-        // Memory grows by doubling, so that a power of two fills it.
-        for power in LEAF.ilog2() + 1..usize::BITS {
-            let estimate = Estimate::new(self.choice.kind, &*self.kernel, 1 << power)?;
-            if estimate.memory > self.options.memory {
-                break;
-            }
-            most = 1 << power;
-        }
-        Ok(self.announced.map_or(most, |announced| most.max(announced)))
+    fn most(&self) -> usize {
+        self.announced.map_or(self.room, |announced| self.room.max(announced))
     }
 
     /// Makes the exponentials, without what came before.
@@ -104,7 +111,7 @@ impl ChosenHistory {
         if !steps.is_power_of_two() && self.announced != Some(steps) {
             return Ok(());
         }
-        let most = self.most()?;
+        let most = self.most();
         if steps < most {
             return Ok(());
         }
@@ -118,14 +125,14 @@ impl ChosenHistory {
     /// The same as it is once it has given way before `steps` steps, without what came before;
     /// `None` if it would not have.
     pub(crate) fn succeeded(&self, steps: usize) -> Result<Option<Self>> {
-        let most = self.most()?;
+        let most = self.most();
         if matches!(self.kept, Kept::Exponentials(_)) || steps < most {
             return Ok(None);
         }
         let (history, choice) = self.successor(most)?;
         let (kernel, kept) = (Arc::clone(&self.kernel), Kept::Exponentials(history));
-        let Self { options, announced, .. } = *self;
-        Ok(Some(Self { kernel, options, choice, announced, kept }))
+        let Self { options, announced, room, .. } = *self;
+        Ok(Some(Self { kernel, options, choice, announced, room, kept }))
     }
 
     fn any(&self) -> &dyn ConvolutionHistory {
@@ -150,7 +157,7 @@ impl ConvolutionHistory for ChosenHistory {
 
     /// Only for steps that it is kept for.
     fn reserve(&mut self, steps: usize) -> Result<()> {
-        let steps = steps.min(self.most()?);
+        let steps = steps.min(self.most());
         let ready = self.options.prepared_steps(self.choice.kind, &*self.kernel, steps)?;
         self.any_mut().reserve(ready)
     }

@@ -161,13 +161,16 @@ impl Recipe {
         mass * GRAVITY
     }
 
-    /// Rounding of the static state, relative to the weight: that of the stiffness forces of a tower on
-    /// a settlement of soft soil. Flat elements of eight nodes are stiffer than the material, and
-    /// elimination of its interior leaves more in a reduced tower.
+    /// Rounding of the static state, relative to the weight: that of the stiffness forces of a tower, of
+    /// more or less flat elements, on a settlement of soft soil.
     pub(crate) fn static_rounding(&self) -> f64 {
-        let Building::Tower(Tower { young, poisson, form, .. }) = self.building else { return 0.0 };
-        let roundings = if form == Form::Quad4 { 10.0 } else { 200.0 };
-        roundings * f64::EPSILON * young / (1.0 - 2.0 * poisson) / self.modulus
+        let Building::Tower(Tower { height, rows, columns, young, poisson, .. }) = self.building
+        else {
+            return 0.0;
+        };
+        let aspect = WIDTH / columns as f64 / (height / rows as f64);
+        let stiffness = young / (1.0 - 2.0 * poisson) * aspect.max(1.0 / aspect);
+        10.0 * f64::EPSILON * stiffness / self.modulus
     }
 
     /// The same scene with no tower reduced: a reduced one keeps the rounding of the whole one's stiffness.
