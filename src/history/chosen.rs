@@ -75,10 +75,12 @@ impl ChosenHistory {
     /// Makes the exponentials, without what came before.
     fn successor(&self, most: usize) -> Result<(Box<ExponentialHistory>, HistoryChoice)> {
         let estimate = |kind, steps| Estimate::new(kind, &*self.kernel, steps);
-        let exact = estimate(self.choice.kind, most.saturating_add(1))?;
+        let next = most.saturating_add(1);
+        let grown = next.checked_next_power_of_two().unwrap_or(next);
+        let exact = estimate(self.choice.kind, grown)?;
         let refused = Error::Memory(MemoryError {
             quantity: "steps of the convolution history",
-            asked: most.saturating_add(1) as f64,
+            asked: next as f64,
             needed: exact.memory as f64,
             limit: self.options.memory as f64,
             remedy: "announce the steps with `expected_steps`, or allow more with \

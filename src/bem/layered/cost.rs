@@ -34,6 +34,7 @@ const MOST_HALVING: f64 = 50.0;
 /// said everywhere.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Cost {
     /// Processor time, s, of one thread of the processor in `docs/performance.md`. It is shared by
