@@ -34,7 +34,7 @@ type Value = dyn Fn(&Run) -> Option<f64>;
 
 /// A row: name and unit, column of files, factor from SI to the unit, and the value of a run.
 struct Line {
-    name: &'static str,
+    name: String,
     unit: &'static str,
     column: String,
     factor: f64,
@@ -56,7 +56,7 @@ impl Line {
 type Derived = (&'static str, &'static str, &'static str, f64, fn(&Run) -> Option<f64>);
 
 const DERIVED: [Derived; 9] = [
-    ("base shear over weight", "", "base_shear_over_weight", 1.0, Run::shear_coefficient),
+    ("shear over weight", "", "base_shear_over_weight", 1.0, Run::shear_coefficient),
     ("mean slip, residual", "mm", "residual_slip_m", 1e3, |s| Some(s.whole.residual_slip)),
     ("slip events", "", "slip_events", 1.0, |s| Some(s.slip_events() as f64)),
     ("uplifted for", "s", "uplift_duration_s", 1.0, |s| Some(s.whole.uplift.duration)),
@@ -86,7 +86,7 @@ fn lines() -> Vec<Line> {
             let (column, value) =
                 (format!("{quantity}_time_s"), move |run: &Run| Some(peak(run).time));
             lines.push(Line {
-                name: "  at",
+                name: "  at".to_owned(),
                 unit: "s",
                 column,
                 factor: 1.0,
@@ -95,14 +95,14 @@ fn lines() -> Vec<Line> {
         }
     }
     lines.extend(DERIVED.map(|(name, unit, column, factor, value)| Line {
-        name,
+        name: name.to_owned(),
         unit,
         column: column.to_owned(),
         factor,
         value: Box::new(value),
     }));
     lines.extend(EnergyTerm::ALL.into_iter().filter(|term| term.is_lost()).map(|term| Line {
-        name: term.name(),
+        name: format!("  {}", term.name()),
         unit: "%",
         column: format!("energy_share_{term}"),
         factor: 100.0,
@@ -131,7 +131,7 @@ impl Comparison {
         let mut heading = vec![String::new(), "unit".to_owned()];
         heading.extend(self.cases.iter().map(|(name, _)| name.clone()));
         let line = |row: Line| {
-            let mut cells = vec![row.name.to_owned(), row.unit.to_owned()];
+            let mut cells = vec![row.name.clone(), row.unit.to_owned()];
             cells.extend(self.cases.iter().map(|(_, run)| row.cell(run)));
             cells
         };

@@ -96,8 +96,8 @@ impl Run {
         let known = |own: &Quantity| own.limit().is_some() && !self.whole.peak(*own).value.is_nan();
         for quantity in Quantity::ALL.into_iter().filter(known) {
             let peak = self.whole.peak(quantity);
-            let (name, least) = (quantity.short_name(), factor(peak.value));
-            writeln!(f, "Least factor of {name}: {least} at {:.3} s", peak.time)?;
+            let (name, least) = (quantity.name(), factor(peak.value));
+            writeln!(f, "Least {name}: {least} at {:.3} s", peak.time)?;
         }
         Ok(())
     }

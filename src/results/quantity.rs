@@ -177,13 +177,13 @@ quantities! {
     /// It is made of tractions that did act: on a base that may slide it reaches one when it does,
     /// and never falls below. On a bonded base it may, and says what the interface would have lacked.
     /// Of several foundations the least.
-    SlidingSafety sliding_safety, "factor of safety, sliding", "", Scale::Safety("1: sliding"), [Foundations, Comparison],
+    SlidingSafety sliding_safety, "factor of safety against sliding", "", Scale::Safety("1: sliding"), [Foundations, Comparison],
         |base| base.least(against_sliding);
     /// Restoring over overturning moment about the edge that the pressure moves to: N times the
     /// half width, over the moment about the middle of the base. NaN in flight. On a base that may
     /// open it reaches one when the base stands on its edge (on its last element), and never falls
     /// below. Of several foundations the least.
-    OverturningSafety overturning_safety, "factor of safety, overturning", "", Scale::Safety("1: on its edge"),
+    OverturningSafety overturning_safety, "factor of safety against overturning", "", Scale::Safety("1: on its edge"),
         [Foundations, Comparison],
         |base| base.least(|_, elements, contact| against_overturning(elements, contact));
 }
@@ -202,8 +202,8 @@ impl Quantity {
     }
 
     /// The name where there is little room.
-    pub(super) fn short_name(self) -> &'static str {
-        self.name().strip_prefix("factor of ").unwrap_or(self.name())
+    pub(super) fn short_name(self) -> String {
+        self.name().replace("factor of safety against", "safety,")
     }
 
     /// SI unit of its values; empty for a ratio.

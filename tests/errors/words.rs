@@ -124,8 +124,8 @@ fn quantities_by_any_of_their_names() {
         "mean_slip_m",
         "largest_slip_m",
         "base_rotation_rad",
-        "free_field_x_m",
-        "free_field_y_m",
+        "free_field_horizontal_m",
+        "free_field_vertical_m",
         "sliding_safety",
         "overturning_safety",
     ];

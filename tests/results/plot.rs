@@ -70,7 +70,7 @@ fn every_picture_has_title_labels_units_and_legend() {
         shows(&svg, &["Title", "time, s", quantity.name(), "one", "two"]);
     }
     let svg = plot::history("Title", &runs, Quantity::SlidingSafety).unwrap();
-    shows(&svg, &["1 / factor of safety, sliding", "1: sliding"]);
+    shows(&svg, &["1 / factor of safety against sliding", "1: sliding"]);
     // Without a friction coefficient there is no demand to be drawn, however large.
     let builder = scene(SI, 0.6).structure(block(SI)).interface(Bonded);
     let mut simulation = builder.build().unwrap();
