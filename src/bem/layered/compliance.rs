@@ -5,6 +5,10 @@
 //! plane) is carried upwards from the base, layer by layer, with decaying exponentials only (Kausel
 //! & Roësset 1981 for the impedance; Luco & Apsel 1983 for the reflected waves).
 //!
+//! Through layers thin beside the waves, displacements and stresses are carried by the power series of their
+//! differential equations: the reflected waves of a slab would nearly cancel the others, and what soft ground
+//! below it gives would drown in their rounding.
+//!
 //! Each layer has the waves P and D = (S − P)/(β − α) instead of P and S, which become parallel for
 //! |s|/(c k) → 0; all differences are formed as products.
 //!
@@ -50,6 +54,51 @@ pub(crate) struct Compliance {
     moduli: Vec<Complex>,
     /// α, β of the layers down to the last that the surface feels.
     roots: Vec<[Complex; 2]>,
+    /// Layers that evaluations have gone through so far.
+    pub(crate) visited: usize,
+}
+
+/// |β|h below which a layer is thin.
+const THIN: f64 = 0.2;
+/// Terms of the power series, relative to the first.
+const SMALL: f64 = 1e-18;
+
+impl Layer {
+    /// Whether its waves hardly turn or decay over it at the wavenumber `k`.
+    fn is_thin(&self, k: f64) -> bool {
+        let turn = (k * k + self.q2.abs()).sqrt() * self.thickness;
+        turn < THIN
+    }
+
+    /// Displacements and stresses at its top for those at its bottom: with `even` = [U; `σ_zz`/μ] and
+    /// `odd` = [W; `σ_xz`/μ], even′ = P odd and odd′ = Q even.
+    fn carry(&self, k: f64, (u, t): (Square, Square)) -> (Square, Square) {
+        let (a2, q2, h) = (self.a2, self.q2, self.thickness);
+        let (wave, one) = (Complex::real(k), Complex::real(1.0));
+        let poisson = Complex::real((1.0 - 2.0 * a2) * k);
+        let membrane = Complex::real(4.0 * (1.0 - a2) * k * k) + q2;
+        let p = Square([wave, one, q2, -wave]);
+        let q = Square([-poisson, Complex::real(a2), membrane, poisson]);
+        let unit = self.modulus.inverse();
+        let [xz_x, xz_z, zz_x, zz_z] = t.0.map(|stress| stress * unit);
+        let [u_x, u_z, w_x, w_z] = u.0;
+        let mut terms = [Square([u_x, u_z, zz_x, zz_z]), Square([w_x, w_z, xz_x, xz_z])];
+        let [mut even, mut odd] = terms;
+        // Every other power of h k and h √q₂ may be missing from an entry.
+        let turn = 2.0 * (k + q2.abs().sqrt()) * h;
+        let (mut n, mut size) = (0.0, 1.0);
+        while size > SMALL {
+            n += 1.0;
+            size *= turn / n;
+            let factor = Complex::real(-h / n);
+            let [one, other] = terms;
+            terms = [p.times(other), q.times(one)].map(|m| Square(m.0.map(|x| x * factor)));
+            (even, odd) = (even.plus(terms[0]), odd.plus(terms[1]));
+        }
+        let ([u_x, u_z, zz_x, zz_z], [w_x, w_z, xz_x, xz_z]) = (even.0, odd.0);
+        let stress = Square([xz_x, xz_z, zz_x, zz_z].map(|x| x * self.modulus));
+        (Square([u_x, u_z, w_x, w_z]), stress)
+    }
 }
 
 /// Depth in decay lengths below which nothing comes back to the surface: e^(−2·21) is 6e-19.
@@ -102,18 +151,28 @@ impl Compliance {
                 break;
             }
         }
+        self.visited += self.roots.len();
         let last = self.roots.len() - 1;
-        let waves = Waves::new(&self.layers[last], k, self.roots[last]);
+        let lowest = &self.layers[last];
+        let waves = || Waves::new(lowest, k, self.roots[last]);
         // A layer that nothing comes back through is a half-plane.
-        let (mut u, mut t) = if self.layers[last].thickness.is_infinite() || decay > OPAQUE {
+        let (mut u, mut t) = if lowest.thickness.is_infinite() || decay > OPAQUE {
+            let waves = waves();
             (waves.u, waves.t)
+        } else if lowest.is_thin(k) {
+            lowest.carry(k, (Square::default(), Square::UNIT))
         } else {
+            let waves = waves();
             let up = waves.u.mirrored();
-            waves.above(&self.layers[last], up.solve(waves.u).negative())
+            waves.above(lowest, up.solve(waves.u).negative())
         };
         for (layer, roots) in self.layers[..last].iter().zip(&self.roots).rev() {
-            let waves = Waves::new(layer, k, *roots);
             let z = t.times_inverse(u);
+            if layer.is_thin(k) {
+                (u, t) = layer.carry(k, (Square::UNIT, z));
+                continue;
+            }
+            let waves = Waves::new(layer, k, *roots);
             let (u_up, t_up) = (waves.u.mirrored(), waves.t.mirrored().negative());
             let reflected = t_up.minus(z.times(u_up)).solve(z.times(waves.u).minus(waves.t));
             (u, t) = waves.above(layer, reflected);
@@ -207,10 +266,15 @@ impl Transfer {
 }
 
 /// A complex 2 × 2 matrix, row by row.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Square([Complex; 4]);
 
 impl Square {
+    const UNIT: Self = {
+        let (zero, one) = (Complex::new(0.0, 0.0), Complex::new(1.0, 0.0));
+        Self([one, zero, zero, one])
+    };
+
     /// diag(1, −1) A: displacements of the mirrored waves.
     fn mirrored(self) -> Self {
         let Self([a, b, c, d]) = self;
