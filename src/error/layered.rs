@@ -71,6 +71,29 @@ pub enum LayeredError {
         /// Wavenumber up to which C must be integrated, 1/m.
         wavenumber: f64,
     },
+    /// Step coefficients that would take longer than is allowed, estimated before anything of them is
+    /// computed.
+    #[error(
+        "step coefficients up to lag {lags} would take {seconds:.0} s of a processor, but {limit} s are \
+         allowed: time step {time_step:e} s, shortest element {element:.3e} m, top layer {layer:.3e} m ({cure} \
+         or fewer steps help; `with_time_limit` allows more)"
+    )]
+    TooCostly {
+        /// Processor time, s, estimated.
+        seconds: f64,
+        /// Processor time that is allowed, s.
+        limit: f64,
+        /// Last of the lags.
+        lags: usize,
+        /// Time step, s.
+        time_step: f64,
+        /// Length of the shortest element, m.
+        element: f64,
+        /// Thickness of the top layer, m; infinite for a half-plane.
+        layer: f64,
+        /// What would help most.
+        cure: &'static str,
+    },
     /// Damping that no mechanisms reproduce over the band.
     #[error(
         "no generalised Maxwell body has a damping ratio of {ratio} over the band: the best is {worst} \

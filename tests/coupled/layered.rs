@@ -11,10 +11,10 @@ use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::{RigidBlock, StructureGroup};
-use basemat::{Error, Simulation, Soil, Sweep};
+use basemat::{Error, LayeredError, Simulation, Soil, StepError, Sweep};
 
 use crate::support::sampled_block::{distance, sample, under_pulse};
-use crate::support::scenes::{SI, block, friction, scene, soil, states};
+use crate::support::scenes::{SI, TIME_STEP, block, friction, scene, soil, states};
 
 fn damping(ratio: f64) -> GeneralizedMaxwell {
     GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).unwrap()
@@ -80,6 +80,36 @@ fn cut_and_resumed_runs_have_the_same_bits() {
     }
 }
 
+/// A step that needs more coefficients than may be paid for is refused, and nothing of it happens.
+#[test]
+fn a_run_beyond_the_time_limit_stays_where_it_was() {
+    let cost = |steps: usize| layered(4).cost(TIME_STEP, steps).unwrap().seconds;
+    let make = |seconds: f64| shaken(layered(4).with_time_limit(seconds).unwrap()).build();
+    assert!(matches!(make(0.0).err(), Some(Error::Layered(LayeredError::TooCostly { .. }))));
+    let mut short = make(1.2 * cost(100)).unwrap();
+    let mut seen = 0;
+    for _ in 0..2000 {
+        if short.step().is_err() {
+            break;
+        }
+        seen += 1;
+    }
+    let Err(Error::Step { source: StepError::Ground(cause), .. }) = short.step() else {
+        panic!("{seen}")
+    };
+    assert!(matches!(*cause, Error::Layered(LayeredError::TooCostly { .. })), "{cause}");
+    assert!((100..2000).contains(&seen), "{seen}");
+    let mut whole = make(f64::INFINITY).unwrap();
+    assert!(*short.state() == states(&mut whole, seen)[seen]);
+    let mut other = make(f64::INFINITY).unwrap();
+    other.resume(&short.checkpoint().unwrap()).unwrap();
+    assert!(states(&mut other, 30)[1..] == states(&mut whole, 30)[1..]);
+    // Nothing for the closed form.
+    let plain = LayeredGround::strip(SoilProfile::on_half_plane(soil(SI)), -2.0..2.0, 4).unwrap();
+    assert_eq!(plain.cost(TIME_STEP, 1 << 40).unwrap().seconds, 0.0);
+    assert!(plain.cost(f64::NAN, 10).is_err());
+}
+
 #[test]
 fn the_stages_are_said_and_follow_the_rule() {
     let choice = |ground: LayeredGround, step: f64| {
@@ -127,7 +157,7 @@ fn shared_kernels_are_told_apart_and_change_no_bit() {
         LayeredGround::strip(profile().with_base_damping(damping(0.02)), -2.0..2.0, 6).unwrap(),
     ];
     for (index, ground) in others.into_iter().enumerate() {
-        ground.with_shared_kernels(&shared).prepare(crate::support::scenes::TIME_STEP).unwrap();
+        ground.with_shared_kernels(&shared).prepare(TIME_STEP).unwrap();
         assert_eq!(shared.len(), 2 + index);
     }
 }

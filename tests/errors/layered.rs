@@ -110,12 +110,74 @@ fn hopeless_scales_are_refused() {
     assert!(begin.elapsed().as_secs() < 5);
 }
 
-/// A slab on clay and clay on rock, thin and thick: contrasts of 1e4 are ordinary.
+/// A skin of a quarter of a millimetre under a base of six metres, for an earthquake's steps: minutes if
+/// not hours, refused in no time with what is to blame.
+#[test]
+fn what_takes_too_long_is_refused_beforehand() {
+    let begin = std::time::Instant::now();
+    let skin = |thickness: f64| {
+        let profile = SoilProfile::on_half_plane(soil()).with_layer(soil(), thickness).unwrap();
+        LayeredKernel::new(profile, elements(), 0.005).unwrap()
+    };
+    let refused = |kernel: &LayeredKernel, lags: usize| match kernel.prepare(lags).unwrap_err() {
+        Error::Layered(error @ LayeredError::TooCostly { .. }) => error,
+        other => panic!("{other}"),
+    };
+    let error = refused(&skin(2.5e-4), 54_000);
+    let LayeredError::TooCostly { seconds, limit, lags, time_step, element, layer, cure } = error
+    else {
+        panic!("{error}")
+    };
+    assert!(limit == 600.0 && seconds > limit && lags == 65_536, "{seconds} {lags}");
+    assert!((time_step, layer) == (0.005, 2.5e-4) && (element - 2.0).abs() < 1e-12);
+    assert_eq!(cure, "a thicker top layer");
+    assert!(error.to_string().contains("with_time_limit"), "{error}");
+    let said = skin(2.5e-4).cost(54_000).unwrap();
+    assert_eq!(said.seconds, seconds);
+    // So for every lag asked for by itself, and for a ground.
+    let mut list = [0.0; 1];
+    let found = skin(2.5e-4).coefficients(0, 40_000, &mut list, &mut [0.0], &mut [0.0]);
+    assert!(matches!(found, Err(Error::Layered(LayeredError::TooCostly { .. }))), "{found:?}");
+    let short = LayeredKernel::new(p1(gmb(5), gmb(1)), elements(), 1e-3).unwrap();
+    let LayeredError::TooCostly { cure, .. } = refused(&short, 1 << 20) else { unreachable!() };
+    assert_eq!(cure, "a longer time step");
+    assert!(begin.elapsed().as_secs() < 10, "{:?}", begin.elapsed());
+}
+
+/// The limit may be raised and lowered; what is there already costs nothing.
+#[test]
+fn the_time_limit_is_the_users() {
+    let make = || LayeredKernel::new(p1(gmb(5), gmb(1)), elements(), 0.5).unwrap();
+    for bad in [-1.0, f64::NAN, f64::NEG_INFINITY] {
+        assert!(matches!(make().with_time_limit(bad), Err(Error::Input { .. })));
+    }
+    let first = |kernel: LayeredKernel| {
+        let mut list = [0.0; 100];
+        let [mut xx, mut zx] = [[0.0; 100]; 2];
+        kernel.coefficients(1, 1, &mut list, &mut xx, &mut zx).map(|()| list)
+    };
+    let wanted = first(make()).unwrap();
+    assert_eq!(first(make().with_time_limit(f64::INFINITY).unwrap()).unwrap(), wanted);
+    assert_eq!(first(make().with_time_limit(600.0).unwrap().with_stages(Stages::Two)), Ok(wanted));
+    let none = make().with_time_limit(0.0).unwrap();
+    assert!(matches!(none.prepare(1), Err(Error::Layered(LayeredError::TooCostly { .. }))));
+    // Enough for the first block and not for the next, which leaves the first as it was.
+    let [one, two] = [1, 129].map(|lags| make().cost(lags).unwrap().seconds);
+    assert!(two > 1.5 * one, "{one} {two}");
+    let kernel = make().with_time_limit(1.1 * one).unwrap();
+    kernel.prepare(128).unwrap();
+    assert!(kernel.prepare(512).is_err());
+    assert_eq!(first(kernel).unwrap(), wanted);
+}
+
+/// A slab on clay and clay on rock, thin and thick: contrasts of 1e4 are ordinary, those of 2.5e7 possible.
 #[test]
 fn strong_contrasts_are_resolved() {
     let stiff = Soil::new(1e10, 0.2, 2400.0).unwrap();
     let soft = Soil::new(1e6, 0.4999, 1500.0).unwrap();
-    for (top, base) in [(stiff, soft), (soft, stiff)] {
+    // Shear waves five thousand times as fast as below, too.
+    let rigid = Soil::new(2.5e13, 0.2, 2400.0).unwrap();
+    for (top, base) in [(stiff, soft), (soft, stiff), (rigid, soft), (soft, rigid)] {
         for thickness in [0.1, 1.0, 1e3] {
             for step in [1e-2, 1.0] {
                 let profile = SoilProfile::on_half_plane(base).with_layer(top, thickness).unwrap();

@@ -53,9 +53,42 @@ impl Block {
         FIRST << number.saturating_sub(1)
     }
 
+    /// The last lag in block `number`.
+    pub(crate) fn last(number: usize) -> usize {
+        FIRST << number
+    }
+
     /// Coefficients of one class from `place` to the block's end.
     pub(crate) fn from(&self, class: usize, place: usize) -> [&[f64]; 3] {
         self.values[class].each_ref().map(|values| &values[place..])
+    }
+}
+
+/// Circle |z| = r on which a block is transformed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Circle {
+    /// Points of all of it.
+    length: usize,
+    /// ln r.
+    pub(crate) logarithm: f64,
+}
+
+impl Circle {
+    /// That of block `number` for a relative accuracy of F.
+    pub(crate) fn new(number: usize, tolerance: f64) -> Self {
+        let length = POINTS_PER_LAG * Block::lags(number) / if number == 0 { 2 } else { 1 };
+        // Aliases ε and noise tol·ε^(−1/2) at the last lag are then about equal.
+        Self { length, logarithm: 2.0 / 3.0 * tolerance.ln() / length as f64 }
+    }
+
+    /// Points of the upper half, both ends included.
+    pub(crate) fn points(self) -> usize {
+        self.length / 2 + 1
+    }
+
+    /// Angle of a point, radians.
+    pub(crate) fn angle(self, point: usize) -> f64 {
+        std::f64::consts::TAU / self.length as f64 * point as f64
     }
 }
 
@@ -98,10 +131,9 @@ impl Quadrature {
     pub(crate) fn block(&self, number: usize, threads: usize) -> Result<Block> {
         let lags = Block::lags(number);
         let first = if number == 0 { 0 } else { lags };
-        let length = POINTS_PER_LAG * lags.max(first) / if number == 0 { 2 } else { 1 };
-        // Aliases ε and noise tol·ε^(−1/2) at the last lag are then about equal.
-        let logarithm = 2.0 / 3.0 * self.tolerance.ln() / length as f64;
-        let spectra = self.spectra(length, logarithm, threads)?;
+        let circle = Circle::new(number, self.tolerance);
+        let Circle { length, logarithm } = circle;
+        let spectra = self.spectra(circle, threads)?;
         let transform = RealFftPlanner::<f64>::new().plan_fft_inverse(length);
         let mut input = transform.make_input_vec();
         let (mut output, mut scratch) = (transform.make_output_vec(), transform.make_scratch_vec());
@@ -128,17 +160,16 @@ impl Quadrature {
         Ok(Block { values })
     }
 
-    /// Ĝ on the upper half of a circle of `length` points, point by point and class by class.
-    fn spectra(&self, length: usize, logarithm: f64, threads: usize) -> Result<Vec<[Complex; 3]>> {
-        let count = length / 2 + 1;
+    /// Ĝ on the upper half of a circle, point by point and class by class.
+    fn spectra(&self, circle: Circle, threads: usize) -> Result<Vec<[Complex; 3]>> {
+        let (count, logarithm) = (circle.points(), circle.logarithm);
         let mut spectra: Vec<[Complex; 3]> = vec![];
         spectra.try_reserve_exact(count * self.classes).map_err(|_| Error::Input {
             quantity: "number of lags of a layered ground",
-            value: (length / 2) as f64,
+            value: count as f64,
             needed: "few enough for the memory of the machine",
         })?;
         spectra.resize(count * self.classes, [Complex::default(); 3]);
-        let step = std::f64::consts::TAU / length as f64;
         let queue = Mutex::new(spectra.chunks_mut(self.classes).enumerate());
         let work = || {
             let mut work = Workspace::default();
@@ -147,7 +178,7 @@ impl Quadrature {
                 // A thread that panicked leaves a queue that is still good.
                 let next = queue.lock().unwrap_or_else(std::sync::PoisonError::into_inner).next();
                 let Some((point, sums)) = next else { return Ok(()) };
-                let angle = step * point as f64;
+                let angle = circle.angle(point);
                 self.mobility([logarithm, angle], &mut work, &mut scratch, sums)
                     .map_err(|error| (point, error))?;
                 let over = on_circle(logarithm, angle)[1].inverse();

@@ -97,6 +97,16 @@ impl FormFactors {
         self.shapes.len().div_ceil(LANES)
     }
 
+    /// Panels whose tables are kept, at Gauss points and by Legendre coefficients.
+    pub(crate) fn room(&self) -> [usize; 2] {
+        [self.values.len(), self.legendre.len()]
+    }
+
+    /// Points that Legendre coefficients are made of.
+    pub(crate) fn projection(&self) -> f64 {
+        self.fine.nodes.len() as f64
+    }
+
     /// Calls `apply` with the rows of `panel` at its Gauss points.
     pub(crate) fn with_values(&self, panel: usize, apply: impl FnOnce(&[Row])) {
         Self::with(&self.values, panel, || self.table(panel, &self.rule), apply);

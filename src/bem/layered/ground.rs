@@ -4,16 +4,17 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::kernel::{TOLERANCE, check_tolerance};
+use super::kernel::{LIMIT, TOLERANCE, check_limit, check_tolerance};
 use super::{
-    LayeredKernel, Stages, StripContact, StripImpedance, rigid_strip_impedances, static_compliance,
+    Cost, LayeredKernel, Stages, StripContact, StripImpedance, rigid_strip_impedances,
+    static_compliance,
 };
 use crate::bem::strip::strips_under;
 use crate::bem::{
     Grading, Ground, KernelGround, KernelSource, PatchKernel, SharedKernels, StaticKernel, Strip,
 };
 use crate::contact_element::{ContactElement, check_order};
-use crate::error::Result;
+use crate::error::{Result, positive};
 use crate::history::{ConvolutionHistory, History, HistoryChoice, LagKernel};
 use crate::motion::FreeField;
 use crate::soil::{Base, SoilProfile};
@@ -73,6 +74,7 @@ struct Layered {
     stages: Option<Stages>,
     tolerance: f64,
     file: Option<PathBuf>,
+    limit: f64,
 }
 
 impl Layered {
@@ -94,7 +96,7 @@ impl KernelSource for Layered {
             (stages, _) => {
                 let kernel = LayeredKernel::new(profile, elements, time_step)?;
                 let kernel = kernel.with_stages(stages.unwrap_or_default());
-                let kernel = kernel.with_tolerance(self.tolerance)?;
+                let kernel = kernel.with_tolerance(self.tolerance)?.with_time_limit(self.limit)?;
                 Ok(Arc::new(match &self.file {
                     Some(file) => kernel.with_file(file),
                     None => kernel,
@@ -118,7 +120,7 @@ impl KernelSource for Layered {
 
     fn identity(&self) -> Option<Vec<f64>> {
         let stages = self.stages.map_or(0.0, |stages| stages.count() as f64);
-        let mut numbers = vec![stages, self.tolerance];
+        let mut numbers = vec![stages, self.tolerance, self.limit];
         // Grounds with a file do not take their kernel from one without.
         let file = self.file.as_ref().map(|file| file.as_os_str().as_encoded_bytes());
         numbers.push(file.map_or(-1.0, |bytes| bytes.len() as f64));
@@ -179,7 +181,8 @@ impl LayeredGround {
         check_order(&elements)?;
         profile.check()?;
         profile.check_causal()?;
-        let layered = Layered { profile, stages: None, tolerance: TOLERANCE, file: None };
+        let layered =
+            Layered { profile, stages: None, tolerance: TOLERANCE, file: None, limit: LIMIT };
         let ground = KernelGround::new(layered.clone(), elements)?;
         Ok(Self { layered, used: None, ground })
     }
@@ -220,6 +223,12 @@ impl LayeredGround {
         Self { ground: self.ground.with_history(make), ..self }
     }
 
+    /// As [`KernelGround::with_history_memory`].
+    #[must_use]
+    pub fn with_history_memory(self, bytes: usize) -> Self {
+        Self { ground: self.ground.with_history_memory(bytes), ..self }
+    }
+
     /// As [`KernelGround::with_shared_kernels`].
     #[must_use]
     pub fn with_shared_kernels(self, kernels: &SharedKernels) -> Self {
@@ -232,6 +241,47 @@ impl LayeredGround {
     pub fn with_kernel_file(self, path: impl Into<PathBuf>) -> Self {
         let layered = Layered { file: Some(path.into()), ..self.layered.clone() };
         self.with(layered)
+    }
+
+    /// With at most so many `seconds` of a processor for step coefficients, 600 unless called:
+    /// [`LayeredKernel::with_time_limit`].
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a number that is negative or NaN.
+    pub fn with_time_limit(self, seconds: f64) -> Result<Self> {
+        let layered = Layered { limit: check_limit(seconds)?, ..self.layered.clone() };
+        Ok(self.with(layered))
+    }
+
+    /// What the step coefficients of `steps` steps of `time_step` seconds cost before the first of them, to a
+    /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the
+    /// closed form.
+    ///
+    /// ```
+    /// use basemat::bem::layered::LayeredGround;
+    /// use basemat::soil::SoilProfile;
+    /// use basemat::Soil;
+    /// let clay = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
+    /// let cost = |thickness: f64| {
+    ///     let profile = SoilProfile::on_rigid_base().with_layer(clay, thickness)?;
+    ///     LayeredGround::strip(profile, -3.0..3.0, 8)?.cost(0.005, 2000)
+    /// };
+    /// println!("{}", cost(6.0)?);
+    /// // A skin of a centimetre asks for wavenumbers of its own size.
+    /// assert!(cost(0.01)?.seconds > 10.0 * cost(6.0)?.seconds);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`LayeredKernel::cost`]; [`Error::Input`](crate::Error::Input) for a bad time step.
+    pub fn cost(&self, time_step: f64, steps: usize) -> Result<Cost> {
+        positive("time step", time_step)?;
+        let Some(stages) = self.layered.stages(time_step) else { return Ok(Cost::default()) };
+        let (profile, elements) = (self.profile().clone(), self.ground.elements().to_vec());
+        let kernel = LayeredKernel::new(profile, elements, time_step)?.with_stages(stages);
+        let kernel = kernel.with_tolerance(self.layered.tolerance)?;
+        // Histories take lags by powers of two.
+        kernel.cost(steps.checked_next_power_of_two().unwrap_or(usize::MAX))
     }
 
     /// Dynamic stiffness of all strips together, as one rigid body, at each of `frequencies` (Hz):

@@ -1,9 +1,11 @@
 //! Step coefficients of a layered ground under a patch of elements.
 
+use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use super::coefficients::{BLOCKS, Block, FIRST, Quadrature};
+use super::cost::Cost;
 use super::runge_kutta::Stages;
 use super::wavenumber::Wavenumbers;
 use super::{file, passivity};
@@ -40,10 +42,14 @@ pub struct LayeredKernel {
     blocks: [OnceLock<Result<Block>>; BLOCKS],
     spectra: SharedSpectra,
     file: Option<PathBuf>,
+    /// Most processor time that coefficients may take, s.
+    limit: f64,
 }
 
 /// Default tolerance of the wavenumber integrals.
 pub(crate) const TOLERANCE: f64 = 1e-10;
+/// Default limit on processor time, s.
+pub(crate) const LIMIT: f64 = 600.0;
 
 impl LayeredKernel {
     /// Kernel of `profile` under `elements` (left to right, not overlapping) for steps of `time_step`
@@ -77,7 +83,7 @@ impl LayeredKernel {
             Quadrature { profile, integrals, classes: count, stages, time_step, tolerance };
         let blocks = std::array::from_fn(|_| OnceLock::new());
         let (checked, spectra) = (OnceLock::new(), SharedSpectra::default());
-        Self { classes, quadrature, checked, blocks, spectra, file: None }
+        Self { classes, quadrature, checked, blocks, spectra, file: None, limit: LIMIT }
     }
 
     /// With another number of stages.
@@ -85,7 +91,7 @@ impl LayeredKernel {
     pub fn with_stages(self, stages: Stages) -> Self {
         let Quadrature { profile, time_step, tolerance, .. } = self.quadrature;
         let made = Self::made(profile, self.classes, time_step, stages, tolerance);
-        Self { file: self.file, ..made }
+        Self { file: self.file, limit: self.limit, ..made }
     }
 
     /// With the relative `tolerance` (1e-13 to 1e-4) of the element compliances in the Laplace
@@ -98,7 +104,7 @@ impl LayeredKernel {
         check_tolerance(tolerance)?;
         let Quadrature { profile, time_step, stages, .. } = self.quadrature;
         let made = Self::made(profile, self.classes, time_step, stages, tolerance);
-        Ok(Self { file: self.file, ..made })
+        Ok(Self { file: self.file, limit: self.limit, ..made })
     }
 
     /// With coefficients from the file `path`, and those that it lacks written to it by
@@ -131,6 +137,30 @@ impl LayeredKernel {
         Self { file: Some(path.into()), ..self }
     }
 
+    /// With at most so many `seconds` of a processor for coefficients, by [`LayeredKernel::cost`] and not by
+    /// the clock, so that what is refused is the same everywhere; 600 unless called, and no limit if it is
+    /// infinite.
+    ///
+    /// `prepare` and [`coefficients`](LagKernel::coefficients) refuse more
+    /// ([`LayeredError::TooCostly`](crate::LayeredError::TooCostly)) before anything of it is computed.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a number that is negative or NaN.
+    pub fn with_time_limit(self, seconds: f64) -> Result<Self> {
+        Ok(Self { limit: check_limit(seconds)?, ..self })
+    }
+
+    /// What the coefficients up to lag `lags` cost, to a factor of about two, files left out. It takes
+    /// some thousandths of that itself.
+    ///
+    /// # Errors
+    /// [`LayeredError::TooFine`](crate::LayeredError::TooFine) and
+    /// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) where they could not be computed at
+    /// all; for bad damping laws as [`prepare`](LagKernel::prepare).
+    pub fn cost(&self, lags: usize) -> Result<Cost> {
+        self.quadrature.cost(0..last_block(lags.max(1))? + 1, true)
+    }
+
     /// The profile.
     pub fn profile(&self) -> &SoilProfile {
         &self.quadrature.profile
@@ -138,9 +168,30 @@ impl LayeredKernel {
 
     /// Block `number`, computed now if it has not been.
     fn block(&self, number: usize) -> Result<&Block> {
-        self.checked.get_or_init(|| self.check()).clone()?;
         let compute = || self.quadrature.block(number, threads());
         self.blocks[number].get_or_init(compute).as_ref().map_err(Clone::clone)
+    }
+
+    /// Passes the gate, and refuses what is missing of the blocks of `wanted` if it costs too much.
+    fn admit(&self, wanted: Range<usize>) -> Result<u64> {
+        let missing = || {
+            let there = |number: &usize| self.blocks[*number].get().is_some();
+            wanted.start + wanted.clone().take_while(there).count()..wanted.end
+        };
+        let afford = |missing: Range<usize>| {
+            let open = self.checked.get().is_none();
+            if missing.is_empty() && !open {
+                return Ok(());
+            }
+            self.quadrature.afford(missing, open, self.limit)
+        };
+        if self.checked.get().is_none() {
+            // A file may hold all that is wanted.
+            afford(if self.file.is_some() { 0..0 } else { missing() })?;
+        }
+        let fingerprint = self.checked.get_or_init(|| self.check()).clone()?;
+        afford(missing())?;
+        Ok(fingerprint)
     }
 
     /// Whether it is passive; if so, its fingerprint, and the blocks of the file are in place.
@@ -165,12 +216,13 @@ impl LagKernel for LayeredKernel {
     /// Herm[(1−z) Ĝ(z)] on |z| = 0.99.
     ///
     /// # Errors
-    /// [`LayeredError::NotPassive`](crate::LayeredError::NotPassive),
+    /// [`LayeredError::TooCostly`](crate::LayeredError::TooCostly) beyond the
+    /// [limit](LayeredKernel::with_time_limit); [`LayeredError::NotPassive`](crate::LayeredError::NotPassive),
     /// [`LayeredError::ActiveDamping`](crate::LayeredError::ActiveDamping) and
     /// [`LayeredError::Modulus`](crate::LayeredError::Modulus) for a damping law that is not passive.
     fn prepare(&self, lags: usize) -> Result<()> {
         let last = last_block(lags.max(1))?;
-        let fingerprint = self.checked.get_or_init(|| self.check()).clone()?;
+        let fingerprint = self.admit(0..last + 1)?;
         let complete = self.blocks[..=last].iter().all(|block| block.get().is_some());
         for number in 0..=last {
             self.block(number)?;
@@ -198,6 +250,9 @@ impl LagKernel for LayeredKernel {
         let mut done = 0;
         while done < normal.len() {
             let (number, place) = Block::place(first_lag + done);
+            if self.blocks[number].get().is_none() {
+                self.admit(number..number + 1)?;
+            }
             let values = self.block(number)?.from(class, place);
             let count = values[0].len().min(normal.len() - done);
             for (target, values) in
@@ -224,6 +279,18 @@ pub(super) fn check_tolerance(tolerance: f64) -> Result<f64> {
         quantity: "tolerance of a layered ground",
         value: tolerance,
         needed: "from 1e-13 to 1e-4",
+    })
+}
+
+/// Error unless `seconds` can be a limit.
+pub(super) fn check_limit(seconds: f64) -> Result<f64> {
+    if seconds >= 0.0 {
+        return Ok(seconds);
+    }
+    Err(Error::Input {
+        quantity: "time limit of a layered ground",
+        value: seconds,
+        needed: "not negative",
     })
 }
 

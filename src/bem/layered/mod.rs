@@ -5,12 +5,14 @@
 //! | compliance | surface compliance C(k, s) of a profile |
 //! | wavenumber, form_factors, tail | element compliances F(s): its integrals over k |
 //! | runge_kutta, coefficients, kernel | step coefficients Gⁿ by convolution quadrature |
+//! | cost | what they cost, beforehand |
 //! | passivity | the gate that they pass |
 //! | file | coefficients kept in a file |
 //! | static_compliance, impedance, ground | statics, rigid strips at one frequency, the ground |
 
 mod coefficients;
 mod compliance;
+mod cost;
 mod file;
 mod form_factors;
 mod ground;
@@ -27,6 +29,7 @@ mod wavenumber;
 
 #[cfg(test)]
 use crate::soil::{GeneralizedMaxwell, Relaxation, Soil, SoilProfile};
+pub use cost::Cost;
 pub use ground::LayeredGround;
 pub use impedance::{StripContact, StripImpedance, rigid_strip_impedances};
 pub use kernel::LayeredKernel;

@@ -13,7 +13,7 @@ use crate::linalg::hermitian_range;
 /// Radius of the circle that is checked.
 pub(crate) const RADIUS: f64 = 0.99;
 /// Points on its upper half.
-const POINTS: usize = 40;
+pub(crate) const POINTS: usize = 40;
 
 /// Fingerprint of the coefficients, after a check of Herm[(1−z) Ĝ(z)] ≥ 0 at 40 points of |z| = 0.99, up to the tolerance of the quadrature
 /// times the number of unknowns, every pair relative to its elements' own mobilities.

@@ -35,16 +35,18 @@ const MOST_HALVES: usize = 1 << 16;
 const MOST_PANELS: f64 = 65_536.0;
 /// Panels that short elements may ask for.
 const MOST_FOR_SHORT: f64 = 100.0;
+/// Panels of an integral that are looked at to know what all of them cost.
+const LOOKED_AT: usize = 256;
 
 /// Integrals over the wavenumber for the pairs of a patch.
 #[derive(Debug)]
 pub(crate) struct Wavenumbers {
-    forms: FormFactors,
+    pub(crate) forms: FormFactors,
     tails: Tails,
     /// Legendre polynomials at the Gauss points.
     polynomials: Vec<[f64; DEGREES]>,
     span: f64,
-    shortest: f64,
+    pub(crate) shortest: f64,
     longest: f64,
     /// Accuracy relative to an element's own compliance.
     tolerance: f64,
@@ -59,6 +61,33 @@ pub(crate) struct Workspace {
     stack: Vec<(f64, f64, u32)>,
     /// Number of evaluations of C so far.
     pub(crate) evaluations: usize,
+}
+
+/// Work that integrals take: numbers, estimated.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Counts {
+    pub(crate) panels: f64,
+    /// Those for the thickness of the top layer's sake.
+    pub(crate) deep: f64,
+    /// Those that are halved.
+    pub(crate) halved: f64,
+    /// Evaluations of C in halves.
+    pub(crate) halves: f64,
+    /// Layers that evaluations go through after the first.
+    pub(crate) layers: f64,
+}
+
+impl Counts {
+    /// Combined with another, number by number.
+    pub(crate) fn with(&self, other: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {
+        Self {
+            panels: combine(self.panels, other.panels),
+            deep: combine(self.deep, other.deep),
+            halved: combine(self.halved, other.halved),
+            halves: combine(self.halves, other.halves),
+            layers: combine(self.layers, other.layers),
+        }
+    }
 }
 
 impl Wavenumbers {
@@ -90,18 +119,9 @@ impl Wavenumbers {
     ) -> Result<()> {
         let mut compliance = std::mem::take(&mut work.compliance);
         let outcome = compliance.set(profile, s).and_then(|()| {
-            let (_, q2, _) = compliance.top();
-            let root = q2.sqrt().abs();
-            let (reach, deep) = (REACH * root, Self::deep(profile));
-            // Where squares leave the range of f64, no number of panels is enough.
-            let reach = if reach.is_nan() { f64::INFINITY } else { reach };
-            let panels = self.panels(reach.max(deep))?;
+            let panels = self.panels(Self::reach(&compliance).max(Self::deep(profile)))?;
             let resolved = self.sum(panels, work, &mut |k| compliance.at(k));
-            resolved.map_err(|wavenumber| LayeredError::Unresolved {
-                re: s.re,
-                im: s.im,
-                wavenumber,
-            })?;
+            resolved.map_err(|k| unresolved(s, k))?;
             self.add_tail(&compliance, panels, work);
             Ok(())
         });
@@ -109,6 +129,61 @@ impl Wavenumbers {
         outcome?;
         self.read(work, values);
         Ok(())
+    }
+
+    /// Work for the compliances at `s`, by a look at some panels.
+    ///
+    /// # Errors
+    /// As for [`Wavenumbers::compliance`].
+    pub(crate) fn counts(
+        &self,
+        profile: &SoilProfile,
+        s: Complex,
+        work: &mut Workspace,
+    ) -> Result<Counts> {
+        let mut compliance = std::mem::take(&mut work.compliance);
+        let outcome = compliance.set(profile, s).and_then(|()| {
+            let panels = self.panels(Self::reach(&compliance).max(Self::deep(profile)))?;
+            let stride = panels.div_ceil(LOOKED_AT);
+            compliance.visited = 0;
+            let (mut halved, before) = (0.0, work.evaluations);
+            let mut symbol = |k| compliance.at(k);
+            let allowed = self.sample(panels, stride, work, &mut symbol);
+            for (place, panel) in (0..panels).step_by(stride).enumerate() {
+                let left = self.forms.width * panel as f64;
+                if !self.resolved(&work.samples[place], left, self.forms.width, allowed) {
+                    halved += 1.0;
+                    let done = self.halved(left, allowed, work, &mut symbol);
+                    done.map_err(|k| unresolved(s, k))?;
+                }
+            }
+            let looked_at = panels.div_ceil(stride);
+            let all = panels as f64 / looked_at as f64;
+            let evaluations = work.evaluations - before;
+            let halves = (evaluations - POINTS * looked_at) as f64;
+            Ok(Counts {
+                halved: all * halved,
+                halves: all * halves,
+                layers: all * (compliance.visited - evaluations) as f64,
+                ..self.whole(profile, &compliance)?
+            })
+        });
+        work.compliance = compliance;
+        outcome
+    }
+
+    /// The same without a look: as if no panel were halved, and one layer seen.
+    pub(crate) fn counts_of_panels(&self, profile: &SoilProfile, s: Complex) -> Result<Counts> {
+        let mut compliance = Compliance::default();
+        compliance.set(profile, s)?;
+        self.whole(profile, &compliance)
+    }
+
+    fn whole(&self, profile: &SoilProfile, compliance: &Compliance) -> Result<Counts> {
+        let (reach, deep) = (Self::reach(compliance), Self::deep(profile));
+        let panels = self.panels(reach.max(deep))? as f64;
+        let deep = if deep > reach { panels } else { 0.0 };
+        Ok(Counts { panels, deep, ..Counts::default() })
     }
 
     /// The same at s = 0 with `symbol` for C up to `least` (1/m) at least, and the static tail of the
@@ -123,10 +198,18 @@ impl Wavenumbers {
     ) -> Result<()> {
         let panels = self.panels(least)?;
         let resolved = self.sum(panels, work, symbol);
-        resolved.map_err(|wavenumber| LayeredError::Unresolved { re: 0.0, im: 0.0, wavenumber })?;
+        resolved.map_err(|k| unresolved(Complex::default(), k))?;
         self.add_tail(compliance, panels, work);
         self.read(work, values);
         Ok(())
+    }
+
+    /// Least K for which the series of the tail converges.
+    fn reach(compliance: &Compliance) -> f64 {
+        let (_, q2, _) = compliance.top();
+        let reach = REACH * q2.sqrt().abs();
+        // Where squares leave the range of f64, no number of panels is enough.
+        if reach.is_nan() { f64::INFINITY } else { reach }
     }
 
     /// Least K for which the surface sees nothing of the top layer's bottom, 1/m.
@@ -156,22 +239,9 @@ impl Wavenumbers {
         symbol: &mut dyn FnMut(f64) -> Surface,
     ) -> std::result::Result<(), f64> {
         let (forms, width) = (&self.forms, self.forms.width);
-        work.samples.clear();
         work.sums.clear();
         work.sums.resize(forms.blocks(), Sums::default());
-        work.evaluations += POINTS * panels;
-        let mut whole = 0.0;
-        for panel in 0..panels {
-            let left = width * panel as f64;
-            let samples = self.sampled(left, width, symbol);
-            // The median: one sample beside a pole says little of the integral.
-            let mut sizes = samples.map(|c| c.xx.abs() + c.zz.abs());
-            let (_, median, _) = sizes.select_nth_unstable_by(POINTS / 2, f64::total_cmp);
-            let share = (2.0 / ((left + 0.5 * width) * self.longest)).powi(2).min(1.0);
-            whole += 0.5 * width * share * *median;
-            work.samples.push(samples);
-        }
-        let allowed = self.tolerance.powf(SHARE) * whole;
+        let allowed = self.sample(panels, 1, work, symbol);
         for panel in 0..panels {
             let left = width * panel as f64;
             if self.resolved(&work.samples[panel], left, width, allowed) {
@@ -185,6 +255,31 @@ impl Wavenumbers {
             }
         }
         Ok(())
+    }
+
+    /// Every `stride`-th of so many panels into `work.samples`; the error that one of them may have.
+    fn sample(
+        &self,
+        panels: usize,
+        stride: usize,
+        work: &mut Workspace,
+        symbol: &mut dyn FnMut(f64) -> Surface,
+    ) -> f64 {
+        let width = self.forms.width;
+        work.samples.clear();
+        let mut whole = 0.0;
+        for panel in (0..panels).step_by(stride) {
+            let left = width * panel as f64;
+            let samples = self.sampled(left, width, symbol);
+            // The median: one sample beside a pole says little of the integral.
+            let mut sizes = samples.map(|c| c.xx.abs() + c.zz.abs());
+            let (_, median, _) = sizes.select_nth_unstable_by(POINTS / 2, f64::total_cmp);
+            let share = (2.0 / ((left + 0.5 * width) * self.longest)).powi(2).min(1.0);
+            whole += stride as f64 * 0.5 * width * share * *median;
+            work.samples.push(samples);
+        }
+        work.evaluations += POINTS * work.samples.len();
+        self.tolerance.powf(SHARE) * whole
     }
 
     fn sampled(
@@ -285,6 +380,11 @@ impl Wavenumbers {
             *value = [part(0).scale(UNIT), part(2).scale(UNIT), part(4).scale(-UNIT)];
         }
     }
+}
+
+/// Halving stopped at the wavenumber `k`.
+fn unresolved(s: Complex, k: f64) -> LayeredError {
+    LayeredError::Unresolved { re: s.re, im: s.im, wavenumber: k }
 }
 
 /// zz, xx, xz, real and imaginary, times a weight.
