@@ -6,8 +6,8 @@ use super::{Ground, KernelSource, SharedKernels};
 use crate::contact_element::{ContactElement, check_order};
 use crate::error::{CheckpointError, Error, Result};
 use crate::history::{
-    ConvolutionHistory, ExponentialHistory, History, HistoryChoice, HistoryOptions, LagKernel,
-    SavedChoice,
+    ChosenHistory, ConvolutionHistory, ExponentialHistory, History, HistoryChoice, HistoryOptions,
+    LagKernel, SavedChoice,
 };
 
 /// Any soil that knows its step coefficients and its static compliance, as a ground.
@@ -128,8 +128,28 @@ type MakeHistory = dyn Fn(Arc<dyn LagKernel>) -> Box<dyn ConvolutionHistory> + S
 struct Prepared {
     kernel: Arc<dyn LagKernel>,
     /// Left open until the number of steps is known or the first step is made.
-    history: Option<Box<dyn ConvolutionHistory>>,
-    choice: Option<HistoryChoice>,
+    history: Option<Kept>,
+}
+
+enum Kept {
+    Chosen(ChosenHistory),
+    Own(Box<dyn ConvolutionHistory>),
+}
+
+impl Kept {
+    fn any(&self) -> &dyn ConvolutionHistory {
+        match self {
+            Self::Chosen(history) => history,
+            Self::Own(history) => &**history,
+        }
+    }
+
+    fn any_mut(&mut self) -> &mut dyn ConvolutionHistory {
+        match self {
+            Self::Chosen(history) => history,
+            Self::Own(history) => &mut **history,
+        }
+    }
 }
 
 impl Prepared {
@@ -139,14 +159,23 @@ impl Prepared {
         options: HistoryOptions,
         steps: Option<usize>,
     ) -> Result<&mut dyn ConvolutionHistory> {
-        let history = if let Some(history) = self.history.take() {
-            history
-        } else {
-            let (history, choice) = options.make(&self.kernel, steps)?;
-            self.choice = Some(choice);
-            history
+        let history = match self.history.take() {
+            Some(history) => history,
+            None => Kept::Chosen(ChosenHistory::new(options, &self.kernel, steps)?),
         };
-        Ok(self.history.insert(history).as_mut())
+        let history = self.history.insert(history);
+        if let (Kept::Chosen(history), Some(steps)) = (&mut *history, steps) {
+            history.announce(steps);
+        }
+        Ok(history.any_mut())
+    }
+
+    /// What was chosen.
+    fn choice(&self) -> Option<HistoryChoice> {
+        match &self.history {
+            Some(Kept::Chosen(history)) => Some(history.choice()),
+            _ => None,
+        }
     }
 }
 
@@ -181,10 +210,14 @@ impl KernelGround {
         Ok(self)
     }
 
-    /// With a limit (bytes) on the memory of the history that [`History::Auto`] chooses; 1 GiB
-    /// unless called. It goes by [`Ground::announce`] and [`Ground::reserve`] (of a simulation,
+    /// With a limit (bytes) on the memory of the history; 1 GiB unless called.
+    ///
+    /// [`History::Auto`] goes by it and by the steps announced ([`Ground::announce`] or
+    /// [`Ground::reserve`]: of a simulation,
     /// [`expected_steps`](crate::coupled::SimulationBuilder::expected_steps) or the steps of the
-    /// first run), and is no limit where the number of steps is not known.
+    /// first run). Beyond those steps, or where none are known, it holds for every history: that which
+    /// was chosen goes over to the exponentials when it reaches the limit; where they cannot be had, or
+    /// an exact history was asked for, the step fails with [`Error::Memory`] and is not made.
     #[must_use]
     pub fn with_history_memory(mut self, bytes: usize) -> Self {
         self.options.memory = bytes;
@@ -217,8 +250,8 @@ impl KernelGround {
 
     /// Before the first step, with a history where none is to be chosen.
     fn begin(&self, kernel: Arc<dyn LagKernel>) -> Result<Prepared> {
-        let history = self.own_history.as_ref().map(|make| make(Arc::clone(&kernel)));
-        let mut prepared = Prepared { kernel, history, choice: None };
+        let history = self.own_history.as_ref().map(|make| Kept::Own(make(Arc::clone(&kernel))));
+        let mut prepared = Prepared { kernel, history };
         if self.options.kind != History::Auto {
             prepared.history(self.options, None)?;
         }
@@ -278,20 +311,20 @@ impl Ground for KernelGround {
     }
 
     fn history_choice(&self) -> Option<HistoryChoice> {
-        self.prepared.as_ref()?.choice
+        self.prepared.as_ref()?.choice()
     }
 
     fn increment_error_bound(&self) -> f64 {
         let history = self.prepared.as_ref().and_then(|prepared| prepared.history.as_ref());
-        history.map_or(0.0, ConvolutionHistory::increment_error_bound)
+        history.map_or(0.0, |history| history.any().increment_error_bound())
     }
 
     /// Which history was chosen for how many steps, and what it says.
     fn save(&self) -> Result<Vec<f64>> {
         let prepared = self.prepared.as_ref().ok_or(NOT_PREPARED)?;
-        let mut values = SavedChoice::new(prepared.choice).numbers().to_vec();
+        let mut values = SavedChoice::new(prepared.choice()).numbers().to_vec();
         if let Some(history) = &prepared.history {
-            values.extend(history.save()?);
+            values.extend(history.any().save()?);
         }
         Ok(values)
     }
@@ -299,10 +332,10 @@ impl Ground for KernelGround {
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         let prepared = self.prepared.as_mut().ok_or(NOT_PREPARED)?;
         let (saved, values) = SavedChoice::read(values)?;
-        let own = SavedChoice::new(prepared.choice);
+        let own = SavedChoice::new(prepared.choice());
         let other = CheckpointError::OtherScene { quantity: "kind of history" };
         if let Some(history) = prepared.history.as_mut().filter(|_| own == saved) {
-            return history.restore(steps, values);
+            return history.any_mut().restore(steps, values);
         }
         if saved.kind == History::Auto {
             // Nothing had been chosen yet, so that it is still to be.
@@ -314,12 +347,13 @@ impl Ground for KernelGround {
             return Ok(());
         }
         // The same history is chosen again, and taken once it has the values.
-        let (mut history, choice) = self.options.make(&prepared.kernel, saved.steps)?;
-        if choice.kind != saved.kind {
-            return Err(other.into());
+        let mut history = ChosenHistory::new(self.options, &prepared.kernel, saved.steps)?;
+        if history.choice().kind != saved.kind {
+            let later = history.succeeded(steps).ok().flatten();
+            history = later.filter(|later| later.choice().kind == saved.kind).ok_or(other)?;
         }
         history.restore(steps, values)?;
-        (prepared.history, prepared.choice) = (Some(history), Some(choice));
+        prepared.history = Some(Kept::Chosen(history));
         Ok(())
     }
 

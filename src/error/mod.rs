@@ -310,6 +310,20 @@ pub enum Error {
         /// Property that the kernel lacks.
         needed: &'static str,
     },
+    /// Something that would take more memory than is allowed, found out before it is taken.
+    #[error(
+        "{quantity} would take {:.3} GB, but {:.3} GB are allowed ({remedy})", .needed / 1e9, .limit / 1e9
+    )]
+    Memory {
+        /// Name of it.
+        quantity: &'static str,
+        /// Bytes that it would take, estimated.
+        needed: f64,
+        /// Bytes that are allowed.
+        limit: f64,
+        /// Ways out.
+        remedy: &'static str,
+    },
     /// A history by exponentials could give energy away, and runs with it could grow.
     #[error(
         "history by exponentials is not passive: least eigenvalue {margin:e} of its instantaneous \

@@ -44,11 +44,15 @@ pub enum History {
     ///    or with 1e-12, which is rounding, if the number of steps is known. Memory is not asked for
     ///    then;
     /// 2. the relaxed transforms, if they fit into the memory that a history may take
-    ///    (`with_history_memory`, 1 GiB unless given), or if the number of steps is not known;
+    ///    (`with_history_memory`, 1 GiB unless given), or if the number of steps is not known, as
+    ///    long as they do;
     /// 3. otherwise the exponentials, with their own tolerance; or the transforms all the same,
     ///    where the exponentials cannot be had.
     ///
-    /// It is made once: from the steps that a simulation was told to
+    /// Runs that go on beyond the steps known keep an exact history only up to the memory allowed, and
+    /// then the exponentials (3.), which take over all that was before.
+    ///
+    /// The choice is made once: from the steps that a simulation was told to
     /// [expect](crate::coupled::SimulationBuilder::expected_steps), or else from those of the first
     /// run. Runs that follow keep it. Both give the same bits however a run is cut, but they differ
     /// from each other by their errors: say what to expect, and the choice is the same for every cut.

@@ -52,6 +52,12 @@ pub trait ConvolutionHistory: Send {
     }
 }
 
+/// An exact history, which has all tractions.
+pub(super) trait ExactHistory: ConvolutionHistory {
+    /// Overwrites `traction` with the input of `step`, one of those accepted.
+    fn traction(&mut self, step: usize, traction: &mut [f64]);
+}
+
 /// Error unless `values` are `steps` inputs of `size` each.
 pub(super) fn check_inputs(steps: usize, size: usize, values: &[f64]) -> Result<()> {
     if steps.checked_mul(size) == Some(values.len()) {

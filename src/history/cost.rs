@@ -1,11 +1,13 @@
 //! Cost model of the histories: the table of [`History`].
 
 use super::choice::History;
-use super::exponentials::LONGEST_WINDOW;
 use super::lag_kernel::LagKernel;
 use super::late_lags::LateLags;
 use super::relaxed_fft::{LEAF, RelaxedFftHistory};
 use crate::error::Result;
+
+/// Longest window of exponentials: the step is so short that all of a run may lie in it.
+pub(super) const LONGEST_WINDOW: usize = 1_000_000;
 
 /// Memory in bytes, and multiply–adds.
 #[derive(Clone, Copy)]
@@ -54,6 +56,16 @@ impl Estimate {
                 Ok(Self::of(block.cost + TAIL, memory, making))
             }
         }
+    }
+
+    /// Bytes of a window of so many lags with the inputs in it, and of the lags themselves while
+    /// the exponentials behind it are made.
+    pub(super) fn window(kernel: &dyn LagKernel, lags: usize) -> Result<f64> {
+        let classes = kernel.classes();
+        let (q, classes) = (classes.elements().len() as f64, classes.count() as f64);
+        let lasts = if couples_without_end(kernel)? { 1.0 } else { 0.0 };
+        let block = Self::transforms(kernel, lags, lasts).memory as f64;
+        Ok(block + (32.0 * q + 16.0 * classes) * lags as f64)
     }
 
     /// Of blocks up to this many steps.

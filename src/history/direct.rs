@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::convolution::{ConvolutionHistory, check_inputs};
+use super::convolution::{ConvolutionHistory, ExactHistory, check_inputs};
 use super::lag_kernel::LagKernel;
 use crate::error::{Result, same_length};
 use crate::linalg::dot;
@@ -161,5 +161,13 @@ impl ConvolutionHistory for DirectHistory {
         self.steps = 0;
         values.chunks_exact(size).for_each(|traction| self.push(traction));
         Ok(())
+    }
+}
+
+impl ExactHistory for DirectHistory {
+    fn traction(&mut self, step: usize, traction: &mut [f64]) {
+        for (value, component) in traction.iter_mut().zip(&self.traction) {
+            *value = component[step];
+        }
     }
 }

@@ -5,6 +5,7 @@
 //! ([`ExponentialHistory`]). [`History::Auto`] chooses. Nothing here knows what the ground is made of.
 
 mod choice;
+mod chosen;
 mod convolution;
 mod cost;
 mod direct;
@@ -17,6 +18,7 @@ mod relaxed_fft;
 
 pub(crate) use choice::SavedChoice;
 pub use choice::{ChoiceReason, History, HistoryChoice};
+pub(crate) use chosen::ChosenHistory;
 pub use convolution::ConvolutionHistory;
 pub use direct::DirectHistory;
 pub use exponentials::ExponentialHistory;

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::choice::{ChoiceReason, History, HistoryChoice};
-use super::convolution::ConvolutionHistory;
+use super::convolution::ExactHistory;
 use super::cost::Estimate;
 use super::direct::DirectHistory;
-use super::exponentials::{ExponentialHistory, LONGEST};
+use super::exponentials::{ExponentialHistory, LONGEST, MEMORY};
 use super::lag_kernel::LagKernel;
 use super::relaxed_fft::RelaxedFftHistory;
 use crate::error::Result;
@@ -26,19 +26,25 @@ pub(crate) struct HistoryOptions {
     pub(crate) memory: usize,
 }
 
+/// A history that was made of them.
+pub(super) enum Kept {
+    Exact(Box<dyn ExactHistory>),
+    Exponentials(Box<ExponentialHistory>),
+}
+
 impl Default for HistoryOptions {
     fn default() -> Self {
-        Self { kind: History::Auto, tolerance: None, memory: 1 << 30 }
+        Self { kind: History::Auto, tolerance: None, memory: MEMORY }
     }
 }
 
 impl HistoryOptions {
     /// An empty history for this many steps, if that is known, and why it is this one.
-    pub(crate) fn make(
+    pub(super) fn make(
         self,
         kernel: &Arc<dyn LagKernel>,
         steps: Option<usize>,
-    ) -> Result<(Box<dyn ConvolutionHistory>, HistoryChoice)> {
+    ) -> Result<(Kept, HistoryChoice)> {
         // No run lasts so long: an observer is meant to stop it, nobody knows when.
         let steps = steps.filter(|steps| *steps < LONGEST);
         let expected = steps.unwrap_or(UNKNOWN_STEPS);
@@ -55,24 +61,24 @@ impl HistoryOptions {
             stages: None,
         };
         let own = || Arc::clone(kernel);
-        let fit = |tolerance, reason| {
+        let fit = |tolerance, reason, memory| {
             let horizon = expected.max(ExponentialHistory::HORIZON);
-            let history = ExponentialHistory::with_horizon(own(), tolerance, horizon)?;
+            let history = ExponentialHistory::within(own(), tolerance, horizon, memory)?;
             let choice = HistoryChoice {
                 estimated_memory: history.memory(),
                 error_bound: history.error_bound(),
                 ..choice(History::Exponentials, reason, exponentials)
             };
-            Ok((Box::new(history) as Box<dyn ConvolutionHistory>, choice))
+            Ok((Kept::Exponentials(Box::new(history)), choice))
         };
         let asked = ChoiceReason::Asked;
-        let tolerance = self.tolerance.unwrap_or(ExponentialHistory::TOLERANCE);
+        let tolerance = self.tolerance();
         let reason = match self.kind {
             History::Direct => {
                 let choice = choice(History::Direct, asked, estimate(History::Direct)?);
-                return Ok((Box::new(DirectHistory::new(own())), choice));
+                return Ok((Kept::Exact(Box::new(DirectHistory::new(own()))), choice));
             }
-            History::Exponentials => return fit(tolerance, asked),
+            History::Exponentials => return fit(tolerance, asked, self.memory),
             History::RelaxedFft => asked,
             History::Auto => {
                 let known = steps.map(|_| (ROUNDING, ChoiceReason::Rounding));
@@ -85,7 +91,7 @@ impl HistoryOptions {
                     smaller.then_some((tolerance, ChoiceReason::MemoryLimit)),
                 ];
                 for (tolerance, reason) in attempts.into_iter().flatten() {
-                    if let Ok(made) = fit(tolerance, reason) {
+                    if let Ok(made) = fit(tolerance, reason, usize::MAX) {
                         return Ok(made);
                     }
                 }
@@ -96,7 +102,12 @@ impl HistoryOptions {
                 }
             }
         };
-        let history = Box::new(RelaxedFftHistory::new(own()));
+        let history = Kept::Exact(Box::new(RelaxedFftHistory::new(own())));
         Ok((history, choice(History::RelaxedFft, reason, exact)))
+    }
+
+    /// Tolerance of exponentials that are not taken for their speed.
+    pub(super) fn tolerance(self) -> f64 {
+        self.tolerance.unwrap_or(ExponentialHistory::TOLERANCE)
     }
 }

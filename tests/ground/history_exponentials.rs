@@ -227,6 +227,20 @@ fn bad_input_is_an_error() {
     // Windows of more than a million steps are refused; Auto takes the transforms instead.
     let mut short = ground().with_history_kind(History::Exponentials);
     assert!(matches!(short.prepare(1e-7), Err(Error::Input { .. })));
+    // So is what takes more memory than allowed, before any of it is taken.
+    let begin = std::time::Instant::now();
+    for (step, memory) in [(2e-5, None), (1e-3, Some(100_000))] {
+        let asked = HalfPlaneGround::strip(soil, -1.0..1.0, 24).unwrap();
+        let asked = asked.with_history_kind(History::Exponentials);
+        let mut asked = match memory {
+            Some(memory) => asked.with_history_memory(memory),
+            None => asked,
+        };
+        let refused = asked.prepare(step).unwrap_err();
+        let Error::Memory { needed, limit, .. } = refused else { panic!("{refused}") };
+        assert!(needed > limit && limit == memory.unwrap_or(1 << 30) as f64, "{refused}");
+    }
+    assert!(begin.elapsed().as_secs_f64() < 1.0, "{:?}", begin.elapsed());
     let mut history = ExponentialHistory::with_horizon(kernel, 1e-6, 0).unwrap();
     history.evaluate(&mut [0.0; 4]).unwrap();
     assert!(matches!(history.evaluate(&mut [0.0; 3]), Err(Error::Size { .. })));

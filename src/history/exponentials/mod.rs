@@ -13,6 +13,7 @@ use self::passivity::Margin;
 use self::tail::Tail;
 use self::window::{Cut, Lags};
 use super::convolution::ConvolutionHistory;
+use super::cost::{Estimate, LONGEST_WINDOW};
 use super::lag_kernel::LagKernel;
 use super::late_lags::LateLags;
 use super::relaxed_fft::spectra::Windowed;
@@ -21,8 +22,8 @@ use crate::error::{CheckpointError, Error, Result, same_length};
 
 /// Tolerances that can be reached.
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
-/// Longest window: the step is so short that all of a run may lie in it.
-pub(super) const LONGEST_WINDOW: usize = 1_000_000;
+/// Most bytes that are taken, unless told otherwise.
+pub(super) const MEMORY: usize = 1 << 30;
 /// Error aimed at in the next attempt over that of the one before.
 const CLOSER: f64 = 0.2;
 /// Longest horizon, steps: what 64 bits allow with ease, or all that fits where a word is shorter.
@@ -99,8 +100,8 @@ impl ExponentialHistory {
     ///
     /// # Errors
     /// [`Error::NoExponentials`] for a kernel without late lags, or whose coupling has not ended
-    /// before them; [`Error::Input`] for a tolerance not between 1e-12 and 1e-2, or a time step so
-    /// short that the window would have more than a million steps; [`Error::Accuracy`] if the tolerance was
+    /// before them; [`Error::Input`] for a tolerance not between 1e-12 and 1e-2; [`Error::Memory`] for a
+    /// time step so short that the window would take more than 1 GiB; [`Error::Accuracy`] if the tolerance was
     /// not reached; [`Error::NotPassive`] if the fit gives energy away.
     pub fn new(kernel: Arc<dyn LagKernel>, tolerance: f64) -> Result<Self> {
         Self::with_horizon(kernel, tolerance, Self::HORIZON)
@@ -115,10 +116,30 @@ impl ExponentialHistory {
         tolerance: f64,
         horizon: usize,
     ) -> Result<Self> {
+        Self::within(kernel, tolerance, horizon, MEMORY)
+    }
+
+    /// The same in at most `memory` bytes, what its making takes included.
+    pub(crate) fn within(
+        kernel: Arc<dyn LagKernel>,
+        tolerance: f64,
+        horizon: usize,
+        memory: usize,
+    ) -> Result<Self> {
         Self::check_tolerance(tolerance)?;
         let Some(late) = kernel.late_lags() else { return Err(NO_LATE_LAGS) };
         let elements = kernel.classes().elements();
         let lags = window(late)?;
+        let needed = Estimate::window(&*kernel, lags)?;
+        if needed > memory as f64 {
+            return Err(Error::Memory {
+                quantity: "history by exponentials",
+                needed,
+                limit: memory as f64,
+                remedy: "take a longer time step or fewer elements, or allow more with \
+                         `with_history_memory`",
+            });
+        }
         let horizon = horizon.clamp(2 * lags, LONGEST);
         let request = Request { lags, horizon, tolerance };
         let store = kernel.spectra().filter(|spectra| spectra.are_of(elements));
@@ -219,6 +240,40 @@ impl ExponentialHistory {
             self.window.work_in(self.steps);
         }
     }
+
+    /// One step on, without the window.
+    fn accept(&mut self, input: impl FnOnce(&mut [f64])) {
+        let slot = self.slot(self.steps);
+        let kept = &mut self.recent[slot];
+        input(kept);
+        self.largest = self.largest.max(kept.iter().map(|t| t.abs()).sum());
+        self.steps += 1;
+        let leaving = self.steps.checked_sub(self.window()).map(|m| self.slot(m));
+        self.tail.advance(leaving.map(|slot| &self.recent[slot]));
+    }
+
+    /// Puts the last inputs into the window.
+    fn refill(&mut self) {
+        self.window.clear();
+        let kept = self.kept(self.steps);
+        let first = kept.start;
+        for m in kept {
+            if m > first {
+                self.window.work_in(m);
+            }
+            let slot = self.slot(m);
+            self.window.write(m, &self.recent[slot]);
+        }
+        self.pending = self.steps > 0;
+    }
+
+    /// Begins with `steps` inputs of another history; `input` overwrites its slice with that of a step.
+    pub(super) fn take_over(&mut self, steps: usize, mut input: impl FnMut(usize, &mut [f64])) {
+        for step in 0..steps {
+            self.accept(|kept| input(step, kept));
+        }
+        self.refill();
+    }
 }
 
 /// Lags of the window: a block of the transforms, since these take the time of all of it.
@@ -286,16 +341,15 @@ impl ConvolutionHistory for ExponentialHistory {
 
     fn push(&mut self, traction: &[f64]) {
         self.settle();
-        let slot = self.slot(self.steps);
-        let kept = &mut self.recent[slot.clone()];
-        for (i, kept) in kept.iter_mut().enumerate() {
-            *kept = traction.get(i).copied().unwrap_or(0.0);
-        }
-        self.largest = self.largest.max(kept.iter().map(|t| t.abs()).sum());
-        self.window.write(self.steps, kept);
-        (self.steps, self.pending) = (self.steps + 1, true);
-        let leaving = self.steps.checked_sub(self.window()).map(|m| self.slot(m));
-        self.tail.advance(leaving.map(|slot| &self.recent[slot]));
+        let now = self.steps;
+        self.accept(|kept| {
+            for (i, kept) in kept.iter_mut().enumerate() {
+                *kept = traction.get(i).copied().unwrap_or(0.0);
+            }
+        });
+        let slot = self.slot(now);
+        self.window.write(now, &self.recent[slot]);
+        self.pending = true;
     }
 
     fn increment_error_bound(&self) -> f64 {
@@ -324,42 +378,15 @@ impl ConvolutionHistory for ExponentialHistory {
         self.steps = steps;
         self.largest = values[0];
         self.tail.set_state(&values[1..=state]);
-        self.window.clear();
-        let (size, first) = (self.size(), kept.start);
+        let size = self.size();
         for (m, input) in kept.zip(values[state + 1..].chunks_exact(size)) {
-            if m > first {
-                self.window.work_in(m);
-            }
             let slot = self.slot(m);
             self.recent[slot].copy_from_slice(input);
-            self.window.write(m, input);
         }
-        self.pending = steps > 0;
+        self.refill();
         Ok(())
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::bem::{PatchKernel, Strip};
-    use crate::soil::Soil;
-
-    /// Two threads that find nothing and make the same fit end up with one.
-    #[test]
-    fn the_first_fit_is_everybodys() {
-        let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
-        let elements = Strip::uniform(-1.0..1.0, 3).unwrap().elements();
-        let kernel = PatchKernel::new(soil, elements, 0.2).unwrap();
-        let store = kernel.spectra().unwrap();
-        let fit = |tolerance| {
-            let request = Request { lags: 64, horizon: 1000, tolerance };
-            Arc::new(Fit::new(&kernel, &kernel, request).unwrap())
-        };
-        let [one, two, coarse] = [fit(1e-9), fit(1e-9), fit(1e-4)];
-        let made = [one, two, coarse].map(|fit| store.keep(fit));
-        assert!(Arc::ptr_eq(&made[0].fit, &made[1].fit));
-        assert!(!Arc::ptr_eq(&made[0].fit, &made[2].fit));
-        assert_eq!(store.tails().len(), 2);
-    }
-}
+mod tests;

@@ -129,7 +129,13 @@ impl Lattice {
     }
 
     /// Overwrites one value per element from real and imaginary parts; means over the elements.
-    pub(super) fn inverse(&mut self, [re, im]: [&[f64]; 2], values: &mut [f64]) {
+    pub(super) fn inverse(&mut self, parts: [&[f64]; 2], values: &mut [f64]) {
+        self.back(parts, self.scale, values);
+    }
+
+    /// Overwrites the values of which [`Lattice::forward`] made real and imaginary parts, times a
+    /// factor.
+    pub(super) fn back(&mut self, [re, im]: [&[f64]; 2], factor: f64, values: &mut [f64]) {
         for (value, (re, im)) in self.spectrum.iter_mut().zip(re.iter().zip(im)) {
             *value = Complex::new(*re, *im);
         }
@@ -140,7 +146,7 @@ impl Lattice {
         let scratch = &mut scratch[..inverse.get_scratch_len()];
         let done = inverse.process_with_scratch(spectrum, real, scratch);
         debug_assert!(done.is_ok());
-        let scale = self.scale / self.length as f64;
+        let scale = factor / self.length as f64;
         for (&cell, value) in self.cells.iter().zip(values) {
             *value = scale * self.real[cell];
         }

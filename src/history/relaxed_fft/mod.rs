@@ -18,7 +18,7 @@ use self::lattice::Lattice;
 use self::pairs::Pairs;
 pub use self::spectra::SharedSpectra;
 use self::waves::Waves;
-use super::convolution::{ConvolutionHistory, check_inputs};
+use super::convolution::{ConvolutionHistory, ExactHistory, check_inputs};
 use super::lag_kernel::LagKernel;
 use crate::error::{Error, Result, same_length};
 
@@ -83,6 +83,8 @@ pub struct RelaxedFftHistory {
     pending: bool,
     /// Tractions with missing entries.
     padded: Vec<f64>,
+    /// What is kept of one input.
+    input: Vec<f64>,
     /// Why inputs could not be accepted.
     failed: Option<Error>,
 }
@@ -109,6 +111,7 @@ impl RelaxedFftHistory {
             steps: 0,
             pending: false,
             padded,
+            input: Vec::new(),
             failed: None,
         }
     }
@@ -241,6 +244,17 @@ impl ConvolutionHistory for RelaxedFftHistory {
         march(blocks, values);
         (self.steps, self.pending, self.failed) = (steps, steps > 0, None);
         Ok(())
+    }
+}
+
+impl ExactHistory for RelaxedFftHistory {
+    fn traction(&mut self, step: usize, traction: &mut [f64]) {
+        let worked_in = self.steps - usize::from(self.pending);
+        if let Some(blocks) = &mut self.blocks {
+            self.input.clear();
+            blocks.input(step, worked_in, &mut self.input);
+            blocks.traction(&self.input, traction);
+        }
     }
 }
 

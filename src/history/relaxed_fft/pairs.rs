@@ -232,6 +232,10 @@ impl Blocks for Pairs {
         values.extend(self.rows.chunks_exact(self.stride).map(|row| row[step]));
     }
 
+    fn traction(&mut self, input: &[f64], traction: &mut [f64]) {
+        traction.copy_from_slice(input);
+    }
+
     fn write_input(&mut self, now: usize, input: &[f64]) {
         self.write(now, input);
     }

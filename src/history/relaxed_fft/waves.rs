@@ -291,6 +291,14 @@ impl Blocks for Waves {
         }
     }
 
+    fn traction(&mut self, input: &[f64], traction: &mut [f64]) {
+        let waves = self.lattice.waves();
+        let half = traction.len() / 2;
+        for (values, part) in traction.chunks_exact_mut(half).zip(input.chunks_exact(2 * waves)) {
+            self.lattice.back(part.split_at(waves).into(), 1.0, values);
+        }
+    }
+
     fn write_input(&mut self, now: usize, input: &[f64]) {
         self.inputs[now % self.leaf * input.len()..][..input.len()].copy_from_slice(input);
     }

@@ -5,13 +5,15 @@
 
 use std::sync::Arc;
 
-use basemat::bem::{HalfPlaneGround, PatchKernel, Strip};
-use basemat::coupled::SimulationBuilder;
+use basemat::bem::layered::LayeredGround;
+use basemat::bem::{Ground, HalfPlaneGround, PatchKernel, Strip};
+use basemat::coupled::{Coordinates, SimulationBuilder};
 use basemat::history::{
     ChoiceReason, ConvolutionHistory, DirectHistory, ExponentialHistory, History, LagKernel,
     RelaxedFftHistory,
 };
-use basemat::{CheckpointError, Error};
+use basemat::soil::SoilProfile;
+use basemat::{CheckpointError, Error, StepError};
 
 use super::{STEPS, carried, half_plane, refusal};
 use crate::support::scenes::{SI, block, friction, scene, soil, states};
@@ -155,8 +157,8 @@ fn a_used_simulation_resumes_the_same_scene() {
     }
 }
 
-/// Where memory decides, the first announcement does: once it is given to the builder, cuts are the
-/// same again.
+/// Where memory decides, the first announcement does, and after it the step at which memory is used
+/// up: once it is given to the builder, cuts are the same again.
 #[test]
 fn a_choice_by_memory_is_that_of_the_first_announcement() {
     let run = |cuts: &[usize], expected: usize| {
@@ -167,8 +169,119 @@ fn a_choice_by_memory_is_that_of_the_first_announcement() {
         (simulation.history_choice().unwrap().kind, simulation.state().clone())
     };
     assert_eq!(run(&[300], 0).0, History::Exponentials);
-    assert_eq!(run(&[50, 250], 0).0, History::RelaxedFft);
+    assert_eq!(run(&[50], 0).0, History::RelaxedFft);
+    assert_ne!(run(&[50, 250], 0).1, run(&[300], 0).1);
     assert_eq!(run(&[50, 250], 300), run(&[300], 0));
+}
+
+/// GOAL: beyond the steps announced the memory allowed holds: exponentials take over, wherever the run
+/// is cut or resumed.
+/// SCENE: a block that uplifts and slides, announced for 50 steps or not at all, run for 400.
+/// REFERENCE: the exact history with memory enough; the run without cuts, to the bit.
+#[test]
+fn beyond_the_memory_exponentials_take_over() {
+    // 64 steps by wavenumbers, 128 by pairs, are 43 and 31 kB.
+    for (elements, memory, most) in [(10, 60_000, 64), (4, 40_000, 128)] {
+        let make = |expected: usize| auto(elements, memory).expected_steps(expected);
+        let march = |cuts: &[usize], expected: usize| {
+            let mut simulation = make(expected).build().unwrap();
+            for steps in cuts {
+                simulation.run(*steps, |_| {}).unwrap();
+            }
+            simulation
+        };
+        let exact = states(&mut auto(elements, 1 << 30).build().unwrap(), 400);
+        let mut whole = make(50).build().unwrap();
+        let found = states(&mut whole, 400);
+        assert!(found[most] == exact[most], "{elements}: exact until there");
+        let choice = whole.history_choice().unwrap();
+        assert_eq!(
+            (choice.kind, choice.reason),
+            (History::Exponentials, ChoiceReason::MemoryLimit)
+        );
+        assert!(choice.error_bound > 0.0 && choice.error_bound <= ExponentialHistory::TOLERANCE);
+        assert!(found[400].ledger.soil_error_bound > 0.0);
+        let scale = exact.iter().map(|s| s.base_shear.abs()).fold(0.0, f64::max);
+        for (found, exact) in found.iter().zip(&exact) {
+            assert_eq!(found.modes, exact.modes, "{elements}, step {}", exact.step);
+            let apart = (found.base_shear - exact.base_shear).abs();
+            assert!(apart < 1e-7 * scale, "{elements}, step {}: {apart:e}", exact.step);
+            assert!(found.ledger.residual() < 1e-9);
+        }
+        let last = &found[400];
+        for cuts in [&[50, 350][..], &[most, 400 - most], &[most - 1, 2, 399 - most], &[1; 400]] {
+            assert!(march(cuts, 50).state() == last, "{elements}, {cuts:?}");
+        }
+        let mut loose = make(0).build().unwrap();
+        for _ in 0..400 {
+            loose.step().unwrap();
+        }
+        assert_eq!(loose.state().base_shear, last.base_shear, "{elements}: nothing announced");
+        for cut in [most - 1, most, most + 1, 300] {
+            let saved = carried(&march(&[cut], 50).checkpoint().unwrap());
+            let mut used = make(50).build().unwrap();
+            used.run(350, |_| {}).unwrap();
+            for mut other in [make(50).build().unwrap(), used] {
+                other.resume(&saved).unwrap_or_else(|e| panic!("{elements}, cut at {cut}: {e}"));
+                assert_eq!(other.checkpoint().unwrap(), saved, "{elements}, cut at {cut}");
+                other.run(400 - cut, |_| {}).unwrap();
+                assert!(other.state() == last, "{elements}, cut at {cut}");
+            }
+        }
+        let mut plenty = auto(elements, 1 << 30).expected_steps(50).build().unwrap();
+        let quantity = "kind of history";
+        let late = march(&[300], 50).checkpoint().unwrap();
+        assert_eq!(refusal(&mut plenty, &late), CheckpointError::OtherScene { quantity });
+    }
+}
+
+/// GOAL: where no exponentials can take over, the step that would need more memory is refused, and the
+/// run goes on from there with more.
+/// SCENE: exact histories that were asked for; layers.
+/// REFERENCE: the run with memory enough, to the bit.
+#[test]
+fn beyond_the_memory_exact_histories_stop() {
+    // Modes would be taken for some numbers of steps and not for others.
+    let over = |ground: Box<dyn Ground>| {
+        let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+        base.ground(ground).coordinates(Coordinates::Unknowns)
+    };
+    let layers = |memory| {
+        let profile = SoilProfile::on_rigid_base().with_layer(soil(SI), 6.0).unwrap();
+        let ground = LayeredGround::uniform_strip(profile, -2.0..2.0, 2).unwrap();
+        over(Box::new(ground.with_history_memory(memory)))
+    };
+    let asked = |history, memory| over(Box::new(half_plane(history).with_history_memory(memory)));
+    let scenes: [(usize, &dyn Fn(usize) -> SimulationBuilder); 3] = [
+        (30_000, &layers),
+        (100_000, &|memory| asked(History::RelaxedFft, memory)),
+        (100_000, &|memory| asked(History::Direct, memory)),
+    ];
+    for (number, (memory, make)) in scenes.into_iter().enumerate() {
+        let mut whole = make(1 << 30).expected_steps(10).build().unwrap();
+        let wanted = states(&mut whole, 400);
+        let mut short = make(memory).expected_steps(10).build().unwrap();
+        let mut seen = 0;
+        let error = short.run(400, |_| seen += 1).unwrap_err();
+        let Error::Step { step, source: StepError::Ground(cause), .. } = error else {
+            panic!("{number}: {error}");
+        };
+        let Error::Memory { needed, limit, .. } = *cause else { panic!("{number}: {cause}") };
+        assert!(limit == memory as f64 && needed > limit, "{number}: {needed}");
+        assert!((64..400).contains(&seen) && step == seen + 1, "{number}: {step}");
+        assert!(*short.state() == wanted[seen], "{number}");
+        // It stays so.
+        assert!(short.step().is_err() && short.state().step == seen);
+        let mut other = make(1 << 30).expected_steps(10).build().unwrap();
+        other.resume(&short.checkpoint().unwrap()).unwrap();
+        other.run(400 - seen, |_| {}).unwrap();
+        assert!(*other.state() == wanted[400], "{number}");
+        // What is announced is given.
+        let mut told = make(memory).expected_steps(400).build().unwrap();
+        told.run(400, |_| {}).unwrap();
+        assert!(*told.state() == wanted[400], "{number}");
+        assert!(told.step().is_err(), "{number}");
+    }
 }
 
 #[test]

@@ -1,0 +1,177 @@
+//! The history that a ground keeps, within the memory that it may take.
+
+use std::sync::Arc;
+
+use super::choice::{ChoiceReason, History, HistoryChoice};
+use super::convolution::ConvolutionHistory;
+use super::cost::Estimate;
+use super::exponentials::{ExponentialHistory, LONGEST};
+use super::lag_kernel::LagKernel;
+use super::options::{HistoryOptions, Kept};
+use super::relaxed_fft::LEAF;
+use crate::error::{Error, Result};
+
+/// Steps for which exponentials are made that take over, times those that are behind them.
+const AHEAD: usize = 64;
+
+/// A history by [`HistoryOptions`], and why it is this one.
+///
+/// An exact one may take the memory allowed, or what it needs for the steps that were announced.
+/// Where steps go on beyond, it gives way to the exponentials if it was chosen and not asked for,
+/// at a step that depends on options and announcement alone; otherwise the step is refused.
+pub(crate) struct ChosenHistory {
+    kernel: Arc<dyn LagKernel>,
+    options: HistoryOptions,
+    choice: HistoryChoice,
+    announced: Option<usize>,
+    kept: Kept,
+}
+
+impl ChosenHistory {
+    /// An empty history for this many steps, if that is known.
+    pub(crate) fn new(
+        options: HistoryOptions,
+        kernel: &Arc<dyn LagKernel>,
+        steps: Option<usize>,
+    ) -> Result<Self> {
+        let (kept, choice) = options.make(kernel, steps)?;
+        let announced = choice.steps;
+        Ok(Self { kernel: Arc::clone(kernel), options, choice, announced, kept })
+    }
+
+    /// Which one, and why.
+    pub(crate) fn choice(&self) -> HistoryChoice {
+        self.choice
+    }
+
+    /// Notes the steps to come for a history that was asked for before they were known.
+    pub(crate) fn announce(&mut self, steps: usize) {
+        if self.choice.reason == ChoiceReason::Asked {
+            self.announced = self.announced.or(Some(steps).filter(|steps| *steps < LONGEST));
+        }
+    }
+
+    /// Steps that an exact history is kept for.
+    fn most(&self) -> Result<usize> {
+        let mut most = 0;
+        // Memory grows by doubling, so that a power of two fills it.
+        for power in LEAF.ilog2() + 1..usize::BITS {
+            let estimate = Estimate::new(self.choice.kind, &*self.kernel, 1 << power)?;
+            if estimate.memory > self.options.memory {
+                break;
+            }
+            most = 1 << power;
+        }
+        Ok(self.announced.map_or(most, |announced| most.max(announced)))
+    }
+
+    /// Makes the exponentials, without what came before.
+    fn successor(&self, most: usize) -> Result<(Box<ExponentialHistory>, HistoryChoice)> {
+        let estimate = |kind, steps| Estimate::new(kind, &*self.kernel, steps);
+        let next = most.saturating_add(1).checked_next_power_of_two().unwrap_or(most);
+        let exact = estimate(self.choice.kind, next)?;
+        let refused = Error::Memory {
+            quantity: "convolution history",
+            needed: exact.memory as f64,
+            limit: self.options.memory as f64,
+            remedy: "announce the steps with `expected_steps`, or allow more with \
+                     `with_history_memory`: a checkpoint can go on there",
+        };
+        let exponentials = estimate(History::Exponentials, most)?;
+        if self.options.kind != History::Auto || exponentials.memory >= exact.memory {
+            return Err(refused);
+        }
+        let horizon = ExponentialHistory::HORIZON.max(most.saturating_mul(AHEAD));
+        let (kernel, tolerance) = (Arc::clone(&self.kernel), self.options.tolerance());
+        let made = ExponentialHistory::within(kernel, tolerance, horizon, usize::MAX);
+        let history = Box::new(made.map_err(|_| refused)?);
+        let choice = HistoryChoice {
+            kind: History::Exponentials,
+            reason: ChoiceReason::MemoryLimit,
+            estimated_memory: history.memory(),
+            estimated_cost: exponentials.cost,
+            error_bound: history.error_bound(),
+            ..self.choice
+        };
+        Ok((history, choice))
+    }
+
+    /// Gives way to the exponentials where the next step would take more memory than allowed.
+    fn bound(&mut self) -> Result<()> {
+        let Kept::Exact(exact) = &self.kept else { return Ok(()) };
+        let steps = exact.steps();
+        // Steps within the smallest blocks, and within those there is room for, cost no look.
+        if !steps.is_power_of_two() && self.announced != Some(steps) {
+            return Ok(());
+        }
+        let most = self.most()?;
+        if steps < most {
+            return Ok(());
+        }
+        let (mut history, choice) = self.successor(most)?;
+        let Kept::Exact(exact) = &mut self.kept else { return Ok(()) };
+        history.take_over(steps, |step, traction| exact.traction(step, traction));
+        (self.kept, self.choice) = (Kept::Exponentials(history), choice);
+        Ok(())
+    }
+
+    /// The same as it is once it has given way before `steps` steps, without what came before;
+    /// `None` if it would not have.
+    pub(crate) fn succeeded(&self, steps: usize) -> Result<Option<Self>> {
+        let most = self.most()?;
+        if matches!(self.kept, Kept::Exponentials(_)) || steps < most {
+            return Ok(None);
+        }
+        let (history, choice) = self.successor(most)?;
+        let (kernel, kept) = (Arc::clone(&self.kernel), Kept::Exponentials(history));
+        let Self { options, announced, .. } = *self;
+        Ok(Some(Self { kernel, options, choice, announced, kept }))
+    }
+
+    fn any(&self) -> &dyn ConvolutionHistory {
+        match &self.kept {
+            Kept::Exact(history) => &**history,
+            Kept::Exponentials(history) => &**history,
+        }
+    }
+
+    fn any_mut(&mut self) -> &mut dyn ConvolutionHistory {
+        match &mut self.kept {
+            Kept::Exact(history) => &mut **history,
+            Kept::Exponentials(history) => &mut **history,
+        }
+    }
+}
+
+impl ConvolutionHistory for ChosenHistory {
+    fn steps(&self) -> usize {
+        self.any().steps()
+    }
+
+    /// Only for steps that it is kept for.
+    fn reserve(&mut self, steps: usize) -> Result<()> {
+        let most = self.most()?;
+        self.any_mut().reserve(steps.min(most))
+    }
+
+    fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
+        self.bound()?;
+        self.any_mut().evaluate(displacement)
+    }
+
+    fn push(&mut self, traction: &[f64]) {
+        self.any_mut().push(traction);
+    }
+
+    fn increment_error_bound(&self) -> f64 {
+        self.any().increment_error_bound()
+    }
+
+    fn save(&self) -> Result<Vec<f64>> {
+        self.any().save()
+    }
+
+    fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
+        self.any_mut().restore(steps, values)
+    }
+}
