@@ -97,7 +97,7 @@ struct Tally {
     most_trials: usize,
     /// Worst violation of the law's conditions: of the largest traction so far, of the largest opening.
     violation: f64,
-    /// Worst energy that contact gives back in a step, of what it has taken so far.
+    /// Worst energy that contact gives back in a step, of the largest kinetic energy or input so far.
     given_back: f64,
 }
 
@@ -133,7 +133,7 @@ fn shake(scene: &Glued, steps: usize, tally: &mut Tally) {
     let count = scene.elements;
     let mut held = vec![true; count];
     let mut before = simulation.state().clone();
-    let [mut force, mut length] = [f64::MIN_POSITIVE; 2];
+    let [mut force, mut length, mut energy] = [f64::MIN_POSITIVE; 3];
     for _ in 0..steps {
         match simulation.step() {
             Ok(_) => {}
@@ -163,7 +163,8 @@ fn shake(scene: &Glued, steps: usize, tally: &mut Tally) {
         let distance = violation(scene, &before, &state, &held, [force, length.max(1e-4)]);
         tally.violation = tally.violation.max(distance);
         let lost = state.ledger.contact - before.ledger.contact;
-        tally.given_back = tally.given_back.max(-lost / state.ledger.contact.abs().max(1.0));
+        energy = energy.max(state.ledger.kinetic).max(state.ledger.input.abs());
+        tally.given_back = tally.given_back.max(-lost / energy);
         before = state;
     }
 }

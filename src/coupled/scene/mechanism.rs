@@ -86,7 +86,7 @@ pub(super) struct Held {
     factor: SparseFactor,
     /// What keeps mechanisms regular, on the diagonal.
     regular: Vec<f64>,
-    /// Unknowns with nothing on the diagonal.
+    /// Unknowns without any entry.
     absent: Vec<usize>,
 }
 
@@ -100,26 +100,33 @@ impl Held {
     }
 
     /// A matrix whose largest entry is about `spring`, kept regular by `mass`, or by what stands on its
-    /// diagonal where there is none.
+    /// diagonal where there is none; Lagrange multipliers have neither and stay as they are.
     fn of(matrix: Triplets, spring: f64, mass: &[f64]) -> Option<Self> {
         let heaviest = largest(mass);
         let mut diagonal = vec![0.0; matrix.order()];
         for &(row, _, value) in matrix.entries().iter().filter(|entry| entry.0 == entry.1) {
             diagonal[row] += value;
         }
-        let absent = (0..diagonal.len()).filter(|&i| diagonal[i] == 0.0).collect();
+        let mut is_absent = vec![true; diagonal.len()];
+        for &(row, column, value) in matrix.entries() {
+            if value != 0.0 {
+                (is_absent[row], is_absent[column]) = (false, false);
+            }
+        }
         let regular: Vec<f64> = diagonal
             .into_iter()
             .enumerate()
             .map(|(i, own)| match mass.get(i) {
                 Some(mass) if *mass > 0.0 => REGULAR * spring * mass / heaviest,
                 _ if own > 0.0 => REGULAR * own,
-                _ => REGULAR * spring,
+                _ if is_absent[i] => REGULAR * spring,
+                _ => 0.0,
             })
             .collect();
         let mut sum = matrix.clone();
         regular.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
         let factor = SparseFactor::new(NAME, &sum).ok()?;
+        let absent = (0..is_absent.len()).filter(|&i| is_absent[i]).collect();
         Some(Self { matrix, spring, factor, regular, absent })
     }
 
@@ -137,7 +144,8 @@ impl Held {
             }
         }
         let part = |i: usize| basis.iter().map(|motion| motion[i] * motion[i]).sum::<f64>().sqrt();
-        let parts: Vec<f64> = (0..n).map(part).collect();
+        let moves = |i: usize| if self.regular[i] > 0.0 { part(i) } else { 0.0 };
+        let parts: Vec<f64> = (0..n).map(moves).collect();
         let most = largest(&parts);
         (!basis.is_empty()).then(|| (0..n).filter(|&i| parts[i] > TAKES_PART * most).collect())
     }

@@ -90,9 +90,10 @@ impl Model {
             let check_sign = |tie| if linear { model.check_stiffness(base, tie) } else { Ok(()) };
             let influence = Influence::new(base, &at_rest, [mass, damping], &check_sign);
             let held = AtRest { structure, stiffness: &at_rest, mass: &model.mass, base };
-            // A mechanism fails in one way or another, as rounding has it.
-            let influence = influence.map_err(|error| {
-                held.mechanism().map_or(error, |cause| Error::Standing(Box::new(cause)))
+            // A mechanism fails in one way or another, as rounding has it, but never by its sign.
+            let influence = influence.map_err(|error| match error {
+                Error::Indefinite { .. } => error,
+                _ => held.mechanism().map_or(error, |cause| Error::Standing(Box::new(cause))),
             })?;
             let free = if linear { held.free_motion() } else { None };
             model.free_motion = free.map(Box::new);

@@ -10,7 +10,7 @@ use basemat::structure::{
     Bilinear, ContactNode, CraigBampton, FemModel, MatrixModel, RigidBlock, Row, Structure,
     StructureGroup, Triplets, WithSprings,
 };
-use basemat::{Error, Result, Simulation};
+use basemat::{Error, Result, Simulation, StandingError};
 
 fn build(structure: impl Structure + 'static) -> Result<Simulation> {
     let nodes = structure.contact_nodes();
@@ -151,14 +151,16 @@ fn single_unknowns_are_named() {
     assert_eq!(unknowns, [12, 13]);
 }
 
-/// GOAL: what has neither mass nor stiffness is singular, as ever; a base that no unknown moves too.
+/// GOAL: what has neither mass nor stiffness is named, though it weighs nothing.
 #[test]
-fn nothing_at_all_is_singular() {
+fn a_node_on_a_dashpot_alone_is_a_mechanism() {
     let mut mesh = stack(1, true);
     let node = mesh.add_node(0.0, 5.0).unwrap();
     mesh.add(Dashpot::axial([4, node], 1e6).unwrap()).unwrap();
     let built = build(FemModel::on_base(mesh).unwrap());
-    assert!(matches!(built, Err(Error::Singular { .. })), "{:?}", built.err());
+    let Err(Error::Standing(cause)) = built else { panic!("{:?}", built.err()) };
+    let StandingError::Mechanism { unknowns, place } = *cause else { panic!("{cause}") };
+    assert_eq!((unknowns, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
 }
 
 /// Groups and reductions say whose nodes they are.
