@@ -127,7 +127,7 @@ impl Column {
     ///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0)?);
     /// let column = Column::new(profile, VerticalWave::Shear)?;
     /// // Room for what comes before and after.
-    /// let record = el_centro_1940().padded(20.0, 30.0)?;
+    /// let record = el_centro_1940().padded(30.0, 30.0)?;
     /// let surface = column.to_surface(ControlPoint::Outcrop, 0.02, record.accelerations())?;
     /// let back = column.from_surface(ControlPoint::Outcrop, 0.02, &surface.samples)?;
     /// assert!(surface.is_whole() && back.is_whole(), "{surface}; {back}");

@@ -164,7 +164,8 @@ fn shake(scene: &Glued, steps: usize, tally: &mut Tally) {
         tally.violation = tally.violation.max(distance);
         let lost = state.ledger.contact - before.ledger.contact;
         energy = energy.max(state.ledger.kinetic).max(state.ledger.input.abs());
-        tally.given_back = tally.given_back.max(-lost / energy);
+        // Below a joule the tractions of the weight show their rounding.
+        tally.given_back = tally.given_back.max(-lost / energy.max(1.0));
         before = state;
     }
 }

@@ -268,8 +268,8 @@ impl LayeredGround {
     ///     LayeredGround::strip(profile, -3.0..3.0, 8)?.cost(0.005, 2000)
     /// };
     /// println!("{}", cost(6.0)?);
-    /// // A skin of a centimetre asks for wavenumbers of its own size.
-    /// assert!(cost(0.01)?.seconds > 10.0 * cost(6.0)?.seconds);
+    /// // A skin of a millimetre asks for wavenumbers of its own size.
+    /// assert!(cost(0.001)?.seconds > 10.0 * cost(6.0)?.seconds);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///

@@ -45,7 +45,7 @@ pub enum Placement {
     /// assert_eq!(simulation.state().uplifted_fraction, 1.0);
     /// let run = simulation.run(1000, |_| {})?;
     /// // It rocks over to the other edge, and less far.
-    /// let other_side = -run.base_rotation.lowest.value;
+    /// let other_side = -run.whole.base_rotation.lowest.value;
     /// assert!(other_side > 0.2 * tilt && other_side < tilt, "{other_side}");
     /// # Ok::<(), basemat::Error>(())
     /// ```

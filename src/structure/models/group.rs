@@ -47,7 +47,7 @@ struct Member {
 /// let run = simulation.run(400, |_| {})?;
 /// let [high, low] = &simulation.state().foundations[..] else { unreachable!() };
 /// assert_eq!((high.elements.clone(), low.elements.clone()), (0..6, 6..12));
-/// assert!(run.ledger_residual < 1e-9 && high.rotation != low.rotation);
+/// assert!(run.ledger_residual < 1e-9 && high.base_rotation != low.base_rotation);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Default)]
