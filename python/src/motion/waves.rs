@@ -186,7 +186,7 @@ impl PyColumn {
     ) -> PyResult<Py<PyRecord>> {
         let control = self::control(control)?;
         let (step, samples) = (record.0.time_step(), record.0.accelerations());
-        record(py, step, self.0.to_surface(control, step, samples).or_raise()?)
+        self::record(py, step, self.0.to_surface(control, step, samples).or_raise()?)
     }
 
     /// The record of the ``control`` from one of the surface (deconvolution), as ``to_surface``.
@@ -200,7 +200,7 @@ impl PyColumn {
     ) -> PyResult<Py<PyRecord>> {
         let control = self::control(control)?;
         let (step, samples) = (record.0.time_step(), record.0.accelerations());
-        record(py, step, self.0.from_surface(control, step, samples).or_raise()?)
+        self::record(py, step, self.0.from_surface(control, step, samples).or_raise()?)
     }
 }
 

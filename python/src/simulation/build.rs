@@ -2,11 +2,10 @@
 
 use basemat::Simulation;
 use basemat::coupled::{ContactSearch, Coordinates, Placement, Probe, SimulationBuilder};
-use basemat::results::Serviceability;
+use basemat::results::{Quantity, Serviceability};
 use pyo3::prelude::*;
 
 use crate::error::{OrRaise, refuse};
-use crate::names::SERIES;
 use crate::probe::PyProbe;
 
 /// A placement by its name.
@@ -32,7 +31,7 @@ pub(super) fn probes<'a, 'py: 'a>(
             let PyProbe(probe, order) = probe.get();
             order.check(&format!("the probe '{}'", probe.name), unknowns)?;
             let name = probe.name.as_str();
-            if name == "time" || SERIES.iter().any(|(_, key)| *key == name) {
+            if name == "time" || Quantity::ALL.iter().any(|own| own.to_string() == name) {
                 return Err(refuse(format!(
                     "a probe is called '{name}', but that is another time series of a run"
                 )));
