@@ -57,7 +57,7 @@ fn work_is_known_beforehand() {
         ("slab", slab, 8, 0.1, 1),
         ("six layers", many, 8, 0.1, 1),
         ("skin", skin(1e-2), 8, 0.1, 0),
-        ("thin skin", skin(1e-3), 8, 0.1, 0),
+        ("thin skin", skin(3e-3), 8, 0.1, 0),
         ("short steps", damped(), 8, 2.5e-3, 0),
         ("32 elements", damped(), 32, 0.1, 0),
         ("long run", damped(), 2, 0.1, 4),
