@@ -155,6 +155,35 @@ fn loads_motions_and_probes_are_in_the_basis() {
     within(&errors(&drop, 1e-6), 1e-6);
 }
 
+/// Loads that jump: what probes read, accelerations and section forces as well, is within the tolerance of its
+/// largest value.
+#[test]
+fn loads_that_jump_keep_it() {
+    let lightly = RayleighDamping::from_ratios([2.0, 20.0], [0.02; 2]).unwrap();
+    let tower = || bare(-2.0..2.0, 20, 25).with_rayleigh(lightly);
+    let section = tower().section(3.84, 0.0).unwrap();
+    let n = tower().unknowns();
+    let jump = |t: f64| if t > 0.05 { 1e5 } else { 0.0 };
+    let square = |t: f64| if (10.0 * t) % 2.0 > 1.0 { 1e5 } else { 0.0 };
+    let values: [fn(f64) -> f64; 2] = [jump, square];
+    for (row, tolerance) in [(n - 2, 1e-5), (n - 802, 1e-3), (n - 802, 1e-7)] {
+        for value in values {
+            let make = || {
+                let builder = scene(SI, 0.0).structure(tower()).interface(Bonded);
+                builder
+                    .load(Load::new(Row::from(row), value))
+                    .probe(Probe::velocity("roof's velocity", roof()))
+                    .probe(Probe::acceleration("roof", roof()))
+                    .probe(Probe::acceleration("below the load", Row::from(row)))
+                    .probe(Probe::section("shear", &section.shear))
+                    .probe(Probe::section("compression", &section.compression))
+                    .probe(Probe::section("moment", &section.moment))
+            };
+            within(&errors(&make, tolerance), tolerance);
+        }
+    }
+}
+
 #[test]
 fn groups_are_reduced_together() {
     let towers = || {

@@ -15,7 +15,7 @@ use super::base::Base;
 use super::modal_basis::ModalBasis;
 use super::model::Model;
 use super::operators::Factor;
-use super::step_response::StepResponses;
+use super::step_response::{Rows, StepResponses};
 use super::subspace::Subspace;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, ReducedError, Result, finite};
@@ -32,7 +32,7 @@ const NEW_BY_ROOT: f64 = 10.0;
 /// The same, in the end.
 const LEAST_NEW: f64 = 1e-7;
 /// The next round changes this much less than the last, at best.
-const FASTEST: f64 = 0.05;
+const FASTEST: f64 = 0.1;
 /// Rounds after which the tolerance is given up, after half of them if it cannot be expected.
 const ROUNDS: usize = 16;
 /// The lowest shift over the scheme's, at least.
@@ -49,8 +49,8 @@ pub(crate) struct Reduction<'a> {
     pub(crate) factor: &'a Factor,
     /// Steps of the run.
     pub(crate) steps: usize,
-    /// Rows where forces act, where displacements or velocities are looked at, and accelerations.
-    pub(crate) rows: [Vec<f64>; 3],
+    /// None of them zero.
+    pub(crate) rows: Rows,
     /// Displacements that the modes must contain.
     pub(crate) motions: Vec<f64>,
 }
@@ -69,7 +69,7 @@ impl Reduction<'_> {
         let mut space = Subspace::new(matrices, translations);
         space.extend(rotations, LEAST_NEW);
         space.extend(self.motions.clone(), LEAST_NEW);
-        let (rows, counts) = self.rows();
+        let rows = &self.rows.all;
         let factors = self.shifts(lowest, matrices).collect::<Result<Vec<_>>>()?;
         let k_eff = self.factor.sparse().ok_or(ReducedError::Nonlinear)?;
         let factors: Vec<_> = std::iter::once(k_eff).chain(&factors).collect();
@@ -95,9 +95,10 @@ impl Reduction<'_> {
                 continue;
             }
             let modes = space.ritz()?;
-            let shares = space.shares(&modes, &rows);
+            let shares = space.shares(&modes, rows);
             let steps = self.steps.clamp(1, LONGEST);
-            let responses = StepResponses::new(&modes, shares, counts, self.coefficients, steps);
+            let responses =
+                StepResponses::new(&modes, shares, &self.rows, self.coefficients, steps);
             let mut rate = 1.0;
             if let Some(last) = &last {
                 let by = responses.difference(last, tolerance);
@@ -134,20 +135,6 @@ impl Reduction<'_> {
             return Err(ReducedError::Matrix { matrix: names[0], needed }.into());
         }
         Ok(matrices)
-    }
-
-    /// All rows but those of zeros, the number of forces among them, and that of the first
-    /// acceleration.
-    fn rows(&self) -> (Vec<f64>, [usize; 2]) {
-        let n = self.model.unknowns;
-        let mut all = Vec::new();
-        let counts = [0, 1, 2].map(|kind| {
-            for row in self.rows[kind].chunks_exact(n).filter(|row| largest(row) > 0.0) {
-                all.extend_from_slice(row);
-            }
-            all.len() / n
-        });
-        (all, [counts[0], counts[1]])
     }
 
     /// Factors at one shift above the scheme's and those below it.

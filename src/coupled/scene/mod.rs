@@ -13,7 +13,7 @@ mod proximal;
 pub(crate) mod stages;
 mod standing;
 pub(crate) mod static_state;
-mod step_response;
+pub(crate) mod step_response;
 pub(crate) mod stepped_row;
 mod subspace;
 mod supports;
