@@ -8,7 +8,7 @@ use std::io::{Cursor, Read};
 use std::path::Path;
 
 use basemat::Error;
-use basemat::coupled::Probe;
+use basemat::coupled::{EnergyTerm, Probe};
 use basemat::results::{Histories, Quantity, Recorder};
 use basemat::structure::RigidBlock;
 
@@ -138,7 +138,7 @@ fn arrays_are_what_was_kept() {
     same("motion_velocity", &[frames.len(), 3], &velocities);
     let ground: Vec<f64> = frames.iter().flat_map(|s| s.free_field).collect();
     same("motion_free_field_m", &[frames.len(), 2], &ground);
-    assert_eq!(arrays.len(), 12 + 2 + 12 + 9 + 4);
+    assert_eq!(arrays.len(), 12 + 2 + EnergyTerm::ALL.len() + 9 + 4);
 }
 
 /// Files for `tests/support/read_npz.py`.
