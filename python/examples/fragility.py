@@ -6,10 +6,7 @@
 
 A shear building stands on a mat that may uplift and slide. El Centro and near-fault pulses are
 scaled to levels of peak ground velocity. The table has the columns and, to the last bit, the
-numbers of Rust's `cases.csv`. Rust fits the curves:
-
-    python examples/fragility.py --dask 2 --table runs/shard_0_of_1.csv
-    cargo run --release --example fragility -- --merge --out runs
+numbers of Rust's `cases.csv`, but for the check sums of its rows, without which Rust does not read them again.
 """
 
 from __future__ import annotations

@@ -165,7 +165,7 @@ impl StepStarts {
     /// Another length (s) from the step to come on.
     ///
     /// # Errors
-    /// [`Error::Input`] unless finite and above zero; the length is then the one before.
+    /// [`Error::Input`](crate::Error::Input) unless finite and above zero; the length is then the one before.
     pub fn set_time_step(&mut self, time_step: f64) -> Result<()> {
         self.time_step = positive("time step", time_step)?;
         Ok(())
