@@ -69,7 +69,6 @@
 //! is the largest violation of a run, relative to the largest energy until then.
 
 mod advance;
-mod advice;
 mod books;
 mod builder;
 mod builder_checks;
@@ -82,8 +81,8 @@ mod load;
 mod motion;
 mod observed;
 
+mod refine;
 mod resolution;
-mod response_estimate;
 pub(crate) mod run;
 pub(crate) mod scene;
 mod scheme;
@@ -95,7 +94,6 @@ mod warning;
 mod workable_step;
 
 pub use crate::contact::{ContactSearch, SearchMethod};
-pub use advice::{Advice, Outline, advise};
 pub use builder::SimulationBuilder;
 pub use checkpoint::Checkpoint;
 pub use coordinates::Coordinates;
@@ -106,8 +104,8 @@ pub(crate) use run::peak::probe_index;
 pub use run::{Extremes, Fallbacks, Peak, ProbeExtremes, Run};
 
 pub use crate::structure::probe::Probe;
+pub use refine::{Refinement, Setting, refine};
 pub(crate) use resolution::Resolution;
-pub use response_estimate::StiffnessError;
 pub use scene::conditioning::Conditioning;
 pub use scene::stages::Placement;
 pub use scheme::{
