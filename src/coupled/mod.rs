@@ -71,12 +71,9 @@
 mod advance;
 mod advice;
 mod books;
-mod builder;
-mod builder_checks;
+pub(crate) mod build;
 mod checkpoint;
-mod choice_words;
-mod coordinates;
-mod initial;
+mod diagnosis;
 mod ledger;
 mod load;
 mod motion;
@@ -90,16 +87,17 @@ mod scheme;
 mod simulation;
 mod state;
 mod step;
-mod translation;
 mod warning;
 mod workable_step;
 
 pub use crate::contact::{ContactSearch, SearchMethod};
 pub use crate::results::run::{Fallbacks, Run};
 pub use advice::{Advice, Outline, advise};
-pub use builder::SimulationBuilder;
+pub use build::SimulationBuilder;
+pub use build::beginning::Placement;
+pub use build::coordinates::Coordinates;
 pub use checkpoint::Checkpoint;
-pub use coordinates::Coordinates;
+pub use diagnosis::conditioning::Conditioning;
 pub use ledger::{EnergyTerm, Ledger};
 pub use load::Load;
 pub use observed::Observed;
@@ -108,8 +106,6 @@ pub use peak::{Extremes, Peak, ProbeExtremes};
 pub use probe::Probe;
 pub(crate) use resolution::Resolution;
 pub use response_estimate::StiffnessError;
-pub use scene::conditioning::Conditioning;
-pub use scene::stages::Placement;
 pub use scheme::{
     DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme,
 };

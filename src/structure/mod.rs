@@ -25,7 +25,9 @@ pub use models::{
     SectionRows, ShearBuilding, Storey, StructureGroup,
 };
 pub use nonlinear::NonlinearForce;
-pub(crate) use nonlinear::{is_nonlinear, restore_variables, save_variables};
+pub(crate) use nonlinear::{
+    Tangent, is_nonlinear, nonlinear_state, restore_variables, save_variables,
+};
 pub use reduction::{CraigBampton, Recovery, ReducedModel};
 pub use row::Row;
 pub use triplets::Triplets;

@@ -40,9 +40,9 @@ pub(crate) struct Increment {
 }
 
 impl Increment {
-    pub(crate) fn new(scene: &Scene, state: &State, ledger: bool) -> Self {
+    /// Room for a step, and for the compliance of so many elements.
+    pub(crate) fn new(scene: &Scene, state: &State, compliant: usize) -> Self {
         let (n, count) = (scene.model.coordinates, scene.count());
-        let compliant = if scene.compliant && ledger { count } else { 0 };
         let nonlinear = if scene.model.linear { 0 } else { n };
         Self {
             displacement: vec![0.0; n],
