@@ -3,6 +3,7 @@
 mod contact_node;
 mod damping;
 mod detached;
+mod held_base;
 mod hysteresis;
 mod matrix_checks;
 mod models;
@@ -15,6 +16,7 @@ pub use contact_node::ContactNode;
 pub(crate) use contact_node::{check_contact_nodes, foundation_nodes};
 pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
 pub(crate) use detached::{check_attached, numbers as unknown_numbers};
+pub(crate) use held_base::{HeldBase, stiffest};
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
     WithSprings,

@@ -12,12 +12,12 @@ use crate::bem::ContactElement;
 use crate::coupled::diagnosis::mechanism::AtRest;
 use crate::coupled::diagnosis::{sign, supports};
 use crate::coupled::scene::base::Base;
-use crate::coupled::scene::held_base::{HeldBase, NAME, stiffest};
 use crate::coupled::scene::influence::Influence;
 use crate::error::{Error, Result};
 use crate::linalg::{Partition, SparseMatrix};
 use crate::structure::{
-    ContactNode, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
+    ContactNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
+    stiffest,
 };
 
 /// Passes that refine the influence vectors.
@@ -99,12 +99,12 @@ impl Assembled {
     /// sees it: N R is 1 or 0 to rounding, and then so is B R.
     fn find_influence(&self) -> Result<Influence> {
         let (stiffness, n) = (self.stiffness_at_rest(), self.unknowns());
-        let held = HeldBase::new(&self.base, stiffness, stiffest(stiffness));
+        let held = HeldBase::new(self.base.nodes(), stiffness, stiffest(stiffness));
         let mut factor = held.factor()?;
         if self.linear && !factor.is_positive_definite() {
             sign::check(&self.base, self.matrices())?;
         }
-        let matrix = SparseMatrix::new(NAME, &held.matrix)?;
+        let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
         let mut translations = held.pulls().map(|pull| {
             let mut found = pull.clone();
             factor.solve(&mut found);
@@ -117,7 +117,7 @@ impl Assembled {
             found
         });
         if translations.iter().flatten().any(|r| !r.is_finite()) {
-            return Err(Error::Singular { matrix: NAME, order: n });
+            return Err(Error::Singular { matrix: HeldBase::NAME, order: n });
         }
         supports::check(stiffness, &self.base, &mut translations)?;
         let mut parts = Partition::new(n);

@@ -15,12 +15,12 @@ use super::assembled::Assembled;
 use super::parts::Parts;
 use super::step_response::{Rows, StepResponses};
 use super::subspace::Subspace;
-use crate::coupled::scene::held_base::{HeldBase, stiffest};
 use crate::coupled::scene::modal_basis::ModalBasis;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, ReducedError, Result, finite};
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
 use crate::matrix::spread;
+use crate::structure::{HeldBase, stiffest};
 
 /// From one shift to the next.
 const RATIO: f64 = 4.0;
@@ -229,13 +229,13 @@ impl<'a> Reduction<'a> {
         [mass, _, stiffness]: [&SparseMatrix; 3],
     ) -> Result<(Vec<f64>, f64)> {
         let n = self.assembled.unknowns();
-        let held = HeldBase::new(&self.assembled.base, stiffness, stiffest(stiffness));
+        let held = HeldBase::new(self.assembled.base.nodes(), stiffness, stiffest(stiffness));
         let factor = held.factor()?;
         let mut rotations = Vec::new();
         for part in self.assembled.influence.parts() {
             let nodes = part.nodes(&self.assembled.base);
             let middle = nodes.iter().map(|node| node.x).sum::<f64>() / nodes.len().max(1) as f64;
-            rotations.extend(held.turn(&nodes, middle));
+            rotations.extend(held.turn(nodes, middle));
         }
         factor.solve_many(&mut rotations);
         let mut inertia = vec![0.0; translations.len()];

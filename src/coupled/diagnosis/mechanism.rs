@@ -2,10 +2,9 @@
 //! all.
 
 use crate::coupled::scene::base::Base;
-use crate::coupled::scene::held_base::{HeldBase, NAME};
 use crate::error::{Error, Result, StandingError};
 use crate::linalg::{SparseFactor, SparseMatrix, largest, weighted_dot};
-use crate::structure::{Structure, Triplets, unknown_numbers};
+use crate::structure::{HeldBase, Structure, Triplets, unknown_numbers};
 
 /// Mass that keeps mechanisms regular, relative to what makes it as large as the stiffness.
 const REGULAR: f64 = 1e-12;
@@ -96,7 +95,7 @@ impl Regular {
         let AtRest { stiffness, mass, base, .. } = *at_rest;
         let stiffest = stiffness.entries().fold(0.0_f64, |m, (_, _, k)| m.max(k.abs()));
         let spring = if stiffest > 0.0 { stiffest } else { 1.0 };
-        let held = HeldBase::new(base, stiffness, spring);
+        let held = HeldBase::new(base.nodes(), stiffness, spring);
         let regular = Self::new(held.matrix.clone(), spring, &mass.diagonal())?;
         Some((held, regular))
     }
@@ -127,7 +126,7 @@ impl Regular {
             .collect();
         let mut sum = matrix.clone();
         regular.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
-        let factor = SparseFactor::new(NAME, &sum).ok()?;
+        let factor = SparseFactor::new(HeldBase::NAME, &sum).ok()?;
         let absent = (0..is_absent.len()).filter(|&i| is_absent[i]).collect();
         Some(Self { matrix, spring, factor, regular, absent })
     }

@@ -1,10 +1,9 @@
 //! Whether a symmetric stiffness is negative where the base is held.
 
 use crate::coupled::scene::base::Base;
-use crate::coupled::scene::held_base::{HeldBase, NAME, stiffest};
 use crate::error::{Error, Result};
 use crate::linalg::{SparseMatrix, indefinite_row};
-use crate::structure::Triplets;
+use crate::structure::{HeldBase, Triplets, stiffest};
 
 /// Springs that hold the base and constraints where they must not give way, relative to the largest
 /// stiffness.
@@ -15,8 +14,8 @@ const ROUNDING: f64 = 1e-12;
 /// Refuses a symmetric K that is not positive semi-definite where the base is held.
 pub(crate) fn check(base: &Base, [mass, damping, stiffness]: [&SparseMatrix; 3]) -> Result<()> {
     let tie = stiffest(stiffness);
-    let held = HeldBase::new(base, stiffness, HELD * tie);
-    let matrix = SparseMatrix::new(NAME, &held.matrix)?;
+    let held = HeldBase::new(base.nodes(), stiffness, HELD * tie);
+    let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
     if matrix.asymmetry() > ROUNDING {
         return Ok(());
     }
@@ -24,7 +23,7 @@ pub(crate) fn check(base: &Base, [mass, damping, stiffness]: [&SparseMatrix; 3])
     match indefinite_row(&constrained, ROUNDING, ROUNDING * tie) {
         Some(row) => {
             let diagonal = stiffness.diagonal()[row];
-            Err(Error::Indefinite { matrix: NAME, row, diagonal })
+            Err(Error::Indefinite { matrix: HeldBase::NAME, row, diagonal })
         }
         None => Ok(()),
     }
@@ -64,5 +63,5 @@ fn constrain(matrix: &SparseMatrix, multipliers: &[bool], penalty: f64) -> Resul
             constrained.add_outer(&constraint, penalty);
         }
     }
-    SparseMatrix::new(NAME, &constrained)
+    SparseMatrix::new(HeldBase::NAME, &constrained)
 }

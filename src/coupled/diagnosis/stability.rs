@@ -77,7 +77,7 @@ fn resultants(
             return Some(slides);
         }
         let (middle, half_width) = (0.5 * (left + right), 0.5 * (right - left));
-        let mut rotation = held.turn(&nodes, middle);
+        let mut rotation = held.turn(nodes, middle);
         regular.factor.solve(&mut rotation);
         let moment = dot(&rotation, load);
         // The soil's pressure stands at the distance e: M + N e = 0.

@@ -1,7 +1,6 @@
 //! A scene: all that does not change while a simulation runs.
 
 pub(crate) mod base;
-pub(crate) mod held_base;
 pub(crate) mod influence;
 pub(crate) mod modal_basis;
 pub(crate) mod model;
