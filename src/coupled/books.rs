@@ -52,11 +52,13 @@ struct Scratch {
 }
 
 impl Books {
-    /// At the beginning of a run; the energy of an initial motion counts as input.
+    /// At the beginning of a run; the energy of an initial motion counts as input. `compliant` says
+    /// whether any law stores energy in its elements.
     pub(crate) fn new(
         scene: &Scene,
         structure: &dyn Structure,
         state: &State,
+        compliant: bool,
     ) -> Result<Self, LawError> {
         let (n, size) = (scene.model.coordinates, 2 * scene.count());
         let mut jump = scene.static_state.gap.clone();
@@ -65,7 +67,6 @@ impl Books {
         scene.base.means(&state.motion.displacement, &mut means);
         jump.iter_mut().zip(&means).for_each(|(jump, moved)| *jump -= moved);
         let compliance = |(e, &mode): (usize, &Mode)| scene.compliance(e, mode, &state.start);
-        let compliant = scene.is_compliant(&state.start)?;
         let compliant = if compliant { state.modes.as_slice() } else { &[] };
         let compliance = compliant.iter().enumerate().map(compliance).collect::<Result<_, _>>()?;
         let parts = scene.model.influence.parts();

@@ -255,12 +255,12 @@ impl SimulationBuilder {
         let mut solver =
             Solver::new(&scene, operators, ModeSearch::new(scene.count(), given.search));
         let mut state = State::at_rest(&scene)?;
+        let compliant = scene.is_compliant(&state.start)?;
         let (beginning, mass) = (&given.beginning, &assembled.mass);
         initial::set_in_motion(beginning, mass, &scene, structure.as_mut(), &mut state)?;
-        let books = || Books::new(&scene, structure.as_ref(), &state);
+        let books = || Books::new(&scene, structure.as_ref(), &state, compliant);
         let books = given.ledger.then(books).transpose()?;
         state.ledger = books.as_ref().map_or(Ledger::LEFT_OUT, |books| books.ledger);
-        let compliant = books.as_ref().map_or(0, |books| books.compliance.len());
         let conditioning = conditioning::assess(&scene, &mut solver, &state.start)?;
         if scene.model.linear {
             // Last: stiffnesses too far apart for double precision look like a mechanism.
@@ -268,7 +268,7 @@ impl SimulationBuilder {
         }
         Ok(Simulation {
             forcing: Forcing::new(&scene),
-            increment: Increment::new(&scene, &state, compliant),
+            increment: Increment::new(&scene, &state, compliant && given.ledger),
             books,
             motion: given.motion,
             structure,
