@@ -1,6 +1,6 @@
 //! Motion at t = 0: displacement and velocity against the static state, and what the base does with them.
 
-use super::beginning::Beginning;
+use super::parts::Given;
 use crate::coupled::scene::Scene;
 use crate::coupled::state::State;
 use crate::error::{Error, Result};
@@ -15,24 +15,24 @@ const CLOSED: f64 = 1e-12;
 /// Sets `state`, which is at rest, and the structure's internal variables in motion; `mass` is that of
 /// the unknowns.
 pub(super) fn set_in_motion(
-    beginning: &Beginning,
+    given: &Given,
     mass: &SparseMatrix,
     scene: &Scene,
     structure: &mut dyn Structure,
     state: &mut State,
 ) -> Result<()> {
-    let Beginning { displacement, velocity, .. } = beginning;
-    if displacement.is_empty() && velocity.is_empty() && !beginning.falls() {
+    let Given { displacement, velocity, .. } = given;
+    if displacement.is_empty() && velocity.is_empty() && !given.falls() {
         return Ok(());
     }
     let motion = &mut state.motion;
-    for (given, own) in [(displacement, &mut motion.displacement), (velocity, &mut motion.velocity)]
+    for (start, own) in [(displacement, &mut motion.displacement), (velocity, &mut motion.velocity)]
     {
-        if !given.is_empty() {
-            *own = scene.model.transformation.coordinates(given, mass);
+        if !start.is_empty() {
+            *own = scene.model.transformation.coordinates(start, mass);
         }
     }
-    set_contact(beginning, scene, state)?;
+    set_contact(given, scene, state)?;
     if let Some(force) = structure.nonlinear_mut() {
         force.commit(&scene.seen_at(&state.motion));
     }
@@ -49,13 +49,13 @@ pub(super) fn set_in_motion(
 }
 
 /// Gaps, slips and modes of the displaced base.
-fn set_contact(beginning: &Beginning, scene: &Scene, state: &mut State) -> Result<()> {
+fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
     let count = scene.count();
     let [mut moved, mut rate] = [(); 2].map(|()| vec![0.0; 2 * count]);
     scene.base.means(&state.motion.displacement, &mut moved);
     scene.base.means(&state.motion.velocity, &mut rate);
-    let closed = CLOSED * largest(&beginning.displacement);
-    if beginning.is_static() {
+    let closed = CLOSED * largest(&given.displacement);
+    if given.is_static() {
         if let Some(&value) = moved.iter().find(|means| means.abs() > closed) {
             return Err(Error::Input {
                 quantity: "initial displacement of the base, m",

@@ -67,7 +67,7 @@ impl<'a> Reduction<'a> {
         let (given, base) = (&parts.given, &assembled.base);
         let (n, size) = (assembled.unknowns(), 2 * base.lengths().len());
         let mut rows = Rows { all: Vec::new(), counts: [0; 3], probes: Vec::new() };
-        for load in &given.beginning.loads {
+        for load in &given.loads {
             keep(&mut rows.all, spread(load.row().terms(), n));
         }
         let duration = steps as f64 * given.time_step;
@@ -95,7 +95,7 @@ impl<'a> Reduction<'a> {
             keep(&mut rows.all, force);
         }
         let mut motions = Vec::new();
-        for motion in [&given.beginning.displacement, &given.beginning.velocity] {
+        for motion in [&given.displacement, &given.velocity] {
             for motion in motion.chunks_exact(n) {
                 let mut force = vec![0.0; n];
                 assembled.mass.multiply_add(1.0, motion, &mut force);

@@ -1,7 +1,6 @@
 //! Putting a simulation together.
 
 pub(crate) mod assembled;
-pub(crate) mod beginning;
 pub(crate) mod coordinates;
 pub(crate) mod equilibrium;
 mod initial;
@@ -33,9 +32,8 @@ use crate::motion::FreeField;
 use crate::results::Serviceability;
 use crate::structure::Structure;
 use assembled::Assembled;
-use beginning::Placement;
 use coordinates::Coordinates;
-use parts::{Given, Parts};
+use parts::{Given, Parts, Placement};
 use stepped::Stepped;
 
 /// Parts of a [`Simulation`]: a structure, a ground and an interface law are needed, the rest has
@@ -53,8 +51,8 @@ short_debug! {
     structure: self.structure.is_some(),
     ground: self.ground.is_some(),
     laws: self.given.laws.len(),
-    gravity: self.given.beginning.gravity,
-    placement: self.given.beginning.placement,
+    gravity: self.given.gravity,
+    placement: self.given.placement,
     search: self.given.search,
     coordinates: self.given.coordinates,
 }
@@ -124,14 +122,14 @@ impl SimulationBuilder {
     /// static state, the base starts unpressed, and uplift and sliding have nothing to hold against.
     #[must_use]
     pub fn gravity(mut self, gravity: f64) -> Self {
-        self.given.beginning.gravity = gravity;
+        self.given.gravity = gravity;
         self
     }
 
     /// An external load, beside those given before and the structure's own.
     #[must_use]
     pub fn load(mut self, load: Load) -> Self {
-        self.given.beginning.loads.push(load);
+        self.given.loads.push(load);
         self
     }
 
@@ -139,21 +137,21 @@ impl SimulationBuilder {
     /// [`Placement::Unloaded`], which shows one, and not into the ground.
     #[must_use]
     pub fn initial_displacement(mut self, displacement: impl Into<Vec<f64>>) -> Self {
-        self.given.beginning.displacement = displacement.into();
+        self.given.displacement = displacement.into();
         self
     }
 
     /// Velocity of the unknowns at t = 0.
     #[must_use]
     pub fn initial_velocity(mut self, velocity: impl Into<Vec<f64>>) -> Self {
-        self.given.beginning.velocity = velocity.into();
+        self.given.velocity = velocity.into();
         self
     }
 
     /// Friction while the weight comes on.
     #[must_use]
     pub fn placement(mut self, placement: Placement) -> Self {
-        self.given.beginning.placement = placement;
+        self.given.placement = placement;
         self
     }
 
@@ -256,8 +254,8 @@ impl SimulationBuilder {
             Solver::new(&scene, operators, ModeSearch::new(scene.count(), given.search));
         let mut state = State::at_rest(&scene)?;
         let compliant = scene.is_compliant(&state.start)?;
-        let (beginning, mass) = (&given.beginning, &assembled.mass);
-        initial::set_in_motion(beginning, mass, &scene, structure.as_mut(), &mut state)?;
+        let mass = &assembled.mass;
+        initial::set_in_motion(&given, mass, &scene, structure.as_mut(), &mut state)?;
         let books = || Books::new(&scene, structure.as_ref(), &state, compliant);
         let books = given.ledger.then(books).transpose()?;
         state.ledger = books.as_ref().map_or(Ledger::LEFT_OUT, |books| books.ledger);

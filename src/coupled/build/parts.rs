@@ -2,25 +2,73 @@
 
 use std::sync::Arc;
 
-use super::beginning::Beginning;
 use super::coordinates::Coordinates;
 use crate::bem::{ContactElement, Ground};
 use crate::contact::ContactSearch;
 use crate::contact_element::check_order;
+use crate::coupled::load::Load;
 use crate::coupled::probe::{self, Probe};
 use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
-use crate::error::{Error, Result, all_finite, finite, not_negative, positive};
+use crate::error::{Error, Result, all_finite, finite, not_negative, positive, same_length};
 use crate::interface::{ContactScene, InterfaceLaw};
 use crate::linalg::indefinite_pivot;
 use crate::matrix::{self, Thinned};
 use crate::memory;
-use crate::motion::{AtRest, FreeField};
+use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
 use crate::results::Serviceability;
 use crate::structure::{Structure, is_nonlinear};
 
 /// Negative eigenvalue of the ground's operator that is rounding, in the matrix scaled to a diagonal of
 /// one.
 const ROUNDING: f64 = 1e-9;
+
+/// Friction while the structure is placed on the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum Placement {
+    /// The base is placed without friction and without adhesion, and sticks from then on. What
+    /// does not touch under weight alone starts open. Where no element's law ever opens, the base
+    /// is bonded from the start.
+    #[default]
+    Frictionless,
+    /// The interface law acts while the weight comes on, in one step.
+    WithInterfaceLaw,
+    /// There is no static state: the base begins unpressed, and weight and loads act from t = 0 on.
+    /// For a structure that is dropped, or tilted and let go.
+    ///
+    /// ```
+    /// use basemat::Simulation;
+    /// use basemat::bem::SpringGround;
+    /// use basemat::coupled::Placement;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::structure::RigidBlock;
+    ///
+    /// // Tilted by 20 mrad about its left edge.
+    /// let tilt = 0.02;
+    /// let mut simulation = Simulation::builder(0.001)
+    ///     .structure(RigidBlock::new(1.0, 4.0, 2400.0)?.with_p_delta(9.81)?)
+    ///     .ground(SpringGround::new(-0.5..0.5, 8, 5e9, 2e9)?.with_dashpots(1e6, 1e6)?)
+    ///     .interface(Coulomb::new(0.8)?)
+    ///     .placement(Placement::Unloaded)
+    ///     .initial_displacement([0.0, 0.5 * tilt, tilt])
+    ///     .build()?;
+    /// assert_eq!(simulation.state().uplifted_fraction, 1.0);
+    /// let run = simulation.run(1000, |_| {})?;
+    /// // It rocks over to the other edge, and less far.
+    /// let other_side = -run.whole.base_rotation.lowest.value;
+    /// assert!(other_side > 0.2 * tilt && other_side < tilt, "{other_side}");
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    Unloaded,
+}
+
+words! { Placement, "placement", {
+    Frictionless = "frictionless",
+    WithInterfaceLaw = "with_interface_law",
+    Unloaded = "unloaded",
+} }
 
 /// What a builder is given beside structure and ground.
 pub(crate) struct Given {
@@ -29,7 +77,12 @@ pub(crate) struct Given {
     pub(crate) motion: Box<dyn FreeField>,
     pub(crate) scheme: Box<dyn TimeScheme>,
     pub(crate) search: ContactSearch,
-    pub(crate) beginning: Beginning,
+    pub(crate) gravity: f64,
+    pub(crate) placement: Placement,
+    pub(crate) loads: Vec<Load>,
+    /// Displacement and velocity of the unknowns at t = 0; empty for none.
+    pub(crate) displacement: Vec<f64>,
+    pub(crate) velocity: Vec<f64>,
     pub(crate) probes: Vec<Probe>,
     pub(crate) moment_center: Option<f64>,
     /// Steps expected, 0 if unknown.
@@ -49,7 +102,11 @@ impl Given {
             motion: Box::new(AtRest),
             scheme: Box::new(Midpoint),
             search: ContactSearch::default(),
-            beginning: Beginning::default(),
+            gravity: STANDARD_GRAVITY,
+            placement: Placement::default(),
+            loads: Vec::new(),
+            displacement: Vec::new(),
+            velocity: Vec::new(),
             probes: Vec::new(),
             moment_center: None,
             steps: 0,
@@ -58,6 +115,21 @@ impl Given {
             safety_friction: Vec::new(),
             serviceability: Serviceability::new(),
         }
+    }
+
+    /// Whether weight and loads are there before the run begins.
+    pub(crate) fn is_static(&self) -> bool {
+        self.gravity > 0.0 && self.placement != Placement::Unloaded
+    }
+
+    /// Gravity as the laws may count on it at the start: zero where nothing presses.
+    pub(crate) fn static_gravity(&self) -> f64 {
+        if self.is_static() { self.gravity } else { 0.0 }
+    }
+
+    /// Whether weight acts as a load from t = 0 on.
+    pub(crate) fn falls(&self) -> bool {
+        self.gravity > 0.0 && self.placement == Placement::Unloaded
     }
 }
 
@@ -86,7 +158,7 @@ impl Parts {
     ) -> Result<Self> {
         let time_step = positive("time step", given.time_step)?;
         positive("square of the time step", time_step * time_step)?;
-        not_negative("gravity", given.beginning.gravity)?;
+        not_negative("gravity", given.gravity)?;
         let missing = |quantity, needed| Error::Scene { quantity, needed };
         let mut structure =
             structure.ok_or(missing("structure", "give one to the builder with `structure`"))?;
@@ -96,13 +168,13 @@ impl Parts {
         let elements = ground.elements().to_vec();
         check_order(&elements)?;
         let count = elements.len();
-        let gravity = given.beginning.static_gravity();
+        let gravity = given.static_gravity();
         check_laws(&given.laws, given.search, &ContactScene { gravity, time_step }, count)?;
         given.safety_friction = safety_friction(&given.laws, given.safety_friction, count)?;
         let unknowns = structure.unknowns();
         check_unknowns(unknowns, count)?;
         probe::check(&given.probes, unknowns)?;
-        given.beginning.check(unknowns)?;
+        check_motion(&given, unknowns)?;
         let coefficients = given.scheme.coefficients(time_step);
         coefficients.check()?;
         let middle = 0.5 * (elements[0].left + elements[count - 1].right);
@@ -129,6 +201,21 @@ impl Parts {
             moment_center,
         })
     }
+}
+
+/// Refuses loads and motions of other unknowns than the structure's, and numbers that are not finite.
+fn check_motion(given: &Given, unknowns: usize) -> Result<()> {
+    let mut loads = given.loads.iter().enumerate();
+    loads.try_for_each(|(index, load)| load.check(index, unknowns))?;
+    for (values, quantity) in
+        [(&given.displacement, "initial displacement"), (&given.velocity, "initial velocity")]
+    {
+        if !values.is_empty() {
+            same_length(quantity, values.len(), unknowns)?;
+            all_finite(quantity, values)?;
+        }
+    }
+    Ok(())
 }
 
 /// Refuses more unknowns than fit into memory, by themselves or with a response to the traction of

@@ -1,9 +1,8 @@
 //! The static state in stages: weight first, then the loads at t = 0.
 
 use super::assembled::Assembled;
-use super::beginning::Placement;
 use super::equilibrium::{Standing, StaticState};
-use super::parts::Parts;
+use super::parts::{Parts, Placement};
 use crate::coupled::diagnosis::stability;
 use crate::error::{Result, all_finite, finite};
 use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, StepStarts, law_of};
@@ -22,26 +21,26 @@ const TIME_STEP: f64 = 1.0;
 /// trivial without gravity.
 pub(super) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticState> {
     let Parts { structure, ground, given, elements, .. } = parts;
-    let (beginning, count, n) = (&given.beginning, elements.len(), assembled.unknowns());
+    let (count, n) = (elements.len(), assembled.unknowns());
     let mut state = StaticState::weightless(count, n);
-    if beginning.is_static() {
+    if given.is_static() {
         let mut own = vec![0.0; n];
         structure.load(0.0, &mut own)?;
         all_finite("load of the structure at t = 0", &own)?;
         let mut load = own.clone();
-        for external in &beginning.loads {
+        for external in &given.loads {
             let force = external.value(0.0);
             external.row().iter().for_each(|&(i, weight)| load[i] += force * weight);
         }
         let mut weight = vec![0.0; n];
         let [_, up] = assembled.influence.of_all(n);
-        assembled.mass.multiply_add(-beginning.gravity, &up, &mut weight);
+        assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
         all_finite("weight", &weight)?;
         all_finite("load at t = 0", &load)?;
         let mut soil = vec![0.0; 4 * count * count];
         ground.static_compliance(&mut soil)?;
         let stage = Standing { assembled, structure: structure.as_ref(), soil: &soil };
-        state = in_stages(&stage, &given.laws, beginning.placement, [&weight, &load])?;
+        state = in_stages(&stage, &given.laws, given.placement, [&weight, &load])?;
         state.load = own;
         if let Some(force) = structure.nonlinear_mut() {
             force.commit(&state.displacement);

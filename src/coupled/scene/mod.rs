@@ -87,14 +87,14 @@ impl Scene {
     ) -> Self {
         let Parts { given, coefficients, .. } = parts;
         let (time_step, coefficients) = (given.time_step, *coefficients);
-        let is_static = given.beginning.is_static();
-        let loads = std::mem::take(&mut given.beginning.loads).into_iter();
+        let is_static = given.is_static();
+        let loads = std::mem::take(&mut given.loads).into_iter();
         let loads = loads.map(|load| SteppedLoad::new(load, &model.transformation, is_static));
         let mut weight = Vec::new();
-        if given.beginning.falls() {
+        if given.falls() {
             weight.resize(model.coordinates, 0.0);
             let [_, up] = model.influence.of_all(model.coordinates);
-            model.mass.multiply_add(-given.beginning.gravity, &up, &mut weight);
+            model.mass.multiply_add(-given.gravity, &up, &mut weight);
         }
         let elements = std::mem::take(&mut parts.elements);
         Self {
