@@ -10,7 +10,7 @@
 //! mode has a share of it.
 
 use super::assembled::Assembled;
-use super::subspace::{DECOUPLED, Subspace, transpose};
+use super::subspace::{DECOUPLED, transpose};
 use crate::coupled::scene::modal_basis::ModalBasis;
 use crate::linalg::{Partition, dot, generalised_modes, largest};
 
@@ -20,8 +20,6 @@ const ZERO: f64 = 1e-11;
 const SMALLEST: f64 = 1e-8;
 /// Rigid motions in a plane.
 const RIGID_MOTIONS: usize = 3;
-/// Least part of a rigid motion that others do not have.
-const INDEPENDENT: f64 = 1e-3;
 
 /// Modes that diagonalise mass, damping and stiffness; `None` if there are none, or not well enough.
 pub(super) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
@@ -48,22 +46,13 @@ pub(super) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
     let is_rigid = |j: &usize| values[*j].abs() <= noise;
     let mode = |j: usize| vectors.iter().skip(j).step_by(n).copied();
 
-    let mut space = Subspace::new(matrices, assembled.influence.translations(n));
-    let separated = space.count();
-    space.extend((0..n).filter(is_rigid).flat_map(mode).collect(), INDEPENDENT);
-    if space.count() != rigid {
-        return None;
-    }
-    let (mut modes, momenta) = (space.vectors().to_vec(), space.momenta(0));
+    let mut still: Vec<Vec<f64>> = (0..n).filter(is_rigid).map(|j| mode(j).collect()).collect();
+    let (basis, separated) = rigid_basis(assembled, &mut still)?;
     let mut squares = vec![0.0; rigid];
+    let mut modes: Vec<f64> = basis.iter().flat_map(|[own, _]| own).copied().collect();
     for j in (0..n).filter(|j| !is_rigid(j)) {
         let mut deforming: Vec<f64> = mode(j).collect();
-        // Twice is enough.
-        for k in (0..separated).chain(0..separated) {
-            let share = dot(&momenta[k * n..(k + 1) * n], &deforming);
-            let own = &space.vectors()[k * n..(k + 1) * n];
-            deforming.iter_mut().zip(own).for_each(|(v, b)| *v -= share * b);
-        }
+        project(&mut deforming, &basis[..separated]);
         modes.extend(deforming);
         squares.push(values[j]);
     }
@@ -86,4 +75,51 @@ pub(super) fn vibration_modes(assembled: &Assembled) -> Option<ModalBasis> {
     }
     let decoupled = (0..2).all(|k| residuals[k] <= DECOUPLED * sizes[k]);
     decoupled.then(|| ModalBasis::of(squares, dampings, transpose(&modes, n)))
+}
+
+/// An orthonormal basis of the rigid modes `still`, as vectors and their momenta: the influence vectors
+/// first, whose number comes with it.
+fn rigid_basis(
+    assembled: &Assembled,
+    still: &mut [Vec<f64>],
+) -> Option<(Vec<[Vec<f64>; 2]>, usize)> {
+    let n = assembled.unknowns();
+    let momentum = |vector: &[f64]| {
+        let mut momentum = vec![0.0; n];
+        assembled.mass.multiply_add(1.0, vector, &mut momentum);
+        momentum
+    };
+    let norm = |vector: &Vec<f64>| dot(vector, &momentum(vector));
+    let normalised = |mut vector: Vec<f64>| {
+        let scale = norm(&vector).sqrt().recip();
+        vector.iter_mut().for_each(|v| *v *= scale);
+        let momentum = momentum(&vector);
+        scale.is_finite().then_some([vector, momentum])
+    };
+    let mut basis = Vec::with_capacity(still.len());
+    for vector in assembled.influence.translations(n).chunks_exact(n) {
+        let mut own = vector.to_vec();
+        project(&mut own, &basis);
+        basis.push(normalised(own)?);
+    }
+    let separated = basis.len();
+    while basis.len() < still.len() {
+        // The one with most left over.
+        still.iter_mut().for_each(|vector| project(vector, &basis));
+        let longest = |a: &&mut Vec<f64>, b: &&mut Vec<f64>| norm(a).total_cmp(&norm(b));
+        let chosen = std::mem::replace(still.iter_mut().max_by(longest)?, vec![0.0; n]);
+        let [mut chosen, _] = normalised(chosen)?;
+        project(&mut chosen, &basis);
+        basis.push(normalised(chosen)?);
+    }
+    (basis.len() == still.len()).then_some((basis, separated))
+}
+
+/// Takes what the basis has of it out of a vector.
+fn project(vector: &mut [f64], basis: &[[Vec<f64>; 2]]) {
+    // Twice is enough.
+    for [own, momentum] in basis.iter().chain(basis) {
+        let share = dot(momentum, vector);
+        vector.iter_mut().zip(own).for_each(|(v, b)| *v -= share * b);
+    }
 }

@@ -63,11 +63,6 @@ impl<'a> Subspace<'a> {
         self.matrices[0].order().max(1)
     }
 
-    /// V.
-    pub(super) fn vectors(&self) -> &[f64] {
-        &self.vectors
-    }
-
     /// V M of the vectors from number `first` on.
     pub(super) fn momenta(&self, first: usize) -> &[f64] {
         &self.momenta[first * self.order()..]
