@@ -122,7 +122,9 @@ impl SparseMatrix {
     /// Σ factor · A of matrices of this order, or without any.
     pub(crate) fn weighted_sum(order: usize, terms: &[(f64, &Self)]) -> Triplets {
         let mut sum = Triplets::new(order);
-        terms.iter().for_each(|(factor, matrix)| matrix.add_to(*factor, &mut sum));
+        for (factor, matrix) in terms {
+            matrix.add_to(*factor, &mut sum);
+        }
         sum
     }
 

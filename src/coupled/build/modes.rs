@@ -92,7 +92,9 @@ fn rigid_basis(
     let norm = |vector: &Vec<f64>| dot(vector, &momentum(vector));
     let normalised = |mut vector: Vec<f64>| {
         let scale = norm(&vector).sqrt().recip();
-        vector.iter_mut().for_each(|v| *v *= scale);
+        for v in &mut vector {
+            *v *= scale;
+        }
         let momentum = momentum(&vector);
         scale.is_finite().then_some([vector, momentum])
     };
@@ -105,7 +107,9 @@ fn rigid_basis(
     let separated = basis.len();
     while basis.len() < still.len() {
         // The one with most left over.
-        still.iter_mut().for_each(|vector| project(vector, &basis));
+        for vector in still.iter_mut() {
+            project(vector, &basis);
+        }
         let longest = |a: &&mut Vec<f64>, b: &&mut Vec<f64>| norm(a).total_cmp(&norm(b));
         let chosen = std::mem::replace(still.iter_mut().max_by(longest)?, vec![0.0; n]);
         let [mut chosen, _] = normalised(chosen)?;

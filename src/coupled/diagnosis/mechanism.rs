@@ -84,7 +84,7 @@ pub(super) struct Regular {
     spring: f64,
     pub(super) factor: SparseFactor,
     /// What keeps mechanisms regular, on the diagonal.
-    regular: Vec<f64>,
+    added: Vec<f64>,
     /// Unknowns without any entry.
     absent: Vec<usize>,
 }
@@ -114,7 +114,7 @@ impl Regular {
                 (is_absent[row], is_absent[column]) = (false, false);
             }
         }
-        let regular: Vec<f64> = diagonal
+        let added: Vec<f64> = diagonal
             .into_iter()
             .enumerate()
             .map(|(i, own)| match mass.get(i) {
@@ -125,10 +125,10 @@ impl Regular {
             })
             .collect();
         let mut sum = matrix.clone();
-        regular.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
+        added.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
         let factor = SparseFactor::new(HeldBase::NAME, &sum).ok()?;
         let absent = (0..is_absent.len()).filter(|&i| is_absent[i]).collect();
-        Some(Self { matrix, spring, factor, regular, absent })
+        Some(Self { matrix, spring, factor, added, absent })
     }
 
     /// The unknowns that take part in displacements which do work of at most `free`, ascending.
@@ -136,7 +136,7 @@ impl Regular {
     /// All such displacements together: by the length of their rows in a basis that the regular part
     /// makes orthonormal, so that neither its choice nor the numbering of unknowns matters.
     fn free_unknowns(&mut self, free: f64) -> Option<Vec<usize>> {
-        let n = self.regular.len();
+        let n = self.added.len();
         let mut basis: Vec<Vec<f64>> = Vec::new();
         while basis.len() < MOST_MOTIONS.min(n) {
             match self.softest(&basis) {
@@ -145,7 +145,7 @@ impl Regular {
             }
         }
         let part = |i: usize| basis.iter().map(|motion| motion[i] * motion[i]).sum::<f64>().sqrt();
-        let moves = |i: usize| if self.regular[i] > 0.0 { part(i) } else { 0.0 };
+        let moves = |i: usize| if self.added[i] > 0.0 { part(i) } else { 0.0 };
         let parts: Vec<f64> = (0..n).map(moves).collect();
         let most = largest(&parts);
         (!basis.is_empty()).then(|| (0..n).filter(|&i| parts[i] > TAKES_PART * most).collect())
@@ -155,20 +155,19 @@ impl Regular {
     fn softest(&mut self, basis: &[Vec<f64>]) -> Option<Vec<f64>> {
         // Inverse iteration from a vector of all signs and sizes.
         let mut motion: Vec<f64> =
-            (0..self.regular.len()).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
+            (0..self.added.len()).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
         for _ in 0..ITERATIONS {
-            let mut force: Vec<f64> =
-                motion.iter().zip(&self.regular).map(|(u, r)| u * r).collect();
+            let mut force: Vec<f64> = motion.iter().zip(&self.added).map(|(u, r)| u * r).collect();
             self.factor.solve(&mut force);
             motion = force;
             for known in basis.iter().chain(basis) {
-                let share = weighted_dot(&self.regular, known, &motion);
+                let share = weighted_dot(&self.added, known, &motion);
                 motion.iter_mut().zip(known).for_each(|(u, known)| *u -= share * known);
             }
             // First by the largest: squares may overflow.
             let size = largest(&motion);
             motion = motion.into_iter().map(|u| u / size).collect();
-            let size = weighted_dot(&self.regular, &motion, &motion).sqrt();
+            let size = weighted_dot(&self.added, &motion, &motion).sqrt();
             if !(size.is_finite() && size > 0.0) {
                 return None;
             }

@@ -112,7 +112,9 @@ impl Factor {
         let mut inverse = vec![0.0; model.coordinates];
         let matrix = effective_stiffness(model, coefficients, &SparseMatrix::default());
         matrix.entries().iter().for_each(|&(i, _, k)| inverse[i] += k);
-        inverse.iter_mut().for_each(|k| *k = 1.0 / *k);
+        for k in &mut inverse {
+            *k = 1.0 / *k;
+        }
         if inverse.iter().all(|x| x.is_finite()) {
             return Ok(Self::Diagonal(inverse));
         }

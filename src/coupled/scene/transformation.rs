@@ -87,7 +87,9 @@ impl Weights {
     pub(crate) fn add(&self, factor: f64, force: &mut [f64]) {
         match self {
             Self::Sparse(terms) => {
-                terms.iter().for_each(|&(i, weight)| force[i] += factor * weight)
+                for &(i, weight) in terms {
+                    force[i] += factor * weight;
+                }
             }
             Self::Dense(weights) => {
                 force.iter_mut().zip(weights).for_each(|(f, weight)| *f += factor * weight);
