@@ -20,7 +20,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::error::{Error, Result};
-use crate::words::{count, unknown, with_number};
+use crate::text::words::{count, unknown, with_number};
 
 /// The words that `FromStr` reads: `robust`, `flow_chart(50)`.
 impl fmt::Display for ContactSearch {

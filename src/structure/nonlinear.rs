@@ -2,7 +2,7 @@
 
 use super::{InternalEnergy, Structure, Triplets};
 use crate::error::{CheckpointError, Error, Result, same_length};
-use crate::matrix::SparseMatrix;
+use crate::linalg::matrix::SparseMatrix;
 
 /// The nonlinear force f(u) of a structure, beyond K u: implement this for materials that yield,
 /// geometry that changes, parts that collide.

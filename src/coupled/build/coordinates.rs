@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::error::{Error, Result};
-use crate::words::{unknown, with_number};
+use crate::text::words::{unknown, with_number};
 
 /// In which coordinates a linear structure is stepped. Results are the same to rounding but for
 /// [`Coordinates::Reduced`].

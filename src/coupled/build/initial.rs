@@ -5,8 +5,8 @@ use crate::coupled::scene::Scene;
 use crate::coupled::state::State;
 use crate::error::{Error, Result};
 use crate::interface::{Mode, StepStart, StepStarts};
+use crate::linalg::matrix::Matrix;
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
-use crate::matrix::Matrix;
 use crate::structure::{Structure, nonlinear_state};
 
 /// Gap relative to the largest displacement below which an element is closed.

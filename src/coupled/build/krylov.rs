@@ -18,8 +18,8 @@ use super::subspace::Subspace;
 use crate::coupled::scene::modal_basis::ModalBasis;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, ReducedError, Result, finite};
+use crate::linalg::matrix::spread;
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
-use crate::matrix::spread;
 use crate::structure::{HeldBase, stiffest};
 
 /// From one shift to the next.

@@ -5,17 +5,17 @@ use std::sync::Arc;
 use super::coordinates::Coordinates;
 use crate::bem::{ContactElement, Ground};
 use crate::contact::ContactSearch;
-use crate::contact_element::check_order;
 use crate::coupled::load::Load;
-use crate::coupled::probe::{self, Probe};
+use crate::coupled::run::Serviceability;
 use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
+use crate::error::memory;
 use crate::error::{Error, Result, all_finite, finite, not_negative, positive, same_length};
+use crate::geometry::check_order;
 use crate::interface::{ContactScene, InterfaceLaw};
 use crate::linalg::indefinite_pivot;
-use crate::matrix::{self, Thinned};
-use crate::memory;
+use crate::linalg::matrix::{self, Thinned};
 use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
-use crate::results::Serviceability;
+use crate::structure::probe::{self, Probe};
 use crate::structure::{Structure, is_nonlinear};
 
 /// Negative eigenvalue of the ground's operator that is rounding, in the matrix scaled to a diagonal of

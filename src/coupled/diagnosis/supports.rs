@@ -26,8 +26,8 @@
 use crate::coupled::scene::base::Base;
 use crate::coupled::scene::influence::Influence;
 use crate::error::{Error, Result};
+use crate::linalg::matrix::spread;
 use crate::linalg::{SparseMatrix, largest};
-use crate::matrix::spread;
 use crate::structure::{Structure, Tangent};
 
 /// Largest lag: far above rounding, and what a weight may be off.

@@ -7,7 +7,7 @@
 
 use super::base::Base;
 use super::transformation::Terms;
-use crate::matrix::spread;
+use crate::linalg::matrix::spread;
 use crate::structure::ContactNode;
 
 /// The influence vectors of all connected parts.

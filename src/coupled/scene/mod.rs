@@ -13,13 +13,13 @@ use super::build::equilibrium::StaticState;
 use super::build::parts::Parts;
 use super::load::SteppedLoad;
 use super::motion::Motion;
-use super::probe::Probe;
 use super::scheme::SchemeCoefficients;
 use crate::bem::ContactElement;
+use crate::coupled::run::Serviceability;
 use crate::error::LawError;
 use crate::interface::{InterfaceLaw, Mode, StepStarts, law_of};
-use crate::matrix::{Thinned, spread};
-use crate::results::Serviceability;
+use crate::linalg::matrix::{Thinned, spread};
+use crate::structure::probe::Probe;
 use base::Base;
 use influence::Part;
 use model::Model;
@@ -213,7 +213,10 @@ impl Scene {
         let named = [("normal compliance", compliance[0]), ("shear compliance", compliance[1])];
         match named.into_iter().find(|(_, value)| !value.is_finite()) {
             None => Ok(compliance),
-            Some((quantity, value)) => Err(LawError::NotFinite { element, mode, quantity, value }),
+            Some((quantity, value)) => {
+                let mode = mode.word();
+                Err(LawError::NotFinite { element, mode, quantity, value })
+            }
         }
     }
 }

@@ -10,8 +10,8 @@
 //! per mode, and as many per mode and contact component to meet the ground. Only the rows of Φ
 //! that the ground or a probe sees are needed in a step; the others wait until they are asked for.
 
+use crate::linalg::matrix::{SparseMatrix, spread};
 use crate::linalg::{dot, largest};
-use crate::matrix::{SparseMatrix, spread};
 
 /// Vibration modes of a structure: all of them, or fewer Ritz modes.
 #[derive(Debug)]

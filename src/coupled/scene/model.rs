@@ -7,7 +7,7 @@ use super::modal_basis::ModalBasis;
 use super::transformation::{Terms, Transformation};
 use crate::coupled::build::assembled::Assembled;
 use crate::error::Result;
-use crate::matrix::{Diagonals, Matrix};
+use crate::linalg::matrix::{Diagonals, Matrix};
 use crate::structure::Structure;
 
 /// Matrices, influence vectors and coordinates of a structure.

@@ -7,8 +7,8 @@
 use std::sync::Arc;
 
 use super::modal_basis::ModalBasis;
+use crate::linalg::matrix::SparseMatrix;
 use crate::linalg::{dense_multiply_add, dot, transposed_multiply_add};
-use crate::matrix::SparseMatrix;
 
 /// (coordinate, weight) pairs.
 pub(crate) type Terms = Vec<(usize, f64)>;
