@@ -12,7 +12,7 @@ use crate::history::{
 
 /// Any soil that knows its step coefficients and its static compliance, as a ground.
 ///
-/// [`HalfPlaneGround`](super::HalfPlaneGround) is made of it, and so can be a soil of your own: a
+/// [`ElasticGround`](super::ElasticGround) is made of it, and so can be a soil of your own: a
 /// [`KernelSource`] and its [`LagKernel`]. All kinds of histories, their choice, shared kernels
 /// and checkpoints come with it.
 ///

@@ -7,9 +7,9 @@
 //! tangential ones (traction τ on the soil and displacement, positive to the right). They are
 //! means over the elements, from left to right.
 
+mod elastic_ground;
 #[cfg(feature = "full-plane")]
 pub mod full_plane;
-mod half_plane;
 mod influence;
 mod kernel_ground;
 mod kernel_source;
@@ -23,7 +23,7 @@ mod spring;
 mod static_kernel;
 mod strip;
 
-pub use half_plane::HalfPlaneGround;
+pub use elastic_ground::ElasticGround;
 pub use influence::{Influence, InfluenceKernel, PairInfluence};
 pub use kernel_ground::KernelGround;
 pub use kernel_source::KernelSource;

@@ -1,6 +1,5 @@
 //! Winkler's spring bed: a ground without memory.
 
-use super::strip::strips_under;
 use super::{Grading, Ground, Strip};
 use crate::contact_element::{ContactElement, check_order};
 use crate::error::{CheckpointError, Error, Result, not_negative, positive, same_length};
@@ -50,14 +49,14 @@ impl SpringGround {
     /// The same under each foundation of `structure`, as wide as that is, of `count` equal elements.
     ///
     /// # Errors
-    /// As for [`HalfPlaneGround::under`](super::HalfPlaneGround::under) and [`SpringGround::new`].
+    /// As for [`Strip::under`] and [`SpringGround::new`].
     pub fn under(
         structure: &dyn Structure,
         count: usize,
         normal_stiffness: f64,
         tangential_stiffness: f64,
     ) -> Result<Self> {
-        let strips = strips_under(structure, count, Grading::Uniform)?;
+        let strips = Strip::under(structure, count, Grading::Uniform)?;
         Self::on_strips(&strips, normal_stiffness, tangential_stiffness)
     }
 

@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::response_estimate::{Sketch, Steps, StiffnessError};
 use crate::Soil;
-use crate::bem::{Grading, HalfPlaneGround, Strip};
+use crate::bem::{ElasticGround, Grading, Strip};
 use crate::error::{Error, Result, damping_ratio, not_negative, positive};
 use crate::history::History;
 use crate::motion::FrequencyContent;
@@ -119,10 +119,10 @@ impl Advice {
     /// Half-plane with the advised strip over `range` (m) and history.
     ///
     /// # Errors
-    /// As for [`HalfPlaneGround::new`].
-    pub fn ground(&self, soil: Soil, range: std::ops::Range<f64>) -> Result<HalfPlaneGround> {
+    /// As for [`ElasticGround::new`].
+    pub fn ground(&self, soil: Soil, range: std::ops::Range<f64>) -> Result<ElasticGround> {
         let strip = Strip::new(range, self.elements, self.grading)?;
-        Ok(HalfPlaneGround::new(soil, &[strip])?.with_history_kind(self.history))
+        Ok(ElasticGround::new(soil, strip)?.with_history_kind(self.history))
     }
 }
 

@@ -3,9 +3,9 @@
 //! REFERENCE: the fields of the error, and the clock.
 
 use basemat::bem::layered::{
-    LayeredGround, LayeredKernel, Stages, StripContact, rigid_strip_impedances, static_compliance,
+    LayeredKernel, Stages, StripContact, rigid_strip_impedances, static_compliance,
 };
-use basemat::bem::{ContactElement, Grading, Ground, Strip};
+use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, Strip};
 use basemat::history::LagKernel;
 use basemat::interface::Bonded;
 use basemat::soil::{
@@ -42,7 +42,8 @@ fn hysteretic_damping_is_refused_in_time() {
         .with_layer(soil(), 3.0)
         .unwrap()
         .with_damping(Hysteretic::new(0.05).unwrap());
-    let mut ground = LayeredGround::uniform_strip(profile.clone(), -3.0..3.0, 3).unwrap();
+    let mut ground =
+        ElasticGround::new(profile.clone(), Strip::uniform(-3.0..3.0, 3).unwrap()).unwrap();
     let found = ground.impedances(&[2.0], StripContact::Bonded).unwrap();
     let known =
         rigid_strip_impedances(&profile, &elements(), &[2.0], StripContact::Bonded).unwrap();

@@ -3,7 +3,7 @@
 //! REFERENCE: the fields of the error; nothing is allocated for an absurd count.
 
 use basemat::bem::{
-    ContactElement, Grading, Ground, HalfPlaneGround, InfluenceKernel, PatchKernel, SpringGround,
+    ContactElement, ElasticGround, Grading, Ground, InfluenceKernel, PatchKernel, SpringGround,
     StaticKernel, Strip,
 };
 use basemat::coupled::Outline;
@@ -39,13 +39,17 @@ fn strips_and_grounds() {
     let found = error_with("strip nodes", Strip::from_nodes(vec![1.0]));
     assert!(matches!(found, Error::Size { found: 1, needed: 2, .. }));
 
-    refused("length of the strip", &[-1.0], |x| HalfPlaneGround::uniform_strip(soil(), 0.0..x, 2));
-    refused("number of contact", &[0.0], |_| HalfPlaneGround::strip(soil(), 0.0..1.0, 0));
-    let none = error_with("contact elements", HalfPlaneGround::new(soil(), &[]));
+    refused("length of the strip", &[-1.0], |x| {
+        ElasticGround::new(soil(), Strip::uniform(0.0..x, 2)?)
+    });
+    refused("number of contact", &[0.0], |_| {
+        ElasticGround::new(soil(), Strip::graded(0.0..1.0, 0)?)
+    });
+    let none = error_with("contact elements", ElasticGround::new(soil(), []));
     assert!(matches!(none, Error::Size { found: 0, needed: 1, .. }));
     let strip = |left: f64| Strip::uniform(left..left + 2.0, 2).unwrap();
     refused("left end of a contact element", &[1.0, -2.0], |x| {
-        HalfPlaneGround::new(soil(), &[strip(0.0), strip(x)])
+        ElasticGround::new(soil(), [strip(0.0), strip(x)])
     });
 
     refused("normal stiffness", &BAD, |x| SpringGround::new(0.0..1.0, 2, x, 1.0));
@@ -54,12 +58,14 @@ fn strips_and_grounds() {
     refused("tangential dashpot", &NEGATIVE, |x| bed(2).with_dashpots(0.0, x));
     refused("theta", &[0.49, 1.01, f64::NAN], |x| bed(2).with_theta(x));
     refused("time step", &BAD, |x| bed(2).prepare(x));
-    refused("time step", &BAD, |x| HalfPlaneGround::uniform_strip(soil(), 0.0..1.0, 2)?.prepare(x));
+    refused("time step", &BAD, |x| {
+        ElasticGround::new(soil(), Strip::uniform(0.0..1.0, 2)?)?.prepare(x)
+    });
 }
 
 #[test]
 fn an_unprepared_half_plane_says_so() {
-    let mut ground = HalfPlaneGround::uniform_strip(soil(), 0.0..1.0, 1).unwrap();
+    let mut ground = ElasticGround::new(soil(), Strip::uniform(0.0..1.0, 1).unwrap()).unwrap();
     error_with("prepare", ground.instantaneous(&mut [0.0; 4]));
     error_with("prepare", ground.history(&mut [0.0; 2]));
     error_with("prepare", ground.reserve(10));
@@ -76,10 +82,10 @@ fn an_unprepared_spring_bed_says_so() {
 #[test]
 fn absurd_counts_do_not_panic() {
     for count in [0, 1_000_000_000_000, usize::MAX] {
-        error_with("contact elements", HalfPlaneGround::uniform_strip(soil(), 0.0..1.0, count));
+        error_with("contact elements", Strip::uniform(0.0..1.0, count));
         error_with("contact elements", SpringGround::new(0.0..1.0, count, 1.0, 1.0));
     }
-    let mut ground = HalfPlaneGround::uniform_strip(soil(), 0.0..1.0, 1).unwrap();
+    let mut ground = ElasticGround::new(soil(), Strip::uniform(0.0..1.0, 1).unwrap()).unwrap();
     ground.prepare(0.01).unwrap();
     ground.reserve(usize::MAX).unwrap();
 

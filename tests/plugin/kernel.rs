@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use basemat::bem::{
-    ContactElement, Grading, Ground, HalfPlaneGround, KernelGround, KernelSource, PatchKernel,
+    ContactElement, ElasticGround, Grading, Ground, KernelGround, KernelSource, PatchKernel,
     SharedKernels, SpringGround, Strip,
 };
 use basemat::coupled::Run;
@@ -390,16 +390,16 @@ fn a_block_on_the_voigt_bed() {
 /// The half-plane from outside: the same bits as the crate's own ground.
 #[test]
 fn a_kernel_ground_is_what_the_half_plane_is_made_of() {
-    struct Outside(HalfPlaneGround);
+    struct Outside(ElasticGround);
     impl KernelSource for Outside {
         fn kernel(&self, elements: &[ContactElement], dt: f64) -> Result<Arc<dyn LagKernel>> {
-            Ok(Arc::new(PatchKernel::new(self.0.soil(), elements.to_vec(), dt)?))
+            Ok(Arc::new(PatchKernel::new(soil(), elements.to_vec(), dt)?))
         }
         fn static_compliance(&self, _: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
             self.0.static_compliance(matrix)
         }
     }
-    let ground = || HalfPlaneGround::strip(soil(), -2.0..2.0, 6).unwrap();
+    let ground = || ElasticGround::new(soil(), Strip::graded(-2.0..2.0, 6).unwrap()).unwrap();
     let elements = ground().elements().to_vec();
     let own = KernelGround::new(Outside(ground()), elements).unwrap();
     let (own, other) = (run(own, 5e-3, 300).0, run(ground(), 5e-3, 300).0);
@@ -497,7 +497,7 @@ fn the_steps_of_a_run_are_announced_however_many() {
     ] {
         let mut simulation = Simulation::builder(5e-3)
             .structure(block())
-            .ground(HalfPlaneGround::uniform_strip(soil(), -2.0..2.0, 8).unwrap())
+            .ground(ElasticGround::new(soil(), Strip::uniform(-2.0..2.0, 8).unwrap()).unwrap())
             .interface(Coulomb::new(0.4).unwrap())
             .motion(push())
             .build()

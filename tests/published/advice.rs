@@ -3,7 +3,7 @@
 //! results had a part in making the advice.
 //! REFERENCE: frequency-domain tables, and much finer runs.
 
-use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::coupled::{Advice, Outline, SimulationBuilder, advise};
 use basemat::interface::Bonded;
 use basemat::motion::{FrequencyContent, Record, el_centro_1940};
@@ -191,7 +191,7 @@ fn a_record_comes_out_as_asked() {
     let outline = Outline::new(10.0, 15.0, building.total_mass())
         .and_then(|o| o.with_frequency(building.fixed_base_frequency(), 0.05))
         .unwrap();
-    let shear = |time_step: f64, ground: HalfPlaneGround| {
+    let shear = |time_step: f64, ground: ElasticGround| {
         let builder: SimulationBuilder = Simulation::builder(time_step)
             .structure(building.clone())
             .ground(ground)
@@ -205,7 +205,7 @@ fn a_record_comes_out_as_asked() {
     };
     let fine = 1e-3;
     let strip = Strip::new(-5.0..5.0, 40, Grading::Cosine).unwrap();
-    let reference = shear(fine, HalfPlaneGround::new(soil, &[strip]).unwrap());
+    let reference = shear(fine, ElasticGround::new(soil, strip).unwrap());
     // ∫ V dt of the reference, whose force is constant in each of its steps.
     let impulse = |time: f64| {
         let whole_steps = whole((time / fine + 1e-9).floor());
@@ -249,7 +249,7 @@ impl Scene {
         self.sway.map_or(outline, |[f, damping]| outline.with_frequency(f, damping).unwrap())
     }
 
-    fn run(&self, time_step: f64, ground: HalfPlaneGround) -> Vec<f64> {
+    fn run(&self, time_step: f64, ground: ElasticGround) -> Vec<f64> {
         let builder = Simulation::builder(time_step)
             .ground(ground)
             .interface(Bonded)
@@ -284,7 +284,7 @@ impl Scene {
         let advice = advise(soil, &self.outline(), &content, self.tolerance).unwrap();
         let forces = self.run(advice.time_step, advice.ground(soil, -5.0..5.0).unwrap());
         let strip = Strip::new(-5.0..5.0, 3 * advice.elements, Grading::Cosine).unwrap();
-        let fine = self.run(advice.time_step / 3.0, HalfPlaneGround::new(soil, &[strip]).unwrap());
+        let fine = self.run(advice.time_step / 3.0, ElasticGround::new(soil, strip).unwrap());
         let mut history = Difference::default();
         for (force, parts) in forces.iter().zip(fine.chunks_exact(3)) {
             history.add(*force, parts.iter().sum::<f64>() / 3.0);

@@ -18,7 +18,7 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 ///
 /// In every step the displacements of the traction-free elements are eliminated from
 /// H⁰ u = G⁰ t + history (eqs. 17–18, 21), which leaves the contact elements. The instantaneous
-/// operator is not symmetric. Beside [`HalfPlaneGround`](crate::bem::HalfPlaneGround), which needs
+/// operator is not symmetric. Beside [`ElasticGround`](crate::bem::ElasticGround), which needs
 /// no free surface and is always stable, this ground serves for comparison with the paper and for
 /// boundaries that are not flat.
 ///

@@ -271,7 +271,7 @@ impl LagKernel for LayeredKernel {
 }
 
 /// Error unless `tolerance` can be reached and is worth the name.
-pub(super) fn check_tolerance(tolerance: f64) -> Result<f64> {
+pub(crate) fn check_tolerance(tolerance: f64) -> Result<f64> {
     if (1e-13..=1e-4).contains(&tolerance) {
         return Ok(tolerance);
     }
@@ -283,7 +283,7 @@ pub(super) fn check_tolerance(tolerance: f64) -> Result<f64> {
 }
 
 /// Error unless `seconds` can be a limit.
-pub(super) fn check_limit(seconds: f64) -> Result<f64> {
+pub(crate) fn check_limit(seconds: f64) -> Result<f64> {
     if seconds >= 0.0 {
         return Ok(seconds);
     }
