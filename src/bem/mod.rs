@@ -37,6 +37,7 @@ use std::any::Any;
 
 pub use crate::contact_element::ContactElement;
 
+use crate::contact_element::ContactLayout;
 use crate::error::{CheckpointError, Result};
 use crate::history::HistoryChoice;
 use crate::motion::FreeField;
@@ -150,8 +151,7 @@ pub trait Ground: Any + Send {
     /// Overwrites `displacement` (2Q, m; normal components **down**) with the motion of the soil
     /// without structure at `time`. The default samples `motion` at the element midpoints.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
-        let (down, along) =
-            displacement.split_at_mut(self.elements().len().min(displacement.len()));
+        let [down, along] = ContactLayout::new(self.elements().len()).split_mut(displacement);
         for (element, (down, along)) in self.elements().iter().zip(down.iter_mut().zip(along)) {
             let [horizontal, vertical] = motion.displacement(element.center(), time);
             *down = -vertical;

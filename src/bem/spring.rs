@@ -1,7 +1,7 @@
 //! Winkler's spring bed: a ground without memory.
 
 use super::{Grading, Ground, Strip};
-use crate::contact_element::{ContactElement, check_order};
+use crate::contact_element::{ContactElement, ContactLayout, check_order};
 use crate::error::{CheckpointError, Error, Result, not_negative, positive, same_length};
 use crate::structure::Structure;
 
@@ -75,7 +75,7 @@ impl SpringGround {
         positive("normal stiffness of the spring bed", normal_stiffness)?;
         positive("tangential stiffness of the spring bed", tangential_stiffness)?;
         Ok(Self {
-            displacement: vec![0.0; 2 * elements.len()],
+            displacement: vec![0.0; ContactLayout::new(elements.len()).len()],
             elements,
             stiffness: [normal_stiffness, tangential_stiffness],
             dashpot: [0.0; 2],
@@ -125,7 +125,7 @@ impl SpringGround {
     }
 
     fn fill_diagonal(&self, matrix: &mut [f64], value: impl Fn(usize) -> f64) -> Result<()> {
-        let size = 2 * self.elements.len();
+        let size = self.displacement.len();
         same_length("matrix of the spring bed", matrix.len(), size * size)?;
         matrix.fill(0.0);
         for i in 0..size {
@@ -135,7 +135,7 @@ impl SpringGround {
     }
 
     fn component(&self, index: usize) -> usize {
-        usize::from(index >= self.elements.len())
+        ContactLayout::new(self.elements.len()).origin(index)[0]
     }
 }
 

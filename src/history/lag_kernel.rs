@@ -1,7 +1,7 @@
 //! The kernel of a convolution history: a ground's coefficients, lag by lag.
 
 use super::late_lags::LateLags;
-use super::pair_classes::PairClasses;
+use super::pair_classes::{KINDS, PairClasses};
 use super::relaxed_fft::spectra::SharedSpectra;
 use crate::error::{Result, same_length};
 
@@ -92,28 +92,16 @@ pub trait LagKernel: Send + Sync {
     /// [`LagKernel::coefficients`].
     fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
         let classes = self.classes();
-        let count = classes.elements().len();
-        same_length("instantaneous operator", matrix.len(), 4 * count * count)?;
+        same_length("instantaneous operator", matrix.len(), classes.layout().square())?;
         self.prepare(1)?;
         let first = (0..classes.count())
             .map(|class| {
-                let [mut zz, mut xx, mut zx] = [[0.0]; 3];
+                let [mut zz, mut xx, mut zx] = [[0.0]; KINDS];
                 self.coefficients(class, 1, &mut zz, &mut xx, &mut zx)?;
                 Ok([zz[0], xx[0], zx[0]])
             })
             .collect::<Result<Vec<_>>>()?;
-        for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
-            for (q, pair) in pairs.iter().enumerate() {
-                let [zz, xx, zx] = first[pair.class].map(|value| value * pair.scale);
-                let mut set = |row: usize, column: usize, value: f64| {
-                    matrix[row * 2 * count + column] = value;
-                };
-                set(p, q, zz);
-                set(count + p, count + q, xx);
-                set(p, count + q, pair.sign * zx);
-                set(count + p, q, -pair.sign * zx);
-            }
-        }
+        classes.scatter(matrix, |_, pair| first[pair.class].map(|value| value * pair.scale));
         Ok(())
     }
 }

@@ -15,7 +15,8 @@ mod sparse;
 pub(crate) use complex::hermitian_range;
 pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
-pub(crate) use eigen::{generalised_modes, indefinite_pivot, least_eigenvalue, symmetric_modes};
+pub(crate) use eigen::{generalised_modes, indefinite_pivot, symmetric_modes};
+pub(crate) use faer::traits::ComplexField;
 pub(crate) use lanczos::lowest_modes;
 pub(crate) use partition::Partition;
 pub(crate) use product::{

@@ -19,6 +19,7 @@ use std::f64::consts::TAU;
 
 use realfft::RealFftPlanner;
 
+use crate::contact_element::ContactLayout;
 use crate::error::{Error, Result, positive, same_length};
 use crate::soil::Soil;
 
@@ -259,12 +260,14 @@ fn scatter<const WIDTH: usize>(
     g: &mut [f64],
     h: &mut [f64],
 ) {
+    let layout = ContactLayout::new(count);
     for row in 0..count {
         for column in 0..count {
             let block = block(view_of[row * count + column]);
             for i in 0..2 {
                 for j in 0..2 {
-                    let place = WIDTH * ((i * count + row) * 2 * count + j * count + column);
+                    let place =
+                        WIDTH * (layout.place(i, row) * layout.len() + layout.place(j, column));
                     g[place..place + WIDTH].copy_from_slice(&block[2 * i + j]);
                     h[place..place + WIDTH].copy_from_slice(&block[4 + 2 * i + j]);
                 }

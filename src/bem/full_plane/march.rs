@@ -2,6 +2,7 @@
 
 use super::BoundaryKernel;
 use super::convolution::BoundaryHistory;
+use crate::contact_element::ContactLayout;
 use crate::error::{Error, Result, same_length};
 use crate::linalg::{DenseFactor, dense_multiply_add, largest};
 
@@ -54,7 +55,7 @@ impl BoundaryMarch {
     /// [`Error::Size`] for the wrong number of entries, [`Error::Singular`] if the boundary values
     /// do not determine the rest, and what the kernel says.
     pub fn new(kernel: Box<dyn BoundaryKernel>, given: &[Given]) -> Result<Self> {
-        let size = 2 * kernel.segments().len();
+        let size = ContactLayout::new(kernel.segments().len()).len();
         same_length("list of given components", given.len(), size)?;
         let (mut g, mut h) = (vec![0.0; size * size], vec![0.0; size * size]);
         kernel.coefficients(0, &mut g, &mut h)?;

@@ -17,6 +17,7 @@ use std::f64::consts::{PI, TAU};
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 
+use crate::contact_element::ContactLayout;
 use crate::error::{Error, Result, same_length};
 use crate::linalg::{DenseFactor, largest};
 
@@ -58,7 +59,8 @@ impl<'a> Symbol<'a> {
         if count == 0 {
             return Err(Error::Size { quantity: "segments", found: 0, needed: 1 });
         }
-        let size = 4 * count * count;
+        let layout = ContactLayout::new(count);
+        let size = layout.square();
         let mut symbol = Self {
             kernel,
             prescribed: vec![],
@@ -75,7 +77,7 @@ impl<'a> Symbol<'a> {
         let (g, h) = first.split_at(size);
         symbol.scale = largest(h) / largest(g);
         if !symbol.scale.is_finite() {
-            return Err(Error::Singular { matrix: "coefficients of lag 0", order: 2 * count });
+            return Err(Error::Singular { matrix: "coefficients of lag 0", order: layout.len() });
         }
         loop {
             symbol.fit_tail()?;

@@ -10,10 +10,9 @@
 //! with a free datum L₀ (Gradshteyn & Ryzhik 3.941, 3.943). A rigid base is its own datum.
 
 use super::compliance::{Compliance, Surface};
-use super::passivity::assembled;
 use super::wavenumber::{Wavenumbers, Workspace};
 use crate::complex::Complex;
-use crate::contact_element::ContactElement;
+use crate::contact_element::{ContactElement, ContactLayout};
 use crate::error::{Result, same_length};
 use crate::gauss;
 use crate::history::PairClasses;
@@ -39,19 +38,14 @@ pub fn static_compliance(
     elements: &[ContactElement],
     matrix: &mut [f64],
 ) -> Result<()> {
-    let count = elements.len();
-    same_length("static compliance", matrix.len(), 4 * count * count)?;
+    let size = ContactLayout::new(elements.len()).square();
+    same_length("static compliance", matrix.len(), size)?;
     let classes = PairClasses::new(elements.to_vec())?;
     let values = pairs(profile, &classes)?;
-    let full = assembled(&classes, &values);
-    for (row, (line, full)) in
-        matrix.chunks_exact_mut(2 * count).zip(full.chunks_exact(2 * count)).enumerate()
-    {
-        let length = elements[row % count].length();
-        for (mean, value) in line.iter_mut().zip(full) {
-            *mean = value.re / length;
-        }
-    }
+    classes.scatter(matrix, |[receiver, _], pair| {
+        let length = elements[receiver].length();
+        values[pair.class].map(|value| value.re / length)
+    });
     Ok(())
 }
 
