@@ -52,10 +52,9 @@ use crate::history::{
 ///         &self,
 ///         class: usize,
 ///         first_lag: usize,
-///         normal: &mut [f64],
-///         tangential: &mut [f64],
-///         coupling: &mut [f64],
+///         values: [&mut [f64]; 3],
 ///     ) -> Result<()> {
+///         let [normal, tangential, coupling] = values;
 ///         let Bed { stiffness, dashpots } = self.bed;
 ///         let rate = stiffness * self.time_step / dashpots;
 ///         let [source, receiver] = self.classes.representative(class)?;

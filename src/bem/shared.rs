@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, ThreadId};
 
-use super::kernel_source::KernelSource;
+use super::KernelSource;
 use crate::contact_element::ContactElement;
 use crate::error::{Error, Result};
 use crate::history::LagKernel;

@@ -50,9 +50,10 @@ impl DirectHistory {
         self.kernel.prepare(new)?;
         for class in 0..self.kernel.classes().count() {
             let last = self.kernel.last_coupling_lag(class)?.unwrap_or(new).min(new);
-            let [zz, xx, zx] = &mut lags;
-            self.kernel.coefficients(class, old + 1, zz, xx, zx)?;
+            let values = lags.each_mut().map(Vec::as_mut_slice);
+            self.kernel.coefficients(class, old + 1, values)?;
             let [normal, tangential, coupling] = &mut self.kinds;
+            let [zz, xx, zx] = &lags;
             prepend_reversed(&mut normal[class], zz);
             prepend_reversed(&mut tangential[class], xx);
             if last > coupling[class].len() {

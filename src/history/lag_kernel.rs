@@ -45,9 +45,10 @@ pub trait LagKernel: Send + Sync {
         Ok(())
     }
 
-    /// Overwrites the slices (of one length) with the coefficients of `class` for the lags from
-    /// `first_lag` (≥ 1) on, integrals over the receiver in m²/Pa: down due to pressure, to the right
-    /// due to shear, and down due to shear with the receiver to the right of the source. Lags that
+    /// Overwrites the slices of `values` (of one length, one for each kind: normal, tangential,
+    /// coupling) with the coefficients of `class` for the lags from `first_lag` (≥ 1) on, integrals
+    /// over the receiver in m²/Pa: down due to pressure, to the right due to shear, and down due to
+    /// shear with the receiver to the right of the source. Lags that
     /// were not [prepared](LagKernel::prepare) are computed now.
     ///
     /// # Errors
@@ -58,9 +59,7 @@ pub trait LagKernel: Send + Sync {
         &self,
         class: usize,
         first_lag: usize,
-        normal: &mut [f64],
-        tangential: &mut [f64],
-        coupling: &mut [f64],
+        values: [&mut [f64]; KINDS],
     ) -> Result<()>;
 
     /// Last lag at which the coupling of `class` is not zero (0 if it always is); `None` (the
@@ -96,9 +95,9 @@ pub trait LagKernel: Send + Sync {
         self.prepare(1)?;
         let first = (0..classes.count())
             .map(|class| {
-                let [mut zz, mut xx, mut zx] = [[0.0]; KINDS];
-                self.coefficients(class, 1, &mut zz, &mut xx, &mut zx)?;
-                Ok([zz[0], xx[0], zx[0]])
+                let mut lag = [[0.0]; KINDS];
+                self.coefficients(class, 1, lag.each_mut().map(|value| value.as_mut_slice()))?;
+                Ok(lag.map(|[value]| value))
             })
             .collect::<Result<Vec<_>>>()?;
         classes.scatter(matrix, |_, pair| first[pair.class].map(|value| value * pair.scale));

@@ -100,7 +100,7 @@ fn absurd_counts_do_not_panic() {
     let kernel = InfluenceKernel::new(soil(), 1e-30).unwrap();
     let pair = kernel.pair(right, left).unwrap();
     assert_eq!(pair.coupling_ends(), usize::MAX);
-    pair.fill(usize::MAX, &mut [0.0; 2], &mut [0.0; 2], &mut [0.0; 2]).unwrap();
+    pair.fill(usize::MAX, [&mut [0.0; 2], &mut [0.0; 2], &mut [0.0; 2]]).unwrap();
 }
 
 #[test]
@@ -119,9 +119,9 @@ fn kernels() {
     refused("lag", &[0.0], |_| kernel.coefficients(unit, unit, 0));
     refused("reference length", &BAD, |x| StaticKernel::new(soil(), x));
     let pair = kernel.pair(unit, unit).unwrap();
-    let uneven = pair.fill(1, &mut [0.0; 3], &mut [0.0; 2], &mut [0.0; 3]);
+    let uneven = pair.fill(1, [&mut [0.0; 3], &mut [0.0; 2], &mut [0.0; 3]]);
     assert!(matches!(error_with("xx", uneven), Error::Size { found: 2, needed: 3, .. }));
-    error_with("first lag", pair.fill(0, &mut [0.0], &mut [0.0], &mut [0.0]));
+    error_with("first lag", pair.fill(0, [&mut [0.0], &mut [0.0], &mut [0.0]]));
 
     refused("time step", &BAD, |x| PatchKernel::new(soil(), vec![unit], x));
     error_with("contact elements", PatchKernel::new(soil(), vec![], 1e-3));

@@ -47,14 +47,8 @@ impl LagKernel for Fading {
         &self.classes
     }
 
-    fn coefficients(
-        &self,
-        class: usize,
-        first_lag: usize,
-        normal: &mut [f64],
-        tangential: &mut [f64],
-        coupling: &mut [f64],
-    ) -> Result<()> {
+    fn coefficients(&self, class: usize, first_lag: usize, values: [&mut [f64]; 3]) -> Result<()> {
+        let [normal, tangential, coupling] = values;
         for i in 0..normal.len() {
             [normal[i], tangential[i], coupling[i]] = self.at(class, first_lag + i);
         }
@@ -98,14 +92,8 @@ impl LagKernel for InBlocks {
         Ok(())
     }
 
-    fn coefficients(
-        &self,
-        class: usize,
-        first_lag: usize,
-        normal: &mut [f64],
-        tangential: &mut [f64],
-        coupling: &mut [f64],
-    ) -> Result<()> {
+    fn coefficients(&self, class: usize, first_lag: usize, values: [&mut [f64]; 3]) -> Result<()> {
+        let [normal, tangential, coupling] = values;
         self.prepare(first_lag - 1 + normal.len())?;
         let ready = &self.ready.lock().unwrap()[class];
         for (i, values) in ready[first_lag - 1..][..normal.len()].iter().enumerate() {
@@ -200,7 +188,7 @@ fn coefficients_do_not_depend_on_the_cut() {
         for class in [0, 1, kernel.classes().count() - 1] {
             let fill = |first: usize, count: usize| {
                 let [mut zz, mut xx, mut zx] = [(); 3].map(|()| vec![f64::NAN; count]);
-                kernel.coefficients(class, first, &mut zz, &mut xx, &mut zx).unwrap();
+                kernel.coefficients(class, first, [&mut zz, &mut xx, &mut zx]).unwrap();
                 [zz, xx, zx]
             };
             // The last first: nothing was prepared.
@@ -252,14 +240,8 @@ impl LagKernel for VoigtKernel {
         &self.classes
     }
 
-    fn coefficients(
-        &self,
-        class: usize,
-        first_lag: usize,
-        normal: &mut [f64],
-        tangential: &mut [f64],
-        coupling: &mut [f64],
-    ) -> Result<()> {
+    fn coefficients(&self, class: usize, first_lag: usize, values: [&mut [f64]; 3]) -> Result<()> {
+        let [normal, tangential, coupling] = values;
         let [source, receiver] = self.classes.representative(class)?;
         let length = if source == receiver { receiver.length() } else { 0.0 };
         for (i, value) in normal.iter_mut().enumerate() {
@@ -426,15 +408,8 @@ impl LagKernel for Coupled {
     fn classes(&self) -> &PairClasses {
         self.0.classes()
     }
-    fn coefficients(
-        &self,
-        class: usize,
-        first: usize,
-        zz: &mut [f64],
-        xx: &mut [f64],
-        zx: &mut [f64],
-    ) -> Result<()> {
-        self.0.coefficients(class, first, zz, xx, zx)
+    fn coefficients(&self, class: usize, first: usize, values: [&mut [f64]; 3]) -> Result<()> {
+        self.0.coefficients(class, first, values)
     }
     fn late_lags(&self) -> Option<&dyn LateLags> {
         Some(&self.0)

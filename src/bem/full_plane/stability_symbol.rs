@@ -21,8 +21,7 @@ use crate::contact_element::ContactLayout;
 use crate::error::{Error, Result, same_length};
 use crate::linalg::{DenseFactor, largest};
 
-use super::BoundaryKernel;
-use super::condition::BoundaryCondition;
+use super::{BoundaryCondition, BoundaryKernel};
 
 /// Powers p = 1 … POWERS of N/n.
 const POWERS: usize = 10;

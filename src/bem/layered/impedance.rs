@@ -15,7 +15,7 @@ use super::wavenumber::{Wavenumbers, Workspace};
 use crate::complex::Complex;
 use crate::contact_element::ContactElement;
 use crate::error::{Error, LayeredError, Result, not_negative};
-use crate::history::PairClasses;
+use crate::history::{KINDS, PairClasses};
 use crate::linalg::DenseFactor;
 use crate::soil::{Base, SoilProfile};
 
@@ -199,13 +199,13 @@ impl<'a> RigidStrip<'a> {
     }
 
     fn dynamic(&self, s: Complex) -> Result<[Complex; 4]> {
-        let mut values = vec![[Complex::default(); 3]; self.classes.count()];
+        let mut values = vec![[Complex::default(); KINDS]; self.classes.count()];
         self.integrals.compliance(self.profile, s, &mut Workspace::default(), &mut values)?;
         self.stiffness(&values)
     }
 
     /// hh, vv, rr and hr of Aᵀ F⁻¹ A.
-    fn stiffness(&self, compliances: &[[Complex; 3]]) -> Result<[Complex; 4]> {
+    fn stiffness(&self, compliances: &[[Complex; KINDS]]) -> Result<[Complex; 4]> {
         let mut matrix = assembled(&self.classes, compliances);
         let layout = self.classes.layout();
         let order = layout.len();

@@ -11,7 +11,7 @@ use super::wavenumber::Wavenumbers;
 use super::{file, passivity};
 use crate::contact_element::ContactElement;
 use crate::error::{Error, Result, positive, same_length};
-use crate::history::{LagKernel, PairClasses, SharedSpectra};
+use crate::history::{KINDS, LagKernel, PairClasses, SharedSpectra};
 use crate::soil::SoilProfile;
 
 /// The [`LagKernel`] of a layered ground: coefficients Gⁿ by Runge–Kutta convolution quadrature,
@@ -29,7 +29,7 @@ use crate::soil::SoilProfile;
 ///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0)?);
 /// let kernel = LayeredKernel::new(profile, Strip::uniform(-5.0..5.0, 4)?.elements(), 0.01)?;
 /// let [mut normal, mut tangential, mut coupling] = [[0.0; 20]; 3];
-/// kernel.coefficients(0, 1, &mut normal, &mut tangential, &mut coupling)?;
+/// kernel.coefficients(0, 1, [&mut normal, &mut tangential, &mut coupling])?;
 /// assert!(normal[0] > 0.0 && coupling[0].abs() < 1e-12 * normal[0]);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -236,29 +236,26 @@ impl LagKernel for LayeredKernel {
         &self,
         class: usize,
         first_lag: usize,
-        normal: &mut [f64],
-        tangential: &mut [f64],
-        coupling: &mut [f64],
+        mut values: [&mut [f64]; KINDS],
     ) -> Result<()> {
         self.classes.representative(class)?;
-        same_length("tangential coefficients", tangential.len(), normal.len())?;
-        same_length("coupling coefficients", coupling.len(), normal.len())?;
+        let lags = values[0].len();
+        same_length("tangential coefficients", values[1].len(), lags)?;
+        same_length("coupling coefficients", values[2].len(), lags)?;
         if first_lag == 0 {
             return Err(Error::Input { quantity: "lag", value: 0.0, needed: "at least 1" });
         }
-        last_block(first_lag.saturating_add(normal.len()))?;
+        last_block(first_lag.saturating_add(lags))?;
         let mut done = 0;
-        while done < normal.len() {
+        while done < lags {
             let (number, place) = Block::place(first_lag + done);
             if self.blocks[number].get().is_none() {
                 self.admit(number..number + 1)?;
             }
-            let values = self.block(number)?.from(class, place);
-            let count = values[0].len().min(normal.len() - done);
-            for (target, values) in
-                [&mut *normal, &mut *tangential, &mut *coupling].into_iter().zip(values)
-            {
-                target[done..done + count].copy_from_slice(&values[..count]);
+            let found = self.block(number)?.from(class, place);
+            let count = found[0].len().min(lags - done);
+            for (values, found) in values.iter_mut().zip(found) {
+                values[done..done + count].copy_from_slice(&found[..count]);
             }
             done += count;
         }

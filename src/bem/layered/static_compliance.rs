@@ -15,7 +15,7 @@ use crate::complex::Complex;
 use crate::contact_element::{ContactElement, ContactLayout};
 use crate::error::{Result, same_length};
 use crate::gauss;
-use crate::history::PairClasses;
+use crate::history::{KINDS, PairClasses};
 use crate::soil::SoilProfile;
 
 /// Tolerance of the integrals.
@@ -50,12 +50,12 @@ pub fn static_compliance(
 }
 
 /// zz, xx, zx of all classes, integrals over receiver and source.
-pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<[Complex; 3]>> {
+pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<[Complex; KINDS]>> {
     let mut compliance = Compliance::default();
     compliance.set(profile, Complex::default())?;
     let span = classes.span();
     let integrals = Wavenumbers::new(classes, TOLERANCE);
-    let mut values = vec![[Complex::default(); 3]; classes.count()];
+    let mut values = vec![[Complex::default(); KINDS]; classes.count()];
     let far = compliance.half_plane().map(|(modulus, _, a2)| {
         // 1 − ν and (1 − 2ν)/2 over μ.
         let even = 0.5 / (1.0 - a2) / modulus.re;
@@ -169,7 +169,7 @@ mod tests {
             let integrals = Wavenumbers::new(&classes, 1e-12);
             let s = Complex::real(2e-5);
             integrals.compliance(&profile, s, &mut Workspace::default(), &mut slow).unwrap();
-            let mean = |values: &[[Complex; 3]], class: usize, component: usize| {
+            let mean = |values: &[[Complex; KINDS]], class: usize, component: usize| {
                 let [p, q] = classes.representative(class).unwrap();
                 values[class][component].re / (p.length() * q.length())
             };

@@ -29,17 +29,15 @@ impl LagKernel for Cut<'_> {
         &self,
         class: usize,
         first_lag: usize,
-        normal: &mut [f64],
-        tangential: &mut [f64],
-        coupling: &mut [f64],
+        values: [&mut [f64]; KINDS],
     ) -> Result<()> {
-        let left = (self.lags + 1).saturating_sub(first_lag).min(normal.len());
-        let [(normal, zz), (tangential, xx), (coupling, zx)] =
-            [normal, tangential, coupling].map(|values| values.split_at_mut(left));
-        for cut in [zz, xx, zx] {
+        let left = (self.lags + 1).saturating_sub(first_lag).min(values[0].len());
+        let kept = values.map(|values| {
+            let (kept, cut) = values.split_at_mut(left);
             cut.fill(0.0);
-        }
-        self.kernel.coefficients(class, first_lag, normal, tangential, coupling)
+            kept
+        });
+        self.kernel.coefficients(class, first_lag, kept)
     }
 
     fn last_coupling_lag(&self, class: usize) -> Result<Option<usize>> {
@@ -66,9 +64,9 @@ impl Lags {
         let mut kinds = [(); KINDS].map(|()| Vec::with_capacity(kernel.classes().count()));
         for class in 0..kernel.classes().count() {
             let mut lags = [(); KINDS].map(|()| vec![0.0; window]);
-            let [zz, xx, zx] = &mut lags;
-            kernel.coefficients(class, 1, zz, xx, zx)?;
+            kernel.coefficients(class, 1, lags.each_mut().map(Vec::as_mut_slice))?;
             let last = kernel.last_coupling_lag(class)?.filter(|last| *last <= window);
+            let [_, _, zx] = &mut lags;
             zx.truncate(last.ok_or(COUPLING_LASTS)?);
             zx.shrink_to_fit();
             kinds.iter_mut().zip(lags).for_each(|(kind, lags)| kind.push(lags));
