@@ -96,7 +96,7 @@ pub trait LagKernel: Send + Sync {
         let first = (0..classes.count())
             .map(|class| {
                 let mut lag = [[0.0]; KINDS];
-                self.coefficients(class, 1, lag.each_mut().map(|value| value.as_mut_slice()))?;
+                self.coefficients(class, 1, lag.each_mut().map(<[f64; 1]>::as_mut_slice))?;
                 Ok(lag.map(|[value]| value))
             })
             .collect::<Result<Vec<_>>>()?;

@@ -154,11 +154,6 @@ impl PairClasses {
         ContactLayout::new(self.elements.len())
     }
 
-    /// Pair of a receiver and a source.
-    pub(crate) fn of(&self, receiver: usize, source: usize) -> &Pair {
-        &self.pairs[receiver * self.elements.len() + source]
-    }
-
     /// Overwrites `matrix` (2Q × 2Q, row-major) with the coefficients of all pairs. `of_pair` returns
     /// those of a receiver and a source, kind by kind, the coupling as if the receiver were on the right.
     pub(crate) fn scatter<T>(
@@ -181,13 +176,14 @@ impl PairClasses {
     }
 
     /// Least eigenvalue of the Hermitian part of a symbol, given pair by pair as for
-    /// [`PairClasses::scatter`], with rows and columns times `scales`; NaN if it is not finite.
+    /// [`PairClasses::scatter`], over `own`, a size of each component of an element on itself, by class
+    /// and component; NaN if it is not finite.
     ///
     /// With (1−z) Ĝ(z), integrated over receivers and sources, it tells whether a ground can give
     /// energy away: by Parseval the work of any tractions is not negative if it is not, anywhere on |z| = 1.
     pub(crate) fn least_eigenvalue<T>(
         &self,
-        scales: &[f64],
+        own: impl Fn(usize, usize) -> f64,
         of_pair: impl FnMut([usize; 2], &Pair) -> [T; KINDS],
     ) -> f64
     where
@@ -196,8 +192,14 @@ impl PairClasses {
         let layout = self.layout();
         let mut matrix = vec![T::default(); layout.square()];
         self.scatter(&mut matrix, of_pair);
-        for (line, row) in matrix.chunks_exact_mut(layout.len()).zip(scales) {
-            for (value, column) in line.iter_mut().zip(scales) {
+        let scale = |place: usize| {
+            let [component, element] = layout.origin(place);
+            let itself = self.pairs[element * (self.elements.len() + 1)].class;
+            1.0 / own(itself, component).sqrt()
+        };
+        let scales: Vec<f64> = (0..layout.len()).map(scale).collect();
+        for (line, row) in matrix.chunks_exact_mut(layout.len()).zip(&scales) {
+            for (value, column) in line.iter_mut().zip(&scales) {
                 *value = *value * *row * *column;
             }
         }

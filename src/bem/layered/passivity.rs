@@ -47,15 +47,10 @@ pub(crate) fn check(quadrature: &Quadrature, classes: &PairClasses) -> Result<u6
 /// Least eigenvalue of the Hermitian part of the matrix of all pairs, scaled by the absolute
 /// diagonal; NaN if it is not finite.
 pub(crate) fn margin(classes: &PairClasses, values: &[[Complex; KINDS]]) -> f64 {
-    let layout = classes.layout();
-    let scales: Vec<f64> = (0..layout.len())
-        .map(|place| {
-            let [component, element] = layout.origin(place);
-            let own = classes.of(element, element).class;
-            1.0 / values[own][component].inner().norm().max(f64::MIN_POSITIVE).sqrt()
-        })
-        .collect();
-    classes.least_eigenvalue(&scales, |_, pair| values[pair.class].map(Complex::inner))
+    let own = |class: usize, component: usize| {
+        values[class][component].inner().norm().max(f64::MIN_POSITIVE)
+    };
+    classes.least_eigenvalue(own, |_, pair| values[pair.class].map(Complex::inner))
 }
 
 /// All pairs in work form (2Q × 2Q, row-major): integrals over receiver and source.

@@ -71,15 +71,8 @@ fn least_at(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64
     let sums: Vec<[f64; KINDS]> = (0..classes.count())
         .map(|class| lags.kinds.each_ref().map(|kind| sum(&kind[class])))
         .collect();
-    let layout = classes.layout();
-    let scales: Vec<f64> = (0..layout.len())
-        .map(|place| {
-            let [component, element] = layout.origin(place);
-            let own = classes.of(element, element).class;
-            1.0 / lags.kinds[component][own][0].sqrt()
-        })
-        .collect();
-    classes.least_eigenvalue(&scales, |[receiver, source], pair| {
+    let at_once = |class: usize, component: usize| lags.kinds[component][class][0];
+    classes.least_eigenvalue(at_once, |[receiver, source], pair| {
         let mut values = sums[pair.class];
         for (value, tail_sums) in values.iter_mut().zip(&tails) {
             *value += tail.of_pair(tail_sums, receiver, source) / square;
