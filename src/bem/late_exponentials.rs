@@ -22,11 +22,11 @@
 
 use super::PatchKernel;
 use super::influence::LateSeries;
-use crate::contact_element::ContactElement;
 use crate::error::Result;
 use crate::fundamental::laurent::TERMS;
-use crate::gauss;
+use crate::geometry::ContactElement;
 use crate::history::{ExponentialTail, LagKernel, LateLags, TailProduct};
+use crate::linalg::gauss;
 
 /// Times that the Rayleigh wave has crossed the patch when exponentials take over. Behind three,
 /// the coefficients themselves are summed from the same series.

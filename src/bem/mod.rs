@@ -33,10 +33,10 @@ pub use strip::{Grading, Strip};
 use std::any::Any;
 use std::sync::Arc;
 
-pub use crate::contact_element::ContactElement;
+pub use crate::geometry::ContactElement;
 
-use crate::contact_element::ContactLayout;
 use crate::error::{CheckpointError, Result};
+use crate::geometry::ContactLayout;
 use crate::history::{HistoryChoice, LagKernel};
 use crate::motion::FreeField;
 use crate::soil::Soil;

@@ -1,8 +1,8 @@
 //! Winkler's spring bed: a ground without memory.
 
 use super::{Grading, Ground, Strip};
-use crate::contact_element::{ContactElement, ContactLayout, check_order};
 use crate::error::{CheckpointError, Error, Result, not_negative, positive, same_length};
+use crate::geometry::{ContactElement, ContactLayout, check_order};
 use crate::structure::Structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).

@@ -1,7 +1,7 @@
 //! The contact problem of one element, the tractions of the others held.
 
 use super::problem::{ContactInput, ContactSolver};
-use crate::contact_element::ContactLayout;
+use crate::geometry::ContactLayout;
 use crate::interface::{Condition, ContactState, Mode, Tolerance};
 
 /// Solves element `e` alone, the tractions of the others held, and returns its mode.

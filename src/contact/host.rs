@@ -3,8 +3,8 @@
 use super::delassus::Delassus;
 use super::problem::{ContactInput, ContactSolver};
 use super::search::{ContactSearch, ModeSearch, SearchMethod};
-use crate::contact_element::{COMPONENTS, ContactLayout};
 use crate::error::{Error, Result, StepError, finite, positive, same_length};
+use crate::geometry::{COMPONENTS, ContactLayout};
 use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, StepStarts, memory_ends};
 use crate::linalg::largest;
 

@@ -17,7 +17,7 @@
 //! pressed shut.
 
 use super::problem::{ContactInput, ContactSolver};
-use crate::contact_element::ContactLayout;
+use crate::geometry::ContactLayout;
 use crate::interface::{ContactState, Mode, Tolerance};
 use crate::linalg::dot;
 

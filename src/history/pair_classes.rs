@@ -5,8 +5,8 @@ use std::collections::HashMap;
 
 use std::ops::Mul;
 
-use crate::contact_element::{ContactElement, ContactLayout, check_order};
 use crate::error::{Error, Result};
+use crate::geometry::{ContactElement, ContactLayout, check_order};
 use crate::linalg::{ComplexField, hermitian_range};
 
 /// Kinds of coefficients of a pair: normal, tangential, and the coupling of both.

@@ -11,7 +11,7 @@ use faer::linalg::triangular_solve::{
 };
 use faer::{Mat, MatRef, Par, Side, Spec};
 
-use crate::matrix::SparseMatrix;
+use crate::linalg::SparseMatrix;
 
 /// Row at which a symmetric row-major matrix is found not to be positive definite, if it is not.
 pub(crate) fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {

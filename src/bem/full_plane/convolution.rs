@@ -11,8 +11,8 @@ use realfft::RealFftPlanner;
 use super::BoundaryKernel;
 use super::block::{Level, Link, Work};
 use super::pairs::PairClasses;
-use crate::contact_element::ContactLayout;
 use crate::error::{Result, same_length};
+use crate::geometry::ContactLayout;
 
 /// Steps that are summed directly before the smallest block is transformed.
 const LEAF: usize = 64;

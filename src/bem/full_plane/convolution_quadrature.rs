@@ -19,8 +19,8 @@ use std::f64::consts::TAU;
 
 use realfft::RealFftPlanner;
 
-use crate::contact_element::ContactLayout;
 use crate::error::{Error, Result, positive, same_length};
+use crate::geometry::ContactLayout;
 use crate::soil::Soil;
 
 use super::laplace::LaplacePlane;

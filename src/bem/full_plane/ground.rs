@@ -6,8 +6,8 @@ use super::prepared::{Prepared, component};
 use super::static_limit::static_compliance;
 use super::{Boundary, BoundaryKernel, GroundStability, IncidentField, Segment, TimeKernel};
 use crate::bem::{ContactElement, Ground, StaticKernel, Strip};
-use crate::contact_element::ContactLayout;
 use crate::error::{Error, Result, same_length};
+use crate::geometry::ContactLayout;
 use crate::motion::FreeField;
 use crate::soil::Soil;
 

@@ -2,8 +2,8 @@
 
 use super::BoundaryKernel;
 use super::convolution::BoundaryHistory;
-use crate::contact_element::ContactLayout;
 use crate::error::{Error, Result, same_length};
+use crate::geometry::ContactLayout;
 use crate::linalg::{DenseFactor, dense_multiply_add, largest};
 
 /// Which of the two is given for a component of an element.

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::Segment;
-use crate::contact_element::ContactLayout;
+use crate::geometry::ContactLayout;
 
 /// Coefficients of a pair in G and in H: `[row][column]`, row the receiver's component.
 pub(super) type PairBlocks = [[[f64; 2]; 2]; 2];

@@ -2,8 +2,8 @@
 
 use super::convolution::BoundaryHistory;
 use super::{Boundary, BoundaryKernel, IncidentField};
-use crate::contact_element::{COMPONENTS, ContactLayout};
 use crate::error::{Error, Result, same_length};
+use crate::geometry::{COMPONENTS, ContactLayout};
 use crate::linalg::{DenseFactor, dense_multiply_add};
 
 /// Histories and operators for one time step.

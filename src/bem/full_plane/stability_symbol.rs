@@ -17,8 +17,8 @@ use std::f64::consts::{PI, TAU};
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 
-use crate::contact_element::ContactLayout;
 use crate::error::{Error, Result, same_length};
+use crate::geometry::ContactLayout;
 use crate::linalg::{DenseFactor, largest};
 
 use super::{BoundaryCondition, BoundaryKernel};
@@ -58,8 +58,7 @@ impl<'a> Symbol<'a> {
         if count == 0 {
             return Err(Error::Size { quantity: "segments", found: 0, needed: 1 });
         }
-        let layout = ContactLayout::new(count);
-        let size = layout.square();
+        let size = ContactLayout::new(count).square();
         let mut symbol = Self {
             kernel,
             prescribed: vec![],
@@ -76,7 +75,7 @@ impl<'a> Symbol<'a> {
         let (g, h) = first.split_at(size);
         symbol.scale = largest(h) / largest(g);
         if !symbol.scale.is_finite() {
-            return Err(Error::Singular { matrix: "coefficients of lag 0", order: layout.len() });
+            return Err(Error::Singular { matrix: "coefficients of lag 0", order: symbol.order() });
         }
         loop {
             symbol.fit_tail()?;

@@ -5,8 +5,8 @@
 
 use super::Segment;
 use super::pairs::PairClasses;
-use crate::contact_element::ContactLayout;
 use crate::error::{Error, Result};
+use crate::geometry::ContactLayout;
 use crate::linalg::DenseFactor;
 use crate::soil::Soil;
 

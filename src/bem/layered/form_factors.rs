@@ -8,8 +8,8 @@
 use std::sync::OnceLock;
 
 use crate::bem::ContactElement;
-use crate::gauss::Rule;
 use crate::history::PairClasses;
+use crate::linalg::gauss::Rule;
 
 /// Gauss points of a panel.
 pub(crate) const POINTS: usize = 16;
@@ -178,7 +178,7 @@ pub(crate) fn legendre(x: f64) -> [f64; DEGREES] {
     values
 }
 
-/// (2n−1)/n and (n−1)/n of [`next_legendre`](crate::gauss::next_legendre), divided beforehand.
+/// (2n−1)/n and (n−1)/n of [`next_legendre`](crate::linalg::gauss::next_legendre), divided beforehand.
 const RECURRENCE: [[f64; 2]; DEGREES] = {
     let mut factors = [[0.0; 2]; DEGREES];
     let mut n = 1;

@@ -12,10 +12,10 @@
 use super::compliance::{Compliance, Surface};
 use super::wavenumber::{Wavenumbers, Workspace};
 use crate::complex::Complex;
-use crate::contact_element::{ContactElement, ContactLayout};
 use crate::error::{Result, same_length};
-use crate::gauss;
+use crate::geometry::{ContactElement, ContactLayout};
 use crate::history::{KINDS, PairClasses};
+use crate::linalg::gauss;
 use crate::soil::SoilProfile;
 
 /// Tolerance of the integrals.

@@ -2,8 +2,8 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use crate::contact_element::{COMPONENTS, ContactElement, ContactLayout};
 use crate::error::{Result, same_length};
+use crate::geometry::{COMPONENTS, ContactElement, ContactLayout};
 use crate::history::late_lags::{ExponentialTail, TailProduct};
 use crate::linalg::{Dot, Simd, WithSimd, dot, vectorized};
 
