@@ -6,6 +6,7 @@ use faer::linalg::evd;
 use faer::traits::ComplexField;
 use faer::traits::math_utils::{add, conj, is_finite, mul_real, real};
 use faer::{MatRef, Par, Spec};
+#[cfg(feature = "full-plane")]
 use realfft::num_complex::Complex64;
 
 #[cfg(feature = "full-plane")]
@@ -61,6 +62,8 @@ where
 
 #[cfg(test)]
 mod tests {
+    use realfft::num_complex::Complex64;
+
     use super::*;
 
     #[cfg(feature = "full-plane")]
