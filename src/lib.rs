@@ -10,7 +10,7 @@
 //! # One complete example
 //!
 //! ```
-//! use basemat::bem::HalfPlaneGround;
+//! use basemat::bem::ElasticGround;
 //! use basemat::coupled::Probe;
 //! use basemat::interface::Coulomb;
 //! use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
@@ -25,7 +25,7 @@
 //! let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
 //!
 //! let mut simulation = Simulation::builder(0.01)
-//!     .ground(HalfPlaneGround::under(soil, &building, 10)?)
+//!     .ground(ElasticGround::under(soil, &building, 10)?)
 //!     .structure(building)
 //!     .interface(Coulomb::new(0.4)?)
 //!     .motion(el_centro_1940())
@@ -120,8 +120,8 @@
 //! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
 //! | [`soil`] | [`Soil`], damping laws, [`soil::SoilProfile`] of horizontal layers |
-//! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], grounds of any step coefficients |
-//! | [`bem::layered`] | [`bem::layered::LayeredGround`], impedances of strips on layers |
+//! | [`bem`] | [`bem::ElasticGround`], [`bem::SpringGround`], grounds of any step coefficients |
+//! | [`bem::layered`] | step coefficients of layered ground, impedances of strips on it |
 //! | [`site`] | from the outcrop of the rock to the surface: [`site::Column`], [`site::InclinedWave`] |
 //! | [`history`] | the convolution with all past tractions, its kinds and their choice |
 //! | [`fundamental`] | elastodynamic fundamental solutions |

@@ -62,8 +62,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<ground::PyGround>()?;
     module.add_class::<ground::PyStrip>()?;
     module.add_class::<ground::PySharedKernels>()?;
-    module.add_class::<ground::PyHalfPlaneGround>()?;
-    module.add_class::<ground::PyLayeredGround>()?;
+    module.add_class::<ground::PyElasticGround>()?;
     module.add_class::<ground::PyImpedances>()?;
     module.add_class::<ground::PySpringGround>()?;
     module.add_class::<interface::PyInterfaceLaw>()?;

@@ -70,7 +70,7 @@ def test_the_others_run(names: dict[str, object]) -> None:
     simulation = bm.Simulation(
         0.005,
         model,  # type: ignore[arg-type]
-        bm.HalfPlaneGround.under(soil, model, 6),  # type: ignore[arg-type]
+        bm.ElasticGround.under(soil, model, 6),  # type: ignore[arg-type]
         polished(),  # type: ignore[operator]
         motion=bm.el_centro_1940(),
     )

@@ -6,7 +6,7 @@ mod bonds;
 use std::sync::Arc;
 
 use super::*;
-use crate::bem::{Ground, HalfPlaneGround};
+use crate::bem::{ElasticGround, Ground, Strip};
 use crate::contact::Delassus;
 use crate::coupled::build::assembled::Assembled;
 use crate::coupled::scene::model::Model;
@@ -107,8 +107,8 @@ impl Problem {
 fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     let soil = Soil::new(1e8, random.pick(&[0.0, 0.2, 1.0 / 3.0, 0.45, 0.4999]), 2000.0).unwrap();
     let graded = random.chance(0.5);
-    let strip = if graded { HalfPlaneGround::strip } else { HalfPlaneGround::uniform_strip };
-    let mut ground = strip(soil, -2.0..2.0, count).unwrap();
+    let strip = if graded { Strip::graded } else { Strip::uniform };
+    let mut ground = ElasticGround::new(soil, strip(-2.0..2.0, count).unwrap()).unwrap();
     let beta = random.log_within(0.05, 20.0);
     let time_step = beta * 4.0 / count as f64 / soil.pressure_wave_speed();
     ground.prepare(time_step).unwrap();

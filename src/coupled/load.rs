@@ -16,7 +16,7 @@ use crate::structure::Row;
 ///
 /// ```
 /// use basemat::Simulation;
-/// use basemat::bem::HalfPlaneGround;
+/// use basemat::bem::ElasticGround;
 /// use basemat::coupled::{Load, Probe};
 /// use basemat::interface::Coulomb;
 /// use basemat::structure::RigidBlock;
@@ -26,7 +26,7 @@ use crate::structure::Row;
 /// let roof = block.horizontal_at(9.0);
 /// // 100 kN/m at the roof, let go at t = 0.
 /// let mut simulation = Simulation::builder(0.005)
-///     .ground(HalfPlaneGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, 8)?)
+///     .ground(ElasticGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, 8)?)
 ///     .structure(block)
 ///     .interface(Coulomb::new(0.5)?)
 ///     .load(Load::released(roof.clone(), 100.0e3))

@@ -25,5 +25,6 @@ pub use exponentials::ExponentialHistory;
 pub use lag_kernel::LagKernel;
 pub use late_lags::{ExponentialTail, LateLags, TailProduct};
 pub(crate) use options::HistoryOptions;
+pub(crate) use pair_classes::KINDS;
 pub use pair_classes::{Pair, PairClasses};
 pub use relaxed_fft::{RelaxedFftHistory, SharedSpectra};

@@ -3,7 +3,7 @@
 //! REFERENCE: `td_*`, frequency domain.
 
 use basemat::Soil;
-use basemat::bem::{HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Refinement, refine};
 use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
 
@@ -23,7 +23,7 @@ fn estimates<S: Structure + 'static>(
     let wanted = Series::new(&table(&format!("td_{file}.csv")), "V");
     let steps = whole((wanted.duration() / STEP).floor());
     let found = refine(4, STEP, |elements, time_step| {
-        let ground = HalfPlaneGround::new(soil, &[Strip::graded(-1.0..1.0, elements)?])?;
+        let ground = ElasticGround::new(soil, Strip::graded(-1.0..1.0, elements)?)?;
         let mut simulation = under_pulse(structure(), ground, time_step);
         // Means over the coarsest step, of forces that are constant over each of these.
         let every = whole(STEP / time_step);

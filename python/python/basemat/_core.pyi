@@ -50,33 +50,23 @@ class Ground:
     def elements(self) -> NDArray[np.float64]: ...
 
 @final
-class HalfPlaneGround(Ground):
+class ElasticGround(Ground):
     def __new__(
         cls,
-        soil: Soil,
-        strips: Sequence[Strip],
+        soil: Soil | SoilProfile,
+        strips: Strip | Sequence[Strip],
         *,
         history: str = "auto",
         history_tolerance: float | None = None,
         history_memory: int | None = None,
+        stages: int | None = None,
+        tolerance: float | None = None,
+        kernel_file: str | os.PathLike[str] | None = None,
         kernels: SharedKernels | None = None,
     ) -> Self: ...
     @staticmethod
-    def strip(
-        soil: Soil,
-        left: float,
-        right: float,
-        count: int,
-        *,
-        grading: str = "cosine",
-        history: str = "auto",
-        history_tolerance: float | None = None,
-        history_memory: int | None = None,
-        kernels: SharedKernels | None = None,
-    ) -> HalfPlaneGround: ...
-    @staticmethod
     def under(
-        soil: Soil,
+        soil: Soil | SoilProfile,
         structure: Structure | UserStructure,
         count: int,
         *,
@@ -84,8 +74,11 @@ class HalfPlaneGround(Ground):
         history: str = "auto",
         history_tolerance: float | None = None,
         history_memory: int | None = None,
+        stages: int | None = None,
+        tolerance: float | None = None,
+        kernel_file: str | os.PathLike[str] | None = None,
         kernels: SharedKernels | None = None,
-    ) -> HalfPlaneGround: ...
+    ) -> ElasticGround: ...
     def impedances(self, frequencies: ArrayLike, *, contact: str = "bonded") -> Impedances: ...
 
 @final
@@ -108,52 +101,10 @@ class Impedances:
     def coupling(self) -> NDArray[np.complex128]: ...
 
 @final
-class LayeredGround(Ground):
-    def __new__(
-        cls,
-        profile: SoilProfile,
-        strips: Sequence[Strip],
-        *,
-        stages: int | None = None,
-        tolerance: float | None = None,
-        kernel_file: str | os.PathLike[str] | None = None,
-        history: str = "auto",
-        kernels: SharedKernels | None = None,
-    ) -> Self: ...
-    @staticmethod
-    def strip(
-        profile: SoilProfile,
-        left: float,
-        right: float,
-        count: int,
-        *,
-        grading: str = "cosine",
-        stages: int | None = None,
-        tolerance: float | None = None,
-        kernel_file: str | os.PathLike[str] | None = None,
-        history: str = "auto",
-        kernels: SharedKernels | None = None,
-    ) -> LayeredGround: ...
-    @staticmethod
-    def under(
-        profile: SoilProfile,
-        structure: Structure | UserStructure,
-        count: int,
-        *,
-        grading: str = "cosine",
-        stages: int | None = None,
-        tolerance: float | None = None,
-        kernel_file: str | os.PathLike[str] | None = None,
-        history: str = "auto",
-        kernels: SharedKernels | None = None,
-    ) -> LayeredGround: ...
-    def impedances(self, frequencies: ArrayLike, *, contact: str = "bonded") -> Impedances: ...
-
-@final
 class SpringGround(Ground):
     def __new__(
         cls,
-        strips: Sequence[Strip],
+        strips: Strip | Sequence[Strip],
         normal_stiffness: float,
         tangential_stiffness: float,
         *,

@@ -74,7 +74,7 @@ impl SimulationBuilder {
 
     /// The ground. Contact is where its elements are: a part of the base beyond them hangs free, and
     /// elements beyond the base are refused. Neither happens with
-    /// [`HalfPlaneGround::under`](crate::bem::HalfPlaneGround::under).
+    /// [`ElasticGround::under`](crate::bem::ElasticGround::under).
     #[must_use]
     pub fn ground(mut self, ground: impl Ground + 'static) -> Self {
         self.ground = Some(Box::new(ground));

@@ -45,7 +45,7 @@ impl Class {
     pub(super) fn fill(&mut self, kernel: &dyn LagKernel, class: usize) -> Result<()> {
         let Self { normal, tangential, coupling } = self;
         // The first is the instantaneous coefficient, no part of the history.
-        kernel.coefficients(class, 2, &mut normal[1..], &mut tangential[1..], &mut coupling[1..])
+        kernel.coefficients(class, 2, [&mut normal[1..], &mut tangential[1..], &mut coupling[1..]])
     }
 }
 

@@ -1,16 +1,13 @@
-//! Layered, damped ground under strips.
+//! Elastic or viscoelastic soil under strips.
 
-use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::kernel::{LIMIT, TOLERANCE, check_limit, check_tolerance};
-use super::{
-    Cost, LayeredKernel, Stages, StripContact, StripImpedance, rigid_strip_impedances,
-    static_compliance,
+use super::layered::{
+    Cost, LIMIT, LayeredKernel, Stages, StripContact, StripImpedance, TOLERANCE, check_limit,
+    check_tolerance, rigid_strip_impedances, static_compliance,
 };
-use crate::bem::strip::strips_under;
-use crate::bem::{
+use super::{
     Grading, Ground, KernelGround, KernelSource, PatchKernel, SharedKernels, StaticKernel, Strip,
 };
 use crate::error::{Result, positive};
@@ -20,20 +17,38 @@ use crate::motion::FreeField;
 use crate::soil::{Base, Soil, SoilProfile};
 use crate::structure::Structure;
 
-/// Horizontal layers, damped or not, on a half-plane or a rigid base, with one or several strips on
-/// the surface.
+/// Elastic half-plane, or horizontal layers with or without damping, with one or several strips on
+/// its surface.
 ///
-/// The soil operator is Runge–Kutta convolution quadrature of the mobility (Radau IIA) with tractions
-/// constant over element and step: passive for every step, mesh, profile and passive damping law. The
-/// number of stages follows [`Stages::for_profile`] and is said in [`Ground::history_choice`]. A
-/// profile of one undamped half-plane takes the closed form, bit for bit that of
-/// [`HalfPlaneGround`](crate::bem::HalfPlaneGround), unless stages are asked for.
+/// A [`Soil`] makes a homogeneous half-plane. Its operator is the energetic space–time Galerkin one:
+/// element means of the displacement at step ends under tractions constant over element and step,
+/// from the closed-form half-plane kernel ([`PatchKernel`]). Radiation is exact.
 ///
-/// The free field is that of the surface. [`site::Column`](crate::site::Column) makes it of a motion at
-/// depth in the same profile.
+/// A [`SoilProfile`] with layers or damping is stepped by Runge–Kutta convolution quadrature of its
+/// mobility (Radau IIA), with the same tractions ([`LayeredKernel`]). The number of stages follows
+/// [`Stages::for_profile`] and is reported by [`Ground::history_choice`].
+///
+/// Both are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The
+/// free field is that of the surface; [`site::Column`](crate::site::Column) computes it from a motion
+/// at depth in the same profile.
 ///
 /// ```
-/// use basemat::bem::layered::LayeredGround;
+/// use basemat::Soil;
+/// use basemat::bem::{ElasticGround, Ground, Strip};
+/// let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+/// let mut ground = ElasticGround::new(soil, Strip::graded(-5.0..5.0, 20)?)?;
+/// ground.prepare(1.0e-4)?;
+/// let mut matrix = vec![0.0; 40 * 40];
+/// ground.instantaneous(&mut matrix)?;
+/// // Before waves reach the edges, a pressure moves the surface by p·t/(ρ c₁); a step of 0.1 ms
+/// // leaves all but the outer few percent of an element of 0.8 m, at the middle, in that state.
+/// let plane_wave = 1.0e-4 / (1900.0 * soil.pressure_wave_speed());
+/// assert!((matrix[10 * 40 + 10] / plane_wave - 1.0).abs() < 0.05);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// ```
+/// use basemat::bem::ElasticGround;
 /// use basemat::interface::Coulomb;
 /// use basemat::motion::el_centro_1940;
 /// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
@@ -48,7 +63,7 @@ use crate::structure::Structure;
 ///     .with_damping(damping(0.05)?);
 /// let block = RigidBlock::new(6.0, 9.0, 2000.0)?;
 /// let mut simulation = Simulation::builder(0.005)
-///     .ground(LayeredGround::under(profile, &block, 8)?)
+///     .ground(ElasticGround::under(profile, &block, 8)?)
 ///     .structure(block)
 ///     .interface(Coulomb::new(0.5)?)
 ///     .motion(el_centro_1940())
@@ -58,18 +73,18 @@ use crate::structure::Structure;
 /// assert!(simulation.history_choice().unwrap().to_string().contains("3 stages"));
 /// # Ok::<(), basemat::Error>(())
 /// ```
-pub struct LayeredGround {
-    layered: Layered,
+pub struct ElasticGround {
+    source: ElasticSource,
     /// Stages of the last [`Ground::prepare`].
     used: Option<Stages>,
     ground: KernelGround,
 }
 
-short_debug! { LayeredGround; self; layered: self.layered, ground: self.ground }
+short_debug! { ElasticGround; self; source: self.source, ground: self.ground }
 
-/// A profile and how accurately it marches.
+/// A profile and how accurately it is stepped.
 #[derive(Debug, Clone)]
-struct Layered {
+struct ElasticSource {
     profile: SoilProfile,
     stages: Option<Stages>,
     tolerance: f64,
@@ -77,26 +92,36 @@ struct Layered {
     limit: f64,
 }
 
-impl Layered {
+impl ElasticSource {
     /// The stages for steps of `time_step` seconds; `None` for the closed form.
     fn stages(&self, time_step: f64) -> Option<Stages> {
         let by_rule = || Stages::for_profile(&self.profile, time_step);
         let closed = self.stages.is_none() && self.profile.is_elastic_half_plane();
         (!closed).then(|| self.stages.unwrap_or_else(by_rule))
     }
+
+    /// Step coefficients by convolution quadrature.
+    fn layered(
+        &self,
+        elements: &[ContactElement],
+        time_step: f64,
+        stages: Stages,
+    ) -> Result<LayeredKernel> {
+        LayeredKernel::new(self.profile.clone(), elements.to_vec(), time_step)?
+            .with_stages(stages)
+            .with_tolerance(self.tolerance)?
+            .with_time_limit(self.limit)
+    }
 }
 
-impl KernelSource for Layered {
+impl KernelSource for ElasticSource {
     fn kernel(&self, elements: &[ContactElement], time_step: f64) -> Result<Arc<dyn LagKernel>> {
-        let (profile, elements) = (self.profile.clone(), elements.to_vec());
         match (self.stages(time_step), self.profile.base()) {
             (None, Base::HalfPlane { soil, .. }) => {
-                Ok(Arc::new(PatchKernel::new(*soil, elements, time_step)?))
+                Ok(Arc::new(PatchKernel::new(*soil, elements.to_vec(), time_step)?))
             }
             (stages, _) => {
-                let kernel = LayeredKernel::new(profile, elements, time_step)?;
-                let kernel = kernel.with_stages(stages.unwrap_or_default());
-                let kernel = kernel.with_tolerance(self.tolerance)?.with_time_limit(self.limit)?;
+                let kernel = self.layered(elements, time_step, stages.unwrap_or_default())?;
                 Ok(Arc::new(match &self.file {
                     Some(file) => kernel.with_file(file),
                     None => kernel,
@@ -130,89 +155,96 @@ impl KernelSource for Layered {
     }
 }
 
-impl LayeredGround {
-    /// One strip over `range` (m) of `count` elements, graded towards its edges, where tractions are
-    /// singular ([`Grading::Cosine`]).
+impl ElasticGround {
+    /// Ground of a [`Soil`] or a [`SoilProfile`] under a [`Strip`], or several of them from left to
+    /// right, coupled through the soil.
     ///
-    /// # Errors
-    /// As for [`LayeredGround::new`] and [`Strip::new`].
-    pub fn strip(profile: SoilProfile, range: Range<f64>, count: usize) -> Result<Self> {
-        Self::new(profile, &[Strip::graded(range, count)?])
-    }
-
-    /// One strip over `range` (m) of `count` equal elements.
-    ///
-    /// # Errors
-    /// As for [`LayeredGround::strip`].
-    pub fn uniform_strip(profile: SoilProfile, range: Range<f64>, count: usize) -> Result<Self> {
-        Self::new(profile, &[Strip::uniform(range, count)?])
-    }
-
-    /// Strips of `count` elements under each foundation of `structure`, as wide as that is, graded
-    /// as in [`LayeredGround::strip`].
-    ///
-    /// # Errors
-    /// As for [`LayeredGround::strip`]; [`Error::Size`](crate::Error::Size) or
-    /// [`Error::Index`](crate::Error::Index) for a structure without foundations.
-    pub fn under(profile: SoilProfile, structure: &dyn Structure, count: usize) -> Result<Self> {
-        Self::new(profile, &strips_under(structure, count, Grading::Cosine)?)
-    }
-
-    /// The same of `count` equal elements each.
-    ///
-    /// # Errors
-    /// As for [`LayeredGround::under`].
-    pub fn uniform_under(
-        profile: SoilProfile,
-        structure: &dyn Structure,
-        count: usize,
-    ) -> Result<Self> {
-        Self::new(profile, &strips_under(structure, count, Grading::Uniform)?)
-    }
-
-    /// Several strips from left to right, coupled through the ground.
-    ///
-    /// Damping that is not causal serves [`impedances`](LayeredGround::impedances) only: a simulation
-    /// refuses it with [`LayeredError::NotCausal`](crate::LayeredError::NotCausal).
+    /// Damping that is not causal serves [`impedances`](ElasticGround::impedances) only: a simulation
+    /// returns [`LayeredError::NotCausal`](crate::LayeredError::NotCausal).
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for no strips or a rigid base without layers,
     /// [`Error::Input`](crate::Error::Input) for strips that overlap or are out of order.
-    pub fn new(profile: SoilProfile, strips: &[Strip]) -> Result<Self> {
-        let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
+    pub fn new(profile: impl Into<SoilProfile>, strips: impl AsRef<[Strip]>) -> Result<Self> {
+        let elements: Vec<_> = strips.as_ref().iter().flat_map(Strip::elements).collect();
         check_order(&elements)?;
+        let profile = profile.into();
         profile.check()?;
-        let layered =
-            Layered { profile, stages: None, tolerance: TOLERANCE, file: None, limit: LIMIT };
-        let ground = KernelGround::new(layered.clone(), elements)?;
-        Ok(Self { layered, used: None, ground })
+        let (tolerance, limit) = (TOLERANCE, LIMIT);
+        let source = ElasticSource { profile, stages: None, tolerance, file: None, limit };
+        let ground = KernelGround::new(source.clone(), elements)?;
+        Ok(Self { source, used: None, ground })
     }
 
-    fn with(self, layered: Layered) -> Self {
-        let ground = self.ground.with_source(layered.clone());
-        Self { layered, used: None, ground }
+    /// Ground under each foundation of `structure`, as wide as that is, of `count` elements each,
+    /// graded towards the edges, where tractions are singular: [`Strip::under`] with
+    /// [`Grading::Cosine`].
+    ///
+    /// # Errors
+    /// As for [`ElasticGround::new`] and [`Strip::under`].
+    pub fn under(
+        profile: impl Into<SoilProfile>,
+        structure: &dyn Structure,
+        count: usize,
+    ) -> Result<Self> {
+        Self::new(profile, Strip::under(structure, count, Grading::Cosine)?)
     }
 
-    /// With this number of stages instead of the rule's.
+    fn changed(mut self, change: impl FnOnce(&mut ElasticSource)) -> Self {
+        change(&mut self.source);
+        Self { ground: self.ground.with_source(self.source.clone()), used: None, ..self }
+    }
+
+    /// With this number of stages instead of the rule's, and instead of the closed form.
     #[must_use]
     pub fn with_stages(self, stages: Stages) -> Self {
-        let layered = Layered { stages: Some(stages), ..self.layered.clone() };
-        self.with(layered)
+        self.changed(|source| source.stages = Some(stages))
     }
 
-    /// With the `tolerance` of [`LayeredKernel::with_tolerance`].
+    /// With the `tolerance` of [`LayeredKernel::with_tolerance`]. The closed form is exact.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-13 to 1e-4.
     pub fn with_tolerance(self, tolerance: f64) -> Result<Self> {
-        let layered = Layered { tolerance: check_tolerance(tolerance)?, ..self.layered.clone() };
-        Ok(self.with(layered))
+        let tolerance = check_tolerance(tolerance)?;
+        Ok(self.changed(|source| source.tolerance = tolerance))
     }
 
-    /// As [`KernelGround::with_history_kind`]; there are no exponentials for layered ground.
+    /// With step coefficients from the file `path`, which is made, or made anew, if it does not have
+    /// them: [`LayeredKernel::with_file`]. The closed form needs none.
+    #[must_use]
+    pub fn with_kernel_file(self, path: impl Into<PathBuf>) -> Self {
+        self.changed(|source| source.file = Some(path.into()))
+    }
+
+    /// With at most so many `seconds` of a processor for step coefficients, 600 unless called:
+    /// [`LayeredKernel::with_time_limit`].
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a number that is negative or NaN.
+    pub fn with_time_limit(self, seconds: f64) -> Result<Self> {
+        let limit = check_limit(seconds)?;
+        Ok(self.changed(|source| source.limit = limit))
+    }
+
+    /// As [`KernelGround::with_history_kind`]; only the closed form has exponentials.
     #[must_use]
     pub fn with_history_kind(self, history: History) -> Self {
         Self { ground: self.ground.with_history_kind(history), ..self }
+    }
+
+    /// As [`KernelGround::with_history_tolerance`]; only the closed form makes use of it.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
+    pub fn with_history_tolerance(self, tolerance: f64) -> Result<Self> {
+        Ok(Self { ground: self.ground.with_history_tolerance(tolerance)?, ..self })
+    }
+
+    /// As [`KernelGround::with_history_memory`].
+    #[must_use]
+    pub fn with_history_memory(self, bytes: usize) -> Self {
+        Self { ground: self.ground.with_history_memory(bytes), ..self }
     }
 
     /// As [`KernelGround::with_history`].
@@ -224,34 +256,10 @@ impl LayeredGround {
         Self { ground: self.ground.with_history(make), ..self }
     }
 
-    /// As [`KernelGround::with_history_memory`].
-    #[must_use]
-    pub fn with_history_memory(self, bytes: usize) -> Self {
-        Self { ground: self.ground.with_history_memory(bytes), ..self }
-    }
-
     /// As [`KernelGround::with_shared_kernels`].
     #[must_use]
     pub fn with_shared_kernels(self, kernels: &SharedKernels) -> Self {
         Self { ground: self.ground.with_shared_kernels(kernels), ..self }
-    }
-
-    /// With step coefficients from the file `path`, which is made, or made anew, if it does not have
-    /// them: [`LayeredKernel::with_file`]. The closed form needs none.
-    #[must_use]
-    pub fn with_kernel_file(self, path: impl Into<PathBuf>) -> Self {
-        let layered = Layered { file: Some(path.into()), ..self.layered.clone() };
-        self.with(layered)
-    }
-
-    /// With at most so many `seconds` of a processor for step coefficients, 600 unless called:
-    /// [`LayeredKernel::with_time_limit`].
-    ///
-    /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a number that is negative or NaN.
-    pub fn with_time_limit(self, seconds: f64) -> Result<Self> {
-        let layered = Layered { limit: check_limit(seconds)?, ..self.layered.clone() };
-        Ok(self.with(layered))
     }
 
     /// What the step coefficients of `steps` steps of `time_step` seconds cost before the first of them, to a
@@ -259,13 +267,13 @@ impl LayeredGround {
     /// closed form.
     ///
     /// ```
-    /// use basemat::bem::layered::LayeredGround;
-    /// use basemat::soil::SoilProfile;
     /// use basemat::Soil;
+    /// use basemat::bem::{ElasticGround, Strip};
+    /// use basemat::soil::SoilProfile;
     /// let clay = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
     /// let cost = |thickness: f64| {
     ///     let profile = SoilProfile::on_rigid_base().with_layer(clay, thickness)?;
-    ///     LayeredGround::strip(profile, -3.0..3.0, 8)?.cost(0.005, 2000)
+    ///     ElasticGround::new(profile, Strip::graded(-3.0..3.0, 8)?)?.cost(0.005, 2000)
     /// };
     /// println!("{}", cost(6.0)?);
     /// // A skin of a millimetre asks for wavenumbers of its own size.
@@ -277,10 +285,8 @@ impl LayeredGround {
     /// As for [`LayeredKernel::cost`]; [`Error::Input`](crate::Error::Input) for a bad time step.
     pub fn cost(&self, time_step: f64, steps: usize) -> Result<Cost> {
         positive("time step", time_step)?;
-        let Some(stages) = self.layered.stages(time_step) else { return Ok(Cost::default()) };
-        let (profile, elements) = (self.profile().clone(), self.ground.elements().to_vec());
-        let kernel = LayeredKernel::new(profile, elements, time_step)?.with_stages(stages);
-        let kernel = kernel.with_tolerance(self.layered.tolerance)?;
+        let Some(stages) = self.source.stages(time_step) else { return Ok(Cost::default()) };
+        let kernel = self.source.layered(self.elements(), time_step, stages)?;
         // Histories take lags by powers of two.
         kernel.cost(steps.checked_next_power_of_two().unwrap_or(usize::MAX))
     }
@@ -289,13 +295,19 @@ impl LayeredGround {
     /// [`rigid_strip_impedances`].
     ///
     /// ```
-    /// use basemat::bem::layered::{LayeredGround, StripContact};
-    /// use basemat::soil::SoilProfile;
     /// use basemat::Soil;
+    /// use basemat::bem::layered::StripContact;
+    /// use basemat::bem::{ElasticGround, Strip};
+    /// use basemat::soil::SoilProfile;
     /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
-    /// let profile = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
-    /// let found = LayeredGround::strip(profile, -3.0..3.0, 16)?
-    ///     .impedances(&[1.0, 9.0], StripContact::Bonded)?;
+    /// let strip = Strip::graded(-3.0..3.0, 16)?;
+    /// let found = ElasticGround::new(soil, &strip)?.impedances(&[2.0, 8.0], StripContact::Bonded)?;
+    /// // Vertical dashpots come near that of plane waves, ρ c₁ per area.
+    /// let plane = 1800.0 * soil.pressure_wave_speed() * 6.0;
+    /// assert!((found[1].dashpots()[1] / plane - 1.0).abs() < 0.1);
+    ///
+    /// let layer = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
+    /// let found = ElasticGround::new(layer, strip)?.impedances(&[1.0, 9.0], StripContact::Bonded)?;
     /// // Nothing radiates below the layer's first frequency, 6.25 Hz; above it does.
     /// assert!(found[0].horizontal.im < 1e-6 * found[0].horizontal.re);
     /// assert!(found[1].horizontal.im > 0.5 * found[1].horizontal.re);
@@ -309,16 +321,16 @@ impl LayeredGround {
         frequencies: &[f64],
         contact: StripContact,
     ) -> Result<Vec<StripImpedance>> {
-        rigid_strip_impedances(self.profile(), self.ground.elements(), frequencies, contact)
+        rigid_strip_impedances(self.profile(), self.elements(), frequencies, contact)
     }
 
     /// The profile.
     pub fn profile(&self) -> &SoilProfile {
-        &self.layered.profile
+        &self.source.profile
     }
 }
 
-impl Ground for LayeredGround {
+impl Ground for ElasticGround {
     forward! {
         self.ground;
         fn elements(&self) -> &[ContactElement];
@@ -336,9 +348,9 @@ impl Ground for LayeredGround {
     }
 
     fn prepare(&mut self, time_step: f64) -> Result<()> {
-        self.layered.profile.check_causal()?;
+        self.source.profile.check_causal()?;
         self.ground.prepare(time_step)?;
-        self.used = self.layered.stages(time_step);
+        self.used = self.source.stages(time_step);
         Ok(())
     }
 
