@@ -61,7 +61,7 @@ pub(super) fn margin(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, horizon: 
 fn least_at(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
     let count = kernel.classes().elements().len();
     let order = 2 * count;
-    let window = lags.normal.first().map_or(0, Vec::len);
+    let window = lags.0[0].first().map_or(0, Vec::len);
     // Re (1−ζ) ζ^d = cos dω − cos (d+1)ω over 1 − cos ω = 2 sin² ω/2.
     let half = 0.5 * omega;
     let steps: Vec<f64> =
@@ -70,14 +70,13 @@ fn least_at(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64
     let square = 2.0 * half.sin() * half.sin();
     let tails = tail.at_frequency(window as f64, omega);
     let classes: Vec<[f64; 3]> = (0..kernel.classes().count())
-        .map(|k| [sum(&lags.normal[k]), sum(&lags.tangential[k]), sum(&lags.coupling[k])])
+        .map(|class| [0, 1, 2].map(|kind| sum(&lags.0[kind][class])))
         .collect();
     let pairs = kernel.classes().pairs();
     let scales: Vec<f64> = (0..order)
         .map(|i| {
             let own = pairs[i % count * (count + 1)].class;
-            let at_once = if i < count { lags.normal[own][0] } else { lags.tangential[own][0] };
-            1.0 / at_once.sqrt()
+            1.0 / lags.0[i / count][own][0].sqrt()
         })
         .collect();
     let mut matrix = vec![0.0; order * order];
@@ -100,10 +99,10 @@ fn least_at(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64
 
 #[cfg(test)]
 mod tests {
-    use super::super::tail::Tail;
+    use super::super::tail::{ExponentialTail, Tail};
     use super::*;
     use crate::bem::{PatchKernel, Strip};
-    use crate::history::late_lags::{ExponentialTail, LateLags};
+    use crate::history::LateLags;
     use crate::soil::Soil;
 
     fn patch() -> PatchKernel {

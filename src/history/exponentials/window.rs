@@ -51,35 +51,23 @@ impl LagKernel for Cut<'_> {
     }
 }
 
-/// Coefficients of lags 1 to W per class (those of lag 1 are no part of the history, but of the
-/// check for passivity).
-#[derive(Debug, Clone)]
-pub(super) struct Lags {
-    pub(super) normal: Vec<Vec<f64>>,
-    pub(super) tangential: Vec<Vec<f64>>,
-    /// Only as long as it is not zero.
-    pub(super) coupling: Vec<Vec<f64>>,
-}
+/// Coefficients of lags 1 to W (those of lag 1 are no part of the history, but of the check for
+/// passivity), per kind (normal, tangential, coupling) and class; the coupling's as long as it is not zero.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Lags(pub(super) [Vec<Vec<f64>>; 3]);
 
 impl Lags {
     /// Lags 1 to `window`.
     pub(super) fn new(kernel: &dyn LagKernel, window: usize) -> Result<Self> {
         kernel.prepare(window)?;
-        let classes = kernel.classes().count();
-        let mut lags = Self {
-            normal: Vec::with_capacity(classes),
-            tangential: Vec::with_capacity(classes),
-            coupling: Vec::with_capacity(classes),
-        };
-        for class in 0..classes {
+        let mut lags = Self::default();
+        for class in 0..kernel.classes().count() {
             let [mut zz, mut xx, mut zx] = [(); 3].map(|()| vec![0.0; window]);
             kernel.coefficients(class, 1, &mut zz, &mut xx, &mut zx)?;
             let last = kernel.last_coupling_lag(class)?.filter(|last| *last <= window);
             zx.truncate(last.ok_or(COUPLING_LASTS)?);
             zx.shrink_to_fit();
-            lags.normal.push(zz);
-            lags.tangential.push(xx);
-            lags.coupling.push(zx);
+            lags.0.iter_mut().zip([zz, xx, zx]).for_each(|(kind, values)| kind.push(values));
         }
         Ok(lags)
     }
