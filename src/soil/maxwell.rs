@@ -1,7 +1,7 @@
 //! Nearly constant damping over a band of frequencies, causal and passive.
 
 use super::nonnegative::least_squares;
-use super::relaxation::{Relaxation, rounded};
+use super::relaxation::{Kind, Relaxation, rounded};
 use crate::complex::Complex;
 use crate::error::{
     Error, LayeredError, Result, damping_ratio, not_negative, positive, same_length,
@@ -152,9 +152,8 @@ impl Relaxation for GeneralizedMaxwell {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        let mut numbers = vec![4.0, self.long_term, self.rates.len() as f64];
-        numbers.extend(self.shares.iter().chain(&self.rates));
-        Some(numbers)
+        let sizes = [self.long_term, self.rates.len() as f64];
+        Kind::GeneralizedMaxwell.with(sizes.iter().chain(&self.shares).chain(&self.rates))
     }
 }
 
