@@ -18,7 +18,6 @@ mod assembly;
 mod beam;
 mod dashpot;
 mod direction;
-mod direction_words;
 mod element;
 mod layered_block;
 mod line;
