@@ -1,8 +1,8 @@
 //! Estimated condition numbers against those of the inverse.
 
 use super::*;
+use crate::linalg::Triplets;
 use crate::random::Random;
-use crate::structure::Triplets;
 
 #[path = "../../tests/support/inverse.rs"]
 mod inverse;

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::error::{Error, Result};
-use crate::words::{count, unknown, with_number};
+use crate::text::words::{count, unknown, with_number};
 
 /// Baseline correction: a polynomial is subtracted from a record so that it ends at, or near, rest.
 ///

@@ -3,8 +3,8 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use crate::contact_element::ContactElement;
 use crate::error::{Error, Result, finite, not_negative, same_length};
+use crate::geometry::ContactElement;
 use crate::linalg::{Dot, Simd, WithSimd, dot, vectorized};
 
 /// Coefficients behind a window of W lags: at lag W + 1 + a, a = 0, 1, …, those of receiver p and

@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::level::{Level, Near};
-use crate::contact_element::ContactElement;
+use crate::geometry::ContactElement;
 use crate::history::exponentials::tail::Fit;
 
 /// Levels of blocks, from the smallest on, for leaves of one length.
