@@ -3,6 +3,7 @@
 use super::element::MassKind;
 use super::mesh::Mesh;
 use super::numbering::Numbering;
+use crate::error::Result;
 use crate::linalg::Triplets;
 
 /// Which matrix of the elements is meant.
@@ -97,4 +98,25 @@ pub(crate) fn assemble(
         numbering.of_element(element, &mut indices);
         matrix.add_block(&indices, &block);
     }
+}
+
+/// Lets every element of `mesh` take the static state; `displacement` (m, rad) in the unknowns of
+/// `numbering`, `gravity` in m/s².
+///
+/// # Errors
+/// [`Error::Scene`](crate::Error::Scene) for an element that would then have other nodes or
+/// directions.
+pub(crate) fn set_static_state(
+    mesh: &mut Mesh,
+    numbering: &Numbering,
+    displacement: &[f64],
+    gravity: f64,
+) -> Result<()> {
+    let mut indices = Vec::new();
+    mesh.replace_elements(|element, points| {
+        numbering.of_element(element, &mut indices);
+        let value = |&index: &usize| displacement.get(index).copied().unwrap_or(0.0);
+        let own: Vec<f64> = indices.iter().map(value).collect();
+        element.in_static_state(points, &own, gravity)
+    })
 }

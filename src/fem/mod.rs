@@ -25,13 +25,12 @@ mod material;
 mod mesh;
 mod numbering;
 mod quad4;
-mod quad4_shape;
 mod quad8;
 mod spring;
-mod static_state;
 mod truss;
 
 pub use crate::geometry::Direction;
+pub(crate) use assembly::set_static_state;
 pub(crate) use assembly::{Quantity, assemble};
 pub(crate) use assembly::{
     assemble_damping, assemble_geometric_stiffness, assemble_mass, assemble_stiffness,
@@ -47,5 +46,4 @@ pub(crate) use numbering::Numbering;
 pub use quad4::{Quad4, QuadFormulation};
 pub use quad8::{Quad8, Quad8Integration};
 pub use spring::Spring;
-pub(crate) use static_state::set_static_state;
 pub use truss::Truss;

@@ -11,7 +11,6 @@ mod lanczos;
 pub(crate) mod matrix;
 mod partition;
 mod product;
-mod simd;
 mod sparse;
 mod triplets;
 
@@ -23,9 +22,8 @@ pub(crate) use lanczos::lowest_modes;
 pub(crate) use matrix::SparseMatrix;
 pub(crate) use partition::Partition;
 pub(crate) use product::{
-    Dot, add_combined_rows, add_row, add_rows, dense_multiply_add, dot, largest, magnitude,
-    row_products, transposed_multiply_add, weighted_dot,
+    Dot, Simd, WithSimd, add_combined_rows, add_row, add_rows, dense_multiply_add, dot, largest,
+    magnitude, row_products, transposed_multiply_add, vectorized, weighted_dot,
 };
-pub(crate) use simd::{Simd, WithSimd, vectorized};
 pub(crate) use sparse::{SparseFactor, indefinite_row};
 pub use triplets::Triplets;

@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::fields::{Fields, is_failure, is_header};
+use super::lines::{Fields, is_failure, is_header};
 use super::lines::{Lines, Reason, record};
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};

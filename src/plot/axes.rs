@@ -6,8 +6,8 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-use super::area::{Area, Drawing};
-use super::stroke::Stroke;
+use super::key::Stroke;
+use super::svg::{Area, Drawing};
 use super::text::{fitted, width};
 use super::ticks::{Ticks, linear, logarithmic};
 

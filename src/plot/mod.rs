@@ -25,28 +25,23 @@
 //! ```
 
 mod animation;
-mod area;
 mod axes;
 mod base;
-mod energy;
-mod envelope;
 mod key;
 mod lines;
 mod mode_map;
 #[cfg(feature = "png")]
 mod png;
 mod shape;
-mod spectra;
-mod stroke;
 mod svg;
 mod text;
 mod ticks;
 
 pub use animation::animation;
-pub use energy::energy;
-pub use envelope::pressure_envelope;
+pub use base::pressure_envelope;
+pub use lines::energy;
+pub use lines::spectra;
 pub use lines::{Curve, curves, history, probe_history};
 pub use mode_map::mode_map;
 pub use shape::deformed_shapes;
-pub use spectra::spectra;
 pub use svg::Svg;

@@ -5,7 +5,6 @@ use std::path::Path;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::area::{Area, Drawing};
 use super::axes::{ABOVE, BELOW, LEFT, RIGHT};
 use super::key::Key;
 use super::text::lines;
@@ -105,3 +104,9 @@ impl Sheet {
         chart(&left)
     }
 }
+
+/// Where charts are drawn.
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
+
+/// Whatever goes wrong while drawing into memory.
+pub(super) type Drawing<T> = std::result::Result<T, Box<dyn std::error::Error + Send + Sync>>;

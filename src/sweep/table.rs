@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use super::file::replace;
 use super::grid::{Grid, LAST_COLUMNS, no_name};
-use super::replace::replace;
 use crate::error::{Result, SweepError};
 use crate::text::check_sum::CheckSum;
 use crate::text::column::Cell;

@@ -9,9 +9,9 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use super::file::{Content, Ending, read};
+use super::file::{name, replaced, unwritten};
+use super::grid::Parameter;
 use super::grid::check_names;
-use super::parameter::Parameter;
-use super::replace::{name, replaced, unwritten};
 use super::run::{Sweep, SweepCase};
 use super::table::{CaseTable, Row, heading};
 use crate::error::{CaseError, Error, Result, SweepError};
