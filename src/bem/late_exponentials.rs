@@ -24,7 +24,7 @@ use super::PatchKernel;
 use super::influence::LateSeries;
 use super::legendre::Basis;
 use crate::error::Result;
-use crate::fundamental::laurent::TERMS;
+use crate::fundamental::rayleigh::TERMS;
 use crate::history::{ExponentialTail, LagKernel, LateLags, TailProduct};
 
 /// Times that the Rayleigh wave has crossed the patch when exponentials take over. Behind three,

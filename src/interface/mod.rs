@@ -11,8 +11,7 @@ mod thin_layer;
 mod variable_friction;
 mod yielding;
 
-pub use adhesive::Adhesive;
-pub use adhesive::Bonded;
+pub use adhesive::{Adhesive, Bonded};
 pub use coulomb::{Activation, Coulomb};
 pub(crate) use step_start::memory_ends;
 pub use step_start::{StepStart, StepStarts};

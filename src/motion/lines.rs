@@ -1,4 +1,4 @@
-//! Lines and numbers of text files, however bad.
+//! Lines, fields and numbers of text files, however bad.
 
 use std::io::Read;
 

@@ -23,7 +23,6 @@ mod plane_wave;
 mod quantity;
 mod reader;
 mod record;
-mod ricker;
 mod spectrum;
 mod unit;
 
@@ -31,18 +30,15 @@ pub use baseline::Baseline;
 pub use content::FrequencyContent;
 pub use cosmos::CosmosFormat;
 pub use format::RecordFormat;
-pub use format::el_centro_1940;
-pub use free_field::FreeFieldFn;
-pub use free_field::TravellingWave;
-pub use free_field::VerticalIncidence;
-pub use free_field::{AtRest, FreeField};
+pub use free_field::{
+    AtRest, FreeField, FreeFieldFn, RickerDisplacement, TravellingWave, VerticalIncidence,
+};
 pub(crate) use integral::quadratic_roots_within;
 pub use k_net::KNetFormat;
 pub use peer::PeerFormat;
 pub use plane_wave::PlaneWave;
 pub(crate) use plane_wave::check_prescribed;
-pub use reader::ColumnFormat;
+pub use reader::{ColumnFormat, el_centro_1940};
 pub use record::Record;
-pub use ricker::RickerDisplacement;
 pub use spectrum::SpectralOrdinate;
 pub use unit::{AccelerationUnit, STANDARD_GRAVITY};

@@ -1,4 +1,4 @@
-//! Equally spaced records of ground acceleration.
+//! Equally spaced records of ground acceleration: their parts, their integrals, and as CSV.
 
 use std::io::{self, Write};
 use std::path::Path;

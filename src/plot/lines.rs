@@ -1,9 +1,10 @@
-//! Histories over time.
+//! Curves over time or period: quantities, energy, spectra.
 
 use plotters::prelude::*;
 
 use super::axes::{Axis, chart, draw_curve, drawable, range_of};
-use super::key::{Key, Sample, Stroke};
+use super::key::{Key, Sample};
+use super::stroke::Stroke;
 use super::svg::{Sheet, Svg};
 use crate::coupled::Ledger;
 use crate::error::{Error, Result};

@@ -33,15 +33,12 @@ mod mode_map;
 #[cfg(feature = "png")]
 mod png;
 mod shape;
+mod stroke;
 mod svg;
 mod text;
-mod ticks;
 
 pub use animation::animation;
-pub use base::pressure_envelope;
-pub use lines::energy;
-pub use lines::spectra;
-pub use lines::{Curve, curves, history, probe_history};
-pub use mode_map::mode_map;
+pub use lines::{Curve, curves, energy, history, probe_history, spectra};
+pub use mode_map::{mode_map, pressure_envelope};
 pub use shape::deformed_shapes;
 pub use svg::Svg;

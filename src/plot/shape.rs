@@ -3,8 +3,8 @@
 use plotters::prelude::*;
 
 use super::axes::{Axis, chart, draw_curve, drawable};
-use super::key::Stroke;
 use super::key::{Key, Sample};
+use super::stroke::Stroke;
 use super::svg::{Sheet, Svg};
 use super::text::short;
 use crate::error::{Error, Result, finite, positive};

@@ -7,6 +7,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::axes::{ABOVE, BELOW, LEFT, RIGHT};
 use super::key::Key;
+use super::stroke::{Area, Drawing};
 use super::text::lines;
 use crate::error::{Error, Result, write_file};
 
@@ -104,9 +105,3 @@ impl Sheet {
         chart(&left)
     }
 }
-
-/// Where charts are drawn.
-pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
-
-/// Whatever goes wrong while drawing into memory.
-pub(super) type Drawing<T> = std::result::Result<T, Box<dyn std::error::Error + Send + Sync>>;

@@ -1,10 +1,10 @@
 //! Nearly constant damping over a band of frequencies, causal and passive.
 
 use super::relaxation::{Kind, Relaxation, rounded};
-use crate::complex::Complex;
 use crate::error::{
     Error, LayeredError, Result, damping_ratio, not_negative, positive, same_length,
 };
+use crate::linalg::Complex;
 
 /// A spring beside springs in series with dashpots (generalised Maxwell body):
 /// μ(s)/μ₀ = m (1 + Σ yᵢ s/(s + ωᵢ)), passive for yᵢ ≥ 0 (Emmerich & Korn 1987).
@@ -152,7 +152,7 @@ impl Relaxation for GeneralizedMaxwell {
 
     fn identity(&self) -> Option<Vec<f64>> {
         let sizes = [self.long_term, self.rates.len() as f64];
-        Kind::GeneralizedMaxwell.with(sizes.iter().chain(&self.shares).chain(&self.rates))
+        Some(Kind::GeneralizedMaxwell.with(sizes.iter().chain(&self.shares).chain(&self.rates)))
     }
 }
 

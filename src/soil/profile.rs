@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::Soil;
 use super::relaxation::{Elastic, Relaxation};
-use crate::complex::Complex;
 use crate::error::{Error, LayeredError, Result, positive};
+use crate::linalg::Complex;
 
 /// One layer: an elastic soil, its thickness and its damping.
 #[derive(Debug, Clone)]

@@ -3,8 +3,8 @@
 use std::any::Any;
 use std::fmt::Debug;
 
-use crate::complex::Complex;
 use crate::error::{Result, damping_ratio, not_negative, positive};
+use crate::linalg::Complex;
 
 /// How the shear modulus of a soil depends on frequency, as a function of the Laplace variable s.
 ///
@@ -71,8 +71,8 @@ pub(super) enum Kind {
 
 impl Kind {
     /// Identity of a law with these numbers.
-    pub(super) fn with<'a>(self, numbers: impl IntoIterator<Item = &'a f64>) -> Option<Vec<f64>> {
-        Some(std::iter::once(f64::from(self as u8)).chain(numbers.into_iter().copied()).collect())
+    pub(super) fn with<'a>(self, numbers: impl IntoIterator<Item = &'a f64>) -> Vec<f64> {
+        std::iter::once(f64::from(self as u8)).chain(numbers.into_iter().copied()).collect()
     }
 }
 
@@ -91,7 +91,7 @@ impl Relaxation for Elastic {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        Kind::Elastic.with(&[])
+        Some(Kind::Elastic.with(&[]))
     }
 }
 
@@ -148,7 +148,7 @@ impl Relaxation for KelvinVoigt {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        Kind::KelvinVoigt.with(&[self.time])
+        Some(Kind::KelvinVoigt.with(&[self.time]))
     }
 }
 
@@ -202,7 +202,7 @@ impl Relaxation for Kjartansson {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        Kind::Kjartansson.with(&[self.exponent, self.reference])
+        Some(Kind::Kjartansson.with(&[self.exponent, self.reference]))
     }
 }
 
@@ -246,7 +246,7 @@ impl Relaxation for Hysteretic {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        Kind::Hysteretic.with(&[self.ratio])
+        Some(Kind::Hysteretic.with(&[self.ratio]))
     }
 }
 

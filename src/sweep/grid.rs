@@ -1,4 +1,4 @@
-//! All combinations of the values of some parameters, numbered.
+//! Parameters and the grid of cases that they span.
 
 use std::collections::HashSet;
 use std::hash::Hash;

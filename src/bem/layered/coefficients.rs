@@ -19,8 +19,8 @@ use realfft::num_complex::Complex64;
 
 use super::runge_kutta::{Stages, on_circle};
 use super::wavenumber::{Wavenumbers, Workspace};
-use crate::complex::Complex;
 use crate::error::{Error, Result};
+use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
 /// Lags of the first block.

@@ -12,10 +12,10 @@
 use super::compliance::{Compliance, Surface};
 use super::passivity::assembled;
 use super::wavenumber::{Wavenumbers, Workspace};
-use crate::complex::Complex;
 use crate::error::{Result, same_length};
 use crate::geometry::ContactElement;
 use crate::history::PairClasses;
+use crate::linalg::Complex;
 use crate::linalg::gauss;
 use crate::soil::SoilProfile;
 

@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::level::Rows;
 use super::level::{Level, Near, Part, Work};
-use super::rows::Rows;
 use super::spectra::SharedSpectra;
 use crate::error::Result;
 use crate::history::lag_kernel::LagKernel;

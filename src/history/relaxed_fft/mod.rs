@@ -4,7 +4,6 @@ mod blocks;
 mod lattice;
 mod level;
 mod pairs;
-mod rows;
 pub(super) mod spectra;
 mod waves;
 

@@ -9,8 +9,8 @@ use realfft::num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use super::blocks::{Extent, Space};
+use super::level::Rows;
 use super::level::{Convolution, KINDS, Level, Near, Part, Work, fill, forward, inverse, reserve};
-use super::rows::Rows;
 use crate::error::Result;
 use crate::history::lag_kernel::LagKernel;
 use crate::history::pair_classes::{Pair, PairClasses};

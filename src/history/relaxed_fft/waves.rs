@@ -11,8 +11,8 @@ use rustfft::{Fft, FftPlanner};
 
 use super::blocks::{Extent, Space};
 use super::lattice::Lattice;
+use super::level::Rows;
 use super::level::{Convolution, KINDS, Level, Near, Part, Work, fill, reserve};
-use super::rows::Rows;
 use crate::error::Result;
 use crate::history::lag_kernel::LagKernel;
 use crate::linalg::{Simd, WithSimd, vectorized};

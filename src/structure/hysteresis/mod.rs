@@ -7,8 +7,7 @@ mod springs;
 
 pub use bouc_wen::BoucWen;
 pub use lead_rubber::LeadRubber;
-pub use slider::Bilinear;
-pub use slider::FrictionPendulum;
+pub use slider::{Bilinear, FrictionPendulum};
 pub(super) use springs::Springs;
 pub use springs::WithSprings;
 

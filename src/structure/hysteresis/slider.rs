@@ -1,4 +1,4 @@
-//! A spring beside an elastic–perfectly plastic one: what all bilinear laws have in common.
+//! An elastic slider beside a spring, and the laws that it makes: bilinear columns and friction pendulums.
 
 use super::{InternalEnergy, SpringResponse, corrupt};
 use crate::error::{Error, Result, finite, not_negative, positive};
