@@ -188,7 +188,6 @@
 mod text;
 
 pub mod bem;
-mod complex;
 pub mod contact;
 pub mod coupled;
 mod error;
@@ -215,7 +214,6 @@ pub mod soil;
 pub mod structure;
 pub mod sweep;
 
-pub use complex::Complex;
 pub use coupled::Simulation;
 pub use error::{
     CaseError, CaseFileError, CheckpointError, Error, KernelFileError, LawError, LayeredError,
@@ -224,6 +222,7 @@ pub use error::{
 };
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};
+pub use linalg::Complex;
 pub use soil::Soil;
 pub use sweep::Sweep;
 

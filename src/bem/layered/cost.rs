@@ -13,8 +13,8 @@ use super::form_factors::{DEGREES, LANES, POINTS, Row};
 use super::passivity;
 use super::runge_kutta::on_circle;
 use super::wavenumber::{Counts, Workspace};
-use crate::complex::Complex;
 use crate::error::{LayeredError, Result};
+use crate::linalg::Complex;
 
 /// Nanoseconds of one thread for an evaluation of the surface compliance, for each layer in it after the
 /// first, for its moments if its panel is halved, for a form factor, and for a product of the two.
