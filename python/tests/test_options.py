@@ -201,13 +201,18 @@ def test_laws_of_the_interface_bound_its_tractions(rocking, soil) -> None:
         rocking(interface=[bm.Coulomb(0.4)] * 3)
 
 
-def test_advice_is_followed_by_a_smaller_error(soil: bm.Soil) -> None:
-    record = bm.el_centro_1940()
-    outline = {"width": 6.0, "height": 9.0, "mass": 54e3}
-    fine, coarse = (bm.advise(soil, record, tolerance, **outline) for tolerance in (0.01, 0.1))
-    assert fine.elements > coarse.elements and fine.time_step < coarse.time_step
-    assert max(coarse.mesh_error, coarse.step_error, coarse.peak_error) <= 0.06
-    assert (fine.grading, fine.history) == ("cosine", "auto")
+def test_refinement_finds_the_order_and_the_error(soil: bm.Soil) -> None:
+    found = bm.refine(8, 0.1, lambda n, step: [5.0 + 3.0 / n**2, 2.0 - 0.5 * step])
+    assert found.elements == [8, 8, 8, 16, 32, 16] and found.time_steps[2] == 0.025
+    assert abs(found.mesh_order - 2.0) < 1e-6 and abs(found.step_order - 1.0) < 1e-6
+    assert np.allclose(found.extrapolated, [5.0, 2.0], rtol=1e-9)
+    truth = np.hypot(3.0 / 64, 0.05) / np.hypot(5.0, 2.0)
+    assert abs(found.errors[0] - truth) < 1e-6 * truth and found.is_regular
+    assert "order of convergence: 2.0" in str(found) and len(found.wall_times) == 6
+    with pytest.raises(ZeroDivisionError):
+        bm.refine(8, 0.1, lambda n, step: 1 / 0)
+    with pytest.raises(bm.InputError, match="number of elements"):
+        bm.refine(0, 0.1, lambda n, step: 1.0)
 
 
 def test_words_are_those_of_the_crate_and_those_of_the_docstrings(rocking, soil, block) -> None:

@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use super::scene::modal_basis::ModalBasis;
-use super::scene::stepped_row::SteppedRow;
+use super::scene::transformation::{Transformation, Weights};
 use crate::error::{Error, Result, finite, positive};
 use crate::motion::Record;
 use crate::structure::Row;
@@ -130,14 +129,14 @@ impl fmt::Debug for Load {
 /// A load in the coordinates that are stepped.
 pub(crate) struct SteppedLoad {
     load: Load,
-    row: SteppedRow,
+    row: Weights,
     /// Its value in the static state.
     at_start: f64,
 }
 
 impl SteppedLoad {
-    pub(crate) fn new(load: Load, modes: Option<&ModalBasis>, is_static: bool) -> Self {
-        let row = SteppedRow::new(load.row.terms(), modes);
+    pub(crate) fn new(load: Load, transformation: &Transformation, is_static: bool) -> Self {
+        let row = transformation.row(load.row.terms());
         let at_start = if is_static { load.value(0.0) } else { 0.0 };
         Self { load, row, at_start }
     }

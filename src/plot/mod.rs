@@ -11,6 +11,7 @@
 //! | largest, least and static pressure along the base | [`pressure_envelope`] |
 //! | where the energy went | [`energy`] |
 //! | response spectra | [`spectra`] |
+//! | error against run time | [`refinement`](refinement()) |
 //! | the structure at some instants | [`deformed_shapes`] |
 //! | the structure in motion, with its base | [`animation`] (an SVG that browsers play) |
 //!
@@ -35,6 +36,7 @@ mod lines;
 mod mode_map;
 #[cfg(feature = "png")]
 mod png;
+mod refinement;
 mod shape;
 mod spectra;
 mod stroke;
@@ -47,6 +49,7 @@ pub use energy::energy;
 pub use envelope::pressure_envelope;
 pub use lines::{Curve, curves, history, probe_history};
 pub use mode_map::mode_map;
+pub use refinement::refinement;
 pub use shape::deformed_shapes;
 pub use spectra::spectra;
 pub use svg::Svg;

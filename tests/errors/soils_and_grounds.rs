@@ -6,7 +6,6 @@ use basemat::bem::{
     ContactElement, ElasticGround, Grading, Ground, InfluenceKernel, PatchKernel, SpringGround,
     StaticKernel, Strip,
 };
-use basemat::coupled::Outline;
 use basemat::motion::{Record, el_centro_1940};
 use basemat::soil::{GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson};
 use basemat::structure::{ModalDamping, RayleighDamping, RigidBlock, ShearBuilding, Storey};
@@ -134,9 +133,8 @@ fn kernels() {
 fn damping_ratios_in_per_cent() {
     type Make<'a> = &'a dyn Fn(f64) -> basemat::Result<()>;
     let building = || ShearBuilding::new(8.0, 60e3, 4e5, &[Storey::new(3.0, 30e3, 60e6)]).unwrap();
-    let outline = Outline::new(10.0, 15.0, 150e3).unwrap();
     let bad = [5.0, 1.0, -0.1, f64::NAN, f64::INFINITY];
-    let kinds: [(&str, Make); 9] = [
+    let kinds: [(&str, Make); 8] = [
         ("building", &|x| building().with_stiffness_damping(x).map(drop)),
         ("modal", &|x| ModalDamping::new(&[0.05, x]).map(drop)),
         ("Rayleigh", &|x| RayleighDamping::from_ratios([1.0, 5.0], [0.9, x]).map(drop)),
@@ -145,7 +143,6 @@ fn damping_ratios_in_per_cent() {
         ("Kjartansson", &|x| Kjartansson::new(x, 1.0).map(drop)),
         ("hysteretic", &|x| Hysteretic::new(x).map(drop)),
         ("spectrum", &|x| el_centro_1940().response_spectrum(&[0.5], x).map(drop)),
-        ("outline", &|x| outline.with_frequency(2.0, x).map(drop)),
     ];
     for (kind, make) in kinds {
         println!("{kind}");

@@ -6,19 +6,14 @@
 //! | r | displacements when the contact nodes take part in that motion and the rest follows |
 //! | e | distance of the resultant from the middle of the base |
 
-use super::base::Base;
-use super::influence::Part;
-use super::mechanism::{AtRest, Held, unresisted};
-use super::model::Tangent;
-use super::proximal::Standing;
+use super::mechanism::{Regular, unresisted};
+use crate::coupled::build::equilibrium::Standing;
 use crate::error::{Error, StandingError};
 use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, Tolerance, law_of};
 use crate::linalg::dot;
-use crate::linalg::matrix::SparseMatrix;
-use crate::structure::{ContactNode, Triplets};
 
 /// The reason behind `error`, that no equilibrium was found under `load`, if it can be told.
-pub(super) fn cause(
+pub(crate) fn cause(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     load: &[f64],
@@ -28,42 +23,30 @@ pub(super) fn cause(
     if !matches!(error, Preload { .. } | IllConditioned { .. } | Singular { .. }) {
         return error;
     }
-    let Some(stiffness) = stiffness_at_rest(stage) else { return error };
-    let Standing { model, structure, base, .. } = *stage;
-    let at_rest = AtRest { structure, stiffness: &stiffness, mass: &model.mass, base };
+    let Standing { assembled, structure, .. } = *stage;
+    let at_rest = assembled.at_rest(structure);
     let is_singular = matches!(error, Singular { .. });
-    let massless = || unresisted(structure, &stiffness, [&model.damping, &model.mass]);
+    let others = [&assembled.damping, &assembled.mass];
+    let massless = || unresisted(structure, at_rest.stiffness, others);
     at_rest
         .mechanism()
         .or_else(|| if is_singular { massless() } else { None })
-        .or_else(|| resultants(stage, &at_rest, laws, load))
+        .or_else(|| resultants(stage, laws, load))
         .map_or(error, |cause| Error::Standing(Box::new(cause)))
-}
-
-/// K and the tangent of the nonlinear force at rest.
-fn stiffness_at_rest(stage: &Standing<'_>) -> Option<SparseMatrix> {
-    let n = stage.model.unknowns;
-    let mut tangent = Tangent::new(n);
-    tangent.refill(stage.structure, &vec![0.0; n]).ok()?;
-    let mut sum = Triplets::new(n);
-    stage.model.stiffness.add_to(1.0, &mut sum);
-    tangent.matrix.add_to(1.0, &mut sum);
-    SparseMatrix::new("stiffness matrix", &sum).ok()
 }
 
 /// Whether the resultants of the load on each part lift it, overturn it, push it off or press it in.
 fn resultants(
     stage: &Standing<'_>,
-    at_rest: &AtRest<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     load: &[f64],
 ) -> Option<StandingError> {
-    let model = stage.model;
-    let mut held = Held::new(at_rest)?;
-    model.influence.parts().iter().find_map(|part| {
+    let (assembled, base) = (stage.assembled, &stage.assembled.base);
+    let (held, mut regular) = Regular::held(&assembled.at_rest(stage.structure))?;
+    assembled.influence.parts().iter().find_map(|part| {
         let [horizontal, upward] = part.resultants(load);
         let normal = -upward;
-        let nodes = nodes_under(stage.base, part);
+        let nodes = part.nodes(base);
         let (left, right) = (nodes.first()?.x, nodes.last()?.x);
         let ends = [left, right];
         let laws = || part.elements().iter().map(|&e| law_of(laws, e));
@@ -81,7 +64,7 @@ fn resultants(
             let lifted = StandingError::Lifted { ends, upward };
             return if opens { broken(pulls, lifted) } else { None };
         }
-        let lengths = || part.elements().iter().map(|&e| stage.base.lengths()[e]);
+        let lengths = || part.elements().iter().map(|&e| base.lengths()[e]);
         let pressure = normal / lengths().sum::<f64>();
         let friction = laws().map(|law| friction(law, pressure)).fold(0.0, f64::max);
         let resistance = friction * normal;
@@ -94,7 +77,9 @@ fn resultants(
             return Some(slides);
         }
         let (middle, half_width) = (0.5 * (left + right), 0.5 * (right - left));
-        let moment = dot(&held.rotation(&nodes, middle), load);
+        let mut rotation = held.turn(nodes, middle);
+        regular.factor.solve(&mut rotation);
+        let moment = dot(&rotation, load);
         // The soil's pressure stands at the distance e: M + N e = 0.
         let eccentricity = -moment / normal;
         let ratio = eccentricity.abs() / half_width;
@@ -103,7 +88,7 @@ fn resultants(
             return broken(pulls, error);
         }
         let elements = part.elements().len();
-        let middles = part.elements().iter().map(|&e| stage.base.middle(e));
+        let middles = part.elements().iter().map(|&e| base.middle(e));
         let reach = [
             middles.clone().fold(f64::INFINITY, f64::min),
             middles.fold(f64::NEG_INFINITY, f64::max),
@@ -172,12 +157,4 @@ fn bearing_pressure(law: &dyn InterfaceLaw) -> f64 {
     let conditions = yielding.flat_map(|&mode| law.conditions(mode, &start));
     let pressures = conditions.filter_map(|c| c.pressure_alone());
     pressures.reduce(f64::max).unwrap_or(f64::INFINITY)
-}
-
-/// The contact nodes of a part's foundations.
-fn nodes_under<'a>(base: &'a Base, part: &Part) -> Vec<&'a ContactNode> {
-    base.foundations()
-        .filter(|(_, elements)| part.elements().contains(&elements.start))
-        .flat_map(|(nodes, _)| nodes)
-        .collect()
 }

@@ -1,16 +1,15 @@
 //! Equilibrium with contact conditions and a soil at rest, by proximal point iteration.
 
-use super::base::Base;
-use super::model::{Model, Tangent};
-use super::operators::condense;
-use super::static_state::StaticState;
+use super::assembled::Assembled;
 use crate::contact::{ContactInput, ContactSearch, ContactSolver, Delassus, ModeSearch};
+use crate::coupled::scene::base::Base;
+use crate::coupled::scene::operators::condense;
 use crate::error::{Error, Result, StepError};
-use crate::interface::{ContactState, InterfaceLaw, StepStarts};
+use crate::interface::{ContactState, InterfaceLaw, Mode, StepStarts, law_of};
 use crate::linalg::{
     SparseFactor, SparseMatrix, dot, largest, sparse_condition, transposed_multiply_add,
 };
-use crate::structure::{Structure, Triplets};
+use crate::structure::{InternalEnergy, Structure, Tangent, nonlinear_state};
 
 const NAME: &str = "static stiffness matrix";
 /// Force out of balance, relative to the load, up to which a state is one of equilibrium.
@@ -36,13 +35,68 @@ const SLOW: f64 = 0.2;
 /// Pull, relative to the load, that may not fall for rounding alone.
 const ROUNDING: f64 = 1e-6;
 
+/// A static state: what weight and loads at t = 0 leave, contact conditions included.
+#[derive(Debug, Clone)]
+pub(crate) struct StaticState {
+    pub(crate) traction: Vec<f64>,
+    /// Gaps: of uplifted elements, and (negative) of compressed layers; hard contact has zero.
+    pub(crate) gap: Vec<f64>,
+    pub(crate) displacement: Vec<f64>,
+    pub(crate) modes: Vec<Mode>,
+    /// The structure's own load at t = 0.
+    pub(crate) load: Vec<f64>,
+    /// Memory of each element's law where that acted in it; empty where the law begins anew.
+    pub(crate) memory: Vec<Vec<f64>>,
+    /// f(u) of a nonlinear structure, and its energies where it knows them.
+    pub(crate) force: Vec<f64>,
+    pub(crate) energy: Option<InternalEnergy>,
+}
+
+impl StaticState {
+    /// No weight: everything touches, nothing presses.
+    pub(crate) fn weightless(elements: usize, unknowns: usize) -> Self {
+        Self {
+            traction: vec![0.0; 2 * elements],
+            gap: vec![0.0; elements],
+            displacement: vec![0.0; unknowns],
+            modes: vec![Mode::Stick; elements],
+            load: vec![0.0; unknowns],
+            memory: Vec::new(),
+            force: Vec::new(),
+            energy: None,
+        }
+    }
+
+    /// Modes with which a base goes on under `laws`: whatever placed it, what touches sticks.
+    pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
+        let modes = self.modes.iter().enumerate().map(|(e, mode)| {
+            let known = law_of(laws, e).modes();
+            if known.contains(mode) && !mode.is_closed() { *mode } else { known[0] }
+        });
+        modes.collect()
+    }
+
+    /// Gaps from the states of the contact solver, exactly where a law pins them.
+    fn close_gaps(
+        &mut self,
+        laws: &[Box<dyn InterfaceLaw>],
+        start: &StepStarts,
+        states: &[ContactState],
+    ) {
+        for (e, gap) in self.gap.iter_mut().enumerate() {
+            let conditions = law_of(laws, e).conditions(self.modes[e], &start.of(e));
+            let pinned = conditions.iter().find_map(|c| c.gap_at(self.traction[e]));
+            *gap = pinned.unwrap_or(states[e].gap);
+        }
+    }
+}
+
 /// A structure on a soil at rest.
-pub(super) struct Standing<'a> {
-    pub(super) model: &'a Model,
-    pub(super) structure: &'a dyn Structure,
-    pub(super) base: &'a Base,
+pub(crate) struct Standing<'a> {
+    pub(crate) assembled: &'a Assembled,
+    pub(crate) structure: &'a dyn Structure,
     /// Static compliance of the ground, 2Q × 2Q.
-    pub(super) soil: &'a [f64],
+    pub(crate) soil: &'a [f64],
 }
 
 impl Standing<'_> {
@@ -60,10 +114,11 @@ impl Standing<'_> {
         mut state: StaticState,
         load: &[f64],
     ) -> Result<(StaticState, Vec<ContactState>)> {
-        let Self { model, structure, base, soil } = *self;
-        let (n, count) = (model.unknowns, base.lengths().len());
+        let Self { assembled, structure, soil } = *self;
+        let base = &assembled.base;
+        let (n, count) = (assembled.unknowns(), base.lengths().len());
         let size = 2 * count;
-        let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(soil, base) / total_mass(model);
+        let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(soil, base) / total_mass(assembled);
         if !epsilon.is_finite() {
             return Err(Error::Singular { matrix: NAME, order: n });
         }
@@ -71,7 +126,7 @@ impl Standing<'_> {
 
         let mut solver = ContactSolver::new(count);
         let mut search = ModeSearch::new(count, ContactSearch::Robust);
-        let measure = Measure::new(model, load);
+        let measure = Measure::new(assembled, load);
         let mut tangent = Tangent::new(n);
         let mut compliance: Option<Compliance> = None;
         let mut free_jump = vec![0.0; size];
@@ -81,17 +136,17 @@ impl Standing<'_> {
             iterations += 1;
             tangent.refill(structure, &state.displacement)?;
             let current = match compliance.take() {
-                Some(current) if model.linear => current,
+                Some(current) if assembled.linear => current,
                 _ => {
                     solver.invalidate();
-                    Compliance::new(model, &tangent.matrix, base, soil, epsilon)?
+                    Compliance::new(assembled, &tangent.matrix, soil, epsilon)?
                 }
             };
             let current = compliance.insert(current);
             // (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. Under the springs alone the structure
             // would sink by 1/PROXIMAL_SHARE settlements; so what τ₀ answers to is put in by the columns
             // that take out τ₁, and only what is out of balance is solved for.
-            let mut displacement = out_of_balance(model, structure, base, load, &state)?;
+            let mut displacement = out_of_balance(assembled, structure, load, &state)?;
             current.factor.solve(&mut displacement);
             for (d, u) in displacement.iter_mut().zip(&state.displacement) {
                 *d += u;
@@ -121,7 +176,7 @@ impl Standing<'_> {
             let moved: Vec<f64> =
                 displacement.iter().zip(&state.displacement).map(|(a, b)| a - b).collect();
             let mut pull = vec![0.0; n];
-            model.mass.multiply_add(epsilon, &moved, &mut pull);
+            assembled.mass.multiply_add(epsilon, &moved, &mut pull);
             let previous = change;
             change = measure.of(&pull);
             state.displacement = displacement;
@@ -130,13 +185,13 @@ impl Standing<'_> {
             let stalled = change <= 1e-10 && change >= 0.5 * previous;
             let late = iterations > LATE
                 && change <= LATE_CHANGE
-                && change <= current.condition(model, &tangent.matrix, epsilon) * f64::EPSILON;
+                && change <= current.condition() * f64::EPSILON;
             // What nothing resists (a frictionless base along the ground) drifts for ever by the same
             // amount under what rounding leaves of the sums of K, a share that grows with its size.
             let drifts = change <= DRIFT && (change - previous).abs() <= 1e-3 * change;
             if change <= 1e-13 || stalled || late || drifts {
                 // Springs that pull at nothing are no equilibrium yet, if K u is all rounding.
-                let rest = imbalance(model, base, load, &state.traction);
+                let rest = imbalance(assembled, load, &state.traction);
                 if rest <= EQUILIBRIUM {
                     state.close_gaps(laws, start, &solver.states);
                     return Ok((state, solver.states));
@@ -153,11 +208,9 @@ impl Standing<'_> {
                 solver.invalidate();
             }
         }
-        tangent.refill(structure, &vec![0.0; n])?;
         // Of the structure against springs as stiff as the first ones.
         let share = epsilon / stiffest;
-        let condition =
-            compliance.map_or(1.0, |mut c| share * c.condition(model, &tangent.matrix, epsilon));
+        let condition = compliance.map_or(1.0, |mut current| share * current.condition());
         Err(failure(condition, iterations, change))
     }
 }
@@ -178,11 +231,11 @@ fn failure(condition: f64, iterations: usize, change: f64) -> Error {
 
 /// Relative force imbalance: K resists no translation, so that tractions alone must carry the two
 /// resultants of the load.
-fn imbalance(model: &Model, base: &Base, load: &[f64], traction: &[f64]) -> f64 {
+fn imbalance(assembled: &Assembled, load: &[f64], traction: &[f64]) -> f64 {
     let mut rest = load.to_vec();
-    base.add_forces(-1.0, traction, &mut rest);
+    assembled.base.add_forces(-1.0, traction, &mut rest);
     let [mut worst, mut scale] = [0.0_f64; 2];
-    for vector in &model.influence.of_all(model.unknowns) {
+    for vector in &assembled.influence.of_all(load.len()) {
         worst = worst.max(dot(vector, &rest).abs());
         scale = scale.max(vector.iter().zip(load).map(|(r, f)| (r * f).abs()).sum());
     }
@@ -191,16 +244,15 @@ fn imbalance(model: &Model, base: &Base, load: &[f64], traction: &[f64]) -> f64 
 
 /// load − K u − f(u) − BᵀAτ.
 fn out_of_balance(
-    model: &Model,
+    assembled: &Assembled,
     structure: &dyn Structure,
-    base: &Base,
     load: &[f64],
     state: &StaticState,
 ) -> Result<Vec<f64>> {
     let mut rest = load.to_vec();
-    model.stiffness.multiply_add(-1.0, &state.displacement, &mut rest);
-    base.add_forces(-1.0, &state.traction, &mut rest);
-    let (force, _) = model.nonlinear_state(structure, &state.displacement)?;
+    assembled.stiffness.multiply_add(-1.0, &state.displacement, &mut rest);
+    assembled.base.add_forces(-1.0, &state.traction, &mut rest);
+    let (force, _) = nonlinear_state(structure, &state.displacement)?;
     rest.iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
     Ok(rest)
 }
@@ -213,8 +265,8 @@ struct Measure {
 }
 
 impl Measure {
-    fn new(model: &Model, load: &[f64]) -> Self {
-        let mut weights = model.mass.diagonal();
+    fn new(assembled: &Assembled, load: &[f64]) -> Self {
+        let mut weights = assembled.mass.diagonal();
         for weight in &mut weights {
             *weight = if *weight > 0.0 { weight.sqrt().recip() } else { 0.0 };
         }
@@ -237,53 +289,39 @@ impl Measure {
     }
 }
 
-/// Factors of K + D + εM, its answer to unit tractions, and the static Delassus operator.
+/// K + D + εM, factored, its answer to unit tractions, and the static Delassus operator.
 struct Compliance {
+    matrix: SparseMatrix,
     factor: SparseFactor,
-    /// Condition of K + D + εM, once it is known.
-    condition: Option<f64>,
     columns: Vec<f64>,
     delassus: Delassus,
 }
 
 impl Compliance {
     fn new(
-        model: &Model,
+        assembled: &Assembled,
         tangent: &SparseMatrix,
-        base: &Base,
         soil: &[f64],
         epsilon: f64,
     ) -> Result<Self> {
-        let matrix = Self::matrix(model, tangent, epsilon);
+        let terms = [(1.0, &assembled.stiffness), (1.0, tangent), (epsilon, &assembled.mass)];
+        let matrix = SparseMatrix::weighted_sum(assembled.unknowns(), &terms);
         let factor = SparseFactor::new(NAME, &matrix)?;
-        let (columns, delassus) =
-            condense(|rhs| factor.solve_many(rhs), base, soil, model.unknowns);
-        Ok(Self { factor, condition: None, columns, delassus: delassus.into() })
+        let matrix = SparseMatrix::new(NAME, &matrix)?;
+        let solve = |rhs: &mut [f64]| factor.solve_many(rhs);
+        let (columns, delassus) = condense(solve, &assembled.base, soil, assembled.unknowns());
+        Ok(Self { matrix, factor, columns, delassus: delassus.into() })
     }
 
-    fn matrix(model: &Model, tangent: &SparseMatrix, epsilon: f64) -> Triplets {
-        let mut matrix = Triplets::new(model.unknowns);
-        model.stiffness.add_to(1.0, &mut matrix);
-        tangent.add_to(1.0, &mut matrix);
-        model.mass.add_to(epsilon, &mut matrix);
-        matrix
-    }
-
-    /// Condition of K + D + εM.
-    fn condition(&mut self, model: &Model, tangent: &SparseMatrix, epsilon: f64) -> f64 {
-        if let Some(known) = self.condition {
-            return known;
-        }
-        let matrix = SparseMatrix::new(NAME, &Self::matrix(model, tangent, epsilon));
-        let found = matrix.map_or(f64::INFINITY, |m| sparse_condition(&m, &mut self.factor));
-        *self.condition.insert(found)
+    fn condition(&mut self) -> f64 {
+        sparse_condition(&self.matrix, &mut self.factor)
     }
 }
 
 /// Mass that a vertical translation moves.
-fn total_mass(model: &Model) -> f64 {
-    let [_, up] = model.influence.of_all(model.unknowns);
-    model.mass.form(&up, &up)
+fn total_mass(assembled: &Assembled) -> f64 {
+    let [_, up] = assembled.influence.of_all(assembled.unknowns());
+    assembled.mass.form(&up, &up)
 }
 
 /// Vertical force per settlement of the soil under a uniform pressure.

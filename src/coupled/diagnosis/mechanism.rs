@@ -1,15 +1,11 @@
 //! Mechanisms: structures with a motion that nothing resists while their base is at rest, or nothing at
 //! all.
 
-use super::base::Base;
-use crate::error::StandingError;
-use crate::linalg::matrix::{Matrix, SparseMatrix};
-use crate::linalg::{SparseFactor, largest, weighted_dot};
-use crate::structure::{ContactNode, Structure, Triplets, unknown_numbers};
+use crate::coupled::scene::base::Base;
+use crate::error::{Error, Result, StandingError};
+use crate::linalg::{SparseFactor, SparseMatrix, largest, weighted_dot};
+use crate::structure::{HeldBase, Structure, Triplets, unknown_numbers};
 
-const NAME: &str = "stiffness matrix with its base held";
-/// Springs that hold the contact nodes, relative to the largest stiffness.
-const HELD: f64 = 1.0;
 /// Mass that keeps mechanisms regular, relative to what makes it as large as the stiffness.
 const REGULAR: f64 = 1e-12;
 /// Work of a mechanism on the stiffness, relative to that of its largest entries.
@@ -26,17 +22,17 @@ const ITERATIONS: usize = 3;
 
 /// Stiffness (tangent of the nonlinear force at rest included), mass and base of a structure.
 #[derive(Clone, Copy)]
-pub(super) struct AtRest<'a> {
-    pub(super) structure: &'a dyn Structure,
-    pub(super) stiffness: &'a SparseMatrix,
-    pub(super) mass: &'a Matrix,
-    pub(super) base: &'a Base,
+pub(crate) struct AtRest<'a> {
+    pub(crate) structure: &'a dyn Structure,
+    pub(crate) stiffness: &'a SparseMatrix,
+    pub(crate) mass: &'a SparseMatrix,
+    pub(crate) base: &'a Base,
 }
 
 impl AtRest<'_> {
-    /// A mechanism, also where the loads do not set it in motion.
-    pub(super) fn free_motion(&self) -> Option<StandingError> {
-        self.motion(SURELY_FREE)
+    /// Refuses a mechanism, also where the loads do not set it in motion.
+    pub(crate) fn check(&self) -> Result<()> {
+        self.motion(SURELY_FREE).map_or(Ok(()), |cause| Err(Error::Standing(Box::new(cause))))
     }
 
     /// The mechanism behind a failure, if there is one.
@@ -44,32 +40,35 @@ impl AtRest<'_> {
         self.motion(FREE)
     }
 
+    /// What to say of `error`, that the structure has no equilibrium or no factors.
+    pub(crate) fn behind(&self, error: Error) -> Error {
+        self.mechanism().map_or(error, |cause| Error::Standing(Box::new(cause)))
+    }
+
     /// Displacements with the base at rest that do work of at most `free` on the stiffness.
     fn motion(&self, free: f64) -> Option<StandingError> {
         if self.base.unknowns().is_empty() {
             return None;
         }
-        let mut held = Held::new(self)?;
-        let unknowns = held.free_unknowns(free)?;
+        let unknowns = Regular::held(self)?.1.free_unknowns(free)?;
         let place = place(self.structure, &unknowns);
         Some(StandingError::Mechanism { unknowns, place })
     }
 }
 
 /// A motion that neither stiffness nor damping nor mass resist.
-pub(super) fn unresisted(
+pub(crate) fn unresisted(
     structure: &dyn Structure,
     stiffness: &SparseMatrix,
-    others: [&Matrix; 2],
+    others: [&SparseMatrix; 2],
 ) -> Option<StandingError> {
-    let mut sum = Triplets::new(stiffness.order());
-    let scale = |largest: f64| if largest > 0.0 { largest.recip() } else { 0.0 };
-    stiffness.add_to(scale(largest(&stiffness.diagonal())), &mut sum);
-    for matrix in others {
-        matrix.add_to(scale(largest(&matrix.diagonal())), &mut sum);
-    }
-    let mut all = Held::of(sum, 1.0, &[])?;
-    let unknowns = all.free_unknowns(FREE)?;
+    let scaled = |matrix: &SparseMatrix| {
+        let largest = largest(&matrix.diagonal());
+        if largest > 0.0 { largest.recip() } else { 0.0 }
+    };
+    let terms = [stiffness, others[0], others[1]].map(|matrix| (scaled(matrix), matrix));
+    let sum = SparseMatrix::weighted_sum(stiffness.order(), &terms);
+    let unknowns = Regular::new(sum, 1.0, &[])?.free_unknowns(FREE)?;
     let place = place(structure, &unknowns);
     Some(StandingError::Massless { unknowns, place })
 }
@@ -79,29 +78,31 @@ fn place(structure: &dyn Structure, unknowns: &[usize]) -> String {
     structure.describe(unknowns).unwrap_or_else(|| unknown_numbers(unknowns))
 }
 
-/// The stiffness at rest with springs under the contact nodes.
-pub(super) struct Held {
+/// A stiffness and, factored, the same kept regular.
+pub(super) struct Regular {
     matrix: Triplets,
     spring: f64,
-    factor: SparseFactor,
+    pub(super) factor: SparseFactor,
     /// What keeps mechanisms regular, on the diagonal.
-    regular: Vec<f64>,
+    added: Vec<f64>,
     /// Unknowns without any entry.
     absent: Vec<usize>,
 }
 
-impl Held {
-    pub(super) fn new(at_rest: &AtRest<'_>) -> Option<Self> {
+impl Regular {
+    /// The stiffness at rest with springs under the contact nodes, as stiff as its largest entry.
+    pub(super) fn held<'a>(at_rest: &AtRest<'a>) -> Option<(HeldBase<'a>, Self)> {
         let AtRest { stiffness, mass, base, .. } = *at_rest;
         let stiffest = stiffness.entries().fold(0.0_f64, |m, (_, _, k)| m.max(k.abs()));
-        let spring = HELD * if stiffest > 0.0 { stiffest } else { 1.0 };
-        let (matrix, _) = base.held(stiffness, spring);
-        Self::of(matrix, spring, &mass.diagonal())
+        let spring = if stiffest > 0.0 { stiffest } else { 1.0 };
+        let held = HeldBase::new(base.nodes(), stiffness, spring);
+        let regular = Self::new(held.matrix.clone(), spring, &mass.diagonal())?;
+        Some((held, regular))
     }
 
     /// A matrix whose largest entry is about `spring`, kept regular by `mass`, or by what stands on its
     /// diagonal where there is none; Lagrange multipliers have neither and stay as they are.
-    fn of(matrix: Triplets, spring: f64, mass: &[f64]) -> Option<Self> {
+    fn new(matrix: Triplets, spring: f64, mass: &[f64]) -> Option<Self> {
         let heaviest = largest(mass);
         let mut diagonal = vec![0.0; matrix.order()];
         for &(row, _, value) in matrix.entries().iter().filter(|entry| entry.0 == entry.1) {
@@ -113,7 +114,7 @@ impl Held {
                 (is_absent[row], is_absent[column]) = (false, false);
             }
         }
-        let regular: Vec<f64> = diagonal
+        let added: Vec<f64> = diagonal
             .into_iter()
             .enumerate()
             .map(|(i, own)| match mass.get(i) {
@@ -124,10 +125,10 @@ impl Held {
             })
             .collect();
         let mut sum = matrix.clone();
-        regular.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
-        let factor = SparseFactor::new(NAME, &sum).ok()?;
+        added.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
+        let factor = SparseFactor::new(HeldBase::NAME, &sum).ok()?;
         let absent = (0..is_absent.len()).filter(|&i| is_absent[i]).collect();
-        Some(Self { matrix, spring, factor, regular, absent })
+        Some(Self { matrix, spring, factor, added, absent })
     }
 
     /// The unknowns that take part in displacements which do work of at most `free`, ascending.
@@ -135,7 +136,7 @@ impl Held {
     /// All such displacements together: by the length of their rows in a basis that the regular part
     /// makes orthonormal, so that neither its choice nor the numbering of unknowns matters.
     fn free_unknowns(&mut self, free: f64) -> Option<Vec<usize>> {
-        let n = self.regular.len();
+        let n = self.added.len();
         let mut basis: Vec<Vec<f64>> = Vec::new();
         while basis.len() < MOST_MOTIONS.min(n) {
             match self.softest(&basis) {
@@ -144,7 +145,7 @@ impl Held {
             }
         }
         let part = |i: usize| basis.iter().map(|motion| motion[i] * motion[i]).sum::<f64>().sqrt();
-        let moves = |i: usize| if self.regular[i] > 0.0 { part(i) } else { 0.0 };
+        let moves = |i: usize| if self.added[i] > 0.0 { part(i) } else { 0.0 };
         let parts: Vec<f64> = (0..n).map(moves).collect();
         let most = largest(&parts);
         (!basis.is_empty()).then(|| (0..n).filter(|&i| parts[i] > TAKES_PART * most).collect())
@@ -154,20 +155,19 @@ impl Held {
     fn softest(&mut self, basis: &[Vec<f64>]) -> Option<Vec<f64>> {
         // Inverse iteration from a vector of all signs and sizes.
         let mut motion: Vec<f64> =
-            (0..self.regular.len()).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
+            (0..self.added.len()).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
         for _ in 0..ITERATIONS {
-            let mut force: Vec<f64> =
-                motion.iter().zip(&self.regular).map(|(u, r)| u * r).collect();
+            let mut force: Vec<f64> = motion.iter().zip(&self.added).map(|(u, r)| u * r).collect();
             self.factor.solve(&mut force);
             motion = force;
             for known in basis.iter().chain(basis) {
-                let share = weighted_dot(&self.regular, known, &motion);
+                let share = weighted_dot(&self.added, known, &motion);
                 motion.iter_mut().zip(known).for_each(|(u, known)| *u -= share * known);
             }
             // First by the largest: squares may overflow.
             let size = largest(&motion);
             motion = motion.into_iter().map(|u| u / size).collect();
-            let size = weighted_dot(&self.regular, &motion, &motion).sqrt();
+            let size = weighted_dot(&self.added, &motion, &motion).sqrt();
             if !(size.is_finite() && size > 0.0) {
                 return None;
             }
@@ -187,17 +187,5 @@ impl Held {
             around += product.abs();
         }
         if around > 0.0 { work.abs() / around } else { 0.0 }
-    }
-
-    /// r of a rotation of `nodes` by 1 rad about `middle`.
-    pub(super) fn rotation(&mut self, nodes: &[&ContactNode], middle: f64) -> Vec<f64> {
-        let mut rotation = vec![0.0; self.matrix.order()];
-        for node in nodes {
-            for &(i, weight) in &node.vertical {
-                rotation[i] += self.spring * weight * (node.x - middle);
-            }
-        }
-        self.factor.solve(&mut rotation);
-        rotation
     }
 }

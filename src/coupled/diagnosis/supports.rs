@@ -23,15 +23,19 @@
 //! The reduced walls meet a force of 2e-10 of the largest stiffness in all, the springs one of 1e-9.
 //! A support is what is above all of the limits below.
 
+use crate::coupled::scene::base::Base;
+use crate::coupled::scene::influence::Influence;
 use crate::error::{Error, Result};
+use crate::linalg::matrix::spread;
 use crate::linalg::{SparseMatrix, largest};
+use crate::structure::{Structure, Tangent};
 
 /// Largest lag: far above rounding, and what a weight may be off.
 const LAG: f64 = 1e-6;
 /// Force r·K r of no account, relative to the largest stiffness.
 const FORCE: f64 = 3e-10;
 /// Largest force of a row of K s, relative to |K| |s|.
-pub(super) const ROW: f64 = 3e-10;
+const ROW: f64 = 3e-10;
 /// The same relative to the diagonal, for rows in which all entries are rounding.
 const DIAGONAL: f64 = 1e-13;
 /// Work r·K r that is rounding, relative to |r|·|K| |r|; elements added up leave 3e-17.
@@ -41,18 +45,23 @@ const BENT: f64 = 1e-9;
 /// Largest |r − s| with which s is what r is meant to be.
 const WHOLE: f64 = 0.25;
 
+/// Largest error of a contact node's displacement under a rigid translation of 1 m.
+const EXACT: f64 = 1e-14;
+/// Translations (m) that no nonlinear force may resist.
+const TRANSLATIONS: [f64; 6] = [1e-3, -1e-3, 1.0, -1.0, 1e3, -1e3];
+
 /// Names of the two translations.
-pub(super) const DIRECTIONS: [&str; 2] = ["to the right", "upwards"];
+const DIRECTIONS: [&str; 2] = ["to the right", "upwards"];
 
 /// Refuses a structure that does not translate freely, and rounds its translations (to the right
-/// and upwards) to whole numbers where these are what they are meant to be. `stiffness` without
-/// what ties the contact nodes; `lag` is the error of the base under both translations.
-pub(super) fn check(
+/// and upwards) to whole numbers where these are what they are meant to be, exactly so at the contact
+/// nodes. `stiffness` without what ties these.
+pub(crate) fn check(
     stiffness: &SparseMatrix,
+    base: &Base,
     translations: &mut [Vec<f64>; 2],
-    lag: impl Fn(&[Vec<f64>; 2]) -> f64,
 ) -> Result<()> {
-    let lag = lag(translations);
+    let lag = base.translation_error(translations);
     for (translation, direction) in translations.iter_mut().zip(DIRECTIONS) {
         let resistance = Resistance::new(stiffness, translation);
         if resistance.holds(lag) {
@@ -69,7 +78,92 @@ pub(super) fn check(
         let needed = "its contact nodes must be able to translate together";
         return Err(Error::Scene { quantity: "structure", needed });
     }
+    for (direction, translation) in translations.iter_mut().enumerate() {
+        base.translate_nodes(direction, translation);
+    }
+    let error = base.translation_error(translations);
+    if error > EXACT {
+        return Err(Error::Input {
+            quantity: "error of the base under a rigid translation of 1 m",
+            value: error,
+            needed: "1e-14 or less: contact nodes must be able to translate together",
+        });
+    }
     Ok(())
+}
+
+/// Refuses a part whose base does not translate as a whole: B R must be 1 where it moves.
+pub(crate) fn check_parts(influence: &Influence, base: &Base, unknowns: usize) -> Result<()> {
+    let count = base.lengths().len();
+    let mut means = vec![0.0; 2 * count];
+    // A mean is a sum over the nodes above an element, each of which may be rounded.
+    let exact = 10.0 * EXACT + base.nodes().len() as f64 * f64::EPSILON;
+    for part in influence.parts() {
+        for (direction, vector) in part.vectors.iter().enumerate() {
+            base.means(&spread(vector, unknowns), &mut means);
+            for &e in part.elements().iter().filter(|_| !vector.is_empty()) {
+                let moved = if direction == 0 { means[count + e] } else { -means[e] };
+                if (moved - 1.0).abs() > exact {
+                    return Err(Error::Input {
+                        quantity: "mean of the base under a rigid translation of 1 m",
+                        value: moved,
+                        needed: "1: all of a connected part's base must translate with it",
+                    });
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a nonlinear force that resists a translation of the whole structure from the static
+/// state: it is tied to a fixed point. Returns which parts it joins with others: those that it does
+/// not let translate alone.
+pub(crate) fn joined_by_force(
+    structure: &dyn Structure,
+    stiffness: &SparseMatrix,
+    influence: &Influence,
+    [displacement, static_force]: [&[f64]; 2],
+) -> Result<Vec<bool>> {
+    let parts = influence.parts();
+    let mut joined = vec![false; parts.len()];
+    let Some(own) = structure.nonlinear() else { return Ok(joined) };
+    let n = displacement.len();
+    let tangent = Tangent::at(structure, displacement)?;
+    let stiffest = largest(&tangent.matrix.diagonal()).max(largest(&stiffness.diagonal()));
+    let resistance = |translation: &[f64]| -> Result<Option<(f64, usize, f64)>> {
+        let [_, around] = products(&tangent.matrix, translation);
+        let mut force = vec![0.0; n];
+        for distance in TRANSLATIONS {
+            let pairs = displacement.iter().zip(translation);
+            let moved: Vec<f64> = pairs.map(|(u, r)| u + distance * r).collect();
+            force.fill(0.0);
+            own.force(&moved, &mut force)?;
+            for (unknown, (force, before)) in force.iter().zip(static_force).enumerate() {
+                let force = force - before;
+                let scale = distance.abs() * around[unknown] + before.abs();
+                let rounding = f64::EPSILON * stiffest * distance.abs();
+                if force.is_nan() || force.abs() > ROW * scale + rounding {
+                    let share = if scale > 0.0 { force.abs() / scale } else { f64::INFINITY };
+                    return Ok(Some((force, unknown, share)));
+                }
+            }
+        }
+        Ok(None)
+    };
+    for (translation, direction) in influence.of_all(n).iter().zip(DIRECTIONS) {
+        if let Some((force, unknown, share)) = resistance(translation)? {
+            return Err(Error::Supported { direction, force, unknown, share });
+        }
+    }
+    if parts.len() > 1 {
+        for (part, joined) in parts.iter().zip(&mut joined) {
+            for vector in &part.vectors {
+                *joined |= resistance(&spread(vector, n))?.is_some();
+            }
+        }
+    }
+    Ok(joined)
 }
 
 /// Resistance of the stiffness to a translation.
@@ -130,7 +224,7 @@ fn stiffest(stiffness: &SparseMatrix, diagonal: &[f64]) -> f64 {
 }
 
 /// A x and |A| |x|.
-pub(super) fn products(matrix: &SparseMatrix, x: &[f64]) -> [Vec<f64>; 2] {
+fn products(matrix: &SparseMatrix, x: &[f64]) -> [Vec<f64>; 2] {
     let [mut sums, mut sizes] = [vec![0.0; x.len()], vec![0.0; x.len()]];
     for (row, column, value) in matrix.entries() {
         let term = value * x[column];

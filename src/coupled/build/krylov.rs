@@ -11,17 +11,16 @@
 //! exact. Lower shifts serve the modes there, of which they soon have all; one above serves what a
 //! step cannot follow.
 
-use super::base::Base;
-use super::modal_basis::ModalBasis;
-use super::model::Model;
-use super::operators::Factor;
+use super::assembled::Assembled;
+use super::parts::Parts;
 use super::step_response::{Rows, StepResponses};
 use super::subspace::Subspace;
+use crate::coupled::scene::modal_basis::ModalBasis;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, ReducedError, Result, finite};
 use crate::linalg::matrix::spread;
-use crate::linalg::{SparseFactor, SparseMatrix, dot, largest};
-use crate::structure::Triplets;
+use crate::linalg::{SparseFactor, SparseMatrix, dot};
+use crate::structure::{HeldBase, stiffest};
 
 /// From one shift to the next.
 const RATIO: f64 = 4.0;
@@ -40,39 +39,102 @@ const LOWEST: f64 = 1e-6;
 /// Steps over which responses are compared, at most.
 const LONGEST: usize = 10_000;
 
+/// Times at which the structure's own load is looked at.
+const SAMPLES: u32 = 16;
+
 /// All that a reduction looks at. Rows have an entry for every unknown.
-pub(crate) struct Reduction<'a> {
-    pub(crate) model: &'a Model,
-    pub(crate) base: &'a Base,
-    pub(crate) coefficients: &'a SchemeCoefficients,
+pub(super) struct Reduction<'a> {
+    assembled: &'a Assembled,
+    coefficients: &'a SchemeCoefficients,
     /// K_eff, factored.
-    pub(crate) factor: &'a Factor,
+    factor: &'a SparseFactor,
     /// Steps of the run.
-    pub(crate) steps: usize,
+    steps: usize,
     /// None of them zero.
-    pub(crate) rows: Rows,
+    rows: Rows,
     /// Displacements that the modes must contain.
-    pub(crate) motions: Vec<f64>,
+    motions: Vec<f64>,
 }
 
-impl Reduction<'_> {
+impl<'a> Reduction<'a> {
+    /// Gathers what acts on a structure, by the `factor` of its effective stiffness.
+    pub(super) fn new(
+        parts: &'a Parts,
+        assembled: &'a Assembled,
+        factor: &'a SparseFactor,
+        steps: usize,
+    ) -> Result<Self> {
+        let (given, base) = (&parts.given, &assembled.base);
+        let (n, size) = (assembled.unknowns(), 2 * base.lengths().len());
+        let mut rows = Rows { all: Vec::new(), counts: [0; 3], probes: Vec::new() };
+        for load in &given.loads {
+            keep(&mut rows.all, spread(load.row().terms(), n));
+        }
+        let duration = steps as f64 * given.time_step;
+        for k in 0..=SAMPLES {
+            let mut load = vec![0.0; n];
+            let loaded =
+                parts.structure.load(duration * f64::from(k) / f64::from(SAMPLES), &mut load);
+            if k == 0 {
+                loaded?;
+            } else if loaded.is_err() {
+                // The run may never come so far.
+                continue;
+            }
+            if load.iter().all(|force| force.is_finite()) {
+                keep(&mut rows.all, load);
+            }
+        }
+        rows.counts[0] = rows.all.len() / n;
+        let mut unit = vec![0.0; size];
+        for i in 0..size {
+            let mut force = vec![0.0; n];
+            unit[i] = 1.0;
+            base.add_forces(1.0, &unit, &mut force);
+            unit[i] = 0.0;
+            keep(&mut rows.all, force);
+        }
+        let mut motions = Vec::new();
+        for motion in [&given.displacement, &given.velocity] {
+            for motion in motion.chunks_exact(n) {
+                let mut force = vec![0.0; n];
+                assembled.mass.multiply_add(1.0, motion, &mut force);
+                keep(&mut rows.all, force);
+            }
+            motions.extend_from_slice(motion);
+        }
+        rows.counts[1] = rows.all.len() / n;
+        rows.probes = vec![[None; 3]; given.probes.len()];
+        for kind in 0..3 {
+            if kind == 2 {
+                rows.counts[2] = rows.all.len() / n;
+            }
+            for (probe, places) in given.probes.iter().zip(&mut rows.probes) {
+                let place = rows.all.len() / n;
+                let kept = keep(&mut rows.all, spread(probe.rows()[kind].terms(), n));
+                places[kind] = kept.then_some(place);
+            }
+        }
+        let coefficients = &parts.coefficients;
+        Ok(Self { assembled, coefficients, factor, steps, rows, motions })
+    }
+
     /// The Ritz modes with which the responses to suddenly applied forces err by less than `tolerance`.
-    pub(crate) fn modes(&self, tolerance: f64) -> Result<ModalBasis> {
+    pub(super) fn modes(&self, tolerance: f64) -> Result<ModalBasis> {
         const NAME: &str = "tolerance of reduced coordinates";
         if finite(NAME, tolerance)? <= 0.0 || tolerance >= 1.0 {
             let needed = "above 0 and below 1";
             return Err(Error::Input { quantity: NAME, value: tolerance, needed });
         }
         let matrices = self.matrices()?;
-        let translations = self.translations();
+        let translations = self.assembled.influence.translations(self.assembled.unknowns());
         let (rotations, lowest) = self.held(&translations, matrices)?;
         let mut space = Subspace::new(matrices, translations);
         space.extend(rotations, LEAST_NEW);
         space.extend(self.motions.clone(), LEAST_NEW);
         let rows = &self.rows.all;
         let factors = self.shifts(lowest, matrices).collect::<Result<Vec<_>>>()?;
-        let k_eff = self.factor.sparse().ok_or(ReducedError::Nonlinear)?;
-        let factors: Vec<_> = std::iter::once(k_eff).chain(&factors).collect();
+        let factors: Vec<_> = std::iter::once(self.factor).chain(&factors).collect();
         let mut blocks = vec![rows.clone(); factors.len()];
         let mut least = NEW.min(NEW_BY_ROOT * tolerance.sqrt());
         let mut last: Option<StepResponses> = None;
@@ -108,7 +170,7 @@ impl Reduction<'_> {
                 // Estimated change by the next round, at the rate of this one.
                 (change, reached) = (by, by * rate);
             }
-            if reached <= tolerance || space.count() == self.model.unknowns {
+            if reached <= tolerance || space.count() == self.assembled.unknowns() {
                 return Ok(space.basis(&modes));
             }
             let left = i32::try_from(ROUNDS - round).unwrap_or(0);
@@ -122,8 +184,10 @@ impl Reduction<'_> {
 
     /// Mass, damping and stiffness, if they can be reduced.
     fn matrices(&self) -> Result<[&SparseMatrix; 3]> {
-        let matrices = self.model.sparse().filter(|_| self.model.linear);
-        let matrices = matrices.ok_or(ReducedError::Nonlinear)?;
+        if !self.assembled.linear {
+            return Err(ReducedError::Nonlinear.into());
+        }
+        let matrices = self.assembled.matrices();
         let names = ["mass matrix", "damping matrix", "stiffness matrix"];
         for (matrix, name) in matrices.iter().zip(names) {
             if matrix.asymmetry() > 1e-13 {
@@ -150,19 +214,11 @@ impl Reduction<'_> {
         let lowest = lowest.max(LOWEST * own);
         let below = std::iter::successors(Some(own / RATIO), |shift| Some(shift / RATIO));
         let shifts = std::iter::once(RATIO * own).chain(below.take_while(move |s| *s > lowest));
-        shifts.filter(move |shift| *shift < stiffest).map(|shift| {
-            let mut matrix = Triplets::new(mass.order());
-            mass.add_to(shift * shift, &mut matrix);
-            stiffness.add_to(1.0, &mut matrix);
+        shifts.filter(move |shift| *shift < stiffest).map(move |shift| {
+            let terms = [(shift * shift, mass), (1.0, stiffness)];
+            let matrix = SparseMatrix::weighted_sum(mass.order(), &terms);
             SparseFactor::new("dynamic stiffness matrix", &matrix)
         })
-    }
-
-    /// Rigid translations of the parts.
-    fn translations(&self) -> Vec<f64> {
-        let vectors = self.model.influence.parts().iter().flat_map(|part| &part.vectors);
-        let vectors = vectors.filter(|vector| !vector.is_empty());
-        vectors.flat_map(|vector| spread(vector, self.model.unknowns)).collect()
     }
 
     /// Answers to a rotation of each part's base, which are rigid rotations of the parts that stand on
@@ -172,22 +228,14 @@ impl Reduction<'_> {
         translations: &[f64],
         [mass, _, stiffness]: [&SparseMatrix; 3],
     ) -> Result<(Vec<f64>, f64)> {
-        let n = self.model.unknowns;
-        let stiffest = largest(&stiffness.diagonal());
-        let tie = if stiffest > 0.0 { stiffest } else { 1.0 };
-        let (matrix, _) = self.base.held(stiffness, tie);
-        let factor = SparseFactor::new("stiffness matrix with its base held", &matrix)?;
-        let parts = self.model.influence.parts();
-        let mut rotations = vec![0.0; parts.len() * n];
-        for (part, rotation) in parts.iter().zip(rotations.chunks_exact_mut(n)) {
-            let own = self.base.foundations().filter(|(_, e)| part.elements().contains(&e.start));
-            let nodes: Vec<_> = own.flat_map(|(nodes, _)| nodes).collect();
+        let n = self.assembled.unknowns();
+        let held = HeldBase::new(self.assembled.base.nodes(), stiffness, stiffest(stiffness));
+        let factor = held.factor()?;
+        let mut rotations = Vec::new();
+        for part in self.assembled.influence.parts() {
+            let nodes = part.nodes(&self.assembled.base);
             let middle = nodes.iter().map(|node| node.x).sum::<f64>() / nodes.len().max(1) as f64;
-            for node in nodes {
-                for &(i, weight) in &node.vertical {
-                    rotation[i] += tie * weight * (node.x - middle);
-                }
-            }
+            rotations.extend(held.turn(nodes, middle));
         }
         factor.solve_many(&mut rotations);
         let mut inertia = vec![0.0; translations.len()];
@@ -200,4 +248,13 @@ impl Reduction<'_> {
         let squares = pairs.map(|(force, bent)| dot(force, bent) / mass.form(bent, bent));
         Ok((rotations, squares.fold(f64::INFINITY, f64::min).max(0.0).sqrt()))
     }
+}
+
+/// Adds a row, unless it is zero.
+fn keep(rows: &mut Vec<f64>, row: Vec<f64>) -> bool {
+    let kept = row.iter().any(|value| *value != 0.0);
+    if kept {
+        rows.extend(row);
+    }
+    kept
 }

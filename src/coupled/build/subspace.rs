@@ -8,10 +8,12 @@
 //! All are rows. The first vectors are rigid translations, of which K knows nothing: their products
 //! with K are zero, not rounding.
 
-use super::modal_basis::{DECOUPLED, ModalBasis};
+use crate::coupled::scene::modal_basis::ModalBasis;
 use crate::error::{ReducedError, Result};
 use crate::linalg::{SparseMatrix, add_combined_rows, largest, row_products, symmetric_modes};
 
+/// Residual of the eigenproblem, and of damping taken for diagonal, relative to its terms.
+pub(super) const DECOUPLED: f64 = 1e-10;
 /// Eigenvalues below this, relative to the largest, are zeros with the error of their computation.
 const ZERO: f64 = 1e-13;
 /// Least eigenvalue besides zero, relative to the largest: between the two nothing is certain.
@@ -228,6 +230,7 @@ fn independent(mut products: Vec<f64>, count: usize, least: f64) -> Vec<f64> {
     weights
 }
 
-fn transpose(rows: &[f64], columns: usize) -> Vec<f64> {
+/// The columns of a row-major matrix, one after the other.
+pub(super) fn transpose(rows: &[f64], columns: usize) -> Vec<f64> {
     (0..columns).flat_map(|j| rows.iter().skip(j).step_by(columns).copied()).collect()
 }

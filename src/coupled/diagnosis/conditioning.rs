@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use super::Scene;
-use super::operators::{self, Operators};
-use crate::contact::ContactSolver;
+use crate::coupled::scene::Scene;
+use crate::coupled::scene::operators::{self, Operators};
+use crate::coupled::step::solver::Solver;
 use crate::error::{Error, Result};
 use crate::interface::StepStarts;
 use crate::linalg::dense_condition;
@@ -77,10 +77,10 @@ impl fmt::Display for Conditioning {
 /// precision cannot carry them.
 pub(crate) fn assess(
     scene: &Scene,
-    operators: &mut Operators,
-    contact: &mut ContactSolver,
+    solver: &mut Solver,
     start: &StepStarts,
 ) -> Result<Conditioning> {
+    let (operators, contact) = solver.parts_mut();
     let size = 2 * scene.count();
     let c = &scene.coefficients;
     let effective_stiffness = operators.condition(&scene.model, c)?;

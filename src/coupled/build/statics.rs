@@ -1,62 +1,12 @@
 //! The static state in stages: weight first, then the loads at t = 0.
 
-use super::base::Base;
-use super::model::Model;
-use super::proximal::Standing;
-use super::standing;
-use super::static_state::StaticState;
-use crate::bem::Ground;
-use crate::error::Result;
+use super::assembled::Assembled;
+use super::equilibrium::{Standing, StaticState};
+use super::parts::{Parts, Placement};
+use crate::coupled::diagnosis::stability;
+use crate::error::{Result, all_finite, finite};
 use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, StepStarts, law_of};
-use crate::structure::Structure;
-
-/// Friction while the structure is placed on the ground.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-#[non_exhaustive]
-pub enum Placement {
-    /// The base is placed without friction and without adhesion, and sticks from then on. What
-    /// does not touch under weight alone starts open. Where no element's law ever opens, the base
-    /// is bonded from the start.
-    #[default]
-    Frictionless,
-    /// The interface law acts while the weight comes on, in one step.
-    WithInterfaceLaw,
-    /// There is no static state: the base begins unpressed, and weight and loads act from t = 0 on.
-    /// For a structure that is dropped, or tilted and let go.
-    ///
-    /// ```
-    /// use basemat::Simulation;
-    /// use basemat::bem::SpringGround;
-    /// use basemat::coupled::Placement;
-    /// use basemat::interface::Coulomb;
-    /// use basemat::structure::RigidBlock;
-    ///
-    /// // Tilted by 20 mrad about its left edge.
-    /// let tilt = 0.02;
-    /// let mut simulation = Simulation::builder(0.001)
-    ///     .structure(RigidBlock::new(1.0, 4.0, 2400.0)?.with_p_delta(9.81)?)
-    ///     .ground(SpringGround::new(-0.5..0.5, 8, 5e9, 2e9)?.with_dashpots(1e6, 1e6)?)
-    ///     .interface(Coulomb::new(0.8)?)
-    ///     .placement(Placement::Unloaded)
-    ///     .initial_displacement([0.0, 0.5 * tilt, tilt])
-    ///     .build()?;
-    /// assert_eq!(simulation.state().uplifted_fraction, 1.0);
-    /// let run = simulation.run(1000, |_| {})?;
-    /// // It rocks over to the other edge, and less far.
-    /// let other_side = -run.whole.base_rotation.lowest.value;
-    /// assert!(other_side > 0.2 * tilt && other_side < tilt, "{other_side}");
-    /// # Ok::<(), basemat::Error>(())
-    /// ```
-    Unloaded,
-}
-
-words! { Placement, "placement", {
-    Frictionless = "frictionless",
-    WithInterfaceLaw = "with_interface_law",
-    Unloaded = "unloaded",
-} }
+use crate::structure::nonlinear_state;
 
 /// Increments of a load under which elements slide: friction makes their path matter.
 const INCREMENTS: usize = 10;
@@ -67,18 +17,52 @@ const PASSES: usize = 10;
 /// Of the step that a stage is to the laws, s.
 const TIME_STEP: f64 = 1.0;
 
+/// The state under weight and the loads at t = 0, which the structure's internal variables follow;
+/// trivial without gravity.
+pub(super) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticState> {
+    let Parts { structure, ground, given, elements, .. } = parts;
+    let (count, n) = (elements.len(), assembled.unknowns());
+    let mut state = StaticState::weightless(count, n);
+    if given.is_static() {
+        let mut own = vec![0.0; n];
+        structure.load(0.0, &mut own)?;
+        all_finite("load of the structure at t = 0", &own)?;
+        let mut load = own.clone();
+        for external in &given.loads {
+            let force = external.value(0.0);
+            external.row().iter().for_each(|&(i, weight)| load[i] += force * weight);
+        }
+        let mut weight = vec![0.0; n];
+        let [_, up] = assembled.influence.of_all(n);
+        assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
+        all_finite("weight", &weight)?;
+        all_finite("load at t = 0", &load)?;
+        let mut soil = vec![0.0; 4 * count * count];
+        ground.static_compliance(&mut soil)?;
+        let stage = Standing { assembled, structure: structure.as_ref(), soil: &soil };
+        state = in_stages(&stage, &given.laws, given.placement, [&weight, &load])?;
+        state.load = own;
+        if let Some(force) = structure.nonlinear_mut() {
+            force.commit(&state.displacement);
+        }
+    }
+    (state.force, state.energy) = nonlinear_state(structure.as_ref(), &state.displacement)?;
+    all_finite("nonlinear force at t = 0", &state.force)?;
+    if let Some(energy) = &state.energy {
+        finite("energy that the nonlinear force stores at t = 0", energy.stored)?;
+        finite("energy that the nonlinear force has dissipated at t = 0", energy.dissipated)?;
+    }
+    Ok(state)
+}
+
 /// The state under `weight`, placed as chosen, and then under `load`, with the interface laws.
-pub(crate) fn solve(
-    (model, structure, base): (&Model, &dyn Structure, &Base),
-    ground: &dyn Ground,
+fn in_stages(
+    stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     placement: Placement,
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {
-    let count = base.lengths().len();
-    let mut soil = vec![0.0; 4 * count * count];
-    ground.static_compliance(&mut soil)?;
-    let stage = Standing { model, structure, base, soil: &soil };
+    let count = stage.assembled.base.lengths().len();
     let smooth: Vec<_> = laws.iter().map(InterfaceLaw::smooth).collect();
     let can_open = laws.iter().any(|law| law.modes().contains(&Mode::Open));
     // A base that never opens is bonded from the start.
@@ -86,12 +70,12 @@ pub(crate) fn solve(
     let placing = if is_smooth { &smooth } else { laws };
     let at_rest = StepStart::new(ContactState::default(), Mode::Stick, TIME_STEP);
     let start = StepStarts::new(placing, &vec![at_rest; count])?;
-    let mut state = StaticState::weightless(count, model.unknowns);
+    let mut state = StaticState::weightless(count, weight.len());
     for (e, mode) in state.modes.iter_mut().enumerate() {
         *mode = law_of(placing, e).modes()[0];
     }
-    let found = settle(&stage, placing, start, state, weight);
-    let (mut state, start) = found.map_err(|e| standing::cause(&stage, placing, weight, e))?;
+    let found = settle(stage, placing, start, state, weight);
+    let (mut state, start) = found.map_err(|e| stability::cause(stage, placing, weight, e))?;
     // A law without friction that remembers as much is the same law; others begin anew.
     state.memory = (0..count)
         .map(|e| {
@@ -103,10 +87,7 @@ pub(crate) fn solve(
         return Ok(state);
     }
     // From here on the base sticks where it was placed.
-    for (e, mode) in state.modes.iter_mut().enumerate() {
-        let known = law_of(laws, e).modes();
-        *mode = known.iter().copied().find(|m| m == mode && !m.is_closed()).unwrap_or(known[0]);
-    }
+    state.modes = state.modes_with(laws);
     let placed: Vec<_> = (0..count)
         .map(|e| {
             let start = StepStart::new(*start.state(e), state.modes[e], TIME_STEP);
@@ -120,7 +101,7 @@ pub(crate) fn solve(
         let (mut state, mut start) = (state.clone(), begin.clone());
         for k in 1..=increments {
             let load = total(k as f64 / increments as f64);
-            (state, start) = settle(&stage, laws, start, state, &load)?;
+            (state, start) = settle(stage, laws, start, state, &load)?;
         }
         state.memory = (0..count).map(|e| start.memory_of(e).to_vec()).collect();
         Ok(state)
@@ -132,7 +113,7 @@ pub(crate) fn solve(
     };
     match path(1) {
         Ok(state) if !takes_a_path(&state) => Ok(state),
-        _ => path(INCREMENTS).map_err(|e| standing::cause(&stage, laws, &total(1.0), e)),
+        _ => path(INCREMENTS).map_err(|e| stability::cause(stage, laws, &total(1.0), e)),
     }
 }
 
