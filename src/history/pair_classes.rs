@@ -2,7 +2,6 @@
 
 use std::cmp::Ordering;
 use std::collections::HashMap;
-
 use std::ops::Mul;
 
 use crate::error::{Error, Result};
