@@ -12,7 +12,7 @@ use crate::motion::FrequencyContent;
 
 /// Error of the strip's stiffnesses on Q cosine-graded elements is this over Q²: root mean square
 /// over 0.1 ≤ a₀ ≤ 4, horizontal and rocking, from the impedances of bonded strips of 8 and 16
-/// elements (`docs/accuracy.md`; on Q uniform elements it is 0.22/Q and 0.77/Q).
+/// elements (`docs/validation.md`; on Q uniform elements it is 0.22/Q and 0.77/Q).
 const HORIZONTAL: f64 = 0.65;
 const ROCKING: f64 = 1.85;
 
@@ -158,7 +158,7 @@ struct Line {
 /// a slender structure's base moment up to six times as far off. With uplift and sliding errors
 /// are erratic, and were measured in one scene only; there the advice is where to begin, and a second
 /// run with half of Δt and twice the elements is what tells
-/// ([measurements](https://github.com/basemat/basemat/blob/main/docs/accuracy.md)).
+/// ([measurements](https://github.com/basemat/basemat/blob/main/docs/validation.md)).
 ///
 /// ```
 /// use basemat::Soil;

@@ -87,7 +87,7 @@ impl Sketch {
     ///
     /// Errors of a lightly damped response grow from cycle to cycle until it has decayed, or the motion
     /// is over. The transform of V e^(−σt) is V at the frequency ω − iσ; with σ = 0.75/duration the error
-    /// of V comes out as that of histories as long as the motion (170 scenes, `docs/accuracy.md`).
+    /// of V comes out as that of histories as long as the motion (170 scenes, `docs/validation.md`).
     pub(super) fn new(
         soil: Soil,
         mass: f64,
