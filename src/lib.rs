@@ -179,7 +179,7 @@
 //! Short programs that print a table: `shear_building`, `base_isolated`, `two_buildings`,
 //! `portal_frame`, `rocking_block`, `tilted_block`, `snap_back`, `bearing_capacity`,
 //! `machine_foundation`, `floor_spectra`, `layered_site`, `impedances`, `friction_sweep`,
-//! `fragility`, `travelling_wave`, `from_matrices`; `pictures` draws everything (feature `png`). What
+//! `travelling_wave`, `from_matrices`; `containment` is the problem of Patel & Spyrakos; `pictures` draws everything (feature `png`). What
 //! each prints is in [the document of examples](https://github.com/basemat/basemat/blob/main/docs/examples.md).
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -217,9 +217,6 @@ mod number;
 #[cfg(feature = "plot")]
 pub mod plot;
 pub mod prelude;
-#[cfg(test)]
-#[path = "../tests/support/random.rs"]
-mod random;
 #[cfg(feature = "reference")]
 pub mod reference;
 pub mod results;

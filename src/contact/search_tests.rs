@@ -16,9 +16,9 @@ use crate::fem::{Layer, Material, Mesh};
 use crate::interface::{Activation, ContactState, Coulomb, InterfaceLaw, StepStart, StepStarts};
 use crate::linalg::dense_multiply_add;
 use crate::matrix::Thinned;
-use crate::random::Random;
 use crate::soil::Soil;
 use crate::structure::{FemModel, RigidBlock, Structure};
+use basemat_problems::random::Random;
 
 const FRICTION: [f64; 6] = [0.0, 0.2, 0.4, 1.0, 3.0, f64::INFINITY];
 

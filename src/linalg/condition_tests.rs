@@ -1,11 +1,8 @@
 //! Estimated condition numbers against those of the inverse.
 
 use super::*;
-use crate::random::Random;
 use crate::structure::Triplets;
-
-#[path = "../../tests/support/inverse.rs"]
-mod inverse;
+use basemat_problems::random::Random;
 
 #[test]
 fn estimates_are_within_a_factor_of_three_of_the_inverse() {
@@ -29,7 +26,7 @@ fn estimates_are_within_a_factor_of_three_of_the_inverse() {
                 matrix[i * n + j] = matrix[i * n + j].abs();
             }
         }
-        let exact = inverse::condition_by_inverse(&matrix, n);
+        let exact = basemat_problems::dense::condition_by_inverse(&matrix, n);
         let mut triplets = Triplets::new(n);
         for (k, value) in matrix.iter().enumerate() {
             triplets.add(k / n, k % n, *value);

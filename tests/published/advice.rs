@@ -10,11 +10,11 @@ use basemat::motion::{FrequencyContent, Record, el_centro_1940};
 use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
 use basemat::{Error, Simulation, Soil};
 
-use crate::support::cantilever::Cantilever;
-use crate::support::impedance::impedance_errors;
-use crate::support::sampled_block::under_pulse;
-use crate::support::series::{Error as Difference, Series, whole};
-use crate::support::table;
+use basemat_problems::impedance::impedance_errors;
+use basemat_problems::sampled_block::under_pulse;
+use basemat_problems::series::{Error as Difference, Series, whole};
+use basemat_problems::table;
+use basemat_problems::tabled_structures::{Cantilever, three_storeys};
 
 /// Content of the tables' pulse: second derivative of (1 − 2q) e^(−q), q = (t − 5)².
 fn pulse_content() -> FrequencyContent {
@@ -144,14 +144,7 @@ fn blocks_come_out_as_asked() {
 fn flexible_structures_come_out_as_asked() {
     let third = 1.0 / 3.0;
     let file = "shearbuilding3_SV_nu0333_sig1";
-    let storey = Storey {
-        height: 1.0,
-        mass: 1.0,
-        rotary_inertia: third,
-        stiffness: 2.0,
-        damping: 2.0 * 0.158_885_451_5,
-    };
-    let building = ShearBuilding::new(2.0, 1.0, third, &[storey; 3]).unwrap();
+    let building = three_storeys().unwrap();
     let outline = Outline::new(2.0, 3.0, 4.0)
         .and_then(|outline| outline.with_frequency(building.fixed_base_frequency(), 0.05))
         .unwrap();

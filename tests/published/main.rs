@@ -6,5 +6,3 @@ mod layered;
 mod linear;
 mod reference;
 mod reference_tables;
-#[path = "../support/mod.rs"]
-mod support;

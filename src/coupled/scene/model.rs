@@ -13,7 +13,7 @@ use crate::structure::{
     InternalEnergy, Structure, Triplets, check_attached, check_damping, check_mass,
 };
 
-/// Times in nanoseconds that choose the coordinates, as measured by `benches/step.rs`.
+/// Times in nanoseconds that choose the coordinates, as measured by `benches/studies/benches/step.rs`.
 mod cost {
     /// Per entry of a sparse factor or matrix and use.
     pub(super) const SPARSE_ENTRY: f64 = 1.0;

@@ -1,0 +1,132 @@
+//! Maps of stability: where marches stay bounded, close their energy ledger and find their
+//! contact modes, over pairs of parameters from one extreme to the other. The crate's own scheme,
+//! the paper's, and the one by convolution quadrature; and the time schemes on the crate's soil.
+//!
+//! What is in `docs/stability.md` comes from
+//!
+//! ```text
+//! cargo study stability --docs docs
+//! ```
+
+mod axes;
+mod motions;
+pub(crate) mod options;
+mod plots;
+mod report;
+mod run;
+mod scene;
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::AnyError;
+use crate::document::splice;
+use axes::Map;
+use options::Options;
+use run::Outcome;
+use scene::{Foretold, Scheme};
+
+/// One cell of a map.
+pub(crate) struct Cell {
+    /// Number of the map.
+    pub(crate) map: usize,
+    pub(crate) scheme: Scheme,
+    /// Places on the axes.
+    pub(crate) place: [usize; 2],
+    pub(crate) outcome: Outcome,
+}
+
+pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+    let mut maps = axes::maps(options.short);
+    if options.list {
+        for map in &maps {
+            println!("{}\n  --x, {}: {}", map.name, map.x.name, map.x.labels.join(", "));
+            println!("  --y, {}: {}", map.y.name, map.y.labels.join(", "));
+        }
+        return Ok(());
+    }
+    if let Some(unknown) = options.maps.iter().find(|name| maps.iter().all(|m| m.name != **name)) {
+        return Err(format!("no sweep is called {unknown}; --list names them").into());
+    }
+    maps.retain(|map| options.maps.is_empty() || options.maps.iter().any(|name| name == map.name));
+    let cells = compute(&maps, options)?;
+
+    std::fs::create_dir_all(&options.out)?;
+    report::write_cells(&options.out.join("cells.csv"), &maps, &cells)?;
+    let tables = report::tables(&maps, &cells);
+    println!("{tables}");
+    std::fs::write(options.out.join("tables.md"), &tables)?;
+    let mut folders = vec![options.out.clone()];
+    if let Some(docs) = &options.docs {
+        let path = docs.join("stability.md");
+        let compared = |map: &Map| map.name == axes::SCHEME_MAP;
+        if maps.iter().any(compared) {
+            splice(&path, "time_schemes", &report::schemes(&maps, &cells))?;
+        }
+        if !maps.iter().all(compared) {
+            splice(&path, "stability_map", &report::document(&maps, &cells))?;
+        }
+        folders.push(docs.join("images"));
+    }
+    for folder in folders {
+        for (index, map) in maps.iter().enumerate().filter(|(_, map)| map.drawn) {
+            let own: Vec<&Cell> = cells.iter().filter(|cell| cell.map == index).collect();
+            plots::draw(&folder.join(format!("stability_{}.svg", map.name)), map, &own)?;
+        }
+    }
+    println!("files in {}", options.out.display());
+    let broken = report::broken(&maps, &cells);
+    if broken.is_empty() { Ok(()) } else { Err(broken.into()) }
+}
+
+/// Runs all cells, several at a time if asked to.
+fn compute(maps: &[Map], options: &Options) -> Result<Vec<Cell>, AnyError> {
+    let wanted = |labels: &[String], wish: &Option<String>| -> Vec<usize> {
+        (0..labels.len()).filter(|&k| wish.as_ref().is_none_or(|w| *w == labels[k])).collect()
+    };
+    let mut todo = Vec::new();
+    for (index, map) in maps.iter().enumerate() {
+        let schemes = map.schemes.iter().copied();
+        for scheme in schemes.filter(|s| options.scheme.as_ref().is_none_or(|w| w == s.name())) {
+            for x in wanted(&map.x.labels, &options.x) {
+                for y in wanted(&map.y.labels, &options.y) {
+                    if map.scene(scheme, x, y).exists() {
+                        todo.push((index, scheme, [x, y]));
+                    }
+                }
+            }
+        }
+    }
+    if todo.is_empty() {
+        return Err("no such cell; --list names the sweeps and the labels of their axes".into());
+    }
+    let bar = ProgressBar::new(todo.len() as u64);
+    let style = "{prefix:>22} {bar:30} {pos}/{len} cells, {elapsed} {msg}";
+    bar.set_style(ProgressStyle::with_template(style)?);
+    let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::with_capacity(todo.len())));
+    let foretold = Foretold::default();
+    std::thread::scope(|scope| {
+        for _ in 0..options.threads {
+            scope.spawn(|| {
+                while let Some(&(map, scheme, place)) =
+                    todo.get(next.fetch_add(1, Ordering::Relaxed))
+                {
+                    bar.set_prefix(format!("{}, {}", maps[map].name, scheme.name()));
+                    let scene = maps[map].scene(scheme, place[0], place[1]);
+                    let percent = |part: f64| bar.set_message(format!("({:.0} %)", 100.0 * part));
+                    let outcome = run::march(&scene, &foretold, &percent);
+                    bar.set_message("");
+                    bar.inc(1);
+                    let mut done = done.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+                    done.push(Cell { map, scheme, place, outcome });
+                }
+            });
+        }
+    });
+    bar.finish_and_clear();
+    let mut cells = done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    cells.sort_by_key(|cell| (cell.map, cell.scheme, cell.place));
+    Ok(cells)
+}
