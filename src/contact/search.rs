@@ -393,5 +393,4 @@ impl ModeSearch {
 }
 
 #[cfg(test)]
-#[path = "search_tests.rs"]
 mod tests;

@@ -24,6 +24,7 @@ pub(crate) const BLUE: RGBColor = RGBColor(31, 119, 180);
 pub(crate) const RED: RGBColor = RGBColor(214, 39, 40);
 pub(crate) const GREEN: RGBColor = RGBColor(44, 160, 44);
 pub(crate) const ORANGE: RGBColor = RGBColor(255, 140, 0);
+pub(crate) const VIOLET: RGBColor = RGBColor(148, 103, 189);
 pub(crate) const GRAY: RGBColor = RGBColor(70, 70, 70);
 
 /// Panels under a title.
@@ -56,7 +57,7 @@ struct Series {
 pub(crate) struct Panel {
     x: String,
     y: String,
-    logarithmic: bool,
+    logarithmic: [bool; 2],
     legend: SeriesLabelPosition,
     categories: Vec<String>,
     /// Part of the height that is kept free for the legend: below, above.
@@ -69,7 +70,7 @@ impl Panel {
         Self {
             x: x.into(),
             y: y.into(),
-            logarithmic: false,
+            logarithmic: [false; 2],
             legend: SeriesLabelPosition::UpperRight,
             categories: Vec::new(),
             room: [0.05; 2],
@@ -79,7 +80,13 @@ impl Panel {
 
     /// With a logarithmic vertical axis.
     pub(crate) fn logarithmic(mut self) -> Self {
-        self.logarithmic = true;
+        self.logarithmic[1] = true;
+        self
+    }
+
+    /// With two logarithmic axes.
+    pub(crate) fn double_logarithmic(mut self) -> Self {
+        self.logarithmic = [true; 2];
         self
     }
 
@@ -166,8 +173,9 @@ impl Panel {
             (true, true) => 0.06,
             (false, true) => 0.0,
         };
-        let x = self.range([sides; 2], false, |p| p.0);
-        let y = self.range(self.room, self.logarithmic, |p| p.1);
+        let [log_x, log_y] = self.logarithmic;
+        let x = self.range([sides; 2], log_x, |p| p.0);
+        let y = self.range(self.room, log_y, |p| p.1);
         let mut builder = ChartBuilder::on(area);
         builder.margin(SCALE * 12).x_label_area_size(SCALE * 48).y_label_area_size(SCALE * 78);
         let names = |value: &f64| {
@@ -178,11 +186,17 @@ impl Panel {
         let (plain_x, plain_y) = (plain(&x), plain(&y));
         let format_x: &dyn Fn(&f64) -> String =
             if self.categories.is_empty() { &plain_x } else { &names };
-        if self.logarithmic {
-            let chart = builder.build_cartesian_2d(x, y.log_scale())?;
-            self.fill(chart, format_x, &|value| format!("{value:.0e}"))
-        } else {
-            self.fill(builder.build_cartesian_2d(x, y)?, format_x, &plain_y)
+        let power = |value: &f64| format!("{value:.0e}");
+        match (log_x, log_y) {
+            (true, _) => {
+                let chart = builder.build_cartesian_2d(x.log_scale(), y.log_scale())?;
+                self.fill(chart, &|value| format!("{value}"), &power)
+            }
+            (_, true) => {
+                let chart = builder.build_cartesian_2d(x, y.log_scale())?;
+                self.fill(chart, format_x, &power)
+            }
+            _ => self.fill(builder.build_cartesian_2d(x, y)?, format_x, &plain_y),
         }
     }
 

@@ -16,7 +16,6 @@ mod document;
 mod figure;
 mod fragility;
 mod full_plane;
-mod glue;
 mod history;
 mod key;
 mod layered_accuracy;
@@ -41,14 +40,14 @@ type AnyError = Box<dyn std::error::Error + Send + Sync>;
 #[command(bin_name = "cargo study")]
 enum Study {
     Validation(validation::Options),
-    Precision(precision::options::Options),
-    Stability(stability::options::Options),
+    Precision(precision::Options),
+    Stability(stability::Options),
     Performance(performance::Options),
     Containment(containment::Options),
     PaperReadings(paper_readings::Options),
     PaperScheme(paper_scheme::Options),
     FullPlane(full_plane::Options),
-    Fragility(fragility::options::Options),
+    Fragility(fragility::Options),
     Opensees(opensees::Options),
     Passivity(passivity::Options),
     ContactChatter(contact_chatter::Options),

@@ -172,5 +172,4 @@ impl Quadrature {
 }
 
 #[cfg(test)]
-#[path = "cost_tests.rs"]
 mod tests;

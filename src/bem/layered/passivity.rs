@@ -77,5 +77,4 @@ pub(crate) fn assembled(classes: &PairClasses, values: &[[Complex; 3]]) -> Vec<C
 }
 
 #[cfg(test)]
-#[path = "passivity_tests.rs"]
 mod tests;

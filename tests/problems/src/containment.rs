@@ -8,6 +8,9 @@ use std::ops::Range;
 use basemat::Soil;
 use basemat::coupled::Probe;
 use basemat::fem::{Direction, Layer, Material, Mesh, QuadFormulation};
+use basemat::interface::{
+    Condition, ContactState, InterfaceLaw, Mode, StepStart, ThinLayer, Tolerance,
+};
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{FemModel, RayleighDamping, Row, Structure};
 
@@ -189,4 +192,25 @@ impl Containment {
 /// Newtons per metre as pounds per foot.
 pub fn pounds_per_foot(force: f64) -> f64 {
     force / POUND_FORCE_PER_FOOT
+}
+
+/// A thin layer that never lets go, in its stick mode for good: what "bonded" is with the paper's interface elements.
+pub struct Glue(pub ThinLayer);
+
+impl InterfaceLaw for Glue {
+    fn modes(&self) -> &[Mode] {
+        &[Mode::Stick]
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        self.0.conditions(mode, start)
+    }
+
+    fn next_mode(&self, _: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+        Mode::Stick
+    }
+
+    fn compliance(&self, mode: Mode, start: &StepStart) -> [f64; 2] {
+        self.0.compliance(mode, start)
+    }
 }

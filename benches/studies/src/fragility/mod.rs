@@ -17,7 +17,6 @@
 
 mod lognormal;
 mod motions;
-pub(crate) mod options;
 mod picture;
 mod scene;
 #[cfg(test)]
@@ -29,6 +28,7 @@ use std::time::Instant;
 
 use basemat::bem::SharedKernels;
 use basemat::sweep::{CaseTable, Parameter, Sweep};
+use basemat_problems::random::Random;
 use cpu_time::ProcessTime;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -36,7 +36,6 @@ use crate::AnyError;
 use crate::document::write_csv;
 use lognormal::{Curve, Fit, Outcomes, Stripe};
 use motions::Motion;
-use options::Options;
 
 /// Curves of the bootstrap, and the share of them within a band.
 const SAMPLES: usize = 1000;
@@ -50,6 +49,58 @@ pub(crate) struct Group {
     pub(crate) fit: Option<Fit>,
     /// Of the bootstrap.
     pub(crate) samples: Vec<Curve>,
+}
+
+/// Fragility of a shear building that may uplift and slide: friction × width × motions × intensities.
+///
+/// Writes the table of all cases, the fitted curves and a picture. A shard writes its part of the table
+/// only, and goes on where it was if it is started again.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct Options {
+    /// Folder for the files.
+    #[arg(long, default_value = "target/study/fragility")]
+    pub(crate) out: PathBuf,
+    /// Runs share I of N only, from 0: `--shard 3/16`.
+    #[arg(long, value_parser = shard, conflicts_with = "merge")]
+    pub(crate) shard: Option<Shard>,
+    /// Runs nothing: merges the shards in the folder, and fits.
+    #[arg(long)]
+    pub(crate) merge: bool,
+    /// Threads; more than one need the feature `rayon`, which takes all processors unless told.
+    #[arg(long)]
+    pub(crate) threads: Option<usize>,
+    /// Few cases, in seconds: to see that all works.
+    #[arg(long)]
+    pub(crate) short: bool,
+    /// Column of the table that is compared with the limit.
+    #[arg(long, default_value = "residual_slip_m")]
+    pub(crate) demand: String,
+    /// Limit of the demand, in the column's unit.
+    #[arg(long, default_value_t = 0.05)]
+    pub(crate) limit: f64,
+    /// Prints the table of all cases, too.
+    #[arg(long)]
+    pub(crate) table: bool,
+}
+
+/// A share of the cases.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shard {
+    pub(crate) index: usize,
+    pub(crate) of: usize,
+}
+
+impl Shard {
+    pub(crate) fn file(self) -> String {
+        format!("shard_{}_of_{}.csv", self.index, self.of)
+    }
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    let numbers = text
+        .split_once('/')
+        .and_then(|(index, of)| Some(Shard { index: index.parse().ok()?, of: of.parse().ok()? }));
+    numbers.ok_or_else(|| "must be like 3/16".to_owned())
 }
 
 pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
@@ -180,16 +231,9 @@ fn group(
         }
     }
     let stripes = lognormal::stripes(levels, outcomes.iter());
-    // SplitMix64: the same samples in every run.
-    let mut state = 1_u64;
-    let random = || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    };
-    let samples = lognormal::resampled(levels, &outcomes, SAMPLES, random);
+    // The same samples in every run.
+    let mut random = Random(1);
+    let samples = lognormal::resampled(levels, &outcomes, SAMPLES, || random.bits());
     Ok(Group { friction, width, fit: lognormal::fit(&stripes), stripes, samples })
 }
 

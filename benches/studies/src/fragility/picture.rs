@@ -5,7 +5,7 @@ use std::path::Path;
 use plotters::prelude::*;
 
 use super::Group;
-use super::options::Options;
+use super::Options;
 use crate::AnyError;
 
 use crate::key::{self, Area, Sample};

@@ -7,7 +7,7 @@ use basemat::interface::{
 };
 
 use super::options::{Law, Limit, Reading, Sense};
-use crate::glue::Glue;
+use basemat_problems::containment::Glue;
 
 impl Reading {
     /// The law of an element under a base with that mean pressure.

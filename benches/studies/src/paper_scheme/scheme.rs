@@ -9,8 +9,8 @@ use basemat::coupled::{ContactSearch, Newmark, SimulationBuilder};
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw, ThinLayer};
 use basemat::motion::{Record, STANDARD_GRAVITY};
 
-use crate::glue::Glue;
 use basemat_problems::containment::Containment;
+use basemat_problems::containment::Glue;
 
 /// Soil, interface, time integration and contact iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

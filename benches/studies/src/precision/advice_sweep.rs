@@ -9,6 +9,7 @@ use basemat::coupled::{Advice, Outline, advise};
 use basemat::interface::Bonded;
 use basemat::motion::{FrequencyContent, Record, el_centro_1940};
 use basemat::structure::{RigidBlock, ShearBuilding, Storey};
+use basemat_problems::random::Random;
 use indicatif::ProgressBar;
 
 use super::force::Errors;
@@ -39,49 +40,29 @@ struct Drawn {
     tolerances: [f64; 2],
 }
 
-/// Numbers from 0 to 1 of a seed (splitmix64).
-struct Draw(u64);
-
-impl Draw {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-
-    /// Evenly in the logarithm.
-    fn scale(&mut self, low: f64, high: f64) -> f64 {
-        low * (high / low).powf(self.next())
-    }
-}
-
 impl Drawn {
     fn new(number: u64) -> basemat::Result<Self> {
-        let mut draw = Draw(number);
+        let mut draw = Random(number);
+        let scale =
+            |draw: &mut Random, low: f64, high: f64| low * (high / low).powf(draw.within(0.0, 1.0));
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
-        let poisson = [0.0, 0.15, 0.25, 0.33, 0.4, 0.45][(6.0 * draw.next()) as usize];
-        let speed = draw.scale(100.0, 500.0);
+        let poisson = [0.0, 0.15, 0.25, 0.33, 0.4, 0.45][(6.0 * draw.within(0.0, 1.0)) as usize];
+        let speed = scale(&mut draw, 100.0, 500.0);
         let soil = Soil::new(1900.0 * speed * speed, poisson, 1900.0)?;
-        let slenderness = draw.scale(1.0, 6.0);
-        let density = draw.scale(200.0, 2500.0);
-        let sways = draw.next() < 0.5;
-        let sway = [draw.scale(0.5, 6.0), draw.between(0.0, 0.05)];
+        let slenderness = scale(&mut draw, 1.0, 6.0);
+        let density = scale(&mut draw, 200.0, 2500.0);
+        let sways = draw.within(0.0, 1.0) < 0.5;
+        let sway = [scale(&mut draw, 0.5, 6.0), draw.within(0.0, 0.05)];
         let (motion, record) = match number % 3 {
             0 => ("El Centro", el_centro(8.0)?),
             1 => {
-                let sigma = draw.scale(0.08, 0.4);
+                let sigma = scale(&mut draw, 0.08, 0.4);
                 ("Ricker", ricker(sigma)?)
             }
             _ => {
-                let period = draw.scale(0.6, 3.0);
-                let cycles = draw.between(1.2, 3.0);
-                ("near fault", near_fault(period, cycles, draw.between(0.0, TAU))?)
+                let period = scale(&mut draw, 0.6, 3.0);
+                let cycles = draw.within(1.2, 3.0);
+                ("near fault", near_fault(period, cycles, draw.within(0.0, TAU))?)
             }
         };
         let scene = Self {

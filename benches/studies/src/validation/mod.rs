@@ -7,8 +7,6 @@
 //! cargo study validation --docs docs
 //! ```
 
-mod block_sv_pulse;
-mod cantilever;
 mod containment;
 mod convergence;
 mod lamb;
@@ -18,7 +16,6 @@ mod punch;
 mod report;
 mod rocking_block;
 mod strip_impedance;
-mod three_storeys;
 mod transient;
 mod yim_chopra;
 
@@ -59,9 +56,9 @@ impl Options {
 const CASES: [Case; 11] = [
     lamb::CASE,
     strip_impedance::CASE,
-    block_sv_pulse::CASE,
-    cantilever::CASE,
-    three_storeys::CASE,
+    transient::BLOCKS,
+    transient::CANTILEVER,
+    transient::THREE_STOREYS,
     punch::CASE,
     newmark_block::CASE,
     rocking_block::CASE,

@@ -4,55 +4,46 @@ use basemat::bem::{Grading, HalfPlaneGround, Strip};
 use basemat::coupled::State;
 use basemat::interface::Bonded;
 use basemat::motion::RickerDisplacement;
-use basemat::structure::Structure;
+use basemat::structure::{RigidBlock, Structure};
 use basemat::{Simulation, Soil};
 
-use super::outcome::Check;
+use super::outcome::{Case, Check, Outcome, worse};
 use crate::AnyError;
-use crate::figure::{BLUE, Panel, RED};
+use crate::figure::{BLUE, Figure, Panel, RED};
 use basemat_problems::series::{Error, Series, whole};
 use basemat_problems::table;
+use basemat_problems::tabled_structures::{Cantilever, three_storeys};
 
-pub(crate) const ELEMENTS: usize = 16;
-pub(crate) const TIME_STEP: f64 = 0.05;
+const ELEMENTS: usize = 16;
+const TIME_STEP: f64 = 0.05;
 
 /// A column of the table, and the same quantity of a state.
-pub(crate) struct Quantity<'a> {
-    pub(crate) column: &'a str,
-    pub(crate) name: &'a str,
-    pub(crate) of: &'a dyn Fn(&State) -> f64,
+struct Quantity<'a> {
+    column: &'a str,
+    name: &'a str,
+    of: &'a dyn Fn(&State) -> f64,
     /// Whether it is a mean over the step, as forces are.
-    pub(crate) mean: bool,
-    pub(crate) limit: f64,
+    mean: bool,
+    limit: f64,
 }
 
 impl<'a> Quantity<'a> {
     /// A quantity at the end of the step.
-    pub(crate) fn at_end(
-        column: &'a str,
-        name: &'a str,
-        of: &'a dyn Fn(&State) -> f64,
-        limit: f64,
-    ) -> Self {
+    fn at_end(column: &'a str, name: &'a str, of: &'a dyn Fn(&State) -> f64, limit: f64) -> Self {
         Self { column, name, of, mean: false, limit }
     }
 
     /// A mean over the step.
-    pub(crate) fn mean(
-        column: &'a str,
-        name: &'a str,
-        of: &'a dyn Fn(&State) -> f64,
-        limit: f64,
-    ) -> Self {
+    fn mean(column: &'a str, name: &'a str, of: &'a dyn Fn(&State) -> f64, limit: f64) -> Self {
         Self { column, name, of, mean: true, limit }
     }
 }
 
 /// Histories of one quantity.
-pub(crate) struct History {
-    pub(crate) name: String,
-    pub(crate) error: f64,
-    pub(crate) limit: f64,
+struct History {
+    name: String,
+    error: f64,
+    limit: f64,
     times: Vec<f64>,
     found: Vec<f64>,
     wanted: Vec<f64>,
@@ -60,7 +51,7 @@ pub(crate) struct History {
 
 /// Runs a structure with unknowns `[u_x, u_y, θ, …]` under the S wave of the tables: a Ricker pulse
 /// of the free field with amplitude 1 and σ = 1 about t = 5, in units of b, c_S, μ.
-pub(crate) fn histories(
+fn histories(
     file: &str,
     structure: impl Structure + 'static,
     poisson: f64,
@@ -111,7 +102,7 @@ pub(crate) fn histories(
 }
 
 /// Checks of the histories, and of the ledger.
-pub(crate) fn checks(histories: &[History], ledger: f64) -> Vec<Check> {
+fn checks(histories: &[History], ledger: f64) -> Vec<Check> {
     let mut checks: Vec<_> = histories
         .iter()
         .map(|h| Check::below(format!("{}, relative L2", h.name), h.error, h.limit))
@@ -121,7 +112,7 @@ pub(crate) fn checks(histories: &[History], ledger: f64) -> Vec<Check> {
 }
 
 /// A panel with the first 25 b/c_S of a history; what follows is small.
-pub(crate) fn panel(history: &History, unit: &str) -> Panel {
+fn panel(history: &History, unit: &str) -> Panel {
     let points = |values: &[f64]| {
         let each = history.times.iter().copied().zip(values.iter().copied());
         each.take_while(|(time, _)| *time <= 25.0).collect()
@@ -132,21 +123,167 @@ pub(crate) fn panel(history: &History, unit: &str) -> Panel {
 }
 
 /// The base's horizontal displacement.
-pub(crate) fn base_motion(state: &State) -> f64 {
+fn base_motion(state: &State) -> f64 {
     state.absolute_displacement()[0]
 }
 
 /// The tables count rotations and moments clockwise.
-pub(crate) fn rotation(state: &State) -> f64 {
+fn rotation(state: &State) -> f64 {
     -state.absolute_displacement()[2]
 }
 
 /// Horizontal force on the soil.
-pub(crate) fn shear(state: &State) -> f64 {
+fn shear(state: &State) -> f64 {
     state.base_shear
 }
 
 /// Moment on the soil.
-pub(crate) fn moment(state: &State) -> f64 {
+fn moment(state: &State) -> f64 {
     -state.base_moment
+}
+
+pub(crate) const BLOCKS: Case = Case {
+    name: "block_sv_pulse",
+    title: "Rigid block under an SV pulse",
+    reference: "frequency-domain tables, Fourier synthesis",
+    settings: "16 cosine-graded elements, Δt = 0.05 b/c_S, bonded, six blocks",
+    run: blocks,
+};
+
+fn block(
+    name: &str,
+    poisson: f64,
+    height: f64,
+    density: f64,
+) -> Result<(Vec<History>, f64), AnyError> {
+    let roof = |state: &State| {
+        state.absolute_displacement()[0] - height * state.absolute_displacement()[2]
+    };
+    histories(
+        &format!("td_block_SV_{name}.csv"),
+        RigidBlock::new(2.0, height, density)?,
+        poisson,
+        &[
+            Quantity::at_end("u_base", "base displacement", &base_motion, 4e-3),
+            Quantity::at_end("theta", "rotation", &rotation, 7.5e-3),
+            Quantity::at_end("u_roof", "roof displacement", &roof, 8e-3),
+            Quantity::mean("V", "base shear", &shear, 2.5e-3),
+            Quantity::mean("M", "base moment", &moment, 1.3e-2),
+        ],
+    )
+}
+
+fn blocks(short: bool) -> Result<Outcome, AnyError> {
+    let third = 1.0 / 3.0;
+    let list = [
+        ("nu0333_h2_rho1", third, 2.0, 1.0),
+        ("nu025_h2_rho1", 0.25, 2.0, 1.0),
+        ("nu0333_h1_rho1", third, 1.0, 1.0),
+        ("nu025_h1_rho1", 0.25, 1.0, 1.0),
+        ("nu0333_h4_rho0.5", third, 4.0, 0.5),
+        ("nu025_h4_rho0.5", 0.25, 4.0, 0.5),
+    ];
+    let list = if short { &list[..2] } else { &list[..] };
+    let mut checks: Vec<Check> = Vec::new();
+    let mut worst_ledger = 0.0_f64;
+    let mut shown = Vec::new();
+    for (name, poisson, height, density) in list {
+        let (found, ledger) = block(name, *poisson, *height, *density)?;
+        worst_ledger = worse(worst_ledger, ledger);
+        for (k, history) in found.iter().enumerate() {
+            match checks.get_mut(k) {
+                Some(check) => check.value = worse(check.value, history.error),
+                None => checks.push(Check::below(
+                    format!("{}, relative L2, worst block", history.name),
+                    history.error,
+                    history.limit,
+                )),
+            }
+        }
+        if shown.is_empty() {
+            shown = found;
+        }
+    }
+    checks.push(Check::below("energy ledger, residual", worst_ledger, 1e-10));
+    let units = [" / A", " b / A", " / A", " / (μ A)", " / (μ A b)"];
+    let panels = [0, 1, 3, 4].map(|k| panel(&shown[k], units[k]));
+    let title = "Block of height 2b and the soil's density, ν = 1/3; the free field is a Ricker pulse of amplitude A";
+    Ok(Outcome { checks, figure: Figure::new(title, 2, panels.into()) })
+}
+
+pub(crate) const CANTILEVER: Case = Case {
+    name: "cantilever",
+    title: "Cantilever on the strip",
+    reference: "exact beam functions in the frequency domain",
+    settings: "8 beams, 16 cosine-graded elements, Δt = 0.05 b/c_S, bonded, ν = 1/3",
+    run: cantilever,
+};
+
+fn cantilever(_short: bool) -> Result<Outcome, AnyError> {
+    let cantilever = Cantilever::new(8);
+    let top = cantilever.top();
+    let tip = move |state: &State| state.absolute_displacement()[top];
+    // What the base of mass 1 does not take itself.
+    let beam_shear = |state: &State| -state.base_shear - state.acceleration()[0];
+    let (found, ledger) = histories(
+        "td_EBcantilever_SV_nu0333.csv",
+        cantilever,
+        1.0 / 3.0,
+        &[
+            Quantity::at_end("u_base", "base displacement", &base_motion, 3.6e-3),
+            Quantity::at_end("theta", "rotation", &rotation, 6.5e-3),
+            Quantity::at_end("u_top", "top displacement", &tip, 5.7e-3),
+            Quantity::mean("V_beam", "shear at the beam's foot", &beam_shear, 3.4e-3),
+            Quantity::mean("V", "base shear", &shear, 3e-3),
+            Quantity::mean("M", "base moment", &moment, 1.25e-2),
+        ],
+    )?;
+    let units = [" / A", " b / A", " / A", " / (μ A)", " / (μ A)", " / (μ A b)"];
+    let panels = [0, 2, 3, 5].map(|k| panel(&found[k], units[k]));
+    let title = "Euler–Bernoulli cantilever of height 4b on a massive rigid base, ν = 1/3";
+    let figure = Figure::new(title, 2, panels.into());
+    Ok(Outcome { checks: checks(&found, ledger), figure })
+}
+
+pub(crate) const THREE_STOREYS: Case = Case {
+    name: "three_storeys",
+    title: "Three-storey building on the strip",
+    reference: "frequency-domain table, Fourier synthesis",
+    settings: "16 cosine-graded elements, Δt = 0.05 b/c_S, bonded, ν = 1/3",
+    run: storeys,
+};
+
+fn storeys(_short: bool) -> Result<Outcome, AnyError> {
+    let building = three_storeys()?;
+    let rows = building.shear(0)?;
+    let storey_shear =
+        move |s: &State| rows.value(s.absolute_displacement(), s.velocity(), s.acceleration());
+    // Storey displacements relative to the frame of the base.
+    let relative = |j: u8| {
+        move |state: &State| {
+            let u = state.absolute_displacement();
+            u[2 + usize::from(j)] - u[0] + f64::from(j) * u[2]
+        }
+    };
+    let (first, third) = (relative(1), relative(3));
+    let (found, ledger) = histories(
+        "td_shearbuilding3_SV_nu0333_sig1.csv",
+        building,
+        1.0 / 3.0,
+        &[
+            Quantity::at_end("u_base", "base displacement", &base_motion, 3.1e-3),
+            Quantity::at_end("theta", "rotation", &rotation, 4.3e-3),
+            Quantity::at_end("v1", "first floor, relative", &first, 3.6e-3),
+            Quantity::at_end("v3", "third floor, relative", &third, 7.2e-3),
+            Quantity::at_end("V1", "first storey's shear", &storey_shear, 3.3e-3),
+            Quantity::mean("V", "base shear", &shear, 2e-3),
+            Quantity::mean("M", "base moment", &moment, 1.1e-2),
+        ],
+    )?;
+    let units = [" / A", " b / A", " / A", " / A", " / (μ A)", " / (μ A)", " / (μ A b)"];
+    let panels = [0, 3, 4, 6].map(|k| panel(&found[k], units[k]));
+    let title =
+        "Three storeys of height b on a massive rigid base, 5 % damping in the first mode, ν = 1/3";
+    let figure = Figure::new(title, 2, panels.into());
+    Ok(Outcome { checks: checks(&found, ledger), figure })
 }

@@ -27,7 +27,7 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
     let classes = PairClasses::new(strip.elements()).unwrap();
     let integrals = Wavenumbers::new(&classes, 1e-11);
     let profile = p1(gmb(5), gmb(1));
-    let table = include_str!("../../../tests/data/layered/F_s_P1_gmb_Q3.csv");
+    let table = include_str!("../../../../tests/data/layered/F_s_P1_gmb_Q3.csv");
     let (mut worst, mut largest, mut rows) = (0.0_f64, 0.0_f64, 0);
     let mut values = vec![[Complex::default(); 3]; classes.count()];
     for line in table.lines().skip(2) {

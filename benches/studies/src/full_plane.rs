@@ -10,11 +10,12 @@
 //!
 //! Writes impedances.csv and impedances.svg.
 
-mod plot;
-
 use std::path::PathBuf;
 
+use plotters::prelude::SeriesLabelPosition;
+
 use crate::AnyError;
+use crate::figure::{BLUE, Figure, GREEN, Panel, RED, VIOLET};
 use basemat::Soil;
 use basemat::bem::full_plane::CqMethod;
 use basemat_problems::series::print_errors;
@@ -147,7 +148,7 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
         }
     }
     write(&options.out.join("impedances.csv"), &all)?;
-    plot::draw(&options.out.join("impedances.svg"), &all)?;
+    draw(&options.out.join("impedances.svg"), &all)?;
     println!("rigid block under a Ricker pulse against the half-plane, time kernel at beta = 1");
     for (elements, frees) in [(8, &[0, 5, 10, 20][..]), (16, &[0, 5, 10, 20])] {
         for &free in frees.iter().take(if options.short { 2 } else { 4 }) {
@@ -157,4 +158,31 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
         }
     }
     Ok(())
+}
+
+/// Errors of the impedances over the free elements, a panel per mesh of convolution quadrature: lines from the table,
+/// circles of the truncation alone.
+fn draw(path: &std::path::Path, rows: &[Row]) -> Result<(), AnyError> {
+    let stable = || rows.iter().filter(|row| row.mesh.quadrature.is_some());
+    let mut meshes: Vec<usize> = stable().map(|row| row.mesh.elements).collect();
+    meshes.dedup();
+    let panel = |elements: &usize| {
+        let x = format!("free elements on either side of {elements} (0 at 0.5)");
+        let mut panel = Panel::new(&x, "relative error, root mean square").double_logarithmic();
+        panel = panel.legend(SeriesLabelPosition::LowerLeft).room(0.4, 0.05);
+        for (k, (name, color)) in NAMES.iter().zip([BLUE, GREEN, VIOLET, RED]).enumerate() {
+            // Zero has a place on the logarithmic axis: half an element.
+            let points = |value: &dyn Fn(&Row) -> Option<f64>| {
+                let own = stable().filter(|row| row.mesh.elements == *elements);
+                own.filter_map(|row| Some(((row.mesh.free as f64).max(0.5), value(row)?))).collect()
+            };
+            let total = points(&|row| Some(row.total[k]));
+            let cut = points(&|row| row.truncation.map(|errors| errors[k]));
+            panel = panel.line(&format!("{name}, from the table"), color, total);
+            panel = panel.circles(&format!("{name}, truncation alone"), color, cut);
+        }
+        panel
+    };
+    let title = "Full plane, BDF2: errors of the bonded strip over the free-surface elements";
+    Figure::new(title, 2, meshes.iter().map(panel).collect()).draw(path)
 }

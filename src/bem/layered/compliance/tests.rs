@@ -34,14 +34,14 @@ fn profile(layers: &str, rigid: bool) -> SoilProfile {
 /// Published digits: `kernel_C_ks.csv`, 80 random rows of 60-digit arithmetic.
 #[test]
 fn agrees_with_sixty_digits() {
-    agrees(include_str!("../../../tests/data/layered/kernel_C_ks.csv"), 80);
+    agrees(include_str!("../../../../tests/data/layered/kernel_C_ks.csv"), 80);
 }
 
 /// `contrasts_C_ks.csv`: slabs up to 1e8 times as stiff as the ground below, at rest and in motion, by matrix
 /// exponentials in 120 digits.
 #[test]
 fn stiff_layers_over_soft_ground_keep_their_digits() {
-    agrees(include_str!("../../../tests/data/layered/contrasts_C_ks.csv"), 144);
+    agrees(include_str!("../../../../tests/data/layered/contrasts_C_ks.csv"), 144);
 }
 
 fn agrees(table: &str, count: usize) {

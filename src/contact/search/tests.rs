@@ -1,6 +1,5 @@
 //! The mode search against brute force: every mode vector of up to six elements is tried.
 
-#[path = "bond_tests.rs"]
 mod bonds;
 
 use std::sync::Arc;
