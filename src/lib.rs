@@ -185,35 +185,22 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[macro_use]
-mod forms;
-#[macro_use]
-mod forward;
-#[macro_use]
-mod short_debug;
-#[macro_use]
-mod words;
+mod text;
 
 pub mod bem;
-mod bounded_line;
-mod check_sum;
-mod column;
 mod complex;
 pub mod contact;
-mod contact_element;
 pub mod coupled;
 mod error;
 pub mod fem;
 pub mod fundamental;
-mod gauss;
+mod geometry;
 pub mod history;
 pub mod interface;
 #[cfg(feature = "io")]
 pub mod io;
 mod linalg;
-mod matrix;
-mod memory;
 pub mod motion;
-mod number;
 #[cfg(feature = "plot")]
 pub mod plot;
 pub mod prelude;
@@ -230,10 +217,10 @@ pub use coupled::Simulation;
 pub use error::{
     CaseError, CaseFileError, CheckpointError, Error, KernelFileError, LawError, LayeredError,
     MemoryError, RecordError, ReducedError, Result, StandingError, StepError, SweepError,
+    memory_limit, set_memory_limit,
 };
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};
-pub use memory::{memory_limit, set_memory_limit};
 pub use soil::Soil;
 pub use sweep::Sweep;
 

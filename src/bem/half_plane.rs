@@ -8,8 +8,8 @@ use super::strip::strips_under;
 use super::{
     Grading, Ground, KernelGround, KernelSource, PatchKernel, SharedKernels, StaticKernel, Strip,
 };
-use crate::contact_element::{ContactElement, check_order};
 use crate::error::Result;
+use crate::geometry::{ContactElement, check_order};
 use crate::history::{ConvolutionHistory, History, HistoryChoice, LagKernel};
 use crate::motion::FreeField;
 use crate::soil::{Soil, SoilProfile};

@@ -19,12 +19,12 @@
 //! | `M_k` | (1/l) ∫ w x^(2k) dx |
 
 use super::overlap::Overlap;
-use crate::contact_element::ContactElement;
 use crate::error::{Error, Result, positive};
 use crate::fundamental::branch::{Branches, Part, Weight};
 use crate::fundamental::laurent::{TERMS, late_coefficients};
 use crate::fundamental::rayleigh::Rayleigh;
-use crate::gauss;
+use crate::geometry::ContactElement;
+use crate::linalg::gauss;
 use crate::soil::Soil;
 
 /// Mean displacement of a receiver element per unit traction on a source element, m/Pa.

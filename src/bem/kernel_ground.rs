@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{Ground, KernelSource, SharedKernels};
-use crate::contact_element::{ContactElement, check_order};
 use crate::error::{CheckpointError, Error, Result};
+use crate::geometry::{ContactElement, check_order};
 use crate::history::{
     ChosenHistory, ConvolutionHistory, ExponentialHistory, History, HistoryChoice, HistoryOptions,
     LagKernel, SavedChoice,

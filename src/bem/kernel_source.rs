@@ -3,8 +3,8 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use crate::contact_element::ContactElement;
 use crate::error::Result;
+use crate::geometry::ContactElement;
 use crate::history::LagKernel;
 
 /// A soil that knows its step coefficients and its static compliance: all that

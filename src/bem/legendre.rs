@@ -1,7 +1,7 @@
 //! Means of Legendre polynomials over the elements of a patch.
 
-use crate::contact_element::ContactElement;
-use crate::gauss;
+use crate::geometry::ContactElement;
+use crate::linalg::gauss;
 
 /// Legendre polynomials of degree 0, 1, … on [−1, 1] stretched over a patch.
 #[derive(Debug, Clone)]

@@ -35,7 +35,7 @@ pub use strip::{Grading, Strip};
 
 use std::any::Any;
 
-pub use crate::contact_element::ContactElement;
+pub use crate::geometry::ContactElement;
 
 use crate::error::{CheckpointError, Result};
 use crate::history::HistoryChoice;

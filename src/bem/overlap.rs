@@ -1,9 +1,9 @@
 //! Geometry of a pair of elements: the length of overlap at every offset, and its integrals over
 //! the offsets that a wave of given slowness covers during a step.
 
-use crate::contact_element::ContactElement;
 use crate::error::{Error, Result, finite};
 use crate::fundamental::branch::Weight;
+use crate::geometry::ContactElement;
 
 /// Overlap lengths w(x) of a receiver element and a source element shifted by x, folded to x ≥ 0.
 ///

@@ -2,8 +2,8 @@
 
 use super::InfluenceKernel;
 use super::influence::LateSeries;
-use crate::contact_element::ContactElement;
 use crate::error::Result;
+use crate::geometry::ContactElement;
 use crate::history::{LagKernel, LateLags, PairClasses, SharedSpectra};
 use crate::soil::Soil;
 

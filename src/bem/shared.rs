@@ -6,8 +6,8 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, ThreadId};
 
 use super::kernel_source::KernelSource;
-use crate::contact_element::ContactElement;
 use crate::error::{Error, Result};
+use crate::geometry::ContactElement;
 use crate::history::LagKernel;
 
 /// Kernels kept, at most: the latest.

@@ -2,8 +2,8 @@
 
 use super::strip::strips_under;
 use super::{Grading, Ground, Strip};
-use crate::contact_element::{ContactElement, check_order};
 use crate::error::{CheckpointError, Error, Result, not_negative, positive, same_length};
+use crate::geometry::{ContactElement, check_order};
 use crate::structure::Structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).

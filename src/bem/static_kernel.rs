@@ -2,9 +2,9 @@
 
 use super::Influence;
 use super::overlap::Overlap;
-use crate::contact_element::ContactElement;
 use crate::error::{Result, positive, same_length};
-use crate::gauss;
+use crate::geometry::ContactElement;
+use crate::linalg::gauss;
 use crate::soil::Soil;
 
 /// Element means of the static surface displacement (Flamant):

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use crate::contact_element::{ContactElement, check_count};
 use crate::error::{Error, Result, finite, positive};
+use crate::geometry::{ContactElement, check_count};
 use crate::structure::{Structure, foundation_nodes};
 
 /// Variation of element lengths along a strip.

@@ -3,8 +3,8 @@
 use std::ops::Deref;
 use std::sync::Arc;
 
+use crate::linalg::matrix::Thinned;
 use crate::linalg::{dense_multiply_add, transposed_multiply_add};
-use crate::matrix::Thinned;
 
 /// Largest rank of a structure's share that is multiplied apart from the soil's.
 const RANK: usize = 64;

@@ -85,8 +85,10 @@ impl ContactInput<'_> {
             && let Some((quantity, value)) = pair.iter().find_map(Condition::not_finite)
         {
             return Err(match law.check_start(&start) {
-                Ok(()) => LawError::NotFinite { element, mode, quantity, value },
-                Err(reason) => LawError::Refused { element, mode, reason: Box::new(reason) },
+                Ok(()) => LawError::NotFinite { element, mode: mode.word(), quantity, value },
+                Err(reason) => {
+                    LawError::Refused { element, mode: mode.word(), reason: Box::new(reason) }
+                }
             });
         }
         Ok(pair)
@@ -108,7 +110,7 @@ impl ContactInput<'_> {
         if next == mode || law.modes().contains(&next) {
             return Ok(next);
         }
-        Err(LawError::UnknownMode { element, mode, next })
+        Err(LawError::UnknownMode { element, mode: mode.word(), next: next.word() })
     }
 
     /// Traction by which a trial exceeds the strength of an element's bond; `None` without one.
@@ -120,7 +122,7 @@ impl ContactInput<'_> {
         match self.law(element).bond_overload(&self.start_of(element), trial) {
             Some(value) if !value.is_finite() => {
                 let (mode, quantity) = (self.law(element).modes()[0], "overload of the bond");
-                Err(LawError::NotFinite { element, mode, quantity, value })
+                Err(LawError::NotFinite { element, mode: mode.word(), quantity, value })
             }
             overload => Ok(overload),
         }

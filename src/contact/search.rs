@@ -257,7 +257,8 @@ impl ModeSearch {
         iterations: usize,
     ) -> StepError {
         let residual = self.disagreement(solver, input, modes);
-        StepError::Contact { iterations, residual, modes: modes.to_vec(), sets: self.sets }
+        let modes = modes.iter().map(|mode| mode.word()).collect();
+        StepError::Contact { iterations, residual, modes, sets: self.sets }
     }
 
     /// Distance of the tractions of `modes` from those of the modes that the laws ask for instead,

@@ -20,7 +20,7 @@ use crate::bem::Ground;
 use crate::error::LawError;
 use crate::interface::Mode;
 use crate::linalg::dot;
-use crate::matrix::spread;
+use crate::linalg::matrix::spread;
 use crate::structure::Structure;
 
 /// The ledger so far, and what booking a step needs of the one before.

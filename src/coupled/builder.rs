@@ -8,7 +8,6 @@ use super::coordinates::{Chooser, Coordinates};
 use super::initial::Beginning;
 use super::ledger::Ledger;
 use super::load::Load;
-use super::probe::Probe;
 use super::scene::base::Base;
 use super::scene::conditioning;
 use super::scene::laws;
@@ -25,11 +24,12 @@ use super::step::increment::Increment;
 use super::step::solver::Solver;
 use crate::bem::{ContactElement, Ground};
 use crate::contact::{ContactSearch, ModeSearch};
+use crate::coupled::run::Serviceability;
 use crate::error::{Error, Result, finite, not_negative, positive};
 use crate::interface::{ContactScene, InterfaceLaw};
-use crate::matrix::Thinned;
+use crate::linalg::matrix::Thinned;
 use crate::motion::{AtRest, FreeField};
-use crate::results::Serviceability;
+use crate::structure::probe::Probe;
 use crate::structure::{Structure, is_nonlinear};
 
 /// Parts of a [`Simulation`]: a structure, a ground and an interface law are needed, the rest has
@@ -278,7 +278,7 @@ impl SimulationBuilder {
         let mut ground =
             ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
         let elements = ground.elements().to_vec();
-        crate::contact_element::check_order(&elements)?;
+        crate::geometry::check_order(&elements)?;
         let count = elements.len();
         let contact_scene = ContactScene { gravity, time_step };
         laws::check(&self.laws, self.search, &contact_scene, count)?;
@@ -288,7 +288,7 @@ impl SimulationBuilder {
         check_unknowns(unknowns, count)?;
         let mut base = Base::of(structure.as_ref(), &elements)?;
         let mut model = Model::new(structure.as_ref(), linear, &base)?;
-        super::probe::check(&self.probes, unknowns)?;
+        crate::structure::probe::check(&self.probes, unknowns)?;
         self.beginning.check(unknowns)?;
         ground.prepare(time_step)?;
         if self.steps > 0 {

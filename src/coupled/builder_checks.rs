@@ -1,10 +1,10 @@
 //! Checks of a scene's parts that the builder makes.
 
 use crate::bem::Ground;
+use crate::error::memory;
 use crate::error::{Error, Result, all_finite, finite};
 use crate::linalg::indefinite_pivot;
-use crate::matrix::check_order;
-use crate::memory;
+use crate::linalg::matrix::check_order;
 use crate::motion::FreeField;
 
 /// Negative eigenvalue of the ground's operator that is rounding, in the matrix scaled to a diagonal of

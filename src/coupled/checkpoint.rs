@@ -7,11 +7,11 @@ use super::scene::operators::Operators;
 use super::state::State;
 use super::translation::Translation;
 use crate::bem::Ground;
-use crate::check_sum::CheckSum;
 use crate::contact::SearchMethod;
 use crate::error::{CheckpointError, Result};
 use crate::interface::ContactState;
 use crate::structure::{Structure, restore_variables, save_variables};
+use crate::text::check_sum::CheckSum;
 
 /// Format of [`Checkpoint`]; to be raised when the order of its numbers changes.
 const FORMAT: u32 = 8;

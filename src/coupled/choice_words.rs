@@ -6,7 +6,7 @@ use std::str::FromStr;
 use super::coordinates::Coordinates;
 use crate::contact::ContactSearch;
 use crate::error::{Error, Result};
-use crate::words::{count, unknown, with_number};
+use crate::text::words::{count, unknown, with_number};
 
 /// The words that `FromStr` reads: `auto`, `reduced(1e-6)`.
 impl fmt::Display for Coordinates {

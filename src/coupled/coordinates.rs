@@ -1,7 +1,6 @@
 //! In which coordinates a linear structure is stepped, and their basis.
 
 use super::initial::Beginning;
-use super::probe::Probe;
 use super::scene::base::Base;
 use super::scene::krylov::Reduction;
 use super::scene::modal_basis::ModalBasis;
@@ -10,7 +9,8 @@ use super::scene::operators::Factor;
 use super::scene::step_response::Rows;
 use super::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
-use crate::matrix::spread;
+use crate::linalg::matrix::spread;
+use crate::structure::probe::Probe;
 use crate::structure::{Row, Structure};
 
 /// Steps that modes have to pay for themselves in, if not told otherwise.

@@ -11,8 +11,8 @@ use super::state::State;
 use crate::bem::Ground;
 use crate::error::{Error, Result, all_finite, finite, same_length};
 use crate::interface::{InterfaceLaw, Mode, StepStart, StepStarts};
+use crate::linalg::matrix::SparseMatrix;
 use crate::linalg::{SparseFactor, largest};
-use crate::matrix::SparseMatrix;
 use crate::motion::STANDARD_GRAVITY;
 use crate::structure::{Structure, Triplets};
 

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::column::column;
-use crate::results::unit::number;
+use crate::text::column::column;
+use crate::text::unit::number;
 
 /// Where a term stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,7 +52,7 @@ macro_rules! energies {
         pub struct Ledger {
             $(
                 $(#[$doc])*
-                #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
+                #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
                 pub $field: f64,
             )+
         }

@@ -81,10 +81,10 @@ mod ledger;
 mod load;
 mod motion;
 mod observed;
-mod peak;
-mod probe;
+
 mod resolution;
 mod response_estimate;
+pub(crate) mod run;
 pub(crate) mod scene;
 mod scheme;
 mod simulation;
@@ -95,7 +95,6 @@ mod warning;
 mod workable_step;
 
 pub use crate::contact::{ContactSearch, SearchMethod};
-pub use crate::results::run::{Fallbacks, Run};
 pub use advice::{Advice, Outline, advise};
 pub use builder::SimulationBuilder;
 pub use checkpoint::Checkpoint;
@@ -103,9 +102,10 @@ pub use coordinates::Coordinates;
 pub use ledger::{EnergyTerm, Ledger};
 pub use load::Load;
 pub use observed::Observed;
-pub(crate) use peak::probe_index;
-pub use peak::{Extremes, Peak, ProbeExtremes};
-pub use probe::Probe;
+pub(crate) use run::peak::probe_index;
+pub use run::{Extremes, Fallbacks, Peak, ProbeExtremes, Run};
+
+pub use crate::structure::probe::Probe;
 pub(crate) use resolution::Resolution;
 pub use response_estimate::StiffnessError;
 pub use scene::conditioning::Conditioning;

@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 use super::books::Books;
 use super::checkpoint::{self, Checkpoint};
 use super::observed::Observed;
-use super::probe::Probe;
 use super::resolution::Resolution;
 use super::scene::Scene;
 use super::scene::conditioning::Conditioning;
@@ -14,11 +13,12 @@ use super::step::forcing::Forcing;
 use super::step::increment::Increment;
 use super::step::solver::Solver;
 use crate::bem::{ContactElement, Ground};
+use crate::coupled::run::Run;
 use crate::error::{Error, Result, StepError};
 use crate::history::HistoryChoice;
 use crate::motion::FreeField;
-use crate::results::run::Run;
 use crate::structure::Structure;
+use crate::structure::probe::Probe;
 
 /// A structure on a ground, ready to march.
 ///

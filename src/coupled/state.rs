@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::ledger::Ledger;
 use super::motion::{Motion, Quantity};
 use crate::contact::SearchMethod;
-use crate::contact_element::ContactElement;
 use crate::error::{Error, Result};
+use crate::geometry::ContactElement;
 use crate::interface::{ContactState, Mode, StepStarts};
 
 /// A change of contact mode.

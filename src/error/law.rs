@@ -1,7 +1,6 @@
 //! Answers that an interface law must not give.
 
 use super::Error;
-use crate::interface::Mode;
 
 /// An interface law answered what it must not.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -9,13 +8,13 @@ use crate::interface::Mode;
 pub enum LawError {
     /// A number that is not finite.
     #[error(
-        "interface law of element {element}, mode {mode:?}: {quantity} is {value}, but must be finite"
+        "interface law of element {element}, mode {mode}: {quantity} is {value}, but must be finite"
     )]
     NotFinite {
         /// Element, from the left, from 0.
         element: usize,
-        /// Mode that the law was asked about; for its memory, the mode that the step ends in.
-        mode: Mode,
+        /// [Word](crate::interface::Mode::word) of the mode that the law was asked about; for its memory, the mode that the step ends in.
+        mode: &'static str,
         /// Name of the quantity.
         quantity: &'static str,
         /// Its value.
@@ -23,26 +22,26 @@ pub enum LawError {
     },
     /// A number that is not finite, for a reason that the law knows
     /// ([`InterfaceLaw::check_start`](crate::interface::InterfaceLaw::check_start)).
-    #[error("interface law of element {element}, mode {mode:?}: {reason}")]
+    #[error("interface law of element {element}, mode {mode}: {reason}")]
     Refused {
         /// Element, from the left, from 0.
         element: usize,
-        /// Mode that the law was asked about.
-        mode: Mode,
+        /// [Word](crate::interface::Mode::word) of the mode that the law was asked about.
+        mode: &'static str,
         /// The law's reason.
         reason: Box<Error>,
     },
     /// A next mode that is none of the law's modes.
     #[error(
-        "interface law of element {element}, mode {mode:?}: the next mode is {next:?}, but must be one of \
+        "interface law of element {element}, mode {mode}: the next mode is {next}, but must be one of \
          the law's `modes`"
     )]
     UnknownMode {
         /// Element, from the left, from 0.
         element: usize,
-        /// Mode that was tried.
-        mode: Mode,
-        /// Mode that the law asked for.
-        next: Mode,
+        /// Word of the mode that was tried.
+        mode: &'static str,
+        /// Word of the mode that the law asked for.
+        next: &'static str,
     },
 }

@@ -11,7 +11,7 @@ mod law;
 mod layered;
 #[cfg(feature = "io")]
 mod matrix_file;
-mod memory;
+pub(crate) mod memory;
 #[cfg(feature = "io")]
 mod mesh_file;
 mod part;
@@ -29,15 +29,13 @@ pub use law::LawError;
 pub use layered::{KernelFileError, LayeredError};
 #[cfg(feature = "io")]
 pub use matrix_file::MatrixFileError;
-pub use memory::MemoryError;
+pub use memory::{MemoryError, memory_limit, set_memory_limit};
 #[cfg(feature = "io")]
 pub use mesh_file::MeshFileError;
 pub use record::RecordError;
 pub use reduced::ReducedError;
 pub use standing::StandingError;
 pub use step::StepError;
-
-use crate::fem::Direction;
 
 /// Result of every fallible function of the crate.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -150,12 +148,12 @@ pub enum Error {
         distance: f64,
     },
     /// A node that no element moves in the direction that was asked for.
-    #[error("node {node} has no unknown in direction {direction:?}: no element needs one there")]
+    #[error("node {node} has no unknown in direction {direction}: no element needs one there")]
     NoUnknown {
         /// The node.
         node: usize,
         /// The direction.
-        direction: Direction,
+        direction: &'static str,
     },
     /// A part of the scene that was not given, or does not fit another part.
     #[error("{quantity}: {needed}")]

@@ -1,7 +1,6 @@
 //! Steps that fail.
 
 use super::{Error, LawError, not_finite};
-use crate::interface::Mode;
 
 /// Why a step failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -9,9 +8,9 @@ use crate::interface::Mode;
 pub enum StepError {
     /// No set of contact modes satisfied the interface laws.
     #[error(
-        "contact modes not found in {iterations} trials{}, residual {residual:e}, modes {modes:?} \
+        "contact modes not found in {iterations} trials{}, residual {residual:e}, modes {} \
          (`coupled::workable_step` finds a time step that gets through)",
-        all(*sets)
+        all(*sets), modes.join(" ")
     )]
     Contact {
         /// Trials made, fallbacks included.
@@ -19,8 +18,8 @@ pub enum StepError {
         /// Distance of the tractions of these modes from those of the modes that the laws ask for
         /// instead, relative to the largest; 1 if either set of modes is singular.
         residual: f64,
-        /// Modes of the last trial, left to right.
-        modes: Vec<Mode>,
+        /// [Words](crate::interface::Mode::word) of the modes of the last trial, left to right.
+        modes: Vec<&'static str>,
         /// Number of all sets of modes, if every one was tried: the step has no solution. `None` if
         /// there are more than 65 536 of them.
         sets: Option<usize>,
@@ -28,15 +27,16 @@ pub enum StepError {
     /// Newton's iteration for a nonlinear structure did not converge.
     #[error(
         "Newton's iteration not converged in {iterations} iterations, residual {residual:e}, \
-         modes {modes:?} (`coupled::workable_step` finds a time step that gets through)"
+         modes {} (`coupled::workable_step` finds a time step that gets through)",
+        modes.join(" ")
     )]
     Newton {
         /// Iterations made.
         iterations: usize,
         /// Last out-of-balance force relative to the largest force.
         residual: f64,
-        /// Contact modes of the last iteration, left to right.
-        modes: Vec<Mode>,
+        /// [Words](crate::interface::Mode::word) of the contact modes of the last iteration, left to right.
+        modes: Vec<&'static str>,
     },
     /// The ground could not give its history.
     #[error("history of the ground: {0}")]

@@ -3,7 +3,7 @@
 use super::element::MassKind;
 use super::mesh::Mesh;
 use super::numbering::Numbering;
-use crate::structure::Triplets;
+use crate::linalg::Triplets;
 
 /// Which matrix of the elements is meant.
 #[derive(Debug, Clone, Copy)]

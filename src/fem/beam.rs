@@ -1,10 +1,10 @@
 //! Straight beam or column.
 
-use super::direction::{Direction, FRAME};
 use super::element::{Element, MassKind};
 use super::line::Line;
 use crate::error::{Result, finite, not_negative, positive};
-use crate::gauss;
+use crate::geometry::{Direction, FRAME};
+use crate::linalg::gauss;
 
 /// Straight prismatic beam between two nodes that rotate with it.
 ///

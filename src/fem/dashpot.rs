@@ -1,10 +1,10 @@
 //! Viscous dashpot between two nodes.
 
-use super::direction::Direction;
 use super::element::{Element, MassKind};
 use super::line::Line;
 use super::spring::pair;
 use crate::error::{Result, positive};
+use crate::geometry::Direction;
 
 /// Linear viscous dashpot between two nodes.
 ///

@@ -1,7 +1,7 @@
 //! The trait of finite elements.
 
-use super::direction::Direction;
 use crate::error::Result;
+use crate::geometry::Direction;
 
 /// Distribution of an element's mass over its unknowns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

@@ -3,8 +3,8 @@
 use super::material::Material;
 use super::mesh::Mesh;
 use super::quad4::{Quad4, QuadFormulation};
+use crate::error::memory;
 use crate::error::{Error, MemoryError, Result, finite, positive};
-use crate::memory;
 use std::ops::Range;
 
 /// Horizontal layer of a block: height, rows of elements, material.

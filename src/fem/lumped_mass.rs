@@ -1,8 +1,8 @@
 //! Mass at a node.
 
-use super::direction::{Direction, FRAME, TRANSLATIONS};
 use super::element::{Element, MassKind};
 use crate::error::{Result, not_negative, positive};
+use crate::geometry::{Direction, FRAME, TRANSLATIONS};
 
 /// Mass at a node, with or without rotary inertia.
 ///

@@ -17,8 +17,7 @@
 mod assembly;
 mod beam;
 mod dashpot;
-mod direction;
-mod direction_words;
+
 mod element;
 mod layered_block;
 mod line;
@@ -33,13 +32,13 @@ mod spring;
 mod static_state;
 mod truss;
 
+pub use crate::geometry::Direction;
 pub(crate) use assembly::{Quantity, assemble};
 pub(crate) use assembly::{
     assemble_damping, assemble_geometric_stiffness, assemble_mass, assemble_stiffness,
 };
 pub use beam::Beam;
 pub use dashpot::Dashpot;
-pub use direction::Direction;
 pub use element::{Element, MassKind};
 pub use layered_block::Layer;
 pub use lumped_mass::LumpedMass;

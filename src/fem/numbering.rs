@@ -1,8 +1,8 @@
 //! Which unknown belongs to which node and direction.
 
-use super::direction::Direction;
 use super::element::Element;
 use super::mesh::Mesh;
+use crate::geometry::Direction;
 
 /// Numbers of the unknowns: node by node, only the directions that some element uses.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,10 +1,10 @@
 //! Four-node quadrilateral of a solid in plane strain.
 
-use super::direction::{Direction, TRANSLATIONS};
 use super::element::{Element, MassKind, add_square};
 use super::material::Material;
 use super::quad4_shape::{CORNERS, Jacobian, gauss_points, shape};
 use crate::error::{Error, Result, same_length};
+use crate::geometry::{Direction, TRANSLATIONS};
 
 /// Formulation of the stiffness of a [`Quad4`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

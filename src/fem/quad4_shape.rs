@@ -1,6 +1,6 @@
 //! Shape functions of the four-node quadrilateral, and its Gauss points.
 
-use crate::gauss;
+use crate::linalg::gauss;
 
 /// Natural coordinates (ξ, η) of the four nodes, counter-clockwise.
 pub(super) const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];

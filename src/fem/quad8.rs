@@ -1,10 +1,10 @@
 //! Eight-node quadrilateral of a solid in plane strain.
 
-use super::direction::{Direction, TRANSLATIONS};
 use super::element::{Element, MassKind, add_square};
 use super::material::Material;
 use crate::error::{Error, Result, same_length};
-use crate::gauss;
+use crate::geometry::{Direction, TRANSLATIONS};
+use crate::linalg::gauss;
 
 /// Integration of the stiffness of a [`Quad8`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]

@@ -1,9 +1,9 @@
 //! Spring between two nodes.
 
-use super::direction::Direction;
 use super::element::{Element, MassKind, add_square};
 use super::line::Line;
 use crate::error::{Result, positive};
+use crate::geometry::Direction;
 
 /// Linear spring between two nodes.
 ///

@@ -1,9 +1,9 @@
 //! Bar that carries axial force only.
 
-use super::direction::{Direction, TRANSLATIONS};
 use super::element::{Element, MassKind, add_square};
 use super::line::Line;
 use crate::error::{Result, not_negative, positive};
+use crate::geometry::{Direction, TRANSLATIONS};
 
 /// Straight bar between two nodes, hinged at both.
 ///

@@ -15,7 +15,7 @@
 
 use crate::complex::Complex;
 use crate::fundamental::rayleigh::Rayleigh;
-use crate::gauss;
+use crate::linalg::gauss;
 
 /// Weight under which the kernel is integrated: a smooth function A of the slowness u.
 pub(crate) trait Weight {

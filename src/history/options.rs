@@ -10,7 +10,7 @@ use super::exponentials::{ExponentialHistory, LONGEST, MEMORY};
 use super::lag_kernel::LagKernel;
 use super::relaxed_fft::{LEAF, RelaxedFftHistory};
 use crate::error::Result;
-use crate::memory;
+use crate::error::memory;
 
 /// Steps that are estimated for where nothing is known.
 const UNKNOWN_STEPS: usize = 100_000;

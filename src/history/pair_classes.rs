@@ -3,8 +3,8 @@
 use std::cmp::Ordering;
 use std::collections::HashMap;
 
-use crate::contact_element::{ContactElement, check_order};
 use crate::error::{Error, Result};
+use crate::geometry::{ContactElement, check_order};
 
 /// Where a pair of elements finds its coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -48,7 +48,7 @@ validated! {
     Adhesive as AdhesiveForm {
         tension: f64,
         cohesion: f64,
-        #[serde(with = "crate::forms::number")]
+        #[serde(with = "crate::text::forms::number")]
         friction: f64,
     }
     => Adhesive::new(tension, cohesion, friction)

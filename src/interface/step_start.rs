@@ -1,8 +1,8 @@
 //! The start of a step: the past of each element, as its law sees it.
 
 use super::{ContactState, InterfaceLaw, Mode, law_of};
+use crate::error::memory;
 use crate::error::{LawError, Result, finite, positive, same_length};
-use crate::memory;
 
 /// State of an element at the beginning of a step, as its law sees it.
 ///
@@ -264,7 +264,7 @@ impl StepStarts {
 fn check_memory(element: usize, mode: Mode, memory: &[f64]) -> std::result::Result<(), LawError> {
     let quantity = "memory";
     match memory.iter().find(|value| !value.is_finite()) {
-        Some(&value) => Err(LawError::NotFinite { element, mode, quantity, value }),
+        Some(&value) => Err(LawError::NotFinite { element, mode: mode.word(), quantity, value }),
         None => Ok(()),
     }
 }

@@ -7,7 +7,7 @@
 //! 10.6 with § 10.1.1).
 
 use super::{DenseFactor, SparseFactor};
-use crate::matrix::SparseMatrix;
+use crate::linalg::SparseMatrix;
 
 /// Solves of the estimator, at most, with A and with Aᵀ.
 const ITERATIONS: usize = 5;

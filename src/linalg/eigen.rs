@@ -11,7 +11,7 @@ use faer::linalg::triangular_solve::{
 };
 use faer::{Mat, MatRef, Par, Side, Spec};
 
-use crate::matrix::SparseMatrix;
+use crate::linalg::SparseMatrix;
 
 /// Least eigenvalue of a symmetric row-major matrix; NaN if it cannot be had.
 pub(crate) fn least_eigenvalue(matrix: &[f64], order: usize) -> f64 {

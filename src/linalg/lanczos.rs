@@ -12,7 +12,7 @@
 use super::eigen::symmetric_modes;
 use super::product::{dense_multiply_add, dot, transposed_multiply_add};
 use super::sparse::SparseFactor;
-use crate::matrix::SparseMatrix;
+use crate::linalg::SparseMatrix;
 
 /// Vectors of a block.
 const BLOCK: usize = 8;
@@ -187,8 +187,8 @@ struct Approximations {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linalg::Triplets;
     use crate::linalg::largest;
-    use crate::structure::Triplets;
 
     /// `copies` equal chains of springs k = 1 and masses m = 1, fixed at one end:
     /// λ_j = 4 sin²((2j−1)π/(4n+2)), each `copies` times.

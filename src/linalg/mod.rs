@@ -6,17 +6,21 @@ mod complex;
 mod condition;
 mod dense;
 mod eigen;
+pub(crate) mod gauss;
 mod lanczos;
+pub(crate) mod matrix;
 mod partition;
 mod product;
 mod simd;
 mod sparse;
+mod triplets;
 
 pub(crate) use complex::hermitian_range;
 pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
 pub(crate) use eigen::{generalised_modes, indefinite_pivot, least_eigenvalue, symmetric_modes};
 pub(crate) use lanczos::lowest_modes;
+pub(crate) use matrix::SparseMatrix;
 pub(crate) use partition::Partition;
 pub(crate) use product::{
     Dot, add_combined_rows, add_row, add_rows, dense_multiply_add, dot, largest, magnitude,
@@ -24,5 +28,4 @@ pub(crate) use product::{
 };
 pub(crate) use simd::{Simd, WithSimd, vectorized};
 pub(crate) use sparse::{SparseFactor, indefinite_row};
-
-pub(crate) use crate::matrix::SparseMatrix;
+pub use triplets::Triplets;

@@ -1,6 +1,6 @@
 //! Which unknowns hang together.
 
-use crate::matrix::SparseMatrix;
+use crate::linalg::SparseMatrix;
 
 /// Disjoint sets of the numbers below an order (union–find).
 pub(crate) struct Partition(Vec<usize>);
@@ -49,7 +49,7 @@ impl Partition {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::structure::Triplets;
+    use crate::linalg::Triplets;
 
     #[test]
     fn coupled_numbers_are_one_set() {

@@ -13,8 +13,8 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Par, Side, Spec};
 
 use crate::error::{Error, Result};
-use crate::matrix::SparseMatrix;
-use crate::structure::Triplets;
+use crate::linalg::SparseMatrix;
+use crate::linalg::Triplets;
 
 /// Factors of a square sparse matrix, with the workspace of their solves.
 pub(crate) struct SparseFactor {

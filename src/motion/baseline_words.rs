@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use super::Baseline;
 use crate::error::{Error, Result};
-use crate::words::{count, unknown, with_number};
+use crate::text::words::{count, unknown, with_number};
 
 /// The words that `FromStr` reads: `remove_mean`, `rest_to_rest(4)`.
 impl fmt::Display for Baseline {

@@ -7,7 +7,7 @@ use super::lines::{Lines, Reason, count, read_numbers, record, scaled};
 use super::quantity::{Quantity, clause_end, unclear};
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
-use crate::number::finite;
+use crate::text::number::finite;
 
 /// The `.V2` and `.V2c` files of the Center for Engineering Strong Motion Data.
 ///

@@ -2,7 +2,7 @@
 
 use super::lines::number;
 use crate::error::RecordError;
-use crate::number::{excerpt, finite};
+use crate::text::number::{excerpt, finite};
 
 /// The fields of a line: commas or else semicolons separate, and so does white space.
 pub(super) struct Fields<'a> {

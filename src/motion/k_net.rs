@@ -6,7 +6,7 @@ use super::lines::{Lines, Reason, push_numbers, record, scaled};
 use super::quantity::{Quantity, unclear};
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
-use crate::number::finite;
+use crate::text::number::finite;
 
 /// The ASCII files of the Japanese networks K-NET and KiK-net.
 ///

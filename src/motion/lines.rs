@@ -3,9 +3,9 @@
 use std::io::Read;
 
 use super::fixed_columns::FixedColumns;
-use crate::bounded_line;
 use crate::error::{Error, RecordError, Result};
-use crate::number::{excerpt, finite, has_implied_point, in_field};
+use crate::text::bounded_line;
+use crate::text::number::{excerpt, finite, has_implied_point, in_field};
 
 /// Why a line is refused, and which.
 pub(super) type Reason<T> = std::result::Result<T, (usize, RecordError)>;

@@ -1,7 +1,7 @@
 //! Numbers with units in the headers of records: the one place that says what counts as one.
 
 use crate::error::RecordError;
-use crate::number::{excerpt, finite};
+use crate::text::number::{excerpt, finite};
 
 /// Signs that may stand around a quantity and mean nothing.
 const PADDING: [char; 6] = [' ', '\t', ',', ';', '=', ':'];

@@ -2,8 +2,8 @@
 
 use super::Baseline;
 use super::integral::{Instant, integrate};
+use crate::error::memory;
 use crate::error::{Error, MemoryError, RecordError, Result, finite, positive};
-use crate::memory;
 
 /// Error for so many samples that they would not fit into memory, with their two integrals.
 pub(super) fn check_samples(count: f64) -> std::result::Result<(), MemoryError> {

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::error::{Error, Result};
-use crate::words::unknown;
+use crate::text::words::unknown;
 
 /// Standard gravity, 9.80665 m/s² (3rd CGPM, 1901).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;

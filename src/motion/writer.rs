@@ -4,8 +4,8 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::Record;
-use crate::column::{Cell, line};
 use crate::error::{Result, write_file};
+use crate::text::column::{Cell, line};
 
 impl Record {
     /// Writes the CSV of [`Record::write_csv`] to a file; its folder is made if it is not there.

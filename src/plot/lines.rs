@@ -7,8 +7,8 @@ use super::key::{Key, Sample};
 use super::stroke::Stroke;
 use super::svg::{Sheet, Svg};
 use crate::error::{Error, Result};
-use crate::results::unit::printed;
 use crate::results::{Histories, Quantity};
+use crate::text::unit::printed;
 
 /// Stretches of a curve that are drawn by their extremes: more than pixels help nobody.
 const BUCKETS: usize = 1500;

@@ -1,8 +1,8 @@
 //! The columns of histories, in CSV and in archives of arrays.
 
 use super::{Histories, Quantity};
-use crate::column::{column, distinct};
 use crate::coupled::{EnergyTerm, Probe};
+use crate::text::column::{column, distinct};
 
 /// Elements and contact frames.
 pub(super) const CONTACT: [&str; 9] = [

@@ -3,14 +3,14 @@
 use std::fmt;
 use std::path::Path;
 
-use super::page::factor;
-use super::quantity::Place;
-use super::table::Table;
-use super::unit::{number, printed};
 use super::{ProbeExtremes, Quantity, Run, ServiceCheck};
-use crate::column::{Cell, column, distinct};
 use crate::coupled::EnergyTerm;
+use crate::coupled::run::page::factor;
+use crate::coupled::run::quantity::Place;
 use crate::error::{Result, write_file};
+use crate::text::column::{Cell, column, distinct};
+use crate::text::table::Table;
+use crate::text::unit::{number, printed};
 
 /// Runs side by side; prints as a table with a row per quantity and a column per case, in blocks of
 /// as many cases as lines below 100 characters hold.

@@ -4,10 +4,10 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::{Histories, Run};
-use crate::column::{Cell, line};
 use crate::coupled::EnergyTerm;
 use crate::error::{Result, write_file};
 use crate::motion::SpectralOrdinate;
+use crate::text::column::{Cell, line};
 
 /// Text that `write` makes, in a file.
 fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {

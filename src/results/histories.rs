@@ -1,9 +1,9 @@
 //! The observer: histories of a run.
 
 use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
-use super::sequence::Sequence;
 use super::{Quantity, Recorder};
 use crate::bem::ContactElement;
+use crate::coupled::run::sequence::Sequence;
 use crate::coupled::{Ledger, Probe, Simulation, State, probe_index};
 use crate::error::{Error, Result};
 

@@ -66,38 +66,24 @@
 mod columns;
 mod comparison;
 mod csv;
-mod envelope;
 mod floor;
 mod frames;
 mod histories;
 #[cfg(feature = "npz")]
 mod npz;
-mod page;
-mod quantity;
 mod recorder;
-pub(crate) mod run;
-mod safety;
-mod sequence;
-mod serviceability;
-mod sliding;
-pub(crate) mod table;
-pub(crate) mod unit;
-mod uplift;
 #[cfg(any(feature = "io", feature = "plot"))]
 mod wireframe;
 
-pub use crate::coupled::{Extremes, ProbeExtremes};
+pub use crate::coupled::run::{
+    Criterion, ElementEnvelope, Extremes, Fallbacks, Peak, ProbeExtremes, Quantity, Run,
+    ServiceCheck, Serviceability, Sliding, SlipEvent, Summary, Uplift,
+};
 pub use comparison::Comparison;
 pub use csv::{save_spectrum_csv, write_spectrum_csv};
-pub use envelope::ElementEnvelope;
 pub use floor::{broadened, log_spaced};
 pub use frames::{ContactFrame, MotionFrame};
 pub use histories::Histories;
-pub use quantity::{Quantity, Summary};
 pub use recorder::Recorder;
-pub use run::Run;
-pub use serviceability::{Criterion, ServiceCheck, Serviceability};
-pub use sliding::{Sliding, SlipEvent};
-pub use uplift::Uplift;
 #[cfg(any(feature = "io", feature = "plot"))]
 pub use wireframe::{WirePoint, Wireframe};

@@ -7,10 +7,11 @@ mod hysteresis;
 mod matrix_checks;
 mod models;
 mod nonlinear;
+pub(crate) mod probe;
 mod reduction;
 mod row;
-mod triplets;
 
+pub use crate::linalg::Triplets;
 pub use contact_node::ContactNode;
 pub(crate) use contact_node::{check_contact_nodes, foundation_nodes};
 pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
@@ -28,7 +29,6 @@ pub use nonlinear::NonlinearForce;
 pub(crate) use nonlinear::{is_nonlinear, restore_variables, save_variables};
 pub use reduction::{CraigBampton, Recovery, ReducedModel};
 pub use row::Row;
-pub use triplets::Triplets;
 
 use std::any::Any;
 

@@ -1,17 +1,17 @@
-//! Rows of CSV (RFC 4180) as [`csv_cell`](crate::results::table::csv_cell) writes them, read back.
+//! Rows of CSV (RFC 4180) as [`csv_cell`](crate::text::table::csv_cell) writes them, read back.
 //!
 //! A reader of our own: it must tell a file that was cut off from a whole one, and a quotation mark out
 //! of place is a fault; general readers forgive both.
 
 use crate::error::CaseFileError;
 
-/// The number in a cell, as [`Cell`](crate::column::Cell) writes it or in any other decimal form.
+/// The number in a cell, as [`Cell`](crate::text::column::Cell) writes it or in any other decimal form.
 pub(super) fn parsed(cell: &str) -> Option<f64> {
     match cell {
         "" => Some(f64::NAN),
         "inf" => Some(f64::INFINITY),
         "-inf" => Some(f64::NEG_INFINITY),
-        cell => crate::number::finite(cell),
+        cell => crate::text::number::finite(cell),
     }
 }
 
@@ -112,7 +112,7 @@ impl Iterator for Records<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::column::Cell;
+    use crate::text::column::Cell;
 
     #[test]
     fn numbers_read_back() {

@@ -7,7 +7,7 @@ use super::grid::{Grid, LAST_COLUMNS};
 use super::replace::name;
 use super::table::{Row, heading, parameter_cells};
 use crate::error::{CaseFileError, Result, SweepError};
-use crate::number::excerpt;
+use crate::text::number::excerpt;
 
 /// Columns and rows of a file, in its order.
 pub(super) struct Content {

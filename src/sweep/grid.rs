@@ -3,8 +3,8 @@
 use std::collections::HashSet;
 
 use super::parameter::Parameter;
+use crate::error::memory;
 use crate::error::{Error, Result, SweepError};
-use crate::memory;
 
 /// Bytes of a case in tables and while files are merged: its number, and its outcome without the
 /// results.

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use super::grid::{Grid, LAST_COLUMNS, no_name};
 use super::replace::replace;
-use crate::check_sum::CheckSum;
-use crate::column::Cell;
 use crate::error::{Result, SweepError};
-use crate::results::table::csv_line;
+use crate::text::check_sum::CheckSum;
+use crate::text::column::Cell;
+use crate::text::table::csv_line;
 
 /// The cases of a [`Sweep`](super::Sweep), a row each: the case's number, its parameters, its results, and why it has none if it
 /// failed. Prints as a table of five figures no line of which is longer than 99 characters: a wide

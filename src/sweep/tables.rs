@@ -15,7 +15,7 @@ use super::replace::{name, replaced, unwritten};
 use super::run::{Sweep, SweepCase};
 use super::table::{CaseTable, Row, heading};
 use crate::error::{CaseError, Error, Result, SweepError};
-use crate::results::table::csv_line;
+use crate::text::table::csv_line;
 
 /// Rows by their cases, each with the file that it is from.
 type Rows = BTreeMap<usize, (Row, PathBuf)>;

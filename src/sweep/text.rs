@@ -4,8 +4,8 @@ use std::fmt;
 
 use super::grid::LAST_COLUMNS;
 use super::table::{CaseTable, heading, parameter_cells};
-use crate::results::table::{LONGEST_LINE, Table};
-use crate::results::unit::number;
+use crate::text::table::{LONGEST_LINE, Table};
+use crate::text::unit::number;
 
 /// Five figures, counts as they are; the smallest numbers, too, which need not be rounding here.
 fn figures(value: f64) -> String {

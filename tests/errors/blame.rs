@@ -288,8 +288,8 @@ impl InterfaceLaw for Foreign {
 #[test]
 fn a_mode_that_the_law_does_not_have_is_named() {
     let mut simulation = standing(4, false).interface(Foreign).gravity(0.0).build().unwrap();
-    let error = error_with("interface law of element 0, mode Stick", simulation.step().map(drop));
-    assert!(error.to_string().contains("the next mode is Yield"), "{error}");
+    let error = error_with("interface law of element 0, mode stick", simulation.step().map(drop));
+    assert!(error.to_string().contains("the next mode is yield"), "{error}");
 }
 
 /// A spring between base and ground level that knows its energy, or not.

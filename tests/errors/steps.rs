@@ -99,7 +99,7 @@ fn modes_that_are_not_found_are_an_error_with_residual_and_modes() {
     let message = error.to_string();
     assert!(
         message.contains("residual")
-            && message.contains("modes [")
+            && message.contains("modes ")
             && message.contains("0.001")
             && message.contains("none of all 16 sets")
     );

@@ -3,8 +3,8 @@
 use super::Segment;
 use super::segment::{check_count, check_segments};
 use crate::bem::{ContactElement, Strip};
-use crate::contact_element::check_order;
 use crate::error::{Error, Result};
+use crate::geometry::check_order;
 
 /// A polygonal boundary of the soil, with the elements on which the structure stands.
 ///

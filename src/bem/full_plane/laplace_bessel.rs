@@ -128,7 +128,7 @@ mod tests {
         let z = Complex64::new(0.9, 1.1);
         let whole = series(z, true).map(|mean| mean * z);
         let half = series(0.5 * z, true).map(|mean| mean * 0.5 * z);
-        let rule = crate::gauss::largest();
+        let rule = crate::linalg::gauss::largest();
         let mut sums = [Complex64::default(); 2];
         for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
             let point = z * (0.75 + 0.25 * node);

@@ -5,7 +5,7 @@
 //! digits. Over the point's own element only the logarithm remains (tractions are odd and
 //! vanish on a straight line): its power series is integrated exactly.
 
-use crate::gauss;
+use crate::linalg::gauss;
 
 use super::laplace::LaplacePlane;
 use super::laplace_bessel::{Complex64, SERIES_REACH, series};

@@ -1,7 +1,7 @@
 //! Straight boundary elements.
 
+use crate::error::memory;
 use crate::error::{Error, MemoryError, Result, finite, positive};
-use crate::memory;
 
 /// A straight boundary element, with the soil on the right-hand side of the way from `from` to
 /// `to` as seen with x to the right and z **down** (on a flat surface: from left to right).

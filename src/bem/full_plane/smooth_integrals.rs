@@ -11,7 +11,7 @@
 //! which is free of r: the element under the load is no exception.
 
 use super::step_integrals::{Integrals, Medium};
-use crate::gauss::{self, Rule};
+use crate::linalg::gauss::{self, Rule};
 
 /// Where the fronts are.
 #[derive(Clone, Copy, PartialEq)]

@@ -219,7 +219,7 @@ mod tests {
     use super::*;
     use crate::Soil;
     use crate::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
-    use crate::gauss;
+    use crate::linalg::gauss;
 
     /// ∫ f from `low` to `high`, with square-root singularities at both ends.
     fn between(low: f64, high: f64, f: &dyn Fn(f64) -> [f64; 7]) -> [f64; 7] {

@@ -7,7 +7,7 @@ use super::step_integrals::{Integrals, Medium, step_integrals};
 use super::{BoundaryKernel, Segment};
 use crate::error::{Error, Result, positive, same_length};
 use crate::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
-use crate::gauss;
+use crate::linalg::gauss;
 use crate::soil::Soil;
 
 /// Boundary coefficients of Patel & Spyrakos (eqs. 2–4): displacements and tractions constant over

@@ -20,8 +20,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::coefficients::{BLOCKS, Block};
-use crate::check_sum::CheckSum;
 use crate::error::{Error, KernelFileError, LayeredError, Result, write_file};
+use crate::text::check_sum::CheckSum;
 
 const MAGIC: u64 = u64::from_le_bytes(*b"BASEMATK");
 const FORMAT: u64 = 1;

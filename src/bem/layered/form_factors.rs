@@ -8,8 +8,8 @@
 use std::sync::OnceLock;
 
 use crate::bem::ContactElement;
-use crate::gauss::Rule;
 use crate::history::PairClasses;
+use crate::linalg::gauss::Rule;
 
 /// Gauss points of a panel.
 pub(crate) const POINTS: usize = 16;

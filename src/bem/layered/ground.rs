@@ -13,8 +13,8 @@ use crate::bem::strip::strips_under;
 use crate::bem::{
     Grading, Ground, KernelGround, KernelSource, PatchKernel, SharedKernels, StaticKernel, Strip,
 };
-use crate::contact_element::{ContactElement, check_order};
 use crate::error::{Result, positive};
+use crate::geometry::{ContactElement, check_order};
 use crate::history::{ConvolutionHistory, History, HistoryChoice, LagKernel};
 use crate::motion::FreeField;
 use crate::soil::{Base, Soil, SoilProfile};

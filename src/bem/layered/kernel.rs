@@ -9,8 +9,8 @@ use super::cost::Cost;
 use super::runge_kutta::Stages;
 use super::wavenumber::Wavenumbers;
 use super::{file, passivity};
-use crate::contact_element::ContactElement;
 use crate::error::{Error, Result, positive, same_length};
+use crate::geometry::ContactElement;
 use crate::history::{LagKernel, PairClasses, SharedSpectra};
 use crate::soil::SoilProfile;
 

@@ -4,11 +4,11 @@ use realfft::num_complex::Complex64;
 
 use super::coefficients::Quadrature;
 use super::wavenumber::Workspace;
-use crate::check_sum::CheckSum;
 use crate::complex::Complex;
 use crate::error::{LayeredError, Result};
 use crate::history::PairClasses;
 use crate::linalg::hermitian_range;
+use crate::text::check_sum::CheckSum;
 
 /// Radius of the circle that is checked.
 pub(crate) const RADIUS: f64 = 0.99;

@@ -13,10 +13,10 @@ use super::compliance::{Compliance, Surface};
 use super::passivity::assembled;
 use super::wavenumber::{Wavenumbers, Workspace};
 use crate::complex::Complex;
-use crate::contact_element::ContactElement;
 use crate::error::{Result, same_length};
-use crate::gauss;
+use crate::geometry::ContactElement;
 use crate::history::PairClasses;
+use crate::linalg::gauss;
 use crate::soil::SoilProfile;
 
 /// Tolerance of the integrals.

@@ -186,7 +186,7 @@ mod tests {
     /// E_m by repeated integration by parts far out, and the series near 0, meet the recurrence.
     #[test]
     fn tail_integrals_match_quadrature() {
-        let rule = crate::gauss::largest();
+        let rule = crate::linalg::gauss::largest();
         for kappa in [0.0, 1e-6, 0.3, 0.999, 1.0, 2.5, 9.0, 30.0, 200.0] {
             let found = oscillating(kappa);
             for j in [0, 1, 5, TERMS - 1] {

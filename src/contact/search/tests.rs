@@ -14,7 +14,7 @@ use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
 use crate::interface::{Activation, ContactState, Coulomb, InterfaceLaw, StepStart, StepStarts};
 use crate::linalg::dense_multiply_add;
-use crate::matrix::Thinned;
+use crate::linalg::matrix::Thinned;
 use crate::soil::Soil;
 use crate::structure::{FemModel, RigidBlock, Structure};
 use basemat_problems::random::Random;

@@ -6,8 +6,8 @@ use super::modal_basis::ModalBasis;
 use super::stepped_row::{SteppedRow, Terms};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result};
+use crate::linalg::matrix::SparseMatrix;
 use crate::linalg::{dense_multiply_add, dot, transposed_multiply_add};
-use crate::matrix::SparseMatrix;
 use crate::structure::{
     ContactNode, Row, Structure, Triplets, check_contact_nodes, foundation_nodes,
 };

@@ -51,15 +51,15 @@ const SINGULAR: f64 = 1e18;
 pub struct Conditioning {
     /// Of the effective stiffness `K_eff` = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u), at the static state.
     /// One for a structure that is stepped in its modes: they do not meet.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub effective_stiffness: f64,
     /// Of the ground's instantaneous operator G¹. Nothing here divides by it: a rigid ground has
     /// none.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub ground: f64,
     /// Of the Delassus operator W = G¹ + B K_eff⁻¹ Bᵀ A, as the interface at rest sees it: its
     /// normal part alone where there is no friction, with the compliance of a thin layer added.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub delassus: f64,
 }
 

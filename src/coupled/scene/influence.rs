@@ -14,8 +14,8 @@ use super::base::Base;
 use super::stepped_row::Terms;
 use super::supports;
 use crate::error::{Error, Result};
+use crate::linalg::matrix::{SparseMatrix, spread};
 use crate::linalg::{Partition, SparseFactor, largest};
-use crate::matrix::{SparseMatrix, spread};
 use crate::structure::ContactNode;
 
 /// Largest error of a contact node's displacement under a rigid translation of 1 m.

@@ -19,8 +19,8 @@ use super::step_response::{Rows, StepResponses};
 use super::subspace::Subspace;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, ReducedError, Result, finite};
+use crate::linalg::matrix::spread;
 use crate::linalg::{SparseFactor, SparseMatrix, dot, largest};
-use crate::matrix::spread;
 use crate::structure::Triplets;
 
 /// From one shift to the next.

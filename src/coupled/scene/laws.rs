@@ -80,7 +80,9 @@ impl Scene {
         let named = [("normal compliance", compliance[0]), ("shear compliance", compliance[1])];
         match named.into_iter().find(|(_, value)| !value.is_finite()) {
             None => Ok(compliance),
-            Some((quantity, value)) => Err(LawError::NotFinite { element, mode, quantity, value }),
+            Some((quantity, value)) => {
+                Err(LawError::NotFinite { element, mode: mode.word(), quantity, value })
+            }
         }
     }
 }

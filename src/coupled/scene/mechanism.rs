@@ -3,8 +3,8 @@
 
 use super::base::Base;
 use crate::error::StandingError;
+use crate::linalg::matrix::{Matrix, SparseMatrix};
 use crate::linalg::{SparseFactor, largest, weighted_dot};
-use crate::matrix::{Matrix, SparseMatrix};
 use crate::structure::{ContactNode, Structure, Triplets, unknown_numbers};
 
 const NAME: &str = "stiffness matrix with its base held";

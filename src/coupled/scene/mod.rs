@@ -22,9 +22,9 @@ pub(crate) mod translation_check;
 use std::sync::Arc;
 
 use crate::bem::ContactElement;
+use crate::coupled::run::Serviceability;
 use crate::interface::{InterfaceLaw, law_of};
-use crate::matrix::{Thinned, spread};
-use crate::results::Serviceability;
+use crate::linalg::matrix::{Thinned, spread};
 use base::Base;
 use influence::Part;
 use model::Model;
@@ -32,8 +32,8 @@ use static_state::StaticState;
 use stepped_row::SteppedRow;
 
 use super::load::SteppedLoad;
-use super::probe::Probe;
 use super::scheme::SchemeCoefficients;
+use crate::structure::probe::Probe;
 
 /// Structure, base, laws and static state as a step sees them, read-only once built.
 ///

@@ -14,8 +14,8 @@
 //! The rigid translations are modes of their own, exactly: R spans the first ones, and no deforming
 //! mode has a share of it.
 
+use crate::linalg::matrix::{SparseMatrix, spread};
 use crate::linalg::{Partition, dot, generalised_modes, largest};
-use crate::matrix::{SparseMatrix, spread};
 
 /// Vibration modes of a structure: all of them, or fewer Ritz modes.
 #[derive(Debug)]

@@ -7,8 +7,8 @@ use super::influence::Influence;
 use super::mechanism::{AtRest, unresisted};
 use super::modal_basis::ModalBasis;
 use crate::error::{Error, Result, StandingError, same_length};
+use crate::linalg::matrix::{Diagonals, Matrix};
 use crate::linalg::{SparseMatrix, indefinite_row};
-use crate::matrix::{Diagonals, Matrix};
 use crate::structure::{
     InternalEnergy, Structure, Triplets, check_attached, check_damping, check_mass,
 };

@@ -7,8 +7,8 @@ use super::model::Model;
 use crate::contact::Delassus;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
+use crate::linalg::matrix::{Matrix, Thinned};
 use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
-use crate::matrix::{Matrix, Thinned};
 use crate::structure::Triplets;
 
 /// The effective stiffness K_eff, factored, and the Delassus operator.

@@ -14,7 +14,7 @@ use super::proximal::Standing;
 use crate::error::{Error, StandingError};
 use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, Tolerance, law_of};
 use crate::linalg::dot;
-use crate::matrix::SparseMatrix;
+use crate::linalg::matrix::SparseMatrix;
 use crate::structure::{ContactNode, Triplets};
 
 /// The reason behind `error`, that no equilibrium was found under `load`, if it can be told.

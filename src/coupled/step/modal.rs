@@ -17,8 +17,8 @@ use super::forcing::Forcing;
 use super::increment::Increment;
 use crate::coupled::motion::Motion;
 use crate::coupled::scheme::SchemeCoefficients;
+use crate::linalg::matrix::Diagonals;
 use crate::linalg::{Simd, WithSimd, vectorized};
-use crate::matrix::Diagonals;
 
 /// Δu and u₁ with the tractions held at their static values.
 pub(super) fn free(

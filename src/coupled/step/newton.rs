@@ -150,7 +150,8 @@ impl Newton {
             }
             stage = 0.5 * stage.min(left);
             if stage < SHORTEST_STAGE || self.iterations > MOST_ITERATIONS {
-                let (iterations, modes) = (self.iterations, increment.modes.clone());
+                let modes = increment.modes.iter().map(|mode| mode.word()).collect();
+                let iterations = self.iterations;
                 return Err(StepError::Newton { iterations, residual: left * began, modes });
             }
             self.guess.copy_from_slice(&self.reached);

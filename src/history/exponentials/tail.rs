@@ -2,8 +2,8 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use crate::contact_element::ContactElement;
 use crate::error::{Result, same_length};
+use crate::geometry::ContactElement;
 use crate::history::late_lags::{ExponentialTail, TailProduct};
 use crate::linalg::{Dot, Simd, WithSimd, dot, vectorized};
 

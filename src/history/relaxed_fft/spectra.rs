@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use super::level::Level;
 use super::tables::Tables;
 use super::wave_level::{Near, WaveLevel};
-use crate::contact_element::ContactElement;
+use crate::geometry::ContactElement;
 use crate::history::exponentials::fit::Fit;
 
 /// Levels of blocks, from the smallest on, for leaves of one length.

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::str::FromStr;
 
-use crate::bounded_line::Lines;
 use crate::error::MeshFileError;
-use crate::number::{excerpt, finite};
+use crate::text::bounded_line::Lines;
+use crate::text::number::{excerpt, finite};
 
 /// Why a line is refused, and which.
 type Reason<T> = Result<T, (usize, MeshFileError)>;

@@ -2,12 +2,12 @@
 
 use std::io::Read;
 
-use crate::bounded_line;
 use crate::error::MatrixFileError;
-use crate::matrix::check_order;
-use crate::memory;
-use crate::number::{excerpt, finite};
+use crate::error::memory;
+use crate::linalg::matrix::check_order;
 use crate::structure::Triplets;
+use crate::text::bounded_line;
+use crate::text::number::{excerpt, finite};
 
 const ROWS: &str = "rows of the matrix";
 

@@ -1,7 +1,7 @@
 //! Estimated condition numbers against those of the inverse.
 
 use super::*;
-use crate::structure::Triplets;
+use crate::linalg::Triplets;
 use basemat_problems::random::Random;
 
 #[test]

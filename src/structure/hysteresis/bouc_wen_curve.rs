@@ -16,7 +16,7 @@
 //! above ½ Gauss's rule takes what remains when the logarithm of 1 − s is split off:
 //! 1/(1 − sⁿ) − 1/(n(1 − s)) is smooth up to s = 1.
 
-use crate::gauss;
+use crate::linalg::gauss;
 
 /// Exponent and shape, with the integrals up to ½.
 #[derive(Debug, Clone, PartialEq)]

@@ -250,7 +250,7 @@ impl FemModel {
             return Err(Error::Index { quantity: "node", index: node, bound });
         }
         let unknown = self.numbering.unknown(node, direction);
-        let unknown = unknown.ok_or(Error::NoUnknown { node, direction })?;
+        let unknown = unknown.ok_or(Error::NoUnknown { node, direction: direction.word() })?;
         let own = [(unknown, 1.0)];
         Ok(self.links.as_ref().map_or(own.into(), |links| links.row(&own).into()))
     }

@@ -1,9 +1,9 @@
 //! Several structures on one ground.
 
-use crate::coupled::Probe;
 use crate::error::{CheckpointError, Error, Result, finite};
 use crate::structure::detached::numbers;
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
+use crate::structure::probe::Probe;
 use crate::structure::{ContactNode, InternalEnergy, NonlinearForce, Row, Structure, Triplets};
 
 /// A structure of the group and where it stands.

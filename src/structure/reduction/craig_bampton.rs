@@ -10,9 +10,9 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::recovery::{Basis, Recovery};
+use crate::error::memory;
 use crate::error::{Error, Result, damping_ratio};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
-use crate::memory;
 use crate::structure::detached::{check_attached, numbers};
 use crate::structure::matrix_checks::SYMMETRIC;
 use crate::structure::nonlinear::is_nonlinear;

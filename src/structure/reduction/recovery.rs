@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::coupled::Probe;
 use crate::error::{Result, same_length};
 use crate::linalg::{SparseMatrix, row_products, transposed_multiply_add};
 use crate::structure::Row;
+use crate::structure::probe::Probe;
 
 /// Columns of A T held at a time.
 const BLOCK: usize = 16;

@@ -69,7 +69,7 @@ fn homogeneous_ground_is_the_closed_form() {
     let s = 1.3;
     let (found, _) = all(&SoilProfile::on_half_plane(soil), &strip, Complex::real(s), 1e-11);
     let (layers, _) = all(&many, &strip, Complex::real(s), 1e-11);
-    let rule = crate::gauss::largest();
+    let rule = crate::linalg::gauss::largest();
     let mut worst = 0.0_f64;
     for class in 0..classes.count() {
         let [source, receiver] = classes.representative(class).unwrap();

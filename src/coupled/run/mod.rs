@@ -2,16 +2,29 @@
 
 use std::time::{Duration, Instant};
 
-use super::envelope::{self, ElementEnvelope};
-use super::sequence::Sequence;
-use super::{ServiceCheck, Serviceability, Summary};
+mod envelope;
+pub(crate) mod page;
+pub(crate) mod peak;
+pub(crate) mod quantity;
+mod safety;
+pub(crate) mod sequence;
+mod serviceability;
+mod sliding;
+mod uplift;
+
+pub use envelope::ElementEnvelope;
+pub use peak::{Extremes, Peak, ProbeExtremes};
+pub use quantity::{Quantity, Summary};
+pub use serviceability::{Criterion, ServiceCheck, Serviceability};
+pub use sliding::{Sliding, SlipEvent};
+pub use uplift::Uplift;
+
 use crate::bem::{ContactElement, Ground};
 use crate::contact::SearchMethod;
-use crate::coupled::{
-    Extremes, Ledger, Peak, Probe, ProbeExtremes, Resolution, State, Warning, probe_index,
-};
+use crate::coupled::{Ledger, Probe, Resolution, State, Warning, probe_index};
 use crate::error::Result;
 use crate::motion::FreeField;
+use sequence::Sequence;
 
 /// Steps whose contact modes the first search did not find, see
 /// [`SearchMethod`](crate::coupled::SearchMethod).
@@ -71,7 +84,7 @@ pub struct Run {
     /// The ledger at the end.
     pub ledger: Ledger,
     /// Largest ledger residual of the run; NaN if no ledger is kept.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub ledger_residual: f64,
     /// Linear solves of the mode search, in all.
     pub trials: usize,
@@ -80,7 +93,7 @@ pub struct Run {
     /// Warnings; none before the run is closed.
     pub warnings: Vec<Warning>,
     /// Wall time, observers included; zero where there is no clock (WebAssembly).
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::seconds"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::seconds"))]
     pub wall: Duration,
     #[cfg_attr(feature = "serde", serde(skip))]
     elements: Vec<ContactElement>,

@@ -6,14 +6,14 @@ use std::ops::Range;
 use std::str::FromStr;
 
 use super::safety::{against_overturning, against_sliding};
-use super::unit::printed;
 use super::{Extremes, Sliding, Uplift};
 use crate::bem::ContactElement;
-use crate::column::column;
 use crate::coupled::{Foundation, Peak, State};
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, Mode};
-use crate::words::{plain, unknown};
+use crate::text::column::column;
+use crate::text::unit::printed;
+use crate::text::words::{plain, unknown};
 
 /// One row: how a quantity is called, and where it is shown beside its time series.
 struct Row {
@@ -38,7 +38,7 @@ enum Scale {
 
 /// Where the summary of a quantity is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Place {
+pub(crate) enum Place {
     /// Extremes on the page of a run.
     Page,
     /// Largest value, in the page's table of foundations.
@@ -112,7 +112,7 @@ macro_rules! quantities {
 
         impl Summary {
             /// At the start of a run, of the whole base or of its foundation number `foundation`.
-            pub(super) fn start(state: &State, foundation: Option<usize>) -> Self {
+            pub(crate) fn start(state: &State, foundation: Option<usize>) -> Self {
                 let base = state.base(foundation);
                 let extremes = |value: fn(&Base) -> f64| Extremes::of(value(&base), state.time);
                 let own = base.elements();
@@ -202,7 +202,7 @@ impl Quantity {
     }
 
     /// The name where there is little room.
-    pub(super) fn short_name(self) -> String {
+    pub(crate) fn short_name(self) -> String {
         self.name().replace("factor of safety against", "safety,")
     }
 
@@ -233,12 +233,12 @@ impl Quantity {
     }
 
     /// The quantities that are shown at `place`.
-    pub(super) fn shown(place: Place) -> impl Iterator<Item = Self> {
+    pub(crate) fn shown(place: Place) -> impl Iterator<Item = Self> {
         Self::ALL.into_iter().filter(move |own| own.is_shown(place))
     }
 
     /// Whether it is shown at `place`.
-    pub(super) fn is_shown(self, place: Place) -> bool {
+    pub(crate) fn is_shown(self, place: Place) -> bool {
         self.row().places.contains(&place)
     }
 }
@@ -269,7 +269,7 @@ impl State {
     }
 
     /// Values of all quantities for the whole base.
-    pub(super) fn values(&self) -> [f64; WORDS.len()] {
+    pub(crate) fn values(&self) -> [f64; WORDS.len()] {
         let base = self.base(None);
         std::array::from_fn(|k| (TABLE[k].value)(&base))
     }
@@ -319,7 +319,7 @@ impl<'a> Base<'a> {
 
 impl Summary {
     /// Takes in the state of a step that began at `begin`; `foundation` as at the start.
-    pub(super) fn see(&mut self, state: &State, begin: f64, foundation: Option<usize>) {
+    pub(crate) fn see(&mut self, state: &State, begin: f64, foundation: Option<usize>) {
         let (base, time) = (state.base(foundation), state.time);
         for (extremes, row) in self.each().into_iter().zip(TABLE) {
             extremes.see((row.value)(&base), time);

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use super::unit::{number, printed};
 use crate::coupled::{Peak, State};
 use crate::error::{Error, Result, positive};
+use crate::text::unit::{number, printed};
 
 /// Response of a base that a service requirement limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use crate::coupled::{Origin, State};
 
 /// The states of one simulation, each later than the one before.
 #[derive(Debug, Clone)]
-pub(super) struct Sequence {
+pub(crate) struct Sequence {
     origin: Origin,
     elements: usize,
     probes: usize,
@@ -16,7 +16,7 @@ pub(super) struct Sequence {
 
 impl Sequence {
     /// Beginning with `state`.
-    pub(super) fn new(state: &State) -> Self {
+    pub(crate) fn new(state: &State) -> Self {
         Self {
             origin: state.origin,
             elements: state.contact.len(),
@@ -28,13 +28,13 @@ impl Sequence {
 
     /// One that takes no state: that of a run read from a file.
     #[cfg(feature = "serde")]
-    pub(super) fn closed() -> Self {
+    pub(crate) fn closed() -> Self {
         let (elements, probes, foundations) = (0, 0, Vec::new());
         Self { origin: Origin::new(), elements, probes, foundations, end: f64::INFINITY }
     }
 
     /// Whether `state` is of the same simulation and later; it is the last one then.
-    pub(super) fn takes(&mut self, state: &State) -> bool {
+    pub(crate) fn takes(&mut self, state: &State) -> bool {
         // Its fields are public: somebody may have changed them.
         let takes = state.origin.is(self.origin)
             && state.contact.len() == self.elements
@@ -49,7 +49,7 @@ impl Sequence {
     }
 
     /// Time of the last state, s.
-    pub(super) fn end(&self) -> f64 {
+    pub(crate) fn end(&self) -> f64 {
         self.end
     }
 }

@@ -3,10 +3,10 @@
 use std::fmt;
 
 use super::quantity::Place;
-use super::table::Table;
-use super::unit::{number, printed};
 use super::{Extremes, Quantity, Run, Summary};
 use crate::coupled::Peak;
+use crate::text::table::Table;
+use crate::text::unit::{number, printed};
 
 /// Elements of the pressure envelope beyond which only some are printed.
 const MOST_ROWS: usize = 12;
@@ -215,7 +215,7 @@ impl Run {
 }
 
 /// A factor of safety.
-pub(super) fn factor(value: f64) -> String {
+pub(crate) fn factor(value: f64) -> String {
     if value.is_nan() {
         "–".to_owned()
     } else if value < 1e4 {

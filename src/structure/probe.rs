@@ -1,8 +1,8 @@
 //! Quantities that are read off at every step.
 
-use crate::column::column;
 use crate::error::{Error, Result};
 use crate::structure::{Row, SectionRows};
+use crate::text::column::column;
 
 /// A quantity read off at every step: a weighted sum of displacements, velocities, accelerations.
 ///
@@ -101,7 +101,7 @@ impl Probe {
         Self { name: name.into(), unit: unit.to_owned(), ..Self::default() }
     }
 
-    pub(super) fn rows(&self) -> [&Row; 3] {
+    pub(crate) fn rows(&self) -> [&Row; 3] {
         [&self.displacement, &self.velocity, &self.acceleration]
     }
 
@@ -119,7 +119,7 @@ impl Probe {
 }
 
 /// Refuses probes of unknowns that there are not, and two of the same name.
-pub(super) fn check(probes: &[Probe], unknowns: usize) -> Result<()> {
+pub(crate) fn check(probes: &[Probe], unknowns: usize) -> Result<()> {
     let mut names = std::collections::BTreeSet::new();
     for probe in probes {
         let name = || probe.name.clone();

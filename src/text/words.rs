@@ -1,18 +1,25 @@
 //! Words for choices, as settings files and command lines have them: `slip_left`, `auto`.
 
 use crate::error::Error;
-use crate::number::{excerpt, finite};
+use crate::text::number::{excerpt, finite};
 
 /// `Display` and `FromStr` of an enum without fields: each variant and its word. Read are upper and
 /// lower case, and spaces or hyphens in place of underscores.
 macro_rules! words {
     ($type:ident, $quantity:literal, { $($variant:ident = $word:literal),+ $(,)? }) => {
+        impl $type {
+            /// Its word, as `Display` writes and `FromStr` reads it.
+            pub fn word(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $word,)+
+                }
+            }
+        }
+
         /// The word that `FromStr` reads.
         impl std::fmt::Display for $type {
             fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.pad(match self {
-                    $(Self::$variant => $word,)+
-                })
+                f.pad(self.word())
             }
         }
 
@@ -21,9 +28,9 @@ macro_rules! words {
             type Err = crate::error::Error;
 
             fn from_str(text: &str) -> crate::error::Result<Self> {
-                match crate::words::plain(text).as_str() {
+                match crate::text::words::plain(text).as_str() {
                     $($word => Ok(Self::$variant),)+
-                    _ => Err(crate::words::unknown($quantity, text, &[$($word),+])),
+                    _ => Err(crate::text::words::unknown($quantity, text, &[$($word),+])),
                 }
             }
         }

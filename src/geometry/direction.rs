@@ -13,6 +13,12 @@ pub enum Direction {
     Rotation,
 }
 
+words! { Direction, "direction", {
+    X = "x",
+    Y = "y",
+    Rotation = "rotation",
+} }
+
 impl Direction {
     /// All three.
     pub(crate) const ALL: [Self; 3] = [Self::X, Self::Y, Self::Rotation];

@@ -8,10 +8,10 @@ use crate::error::{Error, Result};
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Peak {
     /// The value, with its sign.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub value: f64,
     /// When, s.
-    #[cfg_attr(feature = "serde", serde(with = "crate::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub time: f64,
 }
 

@@ -1,7 +1,7 @@
 //! An element of the contact surface, and the order in which elements come.
 
+use crate::error::memory;
 use crate::error::{Error, MemoryError, Result, finite, positive};
-use crate::memory;
 
 /// One boundary element of the base: the interval from `left` to `right` of the flat surface, m.
 #[derive(Debug, Clone, Copy, PartialEq)]

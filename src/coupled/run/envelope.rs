@@ -1,8 +1,8 @@
 //! Extremes of each contact element.
 
 use crate::bem::ContactElement;
+use crate::coupled::run::Extremes;
 use crate::coupled::{Peak, State};
-use crate::results::Extremes;
 
 /// Envelopes of one contact element; tractions are means over it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,0 @@
-//! Words for directions.
-
-use super::direction::Direction;
-
-words! { Direction, "direction", {
-    X = "x",
-    Y = "y",
-    Rotation = "rotation",
-} }
