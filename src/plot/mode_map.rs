@@ -174,6 +174,8 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bem::ContactElement;
+    use crate::plot::base::Break;
 
     #[test]
     fn wide_gaps_are_short_and_marks_tell_where_one_is() {
