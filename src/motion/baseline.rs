@@ -57,6 +57,24 @@ pub enum Baseline {
     },
 }
 
+words_with_numbers! {
+    /// One of its words, or an [`Error::Word`]. Degrees are checked where a treatment is applied.
+    ///
+    /// ```
+    /// use basemat::motion::Baseline;
+    /// let baseline = Baseline::RestToRest { degree: 4 };
+    /// assert_eq!("rest_to_rest(4)".parse(), Ok(baseline));
+    /// assert_eq!(baseline.to_string(), "rest_to_rest(4)");
+    /// assert!("rest_to_rest".parse::<Baseline>().is_err());
+    /// ```
+    Baseline, "baseline treatment", {
+        None = "none", RemoveMean = "remove_mean", NewmarkParabola = "newmark_parabola";
+        VelocityPolynomial { degree } = "velocity_polynomial",
+        DisplacementPolynomial { degree } = "displacement_polynomial",
+        RestToRest { degree } = "rest_to_rest",
+    }
+}
+
 /// A linear least-squares problem for the polynomial in acceleration.
 struct Fit {
     /// Number of coefficients.

@@ -7,7 +7,6 @@
 
 mod at_rest;
 mod baseline;
-mod baseline_words;
 mod closure;
 mod content;
 mod cosmos;
