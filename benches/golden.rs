@@ -20,8 +20,8 @@ use basemat::interface::{Adhesive, Bonded, Coulomb, ThinLayer, VariableFriction,
 use basemat::motion::{PlaneWave, Record, VerticalIncidence, el_centro_1940};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::{
-    Bilinear, BoucWen, FemModel, NonlinearShearBuilding, RayleighDamping, RigidBlock,
-    ShearBuilding, Storey, Structure, StructureGroup,
+    Bilinear, BoucWen, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, Structure,
+    StructureGroup,
 };
 use basemat::{Result, Simulation, Soil};
 
@@ -61,8 +61,8 @@ fn building() -> Result<ShearBuilding> {
     ShearBuilding::new(6.0, 30.0e3, 9.0e4, &storeys)?.with_stiffness_damping(0.05)
 }
 
-fn yielding_building() -> Result<NonlinearShearBuilding> {
-    NonlinearShearBuilding::new(building()?).with_law(0, Bilinear::new(18.0e6, 1.0e5, 0.05)?)
+fn yielding_building() -> Result<ShearBuilding> {
+    building()?.with_law(0, Bilinear::new(18.0e6, 1.0e5, 0.05)?)
 }
 
 fn on(structure: impl Structure + 'static, ground: impl Ground + 'static) -> SimulationBuilder {
@@ -172,8 +172,7 @@ const SCENES: [(&str, Make); 32] = [
         Ok(on(yielding_building()?, half_plane(&building()?)?).interface(Coulomb::new(0.4)?))
     }),
     ("building, isolated", || {
-        let isolated = NonlinearShearBuilding::new(building()?)
-            .with_law(0, BoucWen::new(6.0e6, 6.0e4, 0.1)?)?;
+        let isolated = building()?.with_law(0, BoucWen::new(6.0e6, 6.0e4, 0.1)?)?;
         Ok(on(isolated, half_plane(&building()?)?).interface(Coulomb::new(0.4)?))
     }),
     ("group", || Ok(on(group()?, half_plane(&group()?)?).interface(Coulomb::new(0.4)?))),

@@ -11,9 +11,7 @@
 
 use basemat::Result;
 use basemat::prelude::*;
-use basemat::structure::{
-    Bilinear, FrictionPendulum, IsolationLevel, LeadRubber, NonlinearShearBuilding,
-};
+use basemat::structure::{Bilinear, FrictionPendulum, IsolationLevel, LeadRubber, ShearBuilding};
 
 const FLOORS: usize = 5;
 const FLOOR_MASS: f64 = 20.0e3;
@@ -28,12 +26,11 @@ fn building() -> Result<ShearBuilding> {
 
 /// 20 s of El Centro. The lowest `levels` of the structure get a probe for their drift each, and the
 /// roof one for its acceleration.
-fn shake(structure: NonlinearShearBuilding, levels: usize) -> Result<Run> {
+fn shake(structure: ShearBuilding, levels: usize) -> Result<Run> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
-    let building = structure.building();
-    let mut probes = vec![Probe::acceleration("roof", building.roof())];
+    let mut probes = vec![Probe::acceleration("roof", structure.roof())];
     for level in 0..levels {
-        probes.push(Probe::displacement(format!("drift {level}"), building.drift(level)?));
+        probes.push(Probe::displacement(format!("drift {level}"), structure.drift(level)?));
     }
     let mut simulation = Simulation::builder(2.5e-3)
         .ground(ElasticGround::under(soil, &structure, 10)?)
@@ -52,7 +49,7 @@ fn main() -> Result<()> {
     let level =
         IsolationLevel { height: 0.3, slab_mass: SLAB_MASS, slab_inertia: 2.5e5, damping: 0.0 };
     // Every storey yields at 15 % of the weight above it and hardens with 3 % of its stiffness.
-    let mut yielding = NonlinearShearBuilding::new(building()?);
+    let mut yielding = building()?;
     for storey in 0..FLOORS {
         let above = STANDARD_GRAVITY * FLOOR_MASS * (FLOORS - storey) as f64;
         yielding = yielding.with_law(storey, Bilinear::new(40.0e6, 0.15 * above, 0.03)?)?;
@@ -60,17 +57,17 @@ fn main() -> Result<()> {
     let pendulums = FrictionPendulum::new(weight, 2.0, 0.06)?;
     let rubber = LeadRubber::from_strength(0.6e6, 0.05 * weight)?;
     let isolated = [
-        ("friction pendulum", NonlinearShearBuilding::isolated(building()?, level, pendulums)?),
-        ("lead-rubber", NonlinearShearBuilding::isolated(building()?, level, rubber)?),
+        ("friction pendulum", building()?.isolated(level, pendulums)?),
+        ("lead-rubber", building()?.isolated(level, rubber)?),
     ];
-    let direct = [("elastic", NonlinearShearBuilding::new(building()?)), ("yielding", yielding)];
+    let direct = [("elastic", building()?), ("yielding", yielding)];
     // Bearings are the lowest level of an isolated building.
     let cases = direct.map(|case| (case, 0)).into_iter().chain(isolated.map(|case| (case, 1)));
 
     println!("                   bearing  1st storey  roof     base     uplift  input  hysteresis");
     println!("                   mm       drift, mm   acc., g  shear/W  %       kJ/m   kJ/m");
     for ((name, structure), bearings) in cases {
-        let total = STANDARD_GRAVITY * structure.building().total_mass();
+        let total = STANDARD_GRAVITY * structure.total_mass();
         let run = shake(structure, bearings + 1)?;
         let drift = |level: usize| Ok(1e3 * run.probe(&format!("drift {level}"))?.magnitude());
         let travel: Result<f64> = if bearings > 0 { drift(0) } else { Ok(0.0) };

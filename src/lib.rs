@@ -180,7 +180,7 @@
 //! `portal_frame`, `rocking_block`, `tilted_block`, `snap_back`, `bearing_capacity`,
 //! `machine_foundation`, `floor_spectra`, `layered_site`, `impedances`, `friction_sweep`,
 //! `fragility`, `travelling_wave`, `from_matrices`; `pictures` draws everything (feature `png`). What
-//! each prints is in [the document of examples](https://github.com/basemat/basemat/blob/main/docs/examples.md).
+//! each prints is in [the list of examples](https://github.com/basemat/basemat/blob/main/examples/README.md).
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -188,7 +188,6 @@
 mod text;
 
 pub mod bem;
-mod complex;
 pub mod contact;
 pub mod coupled;
 mod error;
@@ -215,7 +214,6 @@ pub mod soil;
 pub mod structure;
 pub mod sweep;
 
-pub use complex::Complex;
 pub use coupled::Simulation;
 pub use error::{
     CaseError, CaseFileError, CheckpointError, Error, KernelFileError, LawError, LayeredError,
@@ -224,6 +222,7 @@ pub use error::{
 };
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};
+pub use linalg::Complex;
 pub use soil::Soil;
 pub use sweep::Sweep;
 
@@ -232,12 +231,12 @@ pub use sweep::Sweep;
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-/// The snippets of the guide to sweeps are, too.
+/// The tutorial's programs are, too; they assert the numbers of its text.
 #[cfg(doctest)]
-#[doc = include_str!("../docs/sweeps.md")]
-struct Sweeps;
+#[doc = include_str!("../docs/tutorial.md")]
+struct Tutorial;
 
-/// And those of the architecture guide.
+/// And those of the guide.
 #[cfg(doctest)]
-#[doc = include_str!("../docs/architecture.md")]
-struct Architecture;
+#[doc = include_str!("../docs/guide.md")]
+struct Guide;

@@ -52,7 +52,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<structure::PyBoucWen>()?;
     module.add_class::<structure::PyFrictionPendulum>()?;
     module.add_class::<structure::PyLeadRubber>()?;
-    module.add_class::<structure::PyNonlinearShearBuilding>()?;
     module.add_class::<structure::PyWithSprings>()?;
     module.add_class::<structure::PyMaterial>()?;
     module.add_class::<structure::PyLayer>()?;

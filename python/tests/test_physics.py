@@ -19,8 +19,8 @@ def stiff_ground(structure: bm.Structure, stiffness: float = 1.0e11) -> bm.Sprin
 def test_yielding_storey_against_scipys_integration() -> None:
     mass, stiffness, force, hardening, damping = 20.0e3, 4.0e6, 25.0e3, 0.1, 1.0e4
     storey = bm.Storey(3.0, mass, stiffness, damping=damping)
-    elastic = bm.ShearBuilding(20.0, 50.0e3, 1.0e6, [storey])
-    building = bm.NonlinearShearBuilding(elastic, {0: bm.Bilinear(stiffness, force, hardening)})
+    laws = {0: bm.Bilinear(stiffness, force, hardening)}
+    building = bm.ShearBuilding(20.0, 50.0e3, 1.0e6, [storey], laws=laws)
     record = bm.el_centro_1940()
     simulation = bm.Simulation(
         0.001,

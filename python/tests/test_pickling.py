@@ -42,16 +42,20 @@ def finite_elements() -> bm.FemModel:
     return model
 
 
-def isolated() -> bm.NonlinearShearBuilding:
+def yielding(laws: object) -> bm.ShearBuilding:
+    return bm.ShearBuilding(8.0, 50e3, 4e5, STOREYS, damping=0.05, laws=laws)  # type: ignore[arg-type]
+
+
+def isolated() -> bm.ShearBuilding:
     law = bm.LeadRubber.from_strength(2e6, 30e3)
-    return bm.NonlinearShearBuilding.isolated(BUILDING, law, height=0.5, slab_mass=30e3)
+    return bm.ShearBuilding.isolated(BUILDING, law, height=0.5, slab_mass=30e3)
 
 
 STRUCTURES = {
     "block": lambda: bm.RigidBlock(6.0, 9.0, 1000.0, center=1.0),
     "block of mass": lambda: bm.RigidBlock.from_mass(6.0, 5e4, 5e5, center_height=4.0),
     "building": lambda: BUILDING,
-    "yielding": lambda: bm.NonlinearShearBuilding(BUILDING, {0: bm.Bilinear(40e6, 1e5, 0.05)}),
+    "yielding": lambda: yielding({0: bm.Bilinear(40e6, 1e5, 0.05)}),
     "isolated": isolated,
     "matrices": matrices,
     "finite elements": finite_elements,
@@ -175,7 +179,7 @@ def test_what_changes_later_was_copied() -> None:
     laws = collections.OrderedDict({0: bm.Bilinear(40e6, 1e5, 0.05)})
     row = bm.Load.table(3, pandas.Series([0.0, 1.0]), weights)
     strip = bm.Strip.from_nodes(nodes)
-    building = bm.NonlinearShearBuilding(BUILDING, laws)
+    building = yielding(laws)
     expected = shaken(building, bm.ElasticGround.under(SOIL, building, 4), RECORD, bm.Bonded())
     weights[:] = 7.0
     nodes[2] = 9.0

@@ -21,8 +21,8 @@
 use super::overlap::Overlap;
 use crate::error::{Error, Result, positive};
 use crate::fundamental::branch::{Branches, Part, Weight};
-use crate::fundamental::laurent::{TERMS, late_coefficients};
 use crate::fundamental::rayleigh::Rayleigh;
+use crate::fundamental::rayleigh::{TERMS, late_coefficients};
 use crate::geometry::ContactElement;
 use crate::history::KINDS;
 use crate::linalg::gauss;

@@ -23,7 +23,7 @@
 use super::PatchKernel;
 use super::influence::LateSeries;
 use crate::error::Result;
-use crate::fundamental::laurent::TERMS;
+use crate::fundamental::rayleigh::TERMS;
 use crate::geometry::ContactElement;
 use crate::history::{ExponentialTail, LagKernel, LateLags, TailProduct};
 use crate::linalg::gauss;

@@ -16,37 +16,27 @@
 
 mod assembly;
 mod beam;
-mod dashpot;
-
 mod element;
 mod layered_block;
 mod line;
-mod lumped_mass;
 mod material;
 mod mesh;
-mod numbering;
 mod quad4;
-mod quad4_shape;
 mod quad8;
 mod spring;
-mod static_state;
 mod truss;
 
 pub use crate::geometry::Direction;
-pub(crate) use assembly::{Quantity, assemble};
 pub(crate) use assembly::{
-    assemble_damping, assemble_geometric_stiffness, assemble_mass, assemble_stiffness,
+    Numbering, Quantity, assemble, assemble_damping, assemble_geometric_stiffness, assemble_mass,
+    assemble_stiffness, set_static_state,
 };
 pub use beam::Beam;
-pub use dashpot::Dashpot;
 pub use element::{Element, MassKind};
 pub use layered_block::Layer;
-pub use lumped_mass::LumpedMass;
 pub use material::Material;
 pub use mesh::Mesh;
-pub(crate) use numbering::Numbering;
 pub use quad4::{Quad4, QuadFormulation};
 pub use quad8::{Quad8, Quad8Integration};
-pub use spring::Spring;
-pub(crate) use static_state::set_static_state;
+pub use spring::{Dashpot, LumpedMass, Spring};
 pub use truss::Truss;

@@ -1,9 +1,9 @@
-//! Spring between two nodes.
+//! Springs, dashpots and lumped masses.
 
 use super::element::{Element, MassKind, add_square};
 use super::line::Line;
-use crate::error::{Result, positive};
-use crate::geometry::Direction;
+use crate::error::{Result, not_negative, positive};
+use crate::geometry::{Direction, FRAME, TRANSLATIONS};
 
 /// Linear spring between two nodes.
 ///
@@ -83,5 +83,134 @@ pub(super) fn pair(
         add_square(matrix, &[[coefficient, -coefficient], [-coefficient, coefficient]]);
     } else if let Some(line) = Line::between(coordinates) {
         line.add_axial(coefficient, matrix);
+    }
+}
+
+/// Linear viscous dashpot between two nodes.
+///
+/// Along the line between its nodes, or in one given direction. In the latter case the nodes
+/// should lie on that direction's line or at the same place: otherwise a rigid rotation of both
+/// meets a force, or the pair of forces leaves a moment.
+///
+/// ```
+/// use basemat::fem::{Direction, Element, Dashpot};
+///
+/// let dashpot = Dashpot::new([0, 1], Direction::X, 5.0)?;
+/// let mut matrix = vec![0.0; 4];
+/// dashpot.damping(&[[0.0, 0.0], [0.0, 0.0]], &mut matrix);
+/// assert_eq!(matrix, [5.0, -5.0, -5.0, 5.0]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dashpot {
+    nodes: [usize; 2],
+    directions: Vec<Direction>,
+    coefficient: f64,
+}
+
+impl Dashpot {
+    /// Dashpot that sees the relative motion of two nodes in one `direction`; `coefficient` in N s/m (N m s/rad for rotations) per metre of thickness.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
+    pub fn new(nodes: [usize; 2], direction: Direction, coefficient: f64) -> Result<Self> {
+        let coefficient = positive("coefficient of the dashpot", coefficient)?;
+        Ok(Self { nodes, directions: vec![direction], coefficient })
+    }
+
+    /// Dashpot that sees the change of distance between two nodes; `coefficient` in N s/m (N m s/rad for rotations) per metre of thickness.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
+    pub fn axial(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
+        let coefficient = positive("coefficient of the dashpot", coefficient)?;
+        Ok(Self { nodes, directions: vec![Direction::X, Direction::Y], coefficient })
+    }
+}
+
+impl Element for Dashpot {
+    fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+
+    fn directions(&self) -> &[Direction] {
+        &self.directions
+    }
+
+    /// None.
+    fn stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
+
+    /// None.
+    fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, _matrix: &mut [f64]) {}
+
+    fn damping(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+        pair(&self.directions, self.coefficient, coordinates, matrix);
+    }
+
+    /// [`Error::Input`](crate::Error::Input) when the nodes of an axial dashpot coincide.
+    fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
+        if self.directions.len() == 1 {
+            return Ok(());
+        }
+        Line::check("length of the axial dashpot", coordinates)
+    }
+}
+
+/// Mass at a node, with or without rotary inertia.
+///
+/// ```
+/// use basemat::fem::{Element, LumpedMass, MassKind};
+///
+/// let floor = LumpedMass::new(0, 100.0)?.with_rotary_inertia(40.0)?;
+/// let mut mass = vec![0.0; 9];
+/// floor.mass(&[[0.0, 3.0]], MassKind::Consistent, &mut mass);
+/// assert_eq!(mass, [100.0, 0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 40.0]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct LumpedMass {
+    node: [usize; 1],
+    mass: f64,
+    rotary_inertia: f64,
+}
+
+impl LumpedMass {
+    /// Point mass (kg per metre of thickness) at `node`; it makes no rotation unknown.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless the mass is positive.
+    pub fn new(node: usize, mass: f64) -> Result<Self> {
+        Ok(Self { node: [node], mass: positive("lumped mass", mass)?, rotary_inertia: 0.0 })
+    }
+
+    /// The same mass with rotary inertia about the node, kg m² per metre of thickness. Above
+    /// zero, the node gets a rotation unknown, which other elements should hold.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless it is finite and not negative.
+    pub fn with_rotary_inertia(self, rotary_inertia: f64) -> Result<Self> {
+        let rotary_inertia = not_negative("rotary inertia of the lumped mass", rotary_inertia)?;
+        Ok(Self { rotary_inertia, ..self })
+    }
+}
+
+impl Element for LumpedMass {
+    fn nodes(&self) -> &[usize] {
+        &self.node
+    }
+
+    fn directions(&self) -> &[Direction] {
+        if self.rotary_inertia > 0.0 { FRAME } else { TRANSLATIONS }
+    }
+
+    /// None.
+    fn stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
+
+    fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, matrix: &mut [f64]) {
+        let diagonal = [self.mass, self.mass, self.rotary_inertia];
+        let next = self.order() + 1;
+        for (entry, value) in matrix.iter_mut().step_by(next).zip(diagonal) {
+            *entry += value;
+        }
     }
 }

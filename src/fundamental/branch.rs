@@ -13,8 +13,8 @@
 //! | z | τ² − a² |
 //! | s | √(τ²−a²), √(τ²−1), √(1−τ²), or u in the tail |
 
-use crate::complex::Complex;
 use crate::fundamental::rayleigh::Rayleigh;
+use crate::linalg::Complex;
 use crate::linalg::gauss;
 
 /// Weight under which the kernel is integrated: a smooth function A of the slowness u.

@@ -15,12 +15,12 @@
 //! | F, Q, W | ∫₀^τ f dη, ∫_τ^∞ f/η dη, ∫_τ^∞ f/η² dη |
 //! | J | x²F/2 + x t Q − t²W/2, the twice-integrated answer to H(t) |
 
-use crate::complex::Complex;
 use crate::error::{Error, Result, finite};
 use crate::fundamental::branch::{Branches, Part, Power};
-use crate::fundamental::laurent::{TERMS, late_coefficients};
+use crate::fundamental::rayleigh::{TERMS, late_coefficients};
 use crate::fundamental::{FundamentalSolution, LoadHistory, Rayleigh};
 use crate::geometry::ContactElement;
+use crate::linalg::Complex;
 use crate::soil::Soil;
 
 /// A quantity for the three independent pairs of surface components.

@@ -8,7 +8,6 @@ pub(crate) mod branch;
 #[cfg(feature = "full-plane")]
 mod full_plane;
 mod half_plane;
-pub(crate) mod laurent;
 pub(crate) mod rayleigh;
 
 #[cfg(feature = "full-plane")]

@@ -1,8 +1,7 @@
 //! Cost model of the histories: the table of [`History`].
 
 use super::choice::History;
-use super::lag_kernel::LagKernel;
-use super::late_lags::LateLags;
+use super::lag_kernel::{LagKernel, LateLags};
 use super::relaxed_fft::{LEAF, RelaxedFftHistory};
 use crate::error::Result;
 

@@ -1,6 +1,7 @@
-//! The kernel of a convolution history: a ground's coefficients, lag by lag.
+//! The kernel of a convolution history: a ground's coefficients, lag by lag, and late ones as
+//! exponentials.
 
-use super::late_lags::LateLags;
+use super::exponentials::ExponentialTail;
 use super::pair_classes::{KINDS, PairClasses};
 use super::relaxed_fft::spectra::SharedSpectra;
 use crate::error::{Result, same_length};
@@ -103,4 +104,27 @@ pub trait LagKernel: Send + Sync {
         classes.scatter(matrix, |_, pair| first[pair.class].map(|value| value * pair.scale));
         Ok(())
     }
+}
+
+/// A kernel whose late lags are sums of decaying exponentials.
+///
+/// [`ExponentialHistory`](super::ExponentialHistory) compares what [`LateLags::exponentials`] gives
+/// with the coefficients themselves, at single lags up to the horizon, and looks whether window and
+/// exponentials together are passive. So [`LagKernel::coefficients`] should be quick at any lag here.
+pub trait LateLags: Send + Sync {
+    /// The last lag that no exponentials can stand for. The coupling must have ended by then.
+    fn window(&self) -> usize;
+
+    /// Exponentials for the lags from `window` + 1 to `horizon`, `window` at least
+    /// [`LateLags::window`], each within about `tolerance` of the largest of its lag. What they
+    /// reach is measured, and a smaller tolerance asked for where it is not enough.
+    ///
+    /// # Errors
+    /// If there are none.
+    fn exponentials(
+        &self,
+        window: usize,
+        horizon: usize,
+        tolerance: f64,
+    ) -> Result<ExponentialTail>;
 }

@@ -5,15 +5,13 @@
 //! mode comes next. The mode search of [`crate::coupled`] does the rest and knows no law.
 
 mod adhesive;
-mod bonded;
 mod coulomb;
 mod step_start;
 mod thin_layer;
 mod variable_friction;
 mod yielding;
 
-pub use adhesive::Adhesive;
-pub use bonded::Bonded;
+pub use adhesive::{Adhesive, Bonded};
 pub use coulomb::{Activation, Coulomb};
 pub(crate) use step_start::memory_ends;
 pub use step_start::{StepStart, StepStarts};

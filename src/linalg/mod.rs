@@ -3,30 +3,29 @@
 //! Everything runs sequentially, and solves use workspace made when the factor was made.
 
 mod complex;
+mod complex_number;
 mod condition;
 mod dense;
 mod eigen;
 pub(crate) mod gauss;
 mod lanczos;
 pub(crate) mod matrix;
-mod partition;
 mod product;
-mod simd;
 mod sparse;
 mod triplets;
 
 pub(crate) use complex::hermitian_range;
+pub use complex_number::Complex;
 pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
 pub(crate) use eigen::{generalised_modes, indefinite_pivot, symmetric_modes};
 pub(crate) use faer::traits::ComplexField;
 pub(crate) use lanczos::lowest_modes;
 pub(crate) use matrix::SparseMatrix;
-pub(crate) use partition::Partition;
 pub(crate) use product::{
-    Dot, add_combined_rows, add_row, add_rows, dense_multiply_add, dot, largest, magnitude,
-    row_products, transposed_multiply_add, weighted_dot,
+    Dot, Simd, WithSimd, add_combined_rows, add_row, add_rows, dense_multiply_add, dot, largest,
+    magnitude, row_products, transposed_multiply_add, vectorized, weighted_dot,
 };
-pub(crate) use simd::{Simd, WithSimd, vectorized};
+pub(crate) use sparse::Partition;
 pub(crate) use sparse::{SparseFactor, indefinite_row};
 pub use triplets::Triplets;

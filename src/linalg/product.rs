@@ -5,7 +5,7 @@
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 
-use super::simd::{Simd, WithSimd, vectorized};
+pub(crate) use pulp::{Simd, WithSimd};
 
 /// Rows that are read together.
 const ROWS: usize = 4;
@@ -259,4 +259,11 @@ impl WithSimd for Dot<'_> {
 #[inline(always)]
 fn total<S: Simd>(simd: S, [a, b, c, d]: [S::f64s; 4]) -> f64 {
     simd.reduce_sum_f64s(simd.add_f64s(simd.add_f64s(a, b), simd.add_f64s(c, d)))
+}
+
+/// Runs `loops`, compiled once for each set of instructions, with the best that there is. Its
+/// `with_simd` and all that this calls must be `#[inline(always)]`.
+#[inline]
+pub(crate) fn vectorized<L: WithSimd>(loops: L) -> L::Output {
+    pulp::Arch::new().dispatch(loops)
 }

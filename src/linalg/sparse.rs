@@ -13,8 +13,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Par, Side, Spec};
 
 use crate::error::{Error, Result};
-use crate::linalg::SparseMatrix;
-use crate::linalg::Triplets;
+use crate::linalg::{SparseMatrix, Triplets};
 
 /// Factors of a square sparse matrix, with the workspace of their solves.
 pub(crate) struct SparseFactor {
@@ -213,6 +212,50 @@ fn by_columns(matrix: &SparseMatrix) -> Option<SparseColMat<usize, f64>> {
     SparseColMat::try_new_from_triplets(order, order, &entries).ok()
 }
 
+/// Disjoint sets of the numbers below an order (union–find).
+pub(crate) struct Partition(Vec<usize>);
+
+impl Partition {
+    /// Every number by itself.
+    pub(crate) fn new(order: usize) -> Self {
+        Self((0..order).collect())
+    }
+
+    /// The least number of the set that `index` is in.
+    pub(crate) fn root(&mut self, mut index: usize) -> usize {
+        while self.0[index] != index {
+            self.0[index] = self.0[self.0[index]];
+            index = self.0[index];
+        }
+        index
+    }
+
+    /// Makes one set of two.
+    pub(crate) fn join(&mut self, first: usize, second: usize) {
+        let (a, b) = (self.root(first), self.root(second));
+        self.0[a.max(b)] = a.min(b);
+    }
+
+    /// Joins what an entry of `matrix` other than zero couples.
+    pub(crate) fn couple(&mut self, matrix: &SparseMatrix) {
+        for (row, column, value) in matrix.entries() {
+            if value != 0.0 {
+                self.join(row, column);
+            }
+        }
+    }
+
+    /// The sets, by their least numbers, each ascending.
+    pub(crate) fn sets(&mut self) -> Vec<Vec<usize>> {
+        let mut sets = vec![Vec::new(); self.0.len()];
+        for index in 0..self.0.len() {
+            sets[self.root(index)].push(index);
+        }
+        sets.retain(|set| !set.is_empty());
+        sets
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -294,5 +337,25 @@ mod tests {
         let mut nan = Triplets::new(1);
         nan.add(0, 0, f64::NAN);
         assert!(matches!(SparseMatrix::new("k", &nan), Err(Error::Input { .. })));
+    }
+}
+
+#[cfg(test)]
+mod partition_tests {
+    use super::*;
+    use crate::linalg::Triplets;
+
+    #[test]
+    fn coupled_numbers_are_one_set() {
+        let mut matrix = Triplets::new(6);
+        matrix.add_spring(5, 1, 2.0);
+        matrix.add(1, 3, 1e-300);
+        // An entry that cancels couples nothing.
+        matrix.add(0, 4, 1.0);
+        matrix.add(0, 4, -1.0);
+        let mut partition = Partition::new(6);
+        partition.couple(&SparseMatrix::new("test", &matrix).unwrap());
+        assert_eq!(partition.sets(), [vec![0], vec![1, 3, 5], vec![2], vec![4]]);
+        assert_eq!(partition.root(5), 1);
     }
 }

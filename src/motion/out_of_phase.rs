@@ -12,8 +12,8 @@ use std::f64::consts::PI;
 
 use super::hilbert::hilbert;
 use super::{FreeField, Record};
-use crate::complex::Complex;
 use crate::error::{Error, Result};
+use crate::linalg::Complex;
 
 /// Largest velocity at the end of a record, relative to its peak, that passes for rest.
 const REST: f64 = 0.01;

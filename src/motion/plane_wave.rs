@@ -21,9 +21,9 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::out_of_phase::OutOfPhase;
 use super::{Record, TravellingWave, VerticalIncidence};
-use crate::complex::Complex;
 use crate::error::{Error, Result};
 use crate::fundamental::Rayleigh;
+use crate::linalg::Complex;
 use crate::soil::Soil;
 
 /// Component below this share of the other cannot be prescribed: near the angles at which it

@@ -1,9 +1,12 @@
-//! Equally spaced records of ground acceleration.
+//! Equally spaced records of ground acceleration: their parts, their integrals, and as CSV.
+
+use std::io::{self, Write};
+use std::path::Path;
 
 use super::Baseline;
 use super::integral::{Instant, integrate};
-use crate::error::memory;
-use crate::error::{Error, MemoryError, RecordError, Result, finite, positive};
+use crate::error::{Error, MemoryError, RecordError, Result, finite, memory, positive, write_file};
+use crate::text::column::{Cell, line};
 
 /// Error for so many samples that they would not fit into memory, with their two integrals.
 pub(super) fn check_samples(count: f64) -> std::result::Result<(), MemoryError> {
@@ -257,5 +260,105 @@ impl Record {
     /// Rate of the acceleration in the interval after a sample.
     pub(super) fn jerk(&self, index: usize) -> f64 {
         (self.acceleration[index + 1] - self.acceleration[index]) / self.step
+    }
+}
+
+/// Steps by which a time may miss a sample and still be that of the sample, for rounding.
+const SLACK: f64 = 1e-6;
+
+impl Record {
+    /// The part between two times (s), from the last sample not after `start` to the first one not
+    /// before `end`; its first sample is at zero.
+    ///
+    /// Samples of acceleration stay as they are, to the last bit. Velocity and displacement that the record
+    /// had at `start` are lost: the part begins at rest, as every record does, so that its velocity
+    /// differs by a constant and its displacement by a ramp. Cut where the ground is nearly still, and
+    /// treat the [`Baseline`](super::Baseline) afterwards.
+    ///
+    /// ```
+    /// use basemat::motion::Record;
+    /// let record = Record::new(0.5, vec![0.0, 1.0, 2.0, 3.0, 4.0])?;
+    /// assert_eq!(record.trimmed(0.5, 1.5)?.accelerations(), [1.0, 2.0, 3.0]);
+    /// // Times between samples: the samples around them stay.
+    /// assert_eq!(record.trimmed(0.7, 1.2)?.accelerations(), [1.0, 2.0, 3.0]);
+    /// assert!(record.trimmed(1.0, 2.5).is_err());
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless 0 ≤ `start` < `end` and `end` is not after the last sample.
+    pub fn trimmed(&self, start: f64, end: f64) -> Result<Self> {
+        let (step, last) = (self.time_step(), self.len() - 1);
+        if !(start >= 0.0 && start < self.duration()) {
+            let needed = "from zero to before the last sample";
+            return Err(Error::Input { quantity: "start of the part", value: start, needed });
+        }
+        if !(end > start && end / step <= last as f64 + SLACK) {
+            let needed = "after its start, not after the last sample";
+            return Err(Error::Input { quantity: "end of the part", value: end, needed });
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=last")]
+        let (first, end) = {
+            let first = ((start / step + SLACK).floor() as usize).min(last - 1);
+            (first, ((end / step - SLACK).ceil().max(0.0) as usize).clamp(first + 1, last))
+        };
+        Self::new(step, self.accelerations()[first..=end].to_vec())
+    }
+
+    /// The part in which the Arias intensity grows from the fraction `from` to the fraction `to` of its
+    /// final value, 0.05 and 0.95 as a rule: [`Record::trimmed`] at [`Record::significant_times`].
+    ///
+    /// ```
+    /// let record = basemat::motion::el_centro_1940();
+    /// let strong = record.trimmed_to_significant_duration(0.05, 0.95)?;
+    /// // 1.67 s to 25.51 s, and the samples around, from 83 times 0.02 s on.
+    /// assert!((strong.duration() - 23.86).abs() < 1e-9);
+    /// assert_eq!(strong.accelerations()[0], record.accelerations()[83]);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`] as for both of them.
+    pub fn trimmed_to_significant_duration(&self, from: f64, to: f64) -> Result<Self> {
+        let [start, end] = self.significant_times(from, to)?;
+        self.trimmed(start, end)
+    }
+}
+
+impl Record {
+    /// Writes the CSV of [`Record::write_csv`] to a file; its folder is made if it is not there.
+    ///
+    /// # Errors
+    /// [`Error::Write`](crate::Error::Write) if that fails.
+    pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
+        let mut text = Vec::new();
+        // Writing to memory cannot fail.
+        let _ = self.write_csv(&mut text);
+        write_file(path.as_ref(), text)
+    }
+
+    /// Writes time and acceleration as CSV: a heading and a line for every sample, with all digits, so
+    /// that [`ColumnFormat`](super::ColumnFormat) reads the same record to the last bit.
+    ///
+    /// ```
+    /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
+    /// let record = Record::new(1.0 / 3.0, vec![0.0, 0.1, -2.5])?;
+    /// let mut text = Vec::new();
+    /// record.write_csv(&mut text).unwrap();
+    /// assert!(text.starts_with(b"time_s,acceleration_m_per_s2\n0.0,0.0\n0.3333333333333333,0.1\n"));
+    /// let format = ColumnFormat::new(AccelerationUnit::MetrePerSecondSquared);
+    /// assert_eq!(Record::from_reader("text", &text[..], &format)?, record);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write_csv(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(out, "time_s,acceleration_m_per_s2")?;
+        for (k, acceleration) in self.accelerations().iter().enumerate() {
+            let time = k as f64 * self.time_step();
+            out.write_all(line([time, *acceleration].map(Cell)).as_bytes())?;
+        }
+        Ok(())
     }
 }

@@ -2,8 +2,7 @@
 
 use plotters::prelude::*;
 
-use super::area::{Area, Drawing};
-use super::stroke::Stroke;
+use super::stroke::{Area, Drawing, Stroke};
 use super::text::{lines, width};
 
 const FONT: (&str, u32) = ("sans-serif", 15);

@@ -26,11 +26,8 @@
 //! ```
 
 mod animation;
-mod area;
 mod axes;
 mod base;
-mod energy;
-mod envelope;
 mod key;
 mod lines;
 mod mode_map;
@@ -38,18 +35,13 @@ mod mode_map;
 mod png;
 mod refinement;
 mod shape;
-mod spectra;
 mod stroke;
 mod svg;
 mod text;
-mod ticks;
 
 pub use animation::animation;
-pub use energy::energy;
-pub use envelope::pressure_envelope;
-pub use lines::{Curve, curves, history, probe_history};
-pub use mode_map::mode_map;
+pub use lines::{Curve, curves, energy, history, probe_history, spectra};
+pub use mode_map::{mode_map, pressure_envelope};
 pub use refinement::refinement;
 pub use shape::deformed_shapes;
-pub use spectra::spectra;
 pub use svg::Svg;

@@ -1,14 +1,15 @@
-//! Contact modes over base and time.
+//! What happens along the base: contact modes over time, and the envelope of pressure.
 
 use plotters::prelude::*;
 
-use super::axes::{Axis, chart};
+use super::axes::{Axis, chart, draw_curve, range_of};
 use super::base::{Base, label_breaks};
 use super::key::{Key, Sample};
+use super::stroke::{COLORS, Stroke};
 use super::svg::{Sheet, Svg};
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, Mode};
-use crate::results::{ContactFrame, Histories};
+use crate::results::{ContactFrame, ElementEnvelope, Histories, Run};
 
 /// Columns of the map: more than pixels help nobody.
 const COLUMNS: usize = 1000;
@@ -125,4 +126,64 @@ pub fn mode_map(title: &str, histories: &Histories) -> Result<Svg> {
         }
         Ok(())
     })
+}
+
+/// Value of an element, as drawn.
+type Value = fn(&ElementEnvelope) -> f64;
+
+/// Largest, static and least pressure along the base, in steps as the elements have them; wide gaps
+/// between foundations are drawn short.
+///
+/// # Errors
+/// Those of drawing, for values beyond all bounds.
+pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
+    let envelope = &run.envelope;
+    let base = Base::of(envelope.iter().map(|e| e.element));
+    let curves: [(&str, Value); 3] = [
+        ("largest", |e| 1e-3 * e.pressure.highest.value),
+        ("static", |e| 1e-3 * e.static_pressure),
+        ("least", |e| 1e-3 * e.pressure.lowest.value),
+    ];
+    let steps = |value: Value| {
+        let mut points: Vec<(f64, f64)> = Vec::with_capacity(3 * envelope.len());
+        for e in envelope {
+            // A gap between two strips is a gap of the curve.
+            let left = base.place(e.element.left);
+            if points.last().is_some_and(|last| left - last.0 > 1e-6 * e.element.length()) {
+                points.push((f64::NAN, f64::NAN));
+            }
+            points.extend([(left, value(e)), (left + e.element.length(), value(e))]);
+        }
+        points
+    };
+    let values = curves.iter().flat_map(|(_, value)| envelope.iter().map(value));
+    let range = range_of(values.chain([0.0]));
+    let strokes = [COLORS[1], COLORS[5], COLORS[0]].map(Stroke::plain);
+    let key = curves.iter().zip(strokes).map(|((name, _), stroke)| (*name, Sample::Line(stroke)));
+    Sheet::new(title, Key::of(key)).picture(|area| {
+        let top = range.end - 0.04 * (range.end - range.start);
+        let mut chart = chart(area, &base.axis(), &Axis::linear(range, "pressure, kPa"), true)?;
+        label_breaks(&mut chart, &base, |place| (place, top))?;
+        for ((_, value), stroke) in curves.into_iter().zip(strokes) {
+            draw_curve(&mut chart, &steps(value), stroke, 2)?;
+        }
+        Ok(())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wide_gaps_are_short_and_marks_tell_where_one_is() {
+        let elements = [(0.0, 4.0), (4.0, 8.0), (40.0, 48.0), (48.5, 50.0)];
+        let elements = elements.map(|(left, right)| ContactElement { left, right });
+        let base = Base::of(elements.into_iter());
+        // 17.5 m of foundations: 32 m become 1.75, half a metre stays.
+        assert_eq!(base.breaks, [Break { from: 8.0, to: 9.75, width: 32.0 }]);
+        for (x, place) in [(0.0, 0.0), (8.0, 8.0), (40.0, 9.75), (48.0, 17.75), (50.0, 19.75)] {
+            assert!((base.place(x) - place).abs() < 1e-12, "{x}");
+        }
+    }
 }

@@ -1,6 +1,13 @@
-//! Styles of curves: told apart by colour, and by markers where there are more curves than colours.
+//! Where charts are drawn, and styles of curves: told apart by colour, and by markers where there are more
+//! curves than colours.
 
 use plotters::prelude::*;
+
+/// Where charts are drawn.
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
+
+/// Whatever goes wrong while drawing into memory.
+pub(super) type Drawing<T> = std::result::Result<T, Box<dyn std::error::Error + Send + Sync>>;
 
 /// Colours of curves, in their order.
 pub(super) const COLORS: [RGBColor; 7] = [

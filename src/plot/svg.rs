@@ -5,9 +5,9 @@ use std::path::Path;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::area::{Area, Drawing};
 use super::axes::{ABOVE, BELOW, LEFT, RIGHT};
 use super::key::Key;
+use super::stroke::{Area, Drawing};
 use super::text::lines;
 use crate::error::{Error, Result, write_file};
 

@@ -7,11 +7,11 @@
 //!
 //! the outcrop of the base moves by 2Aₙ, its top within by Aₙ + Bₙ, the surface by 2.
 
-use super::motion::SiteMotion;
 use super::sampled::Sampled;
+use super::transform::SiteMotion;
 use super::transform::{Contour, Place};
-use crate::complex::Complex;
 use crate::error::{Result, not_negative};
+use crate::linalg::Complex;
 use crate::soil::{Soil, SoilProfile};
 
 /// What travels.

@@ -2,12 +2,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::motion::SiteMotion;
 use super::sampled::Sampled;
 use super::slowness::{Medium, surface_motion};
+use super::transform::SiteMotion;
 use super::transform::{Contour, Place};
-use crate::complex::Complex;
 use crate::error::{LayeredError, Result, finite, not_negative, positive};
+use crate::linalg::Complex;
 use crate::motion::{PlaneWave, Record, TravellingWave, VerticalIncidence, check_prescribed};
 use crate::soil::{Base, Soil, SoilProfile};
 

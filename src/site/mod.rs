@@ -5,11 +5,10 @@
 
 mod column;
 mod inclined;
-mod motion;
 mod sampled;
 mod slowness;
 mod transform;
 
 pub use column::{Column, ControlPoint, VerticalWave};
 pub use inclined::{InclinedControl, InclinedWave};
-pub use motion::SiteMotion;
+pub use transform::SiteMotion;

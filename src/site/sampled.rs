@@ -11,8 +11,8 @@
 //! Each is still a passive layer, so a motion through the site has one that comes back.
 
 use super::transform::Place;
-use crate::complex::Complex;
 use crate::error::Result;
+use crate::linalg::Complex;
 use crate::soil::{Soil, SoilProfile};
 
 /// Moduli and travels of a profile, along the contour of a transform or at one frequency.

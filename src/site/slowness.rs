@@ -15,7 +15,7 @@
 //! | g = b² − p², r = g² + 4p²ab | the latter Rayleigh's function |
 //! | μ, ρ | complex shear modulus, density |
 
-use crate::complex::Complex;
+use crate::linalg::Complex;
 use crate::soil::Soil;
 
 /// Squared vertical slowness of a layer, relative to that of the wave at vertical incidence, that

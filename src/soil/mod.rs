@@ -1,7 +1,6 @@
 //! Soil: elastic constants, damping laws and profiles of horizontal layers, in plane strain.
 
 mod maxwell;
-mod nonnegative;
 mod profile;
 #[cfg(feature = "serde")]
 mod profile_form;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::Soil;
 use super::relaxation::{Elastic, Relaxation};
-use crate::complex::Complex;
 use crate::error::{Error, LayeredError, Result, positive};
+use crate::linalg::Complex;
 
 /// One layer: an elastic soil, its thickness and its damping.
 #[derive(Debug, Clone)]
@@ -36,8 +36,7 @@ pub enum Base {
 /// Horizontal layers, from the surface down, on a half-plane or a rigid base.
 ///
 /// With the feature `serde` profiles with the crate's damping laws are written and read; a law of your own is
-/// refused, and a fitted [`GeneralizedMaxwell`](super::GeneralizedMaxwell) keeps its numbers but not the
-/// band that it was fitted to.
+/// refused.
 ///
 /// ```
 /// use basemat::Soil;
@@ -153,7 +152,7 @@ impl SoilProfile {
 
     /// Whether it is a half-plane without layers or damping, which has a closed form.
     pub fn is_elastic_half_plane(&self) -> bool {
-        let elastic = |damping: &Arc<dyn Relaxation>| damping.identity() == Some(vec![0.0]);
+        let elastic = |damping: &Arc<dyn Relaxation>| damping.identity() == Elastic.identity();
         self.layers.is_empty()
             && matches!(&self.base, Base::HalfPlane { damping, .. } if elastic(damping))
     }

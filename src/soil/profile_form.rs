@@ -1,5 +1,6 @@
 //! Profiles in serde's formats: their damping laws by name.
 
+use std::any::Any;
 use std::sync::Arc;
 
 use serde::de::{Deserialize, Deserializer, Error as _};
@@ -22,26 +23,15 @@ enum DampingForm {
 }
 
 impl DampingForm {
-    /// The law with these numbers, as they are in [`Relaxation::identity`]; `None` for a law of a
-    /// user's own.
+    /// The form of a law; `None` for a user's own.
     fn of(law: &dyn Relaxation) -> Option<Self> {
-        let numbers = law.identity()?;
-        let form = match numbers[..] {
-            [0.0] => Self::Elastic,
-            [1.0, time] => Self::KelvinVoigt(KelvinVoigt::new(time).ok()?),
-            [2.0, exponent, reference] => {
-                Self::Kjartansson(Kjartansson::from_parts(exponent, reference).ok()?)
-            }
-            [3.0, ratio] => Self::Hysteretic(Hysteretic::new(ratio).ok()?),
-            [4.0, long_term, _, ref rest @ ..] => {
-                let (shares, rates) = rest.split_at(rest.len() / 2);
-                let law = GeneralizedMaxwell::new(long_term, shares.to_vec(), rates.to_vec());
-                Self::GeneralizedMaxwell(law.ok()?)
-            }
-            _ => return None,
-        };
-        // A law of a user's own may have taken the number of one of these.
-        (form.law().identity()? == numbers).then_some(form)
+        let law: &dyn Any = law;
+        let elastic = law.downcast_ref().map(|Elastic| Self::Elastic);
+        elastic
+            .or_else(|| law.downcast_ref().copied().map(Self::KelvinVoigt))
+            .or_else(|| law.downcast_ref().copied().map(Self::Kjartansson))
+            .or_else(|| law.downcast_ref().copied().map(Self::Hysteretic))
+            .or_else(|| law.downcast_ref().cloned().map(Self::GeneralizedMaxwell))
     }
 
     fn law(&self) -> Arc<dyn Relaxation> {

@@ -1,9 +1,10 @@
 //! Damping of soil: shear moduli that depend on frequency.
 
+use std::any::Any;
 use std::fmt::Debug;
 
-use crate::complex::Complex;
 use crate::error::{Result, damping_ratio, not_negative, positive};
+use crate::linalg::Complex;
 
 /// How the shear modulus of a soil depends on frequency, as a function of the Laplace variable s.
 ///
@@ -37,7 +38,7 @@ use crate::error::{Result, damping_ratio, not_negative, positive};
 /// let law = Zener { extra: 0.2, rate: 6.0 };
 /// assert_eq!(law.modulus(Complex::real(6.0)), Complex::real(1.1));
 /// ```
-pub trait Relaxation: Debug + Send + Sync {
+pub trait Relaxation: Any + Debug + Send + Sync {
     /// μ(s)/μ₀ at the Laplace variable `s`, 1/s; s = 0 asks for the long-term modulus.
     fn modulus(&self, s: Complex) -> Complex;
 
@@ -58,6 +59,23 @@ pub trait Relaxation: Debug + Send + Sync {
     }
 }
 
+/// The crate's laws: the first number of their [`Relaxation::identity`], as kernel files have it.
+#[derive(Clone, Copy)]
+pub(super) enum Kind {
+    Elastic,
+    KelvinVoigt,
+    Kjartansson,
+    Hysteretic,
+    GeneralizedMaxwell,
+}
+
+impl Kind {
+    /// Identity of a law with these numbers.
+    pub(super) fn with<'a>(self, numbers: impl IntoIterator<Item = &'a f64>) -> Vec<f64> {
+        std::iter::once(f64::from(self as u8)).chain(numbers.into_iter().copied()).collect()
+    }
+}
+
 /// No damping: μ(s) = μ₀.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -73,7 +91,7 @@ impl Relaxation for Elastic {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        Some(vec![0.0])
+        Some(Kind::Elastic.with(&[]))
     }
 }
 
@@ -130,7 +148,7 @@ impl Relaxation for KelvinVoigt {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        Some(vec![1.0, self.time])
+        Some(Kind::KelvinVoigt.with(&[self.time]))
     }
 }
 
@@ -164,7 +182,7 @@ impl Kjartansson {
 
     /// Law with the exponent 2γ and the circular frequency ω₀ (rad/s), as it is written.
     #[cfg(feature = "serde")]
-    pub(super) fn from_parts(exponent: f64, reference: f64) -> Result<Self> {
+    fn from_parts(exponent: f64, reference: f64) -> Result<Self> {
         positive("reference frequency of a damping law", reference)?;
         if (0.0..=1.0).contains(&exponent) {
             return Ok(Self { exponent, reference });
@@ -184,7 +202,7 @@ impl Relaxation for Kjartansson {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        Some(vec![2.0, self.exponent, self.reference])
+        Some(Kind::Kjartansson.with(&[self.exponent, self.reference]))
     }
 }
 
@@ -228,7 +246,7 @@ impl Relaxation for Hysteretic {
     }
 
     fn identity(&self) -> Option<Vec<f64>> {
-        Some(vec![3.0, self.ratio])
+        Some(Kind::Hysteretic.with(&[self.ratio]))
     }
 }
 

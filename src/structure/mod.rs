@@ -24,8 +24,8 @@ pub use hysteresis::{
 };
 pub(crate) use matrix_checks::{check_damping, check_mass};
 pub use models::{
-    FemModel, IsolationLevel, MatrixModel, NonlinearShearBuilding, RigidBlock, Section,
-    SectionRows, ShearBuilding, Storey, StructureGroup,
+    FemModel, IsolationLevel, MatrixModel, RigidBlock, Section, SectionRows, ShearBuilding, Storey,
+    StructureGroup,
 };
 pub use nonlinear::NonlinearForce;
 pub(crate) use nonlinear::{

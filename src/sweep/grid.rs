@@ -1,10 +1,9 @@
-//! All combinations of the values of some parameters, numbered.
+//! Parameters and the grid of cases that they span.
 
 use std::collections::HashSet;
+use std::hash::Hash;
 
-use super::parameter::Parameter;
-use crate::error::memory;
-use crate::error::{Error, Result, SweepError};
+use crate::error::{Error, Result, SweepError, memory};
 
 /// Bytes of a case in tables and while files are merged: its number, and its outcome without the
 /// results.
@@ -84,4 +83,104 @@ pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()
         }
     }
     Ok(())
+}
+
+/// A parameter of a [`Sweep`](super::Sweep): its name and the values that it takes, numbers or texts.
+///
+/// Values are checked by [`Sweep::grid`](super::Sweep::grid). A constant of the study is a parameter with one value: its column
+/// then tells the tables of different studies apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    name: String,
+    values: Values,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Values {
+    Numbers(Vec<f64>),
+    Texts(Vec<String>),
+}
+
+impl Parameter {
+    /// A parameter with numbers, in units that its name should tell: `width_m`.
+    pub fn numbers(name: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
+        Self { name: name.into(), values: Values::Numbers(values.into_iter().collect()) }
+    }
+
+    /// A parameter with texts: names of records, say.
+    pub fn texts(
+        name: impl Into<String>,
+        values: impl IntoIterator<Item = impl Into<String>>,
+    ) -> Self {
+        let values = values.into_iter().map(Into::into).collect();
+        Self { name: name.into(), values: Values::Texts(values) }
+    }
+
+    /// Name of the parameter and of its column.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Number of values.
+    pub fn len(&self) -> usize {
+        match &self.values {
+            Values::Numbers(numbers) => numbers.len(),
+            Values::Texts(texts) => texts.len(),
+        }
+    }
+
+    /// Whether it takes none: such a parameter is refused.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The number at `place`, if it takes numbers and so many of them.
+    pub(super) fn number(&self, place: usize) -> Option<f64> {
+        match &self.values {
+            Values::Numbers(numbers) => numbers.get(place).copied(),
+            Values::Texts(_) => None,
+        }
+    }
+
+    /// The text at `place`, if it takes texts and so many of them.
+    pub(super) fn text(&self, place: usize) -> Option<&str> {
+        match &self.values {
+            Values::Numbers(_) => None,
+            Values::Texts(texts) => texts.get(place).map(String::as_str),
+        }
+    }
+
+    /// Refuses no values, the same one twice, numbers that are not finite and empty texts.
+    pub(super) fn check(&self) -> Result<()> {
+        let parameter = || self.name.clone();
+        if self.is_empty() {
+            return Err(SweepError::NoValues { parameter: parameter() }.into());
+        }
+        let repeated = match &self.values {
+            Values::Numbers(numbers) => {
+                if let Some(&value) = numbers.iter().find(|value| !value.is_finite()) {
+                    return Err(SweepError::NotFinite { parameter: parameter(), value }.into());
+                }
+                // Both zeros are one value.
+                let bits = |value: &f64| (value + 0.0).to_bits();
+                first_repeated(numbers, bits).map(f64::to_string)
+            }
+            Values::Texts(texts) => {
+                if texts.iter().any(String::is_empty) {
+                    return Err(SweepError::Unnamed { quantity: "value of a parameter" }.into());
+                }
+                first_repeated(texts, String::as_str).cloned()
+            }
+        };
+        match repeated {
+            Some(value) => Err(SweepError::RepeatedValue { parameter: parameter(), value }.into()),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The first value whose key was there before.
+fn first_repeated<'a, T, K: Hash + Eq>(values: &'a [T], key: impl Fn(&'a T) -> K) -> Option<&'a T> {
+    let mut before = HashSet::new();
+    values.iter().find(|value| !before.insert(key(value)))
 }

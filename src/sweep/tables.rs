@@ -9,11 +9,10 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use super::file::{Content, Ending, read};
+use super::grid::Parameter;
 use super::grid::check_names;
-use super::parameter::Parameter;
-use super::replace::{name, replaced, unwritten};
 use super::run::{Sweep, SweepCase};
-use super::table::{CaseTable, Row, heading};
+use super::table::{CaseTable, Row, heading, name, replaced, unwritten};
 use crate::error::{CaseError, Error, Result, SweepError};
 use crate::text::table::csv_line;
 

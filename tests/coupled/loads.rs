@@ -8,8 +8,8 @@ use basemat::fem::{Beam, Material, Mesh, Quad4, QuadFormulation};
 use basemat::interface::{Adhesive, Bonded, Coulomb, FrictionLimit, ThinLayer, Yielding};
 use basemat::reference::RockingBlock;
 use basemat::structure::{
-    Bilinear, ContactNode, FemModel, NonlinearShearBuilding, RigidBlock, Row, ShearBuilding,
-    Storey, Structure, StructureGroup, Triplets,
+    Bilinear, ContactNode, FemModel, RigidBlock, Row, ShearBuilding, Storey, Structure,
+    StructureGroup, Triplets,
 };
 use basemat::{Error, Result, Simulation, Soil, StandingError};
 
@@ -482,7 +482,7 @@ fn hysteretic_storeys_begin_where_statics_left_them() {
         ShearBuilding::new(8.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 4.0e6)]).unwrap();
     let roof = Row::from(building.roof());
     let law = Bilinear::new(4.0e6, 10.0e3, 0.2).unwrap();
-    let structure = NonlinearShearBuilding::new(building).with_law(0, law).unwrap();
+    let structure = building.with_law(0, law).unwrap();
     let mut simulation = on_half_plane(structure)
         .interface(Bonded)
         .load(Load::released(roof.clone(), 15.0e3))

@@ -838,7 +838,19 @@ class ShearBuilding(Structure):
         damping: float | None = None,
         center: float = 0.0,
         p_delta: float | None = None,
+        laws: Mapping[int, Hysteresis] | None = None,
     ) -> Self: ...
+    @staticmethod
+    def isolated(
+        building: ShearBuilding,
+        law: Hysteresis,
+        *,
+        height: float,
+        slab_mass: float,
+        slab_inertia: float = 0.0,
+        damping: float = 0.0,
+        laws: Mapping[int, Hysteresis] | None = None,
+    ) -> ShearBuilding: ...
     @property
     def total_mass(self) -> float: ...
     @property
@@ -1055,29 +1067,6 @@ class Mesh:
     def nodes(self) -> NDArray[np.float64]: ...
     def node_at(self, x: float, y: float) -> int: ...
     def nodes_at_height(self, y: float, tolerance: float = 1e-9) -> list[int]: ...
-
-@final
-class NonlinearShearBuilding(Structure):
-    def __new__(cls, building: ShearBuilding, laws: Mapping[int, Hysteresis]) -> Self: ...
-    @staticmethod
-    def isolated(
-        building: ShearBuilding,
-        law: Hysteresis,
-        *,
-        height: float,
-        slab_mass: float,
-        slab_inertia: float = 0.0,
-        damping: float = 0.0,
-        laws: Mapping[int, Hysteresis] | None = None,
-    ) -> NonlinearShearBuilding: ...
-    @property
-    def total_mass(self) -> float: ...
-    @property
-    def roof(self) -> int: ...
-    def floor(self, storey: int) -> int: ...
-    def drift(self, storey: int) -> Row: ...
-    def sway(self, storey: int) -> Row: ...
-    def shear(self, storey: int) -> SectionRows: ...
 
 @final
 class WithSprings(Structure):

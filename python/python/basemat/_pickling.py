@@ -41,7 +41,6 @@ _DESCRIBED = (
     _core.RigidBlock,
     _core.Storey,
     _core.ShearBuilding,
-    _core.NonlinearShearBuilding,
     _core.MatrixModel,
     _core.FemModel,
     _core.ReducedModel,

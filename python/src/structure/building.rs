@@ -1,11 +1,16 @@
 //! Shear buildings.
 
-use basemat::structure::{ShearBuilding, Storey};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use basemat::structure::{Hysteresis, IsolationLevel, ShearBuilding, Storey};
 use pyo3::prelude::*;
 
 use super::PyStructure;
+use super::hysteresis::PyHysteresis;
 use crate::array::whole;
 use crate::error::OrRaise;
+use crate::recipe::Recipe;
 use crate::row::{PyRow, PySectionRows};
 
 /// A storey of a :class:`ShearBuilding`, per metre of thickness: ``height`` of its columns (m),
@@ -32,19 +37,56 @@ impl PyStorey {
     }
 }
 
+type Laws = BTreeMap<usize, Recipe<dyn Hysteresis>>;
+
+/// Recipes of laws by storey.
+fn recipes(laws: Option<BTreeMap<usize, Bound<'_, PyHysteresis>>>) -> Laws {
+    laws.into_iter().flatten().map(|(storey, law)| (storey, law.get().make.clone())).collect()
+}
+
+/// The building with its laws.
+fn following(mut building: ShearBuilding, laws: &Laws) -> basemat::Result<ShearBuilding> {
+    for (storey, law) in laws {
+        building = building.with_law(*storey, law()?)?;
+    }
+    Ok(building)
+}
+
 /// Floors on sway columns on a rigid base.
 ///
 /// Unknowns: displacement to the right, up, and rotation of the base, then the absolute horizontal
 /// displacement of every floor from below. ``width`` of the base in m, ``base_mass`` in kg/m,
 /// ``base_inertia`` in kg m²/m. ``damping``: ratio in the first mode on a fixed base, by damping
 /// proportional to stiffness. ``p_delta``: gravity (m/s²) of the P–Δ effect; none unless given.
+/// ``laws={storey: law}``: :class:`Hysteresis` laws that take the place of the stiffness of storeys,
+/// storey 0 the lowest.
 #[pyclass(name = "ShearBuilding", module = "basemat", extends = PyStructure, frozen)]
-pub(crate) struct PyShearBuilding(pub(crate) ShearBuilding);
+pub(crate) struct PyShearBuilding(Make);
+
+type Make = Arc<dyn Fn() -> basemat::Result<ShearBuilding> + Send + Sync>;
+
+impl PyShearBuilding {
+    /// Of a recipe that works.
+    fn of(
+        make: impl Fn() -> basemat::Result<ShearBuilding> + Send + Sync + 'static,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let make: Make = Arc::new(make);
+        make().or_raise()?;
+        let own = Arc::clone(&make);
+        let base = PyStructure { make: Arc::new(move || Ok(Box::new(own()?))) };
+        Ok(PyClassInitializer::from(base).add_subclass(Self(make)))
+    }
+
+    fn made(&self) -> PyResult<ShearBuilding> {
+        (self.0)().or_raise()
+    }
+}
 
 #[pymethods]
 impl PyShearBuilding {
     #[new]
-    #[pyo3(signature = (width, base_mass, base_inertia, storeys, *, damping=None, center=0.0, p_delta=None))]
+    #[pyo3(signature = (width, base_mass, base_inertia, storeys, *, damping=None, center=0.0, p_delta=None, laws=None))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         width: f64,
         base_mass: f64,
@@ -53,56 +95,80 @@ impl PyShearBuilding {
         damping: Option<f64>,
         center: f64,
         p_delta: Option<f64>,
+        laws: Option<BTreeMap<usize, Bound<'_, PyHysteresis>>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let storeys: Vec<Storey> = storeys.iter().map(|storey| storey.get().0).collect();
-        let mut building = ShearBuilding::new(width, base_mass, base_inertia, &storeys)
-            .and_then(|building| building.centered_at(center))
-            .or_raise()?;
-        if let Some(ratio) = damping {
-            building = building.with_stiffness_damping(ratio).or_raise()?;
-        }
-        if let Some(gravity) = p_delta {
-            building = building.with_p_delta(gravity).or_raise()?;
-        }
-        let base = PyStructure::copied(building.clone());
-        Ok(PyClassInitializer::from(base).add_subclass(Self(building)))
+        let laws = recipes(laws);
+        Self::of(move || {
+            let mut building = ShearBuilding::new(width, base_mass, base_inertia, &storeys)?
+                .centered_at(center)?;
+            if let Some(ratio) = damping {
+                building = building.with_stiffness_damping(ratio)?;
+            }
+            if let Some(gravity) = p_delta {
+                building = building.with_p_delta(gravity)?;
+            }
+            following(building, &laws)
+        })
+    }
+
+    /// The building with its lowest columns on a slab that rests on isolators of this ``law``; they
+    /// become storey 0, and the building's storeys count from 1. ``height`` of the bearings in m,
+    /// ``slab_mass`` in kg/m, ``slab_inertia`` in kg m²/m, ``damping`` beside the bearings in
+    /// N s/m. ``laws``: of further storeys; the building must have none.
+    #[staticmethod]
+    #[pyo3(signature = (building, law, *, height, slab_mass, slab_inertia=0.0, damping=0.0, laws=None))]
+    fn isolated(
+        building: Bound<'_, Self>,
+        law: Bound<'_, PyHysteresis>,
+        height: f64,
+        slab_mass: f64,
+        slab_inertia: f64,
+        damping: f64,
+        laws: Option<BTreeMap<usize, Bound<'_, PyHysteresis>>>,
+    ) -> PyResult<Py<Self>> {
+        let level = IsolationLevel { height, slab_mass, slab_inertia, damping };
+        let (make, own, laws) = (building.get().0.clone(), law.get().make.clone(), recipes(laws));
+        let made = Self::of(move || following(make()?.isolated(level, own()?)?, &laws))?;
+        Py::new(law.py(), made)
     }
 
     /// Mass, kg/m.
     #[getter]
-    fn total_mass(&self) -> f64 {
-        self.0.total_mass()
+    fn total_mass(&self) -> PyResult<f64> {
+        Ok(self.made()?.total_mass())
     }
 
     /// First natural frequency on a fixed base without P–Δ, Hz.
     #[getter]
-    fn fixed_base_frequency(&self) -> f64 {
-        self.0.fixed_base_frequency()
+    fn fixed_base_frequency(&self) -> PyResult<f64> {
+        Ok(self.made()?.fixed_base_frequency())
     }
 
     /// Unknown of the topmost floor.
     #[getter]
-    fn roof(&self) -> usize {
-        self.0.roof()
+    fn roof(&self) -> PyResult<usize> {
+        Ok(self.made()?.roof())
     }
 
     /// Unknown of the floor above a storey (0: the lowest).
     fn floor(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<usize> {
-        self.0.floor(storey).or_raise()
+        self.made()?.floor(storey).or_raise()
     }
 
     /// Drift of a storey: its floors' relative displacement less the turn of the base, m.
     fn drift(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PyRow> {
-        Ok(self.0.drift(storey).or_raise()?.into())
+        Ok(self.made()?.drift(storey).or_raise()?.into())
     }
 
     /// Displacement of a storey's floor less the motion of the base, m.
     fn sway(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PyRow> {
-        Ok(self.0.sway(storey).or_raise()?.into())
+        Ok(self.made()?.sway(storey).or_raise()?.into())
     }
 
-    /// Force of what is above a storey's columns on what is below, N/m.
+    /// Force of what is above a storey's columns on what is below, N/m; of a storey that follows a
+    /// law, from the inertia above.
     fn shear(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PySectionRows> {
-        Ok(self.0.shear(storey).or_raise()?.into())
+        Ok(self.made()?.shear(storey).or_raise()?.into())
     }
 }

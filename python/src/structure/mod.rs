@@ -24,4 +24,4 @@ pub(crate) use hysteresis::{
 };
 pub(crate) use matrices::PyMatrixModel;
 pub(crate) use mesh::{PyLayer, PyMaterial, PyMesh};
-pub(crate) use nonlinear::{PyNonlinearShearBuilding, PyWithSprings};
+pub(crate) use nonlinear::PyWithSprings;

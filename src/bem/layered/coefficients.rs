@@ -19,9 +19,9 @@ use realfft::num_complex::Complex64;
 
 use super::runge_kutta::{Stages, on_circle};
 use super::wavenumber::{Wavenumbers, Workspace};
-use crate::complex::Complex;
 use crate::error::{Error, Result};
 use crate::history::KINDS;
+use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
 /// Lags of the first block.

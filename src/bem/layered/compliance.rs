@@ -21,8 +21,8 @@
 //! | Λ | their change over the layer |
 //! | R | waves that go up by those that come down, at the layer's bottom |
 
-use crate::complex::Complex;
 use crate::error::Result;
+use crate::linalg::Complex;
 use crate::soil::{Base, SoilProfile};
 
 /// C at one wavenumber, m/Pa.

@@ -13,8 +13,8 @@ use super::form_factors::{DEGREES, LANES, POINTS, Row};
 use super::passivity;
 use super::runge_kutta::on_circle;
 use super::wavenumber::{Counts, Workspace};
-use crate::complex::Complex;
 use crate::error::{LayeredError, Result};
+use crate::linalg::Complex;
 
 /// Nanoseconds of one thread for an evaluation of the surface compliance, for each layer in it after the
 /// first, for its moments if its panel is halved, for a form factor, and for a product of the two.
@@ -37,7 +37,7 @@ const MOST_HALVING: f64 = 50.0;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Cost {
-    /// Processor time, s, of one thread of the processor in `docs/performance.md`. It is shared by
+    /// Processor time, s, of one thread of the processor in `docs/validation.md`. It is shared by
     /// all threads of rayon's pool with the feature `rayon`.
     pub seconds: f64,
     /// Evaluations of the surface compliance, at one wavenumber each.

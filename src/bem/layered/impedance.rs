@@ -12,10 +12,10 @@ use realfft::num_complex::Complex64;
 use super::passivity::assembled;
 use super::static_compliance;
 use super::wavenumber::{Wavenumbers, Workspace};
-use crate::complex::Complex;
 use crate::error::{Error, LayeredError, Result, not_negative};
 use crate::geometry::ContactElement;
 use crate::history::{KINDS, PairClasses};
+use crate::linalg::Complex;
 use crate::linalg::DenseFactor;
 use crate::soil::{Base, SoilProfile};
 

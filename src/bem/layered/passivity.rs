@@ -4,9 +4,9 @@ use realfft::num_complex::Complex64;
 
 use super::coefficients::Quadrature;
 use super::wavenumber::Workspace;
-use crate::complex::Complex;
 use crate::error::{LayeredError, Result};
 use crate::history::{KINDS, PairClasses};
+use crate::linalg::Complex;
 use crate::text::check_sum::CheckSum;
 
 /// Radius of the circle that is checked.

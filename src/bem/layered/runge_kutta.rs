@@ -7,8 +7,8 @@
 //!
 //! Both methods are algebraically stable with b > 0 and L-stable (Hairer & Wanner 1996, § IV.5, IV.12).
 
-use crate::complex::Complex;
 use crate::error::{Error, Result};
+use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
 /// Frequency (Hz) whose reflections [`Stages::for_profile`] looks at, and the error of phase it

@@ -11,10 +11,10 @@
 
 use super::compliance::{Compliance, Surface};
 use super::wavenumber::{Wavenumbers, Workspace};
-use crate::complex::Complex;
 use crate::error::{Result, same_length};
 use crate::geometry::{ContactElement, ContactLayout};
 use crate::history::{KINDS, PairClasses};
+use crate::linalg::Complex;
 use crate::linalg::gauss;
 use crate::soil::SoilProfile;
 

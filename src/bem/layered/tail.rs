@@ -16,7 +16,7 @@
 use std::sync::OnceLock;
 
 use super::form_factors::{FormFactors, LANES, PairShape, Row};
-use crate::complex::Complex;
+use crate::linalg::Complex;
 
 /// Terms kept: for |x| ≤ 1/16 the last is below rounding.
 pub(crate) const TERMS: usize = 16;

@@ -13,9 +13,9 @@
 use super::compliance::{Compliance, Surface};
 use super::form_factors::{DEGREES, FormFactors, LANES, POINTS, Sums, accumulate, legendre};
 use super::tail::{REACH, TERMS, Tails, on_grid, surface_series};
-use crate::complex::Complex;
 use crate::error::{LayeredError, Result};
 use crate::history::{KINDS, PairClasses};
+use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
 /// Decay lengths in the top layer beyond which its bottom is not felt: e^(−2·20) is 4e-18.

@@ -1,7 +1,6 @@
 //! Error of the exponentials against the coefficients that they stand for, over the whole horizon.
 
-use super::fit::Measured;
-use super::tail::Tail;
+use super::tail::{Measured, Tail};
 use crate::error::Result;
 use crate::history::lag_kernel::LagKernel;
 use crate::history::pair_classes::KINDS;

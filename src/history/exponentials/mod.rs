@@ -1,21 +1,19 @@
 //! The history as a window of exact lags and a sum of exponentials: memory that does not grow.
 
 mod accuracy;
-pub(crate) mod fit;
 mod passivity;
-mod tail;
+pub(super) mod tail;
 mod window;
 
 use std::sync::Arc;
 
-use self::fit::{Fit, Measured, Request};
 use self::passivity::Margin;
-use self::tail::Tail;
+pub use self::tail::{ExponentialTail, TailProduct};
+use self::tail::{Fit, Measured, Request, Tail};
 use self::window::{Cut, Lags};
 use super::convolution::ConvolutionHistory;
 use super::cost::{Estimate, LONGEST_WINDOW};
-use super::lag_kernel::LagKernel;
-use super::late_lags::LateLags;
+use super::lag_kernel::{LagKernel, LateLags};
 use super::relaxed_fft::spectra::Windowed;
 use super::relaxed_fft::{Blocks, LEAF, SharedSpectra, bounded};
 use crate::error::{CheckpointError, Error, MemoryError, Result, same_length};
@@ -68,7 +66,7 @@ const ATTEMPTS: usize = 10;
 pub struct ExponentialHistory {
     kernel: Arc<dyn LagKernel>,
     fit: Arc<Fit>,
-    window: Box<dyn Blocks>,
+    window: Blocks,
     tail: Tail,
     /// The last 2W inputs, input m in slot m mod 2W.
     recent: Vec<f64>,

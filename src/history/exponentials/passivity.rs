@@ -83,10 +83,10 @@ fn least_at(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64
 
 #[cfg(test)]
 mod tests {
-    use super::super::tail::Tail;
+    use super::super::tail::{ExponentialTail, Tail};
     use super::*;
     use crate::bem::{PatchKernel, Strip};
-    use crate::history::late_lags::{ExponentialTail, LateLags};
+    use crate::history::LateLags;
     use crate::soil::Soil;
 
     fn patch() -> PatchKernel {

@@ -1,18 +1,15 @@
 //! The history by transforms of blocks: exact to rounding, O(log² N) per step.
 
 mod blocks;
-mod coefficients;
 mod lattice;
 mod level;
 mod pairs;
-mod ring;
 pub(super) mod spectra;
-mod tables;
-mod wave_level;
 mod waves;
 
 use std::sync::Arc;
 
+use self::blocks::Space;
 pub(crate) use self::blocks::{Blocks, LEAF};
 use self::lattice::Lattice;
 use self::pairs::Pairs;
@@ -74,17 +71,11 @@ const LONGEST_HINT: usize = 1 << 22;
 pub struct RelaxedFftHistory {
     kernel: Arc<dyn LagKernel>,
     /// Made when it is first needed.
-    blocks: Option<Box<dyn Blocks>>,
+    blocks: Option<Blocks>,
     /// Whether to transform along the surface: `None` where it pays.
     along_surface: Option<bool>,
     leaf: Option<usize>,
     steps: usize,
-    /// Whether the last input still has to be worked in.
-    pending: bool,
-    /// Tractions with missing entries.
-    padded: Vec<f64>,
-    /// What is kept of one input.
-    input: Vec<f64>,
     /// Why inputs could not be accepted.
     failed: Option<Error>,
 }
@@ -96,24 +87,12 @@ short_debug! {
 impl RelaxedFftHistory {
     /// Whether it transforms along the surface, unless told otherwise.
     pub(super) fn takes_wavenumbers(kernel: &dyn LagKernel) -> bool {
-        let classes = kernel.classes();
-        classes.elements().len() >= WAVES_FROM && Lattice::of(classes).is_some()
+        lattice(kernel, None).is_some()
     }
 
     /// History of `kernel`, empty.
     pub fn new(kernel: Arc<dyn LagKernel>) -> Self {
-        let padded = vec![0.0; 2 * kernel.classes().elements().len()];
-        Self {
-            kernel,
-            blocks: None,
-            along_surface: None,
-            leaf: None,
-            steps: 0,
-            pending: false,
-            padded,
-            input: Vec::new(),
-            failed: None,
-        }
+        Self { kernel, blocks: None, along_surface: None, leaf: None, steps: 0, failed: None }
     }
 
     /// With (or without) the transform along the surface wherever elements are equal and on a
@@ -134,51 +113,32 @@ impl RelaxedFftHistory {
 
     /// Bytes held in coefficients, tractions and scratch.
     pub fn memory(&self) -> usize {
-        self.blocks.as_ref().map_or(0, |blocks| blocks.numbers()) * size_of::<f64>()
+        self.blocks.as_ref().map_or(0, Blocks::numbers) * size_of::<f64>()
     }
 
     /// Makes ready for at least `steps` steps.
-    fn grow(&mut self, steps: usize) -> Result<&mut dyn Blocks> {
+    fn grow(&mut self, steps: usize) -> Result<&mut Blocks> {
         let kernel = &*self.kernel;
-        let blocks: Box<dyn Blocks> = if let Some(blocks) = self.blocks.take() {
-            blocks
-        } else {
-            let (leaf, classes) = (self.leaf.unwrap_or(LEAF), kernel.classes());
-            let wanted = self.along_surface.unwrap_or(classes.elements().len() >= WAVES_FROM);
-            match Lattice::of(classes).filter(|_| wanted) {
-                Some(lattice) => Box::new(Waves::new(lattice, kernel, leaf)?),
-                None => Box::new(Pairs::new(kernel, leaf)?),
+        let blocks = match &mut self.blocks {
+            Some(blocks) => blocks,
+            none => {
+                let leaf = self.leaf.unwrap_or(LEAF);
+                let space = space(kernel, leaf, self.along_surface, false)?;
+                none.insert(Blocks::new(space, leaf, usize::MAX))
             }
         };
-        let blocks = self.blocks.insert(blocks);
-        let capacity = blocks.capacity();
-        if capacity < steps {
-            let mut inputs = Vec::new();
-            let worked_in = self.steps - usize::from(self.pending);
-            if !capacity.is_power_of_two() {
-                (0..self.steps).for_each(|step| blocks.input(step, worked_in, &mut inputs));
-            }
-            blocks.grow(kernel, steps)?;
-            if !inputs.is_empty() {
-                blocks.clear();
-                march(&mut **blocks, &inputs);
-                if !self.pending {
-                    blocks.work_in(self.steps);
-                }
-            }
+        if blocks.grow(kernel, steps)? {
+            let inputs = blocks.inputs(self.steps);
+            blocks.march(&inputs);
         }
-        Ok(&mut **blocks)
+        Ok(blocks)
     }
 
-    /// Works the last input in, so that the next output is complete.
-    fn settle(&mut self) -> Result<&mut dyn Blocks> {
-        let (now, pending) = (self.steps, self.pending);
-        self.grow(now.saturating_add(1))?;
-        self.pending = false;
-        let blocks = self.grow(0)?;
-        if pending {
-            blocks.work_in(now);
-        }
+    /// Makes the next output complete.
+    fn settle(&mut self) -> Result<&mut Blocks> {
+        let now = self.steps;
+        let blocks = self.grow(now.saturating_add(1))?;
+        blocks.work_in(now);
         Ok(blocks)
     }
 }
@@ -206,18 +166,10 @@ impl ConvolutionHistory for RelaxedFftHistory {
     fn push(&mut self, traction: &[f64]) {
         if self.failed.is_none() {
             let now = self.steps;
-            let mut padded = std::mem::take(&mut self.padded);
-            let given = traction.len().min(padded.len());
-            padded[..given].copy_from_slice(&traction[..given]);
-            padded[given..].fill(0.0);
             match self.settle() {
-                Ok(blocks) => {
-                    blocks.write(now, &padded);
-                    self.pending = true;
-                }
+                Ok(blocks) => blocks.write(now, traction),
                 Err(error) => self.failed = Some(error),
             }
-            self.padded = padded;
         }
         self.steps += 1;
     }
@@ -227,56 +179,51 @@ impl ConvolutionHistory for RelaxedFftHistory {
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
-        let mut values = Vec::new();
-        if let Some(blocks) = &self.blocks {
-            let worked_in = self.steps - usize::from(self.pending);
-            (0..self.steps).for_each(|step| blocks.input(step, worked_in, &mut values));
-        }
-        Ok(values)
+        Ok(self.blocks.as_ref().map_or_else(Vec::new, |blocks| blocks.inputs(self.steps)))
     }
 
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         // Before there is room for them: a damaged number of steps may ask for any amount.
         let width = self.grow(1)?.width();
         check_inputs(steps, width, values)?;
-        let blocks = self.grow(steps)?;
-        blocks.clear();
-        march(blocks, values);
-        (self.steps, self.pending, self.failed) = (steps, steps > 0, None);
+        self.grow(steps)?.march(values);
+        (self.steps, self.failed) = (steps, None);
         Ok(())
     }
 }
 
 impl ExactHistory for RelaxedFftHistory {
     fn traction(&mut self, step: usize, traction: &mut [f64]) {
-        let worked_in = self.steps - usize::from(self.pending);
         if let Some(blocks) = &mut self.blocks {
-            self.input.clear();
-            blocks.input(step, worked_in, &mut self.input);
-            blocks.traction(&self.input, traction);
+            blocks.traction(step, traction);
         }
     }
+}
+
+/// The lattice of the elements, if blocks go over its wavenumbers: as told, or where it pays.
+fn lattice(kernel: &dyn LagKernel, along_surface: Option<bool>) -> Option<Lattice> {
+    let classes = kernel.classes();
+    let wanted = along_surface.unwrap_or(classes.elements().len() >= WAVES_FROM);
+    wanted.then(|| Lattice::of(classes)).flatten()
+}
+
+/// What blocks go over.
+fn space(
+    kernel: &dyn LagKernel,
+    leaf: usize,
+    along_surface: Option<bool>,
+    bounded: bool,
+) -> Result<Box<dyn Space>> {
+    Ok(match lattice(kernel, along_surface) {
+        Some(lattice) => Box::new(Waves::new(lattice, kernel, leaf)?),
+        None => Box::new(Pairs::new(kernel, leaf, bounded)?),
+    })
 }
 
 /// Empty blocks for any number of steps, of a kernel with no coefficient beyond lag `reach`, a leaf
 /// times a power of two.
-pub(super) fn bounded(kernel: &dyn LagKernel, reach: usize) -> Result<Box<dyn Blocks>> {
-    let classes = kernel.classes();
-    let lattice = Lattice::of(classes).filter(|_| classes.elements().len() >= WAVES_FROM);
-    let mut blocks: Box<dyn Blocks> = match lattice {
-        Some(lattice) => Box::new(Waves::new(lattice, kernel, LEAF)?),
-        None => Box::new(Pairs::bounded(kernel, LEAF)?),
-    };
-    blocks.bound(kernel, reach)?;
+pub(super) fn bounded(kernel: &dyn LagKernel, reach: usize) -> Result<Blocks> {
+    let mut blocks = Blocks::new(space(kernel, LEAF, None, true)?, LEAF, 2 * reach);
+    blocks.grow(kernel, 2 * reach)?;
     Ok(blocks)
-}
-
-/// Goes through all steps again, from nothing to where the last of `inputs` is still pending.
-fn march(blocks: &mut dyn Blocks, inputs: &[f64]) {
-    for (now, input) in inputs.chunks_exact(blocks.width()).enumerate() {
-        if now > 0 {
-            blocks.work_in(now);
-        }
-        blocks.write_input(now, input);
-    }
 }

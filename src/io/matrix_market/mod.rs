@@ -4,7 +4,6 @@
 //! integer, general or symmetric, as far as a structure's matrices need it.
 
 mod reader;
-mod writer;
 
 use std::fs::File;
 use std::io::{Read, Write};
@@ -71,7 +70,7 @@ impl Triplets {
         // Before the file is opened, which empties it.
         let matrix = self.checked()?;
         File::create(path)
-            .and_then(|file| writer::write(&matrix, &mut std::io::BufWriter::new(file)))
+            .and_then(|file| write(&matrix, &mut std::io::BufWriter::new(file)))
             .map_err(|error| unwritable(path.display().to_string(), &error))
     }
 
@@ -80,8 +79,7 @@ impl Triplets {
     /// # Errors
     /// As for [`Triplets::write_matrix_market`].
     pub fn to_matrix_market(&self, name: &str, mut sink: impl Write) -> Result<()> {
-        writer::write(&self.checked()?, &mut sink)
-            .map_err(|error| unwritable(name.to_owned(), &error))
+        write(&self.checked()?, &mut sink).map_err(|error| unwritable(name.to_owned(), &error))
     }
 
     fn checked(&self) -> Result<SparseMatrix> {
@@ -96,4 +94,20 @@ fn unwritable(file: String, error: &std::io::Error) -> Error {
 /// The error for a file as a whole.
 fn whole(file: String, reason: MatrixFileError) -> Error {
     Error::MatrixFile { file, line: 0, reason }
+}
+
+/// Coordinate format; `{:e}` prints the shortest digits that read back as the same number.
+fn write(matrix: &SparseMatrix, sink: &mut dyn Write) -> std::io::Result<()> {
+    let symmetric = matrix.asymmetry() == 0.0;
+    let wanted =
+        |&(row, column, value): &(usize, usize, f64)| value != 0.0 && (!symmetric || row >= column);
+    let order = matrix.order();
+    let count = matrix.entries().filter(wanted).count();
+    let symmetry = if symmetric { "symmetric" } else { "general" };
+    writeln!(sink, "%%MatrixMarket matrix coordinate real {symmetry}")?;
+    writeln!(sink, "{order} {order} {count}")?;
+    for (row, column, value) in matrix.entries().filter(wanted) {
+        writeln!(sink, "{} {} {value:e}", row + 1, column + 1)?;
+    }
+    sink.flush()
 }

@@ -1,17 +1,13 @@
 //! Springs with a memory: the trait, and laws for yielding storeys and base isolators.
 
-mod bilinear;
 mod bouc_wen;
-mod bouc_wen_curve;
-mod friction_pendulum;
 mod lead_rubber;
 mod slider;
 mod springs;
 
-pub use bilinear::Bilinear;
 pub use bouc_wen::BoucWen;
-pub use friction_pendulum::FrictionPendulum;
 pub use lead_rubber::LeadRubber;
+pub use slider::{Bilinear, FrictionPendulum};
 pub(super) use springs::Springs;
 pub use springs::WithSprings;
 

@@ -126,8 +126,8 @@ impl NonlinearForce for Springs {
 /// Each spring sees a deformation, a weighted sum of unknowns, and answers with the force of its
 /// [`Hysteresis`] law. It comes on top of what the structure has: a storey or a bearing that shall
 /// have the spring alone must have no stiffness of its own there. Damping is that of the structure by
-/// itself: what is proportional to its stiffness knows nothing of the springs. For shear buildings there
-/// is [`NonlinearShearBuilding`](crate::structure::NonlinearShearBuilding).
+/// itself: what is proportional to its stiffness knows nothing of the springs. For storeys of a shear
+/// building there is [`ShearBuilding::with_law`](crate::structure::ShearBuilding::with_law).
 ///
 /// Unknowns are absolute: a spring on one alone would hold the structure to a point in space, not
 /// to the ground that moves, and no simulation takes it. A deformation must be zero when all

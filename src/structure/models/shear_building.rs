@@ -2,7 +2,8 @@
 
 use super::section::SectionRows;
 use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive};
-use crate::structure::{ContactNode, Row, Structure, Triplets};
+use crate::structure::hysteresis::Springs;
+use crate::structure::{ContactNode, NonlinearForce, Row, Structure, Triplets};
 use std::f64::consts::{PI, TAU};
 
 /// Storey of a [`ShearBuilding`]: the columns and the floor they carry, per metre of thickness.
@@ -38,6 +39,10 @@ impl Storey {
 /// move up and turn with the base, and a storey's drift is what remains of the floors' relative
 /// displacement after the turn, `d_j = u_j − u_(j−1) + h_j θ`.
 ///
+/// Storeys may follow a [`Hysteresis`](crate::structure::Hysteresis) law
+/// ([`with_law`](ShearBuilding::with_law)), and the building may stand on isolators
+/// ([`isolated`](ShearBuilding::isolated)).
+///
 /// ```
 /// use basemat::structure::{ShearBuilding, Storey, Structure};
 ///
@@ -48,19 +53,24 @@ impl Storey {
 /// assert!((building.fixed_base_frequency() - 2.02589).abs() < 1e-5);
 /// # Ok::<(), basemat::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
 pub struct ShearBuilding {
     width: f64,
     base_mass: f64,
     base_inertia: f64,
-    storeys: Vec<Storey>,
-    /// Whether a storey's stiffness is left to a law of [`super::NonlinearShearBuilding`].
-    released: Vec<bool>,
+    pub(super) storeys: Vec<Storey>,
+    /// First tangent of the law that takes the place of a storey's stiffness.
+    pub(super) tangents: Vec<Option<f64>>,
+    /// The laws, on the drifts of their storeys.
+    pub(super) springs: Springs,
     /// Whether storey 0 is a level of isolators: see [`ShearBuilding::add_p_delta`].
-    isolated: bool,
+    pub(super) isolated: bool,
     center: f64,
     stiffness_damping: f64,
     gravity: f64,
+}
+
+short_debug! {
+    ShearBuilding; self; storeys: self.storeys, laws: self.springs.len()
 }
 
 impl ShearBuilding {
@@ -97,7 +107,8 @@ impl ShearBuilding {
             base_mass,
             base_inertia,
             storeys: storeys.to_vec(),
-            released: vec![false; storeys.len()],
+            tangents: vec![None; storeys.len()],
+            springs: Springs::default(),
             isolated: false,
             center: 0.0,
             stiffness_damping: 0.0,
@@ -145,12 +156,11 @@ impl ShearBuilding {
     ///
     /// # Errors
     /// [`Error::Input`] unless `gravity` (m/s²) is finite and not negative and every storey stands:
-    /// its columns' height is above W/k, at which they would buckle.
+    /// its columns' height is above W/k, at which they would buckle, with the first tangent k of the
+    /// law that it may follow.
     pub fn with_p_delta(self, gravity: f64) -> Result<Self> {
         let building = Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self };
-        for (index, storey) in building.storeys.iter().enumerate() {
-            building.carries_its_weight(index, storey.stiffness)?;
-        }
+        (0..building.storeys.len()).try_for_each(|storey| building.carries_its_weight(storey))?;
         Ok(building)
     }
 
@@ -202,20 +212,22 @@ impl ShearBuilding {
         Ok([(floor, 1.0), (Self::HORIZONTAL, -1.0), (Self::ROTATION, height)].into())
     }
 
-    /// Horizontal force that the floor on top of `storey` exerts through its columns on what is
-    /// below, N, positive to the right: the base shear for storey 0.
+    /// Horizontal force that the floor on top of `storey` exerts through its columns (or isolators) on
+    /// what is below, N, positive to the right: the base shear for storey 0.
     ///
-    /// With P–Δ it is the horizontal part of the columns' force, −P/h of the sway included.
+    /// With P–Δ it is the horizontal part of the columns' force, −P/h of the sway included. The force of
+    /// a law is no weighted sum of displacements: of a storey that follows one it is taken from the
+    /// inertia of the floors above, exact for whatever is in the storey; with the midpoint rule it is
+    /// then the mean over the step.
     ///
     /// # Errors
-    /// [`Error::Index`] when there is no such storey, [`Error::Scene`] when it follows a law, whose
-    /// force is no weighted sum of displacements: see
-    /// [`NonlinearShearBuilding::shear`](super::NonlinearShearBuilding::shear).
+    /// [`Error::Index`] when there is no such storey.
     pub fn shear(&self, storey: usize) -> Result<SectionRows> {
         self.floor(storey)?;
-        if self.released[storey] {
-            let needed = "follows a law: take `NonlinearShearBuilding::shear`";
-            return Err(Error::Scene { quantity: "shear of a storey", needed });
+        if self.tangents[storey].is_some() {
+            let floors = self.storeys.iter().enumerate().skip(storey);
+            let acceleration = floors.map(|(index, floor)| (index + 3, -floor.mass)).collect();
+            return Ok(SectionRows { acceleration, ..SectionRows::default() });
         }
         let Storey { height, stiffness, .. } = self.storeys[storey];
         let scaled = |factor: f64| self.drift_terms(storey).map(|(index, w)| (index, factor * w));
@@ -259,26 +271,6 @@ impl ShearBuilding {
         square.sqrt() / TAU
     }
 
-    /// The same building with a level of isolators below its lowest storey.
-    pub(super) fn on_isolators(mut self, storey: Storey) -> Result<Self> {
-        self.storeys.insert(0, storey);
-        self.released.insert(0, false);
-        self.isolated = true;
-        finite("mass of the building", self.total_mass())?;
-        Ok(self)
-    }
-
-    /// Leaves the stiffness of `storey` to somebody else, who begins with `tangent`.
-    pub(super) fn release(&mut self, storey: usize, tangent: f64) -> Result<()> {
-        self.floor(storey)?;
-        self.carries_its_weight(storey, tangent)?;
-        if std::mem::replace(&mut self.released[storey], true) {
-            let needed = "one law at most";
-            return Err(Error::Scene { quantity: "law of a storey", needed });
-        }
-        Ok(())
-    }
-
     fn inertia_forces<'a>(&'a self, shape: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         self.storeys.iter().zip(shape).map(|(storey, u)| storey.mass * u)
     }
@@ -302,8 +294,9 @@ impl ShearBuilding {
 
     /// On a held base K is a chain of storeys, positive definite if every link of it, k − W/h, is
     /// positive.
-    fn carries_its_weight(&self, storey: usize, stiffness: f64) -> Result<()> {
-        let height = self.storeys[storey].height;
+    pub(super) fn carries_its_weight(&self, storey: usize) -> Result<()> {
+        let Storey { height, stiffness, .. } = self.storeys[storey];
+        let stiffness = self.tangents[storey].unwrap_or(stiffness);
         if self.gravity == 0.0
             || self.isolated && storey == 0
             || stiffness * height > self.weight_on(storey)
@@ -384,7 +377,7 @@ impl Structure for ShearBuilding {
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         self.add_drifts(matrix, |storey| {
-            if self.released[storey] { 0.0 } else { self.storeys[storey].stiffness }
+            if self.tangents[storey].is_some() { 0.0 } else { self.storeys[storey].stiffness }
         });
         if self.gravity > 0.0 {
             self.add_p_delta(matrix);
@@ -395,5 +388,13 @@ impl Structure for ShearBuilding {
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
         self.add_drifts(matrix, |storey| self.dashpot(storey));
         Ok(())
+    }
+
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        self.springs.nonlinear()
+    }
+
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        self.springs.nonlinear_mut()
     }
 }

@@ -219,10 +219,10 @@ fn structures_refuse_bad_numbers() {
     refused(&BAD_OR_ZERO_ALLOWED, |x| ShearBuilding::new(1.0, 1.0, x, &[good]));
     assert!(matches!(ShearBuilding::new(1.0, 1.0, 1.0, &[]), Err(Error::Size { .. })));
     assert!(ShearBuilding::new(1.0, 1.0, 0.0, &[Storey::new(1.0, 1.0, 1.0)]).is_err());
+    refused(&NOT_FINITE, |x| of(good)?.centered_at(x));
+    refused(&BAD_OR_ZERO_ALLOWED, |x| of(good)?.with_p_delta(x));
+    refused(&BAD_OR_ZERO_ALLOWED, |x| of(good)?.with_stiffness_damping(x));
     let building = of(good).unwrap();
-    refused(&NOT_FINITE, |x| building.clone().centered_at(x));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| building.clone().with_p_delta(x));
-    refused(&BAD_OR_ZERO_ALLOWED, |x| building.clone().with_stiffness_damping(x));
     for found in [building.floor(2).map(drop), building.drift(2).map(drop)] {
         assert!(matches!(found, Err(Error::Index { index: 2, bound: 2, .. })));
     }

@@ -78,8 +78,8 @@ fn rigid_motions_meet_no_force_and_all_the_mass() {
 /// Force on the floors from `storey` upwards = shear that they pass on to what is below.
 #[test]
 fn storey_shear_is_the_sum_of_the_forces_above() {
-    let bare = uneven().with_stiffness_damping(0.03).unwrap();
-    for building in [bare.clone(), bare.with_p_delta(9.81).unwrap()] {
+    let bare = || uneven().with_stiffness_damping(0.03).unwrap();
+    for building in [bare(), bare().with_p_delta(9.81).unwrap()] {
         let (u, v) = (noise(6, 1), noise(6, 2));
         let (k, c) = (stiffness(&building), damping(&building));
         let force: Vec<f64> =
@@ -100,11 +100,10 @@ fn storey_shear_is_the_sum_of_the_forces_above() {
 
 #[test]
 fn damping_ratio_is_that_of_the_first_mode() {
-    let building = uneven();
-    let damped = building.clone().with_stiffness_damping(0.04).unwrap();
+    let damped = uneven().with_stiffness_damping(0.04).unwrap();
     let floors = [3, 4, 5];
     let (k, c) = (stiffness(&damped), damping(&damped));
-    let extra = c[5][5] - damping(&building)[5][5];
+    let extra = c[5][5] - damping(&uneven())[5][5];
     let omega = eigenvalues(&part(&k, &floors), &part(&mass(&damped), &floors))[0].sqrt();
     assert!((extra / k[5][5] * omega / 2.0 - 0.04).abs() < 1e-10);
 }
@@ -112,9 +111,8 @@ fn damping_ratio_is_that_of_the_first_mode() {
 /// Weight times the height of floors on inextensible columns, differentiated twice by steps.
 #[test]
 fn p_delta_is_the_curvature_of_the_potential_energy() {
-    let bare = uneven();
-    let building = bare.clone().with_p_delta(9.81).unwrap();
-    let (with, without) = (stiffness(&building), stiffness(&bare));
+    let building = uneven().with_p_delta(9.81).unwrap();
+    let (with, without) = (stiffness(&building), stiffness(&uneven()));
     let energy = |u: &[f64; 6]| {
         let mut height = 0.0;
         let mut below = u[0];

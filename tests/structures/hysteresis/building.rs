@@ -7,8 +7,8 @@ use basemat::coupled::{Newmark, Probe, Run, SimulationBuilder, Theta};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{FreeFieldFn, STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
-    Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber,
-    NonlinearShearBuilding, ShearBuilding, Storey, Structure, Triplets,
+    Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber, ShearBuilding,
+    Storey, Structure, Triplets,
 };
 use basemat::{Simulation, Soil};
 
@@ -21,13 +21,13 @@ fn five_storeys() -> ShearBuilding {
 const LEVEL: IsolationLevel =
     IsolationLevel { height: 0.3, slab_mass: 30.0e3, slab_inertia: 2.5e5, damping: 0.0 };
 
-fn isolated(law: impl Hysteresis + 'static) -> NonlinearShearBuilding {
-    NonlinearShearBuilding::isolated(five_storeys(), LEVEL, law).unwrap()
+fn isolated(law: impl Hysteresis + 'static) -> ShearBuilding {
+    five_storeys().isolated(LEVEL, law).unwrap()
 }
 
 /// All storeys yield at 0.15 of the weight above.
-fn yielding(law: impl Fn(f64) -> Box<dyn Hysteresis>) -> NonlinearShearBuilding {
-    let mut building = NonlinearShearBuilding::new(five_storeys());
+fn yielding(law: impl Fn(f64) -> Box<dyn Hysteresis>) -> ShearBuilding {
+    let mut building = five_storeys();
     for storey in 0..5 {
         let weight = STANDARD_GRAVITY * 20.0e3 * (5 - storey) as f64;
         building = building.with_law(storey, law(0.15 * weight)).unwrap();
@@ -36,7 +36,7 @@ fn yielding(law: impl Fn(f64) -> Box<dyn Hysteresis>) -> NonlinearShearBuilding 
 }
 
 /// Builds a structure anew.
-type Make = Box<dyn Fn() -> NonlinearShearBuilding>;
+type Make = Box<dyn Fn() -> ShearBuilding>;
 
 fn on_soil(structure: impl Structure + 'static, time_step: f64) -> SimulationBuilder {
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
@@ -185,7 +185,7 @@ fn yielding_storey_converges_to_its_differential_equation() {
         let rock = SpringGround::new(-2.0..2.0, 2, 1e13, 1e13).unwrap();
         let motion = FreeFieldFn::new(|_, t| [ground(t)[0], 0.0]);
         let mut simulation = Simulation::builder(end / f64::from(steps))
-            .structure(NonlinearShearBuilding::new(building).with_law(0, law).unwrap())
+            .structure(building.with_law(0, law).unwrap())
             .ground(rock)
             .interface(Bonded)
             .motion(motion)
@@ -208,7 +208,7 @@ fn bearings_pass_no_more_than_their_law() {
     let weight = STANDARD_GRAVITY * 130.0e3;
     let (radius, friction) = (2.0, 0.06);
     let structure = isolated(FrictionPendulum::new(weight, radius, friction).unwrap());
-    let drift = structure.building().drift(0).unwrap();
+    let drift = structure.drift(0).unwrap();
     let shear = structure.shear(0).unwrap();
     let mut simulation = on_soil(structure, 0.0025)
         .probe(Probe::displacement("bearing", drift))

@@ -9,8 +9,8 @@ use basemat::coupled::Probe;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
-    Bilinear, IsolationLevel, ModalDamping, NonlinearShearBuilding, ShearBuilding, Storey,
-    Structure, StructureGroup, Triplets, WithSprings,
+    Bilinear, IsolationLevel, ModalDamping, ShearBuilding, Storey, Structure, StructureGroup,
+    Triplets, WithSprings,
 };
 use std::f64::consts::PI;
 
@@ -24,7 +24,7 @@ fn linear(ratio: f64) -> ShearBuilding {
 }
 
 /// Columns of the same stiffness that never yield, in all storeys.
-fn strong(building: NonlinearShearBuilding, below: usize) -> NonlinearShearBuilding {
+fn strong(building: ShearBuilding, below: usize) -> ShearBuilding {
     (below..below + STOREYS).fold(building, |building, storey| {
         building.with_law(storey, Bilinear::new(STIFFNESS, 1e12, 0.1).unwrap()).unwrap()
     })
@@ -59,7 +59,7 @@ fn columns_that_never_yield_are_linear() {
         drifts
     };
     let expected = drifts(Box::new(linear(0.05)));
-    let found = drifts(Box::new(strong(NonlinearShearBuilding::new(linear(0.05)), 0)));
+    let found = drifts(Box::new(strong(linear(0.05), 0)));
     let peak = expected.iter().fold(0.0, |most: f64, drift| most.max(drift.abs()));
     let error = expected.iter().zip(&found).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
     println!("peak drift {:.3} mm, laws that never yield off by {:.1e}", 1e3 * peak, error / peak);
@@ -70,7 +70,7 @@ fn columns_that_never_yield_are_linear() {
 /// the damping of the building on them.
 #[test]
 fn laws_leave_the_damping_matrix_alone() {
-    let yielding = || strong(NonlinearShearBuilding::new(linear(0.05)), 0);
+    let yielding = || strong(linear(0.05), 0);
     let expected = damping(&linear(0.05));
     assert_eq!(damping(&yielding()), expected);
     let drift = linear(0.05).drift(0).unwrap();
@@ -90,7 +90,7 @@ fn laws_leave_the_damping_matrix_alone() {
 
     let level = IsolationLevel { height: 0.3, slab_mass: 3e4, slab_inertia: 2e5, damping: 7.0e3 };
     let stiff = || Bilinear::new(1.0e9, 2.0e4, 0.0).unwrap();
-    let isolated = NonlinearShearBuilding::isolated(linear(0.05), level, stiff()).unwrap();
+    let isolated = linear(0.05).isolated(level, stiff()).unwrap();
     let matrix = damping(&strong(isolated, 1));
     let n = STOREYS + 4;
     // The slab is unknown 3: the bearings' dampers and the columns above meet in it.
@@ -145,7 +145,7 @@ fn a_storey_that_yields_slides_as_far_as_its_damping_lets_it() {
     let building = building.with_stiffness_damping(ratio).unwrap();
     let law = Bilinear::new(stiffness, force, 0.0).unwrap();
     let drift = building.drift(0).unwrap();
-    let structure = NonlinearShearBuilding::new(building).with_law(0, law).unwrap();
+    let structure = building.with_law(0, law).unwrap();
     let mut simulation = Simulation::builder(2.0e-4)
         .structure(structure)
         // Rock: so stiff that the base stays where it is.

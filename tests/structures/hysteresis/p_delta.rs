@@ -8,8 +8,8 @@ use basemat::coupled::{Probe, Run};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
-    Bilinear, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber, NonlinearShearBuilding,
-    ShearBuilding, Storey, Structure, Triplets,
+    Bilinear, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber, ShearBuilding, Storey,
+    Structure, Triplets,
 };
 use basemat::{Error, Simulation, Soil, StepError};
 
@@ -25,8 +25,8 @@ fn building(gravity: f64) -> ShearBuilding {
 
 /// El Centro on soil, the base free to uplift and slide; the probe is the drift of the isolators.
 fn shaken(gravity: f64, law: impl Hysteresis + 'static) -> Run {
-    let structure = NonlinearShearBuilding::isolated(building(gravity), LEVEL, law).unwrap();
-    let drift = structure.building().drift(0).unwrap();
+    let structure = building(gravity).isolated(LEVEL, law).unwrap();
+    let drift = structure.drift(0).unwrap();
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     Simulation::builder(5e-3)
         .structure(structure)
@@ -67,7 +67,7 @@ fn isolators_drift_as_they_do_without_p_delta() {
 fn the_weight_on_isolators_has_the_curvature_of_its_potential() {
     let stiffness = |gravity| {
         let law = Bilinear::new(1.0e6, 1.0e4, 0.1).unwrap();
-        let isolated = NonlinearShearBuilding::isolated(building(gravity), LEVEL, law).unwrap();
+        let isolated = building(gravity).isolated(LEVEL, law).unwrap();
         let mut triplets = Triplets::new(9);
         isolated.stiffness(&mut triplets).unwrap();
         let mut full = [[0.0; 9]; 9];
@@ -110,7 +110,7 @@ fn columns_that_would_buckle_are_refused() {
         assert!(matches!(refused, Err(Error::Input { value: 3.0, .. })), "{refused:?}");
     }
     let under = |stiffness| {
-        let building = NonlinearShearBuilding::new(building().with_p_delta(10.0).unwrap());
+        let building = building().with_p_delta(10.0).unwrap();
         building.with_law(0, Bilinear::new(stiffness, 10.0, 0.5).unwrap())
     };
     assert!(under(6667.0).is_ok());
@@ -123,7 +123,7 @@ fn columns_that_would_buckle_are_refused() {
 fn a_collapse_ends_the_run() {
     let storeys = [Storey::new(3.0, 20.0e3, 4.0e6)];
     let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys).unwrap();
-    let building = NonlinearShearBuilding::new(building.with_p_delta(10.0).unwrap());
+    let building = building.with_p_delta(10.0).unwrap();
     let building = building.with_law(0, Bilinear::new(4.0e6, 2.0e4, 1e-3).unwrap()).unwrap();
     let mut simulation = Simulation::builder(0.05)
         .structure(building)

@@ -4,7 +4,7 @@
 
 use basemat::structure::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber, NonlinearForce,
-    NonlinearShearBuilding, RigidBlock, ShearBuilding, Storey, Structure, WithSprings,
+    RigidBlock, ShearBuilding, Storey, Structure, WithSprings,
 };
 use basemat::{CheckpointError, Error, Result};
 
@@ -61,12 +61,14 @@ fn law() -> Bilinear {
 
 #[test]
 fn laws_have_one_storey_each() {
-    let one = NonlinearShearBuilding::new(building()).with_law(1, law()).unwrap();
+    let one = building().with_law(1, law()).unwrap();
     assert!(matches!(one.with_law(1, law()), Err(Error::Scene { .. })));
-    let one = NonlinearShearBuilding::new(building()).with_law(1, law()).unwrap();
-    assert!(matches!(one.building().shear(1), Err(Error::Scene { .. })));
-    assert!(one.building().shear(0).is_ok() && one.shear(1).is_ok());
-    let none = NonlinearShearBuilding::new(building());
+    let one = building().with_law(1, law()).unwrap();
+    // A law's force is no weighted sum of displacements: the inertia above stands for it.
+    let [linear, own] = [0, 1].map(|storey| one.shear(storey).unwrap());
+    assert!(linear.acceleration.terms().is_empty() && own.displacement.terms().is_empty());
+    assert_eq!(own.acceleration.terms(), [(4, -2e4)]);
+    let none = building();
     assert!(none.nonlinear().is_none());
     assert!(matches!(none.shear(2), Err(Error::Index { .. })));
     assert!(matches!(none.with_law(2, law()), Err(Error::Index { index: 2, bound: 2, .. })));
@@ -78,12 +80,14 @@ fn laws_have_one_storey_each() {
             IsolationLevel { slab_inertia: bad.min(-1.0), ..level },
             IsolationLevel { damping: if bad == 0.0 { -1.0 } else { bad }, ..level },
         ] {
-            assert!(is_input(NonlinearShearBuilding::isolated(building(), level, law())));
+            assert!(is_input(building().isolated(level, law())));
         }
     }
-    let isolated = NonlinearShearBuilding::isolated(building(), level, law()).unwrap();
+    let level_too_late = building().with_law(0, law()).unwrap().isolated(level, law());
+    assert!(matches!(level_too_late, Err(Error::Scene { .. })));
+    let isolated = building().isolated(level, law()).unwrap();
     assert_eq!(isolated.unknowns(), 6);
-    assert_eq!(isolated.building().storeys().len(), 3);
+    assert_eq!(isolated.storeys().len(), 3);
 }
 
 #[test]
@@ -122,10 +126,9 @@ fn saved_states_that_are_not_finite_are_refused() {
 #[test]
 fn saved_states_come_back_or_change_nothing() {
     let bouc_wen = BoucWen::new(1e7, 1e5, 0.1).unwrap();
-    let mut held =
-        WithSprings::new(NonlinearShearBuilding::new(building()).with_law(0, law()).unwrap())
-            .spring(vec![(3, 1.0), (0, -1.0)], bouc_wen.clone())
-            .unwrap();
+    let mut held = WithSprings::new(building().with_law(0, law()).unwrap())
+        .spring(vec![(3, 1.0), (0, -1.0)], bouc_wen.clone())
+        .unwrap();
     let u = [0.0, 0.0, 0.0, 0.02, 0.03];
     held.commit(&u);
     let force = |held: &WithSprings| {

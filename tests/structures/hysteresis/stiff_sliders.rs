@@ -10,8 +10,8 @@ use basemat::bem::{ElasticGround, Strip};
 use basemat::interface::Coulomb;
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
-    Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber,
-    NonlinearShearBuilding, ShearBuilding, Storey,
+    Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber, ShearBuilding,
+    Storey,
 };
 
 use crate::support::random::Random;
@@ -36,7 +36,7 @@ struct Below {
 
 /// El Centro for `duration`, s.
 fn shake(
-    structure: NonlinearShearBuilding,
+    structure: ShearBuilding,
     below: Below,
     strength: f64,
     time_step: f64,
@@ -93,9 +93,9 @@ fn random_buildings_are_solved() {
         let mut structure = if isolated {
             let weight = above(0) + STANDARD_GRAVITY * LEVEL.slab_mass;
             let law = random_law(weight, &mut random);
-            NonlinearShearBuilding::isolated(own, LEVEL, law).unwrap()
+            own.isolated(LEVEL, law).unwrap()
         } else {
-            NonlinearShearBuilding::new(own)
+            own
         };
         for storey in 0..storeys {
             if !isolated || random.chance(0.3) {
@@ -138,7 +138,7 @@ fn pendulums_that_slide_after_a_tenth_of_a_millimetre_are_solved() {
                     let law = FrictionPendulum::new(weight, radius, friction).unwrap();
                     let law = law.with_yield_displacement(1e-4).unwrap();
                     let own = building(storeys, 7.0e6 * storeys as f64, 0.02);
-                    let structure = NonlinearShearBuilding::isolated(own, LEVEL, law).unwrap();
+                    let structure = own.isolated(LEVEL, law).unwrap();
                     let below = Below { modulus, friction: 0.4, elements: 8 };
                     scenes += 1;
                     match shake(structure, below, 1.0, 0.02, 15.0) {

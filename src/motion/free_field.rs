@@ -1,0 +1,319 @@
+//! Free fields: the motion of the surface without the structure, and simple kinds of it.
+
+use super::Record;
+use crate::error::{Error, Result, finite, positive};
+
+/// Motion of the ground surface without the structure.
+#[auto_impl::auto_impl(Box)]
+pub trait FreeField: Send {
+    /// Displacement `[horizontal, vertical up]` (m) at surface point `x` (m) and `time` (s).
+    ///
+    /// A run starts at rest at t = 0 and measures every element's motion from what it is then, so a
+    /// field should be at rest up to t = 0; what moves already starts with a jolt.
+    fn displacement(&self, x: f64, time: f64) -> [f64; 2];
+
+    /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`. Simulations ask for displacements only;
+    /// `bem::full_plane::VerticalWaves` make stresses of velocities, and a ground of your own may need
+    /// them.
+    ///
+    /// Default: the central difference of displacements 10 µs before and after. What moves with f
+    /// Hz loses (2πf · 10 µs)²/6 of its velocity (7e-8 at 10 Hz, 7e-6 at 100 Hz), and rounding
+    /// adds about 2e-11 of the displacement per second. A jump or a kink is spread over 20 µs.
+    /// Fields that know their velocity should say it.
+    fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
+        differenced(self, x, time)
+    }
+}
+
+/// Half the interval of the difference, s.
+const DIFFERENCE: f64 = 1e-5;
+/// Smallest that it may be relative to the time, for the time's own rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// Velocity of `field` from its displacements.
+fn differenced(field: &(impl FreeField + ?Sized), x: f64, time: f64) -> [f64; 2] {
+    if time.is_nan() || time <= 0.0 {
+        return [0.0; 2];
+    }
+    let half = DIFFERENCE.max(ROUNDING * time);
+    let (before, after) = (time - half, time + half);
+    let (from, to) = (field.displacement(x, before), field.displacement(x, after));
+    // Not 2 · half: the two times are rounded.
+    [0, 1].map(|k| (to[k] - from[k]) / (after - before))
+}
+
+/// Ground that stays at rest, for structures driven by forces only.
+///
+/// ```
+/// use basemat::motion::{AtRest, FreeField};
+/// assert_eq!(AtRest.displacement(3.0, 1.0), [0.0, 0.0]);
+/// assert_eq!(AtRest.velocity(3.0, 1.0), [0.0, 0.0]);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct AtRest;
+
+impl FreeField for AtRest {
+    fn displacement(&self, _x: f64, _time: f64) -> [f64; 2] {
+        [0.0; 2]
+    }
+
+    fn velocity(&self, _x: f64, _time: f64) -> [f64; 2] {
+        [0.0; 2]
+    }
+}
+
+type Field = Box<dyn Fn(f64, f64) -> [f64; 2] + Send>;
+
+/// Free field from a closure for the displacement, and one for the velocity if it is known.
+///
+/// Both take `(x, time)` (m, s) and return `[horizontal, vertical up]` (m, m/s). They are asked
+/// only for time > 0; at and before t = 0 the field is zero. The displacement should start from
+/// zero: what it is just after t = 0 comes as a jump.
+///
+/// A wave that runs to the right at 1000 m/s:
+/// ```
+/// use basemat::motion::{FreeField, FreeFieldFn};
+/// let phase = |x: f64, t: f64| (t - x / 1000.0).max(0.0);
+/// let wave = FreeFieldFn::new(move |x, t| [phase(x, t).powi(2), 0.0]);
+/// assert_eq!(wave.displacement(500.0, 2.5), [4.0, 0.0]);
+/// assert_eq!(wave.displacement(-500.0, 0.0), [0.0, 0.0]);
+/// assert!((wave.velocity(500.0, 2.5)[0] - 4.0).abs() < 1e-9);
+/// let exact = wave.with_velocity(move |x, t| [2.0 * phase(x, t), 0.0]);
+/// assert_eq!(exact.velocity(500.0, 2.5), [4.0, 0.0]);
+/// ```
+pub struct FreeFieldFn {
+    displacement: Field,
+    velocity: Option<Field>,
+}
+
+impl FreeFieldFn {
+    /// Free field from its `displacement(x, time)`; its velocity is that of
+    /// [`FreeField::velocity`] by default, a difference.
+    pub fn new(displacement: impl Fn(f64, f64) -> [f64; 2] + Send + 'static) -> Self {
+        Self { displacement: Box::new(displacement), velocity: None }
+    }
+
+    /// With its `velocity(x, time)`, the time derivative of the displacement.
+    #[must_use]
+    pub fn with_velocity(self, velocity: impl Fn(f64, f64) -> [f64; 2] + Send + 'static) -> Self {
+        Self { velocity: Some(Box::new(velocity)), ..self }
+    }
+}
+
+short_debug! { FreeFieldFn; self; exact_velocity: self.velocity.is_some() }
+
+impl FreeField for FreeFieldFn {
+    fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
+        if time > 0.0 { (self.displacement)(x, time) } else { [0.0; 2] }
+    }
+
+    fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
+        match &self.velocity {
+            None => differenced(self, x, time),
+            Some(velocity) if time > 0.0 => velocity(x, time),
+            Some(_) => [0.0; 2],
+        }
+    }
+}
+
+/// Vertically incident S and P waves: the surface moves by the records, the same at all points.
+///
+/// The records are the motion of the free *surface* (twice the incident wave), S giving the
+/// horizontal and P the vertical component. A plain [`Record`] is a horizontal free field too.
+///
+/// ```
+/// use basemat::motion::{FreeField, Record, VerticalIncidence};
+/// let shake = Record::new(0.5, vec![1.0, 1.0, 1.0])?;
+/// let field = VerticalIncidence::new(shake.clone()).with_vertical(shake.scaled(0.5)?);
+/// assert_eq!(field.displacement(7.0, 1.0), [0.5, 0.25]);
+/// assert_eq!(field.velocity(-7.0, 1.0), [1.0, 0.5]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct VerticalIncidence {
+    horizontal: Option<Record>,
+    vertical: Option<Record>,
+}
+
+impl VerticalIncidence {
+    /// S wave: the surface moves horizontally by `record`, positive to the right.
+    pub fn new(record: Record) -> Self {
+        Self { horizontal: Some(record), vertical: None }
+    }
+
+    /// P wave: the surface moves vertically by `record`, positive up.
+    pub fn vertical(record: Record) -> Self {
+        Self { horizontal: None, vertical: Some(record) }
+    }
+
+    /// Adds (or replaces) the vertical component, positive up; its time step may differ.
+    #[must_use]
+    pub fn with_vertical(self, record: Record) -> Self {
+        Self { vertical: Some(record), ..self }
+    }
+}
+
+impl From<Record> for VerticalIncidence {
+    fn from(record: Record) -> Self {
+        Self::new(record)
+    }
+}
+
+impl FreeField for VerticalIncidence {
+    fn displacement(&self, _x: f64, time: f64) -> [f64; 2] {
+        let at = |record: &Option<Record>| record.as_ref().map_or(0.0, |r| r.displacement_at(time));
+        [at(&self.horizontal), at(&self.vertical)]
+    }
+
+    fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
+        let at = |record: &Option<Record>| record.as_ref().map_or(0.0, |r| r.velocity_at(time));
+        [at(&self.horizontal), at(&self.vertical)]
+    }
+}
+
+impl FreeField for Record {
+    fn displacement(&self, _x: f64, time: f64) -> [f64; 2] {
+        [self.displacement_at(time), 0.0]
+    }
+
+    fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
+        [self.velocity_at(time), 0.0]
+    }
+}
+
+/// A free field that arrives later the farther along: u(x, t) = u₀(t − (x − x₀)/c).
+///
+/// ```
+/// use basemat::motion::{FreeField, TravellingWave, el_centro_1940};
+/// // 800 m/s along x, first at x = −5 m.
+/// let wave = TravellingWave::new(el_centro_1940(), 800.0, -5.0)?;
+/// let first = wave.displacement(-5.0, 2.0);
+/// let later = wave.displacement(3.0, 2.01);
+/// assert!((first[0] - later[0]).abs() < 1e-15 && first[0] != 0.0);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub struct TravellingWave {
+    field: Box<dyn FreeField>,
+    slowness: f64,
+    origin: f64,
+}
+
+short_debug! {
+    TravellingWave; self; apparent_velocity: 1.0 / self.slowness, origin: self.origin
+}
+
+impl TravellingWave {
+    /// `field` as it is at `origin` (m), running along x with the apparent velocity c
+    /// (`apparent_velocity`, m/s): to the right if positive, everywhere at once if infinite.
+    ///
+    /// Points that the wave reaches before `origin` would have moved before t = 0, and start with
+    /// a jump: let `origin` be the edge of the base that is reached first.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a velocity of zero or NaN, or an origin that is not finite.
+    pub fn new(
+        field: impl FreeField + 'static,
+        apparent_velocity: f64,
+        origin: f64,
+    ) -> Result<Self> {
+        let slowness = 1.0 / apparent_velocity;
+        if !slowness.is_finite() {
+            return Err(Error::Input {
+                quantity: "apparent velocity",
+                value: apparent_velocity,
+                needed: "not zero (infinite: everywhere at once)",
+            });
+        }
+        Ok(Self { field: Box::new(field), slowness, origin: finite("origin of a wave", origin)? })
+    }
+
+    /// Time (s) at which the motion of `origin` reaches `x`.
+    pub fn delay(&self, x: f64) -> f64 {
+        self.slowness * (x - self.origin)
+    }
+}
+
+impl FreeField for TravellingWave {
+    fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
+        self.field.displacement(self.origin, time - self.delay(x))
+    }
+
+    fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
+        self.field.velocity(self.origin, time - self.delay(x))
+    }
+}
+
+/// Ricker pulse u(t) = A (1 − 2a²) e^(−a²), a = (t − center)/sigma, the same at all points.
+///
+/// Displacement and velocity are exact. The peak A is at t = `center`; the spectrum peaks at the
+/// frequency 1/(π sigma) Hz, as in Ricker, "The form and laws of propagation of seismic
+/// wavelets", Geophysics 18 (1953), 10–40. At and before t = 0 the field is zero, so the pulse
+/// starts with a jump of A (1 − 2a₀²) e^(−a₀²), a₀ = center/sigma: 7e-10 A for a₀ = 5.
+///
+/// ```
+/// use basemat::motion::{FreeField, RickerDisplacement};
+/// let pulse = RickerDisplacement::new(0.1, 0.5, 3.0)?;
+/// assert_eq!(pulse.displacement(0.0, 3.0), [0.1, 0.0]);
+/// assert_eq!(pulse.velocity(0.0, 3.0), [0.0, 0.0]);
+/// // a = 1: u = −A/e, v = −2 A/(e sigma)
+/// assert!((pulse.displacement(0.0, 3.5)[0] + 0.1 * (-1.0_f64).exp()).abs() < 1e-16);
+/// assert!((pulse.velocity(0.0, 3.5)[0] + 0.4 * (-1.0_f64).exp()).abs() < 1e-15);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RickerDisplacement {
+    amplitude: [f64; 2],
+    sigma: f64,
+    center: f64,
+}
+
+/// Smallest center/sigma: the jump at t = 0 is 3.5e-6 of the peak there.
+const LEAST_DELAY: f64 = 4.0;
+
+impl RickerDisplacement {
+    /// Horizontal pulse of peak `amplitude` (m, any sign), width `sigma` (s), peaking at `center`
+    /// (s).
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless `amplitude` is finite, `sigma` positive and
+    /// `center` at least 4 `sigma`, so that the pulse grows from rest.
+    pub fn new(amplitude: f64, sigma: f64, center: f64) -> Result<Self> {
+        finite("amplitude of the Ricker pulse", amplitude)?;
+        positive("width of the Ricker pulse", sigma)?;
+        if !(center.is_finite() && center >= LEAST_DELAY * sigma) {
+            return Err(Error::Input {
+                quantity: "center of the Ricker pulse",
+                value: center,
+                needed: "finite and at least four times its width",
+            });
+        }
+        Ok(Self { amplitude: [amplitude, 0.0], sigma, center })
+    }
+
+    /// The same pulse, turned into the vertical (positive up).
+    #[must_use]
+    pub fn vertical(self) -> Self {
+        let [horizontal, vertical] = self.amplitude;
+        Self { amplitude: [vertical, horizontal], ..self }
+    }
+}
+
+impl FreeField for RickerDisplacement {
+    fn displacement(&self, _x: f64, time: f64) -> [f64; 2] {
+        if time <= 0.0 {
+            return [0.0; 2];
+        }
+        let square = ((time - self.center) / self.sigma).powi(2);
+        self.amplitude.map(|amplitude| amplitude * (1.0 - 2.0 * square) * (-square).exp())
+    }
+
+    fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
+        if time <= 0.0 {
+            return [0.0; 2];
+        }
+        let phase = (time - self.center) / self.sigma;
+        let square = phase * phase;
+        let rate = phase * (4.0 * square - 6.0) * (-square).exp() / self.sigma;
+        self.amplitude.map(|amplitude| amplitude * rate)
+    }
+}

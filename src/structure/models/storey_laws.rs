@@ -1,0 +1,98 @@
+//! Shear buildings whose storeys yield, or that stand on isolators.
+
+use super::shear_building::{ShearBuilding, Storey};
+use crate::error::{Error, Result, finite, not_negative, positive};
+use crate::structure::Structure;
+use crate::structure::hysteresis::Hysteresis;
+
+/// The level of isolators between the basemat and the slab on which a building stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct IsolationLevel {
+    /// Height of the bearings, from the basemat to the slab, m.
+    pub height: f64,
+    /// Mass of the slab above the bearings, kg per metre of thickness.
+    pub slab_mass: f64,
+    /// Rotary inertia of that slab about its centre, kg m² per metre of thickness.
+    pub slab_inertia: f64,
+    /// Viscous dampers beside the bearings, N s/m per metre of thickness.
+    pub damping: f64,
+}
+
+impl ShearBuilding {
+    /// The same building with `storey` (0: the lowest) following `law`, which sees the storey's drift
+    /// and takes the place of its columns' stiffness.
+    ///
+    /// Stiffness-proportional damping stays that of the stiffness in [`Storey`], however far the columns
+    /// yield. Where it shall not act in a yielding storey, leave
+    /// [`with_stiffness_damping`](ShearBuilding::with_stiffness_damping) out and give the others
+    /// dashpots ([`Storey::damping`]) of ζ k/(π f₁).
+    ///
+    /// ```
+    /// use basemat::structure::{Bilinear, ShearBuilding, Storey, Structure};
+    ///
+    /// let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 3];
+    /// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?
+    ///     .with_law(0, Bilinear::new(40.0e6, 150.0e3, 0.05)?)?;
+    /// let nonlinear = building.nonlinear().expect("a storey yields");
+    /// // 10 mm of drift in the lowest storey, far beyond its 3.75 mm at yield
+    /// let mut force = [0.0; 6];
+    /// nonlinear.force(&[0.0, 0.0, 0.0, 0.01, 0.01, 0.01], &mut force)?;
+    /// assert!((force[3] - (150.0e3 + 2.0e6 * 6.25e-3)).abs() < 1e-6);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Index`] when there is no such storey, [`Error::Scene`] when it has a law already,
+    /// [`Error::Input`] when the law's first stiffness does not hold the storey up against its P–Δ.
+    pub fn with_law(mut self, storey: usize, law: impl Hysteresis + 'static) -> Result<Self> {
+        let drift = self.drift(storey)?;
+        if self.tangents[storey].replace(law.response(0.0).tangent).is_some() {
+            return Err(Error::Scene { quantity: "law of a storey", needed: "one law at most" });
+        }
+        self.carries_its_weight(storey)?;
+        let unknowns = self.unknowns();
+        self.springs.add(drift, Box::new(law), unknowns)?;
+        Ok(self)
+    }
+
+    /// The same building with its lowest columns on a slab that rests on isolators of this `law`; the
+    /// isolators become storey 0, and the building's storeys count from 1. To be called before
+    /// [`with_law`](ShearBuilding::with_law).
+    ///
+    /// The building's damping ratio, set before, stays that of its storeys; the isolators have the damping
+    /// of their law and of [`IsolationLevel::damping`], and none in proportion to their stiffness.
+    ///
+    /// With [`with_p_delta`](ShearBuilding::with_p_delta) the weight W on the isolators pushes them down
+    /// the slope of a base that turns, with W θ, and turns it with W d by its drift d. The softening
+    /// −W/h of columns is not theirs: a slider's weight is in its law already (W/R of a
+    /// [`FrictionPendulum`](crate::structure::FrictionPendulum)), and the stiffness of rubber bearings is
+    /// to be given as it is under their load.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless the level's height and slab mass and the law's first stiffness are
+    /// positive, its inertia and damping not negative; [`Error::Scene`] when a storey has a law already.
+    pub fn isolated(
+        mut self,
+        level: IsolationLevel,
+        law: impl Hysteresis + 'static,
+    ) -> Result<Self> {
+        let storey = Storey {
+            height: positive("height of the isolators", level.height)?,
+            mass: positive("mass of the slab above the isolators", level.slab_mass)?,
+            rotary_inertia: not_negative("rotary inertia of the slab", level.slab_inertia)?,
+            stiffness: positive("first stiffness of the isolators", law.response(0.0).tangent)?,
+            damping: not_negative("damping of the isolators", level.damping)?,
+        };
+        if !self.springs.is_empty() {
+            let needed = "must be there before the laws of storeys";
+            return Err(Error::Scene { quantity: "level of isolators", needed });
+        }
+        self.storeys.insert(0, storey);
+        self.tangents.insert(0, None);
+        self.isolated = true;
+        finite("mass of the building", self.total_mass())?;
+        self.with_law(0, law)
+    }
+}
