@@ -22,7 +22,7 @@ impl State {
                 gap: at.gap[e],
                 slip: 0.0,
                 pressure: at.traction[e],
-                shear: at.traction[count + e],
+                shear: at.traction[scene.layout().place(1, e)],
             })
             .collect();
         let modes = at.modes_with(&scene.laws);

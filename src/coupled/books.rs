@@ -60,7 +60,7 @@ impl Books {
         state: &State,
         compliant: bool,
     ) -> Result<Self, LawError> {
-        let (n, size) = (scene.model.coordinates, 2 * scene.count());
+        let (n, size) = (scene.model.coordinates, scene.layout().len());
         let mut jump = scene.static_state.gap.clone();
         jump.resize(size, 0.0);
         let mut means = vec![0.0; size];
@@ -124,9 +124,10 @@ impl Books {
     /// the nonlinear force where its energy is known. Changes are rounded in proportion to it.
     fn static_energy(&self, scene: &Scene) -> f64 {
         let at_rest = &scene.static_state;
-        let count = scene.count();
+        let layout = scene.layout();
         let energy = |(i, traction): (usize, &f64)| {
-            let compliance = self.compliance.get(i % count).map_or(0.0, |c| c[i / count]);
+            let [component, e] = layout.origin(i);
+            let compliance = self.compliance.get(e).map_or(0.0, |c| c[component]);
             0.5 * scene.base.length(i) * compliance * traction * traction
         };
         let interfaces: f64 = at_rest.traction.iter().enumerate().map(energy).sum();
@@ -281,21 +282,21 @@ impl Books {
         let ledger = &mut self.ledger;
         soil.copy_from_slice(&forcing.history);
         scene.soil.multiply_add(&increment.traction, soil);
-        let count = scene.count();
+        let layout = scene.layout();
         let doubt = ground.increment_error_bound();
-        for i in 0..2 * count {
+        for i in 0..layout.len() {
+            let [k, e] = layout.origin(i);
             let area = scene.base.length(i);
             let change = increment.traction[i];
             let at_rest = scene.static_state.traction[i];
-            let end = &increment.contact[i % count];
-            let jump = if i < count { end.gap } else { -end.slip };
+            let end = &increment.contact[e];
+            let jump = [end.gap, -end.slip][k];
             let opening = jump - self.jump[i];
             self.jump[i] = jump;
             ledger.soil += area * change * (soil[i] - self.soil_displacement[i]);
             ledger.soil_error_bound += area * change.abs() * doubt;
             let mut elastic = 0.0;
             if !self.compliance.is_empty() {
-                let (e, k) = (i % count, i / count);
                 let (c0, c1) = (self.compliance[e][k], increment.compliance[e][k]);
                 let start = state.start.state(e);
                 let t0 = [start.pressure, start.shear][k];

@@ -5,6 +5,7 @@ use crate::contact::{ContactInput, ContactSearch, ContactSolver, Delassus, ModeS
 use crate::coupled::scene::base::Base;
 use crate::coupled::scene::operators::condense;
 use crate::error::{Error, Result, StepError};
+use crate::geometry::ContactLayout;
 use crate::interface::{ContactState, InterfaceLaw, Mode, StepStarts, law_of};
 use crate::linalg::{
     SparseFactor, SparseMatrix, dot, largest, sparse_condition, transposed_multiply_add,
@@ -56,7 +57,7 @@ impl StaticState {
     /// No weight: everything touches, nothing presses.
     pub(crate) fn weightless(elements: usize, unknowns: usize) -> Self {
         Self {
-            traction: vec![0.0; 2 * elements],
+            traction: vec![0.0; ContactLayout::new(elements).len()],
             gap: vec![0.0; elements],
             displacement: vec![0.0; unknowns],
             modes: vec![Mode::Stick; elements],
@@ -117,7 +118,7 @@ impl Standing<'_> {
         let Self { assembled, structure, soil } = *self;
         let base = &assembled.base;
         let (n, count) = (assembled.unknowns(), base.lengths().len());
-        let size = 2 * count;
+        let size = base.layout().len();
         let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(soil, base) / total_mass(assembled);
         if !epsilon.is_finite() {
             return Err(Error::Singular { matrix: NAME, order: n });
@@ -326,8 +327,7 @@ fn total_mass(assembled: &Assembled) -> f64 {
 
 /// Vertical force per settlement of the soil under a uniform pressure.
 fn vertical_stiffness(soil: &[f64], base: &Base) -> f64 {
-    let count = base.lengths().len();
-    let size = 2 * count;
+    let (count, size) = (base.lengths().len(), base.layout().len());
     let width: f64 = base.lengths().iter().sum();
     let settled: f64 = (0..count)
         .map(|p| base.lengths()[p] * (0..count).map(|q| soil[p * size + q]).sum::<f64>())

@@ -50,8 +50,8 @@ pub(super) fn set_in_motion(
 
 /// Gaps, slips and modes of the displaced base.
 fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
-    let count = scene.count();
-    let [mut moved, mut rate] = [(); 2].map(|()| vec![0.0; 2 * count]);
+    let layout = scene.layout();
+    let [mut moved, mut rate] = [(); 2].map(|()| vec![0.0; layout.len()]);
     scene.base.means(&state.motion.displacement, &mut moved);
     scene.base.means(&state.motion.velocity, &mut rate);
     let closed = CLOSED * largest(&given.displacement);
@@ -65,10 +65,11 @@ fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
             });
         }
     } else {
-        let mut starts = Vec::with_capacity(count);
+        let mut starts = Vec::with_capacity(scene.count());
         for (e, (contact, mode)) in state.contact.iter_mut().zip(&mut state.modes).enumerate() {
-            contact.gap = -moved[e];
-            contact.slip = moved[count + e];
+            let [down, along] = layout.places(e);
+            contact.gap = -moved[down];
+            contact.slip = moved[along];
             if contact.gap < -closed {
                 return Err(Error::Input {
                     quantity: "gap of an element under the initial displacement, m",
@@ -90,7 +91,8 @@ fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
         }
         state.start = StepStarts::new(&scene.laws, &starts)?;
     }
-    state.start.slip_rates_mut().zip(&rate[count..]).for_each(|(own, rate)| *own = *rate);
+    let [_, rate] = layout.split(&rate);
+    state.start.slip_rates_mut().zip(rate).for_each(|(own, rate)| *own = *rate);
     Ok(())
 }
 
@@ -102,7 +104,7 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
     model.load(structure, 0.0, &at_rest.load, &mut scratch, &mut force)?;
     scene.add_loads(0.0, &mut force);
     let mut displacement = state.motion.displacement.clone();
-    scene.subtract_base(&mut displacement, &mut vec![0.0; 2 * scene.count()]);
+    scene.subtract_base(&mut displacement, &mut vec![0.0; scene.layout().len()]);
     model.stiffness.multiply_add(-1.0, &displacement, &mut force);
     model.damping.multiply_add(-1.0, &state.motion.velocity, &mut force);
     if !model.linear {

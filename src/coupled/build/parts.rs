@@ -10,7 +10,7 @@ use crate::coupled::run::Serviceability;
 use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
 use crate::error::memory;
 use crate::error::{Error, Result, all_finite, finite, not_negative, positive, same_length};
-use crate::geometry::check_order;
+use crate::geometry::{ContactLayout, check_order};
 use crate::interface::{ContactScene, InterfaceLaw};
 use crate::linalg::indefinite_pivot;
 use crate::linalg::matrix::{self, Thinned};
@@ -184,12 +184,12 @@ impl Parts {
             ground.reserve(given.steps)?;
         }
         let soil = instantaneous_operator(ground.as_ref(), &elements)?;
-        let mut start_motion = vec![0.0; 2 * count];
+        let mut start_motion = vec![0.0; ContactLayout::new(count).len()];
         ground.free_field(given.motion.as_ref(), 0.0, &mut start_motion);
         for displacement in &start_motion {
             finite("free field at t = 0", *displacement)?;
         }
-        let soil = Arc::new(Thinned::new(soil, 2 * count));
+        let soil = Arc::new(Thinned::new(soil, start_motion.len()));
         Ok(Self {
             structure,
             ground,
@@ -235,11 +235,12 @@ fn check_unknowns(unknowns: usize, elements: usize) -> Result<()> {
 /// must not be negative, or the ground would push back work that it never got.
 fn instantaneous_operator(ground: &dyn Ground, elements: &[ContactElement]) -> Result<Vec<f64>> {
     const NAME: &str = "instantaneous operator of the ground";
-    let (count, size) = (elements.len(), 2 * elements.len());
-    let mut operator = vec![0.0; size * size];
+    let layout = ContactLayout::new(elements.len());
+    let size = layout.len();
+    let mut operator = vec![0.0; layout.square()];
     ground.instantaneous(&mut operator)?;
     all_finite(NAME, &operator)?;
-    let length = |i: usize| elements[i % count].length();
+    let length = |i: usize| elements[layout.origin(i)[1]].length();
     let scale: Vec<f64> = (0..size)
         .map(|i| (length(i) * operator[i * (size + 1)].abs()).sqrt())
         .map(|root| if root > 0.0 { root.recip() } else { 1.0 })

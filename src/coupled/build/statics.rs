@@ -37,7 +37,7 @@ pub(super) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticSt
         assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
         all_finite("weight", &weight)?;
         all_finite("load at t = 0", &load)?;
-        let mut soil = vec![0.0; 4 * count * count];
+        let mut soil = vec![0.0; assembled.base.layout().square()];
         ground.static_compliance(&mut soil)?;
         let stage = Standing { assembled, structure: structure.as_ref(), soil: &soil };
         state = in_stages(&stage, &given.laws, given.placement, [&weight, &load])?;

@@ -118,7 +118,7 @@ fn cause(
 /// of entries of the sparse factor.
 fn cheaper_modes(assembled: &Assembled, factor: usize, steps: usize) -> Option<ModalBasis> {
     let (n, steps) = (assembled.unknowns() as f64, steps as f64);
-    let contact = 2 * assembled.base.lengths().len();
+    let contact = assembled.base.layout().len();
     let stored: usize = assembled.matrices().into_iter().map(SparseMatrix::stored).sum();
     let sparse = cost::SPARSE_ENTRY * (2 * factor + 2 * stored) as f64;
     let modal = cost::MODE * n + cost::MODE_AND_CONTACT * n * contact as f64;

@@ -81,7 +81,7 @@ pub(crate) fn assess(
     start: &StepStarts,
 ) -> Result<Conditioning> {
     let (operators, contact) = solver.parts_mut();
-    let size = 2 * scene.count();
+    let size = scene.layout().len();
     let c = &scene.coefficients;
     let effective_stiffness = operators.condition(&scene.model, c)?;
     let ground = dense_condition(&scene.soil, size);
@@ -131,7 +131,7 @@ fn cause_of_delassus(
     condition: f64,
     ground: f64,
 ) -> (&'static str, f64) {
-    let size = 2 * scene.count();
+    let size = scene.layout().len();
     let place = |i: usize| i * (size + 1);
     let against = |i: usize| {
         let own = scene.soil[place(i)].abs();

@@ -94,15 +94,15 @@ pub(crate) fn check(
 
 /// Refuses a part whose base does not translate as a whole: B R must be 1 where it moves.
 pub(crate) fn check_parts(influence: &Influence, base: &Base, unknowns: usize) -> Result<()> {
-    let count = base.lengths().len();
-    let mut means = vec![0.0; 2 * count];
+    let mut means = vec![0.0; base.layout().len()];
     // A mean is a sum over the nodes above an element, each of which may be rounded.
     let exact = 10.0 * EXACT + base.nodes().len() as f64 * f64::EPSILON;
     for part in influence.parts() {
         for (direction, vector) in part.vectors.iter().enumerate() {
             base.means(&spread(vector, unknowns), &mut means);
             for &e in part.elements().iter().filter(|_| !vector.is_empty()) {
-                let moved = if direction == 0 { means[count + e] } else { -means[e] };
+                let [down, along] = base.layout().places(e);
+                let moved = [means[along], -means[down]][direction];
                 if (moved - 1.0).abs() > exact {
                     return Err(Error::Input {
                         quantity: "mean of the base under a rigid translation of 1 m",

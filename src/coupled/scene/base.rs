@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::transformation::{Rows, Terms, Transformation, Weights};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result};
+use crate::geometry::ContactLayout;
 use crate::linalg::dot;
 use crate::structure::{ContactNode, Row, Structure, check_contact_nodes, foundation_nodes};
 
@@ -68,15 +69,16 @@ impl Base {
             foundations.push(footing);
             element = end;
         }
-        let count = elements.len();
-        let mut rows = vec![Terms::new(); 2 * count];
+        let layout = ContactLayout::new(elements.len());
+        let mut rows = vec![Terms::new(); layout.len()];
         for footing in &foundations {
             let own = &nodes[footing.nodes.clone()];
             for e in footing.elements.clone() {
+                let [down, along] = layout.places(e);
                 check_overlap(own, &elements[e])?;
                 for (node, weight) in mean_weights(own, &elements[e]) {
-                    accumulate(&mut rows[e], &own[node].vertical, -weight);
-                    accumulate(&mut rows[count + e], &own[node].horizontal, weight);
+                    accumulate(&mut rows[down], &own[node].vertical, -weight);
+                    accumulate(&mut rows[along], &own[node].horizontal, weight);
                 }
             }
         }
@@ -111,6 +113,11 @@ impl Base {
         &self.lengths
     }
 
+    /// Order of the numbers of a contact vector.
+    pub(crate) fn layout(&self) -> ContactLayout {
+        ContactLayout::new(self.lengths.len())
+    }
+
     /// Coordinate of the middle of an element.
     pub(crate) fn middle(&self, element: usize) -> f64 {
         self.middles[element]
@@ -118,7 +125,7 @@ impl Base {
 
     /// Length that goes with contact component `i`.
     pub(crate) fn length(&self, i: usize) -> f64 {
-        self.lengths[i % self.lengths.len()]
+        self.lengths[self.layout().origin(i)[1]]
     }
 
     /// out ← B u.
@@ -128,7 +135,7 @@ impl Base {
 
     /// Mean `[right, up]` of contact displacements (2Q) over the whole base.
     pub(crate) fn mean(&self, displacement: &[f64]) -> [f64; 2] {
-        let (down, along) = displacement.split_at(self.lengths.len());
+        let [down, along] = self.layout().split(displacement);
         let width: f64 = self.lengths.iter().sum();
         [dot(along, &self.lengths) / width, -dot(down, &self.lengths) / width]
     }

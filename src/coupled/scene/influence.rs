@@ -7,6 +7,7 @@
 
 use super::base::Base;
 use super::transformation::Terms;
+use crate::geometry::{COMPONENTS, ContactLayout};
 use crate::linalg::matrix::spread;
 use crate::structure::ContactNode;
 
@@ -136,10 +137,11 @@ impl Part {
 
     /// Subtracts a translation `[right, up]` from contact displacements (2Q).
     pub(crate) fn subtract(&self, translation: [f64; 2], displacement: &mut [f64]) {
-        let count = displacement.len() / 2;
+        let layout = ContactLayout::new(displacement.len() / COMPONENTS);
         for &e in &self.elements {
-            displacement[e] += translation[1];
-            displacement[count + e] -= translation[0];
+            let [down, along] = layout.places(e);
+            displacement[down] += translation[1];
+            displacement[along] -= translation[0];
         }
     }
 }

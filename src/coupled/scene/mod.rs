@@ -17,6 +17,7 @@ use super::scheme::SchemeCoefficients;
 use crate::bem::ContactElement;
 use crate::coupled::run::Serviceability;
 use crate::error::LawError;
+use crate::geometry::ContactLayout;
 use crate::interface::{InterfaceLaw, Mode, StepStarts, law_of};
 use crate::linalg::matrix::{Thinned, spread};
 use crate::structure::probe::Probe;
@@ -124,6 +125,11 @@ impl Scene {
         self.elements.len()
     }
 
+    /// Order of the numbers of a contact vector.
+    pub(crate) fn layout(&self) -> ContactLayout {
+        self.base.layout()
+    }
+
     /// The law of an element.
     pub(crate) fn law(&self, element: usize) -> &dyn InterfaceLaw {
         law_of(&self.laws, element)
@@ -173,7 +179,7 @@ impl Scene {
     pub(crate) fn seen_at(&self, motion: &Motion) -> Vec<f64> {
         let mut seen = motion.displacement.clone();
         let translations = motion.translations.iter().map(|y| y.displacement);
-        self.seen_by_force(&mut seen, &mut vec![0.0; 2 * self.count()], translations);
+        self.seen_by_force(&mut seen, &mut vec![0.0; self.layout().len()], translations);
         seen
     }
 

@@ -142,7 +142,7 @@ pub(crate) fn condense(
     soil: &[f64],
     unknowns: usize,
 ) -> (Vec<f64>, Vec<f64>) {
-    let size = 2 * base.lengths().len();
+    let size = base.layout().len();
     let mut columns = vec![0.0; size * unknowns];
     let mut delassus = soil.to_vec();
     let mut unit = vec![0.0; size];

@@ -38,7 +38,7 @@ pub(crate) struct Forcing {
 
 impl Forcing {
     pub(crate) fn new(scene: &Scene) -> Self {
-        let contact = || vec![0.0; 2 * scene.count()];
+        let contact = || vec![0.0; scene.layout().len()];
         let structure = || vec![0.0; scene.model.coordinates];
         Self {
             load: structure(),

@@ -51,7 +51,7 @@ impl Increment {
             total: vec![0.0; n],
             velocity: vec![0.0; n],
             acceleration: vec![0.0; n],
-            traction: vec![0.0; 2 * count],
+            traction: vec![0.0; scene.layout().len()],
             contact: vec![ContactState::default(); count],
             modes: vec![Mode::Stick; count],
             compliance: vec![[0.0; 2]; compliant],

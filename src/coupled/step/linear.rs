@@ -42,8 +42,8 @@ impl LinearStep {
             contact: ContactSolver::new(count),
             search,
             known: vec![0.0; n],
-            free_jump: vec![0.0; 2 * count],
-            means: vec![0.0; 2 * count],
+            free_jump: vec![0.0; scene.layout().len()],
+            means: vec![0.0; scene.layout().len()],
             vector: vec![0.0; n],
         }
     }
