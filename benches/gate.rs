@@ -11,8 +11,7 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
 
-use basemat::bem::layered::LayeredGround;
-use basemat::bem::{Ground, HalfPlaneGround, PatchKernel, Strip};
+use basemat::bem::{ElasticGround, Ground, PatchKernel, Strip};
 use basemat::history::{ConvolutionHistory, DirectHistory, LagKernel, RelaxedFftHistory};
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
 use basemat::motion::el_centro_1940;
@@ -50,7 +49,7 @@ fn headline_steps(law: impl InterfaceLaw + 'static) -> Result<Timed> {
 
 fn block(graded_elements: usize) -> Result<Simulation> {
     Simulation::builder(2.0e-3)
-        .ground(HalfPlaneGround::strip(scenes::soil()?, -5.0..5.0, graded_elements)?)
+        .ground(ElasticGround::new(scenes::soil()?, Strip::graded(-5.0..5.0, graded_elements)?)?)
         .structure(RigidBlock::new(10.0, 12.0, 1_000.0)?)
         .interface(Coulomb::new(0.4)?)
         .motion(el_centro_1940())
@@ -89,7 +88,7 @@ fn half_plane() -> Result<Timed> {
 fn layers() -> Result<Timed> {
     let rock = Soil::new(1.0e9, 0.25, 2200.0)?;
     let profile = SoilProfile::on_half_plane(rock).with_layer(scenes::soil()?, 8.0)?;
-    let mut ground = LayeredGround::strip(profile, -5.0..5.0, 8)?;
+    let mut ground = ElasticGround::new(profile, Strip::graded(-5.0..5.0, 8)?)?;
     Ok(Box::new(move || {
         ground.prepare(5.0e-3)?;
         ground.reserve(200)

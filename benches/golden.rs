@@ -10,8 +10,7 @@
 
 use std::fmt::Write as _;
 
-use basemat::bem::layered::LayeredGround;
-use basemat::bem::{Grading, Ground, HalfPlaneGround, SpringGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Ground, SpringGround, Strip};
 use basemat::coupled::{
     Coordinates, HhtAlpha, Load, Newmark, Placement, Probe, SimulationBuilder, Theta,
 };
@@ -70,14 +69,14 @@ fn on(structure: impl Structure + 'static, ground: impl Ground + 'static) -> Sim
     Simulation::builder(TIME_STEP).structure(structure).ground(ground).motion(shaking())
 }
 
-fn half_plane(structure: &dyn Structure) -> Result<HalfPlaneGround> {
-    HalfPlaneGround::under(soil()?, structure, 8)
+fn half_plane(structure: &dyn Structure) -> Result<ElasticGround> {
+    ElasticGround::under(soil()?, structure, 8)
 }
 
 /// A block that uplifts and slides on a half-plane with one kind of history.
 fn by_history(kind: History, grading: Grading) -> Result<SimulationBuilder> {
     let strip = Strip::new(-2.0..2.0, 8, grading)?;
-    let ground = HalfPlaneGround::new(soil()?, &[strip])?.with_history_kind(kind);
+    let ground = ElasticGround::new(soil()?, strip)?.with_history_kind(kind);
     Ok(on(block()?, ground).interface(Coulomb::new(0.4)?))
 }
 
@@ -106,7 +105,7 @@ fn profile() -> Result<SoilProfile> {
 
 fn layered(profile: SoilProfile) -> Result<SimulationBuilder> {
     let block = block()?;
-    let ground = LayeredGround::under(profile, &block, 6)?;
+    let ground = ElasticGround::under(profile, &block, 6)?;
     Ok(on(block, ground).interface(Coulomb::new(0.4)?))
 }
 

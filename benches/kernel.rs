@@ -25,14 +25,14 @@ fn kernels(criterion: &mut Criterion) {
         let pair = kernel.pair(element(distance), element(0)).expect("valid elements");
         let [zz, xx, zx] = &mut slices;
         group.bench_function(format!("early, {distance} elements apart"), |b| {
-            b.iter(|| pair.fill(black_box(1), zz, xx, zx));
+            b.iter(|| pair.fill(black_box(1), [zz, xx, zx]));
         });
     }
     let pair = kernel.pair(element(19), element(0)).expect("valid elements");
     for first in [300, 3000, 1_000_000] {
         let [zz, xx, zx] = &mut slices;
         group.bench_function(format!("late, lag {first}"), |b| {
-            b.iter(|| pair.fill(black_box(first), zz, xx, zx));
+            b.iter(|| pair.fill(black_box(first), [zz, xx, zx]));
         });
     }
     group.throughput(Throughput::Elements(1));
@@ -64,7 +64,7 @@ fn patches(criterion: &mut Criterion) {
         group.bench_function(format!("{count} elements"), |b| {
             b.iter(|| {
                 (0..kernel.classes().count())
-                    .try_for_each(|class| kernel.coefficients(class, black_box(1), zz, xx, zx))
+                    .try_for_each(|class| kernel.coefficients(class, black_box(1), [zz, xx, zx]))
             });
         });
     }

@@ -33,7 +33,7 @@ fn shake(structure: ShearBuilding, levels: usize) -> Result<Run> {
         probes.push(Probe::displacement(format!("drift {level}"), structure.drift(level)?));
     }
     let mut simulation = Simulation::builder(2.5e-3)
-        .ground(HalfPlaneGround::under(soil, &structure, 10)?)
+        .ground(ElasticGround::under(soil, &structure, 10)?)
         .structure(structure)
         .interface(Coulomb::new(0.4)?)
         .motion(el_centro_1940())

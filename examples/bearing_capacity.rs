@@ -19,7 +19,7 @@ fn main() -> Result<()> {
     for factor in [f64::INFINITY, 8.0, 5.0, 3.5, 2.5] {
         let block = RigidBlock::new(4.0, 8.0, 2000.0)?;
         let builder = Simulation::builder(0.005)
-            .ground(HalfPlaneGround::under(soil, &block, 12)?)
+            .ground(ElasticGround::under(soil, &block, 12)?)
             .structure(block)
             .motion(el_centro_1940().scaled(1.3)?);
         let mut simulation = if factor.is_finite() {

@@ -33,7 +33,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<Histories> {
     let damped = ModalDamping::new(&[0.05])?.on(building)?;
     let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
-        .ground(HalfPlaneGround::under(soil, &damped, 12)?)
+        .ground(ElasticGround::under(soil, &damped, 12)?)
         .structure(damped)
         .interface(law)
         .motion(el_centro_1940())

@@ -49,7 +49,7 @@ fn slide(friction: f64, motion: Record) -> Result<f64> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     let block = RigidBlock::new(8.0, 4.0, 2000.0)?;
     let mut simulation = Simulation::builder(0.01)
-        .ground(HalfPlaneGround::under(soil, &block, 8)?)
+        .ground(ElasticGround::under(soil, &block, 8)?)
         .structure(block)
         .interface(Coulomb::new(friction)?)
         .motion(motion)

@@ -9,7 +9,7 @@
 //! rotation, mass to the right. Its mass matrix is diagonal, so a step needs no solve:
 //! `u₁ = 2u₀ − u₋₁ + Δt² M⁻¹ (−K u₀ − BᵀA τ)`, and `W = G¹ + Δt² B M⁻¹ BᵀA`.
 
-use basemat::bem::{ContactElement, Ground, HalfPlaneGround};
+use basemat::bem::{ContactElement, ElasticGround, Ground, Strip};
 use basemat::contact::ContactProblem;
 use basemat::interface::{ContactState, Coulomb, Mode, StepStart};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
@@ -44,7 +44,7 @@ fn acceleration(u: &[f64; 4], traction: &[f64], centers: &[f64], lengths: &[f64]
 
 fn main() -> Result<()> {
     let soil = Soil::new(60.0e6, 0.33, 1900.0)?;
-    let mut ground = HalfPlaneGround::strip(soil, -HALF_WIDTH..HALF_WIDTH, 10)?;
+    let mut ground = ElasticGround::new(soil, Strip::graded(-HALF_WIDTH..HALF_WIDTH, 10)?)?;
     let motion = el_centro_1940();
     let centers: Vec<f64> = ground.elements().iter().map(ContactElement::center).collect();
     let lengths: Vec<f64> = ground.elements().iter().map(ContactElement::length).collect();

@@ -14,7 +14,8 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-use basemat::bem::layered::{LayeredGround, StripContact, StripImpedance};
+use basemat::bem::layered::{StripContact, StripImpedance};
+use basemat::bem::{ElasticGround, Strip};
 use basemat::plot::{Curve, curves};
 use basemat::prelude::*;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
@@ -114,9 +115,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     // a₀ = ωB/c from 0.05 to 2.5.
     let unit = soil.shear_wave_speed() / (std::f64::consts::TAU * HALF);
     let frequencies: Vec<f64> = (1..=50).map(|i| 0.05 * f64::from(i) * unit).collect();
-    let half_plane = HalfPlaneGround::strip(soil, -HALF..HALF, ELEMENTS)?;
-    let on_rock = LayeredGround::strip(on_rock, -HALF..HALF, ELEMENTS)?;
-    let on_rigid_base = LayeredGround::strip(on_rigid_base, -HALF..HALF, ELEMENTS)?;
+    let half_plane = ElasticGround::new(soil, Strip::graded(-HALF..HALF, ELEMENTS)?)?;
+    let on_rock = ElasticGround::new(on_rock, Strip::graded(-HALF..HALF, ELEMENTS)?)?;
+    let on_rigid_base = ElasticGround::new(on_rigid_base, Strip::graded(-HALF..HALF, ELEMENTS)?)?;
     let contact = StripContact::Bonded;
     let cases = [
         ("half-plane", half_plane.impedances(&frequencies, contact)?),

@@ -9,7 +9,8 @@
 //! Lengths are in half widths b of the block, times in b/c of the layer, which is 2 b thick. Times are
 //! those of one thread: coefficients and static state, then the march of 30 b/c.
 
-use basemat::bem::layered::{LayeredGround, Stages};
+use basemat::bem::layered::Stages;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::interface::Bonded;
 use basemat::motion::RickerDisplacement;
 use basemat::soil::{Elastic, GeneralizedMaxwell, Kjartansson, Relaxation, SoilProfile};
@@ -53,7 +54,8 @@ fn run(
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1200 at most")]
     let steps = (table.duration() / step).round() as usize;
     let begin = ThreadTime::try_now()?;
-    let ground = LayeredGround::strip(profile.clone(), -1.0..1.0, elements)?.with_stages(stages);
+    let ground = ElasticGround::new(profile.clone(), Strip::graded(-1.0..1.0, elements)?)?
+        .with_stages(stages);
     // Without dimensions, and without weight.
     let mut simulation = Simulation::builder(step)
         .ground(ground)

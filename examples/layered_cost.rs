@@ -1,4 +1,4 @@
-//! What coefficients of layered ground cost, as [`LayeredGround::cost`] says beforehand and as a clock
+//! What coefficients of layered ground cost, as [`ElasticGround::cost`] says beforehand and as a clock
 //! says afterwards: the table of `docs/layered.md`, and where the crate's figures for a nanosecond's work
 //! come from.
 //!
@@ -8,8 +8,8 @@
 //!
 //! Processor time of one thread; coefficients alone, without the histories' transforms of them.
 
-use basemat::bem::layered::{LayeredGround, LayeredKernel, Stages};
-use basemat::bem::{Grading, Strip};
+use basemat::bem::layered::{LayeredKernel, Stages};
+use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::history::LagKernel;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::{Result, Soil};
@@ -136,7 +136,7 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error + Send + Sync>> {
     for Case { name, profile, elements, grading, stages, time_step, steps } in cases()? {
         let steps = if options.short { 100 } else { steps };
         let strip = Strip::new(-3.0..3.0, elements, grading)?;
-        let ground = LayeredGround::new(profile.clone(), &[strip])?.with_stages(stages);
+        let ground = ElasticGround::new(profile.clone(), strip)?.with_stages(stages);
         let begin = ThreadTime::try_now()?;
         let cost = ground.cost(time_step, steps)?;
         let asked = begin.try_elapsed()?.as_secs_f64();

@@ -26,9 +26,9 @@ fn foundation() -> Result<RigidBlock> {
     RigidBlock::new(WIDTH, HEIGHT, 2400.0)
 }
 
-fn ground() -> Result<HalfPlaneGround> {
+fn ground() -> Result<ElasticGround> {
     let soil = Soil::from_shear_wave_speed(180.0, 0.33, 1900.0)?;
-    HalfPlaneGround::strip(soil, -0.5 * WIDTH..0.5 * WIDTH, 16)
+    ElasticGround::new(soil, Strip::graded(-0.5 * WIDTH..0.5 * WIDTH, 16)?)
 }
 
 /// The block under an unbalance at the angle `turned(t)` and the speed `speed(t)` (rad/s).

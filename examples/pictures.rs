@@ -10,6 +10,7 @@
 use std::path::PathBuf;
 
 use basemat::Result;
+use basemat::bem::Grading;
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::io::paraview;
 use basemat::plot::{self, Svg};
@@ -39,7 +40,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, Histories, Wireframe)
     let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
         // Two equal elements of contact under each of the mesh.
-        .ground(HalfPlaneGround::uniform_under(soil, &tower, 16)?)
+        .ground(ElasticGround::new(soil, Strip::under(&tower, 16, Grading::Uniform)?)?)
         .structure(tower)
         .interface(law)
         .motion(el_centro_1940())

@@ -93,7 +93,7 @@ impl Portal {
         let beta = 0.05 / (std::f64::consts::PI * closed_form_frequency());
         let model = self.model.with_rayleigh(RayleighDamping::new(0.0, beta)?);
         let mut simulation = Simulation::builder(0.005)
-            .ground(HalfPlaneGround::under(soil, &model, 8)?)
+            .ground(ElasticGround::under(soil, &model, 8)?)
             .structure(model)
             .interface(law)
             .motion(el_centro_1940())

@@ -33,7 +33,7 @@ fn rock(shear_wave_speed: f64, motion: Record, fallen: f64) -> Result<Run> {
     let block = RigidBlock::new(2.0 * HALF_WIDTH, 2.0 * HALF_HEIGHT, 2400.0)?
         .with_p_delta(STANDARD_GRAVITY)?;
     let mut simulation = Simulation::builder(TIME_STEP)
-        .ground(HalfPlaneGround::under(soil, &block, 8)?)
+        .ground(ElasticGround::under(soil, &block, 8)?)
         .structure(block)
         .interface(Coulomb::uplift_only())
         .motion(motion)

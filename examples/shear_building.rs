@@ -26,7 +26,7 @@ fn shake(law: impl InterfaceLaw + 'static, friction: f64) -> Result<Run> {
         probes.push(Probe::displacement(format!("drift {}", storey + 1), building.drift(storey)?));
     }
     let mut simulation = Simulation::builder(5.0e-3)
-        .ground(HalfPlaneGround::under(soil, &building, 12)?)
+        .ground(ElasticGround::under(soil, &building, 12)?)
         .structure(building)
         .interface(law)
         .motion(el_centro_1940())

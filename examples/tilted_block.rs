@@ -23,7 +23,7 @@ fn main() -> Result<()> {
         let block = RigidBlock::new(width, height, 2500.0)?.with_p_delta(STANDARD_GRAVITY)?;
         let soil = Soil::from_shear_wave_speed(speed, 0.3, 2000.0)?;
         let mut simulation = Simulation::builder(step)
-            .ground(HalfPlaneGround::under(soil, &block, 24)?)
+            .ground(ElasticGround::under(soil, &block, 24)?)
             .structure(block)
             .interface(Coulomb::new(1.0)?)
             // Nothing presses at first; the block stands on its left edge.

@@ -38,7 +38,7 @@ fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Run> {
     let tower = RigidBlock::new(2.0 * HALF_WIDTH, HEIGHT, 600.0)?;
     let (top, edge) = (tower.horizontal_at(HEIGHT), tower.vertical_at(HALF_WIDTH));
     let mut simulation = Simulation::builder(5.0e-3)
-        .ground(HalfPlaneGround::under(soil, &tower, 16)?)
+        .ground(ElasticGround::under(soil, &tower, 16)?)
         .structure(tower)
         .interface(Coulomb::new(FRICTION)?)
         .motion(motion)

@@ -25,7 +25,7 @@ fn shake<const N: usize>(structure: impl Structure + 'static, roofs: [Probe; N])
     let soil = Soil::from_shear_wave_speed(150.0, 0.4, 1800.0)?;
     let mut simulation = Simulation::builder(0.005)
         // Eight elements under each base; bases talk through the soil.
-        .ground(HalfPlaneGround::under(soil, &structure, 8)?)
+        .ground(ElasticGround::under(soil, &structure, 8)?)
         .structure(structure)
         .interface(Coulomb::new(0.5)?)
         .motion(el_centro_1940())

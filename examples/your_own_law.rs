@@ -95,7 +95,7 @@ fn slide(law: impl InterfaceLaw + 'static) -> basemat::Result<Run> {
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     let block = RigidBlock::new(8.0, 4.0, 2000.0)?;
     Simulation::builder(5.0e-3)
-        .ground(HalfPlaneGround::under(soil, &block, 8)?)
+        .ground(ElasticGround::under(soil, &block, 8)?)
         .structure(block)
         .interface(law)
         .motion(el_centro_1940().scaled(1.5)?)

@@ -88,7 +88,7 @@ fn main() -> basemat::Result<()> {
 
     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
-        .ground(HalfPlaneGround::under(soil, &building, 10)?)
+        .ground(ElasticGround::under(soil, &building, 10)?)
         .structure(building)
         .interface(Coulomb::new(0.4)?)
         .motion(el_centro_1940())

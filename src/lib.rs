@@ -10,7 +10,7 @@
 //! # One complete example
 //!
 //! ```
-//! use basemat::bem::HalfPlaneGround;
+//! use basemat::bem::ElasticGround;
 //! use basemat::coupled::Probe;
 //! use basemat::interface::Coulomb;
 //! use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
@@ -25,7 +25,7 @@
 //! let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
 //!
 //! let mut simulation = Simulation::builder(0.01)
-//!     .ground(HalfPlaneGround::under(soil, &building, 10)?)
+//!     .ground(ElasticGround::under(soil, &building, 10)?)
 //!     .structure(building)
 //!     .interface(Coulomb::new(0.4)?)
 //!     .motion(el_centro_1940())
@@ -120,8 +120,8 @@
 //! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
 //! | [`interface`] | bonded, Coulomb and thin-layer contact, and the trait for your own law |
 //! | [`soil`] | [`Soil`], damping laws, [`soil::SoilProfile`] of horizontal layers |
-//! | [`bem`] | [`bem::HalfPlaneGround`], [`bem::SpringGround`], grounds of any step coefficients |
-//! | [`bem::layered`] | [`bem::layered::LayeredGround`], impedances of strips on layers |
+//! | [`bem`] | [`bem::ElasticGround`], [`bem::SpringGround`], grounds of any step coefficients |
+//! | [`bem::layered`] | step coefficients of layered ground, impedances of strips on it |
 //! | [`site`] | from the outcrop of the rock to the surface: [`site::Column`], [`site::InclinedWave`] |
 //! | [`history`] | the convolution with all past tractions, its kinds and their choice |
 //! | [`fundamental`] | elastodynamic fundamental solutions |
@@ -180,7 +180,7 @@
 //! `portal_frame`, `rocking_block`, `tilted_block`, `snap_back`, `bearing_capacity`,
 //! `machine_foundation`, `floor_spectra`, `layered_site`, `impedances`, `friction_sweep`,
 //! `fragility`, `travelling_wave`, `from_matrices`; `pictures` draws everything (feature `png`). What
-//! each prints is in [the document of examples](https://github.com/basemat/basemat/blob/main/docs/examples.md).
+//! each prints is in [the list of examples](https://github.com/basemat/basemat/blob/main/examples/README.md).
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -231,12 +231,12 @@ pub use sweep::Sweep;
 #[doc = include_str!("../README.md")]
 struct Readme;
 
-/// The snippets of the guide to sweeps are, too.
+/// The tutorial's programs are, too; they assert the numbers of its text.
 #[cfg(doctest)]
-#[doc = include_str!("../docs/sweeps.md")]
-struct Sweeps;
+#[doc = include_str!("../docs/tutorial.md")]
+struct Tutorial;
 
-/// And those of the architecture guide.
+/// And those of the guide.
 #[cfg(doctest)]
-#[doc = include_str!("../docs/architecture.md")]
-struct Architecture;
+#[doc = include_str!("../docs/guide.md")]
+struct Guide;

@@ -1,6 +1,6 @@
 //! Names that most programs use: `use basemat::prelude::*;`.
 
-pub use crate::bem::{Ground, HalfPlaneGround, SpringGround};
+pub use crate::bem::{ElasticGround, Ground, SpringGround, Strip};
 pub use crate::coupled::{Load, Probe, Run, Simulation, State};
 pub use crate::interface::{Bonded, Coulomb, InterfaceLaw};
 pub use crate::motion::{FreeField, Record, STANDARD_GRAVITY, el_centro_1940};

@@ -9,7 +9,7 @@ mod support;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-use basemat::bem::{HalfPlaneGround, SpringGround};
+use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Load, Probe, SimulationBuilder, Theta};
 use basemat::history::History;
 use basemat::interface::{Bonded, Yielding};
@@ -112,7 +112,7 @@ fn steps_do_not_allocate() {
     let base = || scene(SI, 0.6);
     let damped = || tower(SI, Some(RayleighDamping::from_ratios([2.0, 20.0], [0.05; 2]).unwrap()));
     let direct = || {
-        let ground = HalfPlaneGround::uniform_strip(soil(SI), -2.0..2.0, 8).unwrap();
+        let ground = ElasticGround::new(soil(SI), Strip::uniform(-2.0..2.0, 8).unwrap()).unwrap();
         base().ground(ground.with_history_kind(History::Direct))
     };
     let bed = || SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap();

@@ -4,8 +4,8 @@
 
 mod support;
 
-use basemat::bem::layered::{LayeredGround, Stages};
-use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::bem::layered::Stages;
+use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::RickerDisplacement;
 use basemat::soil::Elastic;
@@ -41,7 +41,7 @@ fn history(scene: Scene, (grading, elements): (Grading, usize), time_step: f64) 
     let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
     let builder = Simulation::builder(time_step)
         .structure(RigidBlock::new(2.0, scene.height, 2.0 / scene.height).unwrap())
-        .ground(HalfPlaneGround::new(soil, &[strip]).unwrap())
+        .ground(ElasticGround::new(soil, strip).unwrap())
         .motion(RickerDisplacement::new(1.0, scene.sigma, 5.0 * scene.sigma).unwrap())
         .gravity(scene.gravity);
     let builder = match scene.friction {
@@ -153,7 +153,9 @@ fn time_step_on_layers() {
     for (name, profile) in [("on rock", p1(Elastic, Elastic)), ("on a rigid base", rigid_base)] {
         for stages in [Stages::Two, Stages::Three] {
             let runs = [0.1, 0.05, 0.025, 0.0125].map(|step| {
-                let ground = LayeredGround::strip(profile.clone(), -1.0..1.0, 8).unwrap();
+                let ground =
+                    ElasticGround::new(profile.clone(), Strip::graded(-1.0..1.0, 8).unwrap())
+                        .unwrap();
                 let block = RigidBlock::new(2.0, 2.0, 1.0).unwrap();
                 let mut simulation = under_pulse(block, ground.with_stages(stages), step);
                 sample(&mut simulation, whole(20.0 / step), whole(SAMPLE / step)).unwrap().0

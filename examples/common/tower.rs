@@ -1,7 +1,7 @@
 //! A tower of 51 102 unknowns on soil: the large model of `from_matrices` and of
 //! `benches/reduced.rs`.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Coordinates, Probe};
 use basemat::fem::{Direction, Layer, MassKind, Material, Mesh};
 use basemat::interface::Coulomb;
@@ -55,7 +55,7 @@ pub(crate) fn scene(
     let soil = Soil::new(200.0e6, 0.33, 1900.0)?;
     Simulation::builder(TIME_STEP)
         .structure(structure)
-        .ground(HalfPlaneGround::uniform_strip(soil, -5.0..5.0, 20)?)
+        .ground(ElasticGround::new(soil, Strip::uniform(-5.0..5.0, 20)?)?)
         .interface(Coulomb::new(0.5)?)
         .motion(el_centro_1940())
         .probe(Probe::absolute_displacement("top", top))

@@ -1,7 +1,7 @@
 //! One case: the scene, its run, and what is kept of it.
 
 use basemat::Simulation;
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Probe, Run};
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::Record;
@@ -105,7 +105,7 @@ pub(crate) fn run(
     let builder = Simulation::builder(options.time_step_s())
         .structure(model)
         // Equal elements, as in the paper.
-        .ground(HalfPlaneGround::uniform_strip(scene.soil()?, scene.base(), scene.elements)?)
+        .ground(ElasticGround::new(scene.soil()?, Strip::uniform(scene.base(), scene.elements)?)?)
         .motion(record.clone())
         .expected_steps(steps)
         .probe(Probe::absolute_displacement("roof x", roof_x))

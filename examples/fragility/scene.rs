@@ -40,7 +40,7 @@ pub(crate) fn shake(
     let drifts = (0..STOREYS)
         .map(|storey| Ok(Probe::displacement(format!("drift {storey}"), building.drift(storey)?)))
         .collect::<Result<Vec<_>>>()?;
-    let ground = HalfPlaneGround::under(soil, &building, ELEMENTS)?.with_shared_kernels(kernels);
+    let ground = ElasticGround::under(soil, &building, ELEMENTS)?.with_shared_kernels(kernels);
     let mut simulation = Simulation::builder(STEP)
         .ground(ground)
         .structure(building)

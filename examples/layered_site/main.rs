@@ -17,8 +17,7 @@ mod picture;
 use std::path::PathBuf;
 
 use basemat::Result;
-use basemat::bem::SharedKernels;
-use basemat::bem::layered::LayeredGround;
+use basemat::bem::{ElasticGround, SharedKernels};
 use basemat::coupled::EnergyTerm;
 use basemat::motion::SpectralOrdinate;
 use basemat::prelude::*;
@@ -123,7 +122,7 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error + Send + Sync>> {
     let periods = log_spaced(0.05, 3.0, 121)?;
     let half_plane = |soil: Soil| {
         move |structure: &dyn Structure| -> Result<Box<dyn Ground>> {
-            Ok(Box::new(HalfPlaneGround::under(soil, structure, ELEMENTS)?))
+            Ok(Box::new(ElasticGround::under(soil, structure, ELEMENTS)?))
         }
     };
     // Two cases stand on the elastic layers, whose coefficients are computed once.
@@ -131,7 +130,7 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error + Send + Sync>> {
     let layered = |profile: &SoilProfile| {
         let (profile, kernels) = (profile.clone(), kernels.clone());
         move |structure: &dyn Structure| -> Result<Box<dyn Ground>> {
-            let ground = LayeredGround::under(profile, structure, ELEMENTS)?;
+            let ground = ElasticGround::under(profile, structure, ELEMENTS)?;
             Ok(Box::new(ground.with_shared_kernels(&kernels)))
         }
     };

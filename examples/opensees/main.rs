@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let roof = block.horizontal_at(height);
     let mut simulation = Simulation::builder(options.step)
-        .ground(HalfPlaneGround::under(soil, &block, options.elements)?)
+        .ground(ElasticGround::under(soil, &block, options.elements)?)
         .structure(block)
         .interface(law)
         .gravity(number("gravity")?)

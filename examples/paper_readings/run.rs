@@ -1,7 +1,7 @@
 //! A reading's runs.
 
 use basemat::Simulation;
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{ContactSearch, HhtAlpha, Midpoint, Newmark, Probe, SimulationBuilder};
 use basemat::fem::Direction;
 use basemat::interface::{Bonded, InterfaceLaw};
@@ -45,7 +45,7 @@ impl Reading {
             builder.structure(model)
         };
         let builder = builder
-            .ground(HalfPlaneGround::uniform_strip(soil, scene.base(), scene.elements)?)
+            .ground(ElasticGround::new(soil, Strip::uniform(scene.base(), scene.elements)?)?)
             .motion(record)
             .gravity(self.gravity * STANDARD_GRAVITY)
             .probe(base_shear)

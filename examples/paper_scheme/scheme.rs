@@ -1,10 +1,10 @@
 //! The schemes that are compared, and the rows of the paper's Table 1.
 
 use basemat::Simulation;
-use basemat::bem::HalfPlaneGround;
 use basemat::bem::full_plane::{
     BoundaryKernel, ConvolutionQuadrature, CqMethod, FullPlaneGround, TimeKernel,
 };
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{ContactSearch, Newmark, SimulationBuilder};
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw, ThinLayer};
 use basemat::motion::{Record, STANDARD_GRAVITY};
@@ -81,7 +81,7 @@ impl Scheme {
             Self::HalfPlane | Self::Own => {
                 let Containment { elements, .. } = scene.containment;
                 let (soil, base) = (scene.containment.soil()?, scene.containment.base());
-                builder.ground(HalfPlaneGround::uniform_strip(soil, base, elements)?)
+                builder.ground(ElasticGround::new(soil, Strip::uniform(base, elements)?)?)
             }
         };
         if self == Self::Own {

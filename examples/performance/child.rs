@@ -3,7 +3,7 @@
 use std::process::Command;
 use std::time::Instant;
 
-use basemat::bem::{Grading, HalfPlaneGround, SharedKernels, Strip};
+use basemat::bem::{ElasticGround, Grading, SharedKernels, Strip};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::RigidBlock;
 use basemat::{Result, Sweep};
@@ -71,7 +71,7 @@ fn march(scene: Scene, steps: usize) -> Result<[f64; 2]> {
         Scene::Graded => {
             let half = 0.5 * ELEMENT * COUNT as f64;
             let strip = Strip::new(-half..half, COUNT, Grading::Cosine)?;
-            let ground = HalfPlaneGround::new(soil()?, &[strip])?;
+            let ground = ElasticGround::new(soil()?, strip)?;
             builder.ground(ground).interface(Coulomb::new(0.4)?)
         }
         Scene::Long => {

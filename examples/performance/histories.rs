@@ -86,7 +86,7 @@ pub(crate) fn coefficients(count: usize, lags: usize) -> Result<f64> {
     let [normal, tangential, coupling] = &mut values;
     let (done, seconds) = timed(|| {
         (0..kernel.classes().count())
-            .try_for_each(|class| kernel.coefficients(class, 1, normal, tangential, coupling))
+            .try_for_each(|class| kernel.coefficients(class, 1, [normal, tangential, coupling]))
     });
     done.map(|()| seconds)
 }

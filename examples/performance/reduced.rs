@@ -1,6 +1,6 @@
 //! Towers in reduced coordinates beside their unknowns.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Coordinates, Probe};
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::interface::{Bonded, Coulomb};
@@ -52,7 +52,8 @@ impl Tower {
         let model = self.model()?;
         let row = |y| model.row(model.node_at(-4.0, y)?, Direction::X);
         let (base, roof) = (row(0.0)?, row(24.0)?);
-        let ground = HalfPlaneGround::uniform_strip(Soil::new(80e6, 0.33, 1900.0)?, -4.0..4.0, 10)?;
+        let ground =
+            ElasticGround::new(Soil::new(80e6, 0.33, 1900.0)?, Strip::uniform(-4.0..4.0, 10)?)?;
         let mut builder = Simulation::builder(5e-3)
             .ground(ground)
             .motion(el_centro_1940())

@@ -1,7 +1,7 @@
 //! Scenes whose steps are timed, by this example and by `benches/step.rs`: what one does not need,
 //! it should not pay for.
 
-use basemat::bem::{HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
@@ -34,7 +34,7 @@ pub(crate) fn strip(count: usize) -> Result<Strip> {
 
 /// The headline problem without law and history: the paper's model, a basemat and twelve layers of
 /// the containment, 35 ft high in all, under El Centro.
-pub(crate) fn headline(count: usize) -> Result<(SimulationBuilder, HalfPlaneGround)> {
+pub(crate) fn headline(count: usize) -> Result<(SimulationBuilder, ElasticGround)> {
     let half = 0.5 * ELEMENT * count as f64;
     let (psf, slug, layer) = (47.880_259, 515.378_818, 35.0 * 0.3048 / 13.0);
     let foundation = Material::new(106_560_369.0 * psf, 1.0 / 3.0, 3.043_48 * slug)?;
@@ -45,7 +45,7 @@ pub(crate) fn headline(count: usize) -> Result<(SimulationBuilder, HalfPlaneGrou
         .structure(tower)
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY);
-    Ok((builder, HalfPlaneGround::new(soil()?, &[strip(count)?])?))
+    Ok((builder, ElasticGround::new(soil()?, strip(count)?)?))
 }
 
 /// El Centro, at rest at its end, over and over again for `duration` seconds.

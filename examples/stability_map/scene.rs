@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::sync::{Mutex, PoisonError};
 
 use basemat::bem::full_plane::{ConvolutionQuadrature, CqMethod, FullPlaneGround};
-use basemat::bem::{HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{
     ContactSearch, DissipativeMidpoint, HhtAlpha, Load, Newmark, Placement, SimulationBuilder,
 };
@@ -161,7 +161,7 @@ impl Scene {
     fn with_ground(&self, builder: SimulationBuilder, soil: Soil) -> Result<SimulationBuilder> {
         if self.scheme.is_half_plane() {
             let strip = Strip::from_nodes(self.nodes())?;
-            let ground = HalfPlaneGround::new(soil, &[strip])?.with_history_kind(self.history);
+            let ground = ElasticGround::new(soil, strip)?.with_history_kind(self.history);
             let builder = builder.ground(ground);
             return Ok(match self.scheme {
                 Scheme::Dissipative => builder.scheme(DissipativeMidpoint::default()),

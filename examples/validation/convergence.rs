@@ -1,6 +1,6 @@
 //! Orders of accuracy in the time step and in the element size.
 
-use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::RickerDisplacement;
 use basemat::structure::RigidBlock;
@@ -49,7 +49,7 @@ fn history(
     let strip = Strip::new(-1.0..1.0, elements, grading)?;
     let builder = Simulation::builder(time_step)
         .structure(RigidBlock::new(2.0, scene.height, 2.0 / scene.height)?)
-        .ground(HalfPlaneGround::new(soil, &[strip])?)
+        .ground(ElasticGround::new(soil, strip)?)
         .motion(RickerDisplacement::new(1.0, scene.sigma, 5.0 * scene.sigma)?)
         .gravity(scene.gravity);
     let builder = match scene.friction {

@@ -1,6 +1,6 @@
 //! A low rigid block that slides on ever stiffer soil under El Centro: Newmark's block.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::interface::Coulomb;
 use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::RigidBlock;
@@ -56,7 +56,7 @@ fn slide(speed: f64, friction: f64, time_step: f64, duration: f64) -> Result<Vec
     let soil = Soil::from_wave_speeds(speed, 2.0 * speed, 2000.0)?;
     let mut simulation = Simulation::builder(time_step)
         .structure(RigidBlock::new(4.0, 0.4, 2000.0)?)
-        .ground(HalfPlaneGround::uniform_strip(soil, -2.0..2.0, 4)?)
+        .ground(ElasticGround::new(soil, Strip::uniform(-2.0..2.0, 4)?)?)
         .interface(Coulomb::new(friction)?)
         .motion(el_centro_1940())
         .build()?;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use basemat::bem::{ContactElement, Grading, Ground, HalfPlaneGround, Strip};
+use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, Strip};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::{RigidBlock, Structure};
 use basemat::{Simulation, Soil};
@@ -41,7 +41,7 @@ struct Found {
 fn punch(poisson: f64, eccentricity: f64, elements: usize) -> Result<Found, AnyError> {
     let soil = Soil::new(1.0, poisson, 1.0)?;
     let strip = Strip::new(-1.0..1.0, elements, Grading::Cosine)?;
-    let ground = HalfPlaneGround::new(soil, &[strip])?;
+    let ground = ElasticGround::new(soil, strip)?;
     let places = ground.elements().to_vec();
     let simulation = Simulation::builder(0.1)
         .structure(tilted(eccentricity)?)
@@ -83,7 +83,7 @@ fn glued(poisson: f64, elements: usize) -> Result<[[f64; 2]; 2], AnyError> {
     let strip = Strip::new(-1.0..1.0, elements, Grading::Cosine)?;
     let simulation = Simulation::builder(0.1)
         .structure(tilted(1.0)?)
-        .ground(HalfPlaneGround::new(soil, &[strip])?)
+        .ground(ElasticGround::new(soil, strip)?)
         .interface(Bonded)
         .gravity(1.0)
         .build()?;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use basemat::bem::{Grading, Ground, HalfPlaneGround, SpringGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Ground, SpringGround, Strip};
 use basemat::interface::Coulomb;
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{ContactNode, RigidBlock, Structure, Triplets};
@@ -174,7 +174,7 @@ fn quarter(speed: f64, elements: usize) -> Result<[f64; 2], AnyError> {
     let (poisson, time_step) = (1.0 / 3.0, 0.0025);
     let soil = Soil::from_wave_speeds(speed, 2.0 * speed, 2000.0)?;
     let strip = Strip::new(-B..B, elements, Grading::Cosine)?;
-    let ground = HalfPlaneGround::new(soil, &[strip])?;
+    let ground = ElasticGround::new(soil, strip)?;
     let edge = ground.elements()[0].length();
     let tilts = tilts(ground, 2.0 * B, time_step, 1.5)?;
     let peak = (whole(PUSHED / time_step)..tilts.len() - 1)

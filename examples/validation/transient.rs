@@ -1,6 +1,6 @@
 //! Structures on a bonded strip under a vertically incident pulse, against tables in time.
 
-use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::coupled::State;
 use basemat::interface::Bonded;
 use basemat::motion::RickerDisplacement;
@@ -72,7 +72,7 @@ pub(crate) fn histories(
     let strip = Strip::new(-1.0..1.0, ELEMENTS, Grading::Cosine)?;
     let mut simulation = Simulation::builder(TIME_STEP)
         .structure(structure)
-        .ground(HalfPlaneGround::new(soil, &[strip])?)
+        .ground(ElasticGround::new(soil, strip)?)
         .interface(Bonded)
         .gravity(0.0)
         .motion(RickerDisplacement::new(1.0, 1.0, 5.0)?)

@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use basemat::bem::layered::LayeredGround;
-use basemat::bem::{Grading, Ground, HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Ground, Strip};
 use basemat::coupled::{Coordinates, Simulation};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::{Bonded, Coulomb};
@@ -123,7 +122,7 @@ impl Case {
 
     fn ground(&self, strip: Strip) -> Result<Box<dyn Ground>> {
         if !self.layered {
-            return Ok(Box::new(HalfPlaneGround::new(Self::soil()?, &[strip])?));
+            return Ok(Box::new(ElasticGround::new(Self::soil()?, strip)?));
         }
         // Twelve metres of the half-plane's soil with 3 % of damping on rock with 1 %.
         let law = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.2, 25.0], 2.0);
@@ -132,7 +131,7 @@ impl Case {
             .with_base_damping(law(0.01)?)
             .with_layer(Self::soil()?, 12.0)?
             .with_damping(law(0.03)?);
-        Ok(Box::new(LayeredGround::new(profile, &[strip])?))
+        Ok(Box::new(ElasticGround::new(profile, strip)?))
     }
 
     fn motion(&self) -> Result<Record> {

@@ -1,6 +1,6 @@
 //! How a scene is computed: mesh, time step, history, time scheme.
 
-use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::coupled::{Midpoint, Newmark, SimulationBuilder, Theta};
 use basemat::history::History;
 use basemat::{Result, Soil};
@@ -88,9 +88,9 @@ impl Settings {
     }
 
     /// Half-plane under a base between −`half` and `half`.
-    pub(crate) fn ground(&self, soil: Soil, half: f64) -> Result<HalfPlaneGround> {
+    pub(crate) fn ground(&self, soil: Soil, half: f64) -> Result<ElasticGround> {
         let strip = Strip::new(-half..half, self.elements, self.grading)?;
-        let ground = HalfPlaneGround::new(soil, &[strip])?.with_history_kind(self.history.kind);
+        let ground = ElasticGround::new(soil, strip)?.with_history_kind(self.history.kind);
         match self.history.tolerance {
             Some(tolerance) => ground.with_history_tolerance(tolerance),
             None => Ok(ground),

@@ -100,7 +100,7 @@ def shake(
     simulation = bm.Simulation(
         STEP,
         building,
-        bm.HalfPlaneGround.under(soil, building, ELEMENTS, kernels=KERNELS),
+        bm.ElasticGround.under(soil, building, ELEMENTS, kernels=KERNELS),
         bm.Coulomb(friction),
         motion=record.scaled(peak_velocity_m_per_s / record.peak_velocity),
         probes=[

@@ -6,7 +6,7 @@ mod containment;
 
 use std::time::Instant;
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Probe, Run};
 use basemat::fem::Direction;
 use basemat::interface::{Bonded, Coulomb};
@@ -30,7 +30,7 @@ fn scene(friction: Option<f64>, steps: usize) -> Result<Simulation> {
     let sway: Row = x.terms().iter().copied().chain(feet).collect();
     let shear = scene.base_shear(&model)?;
     let builder = Simulation::builder(scene.time_step(0.5))
-        .ground(HalfPlaneGround::uniform_strip(scene.soil()?, scene.base(), scene.elements)?)
+        .ground(ElasticGround::new(scene.soil()?, Strip::uniform(scene.base(), scene.elements)?)?)
         .motion(el_centro_1940())
         .expected_steps(steps)
         .probe(Probe::absolute_displacement("roof x", x))

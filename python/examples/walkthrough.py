@@ -34,7 +34,7 @@ probes = [
 
 def simulation(law: bm.InterfaceLaw, motion: bm.Record = record) -> bm.Simulation:
     """The building with a law between base and soil."""
-    ground = bm.HalfPlaneGround.under(soil, building, 16)
+    ground = bm.ElasticGround.under(soil, building, 16)
     return bm.Simulation(0.005, building, ground, law, motion=motion, probes=probes)
 
 

@@ -1,7 +1,6 @@
 //! The compiled half of the Python package `basemat`: descriptions of soils, structures, laws and
 //! motions, the simulation made of them, and its results.
 
-mod advice;
 mod array;
 mod error;
 mod ground;
@@ -12,6 +11,7 @@ mod names;
 mod probe;
 mod profile;
 mod recipe;
+mod refine;
 mod results;
 mod row;
 mod simulation;
@@ -26,8 +26,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("MODES", names::MODE_NAMES)?;
     module.add("STANDARD_GRAVITY", basemat::motion::STANDARD_GRAVITY)?;
-    module.add_class::<advice::PyAdvice>()?;
-    module.add_function(wrap_pyfunction!(advice::advise, module)?)?;
+    module.add_class::<refine::PyRefinement>()?;
+    module.add_function(wrap_pyfunction!(refine::refine, module)?)?;
     module.add_function(wrap_pyfunction!(memory::memory_limit, module)?)?;
     module.add_function(wrap_pyfunction!(memory::set_memory_limit, module)?)?;
     module.add_class::<soil::PySoil>()?;
@@ -61,8 +61,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<ground::PyGround>()?;
     module.add_class::<ground::PyStrip>()?;
     module.add_class::<ground::PySharedKernels>()?;
-    module.add_class::<ground::PyHalfPlaneGround>()?;
-    module.add_class::<ground::PyLayeredGround>()?;
+    module.add_class::<ground::PyElasticGround>()?;
     module.add_class::<ground::PyImpedances>()?;
     module.add_class::<ground::PySpringGround>()?;
     module.add_class::<interface::PyInterfaceLaw>()?;

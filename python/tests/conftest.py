@@ -45,7 +45,7 @@ def rocking(soil: bm.Soil, block: bm.RigidBlock):
     def make(friction: float = 0.4, **others: object) -> bm.Simulation:
         parts = {
             "structure": block,
-            "ground": bm.HalfPlaneGround.under(soil, block, 8),
+            "ground": bm.ElasticGround.under(soil, block, 8),
             "interface": bm.Coulomb(friction),
             "motion": bm.el_centro_1940(),
             "probes": [bm.Probe.acceleration("roof", block.horizontal_at(9.0))],

@@ -95,7 +95,7 @@ def test_python_structure_and_law_give_the_same_bits(soil: bm.Soil, rocking, blo
     assert expected.uplifted_fraction.value > 0.2
     for parts in (
         {"structure": own},
-        {"ground": bm.HalfPlaneGround.under(soil, own, 8)},
+        {"ground": bm.ElasticGround.under(soil, own, 8)},
         {"interface": Friction()},
         {"interface": [Friction()] * 8},
         {"interface": bm.VariableFriction(lambda start: 0.4)},

@@ -112,7 +112,7 @@ class Logged:
 
 def rocking(steps: int) -> bm.Run:
     block = bm.RigidBlock(6.0, 9.0, 1000.0)
-    ground = bm.HalfPlaneGround.under(bm.Soil(80.0e6, 0.33, 1900.0), block, 6)
+    ground = bm.ElasticGround.under(bm.Soil(80.0e6, 0.33, 1900.0), block, 6)
     simulation = bm.Simulation(0.01, block, ground, bm.Coulomb(0.4), motion=bm.el_centro_1940())
     return simulation.run(steps, series=False)
 
@@ -258,9 +258,9 @@ def test_the_table_is_rusts(rust: list[str], tmp_path: Path) -> None:
     assert (tmp_path / "rust" / "curves.csv").exists()
 
 
-def test_the_guides_program_runs(tmp_path: Path) -> None:
-    guide = (CRATE.parent / "docs" / "sweeps.md").read_text("utf-8")
-    [program] = re.findall(r"## On Dask\n.*?```python\n(.*?)```", guide, re.S)
+def test_the_readmes_program_runs(tmp_path: Path) -> None:
+    readme = (CRATE / "README.md").read_text("utf-8")
+    [program] = re.findall(r"## On Dask\n.*?```python\n(.*?)```", readme, re.S)
     (tmp_path / "study.py").write_text(program, "utf-8")
     subprocess.run([sys.executable, "study.py"], cwd=tmp_path, check=True, timeout=300)
     table = read(tmp_path / "cases.csv")

@@ -81,7 +81,7 @@ def test_what_holds_real_numbers_will_do() -> None:
 
 
 def test_rows_of_all_weights_belong_to_a_structure_of_as_many_unknowns(soil: bm.Soil) -> None:
-    ground = bm.HalfPlaneGround.under(soil, BUILDING, 4)
+    ground = bm.ElasticGround.under(soil, BUILDING, 4)
 
     def simulation(**parts: object) -> bm.Simulation:
         return bm.Simulation(0.01, BUILDING, ground, bm.Bonded(), **parts)

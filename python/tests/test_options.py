@@ -136,7 +136,7 @@ def test_serviceability(rocking) -> None:
 def test_coordinates_change_rounding_only(soil: bm.Soil) -> None:
     storeys = [bm.Storey(3.0, 20e3, 40e6)] * 5
     building = bm.ShearBuilding(10.0, 50e3, 4e5, storeys, damping=0.05)
-    ground = bm.HalfPlaneGround.under(soil, building, 6)
+    ground = bm.ElasticGround.under(soil, building, 6)
 
     def run(**options: object) -> bm.Run:
         law, motion = bm.Coulomb(0.4), bm.el_centro_1940()
@@ -155,7 +155,7 @@ def test_coordinates_change_rounding_only(soil: bm.Soil) -> None:
 def test_histories_agree_and_say_what_they_are(rocking, soil, block) -> None:
     runs = {}
     for kind in ("direct", "relaxed fft", "exponentials"):
-        ground = bm.HalfPlaneGround.under(soil, block, 8, history=kind)
+        ground = bm.ElasticGround.under(soil, block, 8, history=kind)
         simulation = rocking(ground=ground)
         runs[kind] = simulation.run(400)["base_shear"]
         assert simulation.history_choice is not None and "as asked" in simulation.history_choice
@@ -163,24 +163,24 @@ def test_histories_agree_and_say_what_they_are(rocking, soil, block) -> None:
     np.testing.assert_allclose(runs["relaxed fft"], runs["direct"], atol=1e-9 * scale)
     np.testing.assert_allclose(runs["exponentials"], runs["direct"], atol=1e-3 * scale)
     with pytest.raises(bm.InputError, match="no history 'fast', only direct"):
-        bm.HalfPlaneGround.under(soil, block, 8, history="fast")
+        bm.ElasticGround.under(soil, block, 8, history="fast")
 
 
 def test_shared_kernels_change_nothing(rocking, soil, block) -> None:
     kernels = bm.SharedKernels()
     expected = rocking().run(200)["base_shear"]
     for _ in range(2):
-        ground = bm.HalfPlaneGround.under(soil, block, 8, kernels=kernels)
+        ground = bm.ElasticGround.under(soil, block, 8, kernels=kernels)
         assert same_bits(rocking(ground=ground).run(200)["base_shear"], expected)
     assert len(kernels) == 1
 
 
 def test_strips(soil: bm.Soil) -> None:
-    graded = bm.HalfPlaneGround.strip(soil, -3.0, 3.0, 8).elements
-    uniform = bm.HalfPlaneGround.strip(soil, -3.0, 3.0, 8, grading="uniform").elements
+    graded = bm.ElasticGround(soil, bm.Strip(-3.0, 3.0, 8)).elements
+    uniform = bm.ElasticGround(soil, bm.Strip(-3.0, 3.0, 8, grading="uniform")).elements
     assert graded.shape == (8, 2) and graded[0, 1] - graded[0, 0] < 0.4
     np.testing.assert_allclose(np.diff(uniform), 0.75, rtol=1e-12)
-    own = bm.HalfPlaneGround(soil, [bm.Strip.from_nodes([-5, -4, -2]), bm.Strip(1.0, 2.0, 3)])
+    own = bm.ElasticGround(soil, [bm.Strip.from_nodes([-5, -4, -2]), bm.Strip(1.0, 2.0, 3)])
     assert own.elements[:, 0].tolist()[:2] == [-5.0, -4.0] and len(own.elements) == 5
 
 
@@ -201,20 +201,25 @@ def test_laws_of_the_interface_bound_its_tractions(rocking, soil) -> None:
         rocking(interface=[bm.Coulomb(0.4)] * 3)
 
 
-def test_advice_is_followed_by_a_smaller_error(soil: bm.Soil) -> None:
-    record = bm.el_centro_1940()
-    outline = {"width": 6.0, "height": 9.0, "mass": 54e3}
-    fine, coarse = (bm.advise(soil, record, tolerance, **outline) for tolerance in (0.01, 0.1))
-    assert fine.elements > coarse.elements and fine.time_step < coarse.time_step
-    assert max(coarse.mesh_error, coarse.step_error, coarse.peak_error) <= 0.06
-    assert (fine.grading, fine.history) == ("cosine", "auto")
+def test_refinement_finds_the_order_and_the_error(soil: bm.Soil) -> None:
+    found = bm.refine(8, 0.1, lambda n, step: [5.0 + 3.0 / n**2, 2.0 - 0.5 * step])
+    assert found.elements == [8, 8, 8, 16, 32, 16] and found.time_steps[2] == 0.025
+    assert abs(found.mesh_order - 2.0) < 1e-6 and abs(found.step_order - 1.0) < 1e-6
+    assert np.allclose(found.extrapolated, [5.0, 2.0], rtol=1e-9)
+    truth = np.hypot(3.0 / 64, 0.05) / np.hypot(5.0, 2.0)
+    assert abs(found.errors[0] - truth) < 1e-6 * truth and found.is_regular
+    assert "order of convergence: 2.0" in str(found) and len(found.wall_times) == 6
+    with pytest.raises(ZeroDivisionError):
+        bm.refine(8, 0.1, lambda n, step: 1 / 0)
+    with pytest.raises(bm.InputError, match="number of elements"):
+        bm.refine(0, 0.1, lambda n, step: 1.0)
 
 
 def test_words_are_those_of_the_crate_and_those_of_the_docstrings(rocking, soil, block) -> None:
     for word in ("with interface law", "with_interface_law", "With-interface-law"):
         rocking(placement=word)
     for word in ("relaxed fft", "relaxed_fft"):
-        bm.HalfPlaneGround.under(soil, block, 8, history=word)
+        bm.ElasticGround.under(soil, block, 8, history=word)
     record = bm.el_centro_1940()
     rests = [
         record.with_baseline(word, degree=degree).accelerations

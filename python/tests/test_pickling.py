@@ -83,7 +83,7 @@ def test_structures(name: str) -> None:
     assert same_bits(copy.mass(), structure.mass())
     assert same_bits(copy.stiffness(), structure.stiffness())
     assert same_bits(copy.damping(), structure.damping())
-    ground = bm.HalfPlaneGround.under(SOIL, structure, 4)
+    ground = bm.ElasticGround.under(SOIL, structure, 4)
     expected = shaken(structure, ground, RECORD, bm.Coulomb(0.4))
     assert same_bits(
         shaken(copy, copied(ground), copied(RECORD), copied(bm.Coulomb(0.4))), expected
@@ -104,10 +104,10 @@ PROFILE = bm.SoilProfile([bm.SoilLayer(SOIL, 6.0, LAW)], SOIL, base_damping=LAW)
 def test_grounds() -> None:
     strip = bm.Strip.from_nodes([-4.0, -3.0, 0.0, 3.0, 4.0])
     for ground in (
-        bm.HalfPlaneGround(SOIL, [strip], history="exponentials"),
-        bm.HalfPlaneGround.strip(SOIL, -4.0, 4.0, 4, kernels=bm.SharedKernels()),
+        bm.ElasticGround(SOIL, [strip], history="exponentials"),
+        bm.ElasticGround(SOIL, bm.Strip(-4.0, 4.0, 4), kernels=bm.SharedKernels()),
         bm.SpringGround([strip], 1e8, 5e7, dashpots=(1e6, 1e6)),
-        bm.LayeredGround.under(PROFILE, BUILDING, 4),
+        bm.ElasticGround.under(PROFILE, BUILDING, 4),
     ):
         expected = shaken(BUILDING, ground, RECORD, bm.Coulomb(0.3))
         assert same_bits(shaken(BUILDING, copied(ground), RECORD, bm.Coulomb(0.3)), expected)
@@ -125,7 +125,7 @@ def test_motions_laws_loads_and_probes() -> None:
     load = copied(bm.Load.table(3, [0.0, 1.0], [0.0, 1e4]))
     probe = copied(bm.Probe.section("shear", BUILDING.shear(0), unit="N/m"))
     assert (probe.name, probe.unit) == ("shear", "N/m")
-    ground = bm.HalfPlaneGround.under(SOIL, BUILDING, 4)
+    ground = bm.ElasticGround.under(SOIL, BUILDING, 4)
     for law in (bm.Bonded(), bm.Adhesive(1e5, 1e5, 0.4), bm.ThinLayer(SOIL, 1.0, 0.4)):
         runs = [
             bm.Simulation(0.005, BUILDING, ground, own, loads=[load], probes=[probe]).run(50)[
@@ -168,8 +168,8 @@ def test_signatures_stay_readable() -> None:
     assert sys.version_info < (3, 10) or str(inspect.signature(bm.RigidBlock)) == (
         "(width, height, density, *, center=0.0, p_delta=None)"
     )
-    assert "grading='cosine'" in str(inspect.signature(bm.HalfPlaneGround.under))
-    assert "of ``count`` elements" in bm.HalfPlaneGround.under.__doc__
+    assert "grading='cosine'" in str(inspect.signature(bm.ElasticGround.under))
+    assert "of ``count`` elements" in bm.ElasticGround.under.__doc__
 
 
 def test_what_changes_later_was_copied() -> None:
@@ -180,17 +180,17 @@ def test_what_changes_later_was_copied() -> None:
     row = bm.Load.table(3, pandas.Series([0.0, 1.0]), weights)
     strip = bm.Strip.from_nodes(nodes)
     building = yielding(laws)
-    expected = shaken(building, bm.HalfPlaneGround.under(SOIL, building, 4), RECORD, bm.Bonded())
+    expected = shaken(building, bm.ElasticGround.under(SOIL, building, 4), RECORD, bm.Bonded())
     weights[:] = 7.0
     nodes[2] = 9.0
     laws[1] = laws.pop(0)
     assert copied(strip).nodes == strip.nodes
     copy = copied(building)
-    found = shaken(copy, bm.HalfPlaneGround.under(SOIL, copy, 4), RECORD, bm.Bonded())
+    found = shaken(copy, bm.ElasticGround.under(SOIL, copy, 4), RECORD, bm.Bonded())
     assert same_bits(found, expected)
     pushed = [
         bm.Simulation(
-            0.01, BUILDING, bm.HalfPlaneGround.under(SOIL, BUILDING, 4), bm.Bonded(), loads=[load]
+            0.01, BUILDING, bm.ElasticGround.under(SOIL, BUILDING, 4), bm.Bonded(), loads=[load]
         ).run(20)["base_shear"]
         for load in (row, copied(row))
     ]

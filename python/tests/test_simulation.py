@@ -40,7 +40,7 @@ def test_time_series_have_a_value_per_step_and_agree_with_the_summary(rocking) -
     assert np.abs(pressure[opened]).max() < 1e-6 * pressure.max()
     # Pressure times length is the normal force.
     lengths = np.diff(
-        bm.HalfPlaneGround.under(
+        bm.ElasticGround.under(
             bm.Soil(80e6, 0.33, 1900.0), bm.RigidBlock(6.0, 9.0, 1000.0), 8
         ).elements
     )
@@ -218,7 +218,7 @@ def test_checkpoints_pickle_and_go_on_to_the_same_bits(rocking) -> None:
     ):
         block = bm.RigidBlock(5.0, 9.0, 1000.0)
         rocking(
-            structure=block, ground=bm.HalfPlaneGround.under(bm.Soil(80e6, 0.33, 1900.0), block, 8)
+            structure=block, ground=bm.ElasticGround.under(bm.Soil(80e6, 0.33, 1900.0), block, 8)
         ).resume(saved)
     with pytest.raises(bm.InputError, match="bytes of a checkpoint"):
         bm.Checkpoint(b"\xff" * 5)

@@ -18,7 +18,7 @@ STOREYS = [bm.Storey(3.0, 20e3, 40e6)] * 3
 
 
 def shaken(structure: object, soil: bm.Soil, **others: object) -> bm.Run:
-    ground = bm.HalfPlaneGround.under(soil, structure, 6)
+    ground = bm.ElasticGround.under(soil, structure, 6)
     simulation = bm.Simulation(
         0.005, structure, ground, bm.Coulomb(0.4), motion=bm.el_centro_1940(), **others
     )
@@ -204,8 +204,8 @@ def test_layers_over_a_half_plane_of_the_same_soil_are_the_half_plane(soil: bm.S
     block = bm.RigidBlock(6.0, 9.0, 1000.0)
     frequencies = [1.0, 4.0, 10.0]
     profile = bm.SoilProfile([bm.SoilLayer(soil, 5.0)], soil)
-    layered = bm.LayeredGround.under(profile, block, 8)
-    half_plane = bm.HalfPlaneGround.under(soil, block, 8)
+    layered = bm.ElasticGround.under(profile, block, 8)
+    half_plane = bm.ElasticGround.under(soil, block, 8)
     one, other = layered.impedances(frequencies), half_plane.impedances(frequencies)
     for name in ("horizontal", "vertical", "rocking"):
         np.testing.assert_allclose(getattr(one, name), getattr(other, name), rtol=1e-4)

@@ -20,7 +20,7 @@ def make(friction: float, peak: float) -> bm.Simulation:
     if friction == 0.25:
         raise ValueError("no such friction")
     block = bm.RigidBlock(6.0, 9.0, 1000.0)
-    ground = bm.HalfPlaneGround.under(bm.Soil(80.0e6, 0.33, 1900.0), block, 6)
+    ground = bm.ElasticGround.under(bm.Soil(80.0e6, 0.33, 1900.0), block, 6)
     motion = bm.el_centro_1940().scaled_to_peak(peak)
     return bm.Simulation(0.01, block, ground, bm.Coulomb(friction), motion=motion)
 

@@ -24,6 +24,7 @@ use crate::fundamental::branch::{Branches, Part, Weight};
 use crate::fundamental::rayleigh::Rayleigh;
 use crate::fundamental::rayleigh::{TERMS, late_coefficients};
 use crate::geometry::ContactElement;
+use crate::history::KINDS;
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
@@ -174,11 +175,12 @@ impl PairInfluence<'_> {
         }
     }
 
-    /// Overwrites the slices with lags `first`, `first + 1`, … of one component each.
+    /// Overwrites the slices with lags `first`, `first + 1`, … of zz, xx and zx.
     ///
     /// # Errors
     /// [`Error::Size`] unless the slices have one length; [`Error::Input`] if `first` is 0.
-    pub fn fill(&self, first: usize, zz: &mut [f64], xx: &mut [f64], zx: &mut [f64]) -> Result<()> {
+    pub fn fill(&self, first: usize, values: [&mut [f64]; KINDS]) -> Result<()> {
+        let [zz, xx, zx] = values;
         if first == 0 {
             return Err(Error::Input { quantity: "first lag", value: 0.0, needed: "at least 1" });
         }

@@ -12,7 +12,7 @@ use crate::history::{
 
 /// Any soil that knows its step coefficients and its static compliance, as a ground.
 ///
-/// [`HalfPlaneGround`](super::HalfPlaneGround) is made of it, and so can be a soil of your own: a
+/// [`ElasticGround`](super::ElasticGround) is made of it, and so can be a soil of your own: a
 /// [`KernelSource`] and its [`LagKernel`]. All kinds of histories, their choice, shared kernels
 /// and checkpoints come with it.
 ///
@@ -52,10 +52,9 @@ use crate::history::{
 ///         &self,
 ///         class: usize,
 ///         first_lag: usize,
-///         normal: &mut [f64],
-///         tangential: &mut [f64],
-///         coupling: &mut [f64],
+///         values: [&mut [f64]; 3],
 ///     ) -> Result<()> {
+///         let [normal, tangential, coupling] = values;
 ///         let Bed { stiffness, dashpots } = self.bed;
 ///         let rate = stiffness * self.time_step / dashpots;
 ///         let [source, receiver] = self.classes.representative(class)?;

@@ -22,10 +22,11 @@
 
 use super::PatchKernel;
 use super::influence::LateSeries;
-use super::legendre::Basis;
 use crate::error::Result;
 use crate::fundamental::rayleigh::TERMS;
+use crate::geometry::ContactElement;
 use crate::history::{ExponentialTail, LagKernel, LateLags, TailProduct};
+use crate::linalg::gauss;
 
 /// Times that the Rayleigh wave has crossed the patch when exponentials take over. Behind three,
 /// the coefficients themselves are summed from the same series.
@@ -169,6 +170,57 @@ impl Pole {
     }
 }
 
+/// Legendre polynomials of degree 0, 1, … on [−1, 1] stretched over a patch.
+#[derive(Debug, Clone)]
+struct Basis {
+    /// Half of the patch's length, m.
+    half: f64,
+    /// Per degree: its means over the elements.
+    means: Vec<Vec<f64>>,
+}
+
+/// Overwrites `values` with the Legendre polynomials of degree 0, 1, … at `x`.
+fn legendre(x: f64, values: &mut [f64]) {
+    for degree in 0..values.len() {
+        values[degree] = match degree {
+            0 => 1.0,
+            1 => x,
+            _ => gauss::next_legendre(degree, x, [values[degree - 2], values[degree - 1]]),
+        };
+    }
+}
+
+impl Basis {
+    fn new(elements: &[ContactElement], degrees: usize) -> Self {
+        let (first, last) = (elements[0].left, elements[elements.len() - 1].right);
+        let (half, middle) = (0.5 * (last - first), 0.5 * (first + last));
+        let mut means = vec![vec![0.0; elements.len()]; degrees];
+        let mut values = vec![0.0; degrees];
+        // A Gauss rule over each element is exact, and does not cancel on short ones.
+        let rule = gauss::largest();
+        for (e, element) in elements.iter().enumerate() {
+            for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
+                let x = element.center() - middle + 0.5 * element.length() * node;
+                legendre(x / half, &mut values);
+                for (mean, value) in means.iter_mut().zip(&values) {
+                    mean[e] += 0.5 * weight * value;
+                }
+            }
+        }
+        Self { half, means }
+    }
+
+    /// Forgets the polynomials from `degrees` on.
+    fn truncate(&mut self, degrees: usize) {
+        self.means.truncate(degrees);
+    }
+
+    /// Per polynomial: its means over the elements.
+    fn into_means(self) -> Vec<Vec<f64>> {
+        self.means
+    }
+}
+
 /// Legendre coefficients of (x−y)^(2k) in x and y, `DEGREES` × `DEGREES` for each k. Of the
 /// binomial's terms those with a coefficient are all of one sign: nothing cancels.
 fn differences() -> Vec<f64> {
@@ -209,7 +261,6 @@ fn monomials(count: usize) -> Vec<Vec<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::legendre::legendre;
     use super::*;
 
     #[test]

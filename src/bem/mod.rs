@@ -7,15 +7,13 @@
 //! tangential ones (traction τ on the soil and displacement, positive to the right). They are
 //! means over the elements, from left to right.
 
+mod elastic_ground;
 #[cfg(feature = "full-plane")]
 pub mod full_plane;
-mod half_plane;
 mod influence;
 mod kernel_ground;
-mod kernel_source;
 mod late_exponentials;
 pub mod layered;
-mod legendre;
 mod overlap;
 mod patch;
 mod shared;
@@ -23,10 +21,9 @@ mod spring;
 mod static_kernel;
 mod strip;
 
-pub use half_plane::HalfPlaneGround;
+pub use elastic_ground::ElasticGround;
 pub use influence::{Influence, InfluenceKernel, PairInfluence};
 pub use kernel_ground::KernelGround;
-pub use kernel_source::KernelSource;
 pub use patch::PatchKernel;
 pub use shared::SharedKernels;
 pub use spring::SpringGround;
@@ -34,11 +31,13 @@ pub use static_kernel::StaticKernel;
 pub use strip::{Grading, Strip};
 
 use std::any::Any;
+use std::sync::Arc;
 
 pub use crate::geometry::ContactElement;
 
 use crate::error::{CheckpointError, Result};
-use crate::history::HistoryChoice;
+use crate::geometry::ContactLayout;
+use crate::history::{HistoryChoice, LagKernel};
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
@@ -150,12 +149,42 @@ pub trait Ground: Any + Send {
     /// Overwrites `displacement` (2Q, m; normal components **down**) with the motion of the soil
     /// without structure at `time`. The default samples `motion` at the element midpoints.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
-        let (down, along) =
-            displacement.split_at_mut(self.elements().len().min(displacement.len()));
+        let [down, along] = ContactLayout::new(self.elements().len()).split_mut(displacement);
         for (element, (down, along)) in self.elements().iter().zip(down.iter_mut().zip(along)) {
             let [horizontal, vertical] = motion.displacement(element.center(), time);
             *down = -vertical;
             *along = horizontal;
         }
+    }
+}
+
+/// A soil that knows its step coefficients and its static compliance: all that
+/// [`KernelGround`] needs.
+pub trait KernelSource: Any + Send {
+    /// The coefficients under `elements` (left to right, not overlapping) for steps of `time_step`
+    /// seconds. They should be computed when they are asked for, not now: other grounds may be
+    /// waiting for the same kernel.
+    ///
+    /// # Errors
+    /// If the soil has none for these elements or this step.
+    fn kernel(&self, elements: &[ContactElement], time_step: f64) -> Result<Arc<dyn LagKernel>>;
+
+    /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa; 2Q numbers as in the module) with the
+    /// mean static displacements of the elements due to unit tractions, up to a rigid settlement.
+    ///
+    /// # Errors
+    /// If the slice has the wrong length.
+    fn static_compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()>;
+
+    /// Speed of shear waves near the surface, m/s, as [`Ground::shear_wave_speed`].
+    fn shear_wave_speed(&self) -> Option<f64> {
+        None
+    }
+
+    /// Numbers that say which soil of its type it is, so that equal ones can share kernels
+    /// ([`SharedKernels`]): equal numbers must mean equal bits of all
+    /// coefficients. `None` (the default) if kernels are not to be shared.
+    fn identity(&self) -> Option<Vec<f64>> {
+        None
     }
 }

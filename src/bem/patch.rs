@@ -4,7 +4,7 @@ use super::InfluenceKernel;
 use super::influence::LateSeries;
 use crate::error::Result;
 use crate::geometry::ContactElement;
-use crate::history::{LagKernel, LateLags, PairClasses, SharedSpectra};
+use crate::history::{KINDS, LagKernel, LateLags, PairClasses, SharedSpectra};
 use crate::soil::Soil;
 
 /// The [`LagKernel`] of the half-plane: coefficients Gⁿ of a patch of surface elements, closed form.
@@ -43,17 +43,14 @@ impl LagKernel for PatchKernel {
         &self,
         class: usize,
         first_lag: usize,
-        normal: &mut [f64],
-        tangential: &mut [f64],
-        coupling: &mut [f64],
+        mut values: [&mut [f64]; KINDS],
     ) -> Result<()> {
         let [source, receiver] = self.classes.representative(class)?;
-        self.kernel.pair(receiver, source)?.fill(first_lag, normal, tangential, coupling)?;
+        let pair = self.kernel.pair(receiver, source)?;
+        pair.fill(first_lag, values.each_mut().map(|kind| &mut **kind))?;
         let length = receiver.length();
-        for values in [normal, tangential, coupling] {
-            for value in values {
-                *value *= length;
-            }
+        for value in values.into_iter().flatten() {
+            *value *= length;
         }
         Ok(())
     }

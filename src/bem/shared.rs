@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, ThreadId};
 
-use super::kernel_source::KernelSource;
+use super::KernelSource;
 use crate::error::{Error, Result};
 use crate::geometry::ContactElement;
 use crate::history::LagKernel;
@@ -15,7 +15,7 @@ const KEPT: usize = 8;
 
 /// Coefficients, and spectra made of them, that grounds of one soil, mesh and time step share.
 ///
-/// Grounds with clones of one and the same store ([`HalfPlaneGround::with_shared_kernels`],
+/// Grounds with clones of one and the same store ([`ElasticGround::with_shared_kernels`],
 /// [`KernelGround::with_shared_kernels`](super::KernelGround::with_shared_kernels)) compute and hold
 /// them once. The store keeps those of the last eight different soils, meshes and steps. Results are the
 /// same to the last bit. What one soil is says [`KernelSource::identity`]. Who asks for coefficients
@@ -23,13 +23,13 @@ const KEPT: usize = 8;
 /// same store while it makes its own.
 ///
 /// ```
-/// use basemat::bem::{Ground, HalfPlaneGround, SharedKernels};
+/// use basemat::bem::{ElasticGround, Ground, SharedKernels, Strip};
 /// use basemat::{Error, Soil, Sweep};
 /// let kernels = SharedKernels::default();
 /// Sweep::new(3).run(
 ///     |case| {
 ///         let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
-///         let ground = HalfPlaneGround::strip(soil, -5.0..5.0, 10)?;
+///         let ground = ElasticGround::new(soil, Strip::graded(-5.0..5.0, 10)?)?;
 ///         let mut ground = ground.with_shared_kernels(&kernels);
 ///         ground.prepare(2.0e-3)?;
 ///         ground.reserve(100 * case.index())
@@ -40,7 +40,7 @@ const KEPT: usize = 8;
 /// # Ok::<(), Error>(())
 /// ```
 ///
-/// [`HalfPlaneGround::with_shared_kernels`]: super::HalfPlaneGround::with_shared_kernels
+/// [`ElasticGround::with_shared_kernels`]: super::ElasticGround::with_shared_kernels
 #[derive(Debug, Clone, Default)]
 pub struct SharedKernels {
     store: Arc<Store>,

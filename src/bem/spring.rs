@@ -1,9 +1,8 @@
 //! Winkler's spring bed: a ground without memory.
 
-use super::strip::strips_under;
 use super::{Grading, Ground, Strip};
 use crate::error::{CheckpointError, Error, Result, not_negative, positive, same_length};
-use crate::geometry::{ContactElement, check_order};
+use crate::geometry::{ContactElement, ContactLayout, check_order};
 use crate::structure::Structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).
@@ -50,14 +49,14 @@ impl SpringGround {
     /// The same under each foundation of `structure`, as wide as that is, of `count` equal elements.
     ///
     /// # Errors
-    /// As for [`HalfPlaneGround::under`](super::HalfPlaneGround::under) and [`SpringGround::new`].
+    /// As for [`Strip::under`] and [`SpringGround::new`].
     pub fn under(
         structure: &dyn Structure,
         count: usize,
         normal_stiffness: f64,
         tangential_stiffness: f64,
     ) -> Result<Self> {
-        let strips = strips_under(structure, count, Grading::Uniform)?;
+        let strips = Strip::under(structure, count, Grading::Uniform)?;
         Self::on_strips(&strips, normal_stiffness, tangential_stiffness)
     }
 
@@ -76,7 +75,7 @@ impl SpringGround {
         positive("normal stiffness of the spring bed", normal_stiffness)?;
         positive("tangential stiffness of the spring bed", tangential_stiffness)?;
         Ok(Self {
-            displacement: vec![0.0; 2 * elements.len()],
+            displacement: vec![0.0; ContactLayout::new(elements.len()).len()],
             elements,
             stiffness: [normal_stiffness, tangential_stiffness],
             dashpot: [0.0; 2],
@@ -126,7 +125,7 @@ impl SpringGround {
     }
 
     fn fill_diagonal(&self, matrix: &mut [f64], value: impl Fn(usize) -> f64) -> Result<()> {
-        let size = 2 * self.elements.len();
+        let size = self.displacement.len();
         same_length("matrix of the spring bed", matrix.len(), size * size)?;
         matrix.fill(0.0);
         for i in 0..size {
@@ -136,7 +135,7 @@ impl SpringGround {
     }
 
     fn component(&self, index: usize) -> usize {
-        usize::from(index >= self.elements.len())
+        ContactLayout::new(self.elements.len()).origin(index)[0]
     }
 }
 

@@ -4,6 +4,7 @@ use super::Influence;
 use super::overlap::Overlap;
 use crate::error::{Result, positive, same_length};
 use crate::geometry::ContactElement;
+use crate::history::PairClasses;
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
@@ -63,20 +64,18 @@ impl StaticKernel {
 
     /// Overwrites `matrix` (2Q × 2Q, row-major) with the means of all pairs of elements.
     pub(super) fn compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
-        let count = elements.len();
-        same_length("static compliance", matrix.len(), 4 * count * count)?;
-        for (p, receiver) in elements.iter().enumerate() {
-            for (q, source) in elements.iter().enumerate() {
-                let mean = self.coefficients(*receiver, *source)?;
-                let mut set = |row: usize, column: usize, value: f64| {
-                    matrix[row * 2 * count + column] = value;
-                };
-                set(p, q, mean.zz);
-                set(count + p, count + q, mean.xx);
-                set(p, count + q, mean.zx);
-                set(count + p, q, -mean.zx);
-            }
-        }
+        let classes = PairClasses::new(elements.to_vec())?;
+        same_length("static compliance", matrix.len(), classes.layout().square())?;
+        let means = elements
+            .iter()
+            .flat_map(|receiver| {
+                elements.iter().map(|source| self.coefficients(*receiver, *source))
+            })
+            .collect::<Result<Vec<_>>>()?;
+        classes.scatter(matrix, |[receiver, source], pair| {
+            let Influence { zz, xx, zx } = means[receiver * elements.len() + source];
+            [zz, xx, zx * pair.sign]
+        });
         Ok(())
     }
 

@@ -51,7 +51,7 @@ impl Strip {
     /// # Errors
     /// [`Error::Input`] for an empty or infinite range or no elements, [`Error::Memory`] for so many
     /// that the matrices between them would not fit.
-    pub fn new(range: std::ops::Range<f64>, count: usize, grading: Grading) -> Result<Self> {
+    pub fn new(range: Range<f64>, count: usize, grading: Grading) -> Result<Self> {
         finite("left end of the strip", range.start)?;
         finite("right end of the strip", range.end)?;
         positive("length of the strip", range.end - range.start)?;
@@ -82,7 +82,7 @@ impl Strip {
     ///
     /// # Errors
     /// As for [`Strip::new`].
-    pub fn graded(range: std::ops::Range<f64>, count: usize) -> Result<Self> {
+    pub fn graded(range: Range<f64>, count: usize) -> Result<Self> {
         Self::new(range, count, Grading::Cosine)
     }
 
@@ -90,8 +90,31 @@ impl Strip {
     ///
     /// # Errors
     /// As for [`Strip::new`].
-    pub fn uniform(range: std::ops::Range<f64>, count: usize) -> Result<Self> {
+    pub fn uniform(range: Range<f64>, count: usize) -> Result<Self> {
         Self::new(range, count, Grading::Uniform)
+    }
+
+    /// Strips of `count` elements under each foundation of `structure`, as wide as that is.
+    ///
+    /// ```
+    /// use basemat::bem::{Grading, Strip};
+    /// use basemat::structure::RigidBlock;
+    /// let block = RigidBlock::new(6.0, 4.0, 2400.0)?;
+    /// let strips = Strip::under(&block, 12, Grading::Cosine)?;
+    /// let elements = strips[0].elements();
+    /// assert_eq!((strips.len(), elements[0].left, elements[11].right), (1, -3.0, 3.0));
+    /// assert!(elements[0].length() < 0.15 * elements[6].length());
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`Strip::new`]; [`Error::Size`] or [`Error::Index`] for a structure without foundations.
+    pub fn under(structure: &dyn Structure, count: usize, grading: Grading) -> Result<Vec<Self>> {
+        let nodes = structure.contact_nodes();
+        let foundations = foundation_nodes(nodes.len(), &structure.foundation_ends())?;
+        let strip =
+            |own: Range<usize>| Self::new(nodes[own.start].x..nodes[own.end - 1].x, count, grading);
+        foundations.into_iter().map(strip).collect()
     }
 
     /// Strip whose elements lie between neighbouring `nodes` (m).
@@ -125,15 +148,9 @@ impl Strip {
     }
 }
 
-/// Strips of `count` elements under each foundation of `structure`.
-pub(super) fn strips_under(
-    structure: &dyn Structure,
-    count: usize,
-    grading: Grading,
-) -> Result<Vec<Strip>> {
-    let nodes = structure.contact_nodes();
-    let foundations = foundation_nodes(nodes.len(), &structure.foundation_ends())?;
-    let strip =
-        |own: Range<usize>| Strip::new(nodes[own.start].x..nodes[own.end - 1].x, count, grading);
-    foundations.into_iter().map(strip).collect()
+/// One strip where several may be given.
+impl AsRef<[Strip]> for Strip {
+    fn as_ref(&self) -> &[Strip] {
+        std::slice::from_ref(self)
+    }
 }

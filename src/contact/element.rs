@@ -1,6 +1,7 @@
 //! The contact problem of one element, the tractions of the others held.
 
 use super::problem::{ContactInput, ContactSolver};
+use crate::geometry::ContactLayout;
 use crate::interface::{Condition, ContactState, Mode, Tolerance};
 
 /// Solves element `e` alone, the tractions of the others held, and returns its mode.
@@ -10,9 +11,8 @@ pub(super) fn local_mode(
     e: usize,
     current: Mode,
 ) -> Mode {
-    let count = solver.states.len();
-    let size = 2 * count;
-    let (n, t) = (e, count + e);
+    let layout = ContactLayout::new(solver.states.len());
+    let (size, [n, t]) = (layout.len(), layout.places(e));
     let row = |i: usize| &input.delassus[i * size..(i + 1) * size];
     let others = |i: usize| {
         let all: f64 = crate::linalg::dot(row(i), &solver.traction);

@@ -4,6 +4,7 @@ use super::delassus::Delassus;
 use super::problem::{ContactInput, ContactSolver};
 use super::search::{ContactSearch, ModeSearch, SearchMethod};
 use crate::error::{Error, Result, StepError, finite, positive, same_length};
+use crate::geometry::{COMPONENTS, ContactLayout};
 use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, StepStarts, memory_ends};
 use crate::linalg::largest;
 
@@ -117,10 +118,11 @@ impl ContactProblem {
     /// [`Error::Scene`] for a law without modes, [`Error::Input`] for entries that are not finite or
     /// laws that remember more than ten million numbers.
     pub fn new(delassus: Vec<f64>, laws: Vec<Box<dyn InterfaceLaw>>) -> Result<Self> {
-        let size = delassus.len().isqrt();
-        let count = size / 2;
-        if count == 0 || 4 * count * count != delassus.len() {
-            let (quantity, needed) = ("Delassus operator", 4 * count.max(1).pow(2));
+        let count = delassus.len().isqrt() / COMPONENTS;
+        let layout = ContactLayout::new(count);
+        if count == 0 || layout.square() != delassus.len() {
+            let (quantity, needed) =
+                ("Delassus operator", ContactLayout::new(count.max(1)).square());
             return Err(Error::Size { quantity, found: delassus.len(), needed });
         }
         if laws.len() != 1 && laws.len() != count {
@@ -138,7 +140,7 @@ impl ContactProblem {
             memory_ends,
             delassus: delassus.into(),
             laws,
-            static_traction: vec![0.0; 2 * count],
+            static_traction: vec![0.0; layout.len()],
             solver: ContactSolver::new(count),
             search: ModeSearch::new(count, ContactSearch::default()),
             modes: vec![Mode::Stick; count],
@@ -200,7 +202,7 @@ impl ContactProblem {
     /// [`Error::Step`] if no modes satisfy the laws or a law returns a number that is not finite,
     /// numbered by the problems solved so far and with the time of as many steps.
     pub fn solve(&mut self, free_jump: &[f64], start: &StepStarts) -> Result<ContactSolution<'_>> {
-        same_length("free jump", free_jump.len(), 2 * self.modes.len())?;
+        same_length("free jump", free_jump.len(), self.static_traction.len())?;
         check_start(start, self.modes.len(), &self.memory_ends)?;
         check_finite("free jump", free_jump)?;
         for (mode, start) in self.modes.iter_mut().zip(start.iter()) {

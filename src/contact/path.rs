@@ -17,6 +17,7 @@
 //! pressed shut.
 
 use super::problem::{ContactInput, ContactSolver};
+use crate::geometry::ContactLayout;
 use crate::interface::{ContactState, Mode, Tolerance};
 use crate::linalg::dot;
 
@@ -45,9 +46,10 @@ pub(crate) struct Path {
 
 impl Path {
     pub(crate) fn new(count: usize) -> Self {
+        let size = ContactLayout::new(count).len();
         Self {
-            offset: vec![0.0; 2 * count],
-            jump: vec![0.0; 2 * count],
+            offset: vec![0.0; size],
+            jump: vec![0.0; size],
             states: vec![ContactState::default(); count],
             rates: vec![ContactState::default(); count],
         }
@@ -80,7 +82,7 @@ impl Path {
             let leaving = modes[first];
             let here = self.states[first].along(&self.rates[first], direction * reach);
             // Several modes may be admissible here: the path goes on in the one that continues it.
-            let compliance = input.delassus[first * (2 * modes.len() + 1)];
+            let compliance = input.delassus[first * (self.jump.len() + 1)];
             let mut best = (f64::INFINITY, leaving, direction);
             for &mode in input.modes(first) {
                 modes[first] = mode;
@@ -128,12 +130,12 @@ impl Path {
         spread: impl Fn(usize) -> f64,
         modes: &mut [Mode],
     ) {
-        let count = modes.len();
+        let (count, size) = (modes.len(), self.jump.len());
         let mut largest = 0.0_f64;
         for (e, mode) in modes.iter_mut().enumerate() {
             let known = input.modes(e);
             *mode = if known.contains(&Mode::Open) { Mode::Open } else { known[0] };
-            let row = &input.delassus[e * 2 * count..(e + 1) * 2 * count];
+            let row = &input.delassus[e * size..(e + 1) * size];
             let gap = input.free_jump[e] - dot(row, input.static_traction);
             largest = largest.max(gap.abs()).max(input.start.state(e).gap.abs());
         }
@@ -150,11 +152,11 @@ impl Path {
         spread: impl Fn(usize) -> f64,
         modes: &mut [Mode],
     ) {
-        let count = modes.len();
-        let size = 2 * count;
+        let layout = ContactLayout::new(modes.len());
+        let size = layout.len();
         let mut pressure = 0.0_f64;
-        for e in 0..count {
-            for i in [e, count + e] {
+        for e in 0..modes.len() {
+            for i in layout.places(e) {
                 pressure = pressure.max(input.free_jump[i].abs() / input.delassus[i * (size + 1)]);
             }
             pressure = pressure.max(input.start.state(e).pressure.abs());
@@ -185,10 +187,11 @@ impl Path {
                 *mode = next;
                 wanted = ContactState { gap: start.state.gap, pressure: 0.0, shear: 0.0, ..wanted };
             }
-            change[e] += wanted.pressure;
-            change[count + e] += wanted.shear;
-            self.offset[e] = wanted.gap;
-            self.offset[count + e] = -wanted.slip;
+            let [n, t] = layout.places(e);
+            change[n] += wanted.pressure;
+            change[t] += wanted.shear;
+            self.offset[n] = wanted.gap;
+            self.offset[t] = -wanted.slip;
         }
         for (i, offset) in self.offset.iter_mut().enumerate() {
             let row = &input.delassus[i * size..(i + 1) * size];

@@ -11,6 +11,7 @@
 
 use super::delassus::Delassus;
 use crate::error::LawError;
+use crate::geometry::{COMPONENTS, ContactLayout};
 use crate::interface::{
     Condition, ContactState, InterfaceLaw, Mode, StepStart, StepStarts, Tolerance, law_of,
 };
@@ -131,7 +132,7 @@ impl ContactInput<'_> {
 
 /// Solves for given modes, and keeps the factors while modes stay.
 pub(crate) struct ContactSolver {
-    count: usize,
+    layout: ContactLayout,
     /// Conditions of the last trial, two per element.
     conditions: Vec<[Condition; 2]>,
     /// The conditions whose factors are held; their values do not matter.
@@ -157,14 +158,15 @@ pub(crate) struct ContactSolver {
 
 impl ContactSolver {
     pub(crate) fn new(count: usize) -> Self {
-        let size = 2 * count;
+        let layout = ContactLayout::new(count);
+        let size = layout.len();
         Self {
-            count,
+            layout,
             conditions: vec![[Condition::default(); 2]; count],
             factored: vec![[Condition::default(); 2]; count],
             factor: DenseFactor::with_capacity(size),
             valid: false,
-            matrix: Vec::with_capacity(size * size),
+            matrix: Vec::with_capacity(layout.square()),
             rhs: Vec::with_capacity(size),
             rows: Vec::with_capacity(size),
             unknowns: Vec::with_capacity(size),
@@ -245,14 +247,14 @@ impl ContactSolver {
     /// Sorts conditions into those that fix a component alone and those that need the system, and
     /// factors the latter.
     fn assemble(&mut self, input: &ContactInput<'_>) -> bool {
-        let (count, size) = (self.count, 2 * self.count);
+        let (layout, size) = (self.layout, self.layout.len());
         self.rows.clear();
         self.unknowns.clear();
         for (e, pair) in self.conditions.iter().enumerate() {
             let fixed = pair.map(fixed_component);
-            for component in 0..2 {
+            for component in 0..COMPONENTS {
                 if !fixed.contains(&Some(component)) {
-                    self.unknowns.push(component * count + e);
+                    self.unknowns.push(layout.place(component, e));
                 }
             }
             for (which, fixed) in fixed.iter().enumerate() {
@@ -268,13 +270,14 @@ impl ContactSolver {
         self.matrix.clear();
         for (e, which, scale) in &mut self.rows {
             let condition = self.conditions[*e][*which];
+            let [normal, tangential] = layout.places(*e);
             let begin = self.matrix.len();
             for &j in &self.unknowns {
-                let mut value = condition.gap * input.delassus[*e * size + j]
-                    - condition.slip * input.delassus[(count + *e) * size + j];
-                if j == *e {
+                let mut value = condition.gap * input.delassus[normal * size + j]
+                    - condition.slip * input.delassus[tangential * size + j];
+                if j == normal {
                     value += condition.pressure;
-                } else if j == count + *e {
+                } else if j == tangential {
                     value += condition.shear;
                 }
                 self.matrix.push(value);
@@ -297,12 +300,12 @@ impl ContactSolver {
 
     /// Tractions from the factors held.
     fn solve(&mut self, input: &ContactInput<'_>) {
-        let (count, size) = (self.count, 2 * self.count);
+        let layout = self.layout;
         self.traction.fill(0.0);
         for (e, pair) in self.conditions.iter().enumerate() {
             for condition in pair {
                 if let Some(component) = fixed_component(*condition) {
-                    let i = component * count + e;
+                    let i = layout.place(component, e);
                     let total = condition.value / (condition.pressure + condition.shear);
                     self.traction[i] = total - input.static_traction[i];
                 }
@@ -310,15 +313,16 @@ impl ContactSolver {
         }
         // What the fixed tractions do to the gaps and slips of the others.
         self.jump.copy_from_slice(input.free_jump);
-        if self.unknowns.len() < size {
+        if self.unknowns.len() < layout.len() {
             input.delassus.multiply_add(&self.traction, &mut self.jump);
         }
         self.rhs.clear();
         for &(e, which, scale) in &self.rows {
             let condition = self.conditions[e][which];
-            let known = condition.gap * self.jump[e] - condition.slip * self.jump[count + e]
-                + condition.pressure * (input.static_traction[e] + self.traction[e])
-                + condition.shear * (input.static_traction[count + e] + self.traction[count + e]);
+            let [n, t] = layout.places(e);
+            let known = condition.gap * self.jump[n] - condition.slip * self.jump[t]
+                + condition.pressure * (input.static_traction[n] + self.traction[n])
+                + condition.shear * (input.static_traction[t] + self.traction[t]);
             self.rhs.push(scale * (condition.value - known));
         }
         self.factor.solve(&mut self.rhs);
@@ -329,15 +333,15 @@ impl ContactSolver {
 
     /// Jumps and states that go with the tractions.
     pub(crate) fn evaluate(&mut self, input: &ContactInput<'_>) {
-        let count = self.count;
         self.jump.copy_from_slice(input.free_jump);
         input.delassus.multiply_add(&self.traction, &mut self.jump);
         for (e, state) in self.states.iter_mut().enumerate() {
+            let [n, t] = self.layout.places(e);
             *state = ContactState {
-                gap: self.jump[e],
-                slip: -self.jump[count + e],
-                pressure: input.static_traction[e] + self.traction[e],
-                shear: input.static_traction[count + e] + self.traction[count + e],
+                gap: self.jump[n],
+                slip: -self.jump[t],
+                pressure: input.static_traction[n] + self.traction[n],
+                shear: input.static_traction[t] + self.traction[t],
             };
         }
     }

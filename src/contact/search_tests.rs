@@ -6,16 +6,16 @@ mod bonds;
 use std::sync::Arc;
 
 use super::*;
-use crate::bem::{Ground, HalfPlaneGround};
+use crate::bem::{ElasticGround, Ground, Strip};
 use crate::contact::Delassus;
-use crate::coupled::scene::base::Base;
-use crate::coupled::scene::model::{Model, Tangent};
+use crate::coupled::build::assembled::Assembled;
+use crate::coupled::scene::model::Model;
 use crate::coupled::scene::operators::{Factor, Operators};
 use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
 use crate::interface::{Activation, ContactState, Coulomb, InterfaceLaw, StepStart, StepStarts};
 use crate::linalg::dense_multiply_add;
-use crate::linalg::matrix::Thinned;
+use crate::linalg::matrix::{SparseMatrix, Thinned};
 use crate::random::Random;
 use crate::soil::Soil;
 use crate::structure::{FemModel, RigidBlock, Structure};
@@ -107,8 +107,8 @@ impl Problem {
 fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     let soil = Soil::new(1e8, random.pick(&[0.0, 0.2, 1.0 / 3.0, 0.45, 0.4999]), 2000.0).unwrap();
     let graded = random.chance(0.5);
-    let strip = if graded { HalfPlaneGround::strip } else { HalfPlaneGround::uniform_strip };
-    let mut ground = strip(soil, -2.0..2.0, count).unwrap();
+    let strip = if graded { Strip::graded } else { Strip::uniform };
+    let mut ground = ElasticGround::new(soil, strip(-2.0..2.0, count).unwrap()).unwrap();
     let beta = random.log_within(0.05, 20.0);
     let time_step = beta * 4.0 / count as f64 / soil.pressure_wave_speed();
     ground.prepare(time_step).unwrap();
@@ -122,16 +122,14 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
         let mesh = Mesh::layered_block(-2.0..2.0, count, &layers).unwrap();
         Box::new(FemModel::on_base(mesh).unwrap())
     };
-    let unknowns = structure.unknowns();
-    let base = Base::of(structure.as_ref(), ground.elements()).unwrap();
-    let model = Model::new(structure.as_ref(), true, &base).unwrap();
-    let mut tangent = Tangent::new(unknowns);
-    tangent.refill(structure.as_ref(), &vec![0.0; unknowns]).unwrap();
+    let assembled = Assembled::new(structure.as_ref(), ground.elements()).unwrap();
+    let (model, tangent) = (Model::physical(&assembled), SparseMatrix::default());
     let coefficients = Midpoint.coefficients(time_step);
-    let factor = Factor::new(&model, &coefficients, &tangent.matrix).unwrap();
+    let factor = Factor::of_unknowns(&model, &coefficients, &tangent).unwrap();
     let operator = Arc::new(Thinned::new(operator, 2 * count));
-    let operators = Operators::new(&model, &base, &operator, factor, tangent.matrix);
-    (operators.delassus.to_vec(), base.lengths().to_vec())
+    let operators =
+        Operators::new(&model, &assembled.base, &operator, Factor::Sparse(factor), tangent);
+    (operators.delassus.to_vec(), assembled.base.lengths().to_vec())
 }
 
 /// A W with A W symmetric and positive definite, of any condition and any coupling.

@@ -25,14 +25,7 @@ impl State {
                 shear: at.traction[count + e],
             })
             .collect();
-        // Whatever the placement did, what touches sticks from now on.
-        let modes: Vec<_> = (0..count)
-            .map(|e| {
-                let known = scene.law(e).modes();
-                let stays_open = known.contains(&at.modes[e]) && !at.modes[e].is_closed();
-                if stays_open { at.modes[e] } else { known[0] }
-            })
-            .collect();
+        let modes = at.modes_with(&scene.laws);
         let start: Vec<_> = (0..count)
             .map(|e| {
                 let start = StepStart::new(contact[e], modes[e], scene.time_step);
@@ -50,7 +43,7 @@ impl State {
                 elements: scene.elements.clone(),
                 friction: scene.safety_friction.clone(),
             }),
-            motion: Motion::new(model.coordinates, model.influence.clone(), model.modes.clone()),
+            motion: Motion::new(model),
             contact,
             modes,
             transitions: Vec::with_capacity(count),

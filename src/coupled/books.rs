@@ -7,11 +7,10 @@
 //! | s, `s_ff` | soil displacement by tractions; free field |
 //! | y, R | translation of the free field under a part; influence vectors |
 
-use super::initial;
 use super::ledger::Ledger;
 use super::motion::Motion;
 use super::scene::Scene;
-use super::scene::stepped_row::Terms;
+use super::scene::transformation::Terms;
 use super::scheme::SchemeCoefficients;
 use super::state::State;
 use super::step::forcing::Forcing;
@@ -53,11 +52,13 @@ struct Scratch {
 }
 
 impl Books {
-    /// At the beginning of a run; the energy of an initial motion counts as input.
+    /// At the beginning of a run; the energy of an initial motion counts as input. `compliant` says
+    /// whether any law stores energy in its elements.
     pub(crate) fn new(
         scene: &Scene,
         structure: &dyn Structure,
         state: &State,
+        compliant: bool,
     ) -> Result<Self, LawError> {
         let (n, size) = (scene.model.coordinates, 2 * scene.count());
         let mut jump = scene.static_state.gap.clone();
@@ -66,7 +67,7 @@ impl Books {
         scene.base.means(&state.motion.displacement, &mut means);
         jump.iter_mut().zip(&means).for_each(|(jump, moved)| *jump -= moved);
         let compliance = |(e, &mode): (usize, &Mode)| scene.compliance(e, mode, &state.start);
-        let compliant = if scene.compliant { state.modes.as_slice() } else { &[] };
+        let compliant = if compliant { state.modes.as_slice() } else { &[] };
         let compliance = compliant.iter().enumerate().map(compliance).collect::<Result<_, _>>()?;
         let parts = scene.model.influence.parts();
         let (mut inertia, mut mass) = (Vec::new(), Vec::new());
@@ -106,7 +107,7 @@ impl Books {
         let (model, ledger) = (&scene.model, &mut self.ledger);
         ledger.kinetic = 0.5 * model.mass.form(velocity, velocity);
         if !model.linear {
-            let seen = initial::seen(scene, state);
+            let seen = scene.seen_at(&state.motion);
             if let Some((stored, dissipated)) = energies(scene, structure, &seen) {
                 (self.nonlinear_work, ledger.hysteresis) = (stored, dissipated);
             }

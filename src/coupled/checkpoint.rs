@@ -2,10 +2,10 @@
 
 use super::books::Books;
 use super::ledger::Ledger;
+use super::motion::Translation;
 use super::scene::Scene;
 use super::scene::operators::Operators;
 use super::state::State;
-use super::translation::Translation;
 use crate::bem::Ground;
 use crate::contact::SearchMethod;
 use crate::error::{CheckpointError, Result};

@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use super::scene::modal_basis::ModalBasis;
-use super::scene::stepped_row::SteppedRow;
+use super::scene::transformation::{Transformation, Weights};
 use crate::error::{Error, Result, finite, positive};
 use crate::motion::Record;
 use crate::structure::Row;
@@ -17,7 +16,7 @@ use crate::structure::Row;
 ///
 /// ```
 /// use basemat::Simulation;
-/// use basemat::bem::HalfPlaneGround;
+/// use basemat::bem::ElasticGround;
 /// use basemat::coupled::{Load, Probe};
 /// use basemat::interface::Coulomb;
 /// use basemat::structure::RigidBlock;
@@ -27,7 +26,7 @@ use crate::structure::Row;
 /// let roof = block.horizontal_at(9.0);
 /// // 100 kN/m at the roof, let go at t = 0.
 /// let mut simulation = Simulation::builder(0.005)
-///     .ground(HalfPlaneGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, 8)?)
+///     .ground(ElasticGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, 8)?)
 ///     .structure(block)
 ///     .interface(Coulomb::new(0.5)?)
 ///     .load(Load::released(roof.clone(), 100.0e3))
@@ -130,14 +129,14 @@ impl fmt::Debug for Load {
 /// A load in the coordinates that are stepped.
 pub(crate) struct SteppedLoad {
     load: Load,
-    row: SteppedRow,
+    row: Weights,
     /// Its value in the static state.
     at_start: f64,
 }
 
 impl SteppedLoad {
-    pub(crate) fn new(load: Load, modes: Option<&ModalBasis>, is_static: bool) -> Self {
-        let row = SteppedRow::new(load.row.terms(), modes);
+    pub(crate) fn new(load: Load, transformation: &Transformation, is_static: bool) -> Self {
+        let row = transformation.row(load.row.terms());
         let at_start = if is_static { load.value(0.0) } else { 0.0 };
         Self { load, row, at_start }
     }

@@ -69,36 +69,32 @@
 //! is the largest violation of a run, relative to the largest energy until then.
 
 mod advance;
-mod advice;
 mod books;
-mod builder;
-mod builder_checks;
+pub(crate) mod build;
 mod checkpoint;
-mod choice_words;
-mod coordinates;
-mod initial;
+mod diagnosis;
 mod ledger;
 mod load;
 mod motion;
 mod observed;
 
+mod refine;
 mod resolution;
-mod response_estimate;
 pub(crate) mod run;
 pub(crate) mod scene;
 mod scheme;
 mod simulation;
 mod state;
 mod step;
-mod translation;
 mod warning;
 mod workable_step;
 
 pub use crate::contact::{ContactSearch, SearchMethod};
-pub use advice::{Advice, Outline, advise};
-pub use builder::SimulationBuilder;
+pub use build::SimulationBuilder;
+pub use build::coordinates::Coordinates;
+pub use build::parts::Placement;
 pub use checkpoint::Checkpoint;
-pub use coordinates::Coordinates;
+pub use diagnosis::conditioning::Conditioning;
 pub use ledger::{EnergyTerm, Ledger};
 pub use load::Load;
 pub use observed::Observed;
@@ -106,10 +102,8 @@ pub(crate) use run::peak::probe_index;
 pub use run::{Extremes, Fallbacks, Peak, ProbeExtremes, Run};
 
 pub use crate::structure::probe::Probe;
+pub use refine::{Refinement, Setting, refine};
 pub(crate) use resolution::Resolution;
-pub use response_estimate::StiffnessError;
-pub use scene::conditioning::Conditioning;
-pub use scene::stages::Placement;
 pub use scheme::{
     DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme,
 };

@@ -3,8 +3,44 @@
 use std::sync::{Arc, OnceLock};
 
 use super::scene::influence::Influence;
-use super::scene::modal_basis::ModalBasis;
-use super::translation::Translation;
+use super::scene::model::Model;
+use super::scene::transformation::Transformation;
+use super::scheme::SchemeCoefficients;
+
+/// Mean translation of the free field under a part, `[right, up]`.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Translation {
+    /// y at the end of the step, m.
+    pub(crate) displacement: [f64; 2],
+    /// Δy, m.
+    pub(crate) increment: [f64; 2],
+    /// Velocity at v*, as the time scheme sees it, so that a structure that translates with the
+    /// ground meets no damping force.
+    pub(crate) velocity: [f64; 2],
+    /// Velocity and acceleration at the end of the step, likewise.
+    pub(crate) new_velocity: [f64; 2],
+    pub(crate) new_acceleration: [f64; 2],
+}
+
+impl Translation {
+    /// The next one, which ends at `displacement`.
+    pub(crate) fn next(&self, displacement: [f64; 2], c: &SchemeCoefficients) -> Self {
+        let increment: [f64; 2] = std::array::from_fn(|k| displacement[k] - self.displacement[k]);
+        let stepped = |coefficients| -> [f64; 2] {
+            std::array::from_fn(|k| {
+                let (v, a) = (self.new_velocity[k], self.new_acceleration[k]);
+                SchemeCoefficients::apply(coefficients, increment[k], v, a)
+            })
+        };
+        Self {
+            displacement,
+            increment,
+            velocity: stepped(c.velocity),
+            new_velocity: stepped(c.new_velocity),
+            new_acceleration: stepped(c.new_acceleration),
+        }
+    }
+}
 
 /// Displacement relative to the free field's translation, total velocity and acceleration, and the
 /// unknowns once they have been asked for.
@@ -16,7 +52,7 @@ pub(crate) struct Motion {
     /// The free field's translation under each part.
     pub(crate) translations: Vec<Translation>,
     influence: Arc<Influence>,
-    modes: Option<Arc<ModalBasis>>,
+    transformation: Transformation,
     unknowns: [OnceLock<Vec<f64>>; 4],
 }
 
@@ -31,19 +67,15 @@ pub(crate) enum Quantity {
 
 impl Motion {
     /// At rest.
-    pub(crate) fn new(
-        coordinates: usize,
-        influence: Arc<Influence>,
-        modes: Option<Arc<ModalBasis>>,
-    ) -> Self {
-        let zero = || vec![0.0; coordinates];
+    pub(crate) fn new(model: &Model) -> Self {
+        let zero = || vec![0.0; model.coordinates];
         Self {
             displacement: zero(),
             velocity: zero(),
             acceleration: zero(),
-            translations: vec![Translation::default(); influence.parts().len()],
-            influence,
-            modes,
+            translations: vec![Translation::default(); model.influence.parts().len()],
+            influence: model.influence.clone(),
+            transformation: model.transformation.clone(),
             unknowns: Default::default(),
         }
     }
@@ -61,7 +93,7 @@ impl Motion {
             Quantity::Acceleration => &self.acceleration,
         };
         let absolute = matches!(quantity, Quantity::AbsoluteDisplacement);
-        if !absolute && self.modes.is_none() {
+        if let (Transformation::Identity, false) = (&self.transformation, absolute) {
             return coordinates;
         }
         self.unknowns[quantity as usize].get_or_init(|| {
@@ -70,36 +102,28 @@ impl Motion {
                 let translations = self.translations.iter().map(|y| y.displacement);
                 self.influence.translate(1.0, translations, &mut values);
             }
-            match &self.modes {
-                Some(modes) => modes.unknowns(&values),
-                None => values,
-            }
+            self.transformation.unknowns(values)
         })
     }
 }
 
-const ALL: [Quantity; 4] = [
-    Quantity::Displacement,
-    Quantity::Velocity,
-    Quantity::Acceleration,
-    Quantity::AbsoluteDisplacement,
+const ALL: [(Quantity, &str); 4] = [
+    (Quantity::Displacement, "displacement"),
+    (Quantity::Velocity, "velocity"),
+    (Quantity::Acceleration, "acceleration"),
+    (Quantity::AbsoluteDisplacement, "absolute_displacement"),
 ];
 
 impl PartialEq for Motion {
     fn eq(&self, other: &Self) -> bool {
-        ALL.into_iter().all(|which| self.unknowns(which) == other.unknowns(which))
+        ALL.into_iter().all(|(which, _)| self.unknowns(which) == other.unknowns(which))
     }
 }
 
 impl std::fmt::Debug for Motion {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut shown = f.debug_struct("Motion");
-        for (which, name) in ALL.into_iter().zip([
-            "displacement",
-            "velocity",
-            "acceleration",
-            "absolute_displacement",
-        ]) {
+        for (which, name) in ALL {
             shown.field(name, &self.unknowns(which));
         }
         shown.finish()

@@ -43,6 +43,7 @@ use std::ops::Range;
 use super::state::State;
 use super::warning::Warning;
 use crate::bem::{ContactElement, Ground};
+use crate::geometry::ContactLayout;
 use crate::motion::FreeField;
 
 /// Largest r where the structure vibrates with a period of its own.
@@ -322,7 +323,7 @@ impl Sampler<'_> {
     /// Whether the free field differs between the first element and the last.
     fn is_running(&self) -> bool {
         let count = self.ground.elements().len();
-        let mut field = vec![0.0; 2 * count];
+        let mut field = vec![0.0; ContactLayout::new(count).len()];
         let [mut difference, mut sum] = [0.0; 2];
         for time in self.instants() {
             self.ground.free_field(self.motion, time, &mut field);
@@ -338,7 +339,7 @@ impl Sampler<'_> {
     /// Frequency of the ground's acceleration under the middle element, Hz.
     fn frequency(&self) -> Option<f64> {
         let count = self.ground.elements().len();
-        let mut field = vec![0.0; 2 * count];
+        let mut field = vec![0.0; ContactLayout::new(count).len()];
         let mut distance = self.time_step;
         for _ in 0..HALVINGS {
             distance *= 0.5;
@@ -346,7 +347,7 @@ impl Sampler<'_> {
             for time in self.instants() {
                 let mut at = |k: f64| {
                     self.ground.free_field(self.motion, time + k * distance, &mut field);
-                    [field[count / 2], field[count + count / 2]]
+                    ContactLayout::new(count).places(count / 2).map(|place| field[place])
                 };
                 let samples = [at(-1.5), at(-0.5), at(0.5), at(1.5)];
                 for k in 0..2 {

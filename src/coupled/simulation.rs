@@ -4,10 +4,10 @@ use std::ops::ControlFlow;
 
 use super::books::Books;
 use super::checkpoint::{self, Checkpoint};
+use super::diagnosis::conditioning::Conditioning;
 use super::observed::Observed;
 use super::resolution::Resolution;
 use super::scene::Scene;
-use super::scene::conditioning::Conditioning;
 use super::state::State;
 use super::step::forcing::Forcing;
 use super::step::increment::Increment;

@@ -15,7 +15,7 @@ const HALVINGS: usize = 10;
 /// as `duration`.
 ///
 /// ```
-/// use basemat::bem::HalfPlaneGround;
+/// use basemat::bem::{ElasticGround, Grading, Strip};
 /// use basemat::coupled::workable_step;
 /// use basemat::interface::ThinLayer;
 /// use basemat::motion::el_centro_1940;
@@ -28,7 +28,7 @@ const HALVINGS: usize = 10;
 ///     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
 ///     let block = RigidBlock::new(10.0, 15.0, 900.0)?;
 ///     Simulation::builder(step)
-///         .ground(HalfPlaneGround::uniform_under(soil, &block, 10)?)
+///         .ground(ElasticGround::new(soil, Strip::under(&block, 10, Grading::Uniform)?)?)
 ///         .structure(block)
 ///         .interface(ThinLayer::new(soil, 1.0, 0.4)?.with_thickness_ratio(1e-3)?)
 ///         .motion(el_centro_1940().scaled(3.0)?)

@@ -1,4 +1,4 @@
-//! An element of the contact surface, and the order in which elements come.
+//! An element of the contact surface, and the order of elements and of their numbers.
 
 use crate::error::memory;
 use crate::error::{Error, MemoryError, Result, finite, positive};
@@ -23,6 +23,56 @@ impl ContactElement {
     /// Midpoint, m.
     pub fn center(&self) -> f64 {
         0.5 * (self.left + self.right)
+    }
+}
+
+/// Components of motion and traction at each element: normal, tangential.
+pub(crate) const COMPONENTS: usize = 2;
+
+/// Order of the numbers in a contact vector: component by component, all elements from left to right.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ContactLayout {
+    elements: usize,
+}
+
+impl ContactLayout {
+    pub(crate) const fn new(elements: usize) -> Self {
+        Self { elements }
+    }
+
+    /// Numbers in a contact vector: 2Q.
+    pub(crate) const fn len(self) -> usize {
+        COMPONENTS * self.elements
+    }
+
+    /// Numbers in a matrix from contact vectors to contact vectors: 2Q × 2Q.
+    pub(crate) const fn square(self) -> usize {
+        self.len() * self.len()
+    }
+
+    /// Place of a component of `element`: 0 for the normal one, 1 for the tangential one.
+    pub(crate) const fn place(self, component: usize, element: usize) -> usize {
+        component * self.elements + element
+    }
+
+    /// Places of the components of `element`.
+    pub(crate) const fn places(self, element: usize) -> [usize; COMPONENTS] {
+        [element, self.elements + element]
+    }
+
+    /// Component and element to which a place belongs.
+    pub(crate) const fn origin(self, place: usize) -> [usize; 2] {
+        [place / self.elements, place % self.elements]
+    }
+
+    /// Normal and tangential numbers of a contact vector; short vectors lack some.
+    pub(crate) fn split<T>(self, vector: &[T]) -> [&[T]; COMPONENTS] {
+        vector.split_at(self.elements.min(vector.len())).into()
+    }
+
+    /// Normal and tangential numbers of a contact vector, to be changed.
+    pub(crate) fn split_mut<T>(self, vector: &mut [T]) -> [&mut [T]; COMPONENTS] {
+        vector.split_at_mut(self.elements.min(vector.len())).into()
     }
 }
 

@@ -4,6 +4,6 @@ mod contact_element;
 mod direction;
 
 pub use contact_element::ContactElement;
-pub(crate) use contact_element::{check_count, check_order};
+pub(crate) use contact_element::{COMPONENTS, ContactLayout, check_count, check_order};
 pub use direction::Direction;
 pub(crate) use direction::{FRAME, TRANSLATIONS};

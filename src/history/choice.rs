@@ -19,8 +19,7 @@ use crate::error::{CheckpointError, Result};
 /// | exponentials | within a tolerance | as the transforms, with W for N, and about 3000 | as the transforms, with W for M, and 32 Q W |
 ///
 /// Wavenumbers take the place of pairs from eight equal elements on. A processor makes 4 to 7 of
-/// these multiply–adds in a nanosecond (`docs/performance.md`): the estimates tell factors of two
-/// apart, not more.
+/// these multiply–adds in a nanosecond: the estimates tell factors of two apart, not more.
 ///
 /// See [`RelaxedFftHistory`](super::RelaxedFftHistory) and
 /// [`ExponentialHistory`](super::ExponentialHistory) for more.

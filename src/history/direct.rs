@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::convolution::{ConvolutionHistory, ExactHistory, check_inputs};
 use super::lag_kernel::LagKernel;
+use super::pair_classes::{ACTIONS, KINDS};
 use crate::error::{Result, same_length};
 use crate::linalg::dot;
 
@@ -21,10 +22,9 @@ pub struct DirectHistory {
     kernel: Arc<dyn LagKernel>,
     /// Lags for which coefficients are stored; grows by doubling.
     capacity: usize,
-    /// Per class: the coefficient of lag n at `capacity − n`.
-    normal: Vec<Vec<f64>>,
-    tangential: Vec<Vec<f64>>,
-    coupling: Vec<Vec<f64>>,
+    /// Of each kind, class by class: the coefficient of lag n at the length less n. The coupling only
+    /// as long as it is not zero.
+    kinds: [Vec<Vec<f64>>; KINDS],
     /// Per contact component: its value at every step.
     traction: Vec<Vec<f64>>,
     steps: usize,
@@ -38,34 +38,27 @@ impl DirectHistory {
     /// History of `kernel`, empty.
     pub fn new(kernel: Arc<dyn LagKernel>) -> Self {
         let classes = kernel.classes();
-        let (classes, components) = (classes.count(), 2 * classes.elements().len());
-        Self {
-            kernel,
-            capacity: 0,
-            normal: vec![Vec::new(); classes],
-            tangential: vec![Vec::new(); classes],
-            coupling: vec![Vec::new(); classes],
-            traction: vec![Vec::new(); components],
-            steps: 0,
-        }
+        let kinds = [(); KINDS].map(|()| vec![Vec::new(); classes.count()]);
+        let traction = vec![Vec::new(); classes.layout().len()];
+        Self { kernel, capacity: 0, kinds, traction, steps: 0 }
     }
 
     /// Makes lags up to `lags` available.
     fn grow(&mut self, lags: usize) -> Result<()> {
         let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
-        let (mut zz, mut xx, mut zx) = (vec![0.0; new - old], vec![0.0; new - old], vec![]);
+        let mut lags = [(); KINDS].map(|()| vec![0.0; new - old]);
         self.kernel.prepare(new)?;
         for class in 0..self.kernel.classes().count() {
             let last = self.kernel.last_coupling_lag(class)?.unwrap_or(new).min(new);
-            zx.clear();
-            zx.resize(new - old, 0.0);
-            self.kernel.coefficients(class, old + 1, &mut zz, &mut xx, &mut zx)?;
-            prepend_reversed(&mut self.normal[class], &zz);
-            prepend_reversed(&mut self.tangential[class], &xx);
-            // Only as long as it is not zero.
-            if last > self.coupling[class].len() {
+            let values = lags.each_mut().map(Vec::as_mut_slice);
+            self.kernel.coefficients(class, old + 1, values)?;
+            let [normal, tangential, coupling] = &mut self.kinds;
+            let [zz, xx, zx] = &lags;
+            prepend_reversed(&mut normal[class], zz);
+            prepend_reversed(&mut tangential[class], xx);
+            if last > coupling[class].len() {
                 let kept = last - old.min(last);
-                prepend_reversed(&mut self.coupling[class], &zx[..kept]);
+                prepend_reversed(&mut coupling[class], &zx[..kept]);
             }
         }
         self.capacity = new;
@@ -99,8 +92,9 @@ impl ConvolutionHistory for DirectHistory {
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let count = self.kernel.classes().elements().len();
-        same_length("displacement of the history", displacement.len(), 2 * count)?;
+        let classes = self.kernel.classes();
+        let (layout, count) = (classes.layout(), classes.elements().len());
+        same_length("displacement of the history", displacement.len(), layout.len())?;
         displacement.fill(0.0);
         let past = self.steps;
         if past == 0 {
@@ -109,30 +103,19 @@ impl ConvolutionHistory for DirectHistory {
         if past + 1 > self.capacity {
             self.grow(past + 1)?;
         }
-        let (down, along) = displacement.split_at_mut(count);
         // Input m (from 0) is seen with lag past + 1 − m.
         for begin in (0..past).step_by(CHUNK) {
             let end = (begin + CHUNK).min(past);
-            let range = |stored: usize, begin: usize| {
-                stored - (past + 1 - begin)..stored - (past + 1 - end)
-            };
-            for (p, pairs) in self.kernel.classes().pairs().chunks_exact(count).enumerate() {
-                for (q, pair) in pairs.iter().enumerate() {
-                    let pressure = &self.traction[q];
-                    let shear = &self.traction[count + q];
-                    let lags = range(self.capacity, begin);
-                    let zz = dot(&self.normal[pair.class][lags.clone()], &pressure[begin..end]);
-                    let xx = dot(&self.tangential[pair.class][lags], &shear[begin..end]);
-                    down[p] += pair.scale * zz;
-                    along[p] += pair.scale * xx;
-                    let coupling = &self.coupling[pair.class];
-                    let first = (past + 1).saturating_sub(coupling.len()).max(begin);
-                    if first < end && pair.sign != 0.0 {
-                        let lags = range(coupling.len(), first);
-                        let zx = dot(&coupling[lags.clone()], &shear[first..end]);
-                        let xz = dot(&coupling[lags], &pressure[first..end]);
-                        down[p] += pair.sign * pair.scale * zx;
-                        along[p] -= pair.sign * pair.scale * xz;
+            for (place, pair) in self.kernel.classes().pairs().iter().enumerate() {
+                for action in &ACTIONS {
+                    let factor = pair.factor(action) * pair.scale;
+                    let lags = &self.kinds[action.kind][pair.class];
+                    let first = (past + 1).saturating_sub(lags.len()).max(begin);
+                    if first < end && factor != 0.0 {
+                        let seen = lags.len() - (past + 1 - first)..lags.len() - (past + 1 - end);
+                        let traction = &self.traction[layout.place(action.traction, place % count)];
+                        displacement[layout.place(action.displacement, place / count)] +=
+                            factor * dot(&lags[seen], &traction[first..end]);
                     }
                 }
             }

@@ -2,7 +2,7 @@
 //! exponentials.
 
 use super::exponentials::ExponentialTail;
-use super::pair_classes::PairClasses;
+use super::pair_classes::{KINDS, PairClasses};
 use super::relaxed_fft::spectra::SharedSpectra;
 use crate::error::{Result, same_length};
 
@@ -46,9 +46,10 @@ pub trait LagKernel: Send + Sync {
         Ok(())
     }
 
-    /// Overwrites the slices (of one length) with the coefficients of `class` for the lags from
-    /// `first_lag` (≥ 1) on, integrals over the receiver in m²/Pa: down due to pressure, to the right
-    /// due to shear, and down due to shear with the receiver to the right of the source. Lags that
+    /// Overwrites the slices of `values` (of one length, one for each kind: normal, tangential,
+    /// coupling) with the coefficients of `class` for the lags from `first_lag` (≥ 1) on, integrals
+    /// over the receiver in m²/Pa: down due to pressure, to the right due to shear, and down due to
+    /// shear with the receiver to the right of the source. Lags that
     /// were not [prepared](LagKernel::prepare) are computed now.
     ///
     /// # Errors
@@ -59,9 +60,7 @@ pub trait LagKernel: Send + Sync {
         &self,
         class: usize,
         first_lag: usize,
-        normal: &mut [f64],
-        tangential: &mut [f64],
-        coupling: &mut [f64],
+        values: [&mut [f64]; KINDS],
     ) -> Result<()>;
 
     /// Last lag at which the coupling of `class` is not zero (0 if it always is); `None` (the
@@ -93,28 +92,16 @@ pub trait LagKernel: Send + Sync {
     /// [`LagKernel::coefficients`].
     fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
         let classes = self.classes();
-        let count = classes.elements().len();
-        same_length("instantaneous operator", matrix.len(), 4 * count * count)?;
+        same_length("instantaneous operator", matrix.len(), classes.layout().square())?;
         self.prepare(1)?;
         let first = (0..classes.count())
             .map(|class| {
-                let [mut zz, mut xx, mut zx] = [[0.0]; 3];
-                self.coefficients(class, 1, &mut zz, &mut xx, &mut zx)?;
-                Ok([zz[0], xx[0], zx[0]])
+                let mut lag = [[0.0]; KINDS];
+                self.coefficients(class, 1, lag.each_mut().map(<[f64; 1]>::as_mut_slice))?;
+                Ok(lag.map(|[value]| value))
             })
             .collect::<Result<Vec<_>>>()?;
-        for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
-            for (q, pair) in pairs.iter().enumerate() {
-                let [zz, xx, zx] = first[pair.class].map(|value| value * pair.scale);
-                let mut set = |row: usize, column: usize, value: f64| {
-                    matrix[row * 2 * count + column] = value;
-                };
-                set(p, q, zz);
-                set(count + p, count + q, xx);
-                set(p, count + q, pair.sign * zx);
-                set(count + p, q, -pair.sign * zx);
-            }
-        }
+        classes.scatter(matrix, |_, pair| first[pair.class].map(|value| value * pair.scale));
         Ok(())
     }
 }

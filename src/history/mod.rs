@@ -23,5 +23,6 @@ pub use direct::DirectHistory;
 pub use exponentials::{ExponentialHistory, ExponentialTail, TailProduct};
 pub use lag_kernel::{LagKernel, LateLags};
 pub(crate) use options::HistoryOptions;
+pub(crate) use pair_classes::KINDS;
 pub use pair_classes::{Pair, PairClasses};
 pub use relaxed_fft::{RelaxedFftHistory, SharedSpectra};

@@ -2,9 +2,35 @@
 
 use std::cmp::Ordering;
 use std::collections::HashMap;
+use std::ops::Mul;
 
 use crate::error::{Error, Result};
-use crate::geometry::{ContactElement, check_order};
+use crate::geometry::{ContactElement, ContactLayout, check_order};
+use crate::linalg::{ComplexField, hermitian_range};
+
+/// Kinds of coefficients of a pair: normal, tangential, and the coupling of both.
+pub(crate) const KINDS: usize = 3;
+
+/// A component of the receiver's displacement due to a component of the source's traction.
+pub(crate) struct Action {
+    /// Kind of coefficient that tells how much.
+    pub(crate) kind: usize,
+    /// Component of the displacement.
+    pub(crate) displacement: usize,
+    /// Component of the traction.
+    pub(crate) traction: usize,
+    /// Sign of an action that changes it with the side on which the receiver lies, for a receiver to
+    /// the right; `None` for the others.
+    pub(crate) odd: Option<f64>,
+}
+
+/// What the kinds of coefficients stand for.
+pub(crate) const ACTIONS: [Action; 4] = [
+    Action { kind: 0, displacement: 0, traction: 0, odd: None },
+    Action { kind: 1, displacement: 1, traction: 1, odd: None },
+    Action { kind: 2, displacement: 0, traction: 1, odd: Some(1.0) },
+    Action { kind: 2, displacement: 1, traction: 0, odd: Some(-1.0) },
+];
 
 /// Where a pair of elements finds its coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +42,13 @@ pub struct Pair {
     /// Sign of the coupling between normal and tangential components: +1 for a receiver to the
     /// right of the source, −1 to the left, 0 for an element on itself.
     pub sign: f64,
+}
+
+impl Pair {
+    /// Factor of an action's coefficient.
+    pub(crate) fn factor(&self, action: &Action) -> f64 {
+        action.odd.map_or(1.0, |sign| sign * self.sign)
+    }
 }
 
 /// Shortest element over the length of the patch: shorter ones could not be told apart by class.
@@ -113,6 +146,63 @@ impl PairClasses {
             index: class,
             bound: self.representatives.len(),
         })
+    }
+
+    /// Order of the numbers of a contact vector.
+    pub(crate) fn layout(&self) -> ContactLayout {
+        ContactLayout::new(self.elements.len())
+    }
+
+    /// Overwrites `matrix` (2Q × 2Q, row-major) with the coefficients of all pairs. `of_pair` returns
+    /// those of a receiver and a source, kind by kind, the coupling as if the receiver were on the right.
+    pub(crate) fn scatter<T>(
+        &self,
+        matrix: &mut [T],
+        mut of_pair: impl FnMut([usize; 2], &Pair) -> [T; KINDS],
+    ) where
+        T: Copy + Mul<f64, Output = T>,
+    {
+        let (layout, count) = (self.layout(), self.elements.len());
+        for (place, pair) in self.pairs.iter().enumerate() {
+            let [receiver, source] = [place / count, place % count];
+            let values = of_pair([receiver, source], pair);
+            for action in &ACTIONS {
+                let row = layout.place(action.displacement, receiver);
+                let column = layout.place(action.traction, source);
+                matrix[row * layout.len() + column] = values[action.kind] * pair.factor(action);
+            }
+        }
+    }
+
+    /// Least eigenvalue of the Hermitian part of a symbol, given pair by pair as for
+    /// [`PairClasses::scatter`], over `own`, a size of each component of an element on itself, by class
+    /// and component; NaN if it is not finite.
+    ///
+    /// With (1−z) Ĝ(z), integrated over receivers and sources, it tells whether a ground can give
+    /// energy away: by Parseval the work of any tractions is not negative if it is not, anywhere on |z| = 1.
+    pub(crate) fn least_eigenvalue<T>(
+        &self,
+        own: impl Fn(usize, usize) -> f64,
+        of_pair: impl FnMut([usize; 2], &Pair) -> [T; KINDS],
+    ) -> f64
+    where
+        T: ComplexField<Real = f64> + Copy + Default + Mul<f64, Output = T>,
+    {
+        let layout = self.layout();
+        let mut matrix = vec![T::default(); layout.square()];
+        self.scatter(&mut matrix, of_pair);
+        let scale = |place: usize| {
+            let [component, element] = layout.origin(place);
+            let itself = self.pairs[element * (self.elements.len() + 1)].class;
+            1.0 / own(itself, component).sqrt()
+        };
+        let scales: Vec<f64> = (0..layout.len()).map(scale).collect();
+        for (line, row) in matrix.chunks_exact_mut(layout.len()).zip(&scales) {
+            for (value, column) in line.iter_mut().zip(&scales) {
+                *value = *value * *row * *column;
+            }
+        }
+        hermitian_range(&matrix, layout.len()).map_or(f64::NAN, |[least, _]| least)
     }
 
     /// Length from the first element's left end to the last one's right end, m.

@@ -1,9 +1,12 @@
-//! Dense complex matrices.
+//! Dense complex matrices, and eigenvalues of Hermitian parts.
 
 use faer::diag::DiagMut;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd;
+use faer::traits::ComplexField;
+use faer::traits::math_utils::{add, conj, is_finite, mul_real, real};
 use faer::{MatRef, Par, Spec};
+#[cfg(feature = "full-plane")]
 use realfft::num_complex::Complex64;
 
 #[cfg(feature = "full-plane")]
@@ -18,21 +21,24 @@ impl DenseFactor<Complex64> {
     }
 }
 
-/// Smallest and largest eigenvalue of the Hermitian part (A + Aᴴ)/2 of a row-major matrix; nothing
-/// if it is empty or not finite.
-pub(crate) fn hermitian_range(matrix: &[Complex64], order: usize) -> Option<[f64; 2]> {
-    let mut part = vec![Complex64::default(); order * order];
+/// Smallest and largest eigenvalue of the Hermitian part (A + Aᴴ)/2 of a row-major matrix, real or
+/// complex; nothing if it is empty or not finite.
+pub(crate) fn hermitian_range<T>(matrix: &[T], order: usize) -> Option<[f64; 2]>
+where
+    T: ComplexField<Real = f64> + Copy,
+{
+    let mut part = Vec::with_capacity(order * order);
     for row in 0..order {
         for column in 0..order {
-            let twin = matrix[column * order + row].conj();
-            part[row * order + column] = 0.5 * (matrix[row * order + column] + twin);
+            let twin = conj(&matrix[column * order + row]);
+            part.push(mul_real(&add(&matrix[row * order + column], &twin), &0.5));
         }
     }
-    if order == 0 || !part.iter().all(|entry| entry.is_finite()) {
+    if order == 0 || !part.iter().all(is_finite) {
         return None;
     }
-    let mut values = vec![Complex64::default(); order];
-    let mut buffer = MemBuffer::new(evd::self_adjoint_evd_scratch::<Complex64>(
+    let mut values = part[..order].to_vec();
+    let mut buffer = MemBuffer::new(evd::self_adjoint_evd_scratch::<T>(
         order,
         evd::ComputeEigenvectors::No,
         Par::Seq,
@@ -49,12 +55,15 @@ pub(crate) fn hermitian_range(matrix: &[Complex64], order: usize) -> Option<[f64
     .ok()?;
     let range = values
         .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x.re), high.max(x.re)]);
+        .map(real)
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
     Some(range)
 }
 
 #[cfg(test)]
 mod tests {
+    use realfft::num_complex::Complex64;
+
     use super::*;
 
     #[cfg(feature = "full-plane")]
@@ -95,6 +104,6 @@ mod tests {
         let [low, high] = hermitian_range(&matrix, 2).unwrap();
         assert!((low + 1.0).abs() < 1e-14 && (high - 3.0).abs() < 1e-14);
         assert!(hermitian_range(&[c(f64::NAN, 0.0)], 1).is_none());
-        assert!(hermitian_range(&[], 0).is_none());
+        assert!(hermitian_range::<f64>(&[], 0).is_none());
     }
 }

@@ -13,17 +13,6 @@ use faer::{Mat, MatRef, Par, Side, Spec};
 
 use crate::linalg::SparseMatrix;
 
-/// Least eigenvalue of a symmetric row-major matrix; NaN if it cannot be had.
-pub(crate) fn least_eigenvalue(matrix: &[f64], order: usize) -> f64 {
-    let matrix = MatRef::from_row_major_slice(matrix, order, order);
-    match matrix.self_adjoint_eigenvalues(Side::Lower) {
-        Ok(values) if values.iter().all(|value| value.is_finite()) => {
-            values.into_iter().fold(f64::INFINITY, f64::min)
-        }
-        _ => f64::NAN,
-    }
-}
-
 /// Row at which a symmetric row-major matrix is found not to be positive definite, if it is not.
 pub(crate) fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {
     let matrix = MatRef::from_row_major_slice(matrix, order, order);

@@ -41,9 +41,7 @@ impl Rule {
             for _ in 0..6 {
                 let (mut before, mut value) = (1.0, x);
                 for k in 2..=order {
-                    let k = k as f64;
-                    (before, value) =
-                        (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
+                    (before, value) = (value, next_legendre(k, x, [before, value]));
                 }
                 slope = count * (x * value - before) / (x * x - 1.0);
                 x -= value / slope;
@@ -53,6 +51,13 @@ impl Rule {
         }
         (nodes, weights)
     }
+}
+
+/// Legendre polynomial of `degree` at `x` from the two of lower degrees:
+/// k Pₖ = (2k−1) x Pₖ₋₁ − (k−1) Pₖ₋₂.
+pub(crate) fn next_legendre(degree: usize, x: f64, [before, last]: [f64; 2]) -> f64 {
+    let k = degree as f64;
+    ((2.0 * k - 1.0) * x * last - (k - 1.0) * before) / k
 }
 
 impl Rule {

@@ -119,6 +119,15 @@ impl SparseMatrix {
         }
     }
 
+    /// Σ factor · A of matrices of this order, or without any.
+    pub(crate) fn weighted_sum(order: usize, terms: &[(f64, &Self)]) -> Triplets {
+        let mut sum = Triplets::new(order);
+        for (factor, matrix) in terms {
+            matrix.add_to(*factor, &mut sum);
+        }
+        sum
+    }
+
     /// All stored entries: (row, column, value).
     pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
         (0..self.order).flat_map(move |row| {
@@ -274,14 +283,6 @@ impl Matrix {
                     *y += factor * (d * x);
                 }
             }
-        }
-    }
-
-    /// The diagonal.
-    pub(crate) fn diagonal(&self) -> Vec<f64> {
-        match self {
-            Self::Sparse(matrix) => matrix.diagonal(),
-            Self::Diagonal(values) => values.clone(),
         }
     }
 

@@ -18,7 +18,8 @@ pub(crate) use complex::hermitian_range;
 pub use complex_number::Complex;
 pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
-pub(crate) use eigen::{generalised_modes, indefinite_pivot, least_eigenvalue, symmetric_modes};
+pub(crate) use eigen::{generalised_modes, indefinite_pivot, symmetric_modes};
+pub(crate) use faer::traits::ComplexField;
 pub(crate) use lanczos::lowest_modes;
 pub(crate) use matrix::SparseMatrix;
 pub(crate) use product::{

@@ -6,7 +6,6 @@
 //! closures, [`AtRest`] never moves.
 
 mod baseline;
-mod content;
 mod cosmos;
 mod filter;
 mod fixed_columns;
@@ -27,7 +26,6 @@ mod spectrum;
 mod unit;
 
 pub use baseline::Baseline;
-pub use content::FrequencyContent;
 pub use cosmos::CosmosFormat;
 pub use format::RecordFormat;
 pub use free_field::{

@@ -11,6 +11,7 @@
 //! | largest, least and static pressure along the base | [`pressure_envelope`] |
 //! | where the energy went | [`energy`] |
 //! | response spectra | [`spectra`] |
+//! | error against run time | [`refinement`](refinement()) |
 //! | the structure at some instants | [`deformed_shapes`] |
 //! | the structure in motion, with its base | [`animation`] (an SVG that browsers play) |
 //!
@@ -32,6 +33,7 @@ mod lines;
 mod mode_map;
 #[cfg(feature = "png")]
 mod png;
+mod refinement;
 mod shape;
 mod stroke;
 mod svg;
@@ -40,5 +42,6 @@ mod text;
 pub use animation::animation;
 pub use lines::{Curve, curves, energy, history, probe_history, spectra};
 pub use mode_map::{mode_map, pressure_envelope};
+pub use refinement::refinement;
 pub use shape::deformed_shapes;
 pub use svg::Svg;

@@ -5,7 +5,7 @@
 //! snapshots a [`Recorder`] says what to keep, and [`Histories`] keep it as the observer of the run.
 //!
 //! ```
-//! use basemat::bem::HalfPlaneGround;
+//! use basemat::bem::ElasticGround;
 //! use basemat::coupled::Probe;
 //! use basemat::interface::Coulomb;
 //! use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
@@ -17,7 +17,7 @@
 //! let roof = block.horizontal_at(6.0);
 //! let weight = STANDARD_GRAVITY * block.total_mass();
 //! let mut simulation = Simulation::builder(0.01)
-//!     .ground(HalfPlaneGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, 8)?)
+//!     .ground(ElasticGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, 8)?)
 //!     .structure(block)
 //!     .interface(Coulomb::new(0.4)?)
 //!     .motion(el_centro_1940())

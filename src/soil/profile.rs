@@ -240,6 +240,13 @@ impl SoilProfile {
     }
 }
 
+/// A half-plane without layers.
+impl From<Soil> for SoilProfile {
+    fn from(soil: Soil) -> Self {
+        Self::on_half_plane(soil)
+    }
+}
+
 /// A table: one line per layer, then the base and the first frequency of the layers.
 impl fmt::Display for SoilProfile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

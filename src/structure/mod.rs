@@ -3,6 +3,7 @@
 mod contact_node;
 mod damping;
 mod detached;
+mod held_base;
 mod hysteresis;
 mod matrix_checks;
 mod models;
@@ -16,6 +17,7 @@ pub use contact_node::ContactNode;
 pub(crate) use contact_node::{check_contact_nodes, foundation_nodes};
 pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
 pub(crate) use detached::{check_attached, numbers as unknown_numbers};
+pub(crate) use held_base::{HeldBase, stiffest};
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
     WithSprings,
@@ -26,7 +28,9 @@ pub use models::{
     StructureGroup,
 };
 pub use nonlinear::NonlinearForce;
-pub(crate) use nonlinear::{is_nonlinear, restore_variables, save_variables};
+pub(crate) use nonlinear::{
+    Tangent, is_nonlinear, nonlinear_state, restore_variables, save_variables,
+};
 pub use reduction::{CraigBampton, Recovery, ReducedModel};
 pub use row::Row;
 

@@ -1,7 +1,8 @@
 //! Nonlinear internal forces of structures.
 
 use super::{InternalEnergy, Structure, Triplets};
-use crate::error::{CheckpointError, Error, Result};
+use crate::error::{CheckpointError, Error, Result, same_length};
+use crate::linalg::matrix::SparseMatrix;
 
 /// The nonlinear force f(u) of a structure, beyond K u: implement this for materials that yield,
 /// geometry that changes, parts that collide.
@@ -148,4 +149,48 @@ pub(crate) fn is_nonlinear(structure: &mut dyn Structure) -> Result<bool> {
     let quantity = "nonlinear force of the structure";
     let needed = "`nonlinear` and `nonlinear_mut` must both give it, or neither";
     Err(Error::Scene { quantity, needed })
+}
+
+/// f and its energies at a displacement; zero and unknown for a linear structure.
+pub(crate) fn nonlinear_state(
+    structure: &dyn Structure,
+    displacement: &[f64],
+) -> Result<(Vec<f64>, Option<InternalEnergy>)> {
+    let mut force = vec![0.0; displacement.len()];
+    let Some(own) = structure.nonlinear() else { return Ok((force, None)) };
+    own.force(displacement, &mut force)?;
+    Ok((force, own.energy(displacement)))
+}
+
+/// The tangent ∂f/∂u of the nonlinear force; empty for a linear structure.
+pub(crate) struct Tangent {
+    pub(crate) matrix: SparseMatrix,
+    entries: Triplets,
+}
+
+impl Tangent {
+    pub(crate) fn new(unknowns: usize) -> Self {
+        Self { matrix: SparseMatrix::default(), entries: Triplets::new(unknowns) }
+    }
+
+    /// The tangent at a displacement.
+    pub(crate) fn at(structure: &dyn Structure, displacement: &[f64]) -> Result<Self> {
+        let mut tangent = Self::new(displacement.len());
+        tangent.refill(structure, displacement)?;
+        Ok(tangent)
+    }
+
+    /// Goes to the tangent at a displacement; allocates only for entries at new places.
+    pub(crate) fn refill(&mut self, structure: &dyn Structure, displacement: &[f64]) -> Result<()> {
+        const NAME: &str = "tangent of the nonlinear force";
+        self.entries.clear();
+        if let Some(own) = structure.nonlinear() {
+            own.tangent(displacement, &mut self.entries)?;
+            same_length(NAME, self.entries.order(), displacement.len())?;
+        }
+        if self.matrix.order() != displacement.len() || !self.matrix.refill(&self.entries) {
+            self.matrix = SparseMatrix::new(NAME, &self.entries)?;
+        }
+        Ok(())
+    }
 }

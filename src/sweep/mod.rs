@@ -32,7 +32,7 @@
 //!
 //! Thousands of runs go to many processes: [`Sweep::shard`] takes a share of the cases,
 //! [`Sweep::table_in`] keeps its rows in a file from which a killed process goes on, and [`Sweep::merge`]
-//! puts the files of all shards together. `docs/sweeps.md` has a complete job array.
+//! puts the files of all shards together. `docs/guide.md` has a complete job array.
 
 mod file;
 mod grid;

@@ -2,7 +2,7 @@
 //! SCENE: blocks of ordinary size glued to a half-plane, shaken with 0.3 to 2 g in both directions.
 //! REFERENCE: the law's own conditions, written down anew, on every state.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::State;
 use basemat::interface::Adhesive;
 use basemat::motion::FreeFieldFn;
@@ -60,9 +60,9 @@ impl Glued {
         let block = RigidBlock::new(self.width, self.height, self.density)?;
         let half = 0.5 * self.width;
         let ground = if self.graded {
-            HalfPlaneGround::strip(soil, -half..half, self.elements)?
+            ElasticGround::new(soil, Strip::graded(-half..half, self.elements)?)?
         } else {
-            HalfPlaneGround::uniform_strip(soil, -half..half, self.elements)?
+            ElasticGround::new(soil, Strip::uniform(-half..half, self.elements)?)?
         };
         let [acceleration, period, upwards] = self.shaking;
         let rate = std::f64::consts::TAU / period;

@@ -7,7 +7,7 @@
 //!
 //! `CONTACT_SCENES=600 cargo test --release --test contact extreme_scenes -- --nocapture` runs more.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::interface::{Coulomb, FrictionLimit, InterfaceLaw, SlipSense, ThinLayer};
 use basemat::motion::FreeFieldFn;
 use basemat::structure::RigidBlock;
@@ -43,8 +43,7 @@ fn build(reading: Reading, random: &mut Random) -> Result<Simulation> {
     let block =
         RigidBlock::new(width, width * random.within(0.3, 4.0), random.log_within(100.0, 3000.0))?;
     let half = 0.5 * width;
-    let strip =
-        if random.chance(0.5) { HalfPlaneGround::strip } else { HalfPlaneGround::uniform_strip };
+    let strip = if random.chance(0.5) { Strip::graded } else { Strip::uniform };
     let friction = random.log_within(0.1, 3.0);
     let layer = ThinLayer::new(soil, width / elements as f64, friction)?
         .with_thickness_ratio(random.log_within(1e-3, 1.0))?;
@@ -75,7 +74,7 @@ fn build(reading: Reading, random: &mut Random) -> Result<Simulation> {
     });
     Simulation::builder(time_step)
         .structure(block)
-        .ground(strip(soil, -half..half, elements)?)
+        .ground(ElasticGround::new(soil, strip(-half..half, elements)?)?)
         .interfaces((0..elements).map(law).collect::<Result<_>>()?)
         .motion(motion)
         .build()

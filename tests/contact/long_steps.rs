@@ -4,7 +4,7 @@
 //!
 //! `LONG_STEPS=10000 cargo test --test contact long_steps` asks for more scenes.
 
-use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::coupled::{SearchMethod, State};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Coulomb;
@@ -94,7 +94,7 @@ fn scene(seed: u64, most: usize) -> Simulation {
     let structure = structure(&mut random);
     Simulation::builder(time_step)
         .structure(structure)
-        .ground(HalfPlaneGround::new(soil, &[strip]).unwrap())
+        .ground(ElasticGround::new(soil, strip).unwrap())
         .interface(Coulomb::uplift_only())
         .motion(shaking(STEPS as f64 * time_step, &mut random))
         .build()

@@ -4,7 +4,7 @@
 //! REFERENCE: all modes tried one by one; closed form of a bed that uplifts and yields (Allotey & El
 //! Naggar 2003); the area of the loop; Coulomb's law.
 
-use basemat::bem::{HalfPlaneGround, SpringGround};
+use basemat::bem::{ElasticGround, SpringGround};
 use basemat::contact::ContactProblem;
 use basemat::coupled::{Load, Probe, SimulationBuilder};
 use basemat::interface::{
@@ -269,7 +269,7 @@ fn rocking_rounds_the_ground() {
     let soil = Soil::new(40.0e6, 0.3, 1900.0).unwrap();
     let block = RigidBlock::new(4.0, 8.0, 2000.0).unwrap();
     let mut simulation = Simulation::builder(0.005)
-        .ground(HalfPlaneGround::under(soil, &block, 12).unwrap())
+        .ground(ElasticGround::under(soil, &block, 12).unwrap())
         .structure(block)
         .interface(Yielding::new(6.0e5, 0.6).unwrap())
         .motion(el_centro_1940().scaled(1.3).unwrap())
@@ -293,7 +293,7 @@ fn soil_that_never_yields_and_glue_without_strength_are_coulomb_s() {
         let soil = Soil::new(40.0e6, 0.3, 1900.0).unwrap();
         let block = RigidBlock::new(4.0, 8.0, 2000.0).unwrap();
         let mut simulation = Simulation::builder(0.005)
-            .ground(HalfPlaneGround::under(soil, &block, 8).unwrap())
+            .ground(ElasticGround::under(soil, &block, 8).unwrap())
             .structure(block)
             .interface(law)
             .motion(el_centro_1940())
@@ -356,7 +356,7 @@ fn laws_side_by_side_remember_each_their_own() {
         let block = RigidBlock::new(4.0, 5.0, 2000.0).unwrap();
         let push = Load::constant(block.horizontal_at(5.0), 2.0e4);
         let simulation = Simulation::builder(0.005)
-            .ground(HalfPlaneGround::under(soil, &block, 8).unwrap())
+            .ground(ElasticGround::under(soil, &block, 8).unwrap())
             .structure(block)
             .interfaces(laws)
             .load(push)

@@ -2,7 +2,7 @@
 //! SCENE: blocks of hand-written mass, towers stiffened over eight decades, ever lighter blocks.
 //! REFERENCE: the inverse, a closed form, and the rigid block.
 
-use basemat::bem::{Grading, Ground, HalfPlaneGround};
+use basemat::bem::{ElasticGround, Grading, Ground};
 use basemat::coupled::{Coordinates, Placement, SimulationBuilder, State};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
@@ -35,7 +35,7 @@ fn effective_stiffness_of_a_block_is_known_in_closed_form() {
 fn ground_and_delassus_match_their_inverses() {
     let (mass, inertia, height) = (9e3, 4e4, 2.0);
     for (grading, count) in [(Grading::Uniform, 3), (Grading::Cosine, 8)] {
-        let mut soil: HalfPlaneGround = ground(SI, count, grading);
+        let mut soil: ElasticGround = ground(SI, count, grading);
         soil.prepare(TIME_STEP).unwrap();
         let size = 2 * count;
         let mut matrix = vec![0.0; size * size];

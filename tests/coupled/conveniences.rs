@@ -2,7 +2,7 @@
 //! SCENE: soils from wave speeds, grounds under a structure, durations, sweeps, records, recorders.
 //! REFERENCE: the same thing at full length.
 
-use basemat::bem::{Grading, Strip};
+use basemat::bem::Grading;
 use basemat::prelude::*;
 use basemat::{CaseError, Error, Result};
 
@@ -19,7 +19,9 @@ fn block() -> RigidBlock {
 fn simulation() -> Simulation {
     let block = block();
     Simulation::builder(0.01)
-        .ground(HalfPlaneGround::uniform_under(soil(), &block, 8).unwrap())
+        .ground(
+            ElasticGround::new(soil(), Strip::under(&block, 8, Grading::Uniform).unwrap()).unwrap(),
+        )
         .structure(block)
         .interface(Coulomb::new(0.5).unwrap())
         .motion(el_centro_1940())
@@ -61,35 +63,35 @@ fn soil_from_its_shear_wave_speed() {
 
 #[test]
 fn strips_lie_under_foundations() {
-    let ends = |ground: &HalfPlaneGround| {
+    let ends = |ground: &ElasticGround| {
         ground.elements().iter().map(|e| [e.left, e.right]).collect::<Vec<_>>()
     };
     // Graded elements are projections of equal arcs, and the default.
     let arc = |k: i32| -3.0 * (std::f64::consts::PI * f64::from(k) / 8.0).cos();
     let equal = |k: i32| -3.0 + 0.75 * f64::from(k);
-    let is_cut_at = |ground: Result<HalfPlaneGround>, node: &dyn Fn(i32) -> f64| {
-        let found = ends(&ground.unwrap());
+    let is_cut_at = |ground: ElasticGround, node: &dyn Fn(i32) -> f64| {
+        let found = ends(&ground);
         assert_eq!(found.len(), 8);
         for (k, [left, right]) in (0..).zip(found) {
             assert!((left - node(k)).abs() < 1e-14 && (right - node(k + 1)).abs() < 1e-14);
         }
     };
-    is_cut_at(HalfPlaneGround::under(soil(), &block(), 8), &arc);
-    is_cut_at(HalfPlaneGround::strip(soil(), -3.0..3.0, 8), &arc);
-    is_cut_at(HalfPlaneGround::uniform_under(soil(), &block(), 8), &equal);
-    is_cut_at(HalfPlaneGround::uniform_strip(soil(), -3.0..3.0, 8), &equal);
+    let on = |strips: &[Strip]| ElasticGround::new(soil(), strips).unwrap();
+    is_cut_at(ElasticGround::under(soil(), &block(), 8).unwrap(), &arc);
+    is_cut_at(on(&[Strip::graded(-3.0..3.0, 8).unwrap()]), &arc);
+    is_cut_at(on(&Strip::under(&block(), 8, Grading::Uniform).unwrap()), &equal);
+    is_cut_at(on(&[Strip::uniform(-3.0..3.0, 8).unwrap()]), &equal);
     assert_eq!(Grading::default(), Grading::Cosine);
 
     let nodes = vec![0.0, 1.0, 2.0, 5.0, 7.0, 10.0, 11.0];
     let several = Ends(nodes.clone(), vec![2, 4]);
-    let ground = HalfPlaneGround::uniform_under(soil(), &several, 3).unwrap();
+    let ground = on(&Strip::under(&several, 3, Grading::Uniform).unwrap());
     let strips = [0.0..2.0, 5.0..7.0, 10.0..11.0].map(|range| Strip::uniform(range, 3).unwrap());
-    assert_eq!(ends(&ground), ends(&HalfPlaneGround::new(soil(), &strips).unwrap()));
+    assert_eq!(ends(&ground), ends(&on(&strips)));
 
     let under = |nodes: &[f64], ends: &[usize], count| {
-        HalfPlaneGround::uniform_under(soil(), &Ends(nodes.to_vec(), ends.to_vec()), count)
-            .err()
-            .unwrap()
+        let structure = Ends(nodes.to_vec(), ends.to_vec());
+        ElasticGround::under(soil(), &structure, count).err().unwrap()
     };
     assert!(matches!(under(&[], &[], 3), Error::Size { found: 0, .. }));
     assert!(matches!(under(&[1.0], &[], 3), Error::Size { found: 1, .. }));

@@ -7,7 +7,7 @@ use basemat::coupled::{Coordinates, Midpoint, Newmark, Probe, SimulationBuilder,
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::structure::{
-    FemModel, RayleighDamping, Row, ShearBuilding, Storey, Structure, Triplets,
+    ContactNode, FemModel, RayleighDamping, Row, ShearBuilding, Storey, Structure, Triplets,
 };
 
 use crate::support::scenes::{Rider, SI, block, friction, scene, shake, states, tower};
@@ -157,4 +157,36 @@ fn modes_are_refused_where_they_do_not_decouple() {
     assert!(insist(scene(SI, 0.1).structure(tower(SI, None))).is_none());
     let auto = scene(SI, 0.1).structure(Dashpot(tower(SI, None))).interface(friction(0.4));
     assert!(auto.expected_steps(1_000_000).build().is_ok());
+}
+
+/// A base that cannot lift has no normal rows, and modes none of other rows in their place.
+#[test]
+fn modes_know_a_base_that_cannot_lift() {
+    struct Slider;
+    impl Structure for Slider {
+        fn unknowns(&self) -> usize {
+            2
+        }
+        fn contact_nodes(&self) -> Vec<ContactNode> {
+            let node = |x| ContactNode { x, horizontal: 0.into(), vertical: Row::default() };
+            vec![node(-2.0), node(2.0)]
+        }
+        fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+            (0..2).for_each(|i| matrix.add(i, i, 5e3));
+            Ok(())
+        }
+        fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+            matrix.add_spring(0, 1, 2e6);
+            Ok(())
+        }
+    }
+    let run = |coordinates| {
+        let builder = scene(SI, 0.6).gravity(0.0).structure(Slider).interface(Bonded);
+        states(&mut builder.coordinates(coordinates).build().unwrap(), STEPS)
+    };
+    let (modes, unknowns) = (run(Coordinates::Modes), run(Coordinates::Unknowns));
+    let sway = apart(&modes, &unknowns, |s| s.displacement().to_vec());
+    let shear = apart(&modes, &unknowns, |s| vec![s.base_shear]);
+    assert!(sway < 1e-9 && shear < 1e-9, "{sway:e} {shear:e}");
+    assert!(unknowns.iter().any(|s| s.base_shear.abs() > 1e3));
 }

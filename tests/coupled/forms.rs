@@ -11,7 +11,7 @@ use basemat::bem::layered::{Stages, StripContact};
 use basemat::bem::{ContactElement, Grading, SpringGround, Strip};
 use basemat::coupled::{
     Checkpoint, ContactSearch, Coordinates, DissipativeMidpoint, HhtAlpha, Ledger, Midpoint,
-    Newmark, Outline, Peak, Placement, Probe, Run, Theta, Warning, advise,
+    Newmark, Peak, Placement, Probe, Run, Theta, Warning, refine,
 };
 use basemat::fem::{Direction, Layer, MassKind, Material, Quad8Integration, QuadFormulation};
 use basemat::history::History;
@@ -19,8 +19,8 @@ use basemat::interface::{
     Activation, Adhesive, Bonded, Coulomb, FrictionLimit, Mode, SlipSense, ThinLayer, Yielding,
 };
 use basemat::motion::{
-    AccelerationUnit, Baseline, ColumnFormat, CosmosFormat, FrequencyContent, KNetFormat,
-    PeerFormat, Record, el_centro_1940,
+    AccelerationUnit, Baseline, ColumnFormat, CosmosFormat, KNetFormat, PeerFormat, Record,
+    el_centro_1940,
 };
 use basemat::results::{Criterion, Quantity, Recorder, Serviceability};
 use basemat::site::{ControlPoint, VerticalWave};
@@ -230,29 +230,7 @@ fn schemes_dampings_strips_and_limits() {
     kept(&Recorder::new().every(2).contact(10));
     let recorder: Recorder = serde_json::from_value(json!({"motion": 5})).unwrap();
     assert_eq!(recorder, Recorder::new().motion(5));
-    let outline = Outline::new(10.0, 15.0, 150e3).unwrap();
-    kept(&outline);
-    let outline = outline.with_frequency(2.0, 0.05).unwrap();
-    kept(&outline);
-    refused::<Outline>(json!({"width": 0.0, "height": 1.0, "mass": 1.0}), "width of the outline");
-    let bad = json!({"width": 1.0, "height": 1.0, "mass": 1.0, "sway": [-1.0, 0.0]});
-    refused::<Outline>(bad, "frequency of the outline");
-    let content = FrequencyContent::of(&el_centro_1940()).unwrap();
-    kept(&content);
-    kept(&FrequencyContent::flat(20.0).unwrap());
-    for (spacing, energy, duration, reason) in [
-        (0.0, json!([1.0]), json!(1.0), "distance of the lines"),
-        (1.5e308, json!([1.0, 1.0]), json!(1.0), "highest frequency"),
-        (1.0, json!([]), json!(1.0), "highest frequency"),
-        (1.0, json!([-1.0, 2.0]), json!(1.0), "energy of a line"),
-        (1.0, json!([0.0]), json!(1.0), "energy of the ground acceleration"),
-        (1.0, json!([1.0]), json!(0.0), "duration of the record"),
-    ] {
-        let bad = json!({"spacing": spacing, "energy": energy, "duration": duration});
-        refused::<FrequencyContent>(bad, reason);
-    }
-    let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
-    kept(&advise(soil, &outline, &content, 0.05).unwrap());
+    kept(&refine(4, 0.1, |elements, step| Ok(vec![elements as f64, step])).unwrap());
 }
 
 #[test]

@@ -3,8 +3,8 @@
 //! SCENE: sliding and uplifting blocks on layers, one or two foundations, saved, resumed and swept.
 //! REFERENCE: the half-plane's closed form and uninterrupted runs, both to the last bit; limits.
 
-use basemat::bem::layered::{LayeredGround, LayeredKernel, Stages};
-use basemat::bem::{Ground, HalfPlaneGround, SharedKernels, Strip};
+use basemat::bem::layered::{LayeredKernel, Stages};
+use basemat::bem::{ElasticGround, Grading, Ground, SharedKernels, Strip};
 use basemat::coupled::SimulationBuilder;
 use basemat::history::{History, LagKernel};
 use basemat::interface::Coulomb;
@@ -29,8 +29,8 @@ fn profile() -> SoilProfile {
         .with_damping(damping(0.05))
 }
 
-fn layered(elements: usize) -> LayeredGround {
-    LayeredGround::strip(profile(), -2.0..2.0, elements).unwrap()
+fn layered(elements: usize) -> ElasticGround {
+    ElasticGround::new(profile(), Strip::graded(-2.0..2.0, elements).unwrap()).unwrap()
 }
 
 fn shaken(ground: impl Ground + 'static) -> SimulationBuilder {
@@ -45,12 +45,16 @@ fn one_undamped_half_plane_is_the_closed_form_to_the_last_bit() {
         let states = states(&mut simulation, 200);
         (states, simulation.history_choice())
     };
-    let (found, choice) =
-        run(Box::new(LayeredGround::strip(profile.clone(), -2.0..2.0, 8).unwrap()));
-    let (wanted, closed) = run(Box::new(HalfPlaneGround::strip(soil(SI), -2.0..2.0, 8).unwrap()));
+    let (found, choice) = run(Box::new(
+        ElasticGround::new(profile.clone(), Strip::graded(-2.0..2.0, 8).unwrap()).unwrap(),
+    ));
+    let (wanted, closed) =
+        run(Box::new(ElasticGround::new(soil(SI), Strip::graded(-2.0..2.0, 8).unwrap()).unwrap()));
     assert!(found == wanted && choice == closed && choice.unwrap().stages.is_none());
     // Asked for, convolution quadrature takes its place, and is close.
-    let asked = LayeredGround::strip(profile, -2.0..2.0, 8).unwrap().with_stages(Stages::Two);
+    let asked = ElasticGround::new(profile, Strip::graded(-2.0..2.0, 8).unwrap())
+        .unwrap()
+        .with_stages(Stages::Two);
     let (near, choice) = run(Box::new(asked));
     assert_eq!(choice.unwrap().stages, Some(2));
     let largest = |states: &[basemat::coupled::State]| {
@@ -105,14 +109,18 @@ fn a_run_beyond_the_time_limit_stays_where_it_was() {
     other.resume(&short.checkpoint().unwrap()).unwrap();
     assert!(states(&mut other, 30)[1..] == states(&mut whole, 30)[1..]);
     // Nothing for the closed form.
-    let plain = LayeredGround::strip(SoilProfile::on_half_plane(soil(SI)), -2.0..2.0, 4).unwrap();
+    let plain = ElasticGround::new(
+        SoilProfile::on_half_plane(soil(SI)),
+        Strip::graded(-2.0..2.0, 4).unwrap(),
+    )
+    .unwrap();
     assert_eq!(plain.cost(TIME_STEP, 1 << 40).unwrap().seconds, 0.0);
     assert!(plain.cost(f64::NAN, 10).is_err());
 }
 
 #[test]
 fn the_stages_are_said_and_follow_the_rule() {
-    let choice = |ground: LayeredGround, step: f64| {
+    let choice = |ground: ElasticGround, step: f64| {
         let mut ground = ground;
         ground.prepare(step).unwrap();
         ground.announce(100).unwrap();
@@ -154,7 +162,11 @@ fn shared_kernels_are_told_apart_and_change_no_bit() {
     let others = [
         layered(6).with_stages(Stages::Three),
         layered(6).with_tolerance(1e-8).unwrap(),
-        LayeredGround::strip(profile().with_base_damping(damping(0.02)), -2.0..2.0, 6).unwrap(),
+        ElasticGround::new(
+            profile().with_base_damping(damping(0.02)),
+            Strip::graded(-2.0..2.0, 6).unwrap(),
+        )
+        .unwrap(),
     ];
     for (index, ground) in others.into_iter().enumerate() {
         ground.with_shared_kernels(&shared).prepare(TIME_STEP).unwrap();
@@ -166,7 +178,8 @@ fn shared_kernels_are_told_apart_and_change_no_bit() {
 fn two_foundations_talk_through_the_layers() {
     let other = RigidBlock::new(3.0, 5.0, 1500.0).unwrap();
     let pair = StructureGroup::new().with(block(SI), -4.0).unwrap().with(other, 3.0).unwrap();
-    let ground = LayeredGround::uniform_under(profile(), &pair, 4).unwrap();
+    let ground =
+        ElasticGround::new(profile(), Strip::under(&pair, 4, Grading::Uniform).unwrap()).unwrap();
     assert_eq!(ground.elements().len(), 8);
     let base = scene(SI, 0.6).interface(friction(0.3)).ground(ground).structure(pair);
     let run = base.build().unwrap().run(300, |_| {}).unwrap();
@@ -205,7 +218,7 @@ fn thick_layers_tend_to_the_half_plane() {
         let kernel = LayeredKernel::new(profile, elements.clone(), step).unwrap();
         let mut lists = [vec![0.0; lags], vec![0.0; lags], vec![0.0; lags]];
         let [zz, xx, zx] = &mut lists;
-        kernel.coefficients(1, 1, zz, xx, zx).unwrap();
+        kernel.coefficients(1, 1, [zz, xx, zx]).unwrap();
         lists
     };
     // Pressure waves are back after 12/1.87 = 6.4: the method's fronts come a little early.
@@ -223,10 +236,12 @@ fn thick_layers_tend_to_the_half_plane() {
         let block = RigidBlock::new(2.0, 2.0, 1.0).unwrap();
         sample(&mut under_pulse(block, ground, 0.1), 300, 1).unwrap().0
     };
-    let wanted = run(Box::new(HalfPlaneGround::strip(top, -1.0..1.0, 6).unwrap()));
+    let wanted =
+        run(Box::new(ElasticGround::new(top, Strip::graded(-1.0..1.0, 6).unwrap()).unwrap()));
     let mut before = [f64::INFINITY; 3];
     for thickness in [4.0, 8.0, 16.0, 32.0] {
-        let ground = LayeredGround::strip(on(thickness), -1.0..1.0, 6).unwrap();
+        let ground =
+            ElasticGround::new(on(thickness), Strip::graded(-1.0..1.0, 6).unwrap()).unwrap();
         let error = distance(&run(Box::new(ground)), &wanted);
         println!("{thickness}: {error:?}");
         for (now, before) in error.iter().zip(&mut before) {
@@ -256,7 +271,8 @@ fn a_layer_on_rock_uplifts_more_than_the_half_plane() {
         ("damped layer on rock", &damped, true, 167.1, 5.0),
     ] {
         let law = if sliding { Coulomb::new(0.3).unwrap() } else { Coulomb::uplift_only() };
-        let ground = LayeredGround::uniform_strip(profile.clone(), -3.0..3.0, 12).unwrap();
+        let ground =
+            ElasticGround::new(profile.clone(), Strip::uniform(-3.0..3.0, 12).unwrap()).unwrap();
         let builder = Simulation::builder(0.005)
             .structure(RigidBlock::new(6.0, 9.0, 1000.0).unwrap())
             .ground(ground)

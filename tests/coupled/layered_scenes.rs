@@ -5,7 +5,8 @@
 //! REFERENCE: the energy ledger.
 
 use basemat::Simulation;
-use basemat::bem::layered::{LayeredGround, Stages};
+use basemat::bem::layered::Stages;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::interface::Coulomb;
 use basemat::motion::FreeFieldFn;
 use basemat::soil::{GeneralizedMaxwell, KelvinVoigt, SoilProfile};
@@ -58,9 +59,9 @@ fn run(seed: u64) -> Result<(f64, bool, bool)> {
     let step = courant * length / top.pressure_wave_speed();
     let half = 0.5 * WIDTH;
     let ground = if random.chance(0.5) {
-        LayeredGround::strip(profile, -half..half, elements)?
+        ElasticGround::new(profile, Strip::graded(-half..half, elements)?)?
     } else {
-        LayeredGround::uniform_strip(profile, -half..half, elements)?
+        ElasticGround::new(profile, Strip::uniform(-half..half, elements)?)?
     };
     let ground = if random.chance(0.3) { ground.with_stages(Stages::Three) } else { ground };
     // Two periods in the run; short steps need violent shaking to move the block at all.

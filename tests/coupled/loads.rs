@@ -2,7 +2,7 @@
 //! SCENE: blocks, frames and towers that are pushed, pulled, let go, thrown, tilted and dropped.
 //! REFERENCE: statics, a structure with the same load of its own, energy, free fall, Housner's block.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::ElasticGround;
 use basemat::coupled::{Load, Placement, SimulationBuilder};
 use basemat::fem::{Beam, Material, Mesh, Quad4, QuadFormulation};
 use basemat::interface::{Adhesive, Bonded, Coulomb, FrictionLimit, ThinLayer, Yielding};
@@ -27,7 +27,7 @@ fn block() -> RigidBlock {
 const WEIGHT: f64 = 6.0 * 9.0 * 2000.0 * GRAVITY;
 
 fn on_half_plane(structure: impl Structure + 'static) -> SimulationBuilder {
-    let ground = HalfPlaneGround::under(soil(), &structure, 8).unwrap();
+    let ground = ElasticGround::under(soil(), &structure, 8).unwrap();
     Simulation::builder(0.005).ground(ground).structure(structure)
 }
 
@@ -424,7 +424,7 @@ fn rocked(shear_wave_speed: f64, elements: usize, step: f64) -> [f64; 2] {
     let block = RigidBlock::new(1.0, 4.0, 2500.0).unwrap().with_p_delta(GRAVITY).unwrap();
     let soil = Soil::from_shear_wave_speed(shear_wave_speed, 0.3, 2000.0).unwrap();
     let mut simulation = Simulation::builder(step)
-        .ground(HalfPlaneGround::under(soil, &block, elements).unwrap())
+        .ground(ElasticGround::under(soil, &block, elements).unwrap())
         .structure(block)
         .interface(Coulomb::new(2.0).unwrap())
         .placement(Placement::Unloaded)

@@ -5,7 +5,7 @@
 //! the oscillator's closed form.
 
 use basemat::Simulation;
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::coupled::{
     DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, Run, SchemeCoefficients, State, TimeScheme,
     Warning,
@@ -255,7 +255,9 @@ fn thrown(scheme: impl TimeScheme + 'static, steps: usize) -> Run {
     let block = RigidBlock::new(6.0, 6.0, 50.9).unwrap();
     let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1900.0).unwrap();
     let mut simulation = Simulation::builder(0.01)
-        .ground(HalfPlaneGround::uniform_under(soil, &block, 2).unwrap())
+        .ground(
+            ElasticGround::new(soil, Strip::under(&block, 2, Grading::Uniform).unwrap()).unwrap(),
+        )
         .structure(block)
         .interface(Coulomb::uplift_only())
         .motion(AtRest)
@@ -297,7 +299,10 @@ fn schemes_of_a_building() {
         let building = ShearBuilding::new(8.0, 60e3, 4e5, &storeys).unwrap();
         let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0).unwrap();
         let mut simulation = Simulation::builder(time_step)
-            .ground(HalfPlaneGround::uniform_under(soil, &building, 12).unwrap())
+            .ground(
+                ElasticGround::new(soil, Strip::under(&building, 12, Grading::Uniform).unwrap())
+                    .unwrap(),
+            )
             .structure(building.with_stiffness_damping(0.05).unwrap())
             .motion(el_centro_1940())
             .interface(Bonded)

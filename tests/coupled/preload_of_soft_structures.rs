@@ -2,7 +2,7 @@
 //! SCENE: block of ten columns on the half-plane under its weight, without lateral contraction.
 //! REFERENCE: the weight, and the pressure ρ g h where the ground is rigid to the structure.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::structure::FemModel;
@@ -21,7 +21,7 @@ fn block(stiffness_ratio: f64) -> Simulation {
     let mesh = Mesh::layered_block(-5.0..5.0, 10, &layers).unwrap();
     Simulation::builder(1e-3)
         .structure(FemModel::on_base(mesh).unwrap())
-        .ground(HalfPlaneGround::uniform_strip(soil, -5.0..5.0, 10).unwrap())
+        .ground(ElasticGround::new(soil, Strip::uniform(-5.0..5.0, 10).unwrap()).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .gravity(GRAVITY)
         .build()

@@ -3,7 +3,7 @@
 //! start in motion; structures that cannot be reduced.
 //! REFERENCE: the run in unknowns; the ledger; a run without interruption.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::ElasticGround;
 use basemat::coupled::{
     Coordinates, DissipativeMidpoint, HhtAlpha, Load, Midpoint, Newmark, Placement, Probe,
     SimulationBuilder, State, Theta,
@@ -197,7 +197,7 @@ fn groups_are_reduced_together() {
     };
     let make = || {
         let ground = Soil::new(6e7, 0.3, 1900.0).unwrap();
-        let ground = HalfPlaneGround::under(ground, &towers(), 6).unwrap();
+        let ground = ElasticGround::under(ground, &towers(), 6).unwrap();
         let builder = Simulation::builder(2.5e-3).ground(ground).structure(towers());
         builder.motion(shake(SI, 0.3)).interface(Bonded)
     };

@@ -4,7 +4,7 @@
 
 use std::sync::Mutex;
 
-use basemat::bem::{Grading, Ground, HalfPlaneGround, SharedKernels, Strip};
+use basemat::bem::{ElasticGround, Grading, Ground, SharedKernels, Strip};
 use basemat::coupled::State;
 use basemat::interface::Coulomb;
 use basemat::{CaseError, Error, Soil, Sweep};
@@ -86,7 +86,7 @@ fn shared_kernels_change_no_bit() {
     for grading in [Grading::Uniform, Grading::Cosine] {
         let run = |kernels: &SharedKernels, steps: usize| {
             let strip = Strip::new(-2.0..2.0, 9, grading).unwrap();
-            let ground = HalfPlaneGround::new(soil(SI), &[strip]).unwrap();
+            let ground = ElasticGround::new(soil(SI), strip).unwrap();
             let ground = ground.with_shared_kernels(kernels);
             let law = Coulomb::new(0.4).unwrap();
             let scene = scene(SI, 0.6).structure(block(SI)).interface(law).ground(ground);
@@ -111,7 +111,7 @@ fn shared_kernels_are_told_apart_and_bounded() {
     assert!(kernels.is_empty());
     let prepare = |modulus: f64, count: usize, step: f64| {
         let soil = Soil::new(modulus, 0.3, 1900.0).unwrap();
-        let mut ground = HalfPlaneGround::uniform_strip(soil, -2.0..2.0, count)
+        let mut ground = ElasticGround::new(soil, Strip::uniform(-2.0..2.0, count).unwrap())
             .unwrap()
             .with_shared_kernels(&kernels);
         ground.prepare(step).unwrap();

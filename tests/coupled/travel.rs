@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use basemat::Simulation;
-use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::coupled::{DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, Probe, Run, TimeScheme};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
@@ -52,9 +52,9 @@ fn structures() -> Vec<(&'static str, Box<dyn Structure>)> {
     ]
 }
 
-fn ground() -> HalfPlaneGround {
+fn ground() -> ElasticGround {
     let strip = Strip::new(-2.0..2.0, 6, Grading::Cosine).unwrap();
-    HalfPlaneGround::new(soil(SI), &[strip]).unwrap()
+    ElasticGround::new(soil(SI), strip).unwrap()
 }
 
 /// Sways slowly by `travel` (m) in both directions, with a period of `period` (s), from rest.
@@ -133,7 +133,8 @@ fn apart(name: &str, member: impl Fn() -> Box<dyn Structure>) {
     let group = group.with(member(), 10.0).unwrap();
     let at = sway(1e6, 6e4);
     let motion = FreeFieldFn::new(move |x, t| at(t).map(|u| if x < 0.0 { u } else { -0.7 * u }));
-    let ground = HalfPlaneGround::uniform_under(soil(SI), &group, 6).unwrap();
+    let ground =
+        ElasticGround::new(soil(SI), Strip::under(&group, 6, Grading::Uniform).unwrap()).unwrap();
     let mut simulation = Simulation::builder(5.0)
         .structure(group)
         .ground(ground)
@@ -235,7 +236,9 @@ impl NonlinearForce for Pounding {
 #[test]
 fn a_force_between_parts_sees_their_distance() {
     let structure = Pounding::new();
-    let ground = HalfPlaneGround::uniform_under(soil(SI), &structure, 6).unwrap();
+    let ground =
+        ElasticGround::new(soil(SI), Strip::under(&structure, 6, Grading::Uniform).unwrap())
+            .unwrap();
     let at =
         |x: f64, t: f64| -x.signum() * 0.5 * 5.0 * GAP * (1.0 - (TAU * t.min(1.0)).cos()) / 2.0;
     let mut simulation = Simulation::builder(2.5e-3)

@@ -3,7 +3,7 @@
 //! wave.
 //! REFERENCE: vertical incidence as the limit of infinite velocity; averages of the free field.
 
-use basemat::bem::{HalfPlaneGround, SpringGround};
+use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{
     FreeField, FreeFieldFn, PlaneWave, STANDARD_GRAVITY, TravellingWave, el_centro_1940,
@@ -20,7 +20,7 @@ fn shear(motion: impl FreeField + 'static) -> Vec<f64> {
     let soil = Soil::new(8e7, 0.3, 1900.0).unwrap();
     let mut simulation = Simulation::builder(0.01)
         .structure(RigidBlock::new(2.0 * HALF, 14.0, 800.0).unwrap())
-        .ground(HalfPlaneGround::uniform_strip(soil, -HALF..HALF, 8).unwrap())
+        .ground(ElasticGround::new(soil, Strip::uniform(-HALF..HALF, 8).unwrap()).unwrap())
         .interface(Coulomb::new(0.35).unwrap())
         .motion(motion)
         .gravity(STANDARD_GRAVITY)

@@ -4,7 +4,7 @@
 //! motions without inertia, numbers that are NaN, grounds and laws of one's own that cannot be right.
 //! REFERENCE: resultants by hand, the same scene in other numberings, the number that was given.
 
-use basemat::bem::{ContactElement, Ground, HalfPlaneGround, SpringGround};
+use basemat::bem::{ContactElement, ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Load, SimulationBuilder};
 use basemat::interface::{
     Adhesive, Bonded, Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
@@ -28,8 +28,8 @@ fn block() -> RigidBlock {
 
 fn standing(elements: usize, graded: bool) -> SimulationBuilder {
     let half = 0.5 * WIDTH;
-    let strip = if graded { HalfPlaneGround::strip } else { HalfPlaneGround::uniform_strip };
-    let ground = strip(soil(), -half..half, elements).unwrap();
+    let strip = if graded { Strip::graded } else { Strip::uniform };
+    let ground = ElasticGround::new(soil(), strip(-half..half, elements).unwrap()).unwrap();
     Simulation::builder(1e-3).structure(block()).ground(ground).gravity(9.81)
 }
 

@@ -3,9 +3,9 @@
 //! REFERENCE: the fields of the error, and the clock.
 
 use basemat::bem::layered::{
-    LayeredGround, LayeredKernel, Stages, StripContact, rigid_strip_impedances, static_compliance,
+    LayeredKernel, Stages, StripContact, rigid_strip_impedances, static_compliance,
 };
-use basemat::bem::{ContactElement, Grading, Ground, Strip};
+use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, Strip};
 use basemat::history::LagKernel;
 use basemat::interface::Bonded;
 use basemat::soil::{
@@ -42,7 +42,8 @@ fn hysteretic_damping_is_refused_in_time() {
         .with_layer(soil(), 3.0)
         .unwrap()
         .with_damping(Hysteretic::new(0.05).unwrap());
-    let mut ground = LayeredGround::uniform_strip(profile.clone(), -3.0..3.0, 3).unwrap();
+    let mut ground =
+        ElasticGround::new(profile.clone(), Strip::uniform(-3.0..3.0, 3).unwrap()).unwrap();
     let found = ground.impedances(&[2.0], StripContact::Bonded).unwrap();
     let known =
         rigid_strip_impedances(&profile, &elements(), &[2.0], StripContact::Bonded).unwrap();
@@ -95,21 +96,21 @@ fn kernels_are_validated() {
     let mut list = [0.0; 2];
     let (mut one, mut two) = ([0.0; 2], [0.0; 3]);
     assert!(matches!(
-        kernel.coefficients(99, 1, &mut list, &mut one, &mut [0.0; 2]),
+        kernel.coefficients(99, 1, [&mut list, &mut one, &mut [0.0; 2]]),
         Err(Error::Index { .. })
     ));
     assert!(matches!(
-        kernel.coefficients(0, 0, &mut list, &mut one, &mut [0.0; 2]),
+        kernel.coefficients(0, 0, [&mut list, &mut one, &mut [0.0; 2]]),
         Err(Error::Input { .. })
     ));
     assert!(matches!(
-        kernel.coefficients(0, 1, &mut list, &mut one, &mut two),
+        kernel.coefficients(0, 1, [&mut list, &mut one, &mut two]),
         Err(Error::Size { .. })
     ));
-    assert!(kernel.coefficients(0, usize::MAX, &mut list, &mut one, &mut [0.0; 2]).is_err());
+    assert!(kernel.coefficients(0, usize::MAX, [&mut list, &mut one, &mut [0.0; 2]]).is_err());
     assert!(kernel.prepare(usize::MAX).is_err());
-    assert!(kernel.coefficients(0, usize::MAX, &mut [], &mut [], &mut []).is_err());
-    kernel.coefficients(0, 5, &mut [], &mut [], &mut []).unwrap();
+    assert!(kernel.coefficients(0, usize::MAX, [&mut [], &mut [], &mut []]).is_err());
+    kernel.coefficients(0, 5, [&mut [], &mut [], &mut []]).unwrap();
 }
 
 /// Scales so far apart that integrals would take for ever are refused at once.
@@ -158,7 +159,7 @@ fn what_takes_too_long_is_refused_beforehand() {
     assert_eq!(said.seconds, seconds);
     // So for every lag asked for by itself, and for a ground.
     let mut list = [0.0; 1];
-    let found = skin(2.5e-4).coefficients(0, 40_000, &mut list, &mut [0.0], &mut [0.0]);
+    let found = skin(2.5e-4).coefficients(0, 40_000, [&mut list, &mut [0.0], &mut [0.0]]);
     assert!(matches!(found, Err(Error::Layered(LayeredError::TooCostly { .. }))), "{found:?}");
     let short = LayeredKernel::new(p1(gmb(5), gmb(1)), elements(), 1e-3).unwrap();
     let LayeredError::TooCostly { cure, .. } = refused(&short, 1 << 20) else { unreachable!() };
@@ -176,7 +177,7 @@ fn the_time_limit_is_the_users() {
     let first = |kernel: LayeredKernel| {
         let mut list = [0.0; 100];
         let [mut xx, mut zx] = [[0.0; 100]; 2];
-        kernel.coefficients(1, 1, &mut list, &mut xx, &mut zx).map(|()| list)
+        kernel.coefficients(1, 1, [&mut list, &mut xx, &mut zx]).map(|()| list)
     };
     let wanted = first(make()).unwrap();
     assert_eq!(first(make().with_time_limit(f64::INFINITY).unwrap()).unwrap(), wanted);
@@ -223,7 +224,7 @@ fn extreme_contrasts_end() {
                 let profile = SoilProfile::on_half_plane(base).with_layer(top, thickness).unwrap();
                 let kernel = LayeredKernel::new(profile.clone(), elements(), step).unwrap();
                 let [mut zz, mut xx, mut zx] = [[f64::NAN; 4]; 3];
-                let outcome = kernel.coefficients(0, 1, &mut zz, &mut xx, &mut zx);
+                let outcome = kernel.coefficients(0, 1, [&mut zz, &mut xx, &mut zx]);
                 let statics = static_compliance(&profile, &elements(), &mut [0.0; 36]);
                 println!(
                     "{:.0e} on {:.0e}, {thickness}, {step}: {outcome:?} {zz:?} {statics:?} {:?}",
@@ -276,7 +277,7 @@ fn threads_do_not_change_bits() {
         pool.install(|| {
             let kernel = LayeredKernel::new(p1(gmb(5), gmb(1)), elements(), 0.5).unwrap();
             let [mut zz, mut xx, mut zx] = [[0.0; 300]; 3];
-            kernel.coefficients(1, 1, &mut zz, &mut xx, &mut zx).unwrap();
+            kernel.coefficients(1, 1, [&mut zz, &mut xx, &mut zx]).unwrap();
             [zz, xx, zx].map(|list| list.map(f64::to_bits))
         })
     };
@@ -292,7 +293,7 @@ fn two_kernels_have_the_same_bits() {
             let kernel = LayeredKernel::new(p1(gmb(5), gmb(1)), elements.clone(), 0.5).unwrap();
             let [mut zz, mut xx, mut zx] = [[0.0; 100]; 3];
             let kernel = kernel.with_stages(stages);
-            kernel.coefficients(2, 100, &mut zz, &mut xx, &mut zx).unwrap();
+            kernel.coefficients(2, 100, [&mut zz, &mut xx, &mut zx]).unwrap();
             [zz, xx, zx]
         };
         assert_eq!(values(), values());

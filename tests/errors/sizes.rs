@@ -6,7 +6,7 @@
 //! process had at most.
 
 use basemat::bem::full_plane::Boundary;
-use basemat::bem::{Ground, HalfPlaneGround, SpringGround, Strip};
+use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::history::History;
 use basemat::motion::{Record, el_centro_1940};
@@ -55,7 +55,7 @@ fn sizes_are_refused_before_memory_is_taken() {
     too_large(SpringGround::new(0.0..1.0, 5_000, 1.0, 1.0), elements, 5e3, pairs(5e3));
     let soil = Soil::new(80e6, 0.33, 1900.0).unwrap();
     let strips = [0.0, 20.0].map(|x| Strip::uniform(x..x + 9.0, 3_000).unwrap());
-    too_large(HalfPlaneGround::new(soil, &strips), elements, 6e3, pairs(6e3));
+    too_large(ElasticGround::new(soil, &strips), elements, 6e3, pairs(6e3));
     let strip = [Strip::uniform(0.0..1.0, 2).unwrap()];
     too_large(Boundary::flat(&strip, 1_000_000), "boundary elements", 1e6, pairs(1e6));
 
@@ -94,7 +94,7 @@ fn hints_without_end_take_what_a_history_may() {
         (History::Direct, usize::MAX),
     ] {
         let before = peak();
-        let ground = HalfPlaneGround::strip(soil, -5.0..5.0, 16).unwrap();
+        let ground = ElasticGround::new(soil, Strip::graded(-5.0..5.0, 16).unwrap()).unwrap();
         let mut ground = ground.with_history_kind(kind).with_history_memory(1 << 24);
         ground.prepare(0.002).unwrap();
         ground.reserve(steps).unwrap();

@@ -2,7 +2,7 @@
 //! SCENE: entries out of range or not finite, endless sizes, bad bases, loads without equilibrium.
 //! REFERENCE: the fields of the error.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::ElasticGround;
 use basemat::coupled::Placement;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::{
@@ -160,7 +160,7 @@ fn groups_of_endless_structures_are_refused() {
     let endless = || Spoilt { unknowns: usize::MAX, ..Spoilt::sound() };
     let group = StructureGroup::new().with(endless(), 0.0).unwrap().with(endless(), 9.0).unwrap();
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
-    assert!(HalfPlaneGround::uniform_under(soil, &group, 4).is_ok());
+    assert!(ElasticGround::under(soil, &group, 4).is_ok());
     let scene = Simulation::builder(1e-3).structure(group).ground(bed(4)).interface(Bonded);
     assert!(matches!(scene.build(), Err(Error::Memory(_))));
 }

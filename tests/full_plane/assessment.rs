@@ -7,7 +7,7 @@ use basemat::bem::full_plane::{
     BoundaryKernel, ConvolutionQuadrature, CqMethod, FullPlaneGround, GroundStability, Segment,
     TimeKernel,
 };
-use basemat::bem::{Ground, HalfPlaneGround};
+use basemat::bem::{ElasticGround, Ground, Strip};
 use basemat::interface::Bonded;
 use basemat::structure::RigidBlock;
 use basemat::{Error, Result, Simulation};
@@ -134,8 +134,11 @@ fn a_simulation_is_refused_or_reports() {
     let skipped = build(ground().skip_assessment(), 0.25).unwrap();
     assert!(stability(skipped.ground()).is_none());
     // A ground that is stable for every step is of another type, and has nothing to report.
-    let half =
-        build(HalfPlaneGround::uniform_strip(unit_soil(), -2.0..2.0, 4).unwrap(), 0.25).unwrap();
+    let half = build(
+        ElasticGround::new(unit_soil(), Strip::uniform(-2.0..2.0, 4).unwrap()).unwrap(),
+        0.25,
+    )
+    .unwrap();
     assert!(!(half.ground() as &dyn Any).is::<FullPlaneGround>());
 }
 

@@ -3,7 +3,7 @@
 //! REFERENCE: impedances by a spectral method, and runs on the half-plane.
 
 use basemat::bem::full_plane::{Boundary, CqMethod, FullPlaneGround};
-use basemat::bem::{Ground, HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Ground, Strip};
 
 use super::soil;
 use crate::support::close;
@@ -81,7 +81,7 @@ fn rocking_and_sliding_on_both_grounds() {
 /// REFERENCE: the half-plane's static compliance; between two elements, as there is no datum.
 #[test]
 fn static_compliance_tends_to_the_half_planes() {
-    let mut half = HalfPlaneGround::uniform_strip(soil(0.3), -1.0..1.0, 4).unwrap();
+    let mut half = ElasticGround::new(soil(0.3), Strip::uniform(-1.0..1.0, 4).unwrap()).unwrap();
     half.prepare(0.1).unwrap();
     let mut wanted = [0.0; 64];
     half.static_compliance(&mut wanted).unwrap();

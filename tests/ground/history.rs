@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use basemat::Soil;
 use basemat::bem::{
-    ContactElement, Grading, Ground, HalfPlaneGround, InfluenceKernel, PatchKernel, Strip,
+    ContactElement, ElasticGround, Grading, Ground, InfluenceKernel, PatchKernel, Strip,
 };
 use basemat::history::{ConvolutionHistory, DirectHistory};
 
@@ -100,7 +100,7 @@ fn memory_grows_beyond_what_was_reserved() {
 fn ground_does_not_depend_on_the_hint() {
     let soil = Soil::new(8e7, 0.3, 2000.0).unwrap();
     let run = |hint: Option<usize>| {
-        let mut ground = HalfPlaneGround::uniform_strip(soil, -1.0..1.0, 4).unwrap();
+        let mut ground = ElasticGround::new(soil, Strip::uniform(-1.0..1.0, 4).unwrap()).unwrap();
         ground.prepare(2e-3).unwrap();
         if let Some(steps) = hint {
             ground.reserve(steps).unwrap();

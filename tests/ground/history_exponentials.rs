@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use basemat::bem::{ContactElement, Grading, Ground, HalfPlaneGround, PatchKernel, Strip};
+use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, PatchKernel, Strip};
 use basemat::history::{
     ChoiceReason, ConvolutionHistory, DirectHistory, ExponentialHistory, History, LagKernel,
 };
@@ -134,7 +134,7 @@ fn every_coefficient_is_within_the_bound_up_to_the_horizon_and_slowly_leaves_it(
                 let of = |pair: usize| {
                     let [mut zz, mut xx, mut zx] = [[0.0]; 3];
                     let class = pairs[pair].class;
-                    kernel.coefficients(class, lag, &mut zz, &mut xx, &mut zx).unwrap();
+                    kernel.coefficients(class, lag, [&mut zz, &mut xx, &mut zx]).unwrap();
                     [pairs[pair].scale * zz[0], pairs[pair].scale * xx[0]]
                 };
                 let (near, far) = (of(0), of(1));
@@ -222,7 +222,7 @@ fn bad_input_is_an_error() {
         assert!(matches!(found, Some(Error::Input { .. })), "{tolerance}: {found:?}");
     }
     let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
-    let ground = || HalfPlaneGround::uniform_strip(soil, -1.0..1.0, 2).unwrap();
+    let ground = || ElasticGround::new(soil, Strip::uniform(-1.0..1.0, 2).unwrap()).unwrap();
     assert!(ground().with_history_tolerance(f64::NAN).is_err());
     // Windows of more than a million steps are refused; Auto takes the transforms instead.
     let mut short = ground().with_history_kind(History::Exponentials);
@@ -230,7 +230,7 @@ fn bad_input_is_an_error() {
     // So is what takes more memory than allowed, before any of it is taken.
     let begin = std::time::Instant::now();
     for (step, memory) in [(2e-5, None), (1e-3, Some(100_000))] {
-        let asked = HalfPlaneGround::strip(soil, -1.0..1.0, 24).unwrap();
+        let asked = ElasticGround::new(soil, Strip::graded(-1.0..1.0, 24).unwrap()).unwrap();
         let asked = asked.with_history_kind(History::Exponentials);
         let mut asked = match memory {
             Some(memory) => asked.with_history_memory(memory),
@@ -255,7 +255,7 @@ fn the_choice_is_made_and_explained() {
 
     let soil = Soil::new(80.0e6, 0.3, 1900.0).unwrap();
     let choose = |tolerance: Option<f64>, memory: Option<usize>, steps: Option<usize>, dt| {
-        let mut ground = HalfPlaneGround::uniform_strip(soil, -2.0..2.0, 6).unwrap();
+        let mut ground = ElasticGround::new(soil, Strip::uniform(-2.0..2.0, 6).unwrap()).unwrap();
         if let Some(tolerance) = tolerance {
             ground = ground.with_history_tolerance(tolerance).unwrap();
         }
@@ -287,14 +287,16 @@ fn the_choice_is_made_and_explained() {
     for (elements, steps, wanted) in
         [(12, 1_000, RelaxedFft), (12, 40_000, Exponentials), (100, 1_500, RelaxedFft)]
     {
-        let ground = HalfPlaneGround::uniform_strip(soil, -4.0..4.0, elements).unwrap();
+        let ground =
+            ElasticGround::new(soil, Strip::uniform(-4.0..4.0, elements).unwrap()).unwrap();
         let mut ground = ground.with_history_tolerance(1e-8).unwrap();
         ground.prepare(1e-3).unwrap();
         ground.reserve(steps).unwrap();
         assert_eq!(ground.history_choice().unwrap().kind, wanted, "{elements}, {steps}");
     }
-    let mut asked =
-        HalfPlaneGround::uniform_strip(soil, -2.0..2.0, 6).unwrap().with_history_kind(Exponentials);
+    let mut asked = ElasticGround::new(soil, Strip::uniform(-2.0..2.0, 6).unwrap())
+        .unwrap()
+        .with_history_kind(Exponentials);
     asked.prepare(1e-3).unwrap();
     let choice = asked.history_choice().unwrap();
     assert_eq!((choice.kind, choice.reason), (Exponentials, ChoiceReason::Asked));

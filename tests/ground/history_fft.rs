@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use basemat::bem::{ContactElement, Grading, Ground, HalfPlaneGround, PatchKernel, Strip};
+use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, PatchKernel, Strip};
 use basemat::history::{ConvolutionHistory, DirectHistory, History, LagKernel, RelaxedFftHistory};
 use basemat::{Error, Soil};
 use proptest::prelude::*;
@@ -192,7 +192,7 @@ fn memory() {
 fn grounds_with_either_history_agree() {
     let soil = Soil::new(80.0e6, 0.25, 1900.0).unwrap();
     let ground = |history| {
-        let ground = HalfPlaneGround::strip(soil, -3.0..3.0, 4).unwrap();
+        let ground = ElasticGround::new(soil, Strip::graded(-3.0..3.0, 4).unwrap()).unwrap();
         let mut ground = match history {
             Some(history) => ground.with_history_kind(history),
             None => ground,

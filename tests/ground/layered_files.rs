@@ -4,8 +4,8 @@
 
 use std::path::{Path, PathBuf};
 
-use basemat::bem::layered::{LayeredGround, LayeredKernel, Stages};
-use basemat::bem::{ContactElement, Ground, SharedKernels, Strip};
+use basemat::bem::layered::{LayeredKernel, Stages};
+use basemat::bem::{ContactElement, ElasticGround, Ground, SharedKernels, Strip};
 use basemat::history::LagKernel;
 use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
@@ -48,7 +48,7 @@ fn bits(kernel: &LayeredKernel) -> Result<Vec<u64>, Error> {
     for class in 0..kernel.classes().count() {
         let mut lists = [[0.0; LAGS]; 3];
         let [zz, xx, zx] = &mut lists;
-        kernel.coefficients(class, 1, zz, xx, zx)?;
+        kernel.coefficients(class, 1, [zz, xx, zx])?;
         bits.extend(lists.iter().flatten().map(|value| value.to_bits()));
     }
     Ok(bits)
@@ -218,7 +218,7 @@ fn runs_from_a_file_are_the_same_to_the_last_bit() {
         let soil = |speed| Soil::from_shear_wave_speed(speed, 0.33, 1900.0).unwrap();
         let profile = SoilProfile::on_half_plane(soil(500.0)).with_layer(soil(150.0), 6.0).unwrap();
         let block = RigidBlock::new(6.0, 9.0, 2000.0).unwrap();
-        let ground = LayeredGround::under(profile, &block, 4).unwrap().with_shared_kernels(&shared);
+        let ground = ElasticGround::under(profile, &block, 4).unwrap().with_shared_kernels(&shared);
         let ground = match path {
             Some(path) => ground.with_kernel_file(path),
             None => ground,
@@ -245,7 +245,7 @@ fn runs_from_a_file_are_the_same_to_the_last_bit() {
     // A damaged file stops a ground that has to read it, and no other.
     std::fs::write(&file.0, "damaged").unwrap();
     assert_eq!(run(Some(&file.0)), wanted);
-    let ground = LayeredGround::uniform_strip(p3(gmb(5)), -1.0..1.0, 2).unwrap();
+    let ground = ElasticGround::new(p3(gmb(5)), Strip::uniform(-1.0..1.0, 2).unwrap()).unwrap();
     let mut ground = ground.with_kernel_file(&file.0);
     ground.prepare(0.2).unwrap();
     let found = ground.instantaneous(&mut [0.0; 16]).unwrap_err();

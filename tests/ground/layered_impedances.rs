@@ -3,7 +3,7 @@
 //! REFERENCE: tables of other programs, statics and the cut-off frequency of a layer.
 
 use basemat::bem::layered::{StripContact, rigid_strip_impedances};
-use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::soil::{Elastic, Hysteretic, SoilProfile};
 use basemat::{Complex, Error, LayeredError, Soil};
 
@@ -178,7 +178,7 @@ fn undamped_ground_is_extrapolated() {
         }
     }
     // A ground takes its own profile, a half-plane too.
-    let ground = HalfPlaneGround::strip(soil, -1.0..1.0, 8).unwrap();
+    let ground = ElasticGround::new(soil, Strip::graded(-1.0..1.0, 8).unwrap()).unwrap();
     let own = ground.impedances(&[0.1, 0.2], StripContact::Bonded).unwrap();
     let omega = 0.2 * std::f64::consts::TAU;
     let same = all(&SoilProfile::on_half_plane(soil), 8, omega);

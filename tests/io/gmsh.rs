@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use basemat::bem::{HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Strip};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::io::GmshMesh;
@@ -337,7 +337,7 @@ fn a_base_with_a_gap_is_two_foundations() {
     let build = |model: FemModel, strips: &[std::ops::Range<f64>]| {
         let strips: Vec<Strip> =
             strips.iter().map(|range| Strip::uniform(range.clone(), 4).unwrap()).collect();
-        let ground = HalfPlaneGround::new(Soil::new(80.0e6, 0.33, 1900.0).unwrap(), &strips);
+        let ground = ElasticGround::new(Soil::new(80.0e6, 0.33, 1900.0).unwrap(), &strips);
         let builder = Simulation::builder(0.01).structure(model).ground(ground.unwrap());
         builder.interface(Bonded).gravity(9.81).build()
     };

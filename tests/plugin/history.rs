@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use basemat::bem::{HalfPlaneGround, PatchKernel, Strip};
+use basemat::bem::{ElasticGround, PatchKernel, Strip};
 use basemat::coupled::SimulationBuilder;
 use basemat::history::{ConvolutionHistory, DirectHistory, LagKernel};
 use basemat::interface::Coulomb;
@@ -36,7 +36,7 @@ impl ConvolutionHistory for Plain {
         for class in 0..self.kernel.classes().count() {
             let [mut zz, mut xx, mut zx] = [(); 3].map(|()| vec![0.0; past]);
             if past > 0 {
-                self.kernel.coefficients(class, 2, &mut zz, &mut xx, &mut zx)?;
+                self.kernel.coefficients(class, 2, [&mut zz, &mut xx, &mut zx])?;
             }
             lags.push([zz, xx, zx]);
         }
@@ -62,7 +62,7 @@ impl ConvolutionHistory for Plain {
 
 #[test]
 fn own_history() {
-    let inner = || HalfPlaneGround::uniform_strip(soil(), -2.0..2.0, 4).unwrap();
+    let inner = || ElasticGround::new(soil(), Strip::uniform(-2.0..2.0, 4).unwrap()).unwrap();
     let march = |scene: SimulationBuilder| {
         let law = Coulomb::new(0.4).unwrap();
         let mut simulation = scene.structure(block()).interface(law).build().unwrap();

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use basemat::bem::{
-    ContactElement, Grading, Ground, HalfPlaneGround, KernelGround, KernelSource, PatchKernel,
+    ContactElement, ElasticGround, Grading, Ground, KernelGround, KernelSource, PatchKernel,
     SharedKernels, SpringGround, Strip,
 };
 use basemat::coupled::Run;
@@ -47,14 +47,8 @@ impl LagKernel for Fading {
         &self.classes
     }
 
-    fn coefficients(
-        &self,
-        class: usize,
-        first_lag: usize,
-        normal: &mut [f64],
-        tangential: &mut [f64],
-        coupling: &mut [f64],
-    ) -> Result<()> {
+    fn coefficients(&self, class: usize, first_lag: usize, values: [&mut [f64]; 3]) -> Result<()> {
+        let [normal, tangential, coupling] = values;
         for i in 0..normal.len() {
             [normal[i], tangential[i], coupling[i]] = self.at(class, first_lag + i);
         }
@@ -98,14 +92,8 @@ impl LagKernel for InBlocks {
         Ok(())
     }
 
-    fn coefficients(
-        &self,
-        class: usize,
-        first_lag: usize,
-        normal: &mut [f64],
-        tangential: &mut [f64],
-        coupling: &mut [f64],
-    ) -> Result<()> {
+    fn coefficients(&self, class: usize, first_lag: usize, values: [&mut [f64]; 3]) -> Result<()> {
+        let [normal, tangential, coupling] = values;
         self.prepare(first_lag - 1 + normal.len())?;
         let ready = &self.ready.lock().unwrap()[class];
         for (i, values) in ready[first_lag - 1..][..normal.len()].iter().enumerate() {
@@ -200,7 +188,7 @@ fn coefficients_do_not_depend_on_the_cut() {
         for class in [0, 1, kernel.classes().count() - 1] {
             let fill = |first: usize, count: usize| {
                 let [mut zz, mut xx, mut zx] = [(); 3].map(|()| vec![f64::NAN; count]);
-                kernel.coefficients(class, first, &mut zz, &mut xx, &mut zx).unwrap();
+                kernel.coefficients(class, first, [&mut zz, &mut xx, &mut zx]).unwrap();
                 [zz, xx, zx]
             };
             // The last first: nothing was prepared.
@@ -252,14 +240,8 @@ impl LagKernel for VoigtKernel {
         &self.classes
     }
 
-    fn coefficients(
-        &self,
-        class: usize,
-        first_lag: usize,
-        normal: &mut [f64],
-        tangential: &mut [f64],
-        coupling: &mut [f64],
-    ) -> Result<()> {
+    fn coefficients(&self, class: usize, first_lag: usize, values: [&mut [f64]; 3]) -> Result<()> {
+        let [normal, tangential, coupling] = values;
         let [source, receiver] = self.classes.representative(class)?;
         let length = if source == receiver { receiver.length() } else { 0.0 };
         for (i, value) in normal.iter_mut().enumerate() {
@@ -390,16 +372,16 @@ fn a_block_on_the_voigt_bed() {
 /// The half-plane from outside: the same bits as the crate's own ground.
 #[test]
 fn a_kernel_ground_is_what_the_half_plane_is_made_of() {
-    struct Outside(HalfPlaneGround);
+    struct Outside(ElasticGround);
     impl KernelSource for Outside {
         fn kernel(&self, elements: &[ContactElement], dt: f64) -> Result<Arc<dyn LagKernel>> {
-            Ok(Arc::new(PatchKernel::new(self.0.soil(), elements.to_vec(), dt)?))
+            Ok(Arc::new(PatchKernel::new(soil(), elements.to_vec(), dt)?))
         }
         fn static_compliance(&self, _: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
             self.0.static_compliance(matrix)
         }
     }
-    let ground = || HalfPlaneGround::strip(soil(), -2.0..2.0, 6).unwrap();
+    let ground = || ElasticGround::new(soil(), Strip::graded(-2.0..2.0, 6).unwrap()).unwrap();
     let elements = ground().elements().to_vec();
     let own = KernelGround::new(Outside(ground()), elements).unwrap();
     let (own, other) = (run(own, 5e-3, 300).0, run(ground(), 5e-3, 300).0);
@@ -426,15 +408,8 @@ impl LagKernel for Coupled {
     fn classes(&self) -> &PairClasses {
         self.0.classes()
     }
-    fn coefficients(
-        &self,
-        class: usize,
-        first: usize,
-        zz: &mut [f64],
-        xx: &mut [f64],
-        zx: &mut [f64],
-    ) -> Result<()> {
-        self.0.coefficients(class, first, zz, xx, zx)
+    fn coefficients(&self, class: usize, first: usize, values: [&mut [f64]; 3]) -> Result<()> {
+        self.0.coefficients(class, first, values)
     }
     fn late_lags(&self) -> Option<&dyn LateLags> {
         Some(&self.0)
@@ -497,7 +472,7 @@ fn the_steps_of_a_run_are_announced_however_many() {
     ] {
         let mut simulation = Simulation::builder(5e-3)
             .structure(block())
-            .ground(HalfPlaneGround::uniform_strip(soil(), -2.0..2.0, 8).unwrap())
+            .ground(ElasticGround::new(soil(), Strip::uniform(-2.0..2.0, 8).unwrap()).unwrap())
             .interface(Coulomb::new(0.4).unwrap())
             .motion(push())
             .build()

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use basemat::bem::{Ground, HalfPlaneGround, PatchKernel};
+use basemat::bem::{ElasticGround, Ground, PatchKernel, Strip};
 use basemat::coupled::{Run, SimulationBuilder};
 use basemat::history::DirectHistory;
 use basemat::interface::Bonded;
@@ -32,7 +32,7 @@ fn all_parts_can_be_shown() {
     let mut simulation = builder().ground(bed(4)).build().unwrap();
     simulation.step().unwrap();
     shown(&simulation, &["unknowns: 3", "elements: 4", "step: 1"]);
-    let ground = || HalfPlaneGround::uniform_strip(soil(), -2.0..2.0, 6).unwrap();
+    let ground = || ElasticGround::new(soil(), Strip::uniform(-2.0..2.0, 6).unwrap()).unwrap();
     shown(&ground(), &["Soil", "elements: 6"]);
     let kernel = Arc::new(PatchKernel::new(soil(), ground().elements().to_vec(), STEP).unwrap());
     shown(&DirectHistory::new(kernel), &["elements: 6", "steps: 0"]);

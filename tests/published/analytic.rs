@@ -2,7 +2,7 @@
 //! SCENE: tilted strip, sliding and rocking rigid blocks.
 //! REFERENCE: Muskhelishvili 1953, Newmark 1965, Housner 1963.
 
-use basemat::bem::{Grading, Ground, HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Ground, Strip};
 use basemat::interface::Coulomb;
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::reference::{NoTensionStrip, SlidingBlock};
@@ -20,9 +20,9 @@ fn pushed_block<F>(block: RigidBlock, moment: F) -> Pulled<RigidBlock, F> {
     Pulled { structure: block, along: RigidBlock::ROTATION.into(), force: moment }
 }
 
-fn half_plane(soil: Soil, half_width: f64, elements: usize, grading: Grading) -> HalfPlaneGround {
+fn half_plane(soil: Soil, half_width: f64, elements: usize, grading: Grading) -> ElasticGround {
     let strip = Strip::new(-half_width..half_width, elements, grading).unwrap();
-    HalfPlaneGround::new(soil, &[strip]).unwrap()
+    ElasticGround::new(soil, strip).unwrap()
 }
 
 /// Tilt and length of contact of a strip of half width 1 under a unit load.

@@ -3,15 +3,16 @@
 //! vertically incident SV Ricker pulse; 16 graded elements.
 //! REFERENCE: `td_block_SV_*`, synthesis of Laplace transforms.
 
-use basemat::bem::layered::{LayeredGround, Stages};
+use basemat::bem::layered::Stages;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::soil::{Elastic, Kjartansson, SoilProfile};
 
 use super::linear::block_errors;
 use crate::support::profiles::{gmb, p1, p3};
 use crate::support::series::within;
 
-fn ground(profile: SoilProfile, elements: usize) -> LayeredGround {
-    LayeredGround::strip(profile, -1.0..1.0, elements).unwrap()
+fn ground(profile: SoilProfile, elements: usize) -> ElasticGround {
+    ElasticGround::new(profile, Strip::graded(-1.0..1.0, elements).unwrap()).unwrap()
 }
 
 #[test]

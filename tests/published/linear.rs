@@ -4,7 +4,7 @@
 //! this crate.
 
 use basemat::Soil;
-use basemat::bem::{Grading, Ground, HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Ground, Strip};
 use basemat::coupled::State;
 use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
 
@@ -90,10 +90,10 @@ fn structure_errors<const N: usize>(
 }
 
 /// The half-plane of the tables, of unit shear modulus and density, under a strip of half width 1.
-fn half_plane(poisson: f64, (grading, elements, _): (Grading, usize, f64)) -> HalfPlaneGround {
+fn half_plane(poisson: f64, (grading, elements, _): (Grading, usize, f64)) -> ElasticGround {
     let soil = Soil::new(1.0, poisson, 1.0).unwrap();
     let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
-    HalfPlaneGround::new(soil, &[strip]).unwrap()
+    ElasticGround::new(soil, strip).unwrap()
 }
 
 fn base_motion(state: &State) -> f64 {

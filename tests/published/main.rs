@@ -1,10 +1,10 @@
 //! Validation against closed forms and published tables.
 
-mod advice;
 mod analytic;
 mod layered;
 mod linear;
 mod reference;
 mod reference_tables;
+mod refine;
 #[path = "../support/mod.rs"]
 mod support;

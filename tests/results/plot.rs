@@ -4,7 +4,7 @@
 //! REFERENCE: the tags and texts of the SVG, laid out here.
 #![cfg(feature = "plot")]
 
-use basemat::bem::{HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Probe, Run};
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::{SpectralOrdinate, el_centro_1940};
@@ -281,7 +281,7 @@ fn apart(distances: &[f64]) -> (Histories, Wireframe, Run) {
         points.extend(moved);
         cells.extend(single.cells().iter().map(|cell| cell.iter().map(|k| k + first).collect()));
     }
-    let ground = HalfPlaneGround::new(scenes::soil(SI), &strips).unwrap();
+    let ground = ElasticGround::new(scenes::soil(SI), &strips).unwrap();
     let scene = scene(SI, 0.6).structure(group).ground(ground).interface(friction(0.35));
     let mut simulation = scene.build().unwrap();
     let recorder = Recorder::new().contact(4).motion(4);

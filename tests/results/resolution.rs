@@ -2,8 +2,7 @@
 
 use std::f64::consts::PI;
 
-use basemat::bem::Ground;
-use basemat::bem::layered::LayeredGround;
+use basemat::bem::{ElasticGround, Grading, Ground, Strip};
 use basemat::coupled::{Run, Warning};
 use basemat::motion::{FreeFieldFn, RickerDisplacement, TravellingWave};
 use basemat::prelude::*;
@@ -35,7 +34,10 @@ fn run(
     time_step: f64,
 ) -> Run {
     let mut simulation = Simulation::builder(time_step)
-        .ground(HalfPlaneGround::uniform_under(soil, &structure, elements).unwrap())
+        .ground(
+            ElasticGround::new(soil, Strip::under(&structure, elements, Grading::Uniform).unwrap())
+                .unwrap(),
+        )
         .structure(structure)
         .motion(motion)
         .interface(Bonded)
@@ -167,7 +169,13 @@ fn stiff_structures_need_no_fine_steps() {
 fn recorded_by_hand() {
     let structure = storeys();
     let mut simulation = Simulation::builder(0.5)
-        .ground(HalfPlaneGround::uniform_under(soil(250.0), &structure, 12).unwrap())
+        .ground(
+            ElasticGround::new(
+                soil(250.0),
+                Strip::under(&structure, 12, Grading::Uniform).unwrap(),
+            )
+            .unwrap(),
+        )
         .structure(structure)
         .motion(el_centro_1940())
         .interface(Bonded)
@@ -225,7 +233,7 @@ fn soils_in_other_units() {
     let short = |soil: Soil| {
         let block = RigidBlock::new(4.0, 2.0, 1.0).unwrap();
         let mut simulation = Simulation::builder(1e-3)
-            .ground(HalfPlaneGround::under(soil, &block, 4).unwrap())
+            .ground(ElasticGround::under(soil, &block, 4).unwrap())
             .structure(block)
             .interface(Bonded)
             .gravity(0.0)
@@ -261,7 +269,7 @@ fn soils_in_other_units() {
     let thin = Soil::from_shear_wave_speed(150.0, 0.33, 18.0).unwrap();
     let profile = profile.with_layer(thin, 3.0).unwrap();
     let block = RigidBlock::new(4.0, 2.0, 1000.0).unwrap();
-    let ground = LayeredGround::under(profile, &block, 2).unwrap();
+    let ground = ElasticGround::under(profile, &block, 2).unwrap();
     assert_eq!(ground.soils().len(), 3);
     assert_eq!(ground.soils()[1], thin);
 }

@@ -2,7 +2,7 @@
 //! SCENE: pushed blocks, two foundations, elements with and without friction.
 //! REFERENCE: statics, μW/H and Wb/(Hh).
 
-use basemat::bem::{HalfPlaneGround, SpringGround, Strip};
+use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::{Placement, Run};
 use basemat::interface::{
     Bonded, Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, ThinLayer, Tolerance,
@@ -59,7 +59,7 @@ fn factors_of_safety_are_those_of_the_worst_foundation() {
     let soil = Soil::new(80.0e6, 0.3, 1900.0).unwrap();
     let mut simulation = Simulation::builder(0.005)
         .structure(group)
-        .ground(HalfPlaneGround::new(soil, &strips).unwrap())
+        .ground(ElasticGround::new(soil, &strips).unwrap())
         .interface(Coulomb::new(0.5).unwrap())
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY)

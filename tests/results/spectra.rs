@@ -2,7 +2,7 @@
 //! SCENE: a light block on stiff ground; a triangular peak.
 //! REFERENCE: the spectrum of the ground; the wording of the guide.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::Probe;
 use basemat::interface::Bonded;
 use basemat::motion::{SpectralOrdinate, el_centro_1940};
@@ -13,7 +13,10 @@ use basemat::{Simulation, Soil};
 /// A light block, bonded to stiff ground, moves as the ground does: so do its floors' spectra.
 #[test]
 fn floors_of_a_light_rigid_block_ride_on_the_ground() {
-    let ground = HalfPlaneGround::uniform_strip(Soil::new(2e9, 0.3, 2000.0).unwrap(), -2.0..2.0, 4);
+    let ground = ElasticGround::new(
+        Soil::new(2e9, 0.3, 2000.0).unwrap(),
+        Strip::uniform(-2.0..2.0, 4).unwrap(),
+    );
     let block = RigidBlock::new(4.0, 1.0, 10.0).unwrap();
     let top = block.horizontal_at(1.0);
     let mut simulation = Simulation::builder(0.01)

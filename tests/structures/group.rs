@@ -2,7 +2,7 @@
 //! SCENE: far apart on the half-plane; on springs; twins; nonlinear members.
 //! REFERENCE: each alone, or its mirror image.
 
-use basemat::bem::{HalfPlaneGround, SpringGround, Strip};
+use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};
 use basemat::history::History;
 use basemat::interface::{Bonded, Coulomb};
@@ -42,8 +42,8 @@ fn strip(center: f64, width: f64) -> Strip {
     Strip::uniform(center - 0.5 * width..center + 0.5 * width, 6).unwrap()
 }
 
-fn half_plane(strips: &[Strip]) -> HalfPlaneGround {
-    HalfPlaneGround::new(soil(), strips).unwrap()
+fn half_plane(strips: &[Strip]) -> ElasticGround {
+    ElasticGround::new(soil(), strips).unwrap()
 }
 
 fn states(mut simulation: Simulation, steps: usize) -> Vec<State> {

@@ -1,6 +1,6 @@
 //! A rocking and sliding block on soil, and how smooth its normal force is.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{DissipativeMidpoint, Midpoint, Probe, Theta};
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::interface::{Activation, Coulomb};
@@ -65,7 +65,7 @@ impl Scene {
         let half = 0.5 * WIDTH;
         let law = Coulomb::new(self.friction)?.with_activation(self.activation)?;
         let builder = Simulation::builder(self.time_step)
-            .ground(HalfPlaneGround::uniform_strip(soil, -half..half, self.elements)?)
+            .ground(ElasticGround::new(soil, Strip::uniform(-half..half, self.elements)?)?)
             .interface(law)
             .motion(el_centro_1940().scaled(2.0)?)
             .gravity(STANDARD_GRAVITY);

@@ -3,7 +3,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use basemat::bem::{ContactElement, Ground, HalfPlaneGround, Strip};
+use basemat::bem::{ContactElement, ElasticGround, Ground, Strip};
 use basemat::coupled::{SearchMethod, State};
 use basemat::interface::Coulomb;
 use basemat::structure::RigidBlock;
@@ -56,9 +56,8 @@ impl Ground for Prescribed {
 fn of_a_scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<ContactElement>) {
     let poisson = random.pick(&[0.0, 0.2, 1.0 / 3.0, 0.45, 0.4999]);
     let soil = Soil::new(1e8, poisson, 2000.0).unwrap();
-    let strip =
-        if random.chance(0.5) { HalfPlaneGround::strip } else { HalfPlaneGround::uniform_strip };
-    let mut ground = strip(soil, -2.0..2.0, count).unwrap();
+    let strip = if random.chance(0.5) { Strip::graded } else { Strip::uniform };
+    let mut ground = ElasticGround::new(soil, strip(-2.0..2.0, count).unwrap()).unwrap();
     let courant = random.log_within(0.05, 20.0);
     let time_step = courant * 4.0 / count as f64 / soil.pressure_wave_speed();
     ground.prepare(time_step).unwrap();

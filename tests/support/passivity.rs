@@ -1,7 +1,7 @@
 //! Energy that a half-plane gives or takes under random tractions.
 
 use basemat::Soil;
-use basemat::bem::{Ground, HalfPlaneGround};
+use basemat::bem::{ElasticGround, Ground, Strip};
 use basemat::history::History;
 
 use super::inverse::inverse;
@@ -23,12 +23,11 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    fn ground(&self) -> HalfPlaneGround {
+    fn ground(&self) -> ElasticGround {
         let soil = Soil::new(1.0, self.poisson, 1.0).unwrap();
-        let strip =
-            if self.graded { HalfPlaneGround::strip } else { HalfPlaneGround::uniform_strip };
-        let mut ground =
-            strip(soil, -1.0..1.0, self.elements).unwrap().with_history_kind(self.history);
+        let strip = if self.graded { Strip::graded } else { Strip::uniform };
+        let strip = strip(-1.0..1.0, self.elements).unwrap();
+        let mut ground = ElasticGround::new(soil, strip).unwrap().with_history_kind(self.history);
         if self.tolerance > 0.0 {
             ground = ground.with_history_tolerance(self.tolerance).unwrap();
         }

@@ -1,7 +1,7 @@
 //! Rigid massless strip on the half-plane, marched with nothing but the `Ground` trait.
 
 use basemat::Soil;
-use basemat::bem::{ContactElement, Grading, Ground, HalfPlaneGround, Strip};
+use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, Strip};
 
 use super::inverse::inverse;
 
@@ -42,7 +42,7 @@ impl RigidStrip {
     ) -> Self {
         let soil = Soil::new(1.0, poisson, 1.0).unwrap();
         let strip = Strip::new(-1.0..1.0, elements, grading).unwrap();
-        let ground = HalfPlaneGround::new(soil, &[strip]).unwrap();
+        let ground = ElasticGround::new(soil, strip).unwrap();
         Self::on(Box::new(ground), time_step, contact)
     }
 

@@ -1,6 +1,6 @@
 //! Scenes in which a base slides, uplifts or stays bonded.
 
-use basemat::bem::{Grading, HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::coupled::{SimulationBuilder, State};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Coulomb;
@@ -63,10 +63,10 @@ pub(crate) fn soil(frame: Frame) -> Soil {
     Soil::new(6e7 * frame.pressure(), 0.3, 1900.0 * frame.density()).unwrap()
 }
 
-pub(crate) fn ground(frame: Frame, elements: usize, grading: Grading) -> HalfPlaneGround {
+pub(crate) fn ground(frame: Frame, elements: usize, grading: Grading) -> ElasticGround {
     let half = 2.0 * frame.length;
     let strip = Strip::new(-half..half, elements, grading).unwrap();
-    HalfPlaneGround::new(soil(frame), &[strip]).unwrap()
+    ElasticGround::new(soil(frame), strip).unwrap()
 }
 
 pub(crate) fn block(frame: Frame) -> RigidBlock {

@@ -1,7 +1,7 @@
 //! Errors of the full-plane ground by its truncated free surface.
 
 use basemat::bem::full_plane::{BoundaryKernel, ConvolutionQuadrature, CqMethod, FullPlaneGround};
-use basemat::bem::{Grading, Ground, HalfPlaneGround, Strip};
+use basemat::bem::{ElasticGround, Grading, Ground, Strip};
 use basemat::coupled::SimulationBuilder;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::RickerDisplacement;
@@ -99,7 +99,7 @@ pub(crate) fn block_errors(mesh: Mesh) -> [f64; 3] {
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
     let (time_step, full) = (mesh.time_step(soil), mesh.ground(soil));
     let strip = Strip::new(-1.0..1.0, 32, Grading::Cosine).unwrap();
-    let half = HalfPlaneGround::new(soil, &[strip]).unwrap();
+    let half = ElasticGround::new(soil, strip).unwrap();
     distance(&block(full, time_step, 1), &block(half, time_step / 8.0, 8))
 }
 
@@ -109,7 +109,7 @@ pub(crate) fn rocking(elements: usize, free: usize, beta: f64) -> [(Vec<f64>, f6
     let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
     let time_step = beta * 2.0 / elements as f64 / soil.pressure_wave_speed();
     let full = FullPlaneGround::strip(soil, -1.0..1.0, elements, free).unwrap();
-    let half = HalfPlaneGround::uniform_strip(soil, -1.0..1.0, elements).unwrap();
+    let half = ElasticGround::new(soil, Strip::uniform(-1.0..1.0, elements).unwrap()).unwrap();
     let run = |builder: SimulationBuilder| {
         let mut simulation = builder
             .structure(RigidBlock::new(2.0, 4.0, 0.5).unwrap())

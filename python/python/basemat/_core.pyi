@@ -22,21 +22,27 @@ _MatrixLike: TypeAlias = Any
 """A square array, or any matrix of ``scipy.sparse``."""
 
 @final
-class Advice:
+class Refinement:
     @property
-    def elements(self) -> int: ...
+    def elements(self) -> list[int]: ...
     @property
-    def grading(self) -> str: ...
+    def time_steps(self) -> NDArray[np.float64]: ...
     @property
-    def time_step(self) -> float: ...
+    def errors(self) -> NDArray[np.float64]: ...
     @property
-    def history(self) -> str: ...
+    def wall_times(self) -> NDArray[np.float64]: ...
     @property
-    def mesh_error(self) -> float: ...
+    def results(self) -> list[NDArray[np.float64]]: ...
     @property
-    def step_error(self) -> float: ...
+    def extrapolated(self) -> NDArray[np.float64]: ...
     @property
-    def peak_error(self) -> float: ...
+    def mesh_order(self) -> float: ...
+    @property
+    def step_order(self) -> float: ...
+    @property
+    def mismatch(self) -> float: ...
+    @property
+    def is_regular(self) -> bool: ...
 
 @disjoint_base
 class Ground:
@@ -44,33 +50,23 @@ class Ground:
     def elements(self) -> NDArray[np.float64]: ...
 
 @final
-class HalfPlaneGround(Ground):
+class ElasticGround(Ground):
     def __new__(
         cls,
-        soil: Soil,
-        strips: Sequence[Strip],
+        soil: Soil | SoilProfile,
+        strips: Strip | Sequence[Strip],
         *,
         history: str = "auto",
         history_tolerance: float | None = None,
         history_memory: int | None = None,
+        stages: int | None = None,
+        tolerance: float | None = None,
+        kernel_file: str | os.PathLike[str] | None = None,
         kernels: SharedKernels | None = None,
     ) -> Self: ...
     @staticmethod
-    def strip(
-        soil: Soil,
-        left: float,
-        right: float,
-        count: int,
-        *,
-        grading: str = "cosine",
-        history: str = "auto",
-        history_tolerance: float | None = None,
-        history_memory: int | None = None,
-        kernels: SharedKernels | None = None,
-    ) -> HalfPlaneGround: ...
-    @staticmethod
     def under(
-        soil: Soil,
+        soil: Soil | SoilProfile,
         structure: Structure | UserStructure,
         count: int,
         *,
@@ -78,8 +74,11 @@ class HalfPlaneGround(Ground):
         history: str = "auto",
         history_tolerance: float | None = None,
         history_memory: int | None = None,
+        stages: int | None = None,
+        tolerance: float | None = None,
+        kernel_file: str | os.PathLike[str] | None = None,
         kernels: SharedKernels | None = None,
-    ) -> HalfPlaneGround: ...
+    ) -> ElasticGround: ...
     def impedances(self, frequencies: ArrayLike, *, contact: str = "bonded") -> Impedances: ...
 
 @final
@@ -102,52 +101,10 @@ class Impedances:
     def coupling(self) -> NDArray[np.complex128]: ...
 
 @final
-class LayeredGround(Ground):
-    def __new__(
-        cls,
-        profile: SoilProfile,
-        strips: Sequence[Strip],
-        *,
-        stages: int | None = None,
-        tolerance: float | None = None,
-        kernel_file: str | os.PathLike[str] | None = None,
-        history: str = "auto",
-        kernels: SharedKernels | None = None,
-    ) -> Self: ...
-    @staticmethod
-    def strip(
-        profile: SoilProfile,
-        left: float,
-        right: float,
-        count: int,
-        *,
-        grading: str = "cosine",
-        stages: int | None = None,
-        tolerance: float | None = None,
-        kernel_file: str | os.PathLike[str] | None = None,
-        history: str = "auto",
-        kernels: SharedKernels | None = None,
-    ) -> LayeredGround: ...
-    @staticmethod
-    def under(
-        profile: SoilProfile,
-        structure: Structure | UserStructure,
-        count: int,
-        *,
-        grading: str = "cosine",
-        stages: int | None = None,
-        tolerance: float | None = None,
-        kernel_file: str | os.PathLike[str] | None = None,
-        history: str = "auto",
-        kernels: SharedKernels | None = None,
-    ) -> LayeredGround: ...
-    def impedances(self, frequencies: ArrayLike, *, contact: str = "bonded") -> Impedances: ...
-
-@final
 class SpringGround(Ground):
     def __new__(
         cls,
-        strips: Sequence[Strip],
+        strips: Strip | Sequence[Strip],
         normal_stiffness: float,
         tangential_stiffness: float,
         *,
@@ -1191,17 +1148,11 @@ class StepStart:
     @property
     def memory(self) -> list[float]: ...
 
-def advise(
-    soil: Soil,
-    record: Record,
-    tolerance: float,
-    *,
-    width: float,
-    height: float,
-    mass: float,
-    frequency: float | None = None,
-    damping_ratio: float = 0.05,
-) -> Advice: ...
+def refine(
+    elements: int,
+    time_step: float,
+    scene: Callable[[int, float], float | ArrayLike],
+) -> Refinement: ...
 def el_centro_1940() -> Record: ...
 def free_field(
     *,

@@ -16,8 +16,8 @@ from typing import NamedTuple
 from . import (
     Bonded,
     Coulomb,
+    ElasticGround,
     FemModel,
-    HalfPlaneGround,
     InterfaceLaw,
     Layer,
     Material,
@@ -28,6 +28,7 @@ from . import (
     Run,
     Simulation,
     Soil,
+    Strip,
     el_centro_1940,
 )
 
@@ -112,7 +113,7 @@ def scene(friction: float | None, record: Record | None = None, steps: int | Non
         time_step(),
         model,
         # Equal elements, as in the paper.
-        HalfPlaneGround.strip(soil, -half, half, ELEMENTS, grading="uniform"),
+        ElasticGround(soil, Strip(-half, half, ELEMENTS, grading="uniform")),
         law,
         motion=record,
         expected_steps=steps,

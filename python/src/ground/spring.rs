@@ -1,10 +1,10 @@
 //! Winkler's spring bed.
 
-use basemat::bem::SpringGround;
+use basemat::bem::{SpringGround, Strip};
 use pyo3::prelude::*;
 
 use super::PyGround;
-use super::strip::{PyStrip, strips};
+use super::strip::Strips;
 use crate::array::whole;
 use crate::structure;
 
@@ -38,13 +38,13 @@ impl PySpringGround {
     #[new]
     #[pyo3(signature = (strips, normal_stiffness, tangential_stiffness, *, dashpots=None, theta=None))]
     fn new(
-        strips: Vec<Bound<'_, PyStrip>>,
+        strips: Strips<'_>,
         normal_stiffness: f64,
         tangential_stiffness: f64,
         dashpots: Option<[f64; 2]>,
         theta: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let strips = self::strips(&strips);
+        let strips: Vec<Strip> = strips.into();
         let (normal, tangential) = (normal_stiffness, tangential_stiffness);
         ground(move || SpringGround::on_strips(&strips, normal, tangential), dashpots, theta)
     }

@@ -46,7 +46,19 @@ impl PyStrip {
     }
 }
 
-/// The strips of a list.
-pub(super) fn strips(list: &[Bound<'_, PyStrip>]) -> Vec<Strip> {
-    list.iter().map(|strip| strip.get().0.clone()).collect()
+/// One strip, or a list of them.
+#[derive(FromPyObject)]
+pub(super) enum Strips<'py> {
+    One(Bound<'py, PyStrip>),
+    Several(Vec<Bound<'py, PyStrip>>),
+}
+
+impl From<Strips<'_>> for Vec<Strip> {
+    fn from(given: Strips<'_>) -> Self {
+        let list = match given {
+            Strips::One(strip) => vec![strip],
+            Strips::Several(list) => list,
+        };
+        list.iter().map(|strip| strip.get().0.clone()).collect()
+    }
 }

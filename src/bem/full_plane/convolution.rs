@@ -12,6 +12,7 @@ use super::BoundaryKernel;
 use super::block::{Level, Link, Work};
 use super::pairs::PairClasses;
 use crate::error::{Result, same_length};
+use crate::geometry::ContactLayout;
 
 /// Steps that are summed directly before the smallest block is transformed.
 const LEAF: usize = 64;
@@ -65,7 +66,7 @@ impl BoundaryHistory {
     }
 
     fn size(&self) -> usize {
-        2 * self.kernel.segments().len()
+        ContactLayout::new(self.kernel.segments().len()).len()
     }
 
     /// Coefficients of all series for the lags below `lags`, that of lag 0 (no history) left out.
@@ -203,20 +204,20 @@ impl BoundaryHistory {
 
 /// All pairs of components, G with tractions and −H with displacements.
 fn links(pairs: &PairClasses, count: usize, loaded: &[bool]) -> Vec<Link> {
-    let mut links = Vec::new();
+    let (layout, mut links) = (ContactLayout::new(count), Vec::new());
     for (p, pairs) in pairs.pairs.chunks_exact(count).enumerate() {
         for i in 0..2 {
             for (k, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 for (q, &(class, mirrored)) in pairs.iter().enumerate() {
-                    let channel = j * count + q;
+                    let channel = layout.place(j, q);
                     if k == 0 && !loaded[channel] {
                         continue;
                     }
                     let sign = if mirrored && i != j { -1.0 } else { 1.0 };
                     let (input, sign) =
-                        if k == 0 { (2 * count + channel, sign) } else { (channel, -sign) };
+                        if k == 0 { (layout.len() + channel, sign) } else { (channel, -sign) };
                     let series = 8 * class + 4 * k + 2 * i + j;
-                    links.push(Link { output: i * count + p, input, series, sign });
+                    links.push(Link { output: layout.place(i, p), input, series, sign });
                 }
             }
         }

@@ -20,13 +20,13 @@ use std::f64::consts::TAU;
 use realfft::RealFftPlanner;
 
 use crate::error::{Error, Result, positive, same_length};
+use crate::geometry::ContactLayout;
 use crate::soil::Soil;
 
-use super::cq_method::CqMethod;
 use super::laplace::LaplacePlane;
 use super::laplace_bessel::Complex64;
 use super::laplace_element::{Block, View, integrate};
-use super::laplace_late::{LogTerms, TERMS, first_lag, log_terms, weights};
+use super::laplace_late::{CqMethod, LogTerms, TERMS, first_lag, log_terms, weights};
 use super::{BoundaryKernel, Segment};
 
 /// The full-plane boundary equation by convolution quadrature.
@@ -259,12 +259,14 @@ fn scatter<const WIDTH: usize>(
     g: &mut [f64],
     h: &mut [f64],
 ) {
+    let layout = ContactLayout::new(count);
     for row in 0..count {
         for column in 0..count {
             let block = block(view_of[row * count + column]);
             for i in 0..2 {
                 for j in 0..2 {
-                    let place = WIDTH * ((i * count + row) * 2 * count + j * count + column);
+                    let place =
+                        WIDTH * (layout.place(i, row) * layout.len() + layout.place(j, column));
                     g[place..place + WIDTH].copy_from_slice(&block[2 * i + j]);
                     h[place..place + WIDTH].copy_from_slice(&block[4 + 2 * i + j]);
                 }

@@ -7,6 +7,7 @@ use super::static_limit::static_compliance;
 use super::{Boundary, BoundaryKernel, GroundStability, IncidentField, Segment, TimeKernel};
 use crate::bem::{ContactElement, Ground, StaticKernel, Strip};
 use crate::error::{Error, Result, same_length};
+use crate::geometry::ContactLayout;
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
@@ -18,7 +19,7 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 ///
 /// In every step the displacements of the traction-free elements are eliminated from
 /// H⁰ u = G⁰ t + history (eqs. 17–18, 21), which leaves the contact elements. The instantaneous
-/// operator is not symmetric. Beside [`HalfPlaneGround`](crate::bem::HalfPlaneGround), which needs
+/// operator is not symmetric. Beside [`ElasticGround`](crate::bem::ElasticGround), which needs
 /// no free surface and is always stable, this ground serves for comparison with the paper and for
 /// boundaries that are not flat.
 ///
@@ -275,12 +276,13 @@ impl Ground for FullPlaneGround {
     /// Not symmetric.
     fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
-        let (count, contact) = (self.boundary.segments().len(), self.boundary.contact());
-        let width = 2 * contact.len();
+        let contact = self.boundary.contact();
+        let layout = ContactLayout::new(self.boundary.segments().len());
+        let width = ContactLayout::new(contact.len()).len();
         same_length("instantaneous operator", matrix.len(), width * width)?;
-        for (k, column) in prepared.mobility.chunks_exact(2 * count).enumerate() {
+        for (k, column) in prepared.mobility.chunks_exact(layout.len()).enumerate() {
             for i in 0..width {
-                matrix[i * width + k] = column[component(contact, count, i)];
+                matrix[i * width + k] = column[component(contact, layout, i)];
             }
         }
         Ok(())
@@ -291,11 +293,13 @@ impl Ground for FullPlaneGround {
         if self.conflict.get() {
             return Err(TWO_MOTIONS);
         }
-        let (count, contact) = (self.boundary.segments().len(), self.boundary.contact());
-        same_length("displacement of the history", displacement.len(), 2 * contact.len())?;
+        let contact = self.boundary.contact();
+        let layout = ContactLayout::new(self.boundary.segments().len());
+        let size = ContactLayout::new(contact.len()).len();
+        same_length("displacement of the history", displacement.len(), size)?;
         prepared.advance(&self.boundary, self.incident.as_deref())?;
         for (k, value) in displacement.iter_mut().enumerate() {
-            *value = prepared.free[component(contact, count, k)];
+            *value = prepared.free[component(contact, layout, k)];
         }
         Ok(())
     }
@@ -313,9 +317,9 @@ impl Ground for FullPlaneGround {
     /// static limit of the same boundary equation (not symmetric).
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let elements = self.elements();
-        let count = elements.len();
-        same_length("static compliance", matrix.len(), 4 * count * count)?;
-        let datum = 10.0 * (elements[count - 1].right - elements[0].left);
+        let size = ContactLayout::new(elements.len()).square();
+        same_length("static compliance", matrix.len(), size)?;
+        let datum = 10.0 * (elements[elements.len() - 1].right - elements[0].left);
         if self.boundary.is_flat() {
             return StaticKernel::new(self.soil, datum)?.compliance(elements, matrix);
         }
@@ -327,7 +331,7 @@ impl Ground for FullPlaneGround {
     /// Both at once are refused: the values are not finite, and the next history is an error.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
         let (contact, segments) = (self.boundary.contact(), self.boundary.segments());
-        let (down, along) = displacement.split_at_mut(contact.len().min(displacement.len()));
+        let [down, along] = ContactLayout::new(contact.len()).split_mut(displacement);
         for ((&e, down), along) in contact.iter().zip(down).zip(along) {
             let center = segments[e].center();
             let [horizontal, vertical] = motion.displacement(center[0], time);

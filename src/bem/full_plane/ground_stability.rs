@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::condition::BoundaryCondition;
+use super::BoundaryCondition;
 use super::stability::Stability;
 use super::stability_symbol::Symbol;
 use super::{Boundary, BoundaryKernel};

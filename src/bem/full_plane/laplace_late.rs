@@ -22,8 +22,32 @@
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
-use super::cq_method::CqMethod;
+use super::laplace_bessel::Complex64;
 use super::laplace_element::View;
+
+/// Backward-differentiation formula behind a convolution quadrature.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum CqMethod {
+    /// δ = 1 − ζ: first order, strongly damped.
+    Bdf1,
+    /// δ = (1 − ζ) + (1 − ζ)²/2: second order.
+    #[default]
+    Bdf2,
+}
+
+impl CqMethod {
+    /// δ(ζ).
+    pub(super) fn symbol(self, zeta: Complex64) -> Complex64 {
+        let difference = 1.0 - zeta;
+        match self {
+            Self::Bdf1 => difference,
+            Self::Bdf2 => difference * (1.0 + 0.5 * difference),
+        }
+    }
+}
 
 /// Terms k: A has degree 2k along an element, and the largest Gauss rule is exact to degree 51.
 pub(super) const TERMS: usize = 26;

@@ -3,6 +3,7 @@
 use super::BoundaryKernel;
 use super::convolution::BoundaryHistory;
 use crate::error::{Error, Result, same_length};
+use crate::geometry::ContactLayout;
 use crate::linalg::{DenseFactor, dense_multiply_add, largest};
 
 /// Which of the two is given for a component of an element.
@@ -54,7 +55,7 @@ impl BoundaryMarch {
     /// [`Error::Size`] for the wrong number of entries, [`Error::Singular`] if the boundary values
     /// do not determine the rest, and what the kernel says.
     pub fn new(kernel: Box<dyn BoundaryKernel>, given: &[Given]) -> Result<Self> {
-        let size = 2 * kernel.segments().len();
+        let size = ContactLayout::new(kernel.segments().len()).len();
         same_length("list of given components", given.len(), size)?;
         let (mut g, mut h) = (vec![0.0; size * size], vec![0.0; size * size]);
         kernel.coefficients(0, &mut g, &mut h)?;

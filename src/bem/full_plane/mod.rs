@@ -57,10 +57,8 @@
 
 mod block;
 mod boundary;
-mod condition;
 mod convolution;
 mod convolution_quadrature;
-mod cq_method;
 mod ground;
 mod ground_stability;
 mod incident;
@@ -82,12 +80,11 @@ mod step_integrals;
 mod time_kernel;
 
 pub use boundary::Boundary;
-pub use condition::BoundaryCondition;
 pub use convolution_quadrature::ConvolutionQuadrature;
-pub use cq_method::CqMethod;
 pub use ground::FullPlaneGround;
 pub use ground_stability::GroundStability;
 pub use incident::{IncidentField, VerticalWaves};
+pub use laplace_late::CqMethod;
 pub use march::{BoundaryMarch, Given};
 pub use segment::Segment;
 pub use stability::Stability;
@@ -119,4 +116,13 @@ pub trait BoundaryKernel: Send + Sync {
     fn symbol(&self, _zeta: [f64; 2], _g: &mut [f64], _h: &mut [f64]) -> Result<Option<[f64; 2]>> {
         Ok(None)
     }
+}
+
+/// Boundary condition of an element: the quantity that is prescribed there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BoundaryCondition {
+    /// The traction is known (zero on a free surface), the displacement is sought.
+    TractionFree,
+    /// The displacement is known (contact that sticks), the traction is sought.
+    PrescribedDisplacement,
 }

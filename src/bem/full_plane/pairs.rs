@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::Segment;
+use crate::geometry::ContactLayout;
 
 /// Coefficients of a pair in G and in H: `[row][column]`, row the receiver's component.
 pub(super) type PairBlocks = [[[f64; 2]; 2]; 2];
@@ -71,7 +72,7 @@ impl PairClasses {
         free_term: f64,
         local: impl Fn([f64; 2], f64) -> PairBlocks,
     ) {
-        let count = segments.len();
+        let (count, layout) = (segments.len(), ContactLayout::new(segments.len()));
         let seen: Vec<PairBlocks> =
             self.views.iter().map(|&(ends, height)| local(ends, height)).collect();
         let blocks: Vec<PairBlocks> = self
@@ -89,14 +90,14 @@ impl PairClasses {
                     for i in 0..2 {
                         for j in 0..2 {
                             let value = if mirrored && i != j { -block[i][j] } else { block[i][j] };
-                            matrix[(i * count + p) * 2 * count + j * count + q] = value;
+                            matrix[layout.place(i, p) * layout.len() + layout.place(j, q)] = value;
                         }
                     }
                 }
             }
         }
-        for k in 0..2 * count {
-            h[k * 2 * count + k] += free_term;
+        for k in 0..layout.len() {
+            h[k * (layout.len() + 1)] += free_term;
         }
     }
 }

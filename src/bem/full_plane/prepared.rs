@@ -3,6 +3,7 @@
 use super::convolution::BoundaryHistory;
 use super::{Boundary, BoundaryKernel, IncidentField};
 use crate::error::{Error, Result, same_length};
+use crate::geometry::{COMPONENTS, ContactLayout};
 use crate::linalg::{DenseFactor, dense_multiply_add};
 
 /// Histories and operators for one time step.
@@ -27,9 +28,9 @@ pub(super) struct Prepared {
 
 /// Where component `k` of a contact vector (2Q, down first) is in vectors of the boundary
 /// (2E, x first).
-pub(super) fn component(contact: &[usize], count: usize, k: usize) -> usize {
-    let elements = contact.len();
-    if k < elements { count + contact[k] } else { contact[k - elements] }
+pub(super) fn component(contact: &[usize], boundary: ContactLayout, k: usize) -> usize {
+    let [component, element] = ContactLayout::new(contact.len()).origin(k);
+    boundary.place(1 - component, contact[element])
 }
 
 impl Prepared {
@@ -41,17 +42,18 @@ impl Prepared {
     ) -> Result<Self> {
         let (count, contact) = (boundary.segments().len(), boundary.contact());
         same_length("elements of the boundary kernel", kernel.segments().len(), count)?;
-        let size = 2 * count;
-        let (mut g, mut h) = (vec![0.0; size * size], vec![0.0; size * size]);
+        let layout = ContactLayout::new(count);
+        let size = layout.len();
+        let (mut g, mut h) = (vec![0.0; layout.square()], vec![0.0; layout.square()]);
         kernel.coefficients(0, &mut g, &mut h)?;
         let mut factor = DenseFactor::with_capacity(size);
         if !factor.factor(&h, size) {
             return Err(Error::Singular { matrix: "boundary operator", order: size });
         }
-        let mut mobility = vec![0.0; 2 * contact.len() * size];
+        let mut mobility = vec![0.0; ContactLayout::new(contact.len()).len() * size];
         let mut loaded = vec![incident; size];
         for (k, column) in mobility.chunks_exact_mut(size).enumerate() {
-            let source = component(contact, count, k);
+            let source = component(contact, layout, k);
             loaded[source] = true;
             for (i, value) in column.iter_mut().enumerate() {
                 *value = g[i * size + source];
@@ -94,11 +96,12 @@ impl Prepared {
 
     pub(super) fn commit(&mut self, contact: &[usize], traction: &[f64]) {
         let size = self.displacement.len();
+        let layout = ContactLayout::new(size / COMPONENTS);
         self.displacement.copy_from_slice(&self.free);
         self.traction.copy_from_slice(&self.scattering);
         for (k, column) in self.mobility.chunks_exact(size).enumerate() {
             let value = traction.get(k).copied().unwrap_or(0.0);
-            self.traction[component(contact, size / 2, k)] += value;
+            self.traction[component(contact, layout, k)] += value;
             for (u, m) in self.displacement.iter_mut().zip(column) {
                 *u += m * value;
             }
@@ -110,7 +113,7 @@ impl Prepared {
 
 /// Minus the tractions of the incident field at the midpoints.
 fn scattering(boundary: &Boundary, field: &dyn IncidentField, time: f64, out: &mut [f64]) {
-    let (along, down) = out.split_at_mut(boundary.segments().len());
+    let [along, down] = ContactLayout::new(boundary.segments().len()).split_mut(out);
     for ((segment, x), z) in boundary.segments().iter().zip(along).zip(down) {
         let [xx, zz, xz] = field.stress(segment.center(), time);
         let n = segment.normal();

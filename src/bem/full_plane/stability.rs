@@ -10,11 +10,10 @@ use std::fmt;
 
 use crate::error::{Error, Result, positive};
 
-use super::BoundaryKernel;
-use super::condition::BoundaryCondition;
 use super::stability_passivity::passivity;
 use super::stability_symbol::Symbol;
 use super::stability_zeros::smallest_zero;
+use super::{BoundaryCondition, BoundaryKernel};
 
 /// Growth that can be looked for.
 pub(super) fn check_growth(smallest: f64) -> Result<()> {

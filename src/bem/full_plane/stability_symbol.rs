@@ -18,10 +18,10 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 
 use crate::error::{Error, Result, same_length};
+use crate::geometry::ContactLayout;
 use crate::linalg::{DenseFactor, largest};
 
-use super::BoundaryKernel;
-use super::condition::BoundaryCondition;
+use super::{BoundaryCondition, BoundaryKernel};
 
 /// Powers p = 1 … POWERS of N/n.
 const POWERS: usize = 10;
@@ -58,7 +58,7 @@ impl<'a> Symbol<'a> {
         if count == 0 {
             return Err(Error::Size { quantity: "segments", found: 0, needed: 1 });
         }
-        let size = 4 * count * count;
+        let size = ContactLayout::new(count).square();
         let mut symbol = Self {
             kernel,
             prescribed: vec![],
@@ -75,7 +75,7 @@ impl<'a> Symbol<'a> {
         let (g, h) = first.split_at(size);
         symbol.scale = largest(h) / largest(g);
         if !symbol.scale.is_finite() {
-            return Err(Error::Singular { matrix: "coefficients of lag 0", order: 2 * count });
+            return Err(Error::Singular { matrix: "coefficients of lag 0", order: symbol.order() });
         }
         loop {
             symbol.fit_tail()?;

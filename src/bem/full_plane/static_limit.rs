@@ -6,6 +6,7 @@
 use super::Segment;
 use super::pairs::PairClasses;
 use crate::error::{Error, Result};
+use crate::geometry::ContactLayout;
 use crate::linalg::DenseFactor;
 use crate::soil::Soil;
 
@@ -47,12 +48,12 @@ pub(super) fn static_compliance(
     datum: f64,
     matrix: &mut [f64],
 ) -> Result<()> {
-    let count = segments.len();
-    let size = 2 * count;
+    let layout = ContactLayout::new(segments.len());
+    let size = layout.len();
     let square = [soil.pressure_wave_speed(), soil.shear_wave_speed()].map(|c| 1.0 / (c * c));
     let lame = 2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson());
     let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density());
-    let (mut g, mut h) = (vec![0.0; size * size], vec![0.0; size * size]);
+    let (mut g, mut h) = (vec![0.0; layout.square()], vec![0.0; layout.square()]);
     PairClasses::new(segments).fill(segments, &mut g, &mut h, 0.5, |ends, height| {
         let [low, high] = ends.map(|s| primitive(square, lame, s, height, datum));
         let at = |k: usize| unit * (high[k] - low[k]);
@@ -63,16 +64,16 @@ pub(super) fn static_compliance(
     if !factor.factor(&h, size) {
         return Err(Error::Singular { matrix: "static boundary operator", order: size });
     }
-    let width = 2 * contact.len();
+    let width = ContactLayout::new(contact.len()).len();
     let mut column = vec![0.0; size];
     for k in 0..width {
-        let source = super::prepared::component(contact, count, k);
+        let source = super::prepared::component(contact, layout, k);
         for (i, value) in column.iter_mut().enumerate() {
             *value = g[i * size + source];
         }
         factor.solve(&mut column);
         for i in 0..width {
-            matrix[i * width + k] = column[super::prepared::component(contact, count, i)];
+            matrix[i * width + k] = column[super::prepared::component(contact, layout, i)];
         }
     }
     Ok(())

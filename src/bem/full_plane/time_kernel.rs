@@ -7,6 +7,7 @@ use super::step_integrals::{Integrals, Medium, step_integrals};
 use super::{BoundaryKernel, Segment};
 use crate::error::{Error, Result, positive, same_length};
 use crate::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
+use crate::geometry::ContactLayout;
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
@@ -182,9 +183,9 @@ impl BoundaryKernel for TimeKernel {
     }
 
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
-        let size = 2 * self.segments.len();
-        same_length("displacement coefficients", g.len(), size * size)?;
-        same_length("traction coefficients", h.len(), size * size)?;
+        let size = ContactLayout::new(self.segments.len()).square();
+        same_length("displacement coefficients", g.len(), size)?;
+        same_length("traction coefficients", h.len(), size)?;
         let unit = 1.0 / (2.0 * std::f64::consts::PI * self.soil.density());
         let scales = [unit, unit * self.soil.shear_modulus()];
         let free = if lag == 0 { 0.5 } else { 0.0 };

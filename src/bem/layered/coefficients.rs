@@ -20,6 +20,7 @@ use realfft::num_complex::Complex64;
 use super::runge_kutta::{Stages, on_circle};
 use super::wavenumber::{Wavenumbers, Workspace};
 use crate::error::{Error, Result};
+use crate::history::KINDS;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -34,7 +35,7 @@ const POINTS_PER_LAG: usize = 4;
 #[derive(Debug)]
 pub(crate) struct Block {
     /// Per class: zz, xx, zx, lag by lag.
-    pub(crate) values: Vec<[Vec<f64>; 3]>,
+    pub(crate) values: Vec<[Vec<f64>; KINDS]>,
 }
 
 impl Block {
@@ -59,7 +60,7 @@ impl Block {
     }
 
     /// Coefficients of one class from `place` to the block's end.
-    pub(crate) fn from(&self, class: usize, place: usize) -> [&[f64]; 3] {
+    pub(crate) fn from(&self, class: usize, place: usize) -> [&[f64]; KINDS] {
         self.values[class].each_ref().map(|values| &values[place..])
     }
 }
@@ -110,10 +111,10 @@ impl Quadrature {
         &self,
         [logarithm, angle]: [f64; 2],
         work: &mut Workspace,
-        scratch: &mut [[Complex; 3]],
-        sums: &mut [[Complex; 3]],
+        scratch: &mut [[Complex; KINDS]],
+        sums: &mut [[Complex; KINDS]],
     ) -> Result<()> {
-        sums.fill([Complex::default(); 3]);
+        sums.fill([Complex::default(); KINDS]);
         let [z, rest] = on_circle(logarithm, angle);
         for node in self.stages.nodes(z, rest) {
             let s = node.lambda.scale(1.0 / self.time_step);
@@ -139,7 +140,7 @@ impl Quadrature {
         let (mut output, mut scratch) = (transform.make_output_vec(), transform.make_scratch_vec());
         let mut values = Vec::with_capacity(self.classes);
         for class in 0..self.classes {
-            let mut components = [const { Vec::new() }; 3];
+            let mut components = [const { Vec::new() }; KINDS];
             for (component, list) in components.iter_mut().enumerate() {
                 for (point, input) in input.iter_mut().enumerate() {
                     let value = spectra[point * self.classes + class][component];
@@ -161,19 +162,19 @@ impl Quadrature {
     }
 
     /// Ĝ on the upper half of a circle, point by point and class by class.
-    fn spectra(&self, circle: Circle, threads: usize) -> Result<Vec<[Complex; 3]>> {
+    fn spectra(&self, circle: Circle, threads: usize) -> Result<Vec<[Complex; KINDS]>> {
         let (count, logarithm) = (circle.points(), circle.logarithm);
-        let mut spectra: Vec<[Complex; 3]> = vec![];
+        let mut spectra: Vec<[Complex; KINDS]> = vec![];
         spectra.try_reserve_exact(count * self.classes).map_err(|_| Error::Input {
             quantity: "number of lags of a layered ground",
             value: count as f64,
             needed: "few enough for the memory of the machine",
         })?;
-        spectra.resize(count * self.classes, [Complex::default(); 3]);
+        spectra.resize(count * self.classes, [Complex::default(); KINDS]);
         let queue = Mutex::new(spectra.chunks_mut(self.classes).enumerate());
         let work = || {
             let mut work = Workspace::default();
-            let mut scratch = vec![[Complex::default(); 3]; self.classes];
+            let mut scratch = vec![[Complex::default(); KINDS]; self.classes];
             loop {
                 // A thread that panicked leaves a queue that is still good.
                 let next = queue.lock().unwrap_or_else(std::sync::PoisonError::into_inner).next();

@@ -37,7 +37,7 @@ const MOST_HALVING: f64 = 50.0;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct Cost {
-    /// Processor time, s, of one thread of the processor in `docs/performance.md`. It is shared by
+    /// Processor time, s, of one thread of the processor in `docs/validation.md`. It is shared by
     /// all threads of rayon's pool with the feature `rayon`.
     pub seconds: f64,
     /// Evaluations of the surface compliance, at one wavenumber each.

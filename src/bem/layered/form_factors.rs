@@ -178,7 +178,7 @@ pub(crate) fn legendre(x: f64) -> [f64; DEGREES] {
     values
 }
 
-/// (2n−1)/n and (n−1)/n: n Pₙ = (2n−1) x Pₙ₋₁ − (n−1) Pₙ₋₂.
+/// (2n−1)/n and (n−1)/n of [`next_legendre`](crate::linalg::gauss::next_legendre), divided beforehand.
 const RECURRENCE: [[f64; 2]; DEGREES] = {
     let mut factors = [[0.0; 2]; DEGREES];
     let mut n = 1;

@@ -14,7 +14,7 @@ use super::static_compliance;
 use super::wavenumber::{Wavenumbers, Workspace};
 use crate::error::{Error, LayeredError, Result, not_negative};
 use crate::geometry::ContactElement;
-use crate::history::PairClasses;
+use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::linalg::DenseFactor;
 use crate::soil::{Base, SoilProfile};
@@ -131,14 +131,14 @@ impl<'a> RigidStrip<'a> {
     ) -> Result<Self> {
         let classes = PairClasses::new(elements.to_vec())?;
         let integrals = Wavenumbers::new(&classes, TOLERANCE);
-        let count = elements.len();
-        let middle = 0.5 * (elements[0].left + elements[count - 1].right);
-        let mut motions = vec![Complex64::default(); 6 * count];
+        let layout = classes.layout();
+        let middle = 0.5 * (elements[0].left + elements[elements.len() - 1].right);
+        let mut motions = vec![Complex64::default(); 3 * layout.len()];
         for (p, element) in elements.iter().enumerate() {
-            let length = element.length();
-            motions[3 * (count + p)].re = length;
-            motions[3 * p + 1].re = length;
-            motions[3 * p + 2].re = length * (element.center() - middle);
+            let (length, [down, along]) = (element.length(), layout.places(p));
+            motions[3 * along].re = length;
+            motions[3 * down + 1].re = length;
+            motions[3 * down + 2].re = length * (element.center() - middle);
         }
         Ok(Self { profile, contact, classes, integrals, motions })
     }
@@ -199,21 +199,22 @@ impl<'a> RigidStrip<'a> {
     }
 
     fn dynamic(&self, s: Complex) -> Result<[Complex; 4]> {
-        let mut values = vec![[Complex::default(); 3]; self.classes.count()];
+        let mut values = vec![[Complex::default(); KINDS]; self.classes.count()];
         self.integrals.compliance(self.profile, s, &mut Workspace::default(), &mut values)?;
         self.stiffness(&values)
     }
 
     /// hh, vv, rr and hr of Aᵀ F⁻¹ A.
-    fn stiffness(&self, compliances: &[[Complex; 3]]) -> Result<[Complex; 4]> {
+    fn stiffness(&self, compliances: &[[Complex; KINDS]]) -> Result<[Complex; 4]> {
         let mut matrix = assembled(&self.classes, compliances);
-        let count = self.classes.elements().len();
-        let order = 2 * count;
+        let layout = self.classes.layout();
+        let order = layout.len();
         if self.contact == StripContact::Relaxed {
-            for row in 0..count {
-                matrix[row * order + count..(row + 1) * order].fill(Complex64::default());
-                let below = (count + row) * order;
-                matrix[below..below + count].fill(Complex64::default());
+            for (place, value) in matrix.iter_mut().enumerate() {
+                // Displacements of another component than the traction's.
+                if layout.origin(place / order)[0] != layout.origin(place % order)[0] {
+                    *value = Complex64::default();
+                }
             }
         }
         let mut tractions = self.motions.clone();

@@ -11,7 +11,7 @@ use super::wavenumber::Wavenumbers;
 use super::{file, passivity};
 use crate::error::{Error, Result, positive, same_length};
 use crate::geometry::ContactElement;
-use crate::history::{LagKernel, PairClasses, SharedSpectra};
+use crate::history::{KINDS, LagKernel, PairClasses, SharedSpectra};
 use crate::soil::SoilProfile;
 
 /// The [`LagKernel`] of a layered ground: coefficients Gⁿ by Runge–Kutta convolution quadrature,
@@ -29,7 +29,7 @@ use crate::soil::SoilProfile;
 ///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0)?);
 /// let kernel = LayeredKernel::new(profile, Strip::uniform(-5.0..5.0, 4)?.elements(), 0.01)?;
 /// let [mut normal, mut tangential, mut coupling] = [[0.0; 20]; 3];
-/// kernel.coefficients(0, 1, &mut normal, &mut tangential, &mut coupling)?;
+/// kernel.coefficients(0, 1, [&mut normal, &mut tangential, &mut coupling])?;
 /// assert!(normal[0] > 0.0 && coupling[0].abs() < 1e-12 * normal[0]);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -236,29 +236,26 @@ impl LagKernel for LayeredKernel {
         &self,
         class: usize,
         first_lag: usize,
-        normal: &mut [f64],
-        tangential: &mut [f64],
-        coupling: &mut [f64],
+        mut values: [&mut [f64]; KINDS],
     ) -> Result<()> {
         self.classes.representative(class)?;
-        same_length("tangential coefficients", tangential.len(), normal.len())?;
-        same_length("coupling coefficients", coupling.len(), normal.len())?;
+        let lags = values[0].len();
+        same_length("tangential coefficients", values[1].len(), lags)?;
+        same_length("coupling coefficients", values[2].len(), lags)?;
         if first_lag == 0 {
             return Err(Error::Input { quantity: "lag", value: 0.0, needed: "at least 1" });
         }
-        last_block(first_lag.saturating_add(normal.len()))?;
+        last_block(first_lag.saturating_add(lags))?;
         let mut done = 0;
-        while done < normal.len() {
+        while done < lags {
             let (number, place) = Block::place(first_lag + done);
             if self.blocks[number].get().is_none() {
                 self.admit(number..number + 1)?;
             }
-            let values = self.block(number)?.from(class, place);
-            let count = values[0].len().min(normal.len() - done);
-            for (target, values) in
-                [&mut *normal, &mut *tangential, &mut *coupling].into_iter().zip(values)
-            {
-                target[done..done + count].copy_from_slice(&values[..count]);
+            let found = self.block(number)?.from(class, place);
+            let count = found[0].len().min(lags - done);
+            for (values, found) in values.iter_mut().zip(found) {
+                values[done..done + count].copy_from_slice(&found[..count]);
             }
             done += count;
         }
@@ -271,7 +268,7 @@ impl LagKernel for LayeredKernel {
 }
 
 /// Error unless `tolerance` can be reached and is worth the name.
-pub(super) fn check_tolerance(tolerance: f64) -> Result<f64> {
+pub(crate) fn check_tolerance(tolerance: f64) -> Result<f64> {
     if (1e-13..=1e-4).contains(&tolerance) {
         return Ok(tolerance);
     }
@@ -283,7 +280,7 @@ pub(super) fn check_tolerance(tolerance: f64) -> Result<f64> {
 }
 
 /// Error unless `seconds` can be a limit.
-pub(super) fn check_limit(seconds: f64) -> Result<f64> {
+pub(crate) fn check_limit(seconds: f64) -> Result<f64> {
     if seconds >= 0.0 {
         return Ok(seconds);
     }

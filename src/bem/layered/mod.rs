@@ -8,14 +8,13 @@
 //! | cost | what they cost, beforehand |
 //! | passivity | the gate that they pass |
 //! | file | coefficients kept in a file |
-//! | static_compliance, impedance, ground | statics, rigid strips at one frequency, the ground |
+//! | static_compliance, impedance | statics, rigid strips at one frequency |
 
 mod coefficients;
 mod compliance;
 mod cost;
 mod file;
 mod form_factors;
-mod ground;
 mod impedance;
 mod kernel;
 mod passivity;
@@ -30,8 +29,8 @@ mod wavenumber;
 #[cfg(test)]
 use crate::soil::{GeneralizedMaxwell, Relaxation, Soil, SoilProfile};
 pub use cost::Cost;
-pub use ground::LayeredGround;
 pub use impedance::{StripContact, StripImpedance, rigid_strip_impedances};
 pub use kernel::LayeredKernel;
+pub(super) use kernel::{LIMIT, TOLERANCE, check_limit, check_tolerance};
 pub use runge_kutta::Stages;
 pub use static_compliance::static_compliance;

@@ -5,9 +5,8 @@ use realfft::num_complex::Complex64;
 use super::coefficients::Quadrature;
 use super::wavenumber::Workspace;
 use crate::error::{LayeredError, Result};
-use crate::history::PairClasses;
+use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
-use crate::linalg::hermitian_range;
 use crate::text::check_sum::CheckSum;
 
 /// Radius of the circle that is checked.
@@ -21,10 +20,10 @@ pub(crate) const POINTS: usize = 40;
 /// The theorem needs no check; errors of the quadrature and damping laws that are not passive show here. The fingerprint is that of all values at these points, of the
 /// elements and of what else a coefficient depends on.
 pub(crate) fn check(quadrature: &Quadrature, classes: &PairClasses) -> Result<u64> {
-    let order = 2 * classes.elements().len();
+    let order = classes.layout().len();
     let allowed = -quadrature.tolerance * order as f64;
     let mut work = Workspace::default();
-    let mut scratch = vec![[Complex::default(); 3]; classes.count()];
+    let mut scratch = vec![[Complex::default(); KINDS]; classes.count()];
     let mut values = scratch.clone();
     let mut fingerprint = CheckSum::default();
     let sizes = [quadrature.time_step, quadrature.tolerance, quadrature.stages.count() as f64];
@@ -47,32 +46,17 @@ pub(crate) fn check(quadrature: &Quadrature, classes: &PairClasses) -> Result<u6
 
 /// Least eigenvalue of the Hermitian part of the matrix of all pairs, scaled by the absolute
 /// diagonal; NaN if it is not finite.
-pub(crate) fn margin(classes: &PairClasses, values: &[[Complex; 3]]) -> f64 {
-    let mut matrix = assembled(classes, values);
-    let order = 2 * classes.elements().len();
-    let scale: Vec<f64> =
-        (0..order).map(|i| matrix[i * (order + 1)].norm().max(f64::MIN_POSITIVE).sqrt()).collect();
-    for (row, line) in matrix.chunks_exact_mut(order).enumerate() {
-        for (value, column) in line.iter_mut().zip(&scale) {
-            *value /= scale[row] * column;
-        }
-    }
-    hermitian_range(&matrix, order).map_or(f64::NAN, |[least, _]| least)
+pub(crate) fn margin(classes: &PairClasses, values: &[[Complex; KINDS]]) -> f64 {
+    let own = |class: usize, component: usize| {
+        values[class][component].inner().norm().max(f64::MIN_POSITIVE)
+    };
+    classes.least_eigenvalue(own, |_, pair| values[pair.class].map(Complex::inner))
 }
 
 /// All pairs in work form (2Q × 2Q, row-major): integrals over receiver and source.
-pub(crate) fn assembled(classes: &PairClasses, values: &[[Complex; 3]]) -> Vec<Complex64> {
-    let count = classes.elements().len();
-    let order = 2 * count;
-    let mut matrix = vec![Complex64::default(); order * order];
-    for (index, pair) in classes.pairs().iter().enumerate() {
-        let (p, q) = (index / count, index % count);
-        let [zz, xx, zx] = values[pair.class].map(Complex::inner);
-        matrix[p * order + q] = zz;
-        matrix[(count + p) * order + count + q] = xx;
-        matrix[p * order + count + q] = pair.sign * zx;
-        matrix[(count + p) * order + q] = -pair.sign * zx;
-    }
+pub(crate) fn assembled(classes: &PairClasses, values: &[[Complex; KINDS]]) -> Vec<Complex64> {
+    let mut matrix = vec![Complex64::default(); classes.layout().square()];
+    classes.scatter(&mut matrix, |_, pair| values[pair.class].map(Complex::inner));
     matrix
 }
 

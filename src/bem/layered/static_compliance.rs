@@ -10,11 +10,10 @@
 //! with a free datum L₀ (Gradshteyn & Ryzhik 3.941, 3.943). A rigid base is its own datum.
 
 use super::compliance::{Compliance, Surface};
-use super::passivity::assembled;
 use super::wavenumber::{Wavenumbers, Workspace};
 use crate::error::{Result, same_length};
-use crate::geometry::ContactElement;
-use crate::history::PairClasses;
+use crate::geometry::{ContactElement, ContactLayout};
+use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::linalg::gauss;
 use crate::soil::SoilProfile;
@@ -39,29 +38,24 @@ pub fn static_compliance(
     elements: &[ContactElement],
     matrix: &mut [f64],
 ) -> Result<()> {
-    let count = elements.len();
-    same_length("static compliance", matrix.len(), 4 * count * count)?;
+    let size = ContactLayout::new(elements.len()).square();
+    same_length("static compliance", matrix.len(), size)?;
     let classes = PairClasses::new(elements.to_vec())?;
     let values = pairs(profile, &classes)?;
-    let full = assembled(&classes, &values);
-    for (row, (line, full)) in
-        matrix.chunks_exact_mut(2 * count).zip(full.chunks_exact(2 * count)).enumerate()
-    {
-        let length = elements[row % count].length();
-        for (mean, value) in line.iter_mut().zip(full) {
-            *mean = value.re / length;
-        }
-    }
+    classes.scatter(matrix, |[receiver, _], pair| {
+        let length = elements[receiver].length();
+        values[pair.class].map(|value| value.re / length)
+    });
     Ok(())
 }
 
 /// zz, xx, zx of all classes, integrals over receiver and source.
-pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<[Complex; 3]>> {
+pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<[Complex; KINDS]>> {
     let mut compliance = Compliance::default();
     compliance.set(profile, Complex::default())?;
     let span = classes.span();
     let integrals = Wavenumbers::new(classes, TOLERANCE);
-    let mut values = vec![[Complex::default(); 3]; classes.count()];
+    let mut values = vec![[Complex::default(); KINDS]; classes.count()];
     let far = compliance.half_plane().map(|(modulus, _, a2)| {
         // 1 − ν and (1 − 2ν)/2 over μ.
         let even = 0.5 / (1.0 - a2) / modulus.re;
@@ -175,7 +169,7 @@ mod tests {
             let integrals = Wavenumbers::new(&classes, 1e-12);
             let s = Complex::real(2e-5);
             integrals.compliance(&profile, s, &mut Workspace::default(), &mut slow).unwrap();
-            let mean = |values: &[[Complex; 3]], class: usize, component: usize| {
+            let mean = |values: &[[Complex; KINDS]], class: usize, component: usize| {
                 let [p, q] = classes.representative(class).unwrap();
                 values[class][component].re / (p.length() * q.length())
             };

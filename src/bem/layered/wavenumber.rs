@@ -14,7 +14,7 @@ use super::compliance::{Compliance, Surface};
 use super::form_factors::{DEGREES, FormFactors, LANES, POINTS, Sums, accumulate, legendre};
 use super::tail::{REACH, TERMS, Tails, on_grid, surface_series};
 use crate::error::{LayeredError, Result};
-use crate::history::PairClasses;
+use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -115,7 +115,7 @@ impl Wavenumbers {
         profile: &SoilProfile,
         s: Complex,
         work: &mut Workspace,
-        values: &mut [[Complex; 3]],
+        values: &mut [[Complex; KINDS]],
     ) -> Result<()> {
         let mut compliance = std::mem::take(&mut work.compliance);
         let outcome = compliance.set(profile, s).and_then(|()| {
@@ -193,7 +193,7 @@ impl Wavenumbers {
         compliance: &Compliance,
         least: f64,
         work: &mut Workspace,
-        values: &mut [[Complex; 3]],
+        values: &mut [[Complex; KINDS]],
         symbol: &mut dyn FnMut(f64) -> Surface,
     ) -> Result<()> {
         let panels = self.panels(least)?;
@@ -293,7 +293,7 @@ impl Wavenumbers {
 
     /// Whether the last two Legendre coefficients of C are small enough.
     fn resolved(&self, samples: &[Surface; POINTS], left: f64, width: f64, allowed: f64) -> bool {
-        let mut last = [[Complex::default(); 3]; 2];
+        let mut last = [[Complex::default(); KINDS]; 2];
         let mut largest = 0.0_f64;
         for (i, sample) in samples.iter().enumerate() {
             let values = [sample.xx, sample.zz, sample.xz];
@@ -372,7 +372,7 @@ impl Wavenumbers {
         accumulate(self.tails.rows(&self.forms, panels), &coefficients, &mut work.sums);
     }
 
-    fn read(&self, work: &Workspace, values: &mut [[Complex; 3]]) {
+    fn read(&self, work: &Workspace, values: &mut [[Complex; KINDS]]) {
         const UNIT: f64 = std::f64::consts::FRAC_1_PI;
         for (class, value) in values.iter_mut().enumerate().take(self.forms.shapes.len()) {
             let (sums, lane) = (&work.sums[class / LANES], class % LANES);

@@ -2,27 +2,22 @@
 
 use std::ops::Range;
 
-use super::modal_basis::ModalBasis;
-use super::stepped_row::{SteppedRow, Terms};
+use super::transformation::{Rows, Terms, Transformation, Weights};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result};
-use crate::linalg::matrix::SparseMatrix;
-use crate::linalg::{dense_multiply_add, dot, transposed_multiply_add};
-use crate::structure::{
-    ContactNode, Row, Structure, Triplets, check_contact_nodes, foundation_nodes,
-};
+use crate::linalg::dot;
+use crate::structure::{ContactNode, Row, Structure, check_contact_nodes, foundation_nodes};
 
-/// B, which takes unknowns to element means of the base displacement (normal components down),
-/// and BᵀA, which takes tractions to forces on the structure's unknowns.
+/// B, which takes coordinates to element means of the base displacement (normal components down),
+/// and BᵀA, which takes tractions to forces on the coordinates: the structure's unknowns, or those
+/// that are [stepped](Base::stepped).
 ///
 /// For elements between neighbouring nodes the means are the T matrix of halves of Patel &
 /// Spyrakos, eq. 14, and its transpose is their eq. 15.
 #[derive(Debug, Clone)]
 pub(crate) struct Base {
     /// Normal rows, then tangential rows.
-    rows: Vec<Terms>,
-    /// The same in modes, row-major; empty if the coordinates are the unknowns.
-    modal: Vec<f64>,
+    rows: Rows,
     foundations: Vec<Outline>,
     lengths: Vec<f64>,
     middles: Vec<f64>,
@@ -34,7 +29,7 @@ pub(crate) struct Base {
 struct Outline {
     nodes: Range<usize>,
     elements: Range<usize>,
-    rotation: SteppedRow,
+    rotation: Weights,
 }
 
 impl Base {
@@ -63,7 +58,7 @@ impl Base {
             });
             let footing = Outline {
                 elements: element..end,
-                rotation: SteppedRow::new(&chord_rotation(&nodes[own.clone()]), None),
+                rotation: Weights::Sparse(chord_rotation(&nodes[own.clone()])),
                 nodes: own,
             };
             if end <= element {
@@ -87,26 +82,17 @@ impl Base {
         }
         let lengths = elements.iter().map(ContactElement::length).collect();
         let middles = elements.iter().map(ContactElement::center).collect();
-        Ok(Self { rows, modal: Vec::new(), foundations, lengths, middles, nodes })
+        Ok(Self { rows: Rows::Sparse(rows), foundations, lengths, middles, nodes })
     }
 
-    /// Goes over to modal coordinates.
-    pub(crate) fn decouple(&mut self, modes: &ModalBasis) {
-        self.modal.clear();
-        for terms in &self.rows {
-            if let SteppedRow::Modes(weights) = SteppedRow::new(terms, Some(modes)) {
-                self.modal.extend(weights);
-            }
-        }
-        for footing in &mut self.foundations {
+    /// The same base of the coordinates that are stepped.
+    pub(crate) fn stepped(&self, transformation: &Transformation) -> Self {
+        let mut foundations = self.foundations.clone();
+        for footing in &mut foundations {
             let terms = chord_rotation(&self.nodes[footing.nodes.clone()]);
-            footing.rotation = SteppedRow::new(&terms, Some(modes));
+            footing.rotation = transformation.row(&terms);
         }
-    }
-
-    /// Number of contact nodes.
-    pub(crate) fn node_count(&self) -> usize {
-        self.nodes.len()
+        Self { rows: transformation.rows(&self.rows), foundations, ..self.clone() }
     }
 
     /// The unknowns that move a contact node, some more than once.
@@ -137,13 +123,7 @@ impl Base {
 
     /// out ← B u.
     pub(crate) fn means(&self, u: &[f64], out: &mut [f64]) {
-        if !self.modal.is_empty() {
-            out.fill(0.0);
-            return dense_multiply_add(&self.modal, 1.0, u, out);
-        }
-        for (row, out) in self.rows.iter().zip(out) {
-            *out = row.iter().map(|&(j, weight)| weight * u[j]).sum();
-        }
+        self.rows.multiply(u, out);
     }
 
     /// Mean `[right, up]` of contact displacements (2Q) over the whole base.
@@ -155,27 +135,7 @@ impl Base {
 
     /// f ← f + factor · BᵀA τ.
     pub(crate) fn add_forces(&self, factor: f64, traction: &[f64], force: &mut [f64]) {
-        if !self.modal.is_empty() {
-            return self.add_modal_forces(factor, traction, force);
-        }
-        for (i, (row, traction)) in self.rows.iter().zip(traction).enumerate() {
-            let scaled = factor * self.length(i) * traction;
-            for &(j, weight) in row {
-                force[j] += weight * scaled;
-            }
-        }
-    }
-
-    fn add_modal_forces(&self, factor: f64, traction: &[f64], force: &mut [f64]) {
-        const BLOCK: usize = 64;
-        let mut scaled = [0.0; BLOCK];
-        let rows = self.modal.chunks(BLOCK * force.len());
-        for (block, (rows, traction)) in rows.zip(traction.chunks(BLOCK)).enumerate() {
-            for (k, (scaled, traction)) in scaled.iter_mut().zip(traction).enumerate() {
-                *scaled = self.length(block * BLOCK + k) * traction;
-            }
-            transposed_multiply_add(rows, factor, &scaled[..traction.len()], force);
-        }
+        self.rows.add_transposed(factor, |i| self.length(i), traction, force);
     }
 
     /// Rotation of a foundation (counter-clockwise), from the chord between its ends.
@@ -218,23 +178,9 @@ impl Base {
         components.enumerate().map(moved).filter(|(row, _)| !row.is_empty())
     }
 
-    /// K + γ NᵀN, N the displacements of the contact nodes, and γ Nᵀ1 for 1 m to the right and upwards.
-    pub(crate) fn held(&self, stiffness: &SparseMatrix, factor: f64) -> (Triplets, [Vec<f64>; 2]) {
-        let n = stiffness.order();
-        let mut matrix = Triplets::new(n);
-        stiffness.add_to(1.0, &mut matrix);
-        let [mut horizontal, mut vertical] = [vec![0.0; n], vec![0.0; n]];
-        for node in &self.nodes {
-            matrix.add_outer(&node.horizontal, factor);
-            matrix.add_outer(&node.vertical, factor);
-            for &(j, weight) in &node.horizontal {
-                horizontal[j] += factor * weight;
-            }
-            for &(j, weight) in &node.vertical {
-                vertical[j] += factor * weight;
-            }
-        }
-        (matrix, [horizontal, vertical])
+    /// The contact nodes.
+    pub(crate) fn nodes(&self) -> &[ContactNode] {
+        &self.nodes
     }
 }
 
@@ -314,8 +260,9 @@ mod tests {
             .map(|k| ContactElement { left: f64::from(k), right: f64::from(k + 1) })
             .collect();
         let base = Base::new(nodes, &[], &elements, 8).unwrap();
-        assert_eq!(base.rows[1], vec![(3, -0.5), (5, -0.5)]);
-        assert_eq!(base.rows[3 + 2], vec![(4, 0.5), (6, 0.5)]);
+        let Rows::Sparse(rows) = base.rows else { panic!("rows of unknowns") };
+        assert_eq!(rows[1], vec![(3, -0.5), (5, -0.5)]);
+        assert_eq!(rows[3 + 2], vec![(4, 0.5), (6, 0.5)]);
     }
 
     #[test]

@@ -4,24 +4,11 @@
 //! |---|---|
 //! | R | influence vectors, one to the right and one upwards for each connected part |
 //! | y | translation of each part's ground: the mean free field under it |
-//! | N | displacements of the contact nodes |
-//! | B | element means of the base displacement |
-//!
-//! Displacements are stepped relative to R y, so R has to be exact where the ground sees it: N R is
-//! 1 or 0 to rounding, and then so is B R.
 
 use super::base::Base;
-use super::stepped_row::Terms;
-use super::supports;
-use crate::error::{Error, Result};
-use crate::linalg::matrix::{SparseMatrix, spread};
-use crate::linalg::{Partition, SparseFactor, largest};
+use super::transformation::Terms;
+use crate::linalg::matrix::spread;
 use crate::structure::ContactNode;
-
-/// Largest error of a contact node's displacement under a rigid translation of 1 m.
-const EXACT: f64 = 1e-14;
-/// Passes that refine the vectors.
-const REFINEMENTS: usize = 3;
 
 /// The influence vectors of all connected parts.
 #[derive(Debug, Clone, Default)]
@@ -38,95 +25,9 @@ pub(crate) struct Part {
 }
 
 impl Influence {
-    /// The influence vectors of a structure with these matrices; `stiffness` contains the tangent
-    /// of the nonlinear force at rest.
-    ///
-    /// A rigid translation leaves K u = 0 and moves the contact nodes by one, so that
-    /// (K + γ NᵀN) r = γ Nᵀ 1 has it as its solution for every γ, whatever the unknowns mean.
-    pub(crate) fn new(
-        base: &Base,
-        stiffness: &SparseMatrix,
-        others: [&SparseMatrix; 2],
-        check_sign: &dyn Fn(f64) -> Result<()>,
-    ) -> Result<Self> {
-        const NAME: &str = "stiffness matrix with its base held";
-        let n = stiffness.order();
-        let stiffest = largest(&stiffness.diagonal());
-        let tie = if stiffest > 0.0 { stiffest } else { 1.0 };
-        let (held, pulls) = base.held(stiffness, tie);
-        let mut factor = SparseFactor::new(NAME, &held)?;
-        if !factor.is_positive_definite() {
-            check_sign(tie)?;
-        }
-        let held = SparseMatrix::new(NAME, &held)?;
-        let mut translations = pulls.map(|pull| {
-            let mut found = pull.clone();
-            factor.solve(&mut found);
-            for _ in 0..REFINEMENTS {
-                let mut rest = pull.clone();
-                held.multiply_add(-1.0, &found, &mut rest);
-                factor.solve(&mut rest);
-                found.iter_mut().zip(&rest).for_each(|(r, d)| *r += d);
-            }
-            found
-        });
-        if translations.iter().flatten().any(|r| !r.is_finite()) {
-            return Err(Error::Singular { matrix: NAME, order: n });
-        }
-        supports::check(stiffness, &mut translations, |r| base.translation_error(r))?;
-        for (direction, translation) in translations.iter_mut().enumerate() {
-            base.translate_nodes(direction, translation);
-        }
-        let error = base.translation_error(&translations);
-        if error > EXACT {
-            return Err(Error::Input {
-                quantity: "error of the base under a rigid translation of 1 m",
-                value: error,
-                needed: "1e-14 or less: contact nodes must be able to translate together",
-            });
-        }
-        let mut parts = Partition::new(n);
-        for matrix in [stiffness, others[0], others[1]] {
-            parts.couple(matrix);
-        }
-        for (nodes, _) in base.foundations() {
-            let mut unknowns = nodes.iter().flat_map(ContactNode::unknowns);
-            if let Some(first) = unknowns.next() {
-                unknowns.for_each(|unknown| parts.join(first, unknown));
-            }
-        }
-        let roots: Vec<usize> = (0..n).map(|unknown| parts.root(unknown)).collect();
-        let influence = Self::split(base, &translations, &roots);
-        influence.check(base, n)?;
-        Ok(influence)
-    }
-
-    /// Refuses a part whose base does not translate as a whole: B R must be 1 where it moves.
-    fn check(&self, base: &Base, unknowns: usize) -> Result<()> {
-        let count = base.lengths().len();
-        let mut means = vec![0.0; 2 * count];
-        // A mean is a sum over the nodes above an element, each of which may be rounded.
-        let exact = 10.0 * EXACT + base.node_count() as f64 * f64::EPSILON;
-        for part in &self.parts {
-            for (direction, vector) in part.vectors.iter().enumerate() {
-                base.means(&spread(vector, unknowns), &mut means);
-                for &e in part.elements.iter().filter(|_| !vector.is_empty()) {
-                    let moved = if direction == 0 { means[count + e] } else { -means[e] };
-                    if (moved - 1.0).abs() > exact {
-                        return Err(Error::Input {
-                            quantity: "mean of the base under a rigid translation of 1 m",
-                            value: moved,
-                            needed: "1: all of a connected part's base must translate with it",
-                        });
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Splits the vectors of the whole structure into those of its parts.
-    fn split(base: &Base, translations: &[Vec<f64>; 2], roots: &[usize]) -> Self {
+    /// Splits the rigid translations of the whole structure into those of its parts; `roots` has the
+    /// same number for the unknowns of one part.
+    pub(crate) fn split(base: &Base, translations: &[Vec<f64>; 2], roots: &[usize]) -> Self {
         let mut parts: Vec<(usize, Part)> = Vec::new();
         for (nodes, elements) in base.foundations() {
             let Some(unknown) = nodes.iter().find_map(|node| node.unknowns().next()) else {
@@ -153,12 +54,12 @@ impl Influence {
     }
 
     /// The same vectors in other coordinates.
-    pub(super) fn map(&mut self, convert: impl Fn(&Terms) -> Terms) {
-        for part in &mut self.parts {
-            for vector in &mut part.vectors {
-                *vector = convert(vector);
-            }
+    pub(crate) fn converted(&self, convert: impl Fn(&Terms) -> Terms) -> Self {
+        let mut parts = self.parts.clone();
+        for vector in parts.iter_mut().flat_map(|part| &mut part.vectors) {
+            *vector = convert(vector);
         }
+        Self { parts }
     }
 
     /// Adds factor · R y to `displacement`, y the translation `[right, up]` of each part.
@@ -179,6 +80,13 @@ impl Influence {
         }
     }
 
+    /// The vectors of all parts, one after the other, each over `unknowns` entries.
+    pub(crate) fn translations(&self, unknowns: usize) -> Vec<f64> {
+        let vectors = self.parts.iter().flat_map(|part| &part.vectors);
+        let moving = vectors.filter(|vector| !vector.is_empty());
+        moving.flat_map(|vector| spread(vector, unknowns)).collect()
+    }
+
     /// Both vectors of the whole structure, all parts together, over `unknowns` entries.
     pub(crate) fn of_all(&self, unknowns: usize) -> [Vec<f64>; 2] {
         [[1.0, 0.0], [0.0, 1.0]].map(|direction| {
@@ -193,6 +101,14 @@ impl Part {
     /// Its contact elements.
     pub(crate) fn elements(&self) -> &[usize] {
         &self.elements
+    }
+
+    /// The contact nodes of its foundations.
+    pub(crate) fn nodes<'a>(&self, base: &'a Base) -> Vec<&'a ContactNode> {
+        base.foundations()
+            .filter(|(_, elements)| self.elements.contains(&elements.start))
+            .flat_map(|(nodes, _)| nodes)
+            .collect()
     }
 
     /// Rᵀ f: the resultants to the right and upwards.

@@ -1,39 +1,29 @@
 //! A scene: all that does not change while a simulation runs.
 
 pub(crate) mod base;
-pub(crate) mod conditioning;
 pub(crate) mod influence;
-pub(crate) mod krylov;
-pub(crate) mod laws;
-mod mechanism;
 pub(crate) mod modal_basis;
 pub(crate) mod model;
 pub(crate) mod operators;
-mod proximal;
-pub(crate) mod stages;
-mod standing;
-pub(crate) mod static_state;
-pub(crate) mod step_response;
-pub(crate) mod stepped_row;
-mod subspace;
-mod supports;
-pub(crate) mod translation_check;
+pub(crate) mod transformation;
 
 use std::sync::Arc;
 
+use super::build::equilibrium::StaticState;
+use super::build::parts::Parts;
+use super::load::SteppedLoad;
+use super::motion::Motion;
+use super::scheme::SchemeCoefficients;
 use crate::bem::ContactElement;
 use crate::coupled::run::Serviceability;
-use crate::interface::{InterfaceLaw, law_of};
+use crate::error::LawError;
+use crate::interface::{InterfaceLaw, Mode, StepStarts, law_of};
 use crate::linalg::matrix::{Thinned, spread};
+use crate::structure::probe::Probe;
 use base::Base;
 use influence::Part;
 use model::Model;
-use static_state::StaticState;
-use stepped_row::SteppedRow;
-
-use super::load::SteppedLoad;
-use super::scheme::SchemeCoefficients;
-use crate::structure::probe::Probe;
+use transformation::{Transformation, Weights};
 
 /// Structure, base, laws and static state as a step sees them, read-only once built.
 ///
@@ -51,8 +41,6 @@ pub(crate) struct Scene {
     pub(crate) safety_friction: Vec<f64>,
     /// Limits that runs are held against.
     pub(crate) serviceability: Serviceability,
-    /// Whether any law stores energy in its elements.
-    pub(crate) compliant: bool,
     pub(crate) static_state: StaticState,
     /// External loads beside the structure's own.
     pub(crate) loads: Vec<SteppedLoad>,
@@ -73,14 +61,14 @@ pub(crate) struct Scene {
 
 /// A probe in the coordinates that are stepped.
 pub(crate) struct ProbeRows {
-    pub(crate) rows: [SteppedRow; 3],
+    pub(crate) rows: [Weights; 3],
     /// Displacement by a translation of 1 m of each part `[right, up]`, where it is absolute.
     pub(crate) carried: Vec<[f64; 2]>,
 }
 
 impl ProbeRows {
     pub(crate) fn new(probe: &Probe, model: &Model) -> Self {
-        let rows = probe.rows().map(|row| SteppedRow::new(row.terms(), model.modes.as_deref()));
+        let rows = probe.rows().map(|row| model.transformation.row(row.terms()));
         let parts = model.influence.parts().iter().filter(|_| probe.absolute);
         let carried = parts
             .map(|part| [0, 1].map(|k| rows[0].of(&spread(&part.vectors[k], model.coordinates))));
@@ -89,6 +77,48 @@ impl ProbeRows {
 }
 
 impl Scene {
+    /// Takes over what steps need of the parts.
+    pub(super) fn new(
+        parts: &mut Parts,
+        model: Model,
+        base: Base,
+        static_state: StaticState,
+        joined: Vec<bool>,
+    ) -> Self {
+        let Parts { given, coefficients, .. } = parts;
+        let (time_step, coefficients) = (given.time_step, *coefficients);
+        let is_static = given.is_static();
+        let loads = std::mem::take(&mut given.loads).into_iter();
+        let loads = loads.map(|load| SteppedLoad::new(load, &model.transformation, is_static));
+        let mut weight = Vec::new();
+        if given.falls() {
+            weight.resize(model.coordinates, 0.0);
+            let [_, up] = model.influence.of_all(model.coordinates);
+            model.mass.multiply_add(-given.gravity, &up, &mut weight);
+        }
+        let elements = std::mem::take(&mut parts.elements);
+        Self {
+            time_step,
+            coefficients,
+            conserves_energy: coefficients.conserves_energy(time_step),
+            laws: std::mem::take(&mut given.laws),
+            safety_friction: std::mem::take(&mut given.safety_friction),
+            serviceability: given.serviceability,
+            static_state,
+            loads: loads.collect(),
+            weight,
+            joined,
+            soil: parts.soil.clone(),
+            start_motion: std::mem::take(&mut parts.start_motion),
+            probe_rows: given.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect(),
+            probes: std::mem::take(&mut given.probes),
+            arms: elements.iter().map(|e| e.center() - parts.moment_center).collect(),
+            elements,
+            model,
+            base,
+        }
+    }
+
     /// Number of contact elements Q.
     pub(crate) fn count(&self) -> usize {
         self.elements.len()
@@ -105,13 +135,12 @@ impl Scene {
     /// with an error that grows with the stiffness times the displacement. In modes it has no
     /// stiffness to begin with.
     pub(crate) fn subtract_base(&self, displacement: &mut [f64], means: &mut [f64]) {
-        if self.model.modes.is_some() {
-            return;
+        if let Transformation::Identity = self.model.transformation {
+            self.base.means(displacement, means);
+            let influence = &self.model.influence;
+            let parts = influence.parts().iter().map(|part| part.mean(&self.base, means));
+            influence.translate(-1.0, parts, displacement);
         }
-        self.base.means(displacement, means);
-        let influence = &self.model.influence;
-        let parts = influence.parts().iter().map(|part| part.mean(&self.base, means));
-        influence.translate(-1.0, parts, displacement);
     }
 
     /// Makes of a relative displacement the one that a nonlinear force sees: each part's measured
@@ -140,6 +169,14 @@ impl Scene {
         }
     }
 
+    /// What the nonlinear force sees of a motion.
+    pub(crate) fn seen_at(&self, motion: &Motion) -> Vec<f64> {
+        let mut seen = motion.displacement.clone();
+        let translations = motion.translations.iter().map(|y| y.displacement);
+        self.seen_by_force(&mut seen, &mut vec![0.0; 2 * self.count()], translations);
+        seen
+    }
+
     /// Whether [`Scene::add_loads`] has anything to add.
     pub(crate) fn has_loads(&self) -> bool {
         !(self.weight.is_empty() && self.loads.is_empty())
@@ -151,5 +188,35 @@ impl Scene {
         force.iter_mut().zip(&self.weight).for_each(|(force, weight)| *force += weight);
         let mut added = self.loads.iter().map(|load| load.add(time, force)).enumerate();
         added.find(|(_, value)| !value.is_finite())
+    }
+
+    /// Whether any law stores energy in its elements, or may do so once it has something to
+    /// remember.
+    pub(crate) fn is_compliant(&self, start: &StepStarts) -> Result<bool, LawError> {
+        let mut compliant = false;
+        for element in 0..self.count() {
+            for &mode in self.law(element).modes() {
+                compliant |= self.compliance(element, mode, start)? != [0.0; 2];
+            }
+        }
+        Ok(compliant || !start.memory().is_empty())
+    }
+
+    /// Compliance of an element whose step ends in `mode`.
+    pub(crate) fn compliance(
+        &self,
+        element: usize,
+        mode: Mode,
+        start: &StepStarts,
+    ) -> Result<[f64; 2], LawError> {
+        let compliance = self.law(element).compliance(mode, &start.of(element));
+        let named = [("normal compliance", compliance[0]), ("shear compliance", compliance[1])];
+        match named.into_iter().find(|(_, value)| !value.is_finite()) {
+            None => Ok(compliance),
+            Some((quantity, value)) => {
+                let mode = mode.word();
+                Err(LawError::NotFinite { element, mode, quantity, value })
+            }
+        }
     }
 }

@@ -7,7 +7,7 @@ use super::model::Model;
 use crate::contact::Delassus;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
-use crate::linalg::matrix::{Matrix, Thinned};
+use crate::linalg::matrix::Thinned;
 use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
 use crate::structure::Triplets;
 
@@ -57,93 +57,68 @@ impl Operators {
 
     /// Overwrites `rhs` with K_eff⁻¹ rhs.
     pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
-        self.factor.solve(rhs);
+        match &mut self.factor {
+            Factor::Sparse(factor) => factor.solve(rhs),
+            Factor::Diagonal(inverse) => rhs.iter_mut().zip(inverse).for_each(|(x, d)| *x *= *d),
+        }
     }
 
     /// Condition of K_eff, scaled by its diagonal.
-    pub(crate) fn condition(
-        &mut self,
-        model: &Model,
-        coefficients: &SchemeCoefficients,
-    ) -> Result<f64> {
+    pub(crate) fn condition(&mut self, model: &Model, c: &SchemeCoefficients) -> Result<f64> {
         match &mut self.factor {
             Factor::Diagonal(_) => Ok(1.0),
             Factor::Sparse(factor) => {
-                let matrix = effective_stiffness(model, coefficients, &self.tangent);
+                let matrix = effective_stiffness(model, c, &self.tangent);
                 Ok(sparse_condition(&SparseMatrix::new(NAME, &matrix)?, factor))
             }
         }
     }
 
     /// Diagonal of K_eff without its inertia.
-    pub(crate) fn stiffness_diagonal(
-        &self,
-        model: &Model,
-        coefficients: &SchemeCoefficients,
-    ) -> Vec<f64> {
-        let [c, k] = [coefficients.velocity[0], coefficients.displacement[0]];
-        let (damping, stiffness) = (model.damping.diagonal(), model.stiffness.diagonal());
-        let tangent = self.tangent.diagonal();
-        (0..model.coordinates)
-            .map(|i| c * damping[i] + k * (stiffness[i] + tangent.get(i).copied().unwrap_or(0.0)))
-            .collect()
+    pub(crate) fn stiffness_diagonal(&self, model: &Model, c: &SchemeCoefficients) -> Vec<f64> {
+        let massless = SchemeCoefficients { acceleration: [0.0; 3], ..*c };
+        let mut diagonal = vec![0.0; model.coordinates];
+        for &(row, column, k) in effective_stiffness(model, &massless, &self.tangent).entries() {
+            if row == column {
+                diagonal[row] += k;
+            }
+        }
+        diagonal
     }
 }
 
-/// K_eff, in the structure's unknowns.
-fn effective_stiffness(
-    model: &Model,
-    coefficients: &SchemeCoefficients,
-    tangent: &SparseMatrix,
-) -> Triplets {
-    let [a, c, k] =
-        [coefficients.acceleration[0], coefficients.velocity[0], coefficients.displacement[0]];
+/// K_eff: M, C, K + ∂f/∂u, each with the scheme's coefficient of Δu.
+fn effective_stiffness(model: &Model, c: &SchemeCoefficients, tangent: &SparseMatrix) -> Triplets {
     let mut matrix = Triplets::new(model.coordinates);
-    model.mass.add_to(a, &mut matrix);
-    model.damping.add_to(c, &mut matrix);
-    model.stiffness.add_to(k, &mut matrix);
-    tangent.add_to(k, &mut matrix);
+    model.mass.add_to(c.acceleration[0], &mut matrix);
+    model.damping.add_to(c.velocity[0], &mut matrix);
+    model.stiffness.add_to(c.displacement[0], &mut matrix);
+    tangent.add_to(c.displacement[0], &mut matrix);
     matrix
 }
 
 impl Factor {
-    /// Factors K_eff: M, C, K + ∂f/∂u, each with the scheme's coefficient of Δu.
-    pub(crate) fn new(
+    /// Factors K_eff of unknowns.
+    pub(crate) fn of_unknowns(
         model: &Model,
         coefficients: &SchemeCoefficients,
         tangent: &SparseMatrix,
-    ) -> Result<Self> {
-        let n = model.coordinates;
-        let [a, c, k] =
-            [coefficients.acceleration[0], coefficients.velocity[0], coefficients.displacement[0]];
-        if let (Matrix::Diagonal(m), Matrix::Diagonal(d), Matrix::Diagonal(s)) =
-            (&model.mass, &model.damping, &model.stiffness)
-        {
-            let inverse: Vec<f64> =
-                (0..n).map(|j| 1.0 / (a * m[j] + c * d[j] + k * s[j])).collect();
-            if inverse.iter().all(|x| x.is_finite()) {
-                return Ok(Self::Diagonal(inverse));
-            }
-            return Err(Error::Singular { matrix: NAME, order: n });
-        }
-        let matrix = effective_stiffness(model, coefficients, tangent);
-        Ok(Self::Sparse(Box::new(SparseFactor::new(NAME, &matrix)?)))
+    ) -> Result<Box<SparseFactor>> {
+        SparseFactor::new(NAME, &effective_stiffness(model, coefficients, tangent)).map(Box::new)
     }
 
-    /// The factor of a sparse matrix, if it is one.
-    pub(crate) fn sparse(&self) -> Option<&SparseFactor> {
-        match self {
-            Self::Sparse(factor) => Some(factor),
-            Self::Diagonal(_) => None,
+    /// Inverts K_eff of modes.
+    pub(crate) fn of_modes(model: &Model, coefficients: &SchemeCoefficients) -> Result<Self> {
+        let mut inverse = vec![0.0; model.coordinates];
+        let matrix = effective_stiffness(model, coefficients, &SparseMatrix::default());
+        matrix.entries().iter().for_each(|&(i, _, k)| inverse[i] += k);
+        for k in &mut inverse {
+            *k = 1.0 / *k;
         }
-    }
-
-    /// Numbers that one solve reads.
-    pub(crate) fn stored(&self) -> usize {
-        match self {
-            Self::Sparse(factor) => factor.stored(),
-            Self::Diagonal(values) => values.len(),
+        if inverse.iter().all(|x| x.is_finite()) {
+            return Ok(Self::Diagonal(inverse));
         }
+        Err(Error::Singular { matrix: NAME, order: model.coordinates })
     }
 
     /// Overwrites many right-hand sides, one after the other.
@@ -155,13 +130,6 @@ impl Factor {
                     rhs.iter_mut().zip(inverse).for_each(|(x, d)| *x *= *d);
                 }
             }
-        }
-    }
-
-    fn solve(&mut self, rhs: &mut [f64]) {
-        match self {
-            Self::Sparse(factor) => factor.solve(rhs),
-            Self::Diagonal(inverse) => rhs.iter_mut().zip(inverse).for_each(|(x, d)| *x *= *d),
         }
     }
 }

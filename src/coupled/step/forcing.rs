@@ -8,9 +8,9 @@
 //! | R | influence vectors |
 
 use crate::bem::Ground;
+use crate::coupled::motion::Translation;
 use crate::coupled::scene::Scene;
 use crate::coupled::state::State;
-use crate::coupled::translation::Translation;
 use crate::error::StepError;
 use crate::motion::FreeField;
 use crate::structure::Structure;

@@ -40,9 +40,10 @@ pub(crate) struct Increment {
 }
 
 impl Increment {
-    pub(crate) fn new(scene: &Scene, state: &State, ledger: bool) -> Self {
+    /// Room for a step, and for compliances if they are asked for.
+    pub(crate) fn new(scene: &Scene, state: &State, compliant: bool) -> Self {
         let (n, count) = (scene.model.coordinates, scene.count());
-        let compliant = if scene.compliant && ledger { count } else { 0 };
+        let compliant = if compliant { count } else { 0 };
         let nonlinear = if scene.model.linear { 0 } else { n };
         Self {
             displacement: vec![0.0; n],

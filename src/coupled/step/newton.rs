@@ -6,13 +6,12 @@ use super::linear::LinearStep;
 use crate::contact::SearchMethod;
 use crate::coupled::motion::Motion;
 use crate::coupled::scene::Scene;
-use crate::coupled::scene::model::Tangent;
 use crate::coupled::scene::operators::{Factor, Operators};
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::state::State;
 use crate::error::StepError;
 use crate::linalg::largest;
-use crate::structure::Structure;
+use crate::structure::{Structure, Tangent};
 
 /// Iterations of a step.
 const ITERATIONS: usize = 40;
@@ -179,10 +178,11 @@ impl Newton {
         let tangent = &self.tangent.matrix;
         if !tangent.entries().eq(linear.operators.tangent.entries()) {
             let (model, base) = (&scene.model, &scene.base);
-            let factor = Factor::new(model, &scene.coefficients, tangent)
+            let factor = Factor::of_unknowns(model, &scene.coefficients, tangent)
                 .map_err(|_| StepError::Singular { matrix: "effective stiffness matrix" })?;
             let tangent = tangent.clone();
-            linear.operators = Operators::new(model, base, &scene.soil, factor, tangent);
+            linear.operators =
+                Operators::new(model, base, &scene.soil, Factor::Sparse(factor), tangent);
             linear.contact.invalidate();
         }
         // K_eff Δu + f(u*) linearised at the guess: f + D weight (Δu − guess).

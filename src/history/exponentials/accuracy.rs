@@ -3,6 +3,7 @@
 use super::tail::{Measured, Tail};
 use crate::error::Result;
 use crate::history::lag_kernel::LagKernel;
+use crate::history::pair_classes::KINDS;
 
 /// Lags looked at per octave: about two per period of the trapezoidal rule's error, which goes up
 /// and down with ln t, at places that do not repeat.
@@ -48,8 +49,8 @@ impl Measured {
             for &place in &places {
                 let pair = kernel.classes().pairs()[place];
                 let (p, q) = (place / count, place % count);
-                let [mut zz, mut xx, mut zx] = [[0.0; 2]; 3];
-                kernel.coefficients(pair.class, lag, &mut zz, &mut xx, &mut zx)?;
+                let [mut zz, mut xx, mut zx] = [[0.0; 2]; KINDS];
+                kernel.coefficients(pair.class, lag, [&mut zz, &mut xx, &mut zx])?;
                 for (part, exact) in [zz, xx].iter().enumerate() {
                     let error = [0, 1]
                         .map(|k| pair.scale * (tail.of_pair(&fits[k][part], p, q) - exact[k]));

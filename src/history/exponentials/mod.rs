@@ -157,7 +157,7 @@ impl ExponentialHistory {
         let window = bounded(&Cut { kernel: &*kernel, lags, spectra: &spectra }, lags)?;
         Ok(Self {
             window,
-            recent: vec![0.0; 4 * lags * elements.len()],
+            recent: vec![0.0; 2 * lags * kernel.classes().layout().len()],
             tail: fit.tail.clone(),
             fit,
             steps: 0,
@@ -217,7 +217,7 @@ impl ExponentialHistory {
     }
 
     fn size(&self) -> usize {
-        2 * self.kernel.classes().elements().len()
+        self.kernel.classes().layout().len()
     }
 
     /// Where input `m` is kept.

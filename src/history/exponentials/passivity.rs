@@ -10,7 +10,7 @@
 use super::tail::Tail;
 use super::window::Lags;
 use crate::history::lag_kernel::LagKernel;
-use crate::linalg::least_eigenvalue;
+use crate::history::pair_classes::KINDS;
 
 /// Frequencies per decade below one radian per step.
 const PER_DECADE: f64 = 8.0;
@@ -30,7 +30,7 @@ pub(super) struct Margin {
 
 /// Least eigenvalue of H/(1−cos ω), scaled by the diagonal of L G¹, over all frequencies tried.
 pub(super) fn margin(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, horizon: f64) -> Margin {
-    let order = 2 * kernel.classes().elements().len();
+    let order = kernel.classes().layout().len();
     let thin = if order > LARGE { 3.0 } else { 1.0 };
     let mut frequencies = Vec::new();
     let mut omega = LOWEST / horizon;
@@ -59,9 +59,8 @@ pub(super) fn margin(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, horizon: 
 
 /// The same at one frequency.
 fn least_at(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
-    let count = kernel.classes().elements().len();
-    let order = 2 * count;
-    let window = lags.0[0].first().map_or(0, Vec::len);
+    let classes = kernel.classes();
+    let window = lags.length();
     // Re (1−ζ) ζ^d = cos dω − cos (d+1)ω over 1 − cos ω = 2 sin² ω/2.
     let half = 0.5 * omega;
     let steps: Vec<f64> =
@@ -69,32 +68,17 @@ fn least_at(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64
     let sum = |lags: &[f64]| lags.iter().zip(&steps).map(|(g, c)| g * c).sum::<f64>();
     let square = 2.0 * half.sin() * half.sin();
     let tails = tail.at_frequency(window as f64, omega);
-    let classes: Vec<[f64; 3]> = (0..kernel.classes().count())
-        .map(|class| [0, 1, 2].map(|kind| sum(&lags.0[kind][class])))
+    let sums: Vec<[f64; KINDS]> = (0..classes.count())
+        .map(|class| lags.kinds.each_ref().map(|kind| sum(&kind[class])))
         .collect();
-    let pairs = kernel.classes().pairs();
-    let scales: Vec<f64> = (0..order)
-        .map(|i| {
-            let own = pairs[i % count * (count + 1)].class;
-            1.0 / lags.0[i / count][own][0].sqrt()
-        })
-        .collect();
-    let mut matrix = vec![0.0; order * order];
-    for (place, pair) in pairs.iter().enumerate() {
-        let (p, q) = (place / count, place % count);
-        let mut own = classes[pair.class];
-        for part in 0..2 {
-            own[part] += tail.of_pair(&tails[part], p, q) / square;
+    let at_once = |class: usize, component: usize| lags.kinds[component][class][0];
+    classes.least_eigenvalue(at_once, |[receiver, source], pair| {
+        let mut values = sums[pair.class];
+        for (value, tail_sums) in values.iter_mut().zip(&tails) {
+            *value += tail.of_pair(tail_sums, receiver, source) / square;
         }
-        let mut set = |row: usize, column: usize, value: f64| {
-            matrix[row * order + column] = value * scales[row] * scales[column];
-        };
-        set(p, q, own[0]);
-        set(count + p, count + q, own[1]);
-        set(p, count + q, pair.sign * own[2]);
-        set(count + q, p, pair.sign * own[2]);
-    }
-    least_eigenvalue(&matrix, order)
+        values
+    })
 }
 
 #[cfg(test)]

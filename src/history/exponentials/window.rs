@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::history::lag_kernel::LagKernel;
-use crate::history::pair_classes::PairClasses;
+use crate::history::pair_classes::{KINDS, PairClasses};
 use crate::history::relaxed_fft::SharedSpectra;
 
 const COUPLING_LASTS: Error =
@@ -29,17 +29,15 @@ impl LagKernel for Cut<'_> {
         &self,
         class: usize,
         first_lag: usize,
-        normal: &mut [f64],
-        tangential: &mut [f64],
-        coupling: &mut [f64],
+        values: [&mut [f64]; KINDS],
     ) -> Result<()> {
-        let left = (self.lags + 1).saturating_sub(first_lag).min(normal.len());
-        let [(normal, zz), (tangential, xx), (coupling, zx)] =
-            [normal, tangential, coupling].map(|values| values.split_at_mut(left));
-        for cut in [zz, xx, zx] {
+        let left = (self.lags + 1).saturating_sub(first_lag).min(values[0].len());
+        let kept = values.map(|values| {
+            let (kept, cut) = values.split_at_mut(left);
             cut.fill(0.0);
-        }
-        self.kernel.coefficients(class, first_lag, normal, tangential, coupling)
+            kept
+        });
+        self.kernel.coefficients(class, first_lag, kept)
     }
 
     fn last_coupling_lag(&self, class: usize) -> Result<Option<usize>> {
@@ -52,23 +50,32 @@ impl LagKernel for Cut<'_> {
 }
 
 /// Coefficients of lags 1 to W (those of lag 1 are no part of the history, but of the check for
-/// passivity), per kind (normal, tangential, coupling) and class; the coupling's as long as it is not zero.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Lags(pub(super) [Vec<Vec<f64>>; 3]);
+/// passivity).
+#[derive(Debug, Clone)]
+pub(super) struct Lags {
+    /// Of each kind, class by class; the coupling only as long as it is not zero.
+    pub(super) kinds: [Vec<Vec<f64>>; KINDS],
+}
 
 impl Lags {
     /// Lags 1 to `window`.
     pub(super) fn new(kernel: &dyn LagKernel, window: usize) -> Result<Self> {
         kernel.prepare(window)?;
-        let mut lags = Self::default();
+        let mut kinds = [(); KINDS].map(|()| Vec::with_capacity(kernel.classes().count()));
         for class in 0..kernel.classes().count() {
-            let [mut zz, mut xx, mut zx] = [(); 3].map(|()| vec![0.0; window]);
-            kernel.coefficients(class, 1, &mut zz, &mut xx, &mut zx)?;
+            let mut lags = [(); KINDS].map(|()| vec![0.0; window]);
+            kernel.coefficients(class, 1, lags.each_mut().map(Vec::as_mut_slice))?;
             let last = kernel.last_coupling_lag(class)?.filter(|last| *last <= window);
+            let [_, _, zx] = &mut lags;
             zx.truncate(last.ok_or(COUPLING_LASTS)?);
             zx.shrink_to_fit();
-            lags.0.iter_mut().zip([zz, xx, zx]).for_each(|(kind, values)| kind.push(values));
+            kinds.iter_mut().zip(lags).for_each(|(kind, lags)| kind.push(lags));
         }
-        Ok(lags)
+        Ok(Self { kinds })
+    }
+
+    /// The last lag, W.
+    pub(super) fn length(&self) -> usize {
+        self.kinds[0].first().map_or(0, Vec::len)
     }
 }

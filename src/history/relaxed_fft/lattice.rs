@@ -170,7 +170,7 @@ impl Lattice {
                 let of = offset * width + skip..(offset + 1) * width;
                 let [normal, tangential, coupling] =
                     table.each_mut().map(|values| &mut values[of.clone()]);
-                kernel.coefficients(*class, begin + skip + 1, normal, tangential, coupling)?;
+                kernel.coefficients(*class, begin + skip + 1, [normal, tangential, coupling])?;
             }
             for d in begin + skip..begin + width {
                 for (kind, table) in table.iter().enumerate() {

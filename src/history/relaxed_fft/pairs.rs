@@ -84,7 +84,7 @@ impl Space for Pairs {
         for class in 0..self.classes.count() {
             // The first is the instantaneous coefficient, no part of the history.
             let [normal, tangential, coupling] = values.each_mut().map(|values| &mut values[1..]);
-            kernel.coefficients(class, 2, normal, tangential, coupling)?;
+            kernel.coefficients(class, 2, [normal, tangential, coupling])?;
             let lengths = [self.leaf, self.leaf, self.direct + 1];
             for (kind, values) in values.iter().enumerate() {
                 if wanted {

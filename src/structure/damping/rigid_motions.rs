@@ -1,8 +1,8 @@
 //! The motions of a structure that strain nothing.
 
 use crate::error::Result;
-use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot};
-use crate::structure::{ContactNode, Triplets};
+use crate::linalg::{Partition, SparseMatrix, dot};
+use crate::structure::{ContactNode, HeldBase, stiffest};
 
 /// A part of a rigid motion with less of its momentum than this is rounding.
 const NOTHING: f64 = 1e-8;
@@ -20,32 +20,21 @@ pub(super) fn rigid_momenta(
     mass: &SparseMatrix,
 ) -> Result<Vec<Vec<f64>>> {
     let n = mass.order();
-    let largest = stiffness.diagonal().into_iter().fold(0.0_f64, |most, k| most.max(k.abs()));
-    let tie = if largest > 0.0 { largest } else { 1.0 };
-    let center = contact.iter().map(|node| node.x).sum::<f64>() / contact.len().max(1) as f64;
-    let mut matrix = Triplets::new(n);
-    stiffness.add_to(1.0, &mut matrix);
-    let mut pulled = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
     for node in contact {
         node.horizontal.check("unknown of a contact node", n)?;
         node.vertical.check("unknown of a contact node", n)?;
-        matrix.add_outer(&node.horizontal, tie);
-        matrix.add_outer(&node.vertical, tie);
-        let [right, up, turn] = &mut pulled;
-        node.horizontal.iter().for_each(|&(j, weight)| right[j] += tie * weight);
-        for &(j, weight) in &node.vertical {
-            up[j] += tie * weight;
-            turn[j] += tie * weight * (node.x - center);
-        }
     }
-    let mut factor = SparseFactor::new("stiffness matrix with its base held", &matrix)?;
+    let center = contact.iter().map(|node| node.x).sum::<f64>() / contact.len().max(1) as f64;
+    let held = HeldBase::new(contact, stiffness, stiffest(stiffness));
+    let mut factor = held.factor()?;
+    let [right, up] = held.pulls();
     let mut coupled = Partition::new(n);
     coupled.couple(stiffness);
     let parts = coupled.sets();
     let (mut motions, mut momenta): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
-    for all in &mut pulled {
-        factor.solve(all);
-        let whole = mass.form(all, all).sqrt();
+    for mut all in [right, up, held.turn(contact, center)] {
+        factor.solve(&mut all);
+        let whole = mass.form(&all, &all).sqrt();
         for part in &parts {
             let mut motion = vec![0.0; n];
             for &i in part {

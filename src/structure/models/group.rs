@@ -25,7 +25,7 @@ struct Member {
 /// each by itself.
 ///
 /// ```
-/// use basemat::bem::HalfPlaneGround;
+/// use basemat::bem::ElasticGround;
 /// use basemat::interface::Coulomb;
 /// use basemat::motion::el_centro_1940;
 /// use basemat::structure::{RigidBlock, StructureGroup};
@@ -39,7 +39,7 @@ struct Member {
 /// // The first block has no fourth unknown: that is one of the other block.
 /// assert!(group.row(0, 3).is_err());
 /// let mut simulation = Simulation::builder(0.005)
-///     .ground(HalfPlaneGround::under(Soil::new(40.0e6, 0.33, 1800.0)?, &group, 6)?)
+///     .ground(ElasticGround::under(Soil::new(40.0e6, 0.33, 1800.0)?, &group, 6)?)
 ///     .structure(group)
 ///     .interface(Coulomb::new(0.5)?)
 ///     .motion(el_centro_1940())

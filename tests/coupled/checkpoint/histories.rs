@@ -5,8 +5,7 @@
 
 use std::sync::Arc;
 
-use basemat::bem::layered::LayeredGround;
-use basemat::bem::{Ground, HalfPlaneGround, PatchKernel, Strip};
+use basemat::bem::{ElasticGround, Ground, PatchKernel, Strip};
 use basemat::coupled::{Coordinates, SimulationBuilder};
 use basemat::history::{
     ChoiceReason, ConvolutionHistory, DirectHistory, ExponentialHistory, History, LagKernel,
@@ -20,7 +19,8 @@ use crate::support::scenes::{SI, block, friction, scene, soil, states};
 
 /// A block on equal elements whose ground chooses its history, in at most these bytes.
 pub(crate) fn auto(elements: usize, memory: usize) -> SimulationBuilder {
-    let ground = HalfPlaneGround::uniform_strip(soil(SI), -2.0..2.0, elements).unwrap();
+    let ground =
+        ElasticGround::new(soil(SI), Strip::uniform(-2.0..2.0, elements).unwrap()).unwrap();
     let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
     base.ground(ground.with_history_memory(memory))
 }
@@ -248,7 +248,7 @@ fn beyond_the_memory_exact_histories_stop() {
     };
     let layers = |memory| {
         let profile = SoilProfile::on_rigid_base().with_layer(soil(SI), 6.0).unwrap();
-        let ground = LayeredGround::uniform_strip(profile, -2.0..2.0, 2).unwrap();
+        let ground = ElasticGround::new(profile, Strip::uniform(-2.0..2.0, 2).unwrap()).unwrap();
         over(Box::new(ground.with_history_memory(memory)))
     };
     let asked = |history, memory| over(Box::new(half_plane(history).with_history_memory(memory)));

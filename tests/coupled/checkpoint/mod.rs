@@ -13,7 +13,7 @@ mod sum;
 #[cfg(feature = "serde")]
 mod text;
 
-use basemat::bem::{HalfPlaneGround, SpringGround};
+use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::Checkpoint;
 use basemat::history::History;
 use basemat::{CheckpointError, Error, Simulation};
@@ -23,8 +23,10 @@ use crate::support::scenes::{SI, soil};
 /// Longer than the window of the exponentials and several leaves of the transforms.
 const STEPS: usize = 260;
 
-fn half_plane(history: History) -> HalfPlaneGround {
-    HalfPlaneGround::strip(soil(SI), -2.0..2.0, 6).unwrap().with_history_kind(history)
+fn half_plane(history: History) -> ElasticGround {
+    ElasticGround::new(soil(SI), Strip::graded(-2.0..2.0, 6).unwrap())
+        .unwrap()
+        .with_history_kind(history)
 }
 
 fn spring_bed() -> SpringGround {

@@ -5,7 +5,7 @@
 
 use std::any::Any;
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{SimulationBuilder, State};
 use basemat::history::History;
 use basemat::interface::Bonded;
@@ -77,7 +77,8 @@ fn kinds() -> Vec<Kind> {
             base().structure(tower(SI, None)).ground(half_plane(History::RelaxedFft))
         }),
         kind("transforms along the surface", move || {
-            let ground = HalfPlaneGround::uniform_strip(soil(SI), -2.0..2.0, 9).unwrap();
+            let ground =
+                ElasticGround::new(soil(SI), Strip::uniform(-2.0..2.0, 9).unwrap()).unwrap();
             base().structure(block(SI)).ground(ground.with_history_kind(History::RelaxedFft))
         }),
         kind("exponentials", move || {

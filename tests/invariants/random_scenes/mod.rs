@@ -21,7 +21,7 @@ use tally::{Tally, accepted, for_all};
 use crate::support::scenes::{self, Frame, SI};
 
 /// Friction up to which a solution does not depend on where the search begins: see
-/// `docs/stability.md`.
+/// `docs/validation.md`.
 const UNIQUE: f64 = 0.6;
 
 #[test]

@@ -1,6 +1,6 @@
 //! Random scenes: plain data that proptest can shrink, and how a simulation is built from it.
 
-use basemat::bem::{Grading, HalfPlaneGround, SpringGround, Strip};
+use basemat::bem::{ElasticGround, Grading, SpringGround, Strip};
 use basemat::coupled::{
     Coordinates, DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, Placement, SimulationBuilder,
     State, Theta,
@@ -244,7 +244,7 @@ impl Recipe {
             Bed::HalfPlane { graded, history, .. } => {
                 let grading = if graded { Grading::Cosine } else { Grading::Uniform };
                 let strip = Strip::new(-half..half, self.elements, grading)?;
-                builder.ground(HalfPlaneGround::new(soil, &[strip])?.with_history_kind(history))
+                builder.ground(ElasticGround::new(soil, strip)?.with_history_kind(history))
             }
             Bed::Springs { dashpots } => {
                 let stiffness = soil.shear_modulus() / frame.length;

@@ -246,7 +246,10 @@ fn parts_chosen_at_run_time() {
     let soil = Soil::new(40.0e6, 0.3, 1800.0).unwrap();
     let motion = basemat::motion::RickerDisplacement::new(0.05, 0.12, 0.6).unwrap();
     let block = || RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
-    let ground = || basemat::bem::HalfPlaneGround::uniform_strip(soil, -2.0..2.0, 6).unwrap();
+    let ground = || {
+        basemat::bem::ElasticGround::new(soil, basemat::bem::Strip::uniform(-2.0..2.0, 6).unwrap())
+            .unwrap()
+    };
     let law = || basemat::interface::Coulomb::new(0.4).unwrap();
     let builder = || Simulation::builder(0.005).gravity(9.81);
     let plain = builder().structure(block()).ground(ground()).interface(law()).motion(motion);

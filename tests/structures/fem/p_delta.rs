@@ -4,7 +4,7 @@
 
 use crate::support::dense::{damping, eigenvalues, form, largest, mass, multiply, part, stiffness};
 use basemat::Error;
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::fem::{Beam, Direction, Element, LumpedMass, MassKind, Mesh, Truss};
 use basemat::interface::Coulomb;
 use basemat::structure::{FemModel, RayleighDamping, Structure};
@@ -234,7 +234,7 @@ fn p_delta_overturns_but_does_not_hold() {
     let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
     let built = Simulation::builder(0.01)
         .structure(model)
-        .ground(HalfPlaneGround::uniform_strip(soil, 0.0..SPAN, 6).unwrap())
+        .ground(ElasticGround::new(soil, Strip::uniform(0.0..SPAN, 6).unwrap()).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .gravity(10.0)
         .build();

@@ -2,7 +2,7 @@
 //! SCENE: five storeys on the half-plane under El Centro; one storey on rock.
 //! REFERENCE: tangents by differences, the ledger, Runge–Kutta integration.
 
-use basemat::bem::{HalfPlaneGround, SpringGround};
+use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::{Newmark, Probe, Run, SimulationBuilder, Theta};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{FreeFieldFn, STANDARD_GRAVITY, el_centro_1940};
@@ -42,7 +42,7 @@ fn on_soil(structure: impl Structure + 'static, time_step: f64) -> SimulationBui
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     Simulation::builder(time_step)
         .structure(structure)
-        .ground(HalfPlaneGround::uniform_strip(soil, -5.0..5.0, 8).unwrap())
+        .ground(ElasticGround::new(soil, Strip::uniform(-5.0..5.0, 8).unwrap()).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY)

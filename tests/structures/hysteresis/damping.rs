@@ -4,7 +4,7 @@
 
 use basemat::Simulation;
 use basemat::Soil;
-use basemat::bem::{HalfPlaneGround, SpringGround};
+use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::Probe;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::el_centro_1940;
@@ -48,7 +48,7 @@ fn columns_that_never_yield_are_linear() {
         let drift = linear(0.05).drift(0).unwrap();
         let mut simulation = Simulation::builder(0.005)
             .structure(structure)
-            .ground(HalfPlaneGround::uniform_strip(soil, -5.0..5.0, 8).unwrap())
+            .ground(ElasticGround::new(soil, Strip::uniform(-5.0..5.0, 8).unwrap()).unwrap())
             .interface(Coulomb::new(0.4).unwrap())
             .motion(el_centro_1940())
             .probe(Probe::displacement("drift", drift))

@@ -3,7 +3,7 @@
 //! REFERENCE: the potential energy of the weight, differentiated twice; typed errors.
 
 use crate::support::curvature::curvature;
-use basemat::bem::{HalfPlaneGround, SpringGround};
+use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::{Probe, Run};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
@@ -30,7 +30,7 @@ fn shaken(gravity: f64, law: impl Hysteresis + 'static) -> Run {
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     Simulation::builder(5e-3)
         .structure(structure)
-        .ground(HalfPlaneGround::uniform_strip(soil, -5.0..5.0, 6).unwrap())
+        .ground(ElasticGround::new(soil, Strip::uniform(-5.0..5.0, 6).unwrap()).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY)

@@ -6,7 +6,7 @@
 
 use basemat::Simulation;
 use basemat::Soil;
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::interface::Coulomb;
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
@@ -45,7 +45,7 @@ fn shake(
     let soil = Soil::new(below.modulus, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(time_step)
         .structure(structure)
-        .ground(HalfPlaneGround::uniform_strip(soil, -5.0..5.0, below.elements)?)
+        .ground(ElasticGround::new(soil, Strip::uniform(-5.0..5.0, below.elements)?)?)
         .interface(Coulomb::new(below.friction)?)
         .motion(el_centro_1940().scaled(strength)?)
         .build()?;

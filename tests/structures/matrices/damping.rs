@@ -1,6 +1,6 @@
 //! Damping matrices that would feed energy in are refused, unless they are meant to.
 
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::fem::{Direction, Element, MassKind};
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
@@ -128,8 +128,11 @@ fn damping_in_use_passes() {
     let passes = |structure: Box<dyn Structure>, what: &str| {
         let nodes = structure.contact_nodes();
         let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
-        let ground =
-            HalfPlaneGround::uniform_strip(soil, nodes[0].x..nodes[nodes.len() - 1].x, 6).unwrap();
+        let ground = ElasticGround::new(
+            soil,
+            Strip::uniform(nodes[0].x..nodes[nodes.len() - 1].x, 6).unwrap(),
+        )
+        .unwrap();
         let built = Simulation::builder(0.01)
             .structure(structure)
             .ground(ground)

@@ -3,7 +3,7 @@
 //! SCENE: a tower on the half-plane that uplifts and slides.
 //! REFERENCE: the finite-element model; typed errors.
 
-use basemat::bem::{HalfPlaneGround, SpringGround};
+use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::SimulationBuilder;
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Coulomb;
@@ -24,7 +24,7 @@ pub(crate) fn on_soil(structure: impl Structure + 'static) -> SimulationBuilder 
     let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
     Simulation::builder(0.01)
         .structure(structure)
-        .ground(HalfPlaneGround::uniform_strip(soil, -3.0..3.0, 6).unwrap())
+        .ground(ElasticGround::new(soil, Strip::uniform(-3.0..3.0, 6).unwrap()).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .motion(el_centro_1940())
         .gravity(STANDARD_GRAVITY)

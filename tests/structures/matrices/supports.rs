@@ -5,7 +5,7 @@
 
 use super::model::{on_soil, tower};
 use basemat::Error;
-use basemat::bem::HalfPlaneGround;
+use basemat::bem::{ElasticGround, Strip};
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::structure::{CraigBampton, FemModel, MatrixModel, Structure, Triplets};
@@ -55,7 +55,7 @@ fn wall_on_soil(structure: impl Structure + 'static) -> Result<Simulation> {
     let soil = Soil::new(60.0e6, 0.33, 1900.0).unwrap();
     Simulation::builder(0.01)
         .structure(structure)
-        .ground(HalfPlaneGround::uniform_strip(soil, -0.25..0.25, 4).unwrap())
+        .ground(ElasticGround::new(soil, Strip::uniform(-0.25..0.25, 4).unwrap()).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
         .build()
 }

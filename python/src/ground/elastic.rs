@@ -1,0 +1,210 @@
+//! Elastic soil, homogeneous or layered.
+
+use std::path::PathBuf;
+
+use basemat::bem::layered::Stages;
+use basemat::bem::{ElasticGround, SharedKernels, Strip};
+use basemat::history::History;
+use basemat::soil::SoilProfile;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use super::PyGround;
+use super::impedance::{PyImpedances, contact};
+use super::strip::{Strips, grading};
+use crate::array::{Numbers, whole};
+use crate::error::OrRaise;
+use crate::profile::PySoilProfile;
+use crate::soil::PySoil;
+use crate::structure;
+
+/// Kernels that grounds of equal soil and elements share: evaluated once for all simulations that
+/// are built with the same object.
+#[pyclass(name = "SharedKernels", module = "basemat", frozen)]
+#[derive(Default)]
+pub(crate) struct PySharedKernels(SharedKernels);
+
+#[pymethods]
+impl PySharedKernels {
+    #[new]
+    fn new() -> Self {
+        Self::default()
+    }
+
+    /// A copy in another process begins empty.
+    #[allow(clippy::unused_self, reason = "a method of Python")]
+    fn __getnewargs__<'py>(&self, py: Python<'py>) -> Bound<'py, PyTuple> {
+        PyTuple::empty(py)
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+}
+
+/// Elastic half-plane of a ``Soil``, or the layers of a ``SoilProfile``, with one strip of contact
+/// elements or several.
+///
+/// ``history``: "auto", "direct", "relaxed fft" or, without layers and damping, "exponentials";
+/// ``history_tolerance``: relative error (1e-12 to 1e-2) that exponentials may have;
+/// ``history_memory``: bytes that the history may take; ``kernels``: to be shared between simulations.
+/// Of layers and damping: ``stages``: 2 or 3 Runge–Kutta stages (the rule's choice unless given);
+/// ``tolerance``: of the step coefficients; ``kernel_file``: a file that keeps them.
+#[pyclass(name = "ElasticGround", module = "basemat", extends = PyGround, frozen)]
+pub(crate) struct PyElasticGround {
+    make: Box<dyn Fn() -> basemat::Result<ElasticGround> + Send + Sync>,
+}
+
+/// A soil or a profile.
+#[derive(FromPyObject)]
+enum Profile<'py> {
+    Soil(Bound<'py, PySoil>),
+    Profile(Bound<'py, PySoilProfile>),
+}
+
+impl From<Profile<'_>> for SoilProfile {
+    fn from(given: Profile<'_>) -> Self {
+        match given {
+            Profile::Soil(soil) => soil.get().0.into(),
+            Profile::Profile(profile) => profile.get().0.clone(),
+        }
+    }
+}
+
+/// Step coefficients and history of the ground.
+#[derive(Clone)]
+struct Options {
+    kind: History,
+    history_tolerance: Option<f64>,
+    memory: Option<usize>,
+    stages: Option<Stages>,
+    tolerance: Option<f64>,
+    file: Option<PathBuf>,
+    kernels: Option<SharedKernels>,
+}
+
+impl Options {
+    fn new(
+        kind: &str,
+        history_tolerance: Option<f64>,
+        memory: Option<usize>,
+        stages: Option<usize>,
+        tolerance: Option<f64>,
+        file: Option<PathBuf>,
+        kernels: Option<&Bound<'_, PySharedKernels>>,
+    ) -> PyResult<Self> {
+        let kind = kind.parse().or_raise()?;
+        let stages = stages.map(Stages::from_count).transpose().or_raise()?;
+        let kernels = kernels.map(|kernels| kernels.get().0.clone());
+        Ok(Self { kind, history_tolerance, memory, stages, tolerance, file, kernels })
+    }
+
+    fn of(&self, ground: ElasticGround) -> basemat::Result<ElasticGround> {
+        let mut ground = ground.with_history_kind(self.kind);
+        if let Some(tolerance) = self.history_tolerance {
+            ground = ground.with_history_tolerance(tolerance)?;
+        }
+        if let Some(memory) = self.memory {
+            ground = ground.with_history_memory(memory);
+        }
+        if let Some(stages) = self.stages {
+            ground = ground.with_stages(stages);
+        }
+        if let Some(tolerance) = self.tolerance {
+            ground = ground.with_tolerance(tolerance)?;
+        }
+        if let Some(file) = &self.file {
+            ground = ground.with_kernel_file(file);
+        }
+        Ok(match &self.kernels {
+            Some(kernels) => ground.with_shared_kernels(kernels),
+            None => ground,
+        })
+    }
+}
+
+fn ground(
+    profile: Profile<'_>,
+    strips: impl Fn() -> basemat::Result<Vec<Strip>> + Clone + Send + Sync + 'static,
+    options: Options,
+) -> PyResult<PyClassInitializer<PyElasticGround>> {
+    let profile = SoilProfile::from(profile);
+    let make = move || options.of(ElasticGround::new(profile.clone(), strips()?)?);
+    let base = PyGround::new(make.clone())?;
+    Ok(PyClassInitializer::from(base).add_subclass(PyElasticGround { make: Box::new(make) }))
+}
+
+#[pymethods]
+impl PyElasticGround {
+    #[new]
+    #[pyo3(signature = (soil, strips, *, history="auto", history_tolerance=None, history_memory=None, stages=None, tolerance=None, kernel_file=None, kernels=None))]
+    fn new(
+        soil: Profile<'_>,
+        strips: Strips<'_>,
+        history: &str,
+        history_tolerance: Option<f64>,
+        #[pyo3(from_py_with = whole)] history_memory: Option<usize>,
+        #[pyo3(from_py_with = whole)] stages: Option<usize>,
+        tolerance: Option<f64>,
+        kernel_file: Option<PathBuf>,
+        kernels: Option<Bound<'_, PySharedKernels>>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let (memory, kernels) = (history_memory, kernels.as_ref());
+        let options = Options::new(
+            history,
+            history_tolerance,
+            memory,
+            stages,
+            tolerance,
+            kernel_file,
+            kernels,
+        )?;
+        let strips: Vec<Strip> = strips.into();
+        ground(soil, move || Ok(strips.clone()), options)
+    }
+
+    /// Strips of ``count`` elements under each foundation of a structure, as wide as that is.
+    #[staticmethod]
+    #[pyo3(signature = (soil, structure, count, *, grading="cosine", history="auto", history_tolerance=None, history_memory=None, stages=None, tolerance=None, kernel_file=None, kernels=None))]
+    fn under(
+        soil: Profile<'_>,
+        structure: Bound<'_, PyAny>,
+        #[pyo3(from_py_with = whole)] count: usize,
+        grading: &str,
+        history: &str,
+        history_tolerance: Option<f64>,
+        #[pyo3(from_py_with = whole)] history_memory: Option<usize>,
+        #[pyo3(from_py_with = whole)] stages: Option<usize>,
+        tolerance: Option<f64>,
+        kernel_file: Option<PathBuf>,
+        kernels: Option<Bound<'_, PySharedKernels>>,
+    ) -> PyResult<Py<Self>> {
+        let (memory, kernels) = (history_memory, kernels.as_ref());
+        let options = Options::new(
+            history,
+            history_tolerance,
+            memory,
+            stages,
+            tolerance,
+            kernel_file,
+            kernels,
+        )?;
+        let (py, grading) = (structure.py(), self::grading(grading)?);
+        let structure = structure::recipe(&structure)?;
+        Py::new(py, ground(soil, move || Strip::under(&*structure()?, count, grading), options)?)
+    }
+
+    /// Dynamic stiffness of all strips as one rigid body at ``frequencies`` (array of shape (m,),
+    /// Hz); ``contact``: "bonded" or "relaxed".
+    #[pyo3(signature = (frequencies, *, contact="bonded"))]
+    fn impedances(
+        &self,
+        py: Python<'_>,
+        frequencies: Numbers,
+        contact: &str,
+    ) -> PyResult<PyImpedances> {
+        let (ground, contact) = ((self.make)().or_raise()?, self::contact(contact)?);
+        let found = py.detach(move || ground.impedances(&frequencies.0, contact));
+        Ok(PyImpedances(found.or_raise()?))
+    }
+}

@@ -1,0 +1,365 @@
+//! Elastic or viscoelastic soil under strips.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::layered::{
+    Cost, LIMIT, LayeredKernel, Stages, StripContact, StripImpedance, TOLERANCE, check_limit,
+    check_tolerance, rigid_strip_impedances, static_compliance,
+};
+use super::{
+    Grading, Ground, KernelGround, KernelSource, PatchKernel, SharedKernels, StaticKernel, Strip,
+};
+use crate::error::{Result, positive};
+use crate::geometry::{ContactElement, check_order};
+use crate::history::{ConvolutionHistory, History, HistoryChoice, LagKernel};
+use crate::motion::FreeField;
+use crate::soil::{Base, Soil, SoilProfile};
+use crate::structure::Structure;
+
+/// Elastic half-plane, or horizontal layers with or without damping, with one or several strips on
+/// its surface.
+///
+/// A [`Soil`] makes a homogeneous half-plane. Its operator is the energetic space–time Galerkin one:
+/// element means of the displacement at step ends under tractions constant over element and step,
+/// from the closed-form half-plane kernel ([`PatchKernel`]). Radiation is exact.
+///
+/// A [`SoilProfile`] with layers or damping is stepped by Runge–Kutta convolution quadrature of its
+/// mobility (Radau IIA), with the same tractions ([`LayeredKernel`]). The number of stages follows
+/// [`Stages::for_profile`] and is reported by [`Ground::history_choice`].
+///
+/// Both are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The
+/// free field is that of the surface; [`site::Column`](crate::site::Column) computes it from a motion
+/// at depth in the same profile.
+///
+/// ```
+/// use basemat::Soil;
+/// use basemat::bem::{ElasticGround, Ground, Strip};
+/// let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+/// let mut ground = ElasticGround::new(soil, Strip::graded(-5.0..5.0, 20)?)?;
+/// ground.prepare(1.0e-4)?;
+/// let mut matrix = vec![0.0; 40 * 40];
+/// ground.instantaneous(&mut matrix)?;
+/// // Before waves reach the edges, a pressure moves the surface by p·t/(ρ c₁); a step of 0.1 ms
+/// // leaves all but the outer few percent of an element of 0.8 m, at the middle, in that state.
+/// let plane_wave = 1.0e-4 / (1900.0 * soil.pressure_wave_speed());
+/// assert!((matrix[10 * 40 + 10] / plane_wave - 1.0).abs() < 0.05);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// ```
+/// use basemat::bem::ElasticGround;
+/// use basemat::interface::Coulomb;
+/// use basemat::motion::el_centro_1940;
+/// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+/// use basemat::structure::RigidBlock;
+/// use basemat::{Simulation, Soil};
+///
+/// // Six metres of soft soil with 5 % damping on rock with 1 %.
+/// let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0);
+/// let profile = SoilProfile::on_half_plane(Soil::from_shear_wave_speed(500.0, 0.3, 2100.0)?)
+///     .with_base_damping(damping(0.01)?)
+///     .with_layer(Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?, 6.0)?
+///     .with_damping(damping(0.05)?);
+/// let block = RigidBlock::new(6.0, 9.0, 2000.0)?;
+/// let mut simulation = Simulation::builder(0.005)
+///     .ground(ElasticGround::under(profile, &block, 8)?)
+///     .structure(block)
+///     .interface(Coulomb::new(0.5)?)
+///     .motion(el_centro_1940())
+///     .build()?;
+/// let run = simulation.run(400, |_| {})?;
+/// assert!(run.ledger_residual < 1e-9);
+/// assert!(simulation.history_choice().unwrap().to_string().contains("3 stages"));
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub struct ElasticGround {
+    source: ElasticSource,
+    /// Stages of the last [`Ground::prepare`].
+    used: Option<Stages>,
+    ground: KernelGround,
+}
+
+short_debug! { ElasticGround; self; source: self.source, ground: self.ground }
+
+/// A profile and how accurately it is stepped.
+#[derive(Debug, Clone)]
+struct ElasticSource {
+    profile: SoilProfile,
+    stages: Option<Stages>,
+    tolerance: f64,
+    file: Option<PathBuf>,
+    limit: f64,
+}
+
+impl ElasticSource {
+    /// The stages for steps of `time_step` seconds; `None` for the closed form.
+    fn stages(&self, time_step: f64) -> Option<Stages> {
+        let by_rule = || Stages::for_profile(&self.profile, time_step);
+        let closed = self.stages.is_none() && self.profile.is_elastic_half_plane();
+        (!closed).then(|| self.stages.unwrap_or_else(by_rule))
+    }
+
+    /// Step coefficients by convolution quadrature.
+    fn layered(
+        &self,
+        elements: &[ContactElement],
+        time_step: f64,
+        stages: Stages,
+    ) -> Result<LayeredKernel> {
+        LayeredKernel::new(self.profile.clone(), elements.to_vec(), time_step)?
+            .with_stages(stages)
+            .with_tolerance(self.tolerance)?
+            .with_time_limit(self.limit)
+    }
+}
+
+impl KernelSource for ElasticSource {
+    fn kernel(&self, elements: &[ContactElement], time_step: f64) -> Result<Arc<dyn LagKernel>> {
+        match (self.stages(time_step), self.profile.base()) {
+            (None, Base::HalfPlane { soil, .. }) => {
+                Ok(Arc::new(PatchKernel::new(*soil, elements.to_vec(), time_step)?))
+            }
+            (stages, _) => {
+                let kernel = self.layered(elements, time_step, stages.unwrap_or_default())?;
+                Ok(Arc::new(match &self.file {
+                    Some(file) => kernel.with_file(file),
+                    None => kernel,
+                }))
+            }
+        }
+    }
+
+    fn static_compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
+        match self.profile.base() {
+            Base::HalfPlane { soil, .. } if self.profile.is_elastic_half_plane() => {
+                StaticKernel::under(*soil, elements)?.compliance(elements, matrix)
+            }
+            _ => static_compliance(&self.profile, elements, matrix),
+        }
+    }
+
+    fn shear_wave_speed(&self) -> Option<f64> {
+        self.profile.surface().map(|soil| soil.shear_wave_speed())
+    }
+
+    fn identity(&self) -> Option<Vec<f64>> {
+        let stages = self.stages.map_or(0.0, |stages| stages.count() as f64);
+        let mut numbers = vec![stages, self.tolerance, self.limit];
+        // Grounds with a file do not take their kernel from one without.
+        let file = self.file.as_ref().map(|file| file.as_os_str().as_encoded_bytes());
+        numbers.push(file.map_or(-1.0, |bytes| bytes.len() as f64));
+        numbers.extend(file.unwrap_or_default().iter().map(|byte| f64::from(*byte)));
+        numbers.extend(self.profile.identity()?);
+        Some(numbers)
+    }
+}
+
+impl ElasticGround {
+    /// Ground of a [`Soil`] or a [`SoilProfile`] under a [`Strip`], or several of them from left to
+    /// right, coupled through the soil.
+    ///
+    /// Damping that is not causal serves [`impedances`](ElasticGround::impedances) only: a simulation
+    /// returns [`LayeredError::NotCausal`](crate::LayeredError::NotCausal).
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size) for no strips or a rigid base without layers,
+    /// [`Error::Input`](crate::Error::Input) for strips that overlap or are out of order.
+    pub fn new(profile: impl Into<SoilProfile>, strips: impl AsRef<[Strip]>) -> Result<Self> {
+        let elements: Vec<_> = strips.as_ref().iter().flat_map(Strip::elements).collect();
+        check_order(&elements)?;
+        let profile = profile.into();
+        profile.check()?;
+        let (tolerance, limit) = (TOLERANCE, LIMIT);
+        let source = ElasticSource { profile, stages: None, tolerance, file: None, limit };
+        let ground = KernelGround::new(source.clone(), elements)?;
+        Ok(Self { source, used: None, ground })
+    }
+
+    /// Ground under each foundation of `structure`, as wide as that is, of `count` elements each,
+    /// graded towards the edges, where tractions are singular: [`Strip::under`] with
+    /// [`Grading::Cosine`].
+    ///
+    /// # Errors
+    /// As for [`ElasticGround::new`] and [`Strip::under`].
+    pub fn under(
+        profile: impl Into<SoilProfile>,
+        structure: &dyn Structure,
+        count: usize,
+    ) -> Result<Self> {
+        Self::new(profile, Strip::under(structure, count, Grading::Cosine)?)
+    }
+
+    fn changed(mut self, change: impl FnOnce(&mut ElasticSource)) -> Self {
+        change(&mut self.source);
+        Self { ground: self.ground.with_source(self.source.clone()), used: None, ..self }
+    }
+
+    /// With this number of stages instead of the rule's, and instead of the closed form.
+    #[must_use]
+    pub fn with_stages(self, stages: Stages) -> Self {
+        self.changed(|source| source.stages = Some(stages))
+    }
+
+    /// With the `tolerance` of [`LayeredKernel::with_tolerance`]. The closed form is exact.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-13 to 1e-4.
+    pub fn with_tolerance(self, tolerance: f64) -> Result<Self> {
+        let tolerance = check_tolerance(tolerance)?;
+        Ok(self.changed(|source| source.tolerance = tolerance))
+    }
+
+    /// With step coefficients from the file `path`, which is made, or made anew, if it does not have
+    /// them: [`LayeredKernel::with_file`]. The closed form needs none.
+    #[must_use]
+    pub fn with_kernel_file(self, path: impl Into<PathBuf>) -> Self {
+        self.changed(|source| source.file = Some(path.into()))
+    }
+
+    /// With at most so many `seconds` of a processor for step coefficients, 600 unless called:
+    /// [`LayeredKernel::with_time_limit`].
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a number that is negative or NaN.
+    pub fn with_time_limit(self, seconds: f64) -> Result<Self> {
+        let limit = check_limit(seconds)?;
+        Ok(self.changed(|source| source.limit = limit))
+    }
+
+    /// As [`KernelGround::with_history_kind`]; only the closed form has exponentials.
+    #[must_use]
+    pub fn with_history_kind(self, history: History) -> Self {
+        Self { ground: self.ground.with_history_kind(history), ..self }
+    }
+
+    /// As [`KernelGround::with_history_tolerance`]; only the closed form makes use of it.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
+    pub fn with_history_tolerance(self, tolerance: f64) -> Result<Self> {
+        Ok(Self { ground: self.ground.with_history_tolerance(tolerance)?, ..self })
+    }
+
+    /// As [`KernelGround::with_history_memory`].
+    #[must_use]
+    pub fn with_history_memory(self, bytes: usize) -> Self {
+        Self { ground: self.ground.with_history_memory(bytes), ..self }
+    }
+
+    /// As [`KernelGround::with_history`].
+    #[must_use]
+    pub fn with_history(
+        self,
+        make: impl Fn(Arc<dyn LagKernel>) -> Box<dyn ConvolutionHistory> + Send + 'static,
+    ) -> Self {
+        Self { ground: self.ground.with_history(make), ..self }
+    }
+
+    /// As [`KernelGround::with_shared_kernels`].
+    #[must_use]
+    pub fn with_shared_kernels(self, kernels: &SharedKernels) -> Self {
+        Self { ground: self.ground.with_shared_kernels(kernels), ..self }
+    }
+
+    /// What the step coefficients of `steps` steps of `time_step` seconds cost before the first of them, to a
+    /// factor of about two; files and shared kernels, which may have them, left out. Nothing for the
+    /// closed form.
+    ///
+    /// ```
+    /// use basemat::Soil;
+    /// use basemat::bem::{ElasticGround, Strip};
+    /// use basemat::soil::SoilProfile;
+    /// let clay = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
+    /// let cost = |thickness: f64| {
+    ///     let profile = SoilProfile::on_rigid_base().with_layer(clay, thickness)?;
+    ///     ElasticGround::new(profile, Strip::graded(-3.0..3.0, 8)?)?.cost(0.005, 2000)
+    /// };
+    /// println!("{}", cost(6.0)?);
+    /// // A skin of a millimetre asks for wavenumbers of its own size.
+    /// assert!(cost(0.001)?.seconds > 10.0 * cost(6.0)?.seconds);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`LayeredKernel::cost`]; [`Error::Input`](crate::Error::Input) for a bad time step.
+    pub fn cost(&self, time_step: f64, steps: usize) -> Result<Cost> {
+        positive("time step", time_step)?;
+        let Some(stages) = self.source.stages(time_step) else { return Ok(Cost::default()) };
+        let kernel = self.source.layered(self.elements(), time_step, stages)?;
+        // Histories take lags by powers of two.
+        kernel.cost(steps.checked_next_power_of_two().unwrap_or(usize::MAX))
+    }
+
+    /// Dynamic stiffness of all strips together, as one rigid body, at each of `frequencies` (Hz):
+    /// [`rigid_strip_impedances`].
+    ///
+    /// ```
+    /// use basemat::Soil;
+    /// use basemat::bem::layered::StripContact;
+    /// use basemat::bem::{ElasticGround, Strip};
+    /// use basemat::soil::SoilProfile;
+    /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
+    /// let strip = Strip::graded(-3.0..3.0, 16)?;
+    /// let found = ElasticGround::new(soil, &strip)?.impedances(&[2.0, 8.0], StripContact::Bonded)?;
+    /// // Vertical dashpots come near that of plane waves, ρ c₁ per area.
+    /// let plane = 1800.0 * soil.pressure_wave_speed() * 6.0;
+    /// assert!((found[1].dashpots()[1] / plane - 1.0).abs() < 0.1);
+    ///
+    /// let layer = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
+    /// let found = ElasticGround::new(layer, strip)?.impedances(&[1.0, 9.0], StripContact::Bonded)?;
+    /// // Nothing radiates below the layer's first frequency, 6.25 Hz; above it does.
+    /// assert!(found[0].horizontal.im < 1e-6 * found[0].horizontal.re);
+    /// assert!(found[1].horizontal.im > 0.5 * found[1].horizontal.re);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`rigid_strip_impedances`].
+    pub fn impedances(
+        &self,
+        frequencies: &[f64],
+        contact: StripContact,
+    ) -> Result<Vec<StripImpedance>> {
+        rigid_strip_impedances(self.profile(), self.elements(), frequencies, contact)
+    }
+
+    /// The profile.
+    pub fn profile(&self) -> &SoilProfile {
+        &self.source.profile
+    }
+}
+
+impl Ground for ElasticGround {
+    forward! {
+        self.ground;
+        fn elements(&self) -> &[ContactElement];
+        fn announce(&mut self, steps: usize) -> Result<()>;
+        fn reserve(&mut self, steps: usize) -> Result<()>;
+        fn instantaneous(&self, matrix: &mut [f64]) -> Result<()>;
+        fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
+        fn commit(&mut self, traction: &[f64]);
+        fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
+        fn shear_wave_speed(&self) -> Option<f64>;
+        fn increment_error_bound(&self) -> f64;
+        fn save(&self) -> Result<Vec<f64>>;
+        fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
+        fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]);
+    }
+
+    fn prepare(&mut self, time_step: f64) -> Result<()> {
+        self.source.profile.check_causal()?;
+        self.ground.prepare(time_step)?;
+        self.used = self.source.stages(time_step);
+        Ok(())
+    }
+
+    fn soils(&self) -> Vec<Soil> {
+        self.profile().soils().map(|(soil, _)| soil).collect()
+    }
+
+    fn history_choice(&self) -> Option<HistoryChoice> {
+        let stages = self.used.map(Stages::count);
+        self.ground.history_choice().map(|choice| HistoryChoice { stages, ..choice })
+    }
+}

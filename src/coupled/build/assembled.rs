@@ -1,0 +1,138 @@
+//! A structure's matrices, base and influence vectors, assembled once, in its own unknowns.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | R | influence vectors: the unknowns when a connected part translates rigidly by 1 m |
+//! | N | displacements of the contact nodes |
+//! | B | element means of the base displacement |
+
+use std::sync::Arc;
+
+use crate::bem::ContactElement;
+use crate::coupled::diagnosis::mechanism::AtRest;
+use crate::coupled::diagnosis::{sign, supports};
+use crate::coupled::scene::base::Base;
+use crate::coupled::scene::influence::Influence;
+use crate::error::{Error, Result};
+use crate::linalg::{Partition, SparseMatrix};
+use crate::structure::{
+    ContactNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
+    stiffest,
+};
+
+/// Passes that refine the influence vectors.
+const REFINEMENTS: usize = 3;
+
+/// What a structure is made of, before coordinates are chosen.
+pub(crate) struct Assembled {
+    pub(crate) linear: bool,
+    pub(crate) mass: SparseMatrix,
+    pub(crate) damping: SparseMatrix,
+    pub(crate) stiffness: SparseMatrix,
+    /// K with the tangent of the nonlinear force at rest, where there is one.
+    at_rest: Option<SparseMatrix>,
+    pub(crate) base: Base,
+    pub(crate) influence: Arc<Influence>,
+}
+
+impl Assembled {
+    /// Assembles a structure over `elements`. Refuses wrong signs, parts that nothing holds, supports
+    /// beside the ground, and mechanisms that cannot be factored.
+    pub(crate) fn new(structure: &dyn Structure, elements: &[ContactElement]) -> Result<Self> {
+        let base = Base::of(structure, elements)?;
+        let (unknowns, linear) = (structure.unknowns(), structure.nonlinear().is_none());
+        if unknowns == 0 {
+            return Err(Error::Size { quantity: "list of unknowns", found: 0, needed: 1 });
+        }
+        let assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
+            SparseMatrix::assembled(name, unknowns, fill)
+        };
+        let mass = assemble("mass matrix", &|m| structure.mass(m))?;
+        check_mass(&mass)?;
+        let damping = assemble("damping matrix", &|m| structure.damping(m))?;
+        if !structure.has_active_damping() {
+            check_damping(&damping)?;
+        }
+        let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
+        let tangent = Tangent::at(structure, &vec![0.0; unknowns])?;
+        let terms = [(1.0, &stiffness), (1.0, &tangent.matrix)];
+        let sum =
+            || SparseMatrix::new("stiffness matrix", &SparseMatrix::weighted_sum(unknowns, &terms));
+        let at_rest = if linear { None } else { Some(sum()?) };
+        let influence = Arc::default();
+        let own = Self { linear, mass, damping, stiffness, at_rest, base, influence };
+        check_attached(structure, own.stiffness_at_rest(), &own.mass, &own.base.unknowns())?;
+        // A mechanism fails in one way or another, as rounding has it, but never by its sign.
+        let influence = own.find_influence().map_err(|error| match error {
+            Error::Indefinite { .. } => error,
+            _ => own.at_rest(structure).behind(error),
+        })?;
+        Ok(Self { influence: Arc::new(influence), ..own })
+    }
+
+    /// Number of unknowns.
+    pub(crate) fn unknowns(&self) -> usize {
+        self.mass.order()
+    }
+
+    /// Mass, damping, stiffness.
+    pub(crate) fn matrices(&self) -> [&SparseMatrix; 3] {
+        [&self.mass, &self.damping, &self.stiffness]
+    }
+
+    /// K with the tangent of the nonlinear force at rest.
+    fn stiffness_at_rest(&self) -> &SparseMatrix {
+        self.at_rest.as_ref().unwrap_or(&self.stiffness)
+    }
+
+    /// What a search for mechanisms looks at; `structure` knows the names of its unknowns.
+    pub(crate) fn at_rest<'a>(&'a self, structure: &'a dyn Structure) -> AtRest<'a> {
+        let stiffness = self.stiffness_at_rest();
+        AtRest { structure, stiffness, mass: &self.mass, base: &self.base }
+    }
+
+    /// The influence vectors.
+    ///
+    /// A rigid translation leaves K u = 0 and moves the contact nodes by one, so that
+    /// (K + γ NᵀN) r = γ Nᵀ 1 has it as its solution for every γ, whatever the unknowns mean.
+    /// Displacements are stepped relative to rigid translations, so R has to be exact where the ground
+    /// sees it: N R is 1 or 0 to rounding, and then so is B R.
+    fn find_influence(&self) -> Result<Influence> {
+        let (stiffness, n) = (self.stiffness_at_rest(), self.unknowns());
+        let held = HeldBase::new(self.base.nodes(), stiffness, stiffest(stiffness));
+        let mut factor = held.factor()?;
+        if self.linear && !factor.is_positive_definite() {
+            sign::check(&self.base, self.matrices())?;
+        }
+        let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
+        let mut translations = held.pulls().map(|pull| {
+            let mut found = pull.clone();
+            factor.solve(&mut found);
+            for _ in 0..REFINEMENTS {
+                let mut rest = pull.clone();
+                matrix.multiply_add(-1.0, &found, &mut rest);
+                factor.solve(&mut rest);
+                found.iter_mut().zip(&rest).for_each(|(r, d)| *r += d);
+            }
+            found
+        });
+        if translations.iter().flatten().any(|r| !r.is_finite()) {
+            return Err(Error::Singular { matrix: HeldBase::NAME, order: n });
+        }
+        supports::check(stiffness, &self.base, &mut translations)?;
+        let mut parts = Partition::new(n);
+        for matrix in [stiffness, &self.mass, &self.damping] {
+            parts.couple(matrix);
+        }
+        for (nodes, _) in self.base.foundations() {
+            let mut unknowns = nodes.iter().flat_map(ContactNode::unknowns);
+            if let Some(first) = unknowns.next() {
+                unknowns.for_each(|unknown| parts.join(first, unknown));
+            }
+        }
+        let roots: Vec<usize> = (0..n).map(|unknown| parts.root(unknown)).collect();
+        let influence = Influence::split(&self.base, &translations, &roots);
+        supports::check_parts(&influence, &self.base, n)?;
+        Ok(influence)
+    }
+}

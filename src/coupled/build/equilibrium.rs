@@ -1,0 +1,336 @@
+//! Equilibrium with contact conditions and a soil at rest, by proximal point iteration.
+
+use super::assembled::Assembled;
+use crate::contact::{ContactInput, ContactSearch, ContactSolver, Delassus, ModeSearch};
+use crate::coupled::scene::base::Base;
+use crate::coupled::scene::operators::condense;
+use crate::error::{Error, Result, StepError};
+use crate::interface::{ContactState, InterfaceLaw, Mode, StepStarts, law_of};
+use crate::linalg::{
+    SparseFactor, SparseMatrix, dot, largest, sparse_condition, transposed_multiply_add,
+};
+use crate::structure::{InternalEnergy, Structure, Tangent, nonlinear_state};
+
+const NAME: &str = "static stiffness matrix";
+/// Force out of balance, relative to the load, up to which a state is one of equilibrium.
+const EQUILIBRIUM: f64 = 1e-7;
+/// Condition beyond which rounding of K u is a larger force than that (`tests/coupled/conditioning.rs`).
+const STIFFEST_CONDITION: f64 = 1e10;
+/// Proximal iterations at most.
+const ITERATIONS: usize = 500;
+/// After so many iterations, a very stiff structure may be as far as rounding lets it go: up to this
+/// change, if the condition explains it.
+const LATE: usize = 100;
+const LATE_CHANGE: f64 = 1e-8;
+/// Most out-of-balance force of a steady drift, relative to the load.
+const DRIFT: f64 = 1e-8;
+/// Share of the foundation's stiffness that the fictitious springs start with.
+const PROXIMAL_SHARE: f64 = 1e-4;
+/// Share of that down to which they are softened.
+const SOFTEST: f64 = 1e-9;
+/// Decrease of their pull in an iteration above which they are softened tenfold, as long as it is
+/// more than [`ROUNDING`] of the load: a structure far softer than the ground sags against springs
+/// that are stiffer than itself.
+const SLOW: f64 = 0.2;
+/// Pull, relative to the load, that may not fall for rounding alone.
+const ROUNDING: f64 = 1e-6;
+
+/// A static state: what weight and loads at t = 0 leave, contact conditions included.
+#[derive(Debug, Clone)]
+pub(crate) struct StaticState {
+    pub(crate) traction: Vec<f64>,
+    /// Gaps: of uplifted elements, and (negative) of compressed layers; hard contact has zero.
+    pub(crate) gap: Vec<f64>,
+    pub(crate) displacement: Vec<f64>,
+    pub(crate) modes: Vec<Mode>,
+    /// The structure's own load at t = 0.
+    pub(crate) load: Vec<f64>,
+    /// Memory of each element's law where that acted in it; empty where the law begins anew.
+    pub(crate) memory: Vec<Vec<f64>>,
+    /// f(u) of a nonlinear structure, and its energies where it knows them.
+    pub(crate) force: Vec<f64>,
+    pub(crate) energy: Option<InternalEnergy>,
+}
+
+impl StaticState {
+    /// No weight: everything touches, nothing presses.
+    pub(crate) fn weightless(elements: usize, unknowns: usize) -> Self {
+        Self {
+            traction: vec![0.0; 2 * elements],
+            gap: vec![0.0; elements],
+            displacement: vec![0.0; unknowns],
+            modes: vec![Mode::Stick; elements],
+            load: vec![0.0; unknowns],
+            memory: Vec::new(),
+            force: Vec::new(),
+            energy: None,
+        }
+    }
+
+    /// Modes with which a base goes on under `laws`: whatever placed it, what touches sticks.
+    pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
+        let modes = self.modes.iter().enumerate().map(|(e, mode)| {
+            let known = law_of(laws, e).modes();
+            if known.contains(mode) && !mode.is_closed() { *mode } else { known[0] }
+        });
+        modes.collect()
+    }
+
+    /// Gaps from the states of the contact solver, exactly where a law pins them.
+    fn close_gaps(
+        &mut self,
+        laws: &[Box<dyn InterfaceLaw>],
+        start: &StepStarts,
+        states: &[ContactState],
+    ) {
+        for (e, gap) in self.gap.iter_mut().enumerate() {
+            let conditions = law_of(laws, e).conditions(self.modes[e], &start.of(e));
+            let pinned = conditions.iter().find_map(|c| c.gap_at(self.traction[e]));
+            *gap = pinned.unwrap_or(states[e].gap);
+        }
+    }
+}
+
+/// A structure on a soil at rest.
+pub(crate) struct Standing<'a> {
+    pub(crate) assembled: &'a Assembled,
+    pub(crate) structure: &'a dyn Structure,
+    /// Static compliance of the ground, 2Q × 2Q.
+    pub(crate) soil: &'a [f64],
+}
+
+impl Standing<'_> {
+    /// Finds u and τ with K u + f(u) + BᵀA τ = `load` and the contact conditions of a soil at rest.
+    ///
+    /// K alone is singular (rigid-body modes), and the settlement of a half-plane has no datum.
+    /// Springs ε M to the last iterate make each iteration regular, and pull at nothing once it
+    /// converges (proximal point method); Newton's linearisation of f goes along.
+    /// Begins at `state`, the end of the stage before in which the laws' `start` is. Returns with it the
+    /// states of the elements.
+    pub(super) fn equilibrium(
+        &self,
+        laws: &[Box<dyn InterfaceLaw>],
+        start: &StepStarts,
+        mut state: StaticState,
+        load: &[f64],
+    ) -> Result<(StaticState, Vec<ContactState>)> {
+        let Self { assembled, structure, soil } = *self;
+        let base = &assembled.base;
+        let (n, count) = (assembled.unknowns(), base.lengths().len());
+        let size = 2 * count;
+        let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(soil, base) / total_mass(assembled);
+        if !epsilon.is_finite() {
+            return Err(Error::Singular { matrix: NAME, order: n });
+        }
+        let stiffest = epsilon;
+
+        let mut solver = ContactSolver::new(count);
+        let mut search = ModeSearch::new(count, ContactSearch::Robust);
+        let measure = Measure::new(assembled, load);
+        let mut tangent = Tangent::new(n);
+        let mut compliance: Option<Compliance> = None;
+        let mut free_jump = vec![0.0; size];
+        let mut change = f64::INFINITY;
+        let mut iterations = 0;
+        while iterations < ITERATIONS {
+            iterations += 1;
+            tangent.refill(structure, &state.displacement)?;
+            let current = match compliance.take() {
+                Some(current) if assembled.linear => current,
+                _ => {
+                    solver.invalidate();
+                    Compliance::new(assembled, &tangent.matrix, soil, epsilon)?
+                }
+            };
+            let current = compliance.insert(current);
+            // (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. Under the springs alone the structure
+            // would sink by 1/PROXIMAL_SHARE settlements; so what τ₀ answers to is put in by the columns
+            // that take out τ₁, and only what is out of balance is solved for.
+            let mut displacement = out_of_balance(assembled, structure, load, &state)?;
+            current.factor.solve(&mut displacement);
+            for (d, u) in displacement.iter_mut().zip(&state.displacement) {
+                *d += u;
+            }
+            transposed_multiply_add(&current.columns, 1.0, &state.traction, &mut displacement);
+            base.means(&displacement, &mut free_jump);
+            for jump in &mut free_jump {
+                *jump = -*jump;
+            }
+            let input = ContactInput {
+                delassus: &current.delassus,
+                free_jump: &free_jump,
+                static_traction: &vec![0.0; size],
+                start,
+                laws,
+                length_scale: largest(&free_jump),
+                bonds: &[],
+            };
+            let found = search.solve(&mut solver, &input, &mut state.modes);
+            found.map_err(|error| match error {
+                StepError::Law(error) => Error::Law(error),
+                _ => Error::Preload { iterations, residual: change },
+            })?;
+            let columns = &current.columns;
+            transposed_multiply_add(columns, -1.0, &solver.traction, &mut displacement);
+            // What the fictitious springs still pull.
+            let moved: Vec<f64> =
+                displacement.iter().zip(&state.displacement).map(|(a, b)| a - b).collect();
+            let mut pull = vec![0.0; n];
+            assembled.mass.multiply_add(epsilon, &moved, &mut pull);
+            let previous = change;
+            change = measure.of(&pull);
+            state.displacement = displacement;
+            state.traction.copy_from_slice(&solver.traction);
+            // What the springs pull cannot be told more finely than the solve is exact.
+            let stalled = change <= 1e-10 && change >= 0.5 * previous;
+            let late = iterations > LATE
+                && change <= LATE_CHANGE
+                && change <= current.condition() * f64::EPSILON;
+            // What nothing resists (a frictionless base along the ground) drifts for ever by the same
+            // amount under what rounding leaves of the sums of K, a share that grows with its size.
+            let drifts = change <= DRIFT && (change - previous).abs() <= 1e-3 * change;
+            if change <= 1e-13 || stalled || late || drifts {
+                // Springs that pull at nothing are no equilibrium yet, if K u is all rounding.
+                let rest = imbalance(assembled, load, &state.traction);
+                if rest <= EQUILIBRIUM {
+                    state.close_gaps(laws, start, &solver.states);
+                    return Ok((state, solver.states));
+                }
+                change = rest;
+                break;
+            }
+            if !change.is_finite() {
+                break;
+            }
+            if change > ROUNDING.max(SLOW * previous) && epsilon > SOFTEST * stiffest {
+                epsilon *= 0.1;
+                compliance = None;
+                solver.invalidate();
+            }
+        }
+        // Of the structure against springs as stiff as the first ones.
+        let share = epsilon / stiffest;
+        let condition = compliance.map_or(1.0, |mut current| share * current.condition());
+        Err(failure(condition, iterations, change))
+    }
+}
+
+/// Message for a search without end.
+fn failure(condition: f64, iterations: usize, change: f64) -> Error {
+    if condition <= STIFFEST_CONDITION {
+        return Error::Preload { iterations, residual: change };
+    }
+    Error::IllConditioned {
+        matrix: NAME,
+        condition,
+        limit: STIFFEST_CONDITION,
+        quantity: "stiffness of the structure over that of the ground",
+        ratio: PROXIMAL_SHARE * condition,
+    }
+}
+
+/// Relative force imbalance: K resists no translation, so that tractions alone must carry the two
+/// resultants of the load.
+fn imbalance(assembled: &Assembled, load: &[f64], traction: &[f64]) -> f64 {
+    let mut rest = load.to_vec();
+    assembled.base.add_forces(-1.0, traction, &mut rest);
+    let [mut worst, mut scale] = [0.0_f64; 2];
+    for vector in &assembled.influence.of_all(load.len()) {
+        worst = worst.max(dot(vector, &rest).abs());
+        scale = scale.max(vector.iter().zip(load).map(|(r, f)| (r * f).abs()).sum());
+    }
+    worst / scale.max(f64::MIN_POSITIVE)
+}
+
+/// load − K u − f(u) − BᵀAτ.
+fn out_of_balance(
+    assembled: &Assembled,
+    structure: &dyn Structure,
+    load: &[f64],
+    state: &StaticState,
+) -> Result<Vec<f64>> {
+    let mut rest = load.to_vec();
+    assembled.stiffness.multiply_add(-1.0, &state.displacement, &mut rest);
+    assembled.base.add_forces(-1.0, &state.traction, &mut rest);
+    let (force, _) = nonlinear_state(structure, &state.displacement)?;
+    rest.iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
+    Ok(rest)
+}
+
+/// Size of a force relative to the load: each component over the square root of its mass, so
+/// that forces and moments compare in any units.
+struct Measure {
+    weights: Vec<f64>,
+    scale: f64,
+}
+
+impl Measure {
+    fn new(assembled: &Assembled, load: &[f64]) -> Self {
+        let mut weights = assembled.mass.diagonal();
+        for weight in &mut weights {
+            *weight = if *weight > 0.0 { weight.sqrt().recip() } else { 0.0 };
+        }
+        let largest_of =
+            |w: &[f64]| w.iter().zip(load).fold(0.0_f64, |m, (w, f)| m.max(w * f.abs()));
+        let scale = largest_of(&weights);
+        if scale > 0.0 && scale.is_finite() {
+            return Self { weights, scale };
+        }
+        // Nothing but massless unknowns is loaded.
+        let weights = vec![1.0; load.len()];
+        Self { scale: largest(load).max(f64::MIN_POSITIVE), weights }
+    }
+
+    fn of(&self, force: &[f64]) -> f64 {
+        let weighted = self.weights.iter().zip(force).map(|(w, f)| w * f.abs());
+        // Unlike `max`, the sum does not lose NaN.
+        let sum: f64 = force.iter().sum();
+        if sum.is_finite() { weighted.fold(0.0, f64::max) / self.scale } else { f64::INFINITY }
+    }
+}
+
+/// K + D + εM, factored, its answer to unit tractions, and the static Delassus operator.
+struct Compliance {
+    matrix: SparseMatrix,
+    factor: SparseFactor,
+    columns: Vec<f64>,
+    delassus: Delassus,
+}
+
+impl Compliance {
+    fn new(
+        assembled: &Assembled,
+        tangent: &SparseMatrix,
+        soil: &[f64],
+        epsilon: f64,
+    ) -> Result<Self> {
+        let terms = [(1.0, &assembled.stiffness), (1.0, tangent), (epsilon, &assembled.mass)];
+        let matrix = SparseMatrix::weighted_sum(assembled.unknowns(), &terms);
+        let factor = SparseFactor::new(NAME, &matrix)?;
+        let matrix = SparseMatrix::new(NAME, &matrix)?;
+        let solve = |rhs: &mut [f64]| factor.solve_many(rhs);
+        let (columns, delassus) = condense(solve, &assembled.base, soil, assembled.unknowns());
+        Ok(Self { matrix, factor, columns, delassus: delassus.into() })
+    }
+
+    fn condition(&mut self) -> f64 {
+        sparse_condition(&self.matrix, &mut self.factor)
+    }
+}
+
+/// Mass that a vertical translation moves.
+fn total_mass(assembled: &Assembled) -> f64 {
+    let [_, up] = assembled.influence.of_all(assembled.unknowns());
+    assembled.mass.form(&up, &up)
+}
+
+/// Vertical force per settlement of the soil under a uniform pressure.
+fn vertical_stiffness(soil: &[f64], base: &Base) -> f64 {
+    let count = base.lengths().len();
+    let size = 2 * count;
+    let width: f64 = base.lengths().iter().sum();
+    let settled: f64 = (0..count)
+        .map(|p| base.lengths()[p] * (0..count).map(|q| soil[p * size + q]).sum::<f64>())
+        .sum();
+    width * width / settled
+}

@@ -1,0 +1,280 @@
+//! Putting a simulation together.
+
+pub(crate) mod assembled;
+pub(crate) mod coordinates;
+pub(crate) mod equilibrium;
+mod initial;
+mod krylov;
+mod modes;
+pub(crate) mod parts;
+mod statics;
+mod step_response;
+mod stepped;
+mod subspace;
+
+use super::books::Books;
+use super::diagnosis::{conditioning, supports};
+use super::ledger::Ledger;
+use super::load::Load;
+use super::scene::Scene;
+use super::scheme::TimeScheme;
+use super::simulation::Simulation;
+use super::state::State;
+use super::step::forcing::Forcing;
+use super::step::increment::Increment;
+use super::step::solver::Solver;
+use crate::bem::Ground;
+use crate::contact::{ContactSearch, ModeSearch};
+use crate::coupled::run::Serviceability;
+use crate::error::Result;
+use crate::interface::InterfaceLaw;
+use crate::motion::FreeField;
+use crate::structure::Structure;
+use crate::structure::probe::Probe;
+use assembled::Assembled;
+use coordinates::Coordinates;
+use parts::{Given, Parts, Placement};
+use stepped::Stepped;
+
+/// Parts of a [`Simulation`]: a structure, a ground and an interface law are needed, the rest has
+/// defaults (no motion, standard gravity, midpoint rule, no probes).
+pub struct SimulationBuilder {
+    structure: Option<Box<dyn Structure>>,
+    ground: Option<Box<dyn Ground>>,
+    given: Given,
+}
+
+short_debug! {
+    SimulationBuilder;
+    self;
+    time_step: self.given.time_step,
+    structure: self.structure.is_some(),
+    ground: self.ground.is_some(),
+    laws: self.given.laws.len(),
+    gravity: self.given.gravity,
+    placement: self.given.placement,
+    search: self.given.search,
+    coordinates: self.given.coordinates,
+}
+
+impl Simulation {
+    /// Begins a simulation with steps of `time_step` seconds.
+    pub fn builder(time_step: f64) -> SimulationBuilder {
+        SimulationBuilder { structure: None, ground: None, given: Given::new(time_step) }
+    }
+}
+
+impl SimulationBuilder {
+    /// The structure.
+    #[must_use]
+    pub fn structure(mut self, structure: impl Structure + 'static) -> Self {
+        self.structure = Some(Box::new(structure));
+        self
+    }
+
+    /// The ground. Contact is where its elements are: a part of the base beyond them hangs free, and
+    /// elements beyond the base are refused. Neither happens with
+    /// [`ElasticGround::under`](crate::bem::ElasticGround::under).
+    #[must_use]
+    pub fn ground(mut self, ground: impl Ground + 'static) -> Self {
+        self.ground = Some(Box::new(ground));
+        self
+    }
+
+    /// One interface law for all elements.
+    #[must_use]
+    pub fn interface(mut self, law: impl InterfaceLaw + 'static) -> Self {
+        self.given.laws = vec![Box::new(law)];
+        self
+    }
+
+    /// An interface law for each element, from left to right.
+    #[must_use]
+    pub fn interfaces(mut self, laws: Vec<Box<dyn InterfaceLaw>>) -> Self {
+        self.given.laws = laws;
+        self
+    }
+
+    /// The ground motion.
+    #[must_use]
+    pub fn motion(mut self, motion: impl FreeField + 'static) -> Self {
+        self.given.motion = Box::new(motion);
+        self
+    }
+
+    /// The structure's time scheme; [`Midpoint`] unless given.
+    #[must_use]
+    pub fn scheme(mut self, scheme: impl TimeScheme + 'static) -> Self {
+        self.given.scheme = Box::new(scheme);
+        self
+    }
+
+    /// Search for the contact modes of a step.
+    #[must_use]
+    pub fn contact_search(mut self, search: ContactSearch) -> Self {
+        self.given.search = search;
+        self
+    }
+
+    /// Gravity g (m/s²), which gives the structure its weight;
+    /// [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY) unless given. The run starts from the
+    /// static state: weight first, then the loads at t = 0 with the interface law. Zero: there is no
+    /// static state, the base starts unpressed, and uplift and sliding have nothing to hold against.
+    #[must_use]
+    pub fn gravity(mut self, gravity: f64) -> Self {
+        self.given.gravity = gravity;
+        self
+    }
+
+    /// An external load, beside those given before and the structure's own.
+    #[must_use]
+    pub fn load(mut self, load: Load) -> Self {
+        self.given.loads.push(load);
+        self
+    }
+
+    /// Displacement of the unknowns at t = 0 against the static state. It may move the base only with
+    /// [`Placement::Unloaded`], which shows one, and not into the ground.
+    #[must_use]
+    pub fn initial_displacement(mut self, displacement: impl Into<Vec<f64>>) -> Self {
+        self.given.displacement = displacement.into();
+        self
+    }
+
+    /// Velocity of the unknowns at t = 0.
+    #[must_use]
+    pub fn initial_velocity(mut self, velocity: impl Into<Vec<f64>>) -> Self {
+        self.given.velocity = velocity.into();
+        self
+    }
+
+    /// Friction while the weight comes on.
+    #[must_use]
+    pub fn placement(mut self, placement: Placement) -> Self {
+        self.given.placement = placement;
+        self
+    }
+
+    /// A quantity to read off at every step, see [`super::State::probes`]. Names must differ.
+    #[must_use]
+    pub fn probe(mut self, probe: Probe) -> Self {
+        self.given.probes.push(probe);
+        self
+    }
+
+    /// Several of them, after those given before.
+    #[must_use]
+    pub fn probes(mut self, probes: impl IntoIterator<Item = Probe>) -> Self {
+        self.given.probes.extend(probes);
+        self
+    }
+
+    /// Point (m) about which the base moment is taken; the middle of the base unless given.
+    #[must_use]
+    pub fn moment_center(mut self, x: f64) -> Self {
+        self.given.moment_center = Some(x);
+        self
+    }
+
+    /// About how many steps will be made: kernels and memory are then ready before the first, and
+    /// the ground's history and the structure's coordinates are chosen for this number (if not given,
+    /// for that of the first run and for 10 000).
+    #[must_use]
+    pub fn expected_steps(mut self, steps: usize) -> Self {
+        self.given.steps = steps;
+        self
+    }
+
+    /// In which coordinates a linear structure is stepped; [`Coordinates::Auto`] unless given.
+    #[must_use]
+    pub fn coordinates(mut self, coordinates: Coordinates) -> Self {
+        self.given.coordinates = coordinates;
+        self
+    }
+
+    /// Keeps no energy ledger: its terms and its residual are then NaN, and a step takes less time.
+    #[must_use]
+    pub fn without_ledger(mut self) -> Self {
+        self.given.ledger = false;
+        self
+    }
+
+    /// Friction coefficient for the factor of safety against sliding, in place of that of the interface
+    /// laws ([`InterfaceLaw::friction_coefficient`]): for a bonded base, say, which has none. It
+    /// changes nothing else.
+    #[must_use]
+    pub fn safety_friction(mut self, coefficient: f64) -> Self {
+        self.given.safety_friction = vec![coefficient];
+        self
+    }
+
+    /// The same for each element, from left to right.
+    #[must_use]
+    pub fn safety_frictions(mut self, coefficients: Vec<f64>) -> Self {
+        self.given.safety_friction = coefficients;
+        self
+    }
+
+    /// Limits of slip, gap, uplifted part and rotation that each [`Run`](crate::results::Run) is
+    /// held against; none unless given. They change nothing else.
+    #[must_use]
+    pub fn serviceability(mut self, limits: Serviceability) -> Self {
+        self.given.serviceability = limits;
+        self
+    }
+
+    /// Checks the parts against each other, finds the static state and factors what stays constant.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a missing part, the typed error of whatever is wrong with a given one.
+    /// [`Error::Supported`] for a structure that is held by more than the ground,
+    /// [`Error::Detached`] for one with a part that is not joined to its base,
+    /// [`Error::Indefinite`] for a negative mass or damping, or a stiffness that is negative with the
+    /// base held.
+    /// [`Error::Probe`] and [`Error::DuplicateName`] for a probe of an unknown that is not there or a
+    /// name that comes twice. [`Error::Standing`] if the structure cannot stand under weight and the loads at
+    /// t = 0, [`Error::Preload`] if no equilibrium was found for another reason,
+    /// [`Error::IllConditioned`] if double precision cannot carry the scene, [`Error::Law`] for an
+    /// interface law that returns numbers which are not finite.
+    pub fn build(self) -> Result<Simulation> {
+        let mut parts = Parts::new(self.structure, self.ground, self.given)?;
+        let assembled = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
+        let at_rest = statics::solve(&mut parts, &assembled)?;
+        let joined = supports::joined_by_force(
+            parts.structure.as_ref(),
+            &assembled.stiffness,
+            &assembled.influence,
+            [&at_rest.displacement, &at_rest.force],
+        )?;
+        let Stepped { model, base, operators } = Stepped::choose(&parts, &assembled, &at_rest)?;
+        let scene = Scene::new(&mut parts, model, base, at_rest, joined);
+
+        let Parts { mut structure, ground, given, .. } = parts;
+        let mut solver =
+            Solver::new(&scene, operators, ModeSearch::new(scene.count(), given.search));
+        let mut state = State::at_rest(&scene)?;
+        let compliant = scene.is_compliant(&state.start)?;
+        let mass = &assembled.mass;
+        initial::set_in_motion(&given, mass, &scene, structure.as_mut(), &mut state)?;
+        let books = || Books::new(&scene, structure.as_ref(), &state, compliant);
+        let books = given.ledger.then(books).transpose()?;
+        state.ledger = books.as_ref().map_or(Ledger::LEFT_OUT, |books| books.ledger);
+        let conditioning = conditioning::assess(&scene, &mut solver, &state.start)?;
+        if scene.model.linear {
+            // Last: stiffnesses too far apart for double precision look like a mechanism.
+            assembled.at_rest(structure.as_ref()).check()?;
+        }
+        Ok(Simulation {
+            forcing: Forcing::new(&scene),
+            increment: Increment::new(&scene, &state, compliant && given.ledger),
+            books,
+            motion: given.motion,
+            structure,
+            ground,
+            scene,
+            solver,
+            state,
+            conditioning,
+        })
+    }
+}

@@ -1,0 +1,313 @@
+//! What a simulation is made of, each part checked by itself.
+
+use std::sync::Arc;
+
+use super::coordinates::Coordinates;
+use crate::bem::{ContactElement, Ground};
+use crate::contact::ContactSearch;
+use crate::coupled::load::Load;
+use crate::coupled::run::Serviceability;
+use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
+use crate::error::memory;
+use crate::error::{Error, Result, all_finite, finite, not_negative, positive, same_length};
+use crate::geometry::check_order;
+use crate::interface::{ContactScene, InterfaceLaw};
+use crate::linalg::indefinite_pivot;
+use crate::linalg::matrix::{self, Thinned};
+use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
+use crate::structure::probe::{self, Probe};
+use crate::structure::{Structure, is_nonlinear};
+
+/// Negative eigenvalue of the ground's operator that is rounding, in the matrix scaled to a diagonal of
+/// one.
+const ROUNDING: f64 = 1e-9;
+
+/// Friction while the structure is placed on the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum Placement {
+    /// The base is placed without friction and without adhesion, and sticks from then on. What
+    /// does not touch under weight alone starts open. Where no element's law ever opens, the base
+    /// is bonded from the start.
+    #[default]
+    Frictionless,
+    /// The interface law acts while the weight comes on, in one step.
+    WithInterfaceLaw,
+    /// There is no static state: the base begins unpressed, and weight and loads act from t = 0 on.
+    /// For a structure that is dropped, or tilted and let go.
+    ///
+    /// ```
+    /// use basemat::Simulation;
+    /// use basemat::bem::SpringGround;
+    /// use basemat::coupled::Placement;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::structure::RigidBlock;
+    ///
+    /// // Tilted by 20 mrad about its left edge.
+    /// let tilt = 0.02;
+    /// let mut simulation = Simulation::builder(0.001)
+    ///     .structure(RigidBlock::new(1.0, 4.0, 2400.0)?.with_p_delta(9.81)?)
+    ///     .ground(SpringGround::new(-0.5..0.5, 8, 5e9, 2e9)?.with_dashpots(1e6, 1e6)?)
+    ///     .interface(Coulomb::new(0.8)?)
+    ///     .placement(Placement::Unloaded)
+    ///     .initial_displacement([0.0, 0.5 * tilt, tilt])
+    ///     .build()?;
+    /// assert_eq!(simulation.state().uplifted_fraction, 1.0);
+    /// let run = simulation.run(1000, |_| {})?;
+    /// // It rocks over to the other edge, and less far.
+    /// let other_side = -run.whole.base_rotation.lowest.value;
+    /// assert!(other_side > 0.2 * tilt && other_side < tilt, "{other_side}");
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    Unloaded,
+}
+
+words! { Placement, "placement", {
+    Frictionless = "frictionless",
+    WithInterfaceLaw = "with_interface_law",
+    Unloaded = "unloaded",
+} }
+
+/// What a builder is given beside structure and ground.
+pub(crate) struct Given {
+    pub(crate) time_step: f64,
+    pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
+    pub(crate) motion: Box<dyn FreeField>,
+    pub(crate) scheme: Box<dyn TimeScheme>,
+    pub(crate) search: ContactSearch,
+    pub(crate) gravity: f64,
+    pub(crate) placement: Placement,
+    pub(crate) loads: Vec<Load>,
+    /// Displacement and velocity of the unknowns at t = 0; empty for none.
+    pub(crate) displacement: Vec<f64>,
+    pub(crate) velocity: Vec<f64>,
+    pub(crate) probes: Vec<Probe>,
+    pub(crate) moment_center: Option<f64>,
+    /// Steps expected, 0 if unknown.
+    pub(crate) steps: usize,
+    pub(crate) coordinates: Coordinates,
+    pub(crate) ledger: bool,
+    pub(crate) safety_friction: Vec<f64>,
+    pub(crate) serviceability: Serviceability,
+}
+
+impl Given {
+    /// Nothing but the time step.
+    pub(super) fn new(time_step: f64) -> Self {
+        Self {
+            time_step,
+            laws: Vec::new(),
+            motion: Box::new(AtRest),
+            scheme: Box::new(Midpoint),
+            search: ContactSearch::default(),
+            gravity: STANDARD_GRAVITY,
+            placement: Placement::default(),
+            loads: Vec::new(),
+            displacement: Vec::new(),
+            velocity: Vec::new(),
+            probes: Vec::new(),
+            moment_center: None,
+            steps: 0,
+            coordinates: Coordinates::default(),
+            ledger: true,
+            safety_friction: Vec::new(),
+            serviceability: Serviceability::new(),
+        }
+    }
+
+    /// Whether weight and loads are there before the run begins.
+    pub(crate) fn is_static(&self) -> bool {
+        self.gravity > 0.0 && self.placement != Placement::Unloaded
+    }
+
+    /// Gravity as the laws may count on it at the start: zero where nothing presses.
+    pub(crate) fn static_gravity(&self) -> f64 {
+        if self.is_static() { self.gravity } else { 0.0 }
+    }
+
+    /// Whether weight acts as a load from t = 0 on.
+    pub(crate) fn falls(&self) -> bool {
+        self.gravity > 0.0 && self.placement == Placement::Unloaded
+    }
+}
+
+/// All parts of a simulation, and what follows from the ground and the time scheme by themselves.
+pub(crate) struct Parts {
+    pub(crate) structure: Box<dyn Structure>,
+    /// Ready for steps.
+    pub(crate) ground: Box<dyn Ground>,
+    pub(crate) given: Given,
+    pub(crate) elements: Vec<ContactElement>,
+    pub(crate) coefficients: SchemeCoefficients,
+    /// Instantaneous operator of the ground, 2Q × 2Q.
+    pub(crate) soil: Arc<Thinned>,
+    /// Free field at t = 0, 2Q.
+    pub(crate) start_motion: Vec<f64>,
+    /// Point about which the base moment is taken.
+    pub(crate) moment_center: f64,
+}
+
+impl Parts {
+    /// Checks what was given, each part by itself, and makes the ground ready for steps.
+    pub(super) fn new(
+        structure: Option<Box<dyn Structure>>,
+        ground: Option<Box<dyn Ground>>,
+        mut given: Given,
+    ) -> Result<Self> {
+        let time_step = positive("time step", given.time_step)?;
+        positive("square of the time step", time_step * time_step)?;
+        not_negative("gravity", given.gravity)?;
+        let missing = |quantity, needed| Error::Scene { quantity, needed };
+        let mut structure =
+            structure.ok_or(missing("structure", "give one to the builder with `structure`"))?;
+        is_nonlinear(structure.as_mut())?;
+        let mut ground =
+            ground.ok_or(missing("ground", "give one to the builder with `ground`"))?;
+        let elements = ground.elements().to_vec();
+        check_order(&elements)?;
+        let count = elements.len();
+        let gravity = given.static_gravity();
+        check_laws(&given.laws, given.search, &ContactScene { gravity, time_step }, count)?;
+        given.safety_friction = safety_friction(&given.laws, given.safety_friction, count)?;
+        let unknowns = structure.unknowns();
+        check_unknowns(unknowns, count)?;
+        probe::check(&given.probes, unknowns)?;
+        check_motion(&given, unknowns)?;
+        let coefficients = given.scheme.coefficients(time_step);
+        coefficients.check()?;
+        let middle = 0.5 * (elements[0].left + elements[count - 1].right);
+        let moment_center = finite("moment center", given.moment_center.unwrap_or(middle))?;
+        ground.prepare(time_step)?;
+        if given.steps > 0 {
+            ground.reserve(given.steps)?;
+        }
+        let soil = instantaneous_operator(ground.as_ref(), &elements)?;
+        let mut start_motion = vec![0.0; 2 * count];
+        ground.free_field(given.motion.as_ref(), 0.0, &mut start_motion);
+        for displacement in &start_motion {
+            finite("free field at t = 0", *displacement)?;
+        }
+        let soil = Arc::new(Thinned::new(soil, 2 * count));
+        Ok(Self {
+            structure,
+            ground,
+            given,
+            elements,
+            coefficients,
+            soil,
+            start_motion,
+            moment_center,
+        })
+    }
+}
+
+/// Refuses loads and motions of other unknowns than the structure's, and numbers that are not finite.
+fn check_motion(given: &Given, unknowns: usize) -> Result<()> {
+    let mut loads = given.loads.iter().enumerate();
+    loads.try_for_each(|(index, load)| load.check(index, unknowns))?;
+    for (values, quantity) in
+        [(&given.displacement, "initial displacement"), (&given.velocity, "initial velocity")]
+    {
+        if !values.is_empty() {
+            same_length(quantity, values.len(), unknowns)?;
+            all_finite(quantity, values)?;
+        }
+    }
+    Ok(())
+}
+
+/// Refuses more unknowns than fit into memory, by themselves or with a response to the traction of
+/// each of `elements` contact elements.
+fn check_unknowns(unknowns: usize, elements: usize) -> Result<()> {
+    matrix::check_order("unknowns of the structure", unknowns)?;
+    // Two components of traction, and the responses twice while they are computed.
+    let responses = 32.0 * unknowns as f64 * elements as f64;
+    Ok(memory::check(
+        "unknowns of the structure on its contact elements",
+        unknowns as f64,
+        responses,
+    )?)
+}
+
+/// The ground's instantaneous operator: with rows weighted by the elements' lengths, its symmetric part
+/// must not be negative, or the ground would push back work that it never got.
+fn instantaneous_operator(ground: &dyn Ground, elements: &[ContactElement]) -> Result<Vec<f64>> {
+    const NAME: &str = "instantaneous operator of the ground";
+    let (count, size) = (elements.len(), 2 * elements.len());
+    let mut operator = vec![0.0; size * size];
+    ground.instantaneous(&mut operator)?;
+    all_finite(NAME, &operator)?;
+    let length = |i: usize| elements[i % count].length();
+    let scale: Vec<f64> = (0..size)
+        .map(|i| (length(i) * operator[i * (size + 1)].abs()).sqrt())
+        .map(|root| if root > 0.0 { root.recip() } else { 1.0 })
+        .collect();
+    let weighted = |i: usize, j: usize| {
+        let both = length(i) * operator[i * size + j] + length(j) * operator[j * size + i];
+        0.5 * scale[i] * scale[j] * both
+    };
+    let mut symmetric: Vec<f64> = (0..size * size).map(|k| weighted(k / size, k % size)).collect();
+    for row in 0..size {
+        symmetric[row * (size + 1)] += ROUNDING;
+    }
+    match indefinite_pivot(&symmetric, size) {
+        None => Ok(operator),
+        Some(row) => {
+            let diagonal = operator[row * (size + 1)];
+            Err(Error::Indefinite { matrix: NAME, row, diagonal })
+        }
+    }
+}
+
+/// Whether the laws fit the ground's `count` elements, and laws and contact search the scene.
+fn check_laws(
+    laws: &[Box<dyn InterfaceLaw>],
+    search: ContactSearch,
+    scene: &ContactScene,
+    count: usize,
+) -> Result<()> {
+    let refuse = |quantity, needed| Err(Error::Scene { quantity, needed });
+    if laws.is_empty() {
+        return refuse("interface law", "give one to the builder with `interface`");
+    }
+    if laws.len() != 1 && laws.len() != count {
+        let quantity = "list of interface laws";
+        return Err(Error::Size { quantity, found: laws.len(), needed: count });
+    }
+    if laws.iter().any(|law| law.modes().is_empty()) {
+        return refuse("interface law", "`modes` must name at least one mode");
+    }
+    if search == (ContactSearch::FlowChart { iterations: 0 }) {
+        return refuse("contact search", "the flow chart needs one iteration or more");
+    }
+    laws.iter().try_for_each(|law| law.check(scene))
+}
+
+/// Coefficients for the factor of safety against sliding: the `given` ones or those of the laws; one
+/// for all elements, one each, or none unless all laws have one.
+fn safety_friction(
+    laws: &[Box<dyn InterfaceLaw>],
+    given: Vec<f64>,
+    count: usize,
+) -> Result<Vec<f64>> {
+    let coefficients = if given.is_empty() {
+        let each: Option<_> = laws.iter().map(InterfaceLaw::friction_coefficient).collect();
+        each.unwrap_or_default()
+    } else {
+        given
+    };
+    if coefficients.len() > 1 && coefficients.len() != count {
+        let quantity = "list of friction coefficients";
+        return Err(Error::Size { quantity, found: coefficients.len(), needed: count });
+    }
+    // Infinity is a coefficient.
+    match coefficients.iter().find(|value| value.is_nan() || **value < 0.0) {
+        Some(&value) => {
+            let (quantity, needed) = ("friction coefficient", "zero or more");
+            Err(Error::Input { quantity, value, needed })
+        }
+        None => Ok(coefficients),
+    }
+}

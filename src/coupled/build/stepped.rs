@@ -1,0 +1,127 @@
+//! The structure in the coordinates that are stepped: the choice between unknowns, modes and Ritz modes.
+
+use super::assembled::Assembled;
+use super::coordinates::Coordinates;
+use super::equilibrium::StaticState;
+use super::krylov::Reduction;
+use super::modes::vibration_modes;
+use super::parts::Parts;
+use crate::coupled::diagnosis::mechanism::unresisted;
+use crate::coupled::scene::base::Base;
+use crate::coupled::scene::modal_basis::ModalBasis;
+use crate::coupled::scene::model::Model;
+use crate::coupled::scene::operators::{Factor, Operators};
+use crate::error::{Error, Result};
+use crate::linalg::{SparseFactor, SparseMatrix};
+use crate::structure::{Structure, Tangent};
+
+/// Steps that modes have to pay for themselves in, if not told otherwise.
+const STEPS: usize = 10_000;
+
+/// What [`Coordinates::Modes`] asks for.
+const NEEDED: &str = "a linear structure with symmetric matrices, a positive definite mass and a \
+                      damping that the modes decouple";
+
+/// Times in nanoseconds that choose the coordinates, as measured by `benches/step.rs`.
+mod cost {
+    /// Per entry of a sparse factor or matrix and use.
+    pub(super) const SPARSE_ENTRY: f64 = 1.0;
+    /// Per mode and step, more than an unknown costs.
+    pub(super) const MODE: f64 = 1.0;
+    /// Per mode, contact component and step, more than unknowns cost.
+    pub(super) const MODE_AND_CONTACT: f64 = 0.2;
+    /// Per cubed number of modes, once.
+    pub(super) const MODES: f64 = 3.0;
+}
+
+/// Matrices, base and operators of a structure, all in the coordinates that are stepped.
+pub(crate) struct Stepped {
+    pub(crate) model: Model,
+    pub(crate) base: Base,
+    pub(crate) operators: Operators,
+}
+
+impl Stepped {
+    /// Chooses the coordinates, and factors the effective stiffness in them. That of the unknowns is
+    /// factored only where it is stepped or the choice needs it.
+    pub(super) fn choose(
+        parts: &Parts,
+        assembled: &Assembled,
+        at_rest: &StaticState,
+    ) -> Result<Self> {
+        let Parts { given, coefficients, .. } = parts;
+        let structure = parts.structure.as_ref();
+        let tangent = Tangent::at(structure, &at_rest.displacement)?.matrix;
+        let steps = if given.steps > 0 { given.steps } else { STEPS };
+        let physical = Model::physical(assembled);
+        let factored = || {
+            let factor = Factor::of_unknowns(&physical, coefficients, &tangent);
+            factor.map_err(|error| cause(assembled, structure, &tangent, error))
+        };
+        let chosen = match given.coordinates {
+            Coordinates::Unknowns => Chosen::Unknowns(factored()?),
+            Coordinates::Auto => {
+                let factor = factored()?;
+                let modes = cheaper_modes(assembled, factor.stored(), steps);
+                modes.map_or(Chosen::Unknowns(factor), Chosen::Modes)
+            }
+            Coordinates::Modes => {
+                let Some(modes) = vibration_modes(assembled) else {
+                    // What is singular says so first.
+                    factored()?;
+                    return Err(Error::Scene { quantity: "modal coordinates", needed: NEEDED });
+                };
+                Chosen::Modes(modes)
+            }
+            Coordinates::Reduced { tolerance } => {
+                let factor = factored()?;
+                let reduction = Reduction::new(parts, assembled, &factor, steps)?;
+                Chosen::Modes(reduction.modes(tolerance)?)
+            }
+        };
+        let (model, factor) = match chosen {
+            Chosen::Unknowns(factor) => (physical, Factor::Sparse(factor)),
+            Chosen::Modes(modes) => {
+                let model = Model::modal(assembled, modes);
+                let factor = Factor::of_modes(&model, coefficients)?;
+                (model, factor)
+            }
+        };
+        let base = assembled.base.stepped(&model.transformation);
+        let operators = Operators::new(&model, &base, &parts.soil, factor, tangent);
+        Ok(Self { model, base, operators })
+    }
+}
+
+/// Coordinates, with what choosing them has left.
+enum Chosen {
+    Unknowns(Box<SparseFactor>),
+    Modes(ModalBasis),
+}
+
+/// What to say of `error`, that the effective stiffness has no factors.
+fn cause(
+    assembled: &Assembled,
+    structure: &dyn Structure,
+    tangent: &SparseMatrix,
+    error: Error,
+) -> Error {
+    let Assembled { mass, damping, stiffness, .. } = assembled;
+    let terms = [(1.0, stiffness), (1.0, tangent)];
+    let sum = SparseMatrix::weighted_sum(assembled.unknowns(), &terms);
+    let sum = SparseMatrix::new("stiffness matrix", &sum).ok();
+    let found = sum.and_then(|sum| unresisted(structure, &sum, [damping, mass]));
+    found.map_or(error, |cause| Error::Standing(Box::new(cause)))
+}
+
+/// The modes, if stepping in them takes less time, their computation included; `factor` is the number
+/// of entries of the sparse factor.
+fn cheaper_modes(assembled: &Assembled, factor: usize, steps: usize) -> Option<ModalBasis> {
+    let (n, steps) = (assembled.unknowns() as f64, steps as f64);
+    let contact = 2 * assembled.base.lengths().len();
+    let stored: usize = assembled.matrices().into_iter().map(SparseMatrix::stored).sum();
+    let sparse = cost::SPARSE_ENTRY * (2 * factor + 2 * stored) as f64;
+    let modal = cost::MODE * n + cost::MODE_AND_CONTACT * n * contact as f64;
+    let saves_time = modal * steps + cost::MODES * n.powi(3) < sparse * steps;
+    if saves_time { vibration_modes(assembled) } else { None }
+}

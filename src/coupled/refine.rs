@@ -1,0 +1,264 @@
+//! Error against run time, for a scene of the user's own.
+
+use std::fmt;
+use std::time::{Duration, Instant};
+
+use crate::error::{Error, Result, all_finite, positive, same_length};
+use crate::text::table::Table;
+
+/// Orders of convergence that differences are extrapolated with: observed ones beyond are not those
+/// of a method that converges.
+const ORDERS: std::ops::RangeInclusive<f64> = 0.5..=4.0;
+
+/// Mesh and step of each run, in halvings of the element length and of the time step.
+const RUNS: [[u32; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 0], [2, 0], [1, 1]];
+
+/// One setting of [`Refinement`].
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct Setting {
+    /// Number of elements.
+    pub elements: usize,
+    /// Time step, s.
+    pub time_step: f64,
+    /// Estimated error of the results, relative to their size (root of the sum of squares).
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    pub error: f64,
+    /// Wall time of building and running, zero where there is no clock (WebAssembly).
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::seconds"))]
+    pub wall: Duration,
+    /// The results.
+    pub results: Vec<f64>,
+}
+
+/// Error against run time at six settings, made by [`refine`]. Printed, a table.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct Refinement {
+    /// The settings: the coarsest, half and a quarter of its step, two and four times its
+    /// elements, and twice the elements with half the step.
+    pub settings: Vec<Setting>,
+    /// Results extrapolated to infinitely many elements and steps.
+    pub extrapolated: Vec<f64>,
+    /// Observed order of convergence in the element length; NaN if the results do not depend on it.
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    pub mesh_order: f64,
+    /// Observed order of convergence in the time step; NaN if the results do not depend on it.
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    pub step_order: f64,
+    /// Distance of the last setting's results from those that the errors of mesh and step, added,
+    /// foretell, relative to the results' size. Estimates of errors below it say nothing.
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    pub mismatch: f64,
+}
+
+/// Runs a scene at six settings and estimates the error of each by Richardson's extrapolation
+/// (L. F. Richardson, 1911; orders observed from three settings as in P. J. Roache, *Verification
+/// and Validation in Computational Science and Engineering*, 1998, § 5).
+///
+/// `scene` builds and runs with a number of elements and a time step (s), and returns results:
+/// a peak, some peaks, or a time series at times that all settings have (those of the coarsest).
+/// Their error is the root of the sum of squares beside that of the extrapolated results, so
+/// results of different units belong in calls of their own. Time series converge evenly; peaks,
+/// and all that hangs on the instant of an impact, do so less.
+///
+/// The last run, twice the elements with half the step, checks the estimate
+/// ([`Refinement::mismatch`]).
+///
+/// ```
+/// use basemat::bem::SpringGround;
+/// use basemat::interface::Bonded;
+/// use basemat::motion::Ricker;
+/// use basemat::structure::RigidBlock;
+/// use basemat::{Simulation, coupled};
+///
+/// let refinement = coupled::refine(4, 0.02, |elements, time_step| {
+///     let mut simulation = Simulation::builder(time_step)
+///         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+///         .ground(SpringGround::new(-2.0..2.0, elements, 2e7, 1e7)?)
+///         .interface(Bonded)
+///         .motion(Ricker::new(0.5, 0.4, 1.5)?)
+///         .build()?;
+///     let run = simulation.run(simulation.steps_for(3.0), |_| {})?;
+///     Ok(vec![run.whole.base_shear.magnitude()])
+/// })?;
+/// println!("{refinement}");
+/// assert!(refinement.step_order > 1.5);
+/// assert!(refinement.settings[2].error < refinement.settings[0].error / 8.0);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Input`] unless there is an element and the time step is above zero, [`Error::Size`]
+/// unless every run gives as many results, at least one, [`Error::NotFinite`] if one of them is not
+/// finite, and whatever `scene` returns.
+pub fn refine(
+    elements: usize,
+    time_step: f64,
+    mut scene: impl FnMut(usize, f64) -> Result<Vec<f64>>,
+) -> Result<Refinement> {
+    positive("number of elements", elements as f64)?;
+    positive("time step", time_step)?;
+    let mut settings: Vec<Setting> = Vec::with_capacity(RUNS.len());
+    for [mesh, step] in RUNS {
+        let elements = elements.saturating_mul(1 << mesh);
+        let time_step = time_step / f64::from(1 << step);
+        let begin = clock();
+        let results = scene(elements, time_step)?;
+        let wall = begin.map_or(Duration::ZERO, |begin| begin.elapsed());
+        const NAME: &str = "list of a scene's results";
+        if results.is_empty() {
+            return Err(Error::Size { quantity: NAME, found: 0, needed: 1 });
+        }
+        if let Some(first) = settings.first() {
+            same_length(NAME, results.len(), first.results.len())?;
+        }
+        all_finite(NAME, &results)?;
+        settings.push(Setting { elements, time_step, error: f64::NAN, wall, results });
+    }
+    Ok(Refinement::of(settings))
+}
+
+/// The time, where there is a clock.
+fn clock() -> Option<Instant> {
+    (!cfg!(target_family = "wasm")).then(Instant::now)
+}
+
+/// Errors of three results, the length halved from each to the next, and their order.
+fn errors(results: [&[f64]; 3]) -> ([Vec<f64>; 3], f64) {
+    let [first, second, third] = results;
+    let order = (distance(first, second) / distance(second, third)).log2();
+    // The finest is what infinitely many halvings of this order would still change.
+    let used = if order.is_nan() { 1.0 } else { order.clamp(*ORDERS.start(), *ORDERS.end()) };
+    let factor = (used.exp2() - 1.0).recip();
+    let error = |values: &[f64]| {
+        let pairs = values.iter().zip(second.iter().zip(third));
+        pairs.map(|(value, (b, c))| value - c + factor * (b - c)).collect()
+    };
+    (results.map(error), order)
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    norm(a.iter().zip(b).map(|(a, b)| a - b))
+}
+
+/// Root of the sum of squares, of numbers of any size.
+fn norm(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, f64::hypot)
+}
+
+impl Refinement {
+    fn of(mut settings: Vec<Setting>) -> Self {
+        let of = |k: usize| &settings[k].results[..];
+        let (steps, step_order) = errors([of(0), of(1), of(2)]);
+        let (meshes, mesh_order) = errors([of(0), of(3), of(4)]);
+        let coarse = meshes[0].iter().zip(&steps[0]);
+        let extrapolated: Vec<f64> =
+            of(0).iter().zip(coarse).map(|(value, (mesh, step))| value - mesh - step).collect();
+        let size = norm(extrapolated.iter().copied());
+        let relative = |distance: f64| if distance == 0.0 { 0.0 } else { distance / size };
+        let found: Vec<f64> = RUNS
+            .iter()
+            .map(|&[mesh, step]| {
+                let both = meshes[mesh as usize].iter().zip(&steps[step as usize]);
+                relative(norm(both.map(|(a, b)| a + b)))
+            })
+            .collect();
+        let foretold = extrapolated.iter().zip(meshes[1].iter().zip(&steps[1]));
+        let foretold: Vec<f64> = foretold.map(|(value, (a, b))| value + a + b).collect();
+        let mismatch = relative(distance(of(5), &foretold));
+        for (setting, error) in settings.iter_mut().zip(found) {
+            setting.error = error;
+        }
+        Self { settings, extrapolated, mesh_order, step_order, mismatch }
+    }
+
+    /// Whether the estimate can be trusted: both orders between a half and four (or the results
+    /// independent), and the coarsest error above the mismatch.
+    pub fn is_regular(&self) -> bool {
+        let regular = |order: f64| order.is_nan() || ORDERS.contains(&order);
+        let coarsest = self.settings.first().map_or(0.0, |setting| setting.error);
+        regular(self.mesh_order) && regular(self.step_order) && self.mismatch <= coarsest
+    }
+}
+
+impl fmt::Display for Refinement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let row = |setting: &Setting| {
+            vec![
+                setting.elements.to_string(),
+                format!("{:.3e}", setting.time_step),
+                format!("{:.1e}", setting.error),
+                format!("{:.3}", setting.wall.as_secs_f64()),
+            ]
+        };
+        let heading = ["elements", "step, s", "error", "run time, s"].map(String::from).to_vec();
+        let rows = self.settings.iter().map(row).collect();
+        writeln!(f, "{}", Table { heading, repeated: 1, rows }.text())?;
+        let Self { mesh_order, step_order, mismatch, .. } = self;
+        write!(
+            f,
+            "order of convergence: {mesh_order:.1} in the element length, {step_order:.1} in the \
+             time step; mismatch {mismatch:.1e}"
+        )?;
+        if !self.is_regular() {
+            write!(f, "\nnot regular: refine further before you trust these errors")?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_of_known_orders_are_found() {
+        // Errors 3 h² and −0.5 Δt in one result, 1 h² and 2 Δt in another; no clock matters.
+        let truth = [7.0, -2.0];
+        let found = refine(10, 0.1, |elements, step| {
+            let h = 1.0 / elements as f64;
+            Ok(vec![truth[0] + 3.0 * h * h - 0.5 * step, truth[1] + h * h + 2.0 * step])
+        })
+        .unwrap();
+        assert!((found.mesh_order - 2.0).abs() < 1e-9 && (found.step_order - 1.0).abs() < 1e-9);
+        assert!(found.mismatch < 1e-12 && found.is_regular());
+        for setting in &found.settings {
+            let known = distance(&setting.results, &truth) / norm(truth.into_iter());
+            assert!((setting.error - known).abs() < 1e-9 * known, "{setting:?}");
+        }
+        assert!(distance(&found.extrapolated, &truth) < 1e-12);
+    }
+
+    #[test]
+    fn results_that_do_not_converge_are_told() {
+        let mut calls = 0.0;
+        let found = refine(10, 0.1, |_, _| {
+            calls += 1.0;
+            Ok(vec![1.0 + 0.1 * f64::sin(calls * calls)])
+        })
+        .unwrap();
+        assert!(!found.is_regular() && found.to_string().contains("not regular"));
+    }
+
+    #[test]
+    fn results_that_depend_on_nothing_have_no_error() {
+        let found = refine(10, 0.1, |_, _| Ok(vec![0.0, 3.0])).unwrap();
+        assert!(found.settings.iter().all(|setting| setting.error == 0.0));
+        assert!(found.mesh_order.is_nan() && found.is_regular());
+        assert_eq!(found.extrapolated, [0.0, 3.0]);
+    }
+
+    #[test]
+    fn bad_results_are_refused() {
+        assert!(refine(0, 0.1, |_, _| Ok(vec![1.0])).is_err());
+        assert!(refine(1, f64::NAN, |_, _| Ok(vec![1.0])).is_err());
+        assert!(refine(1, 0.1, |_, _| Ok(vec![])).is_err());
+        assert!(refine(1, 0.1, |_, _| Ok(vec![f64::NAN])).is_err());
+        assert!(refine(1, 0.1, |n, _| Ok(vec![1.0; n])).is_err());
+    }
+}

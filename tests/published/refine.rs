@@ -1,0 +1,88 @@
+//! GOAL: the error that `refine` estimates is the one that the scene has.
+//! SCENE: bonded blocks, a building and a cantilever under a pulse, three meshes and steps.
+//! REFERENCE: `td_*`, frequency domain.
+
+use basemat::Soil;
+use basemat::bem::{ElasticGround, Strip};
+use basemat::coupled::{Refinement, refine};
+use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
+
+use crate::support::cantilever::Cantilever;
+use crate::support::sampled_block::under_pulse;
+use crate::support::series::{Error, Series, whole};
+use crate::support::table;
+
+/// Estimated over true error of the base shear's time series, for each setting.
+fn estimates<S: Structure + 'static>(
+    file: &str,
+    poisson: f64,
+    structure: impl Fn() -> S,
+) -> (Refinement, Vec<f64>) {
+    const STEP: f64 = 0.2;
+    let soil = Soil::new(1.0, poisson, 1.0).unwrap();
+    let wanted = Series::new(&table(&format!("td_{file}.csv")), "V");
+    let steps = whole((wanted.duration() / STEP).floor());
+    let found = refine(4, STEP, |elements, time_step| {
+        let ground = ElasticGround::new(soil, Strip::graded(-1.0..1.0, elements)?)?;
+        let mut simulation = under_pulse(structure(), ground, time_step);
+        // Means over the coarsest step, of forces that are constant over each of these.
+        let every = whole(STEP / time_step);
+        let mut means = vec![0.0; steps];
+        simulation.run(steps * every, |state| {
+            means[(state.step - 1) / every] += state.base_shear / every as f64;
+        })?;
+        Ok(means)
+    })
+    .unwrap();
+    let known: Vec<f64> = (0..steps)
+        .map(|k| {
+            // Simpson's rule over many parts: steps may be longer than the table's.
+            let part = STEP / 8.0;
+            let end = |j: i32| STEP * k as f64 + part * f64::from(j);
+            (1..=8).map(|j| wanted.mean(end(j), part)).sum::<f64>() / 8.0
+        })
+        .collect();
+    let ratio = |setting: &basemat::coupled::Setting| {
+        let mut error = Error::default();
+        setting.results.iter().zip(&known).for_each(|(found, known)| error.add(*found, *known));
+        setting.error / error.relative()
+    };
+    let ratios = found.settings.iter().map(ratio).collect();
+    println!("{file}\n{found}\nestimated over true: {ratios:.2?}");
+    (found, ratios)
+}
+
+#[track_caller]
+fn within_a_factor_of_two((found, ratios): (Refinement, Vec<f64>)) {
+    assert!(found.is_regular(), "{found}");
+    for ratio in ratios {
+        assert!((0.5..2.0).contains(&ratio), "{ratio:.2}");
+    }
+}
+
+#[test]
+fn errors_of_blocks_are_estimated() {
+    for (file, poisson, height, density) in [
+        ("block_SV_nu025_h1_rho1", 0.25, 1.0, 1.0),
+        ("block_SV_nu0333_h2_rho1", 1.0 / 3.0, 2.0, 1.0),
+        ("block_SV_nu0333_h4_rho0.5", 1.0 / 3.0, 4.0, 0.5),
+    ] {
+        let block = || RigidBlock::new(2.0, height, density).unwrap();
+        within_a_factor_of_two(estimates(file, poisson, block));
+    }
+}
+
+#[test]
+fn errors_of_flexible_structures_are_estimated() {
+    let third = 1.0 / 3.0;
+    let storey = Storey {
+        height: 1.0,
+        mass: 1.0,
+        rotary_inertia: third,
+        stiffness: 2.0,
+        damping: 2.0 * 0.158_885_451_5,
+    };
+    let building = || ShearBuilding::new(2.0, 1.0, third, &[storey; 3]).unwrap();
+    within_a_factor_of_two(estimates("shearbuilding3_SV_nu0333_sig1", third, building));
+    within_a_factor_of_two(estimates("EBcantilever_SV_nu0333", third, || Cantilever::new(12)));
+}
