@@ -122,7 +122,7 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
         Box::new(FemModel::on_base(mesh).unwrap())
     };
     let assembled = Assembled::new(structure.as_ref(), ground.elements()).unwrap();
-    let (model, tangent) = (Model::physical(&assembled), SparseMatrix::default());
+    let (model, tangent) = (Model::new(&assembled), SparseMatrix::default());
     let coefficients = Midpoint.coefficients(time_step);
     let factor = Factor::of_unknowns(&model, &coefficients, &tangent).unwrap();
     let operator = Arc::new(Thinned::new(operator, 2 * count));

@@ -53,7 +53,7 @@ impl Stepped {
         let structure = parts.structure.as_ref();
         let tangent = Tangent::at(structure, &at_rest.displacement)?.matrix;
         let steps = if given.steps > 0 { given.steps } else { STEPS };
-        let physical = Model::physical(assembled);
+        let physical = Model::new(assembled);
         let factored = || {
             let factor = Factor::of_unknowns(&physical, coefficients, &tangent);
             factor.map_err(|error| cause(assembled, structure, &tangent, error))
@@ -82,7 +82,7 @@ impl Stepped {
         let (model, factor) = match chosen {
             Chosen::Unknowns(factor) => (physical, Factor::Sparse(factor)),
             Chosen::Modes(modes) => {
-                let model = Model::modal(assembled, modes);
+                let model = physical.in_modes(assembled, modes);
                 let factor = Factor::of_modes(&model, coefficients)?;
                 (model, factor)
             }

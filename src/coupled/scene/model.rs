@@ -28,41 +28,36 @@ pub(crate) struct Model {
 
 impl Model {
     /// Steps the unknowns.
-    pub(crate) fn physical(assembled: &Assembled) -> Self {
-        let matrices = assembled.matrices().map(|matrix| Matrix::Sparse(matrix.clone()));
-        let influence = assembled.influence.clone();
-        Self::new(assembled, matrices, influence, Transformation::Identity, assembled.unknowns())
-    }
-
-    /// Steps coordinates of modes.
-    pub(crate) fn modal(assembled: &Assembled, modes: ModalBasis) -> Self {
-        let count = modes.count();
-        let matrices = [vec![1.0; count], modes.damping.clone(), modes.stiffness.clone()];
-        let convert = |vector: &Terms| modes.translation(vector, &assembled.mass);
-        let influence = Arc::new(assembled.influence.converted(convert));
-        let transformation = Transformation::Modes(Arc::new(modes));
-        Self::new(assembled, matrices.map(Matrix::Diagonal), influence, transformation, count)
-    }
-
-    fn new(
-        assembled: &Assembled,
-        [mass, damping, stiffness]: [Matrix; 3],
-        influence: Arc<Influence>,
-        transformation: Transformation,
-        coordinates: usize,
-    ) -> Self {
-        let (unknowns, linear) = (assembled.unknowns(), assembled.linear);
-        let damped = !damping.is_empty();
+    pub(crate) fn new(assembled: &Assembled) -> Self {
+        let [mass, damping, stiffness] =
+            assembled.matrices().map(|matrix| Matrix::Sparse(matrix.clone()));
         Self {
-            unknowns,
-            coordinates,
+            unknowns: assembled.unknowns(),
+            coordinates: assembled.unknowns(),
             mass,
+            damped: !damping.is_empty(),
             damping,
             stiffness,
-            linear,
-            damped,
+            linear: assembled.linear,
+            influence: assembled.influence.clone(),
+            transformation: Transformation::Identity,
+        }
+    }
+
+    /// The same structure with coordinates of modes.
+    pub(crate) fn in_modes(self, assembled: &Assembled, modes: ModalBasis) -> Self {
+        let convert = |vector: &Terms| modes.translation(vector, &assembled.mass);
+        let influence = Arc::new(assembled.influence.converted(convert));
+        let damping = Matrix::Diagonal(modes.damping.clone());
+        Self {
+            coordinates: modes.count(),
+            mass: Matrix::Diagonal(vec![1.0; modes.count()]),
+            damped: !damping.is_empty(),
+            damping,
+            stiffness: Matrix::Diagonal(modes.stiffness.clone()),
             influence,
-            transformation,
+            transformation: Transformation::Modes(Arc::new(modes)),
+            ..self
         }
     }
 
