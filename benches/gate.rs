@@ -3,10 +3,6 @@
 //! `.ci/bench_gate` runs this program of two commits in turns and compares them. Arguments are the
 //! names to time; all without any. Statistics of single kernels are in the other benches.
 
-#[path = "../examples/performance/scenes.rs"]
-#[allow(dead_code, reason = "shared with the example, which uses all of it")]
-mod scenes;
-
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
@@ -19,6 +15,7 @@ use basemat::results::Recorder;
 use basemat::soil::SoilProfile;
 use basemat::structure::RigidBlock;
 use basemat::{Result, Simulation, Soil};
+use basemat_problems::headline;
 
 const REPETITIONS: usize = 3;
 
@@ -40,16 +37,16 @@ const JOBS: [(&str, Prepare); 8] = [
 ];
 
 fn headline_steps(law: impl InterfaceLaw + 'static) -> Result<Timed> {
-    let (builder, ground) = scenes::headline(scenes::COUNT)?;
+    let (builder, ground) = headline::headline(headline::COUNT)?;
     // Told of fewer steps, it would make them in unknowns instead of modes.
-    let builder = builder.ground(ground).interface(law).expected_steps(scenes::STEPS);
+    let builder = builder.ground(ground).interface(law).expected_steps(headline::STEPS);
     let mut simulation = builder.build()?;
     Ok(Box::new(move || simulation.run(4_000, |_| ()).map(drop)))
 }
 
 fn block(graded_elements: usize) -> Result<Simulation> {
     Simulation::builder(2.0e-3)
-        .ground(ElasticGround::new(scenes::soil()?, Strip::graded(-5.0..5.0, graded_elements)?)?)
+        .ground(ElasticGround::new(headline::soil()?, Strip::graded(-5.0..5.0, graded_elements)?)?)
         .structure(RigidBlock::new(10.0, 12.0, 1_000.0)?)
         .interface(Coulomb::new(0.4)?)
         .motion(el_centro_1940())
@@ -72,22 +69,22 @@ fn time_series() -> Result<Timed> {
 }
 
 fn build() -> Result<Timed> {
-    let (builder, ground) = scenes::headline(scenes::COUNT)?;
-    let builder = builder.ground(ground).interface(Bonded).expected_steps(scenes::STEPS);
+    let (builder, ground) = headline::headline(headline::COUNT)?;
+    let builder = builder.ground(ground).interface(Bonded).expected_steps(headline::STEPS);
     Ok(Box::new(move || builder.build().map(|simulation| drop(black_box(simulation)))))
 }
 
 fn half_plane() -> Result<Timed> {
     let elements = Strip::graded(-5.0..5.0, 16)?.elements();
     Ok(Box::new(move || {
-        let kernel = PatchKernel::new(scenes::soil()?, elements, 2.0e-3)?;
+        let kernel = PatchKernel::new(headline::soil()?, elements, 2.0e-3)?;
         DirectHistory::new(Arc::new(kernel)).reserve(400)
     }))
 }
 
 fn layers() -> Result<Timed> {
     let rock = Soil::new(1.0e9, 0.25, 2200.0)?;
-    let profile = SoilProfile::on_half_plane(rock).with_layer(scenes::soil()?, 8.0)?;
+    let profile = SoilProfile::on_half_plane(rock).with_layer(headline::soil()?, 8.0)?;
     let mut ground = ElasticGround::new(profile, Strip::graded(-5.0..5.0, 8)?)?;
     Ok(Box::new(move || {
         ground.prepare(5.0e-3)?;
@@ -97,7 +94,8 @@ fn layers() -> Result<Timed> {
 
 fn convolution() -> Result<Timed> {
     let elements = Strip::uniform(-5.0..5.0, 10)?.elements();
-    let kernel: Arc<dyn LagKernel> = Arc::new(PatchKernel::new(scenes::soil()?, elements, 2.0e-3)?);
+    let kernel: Arc<dyn LagKernel> =
+        Arc::new(PatchKernel::new(headline::soil()?, elements, 2.0e-3)?);
     let mut history = RelaxedFftHistory::new(kernel);
     history.reserve(10_000)?;
     Ok(Box::new(move || {

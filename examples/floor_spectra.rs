@@ -3,7 +3,6 @@
 //!
 //! ```text
 //! cargo run --release --example floor_spectra
-//! cargo run --release --example floor_spectra -- --damping 0.02
 //! ```
 //!
 //! A floor's total acceleration, read by an acceleration probe, is a ground motion for what stands
@@ -14,15 +13,9 @@ use basemat::Result;
 use basemat::prelude::*;
 use basemat::results::{broadened, log_spaced};
 use basemat::structure::ModalDamping;
-use clap::Parser;
 
-/// Floor spectra of a shear building.
-#[derive(Parser)]
-struct Options {
-    /// Damping ratio of the equipment.
-    #[arg(long, default_value_t = 0.05)]
-    damping: f64,
-}
+/// Damping ratio of the equipment.
+const DAMPING: f64 = 0.05;
 
 fn shake(law: impl InterfaceLaw + 'static) -> Result<Histories> {
     let storeys = [Storey::new(3.0, 30.0e3, 60.0e6); 5];
@@ -47,21 +40,20 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<Histories> {
 }
 
 fn main() -> Result<()> {
-    let Options { damping } = Options::parse();
     // Fine enough for the peaks; every fourth line is printed, and the peak of the roof.
     let periods = log_spaced(0.05, 2.0, 61)?;
     let (held, free) = (shake(Bonded)?, shake(Coulomb::new(0.25)?)?);
 
-    let ground = el_centro_1940().response_spectrum(&periods, damping)?;
+    let ground = el_centro_1940().response_spectrum(&periods, DAMPING)?;
     let spectra = [
         ("free field", ground),
-        ("1st, bonded", held.floor_spectrum("first floor", &periods, damping)?),
-        ("1st, contact", free.floor_spectrum("first floor", &periods, damping)?),
-        ("roof, bonded", held.floor_spectrum("roof", &periods, damping)?),
-        ("roof, contact", free.floor_spectrum("roof", &periods, damping)?),
-        ("roof, ±15 %", broadened(&free.floor_spectrum("roof", &periods, damping)?, 0.15)?),
+        ("1st, bonded", held.floor_spectrum("first floor", &periods, DAMPING)?),
+        ("1st, contact", free.floor_spectrum("first floor", &periods, DAMPING)?),
+        ("roof, bonded", held.floor_spectrum("roof", &periods, DAMPING)?),
+        ("roof, contact", free.floor_spectrum("roof", &periods, DAMPING)?),
+        ("roof, ±15 %", broadened(&free.floor_spectrum("roof", &periods, DAMPING)?, 0.15)?),
     ];
-    println!("Pseudo-acceleration in g, damping {:.0} %, El Centro 1940\n", 100.0 * damping);
+    println!("Pseudo-acceleration in g, damping {:.0} %, El Centro 1940\n", 100.0 * DAMPING);
     print!("{:>8}", "T, s");
     for (name, _) in &spectra {
         print!("{name:>15}");

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! cargo run --release --example friction_sweep
-//! cargo run --release --features rayon --example friction_sweep -- --limit 50
+//! cargo run --release --features rayon --example friction_sweep
 //! ```
 //!
 //! Every motion of a small set is scaled to the same peak acceleration, every case is run, and the
@@ -12,19 +12,13 @@
 
 use basemat::Result;
 use basemat::prelude::*;
-use clap::Parser;
 
 const FRICTIONS: [f64; 4] = [0.15, 0.25, 0.35, 0.5];
 /// Peak accelerations, g.
 const PEAKS: [f64; 4] = [0.2, 0.3, 0.45, 0.6];
 
-/// Sliding of a squat block, for friction coefficients and motions.
-#[derive(Parser)]
-struct Options {
-    /// Slip that counts as too much, mm.
-    #[arg(long, default_value_t = 25.0)]
-    limit: f64,
-}
+/// Slip that counts as too much, m.
+const LIMIT: f64 = 0.025;
 
 /// The ensemble: El Centro as it is, compressed and stretched in time, and sine pulses.
 fn motions() -> Result<Vec<(&'static str, Record)>> {
@@ -59,7 +53,6 @@ fn slide(friction: f64, motion: Record) -> Result<f64> {
 }
 
 fn main() -> Result<()> {
-    let limit = 1e-3 * Options::parse().limit;
     let motions = motions()?;
     let (kinds, peaks) = (motions.len(), PEAKS.len());
 
@@ -95,7 +88,7 @@ fn main() -> Result<()> {
         println!();
     }
 
-    println!("\nShare of the motions with more than {:.0} mm of slip\n", 1e3 * limit);
+    println!("\nShare of the motions with more than {:.0} mm of slip\n", 1e3 * LIMIT);
     print!("{:<26}", "peak acceleration, g");
     for peak in PEAKS {
         print!("{peak:>9.2}");
@@ -106,7 +99,7 @@ fn main() -> Result<()> {
         for p in 0..peaks {
             let values: Vec<f64> =
                 (0..kinds).filter_map(|m| slip(f, p, m).as_ref().ok().copied()).collect();
-            let over = values.iter().filter(|&&slip| slip > limit).count();
+            let over = values.iter().filter(|&&slip| slip > LIMIT).count();
             print!("{:>9.2}", over as f64 / values.len().max(1) as f64);
         }
         println!();

@@ -5,32 +5,55 @@
 //! ```
 //!
 //! Another program would have written `mass.mtx` and `stiffness.mtx`; here a mesh of quadrilaterals
-//! does, into `target/from_matrices`. The files are read back, contact nodes are named, and a
+//! does, into `target`. The files are read back, contact nodes are named, and a
 //! Craig–Bampton reduction keeps these and the lowest modes of the rest. The full model marches two of
-//! its periods beside the reduced one, to compare (`tests/structures/matrices/reduction.rs` does so for more
-//! quantities of smaller models).
-
-#[path = "common/tower.rs"]
-mod tower;
+//! its periods beside the reduced one, to compare.
 
 use std::path::Path;
 use std::time::Instant;
 
+use basemat::Result;
 use basemat::coupled::Coordinates;
-use basemat::structure::{ContactNode, CraigBampton, Row, Structure, Triplets};
-use basemat::{Result, Simulation};
-use tower::{TIME_STEP, Tower, damped, scene};
+use basemat::fem::{Direction, Layer, MassKind, Material, Mesh};
+use basemat::prelude::*;
+use basemat::structure::{CraigBampton, MatrixModel, Row};
 
+const TIME_STEP: f64 = 0.01;
 const MODES: usize = 20;
 /// Steps in two of the tower's longest periods, 2.1 s each.
 const TWO_PERIODS: usize = 430;
 
-/// Writes the tower's matrices and returns its contact nodes and the sway of its top.
-fn write_files(mass: &Path, stiffness: &Path) -> Result<(Vec<ContactNode>, Row)> {
-    let tower = Tower::new()?;
-    tower.mass.write_matrix_market(mass)?;
-    tower.stiffness.write_matrix_market(stiffness)?;
-    Ok((tower.contact, tower.top))
+/// Writes the matrices of a tower, 10 m wide and 100 m high, of quadrilaterals of 0.2 m; its contact nodes and the
+/// displacement of its top.
+fn write_files(mass_file: &Path, stiffness_file: &Path) -> Result<(Vec<ContactNode>, Row)> {
+    let layer = Layer::new(100.0, 500, Material::new(5.0e9, 0.2, 600.0)?);
+    let mesh = Mesh::layered_block(-5.0..5.0, 50, &[layer])?;
+    let model = FemModel::on_base(mesh)?.with_mass(MassKind::Lumped);
+    let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(model.unknowns()));
+    model.mass(&mut mass)?;
+    model.stiffness(&mut stiffness)?;
+    mass.write_matrix_market(mass_file)?;
+    stiffness.write_matrix_market(stiffness_file)?;
+    let top = model.row(model.node_at(0.0, 100.0)?, Direction::X)?;
+    Ok((model.contact_nodes(), top))
+}
+
+/// The structure on soil, with the displacement of its top as a probe, ready to march.
+fn scene(
+    structure: impl Structure + 'static,
+    top: Row,
+    coordinates: Coordinates,
+) -> Result<Simulation> {
+    let soil = Soil::new(200.0e6, 0.33, 1900.0)?;
+    Simulation::builder(TIME_STEP)
+        .structure(structure)
+        .ground(ElasticGround::new(soil, Strip::uniform(-5.0..5.0, 20)?)?)
+        .interface(Coulomb::new(0.5)?)
+        .motion(el_centro_1940())
+        .probe(Probe::absolute_displacement("top", top))
+        .coordinates(coordinates)
+        .expected_steps(3000)
+        .build()
 }
 
 /// Marches and returns the sway of the top at every step, and seconds per step.
@@ -42,19 +65,14 @@ fn march(simulation: &mut Simulation, steps: usize) -> Result<(Vec<f64>, f64)> {
 }
 
 fn main() -> Result<()> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/from_matrices");
-    if let Err(error) = std::fs::create_dir_all(&folder) {
-        eprintln!("{} cannot be made: {error}", folder.display());
-    }
-    let [mass, stiffness] = ["mass.mtx", "stiffness.mtx"].map(|name| folder.join(name));
-    let (contact, top) = write_files(&mass, &stiffness)?;
+    let [mass, stiffness] = ["target/mass.mtx", "target/stiffness.mtx"].map(Path::new);
+    let (contact, top) = write_files(mass, stiffness)?;
 
     let begin = Instant::now();
-    let model = damped(
-        Triplets::read_matrix_market(&mass)?,
-        Triplets::read_matrix_market(&stiffness)?,
-        contact,
-    )?;
+    let [mass, stiffness] = [mass, stiffness].map(Triplets::read_matrix_market);
+    // 3 % of critical damping at 0.5 and 5 Hz.
+    let damping = RayleighDamping::from_ratios([0.5, 5.0], [0.03; 2])?;
+    let model = MatrixModel::new(mass?, stiffness?, contact)?.with_rayleigh(damping);
     let read = begin.elapsed().as_secs_f64();
     println!("{} unknowns read in {read:.2} s", model.unknowns());
 
@@ -91,12 +109,6 @@ fn main() -> Result<()> {
         1e3 * largest(&sway_full),
         largest(&apart) / largest(&sway_full)
     );
-    println!(
-        "largest sway in {:.0} s: {:.1} mm",
-        TIME_STEP * sway.len() as f64,
-        1e3 * largest(&sway)
-    );
-
     // Any unknown of the full model, whenever it is wanted.
     let everything = recovery.full(small.state().absolute_displacement())?;
     println!(

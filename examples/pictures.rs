@@ -2,12 +2,11 @@
 //!
 //! ```text
 //! cargo run --release --features png --example pictures
-//! cargo run --release --features png --example pictures -- --out somewhere
 //! ```
 //!
 //! A flexible tower on soil under El Centro, once bonded and once free to uplift and slide.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use basemat::Result;
 use basemat::bem::Grading;
@@ -16,18 +15,9 @@ use basemat::io::paraview;
 use basemat::plot::{self, Svg};
 use basemat::prelude::*;
 use basemat::results::{Wireframe, log_spaced};
-use clap::Parser;
 
 const STEPS: usize = 2400;
 const FRICTION: f64 = 0.3;
-
-/// Pictures of a tower's run.
-#[derive(Parser)]
-struct Options {
-    /// Folder for the pictures.
-    #[arg(long, default_value = "target/pictures")]
-    out: PathBuf,
-}
 
 fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, Histories, Wireframe)> {
     let material = Material::new(1.0e9, 0.2, 800.0)?;
@@ -55,7 +45,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, Histories, Wireframe)
 }
 
 fn main() -> Result<()> {
-    let out = Options::parse().out;
+    let out = Path::new("target/pictures");
     // As SVG for the web and paper, as PNG for what takes no SVG.
     let save = |name: &str, picture: Svg| {
         picture.save(out.join(format!("{name}.svg")))?;

@@ -22,8 +22,8 @@ fn main() -> Result<()> {
     for speed in [800.0, 400.0, 200.0, 100.0] {
         let soil = Soil::from_shear_wave_speed(speed, 0.33, 1900.0)?;
         let mut simulation = Simulation::builder(TIME_STEP)
-            .ground(ElasticGround::under(soil, &building, 12)?)
-            .structure(building.clone())
+            .ground(ElasticGround::under(soil, &building()?, 12)?)
+            .structure(building()?)
             .interface(Coulomb::new(0.7)?)
             .load(Load::released(roof, 100.0e3))
             .probe(Probe::displacement("roof", roof))

@@ -4,7 +4,6 @@
 //!
 //! ```text
 //! cargo run --release --example travelling_wave
-//! cargo run --release --example travelling_wave -- --angle 35 --velocity 200
 //! ```
 //!
 //! In all four the left edge of the base sees the same horizontal motion. Waves that run along the
@@ -15,7 +14,6 @@
 use basemat::Result;
 use basemat::motion::{Baseline, PlaneWave, TravellingWave};
 use basemat::prelude::*;
-use clap::Parser;
 
 const HALF_WIDTH: f64 = 5.0;
 const HEIGHT: f64 = 20.0;
@@ -23,16 +21,10 @@ const FRICTION: f64 = 0.4;
 /// Quiet time before the record: the vertical part of a Rayleigh wave precedes the horizontal one.
 const LEAD: f64 = 10.0;
 
-/// A tower under waves from different directions.
-#[derive(Parser)]
-struct Options {
-    /// Angle of the SV wave from the vertical, degrees.
-    #[arg(long, default_value_t = 25.0)]
-    angle: f64,
-    /// Apparent velocity of the wave of horizontal motion, m/s.
-    #[arg(long, default_value_t = 300.0)]
-    velocity: f64,
-}
+/// Angle of the SV wave from the vertical, degrees.
+const ANGLE: f64 = 25.0;
+/// Apparent velocity of the wave of horizontal motion, m/s.
+const VELOCITY: f64 = 300.0;
 
 fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Run> {
     let tower = RigidBlock::new(2.0 * HALF_WIDTH, HEIGHT, 600.0)?;
@@ -50,14 +42,13 @@ fn shake(soil: Soil, motion: impl FreeField + 'static) -> Result<Run> {
 }
 
 fn main() -> Result<()> {
-    let Options { angle, velocity } = Options::parse();
     let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
     // Starts and ends at rest, as the Rayleigh wave needs it.
     let record =
         el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 })?.padded(LEAD, 8.0)?;
     // Where all of these waves arrive first.
     let origin = -HALF_WIDTH;
-    let inclined = PlaneWave::sv(soil, angle.to_radians())?;
+    let inclined = PlaneWave::sv(soil, ANGLE.to_radians())?;
     let rayleigh = PlaneWave::rayleigh(soil);
 
     println!(
@@ -65,18 +56,18 @@ fn main() -> Result<()> {
         2.0 * HALF_WIDTH
     );
     println!(
-        "Velocities along the surface: SV at {angle}° {:.0} m/s, Rayleigh {:.0} m/s, on surface {velocity:.0} m/s\n",
+        "Velocities along the surface: SV at {ANGLE}° {:.0} m/s, Rayleigh {:.0} m/s, on surface {VELOCITY:.0} m/s\n",
         inclined.apparent_velocity(),
         rayleigh.apparent_velocity()
     );
     let mut comparison = Comparison::new();
     comparison.add("vertical", shake(soil, record.clone())?);
     comparison.add(
-        format!("SV, {angle}°"),
+        format!("SV, {ANGLE}°"),
         shake(soil, inclined.field_from_horizontal(&record, origin)?)?,
     );
     comparison.add("Rayleigh", shake(soil, rayleigh.field_from_horizontal(&record, origin)?)?);
-    comparison.add("on surface", shake(soil, TravellingWave::new(record, velocity, origin)?)?);
+    comparison.add("on surface", shake(soil, TravellingWave::new(record, VELOCITY, origin)?)?);
     println!("{comparison}");
     Ok(())
 }

@@ -4,7 +4,7 @@
 //! cargo run --release --example your_own_law
 //! ```
 //!
-//! A law looks at one contact element at a time. It answers three questions:
+//! A law looks at one contact element at a time and answers three questions:
 //!
 //! 1. which modes are there ([`InterfaceLaw::modes`]);
 //! 2. what does a mode demand of the end of the step: two linear conditions between gap, slip,
@@ -12,18 +12,15 @@
 //! 3. is the trial that came out admissible, and if not, which mode should be tried next
 //!    ([`InterfaceLaw::next_mode`]).
 //!
-//! The solver does the rest. A law keeps nothing itself: the end of the step before is in
-//! [`StepStart`], here the speed at which the element slid. What a law has to remember for longer is
-//! its memory ([`InterfaceLaw::memory`], with an example).
+//! The end of the step before is in [`StepStart`], here the speed at which the element slid. What a law has to
+//! remember for longer is its memory ([`InterfaceLaw::memory`]).
 //!
-//! Where only the coefficient of Coulomb's law shall change, a closure in [`VariableFriction`] is
-//! enough: the last but one row of the table.
+//! Where only the coefficient changes, a closure in [`VariableFriction`] is enough: the last but one row.
 
 use basemat::interface::{Condition, ContactState, Mode, StepStart, Tolerance, VariableFriction};
 use basemat::prelude::*;
 
-/// Friction that falls from `slow` to `fast` as the speed of sliding (m/s) grows, as that of
-/// bearings and of many rocks does: fast + (slow − fast) e^(−|v|/speed).
+/// Friction that falls as the speed of sliding (m/s) grows: fast + (slow − fast) e^(−|v|/speed).
 struct VelocityWeakening {
     slow: f64,
     fast: f64,
@@ -31,15 +28,13 @@ struct VelocityWeakening {
 }
 
 impl VelocityWeakening {
-    /// The coefficient of this step. It depends on the start of the step alone, so that it cannot
-    /// change while the modes of the step are searched for.
+    /// The coefficient of this step: of its start alone, so that it stands while modes are searched for.
     fn friction(&self, start: &StepStart) -> f64 {
         self.fast + (self.slow - self.fast) * (-start.slip_rate.abs() / self.speed).exp()
     }
 }
 
 impl InterfaceLaw for VelocityWeakening {
-    // The first one is the mode of an element at rest in contact.
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }

@@ -179,7 +179,7 @@
 //! Short programs that print a table: `shear_building`, `base_isolated`, `two_buildings`,
 //! `portal_frame`, `rocking_block`, `tilted_block`, `snap_back`, `bearing_capacity`,
 //! `machine_foundation`, `floor_spectra`, `layered_site`, `impedances`, `friction_sweep`,
-//! `fragility`, `travelling_wave`, `from_matrices`; `pictures` draws everything (feature `png`). What
+//! `travelling_wave`, `from_matrices`; `containment` is the problem of Patel & Spyrakos; `pictures` draws everything (feature `png`). What
 //! each prints is in [the list of examples](https://github.com/basemat/basemat/blob/main/examples/README.md).
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -203,9 +203,6 @@ pub mod motion;
 #[cfg(feature = "plot")]
 pub mod plot;
 pub mod prelude;
-#[cfg(test)]
-#[path = "../tests/support/random.rs"]
-mod random;
 #[cfg(feature = "reference")]
 pub mod reference;
 pub mod results;

@@ -4,8 +4,6 @@
 //! REFERENCE: a global allocator that counts per thread, which is why this is a binary of its own.
 #![allow(unsafe_code, reason = "an allocator that counts has to be one")]
 
-mod support;
-
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -16,9 +14,9 @@ use basemat::interface::{Bonded, Yielding};
 use basemat::results::Recorder;
 use basemat::structure::{NonlinearForce, RayleighDamping, RigidBlock, Structure, Triplets};
 
-use crate::support::laws_with_memory::{SlipWeakening, SofteningPads};
-use crate::support::scenes::{SI, block, friction, scene, soil, tower};
-use crate::support::wrapped::needed_from;
+use basemat_problems::laws_with_memory::{SlipWeakening, SofteningPads};
+use basemat_problems::needed_from;
+use basemat_problems::scenes::{SI, block, friction, scene, soil, tower};
 
 /// The system's allocator, with a count for each thread.
 struct Counting;

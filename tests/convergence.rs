@@ -2,8 +2,6 @@
 //! SCENE: rigid block on the half-plane under a Ricker pulse, bonded, rocking and sliding.
 //! REFERENCE: finer runs, and the frequency-domain table. CI runs this binary in release.
 
-mod support;
-
 use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::interface::{Bonded, Coulomb};
@@ -12,10 +10,10 @@ use basemat::soil::Elastic;
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
 
-use crate::support::profiles::{gmb, p1, p3};
-use crate::support::sampled_block::{History, distance, sample, under_pulse};
-use crate::support::series::{Series, print_errors, whole};
-use crate::support::table;
+use basemat_problems::profiles::{gmb, p1, p3};
+use basemat_problems::sampled_block::{History, distance, sample, under_pulse};
+use basemat_problems::series::{Series, print_errors, whole};
+use basemat_problems::table;
 
 /// Sampling of the histories: all time steps are fractions of it.
 const SAMPLE: f64 = 0.2;

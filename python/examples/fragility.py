@@ -1,4 +1,4 @@
-"""The table of Rust's example `fragility`: friction × width of the base × motions × intensities.
+"""The table of Rust's study `fragility`: friction × width of the base × motions × intensities.
 
     python examples/fragility.py --short
     python examples/fragility.py --dask 2                      # a cluster of two processes here

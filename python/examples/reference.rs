@@ -1,42 +1,26 @@
 //! The same scenes as in Python's tests, by the Rust crate: `reference containment 0.4 2000` writes
 //! every time series bit by bit, `reference time 0.4 54000` the seconds of a run that keeps them.
 
-#[path = "../../examples/common/containment.rs"]
-mod containment;
-
 use std::time::Instant;
 
 use basemat::bem::{ElasticGround, Strip};
-use basemat::coupled::{Probe, Run};
-use basemat::fem::Direction;
+use basemat::coupled::Run;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::el_centro_1940;
 use basemat::results::{Histories, Quantity, Recorder};
-use basemat::structure::{Row, Structure};
 use basemat::{Result, Simulation};
-use containment::Containment;
+use basemat_problems::containment::Containment;
 
-/// The containment as the root's example has it.
+/// The containment as the studies have it.
 fn scene(friction: Option<f64>, steps: usize) -> Result<Simulation> {
     let scene = Containment::default();
     let model = scene.structure()?;
-    let [left, roof] = scene.corner();
-    let corner = model.node_at(left, roof)?;
-    let (x, y) = (model.row(corner, Direction::X)?, model.row(corner, Direction::Y)?);
-    let feet: Vec<_> =
-        model.contact_nodes().iter().flat_map(|node| node.horizontal.terms().to_vec()).collect();
-    let share = 1.0 / feet.len() as f64;
-    let feet = feet.into_iter().map(|(unknown, weight)| (unknown, -share * weight));
-    let sway: Row = x.terms().iter().copied().chain(feet).collect();
-    let shear = scene.base_shear(&model)?;
+    let probes = scene.probes(&model)?;
     let builder = Simulation::builder(scene.time_step(0.5))
         .ground(ElasticGround::new(scene.soil()?, Strip::uniform(scene.base(), scene.elements)?)?)
         .motion(el_centro_1940())
         .expected_steps(steps)
-        .probe(Probe::absolute_displacement("roof x", x))
-        .probe(Probe::absolute_displacement("roof y", y))
-        .probe(shear)
-        .probe(Probe::displacement("sway", sway))
+        .probes(probes)
         .structure(model);
     match friction {
         None => builder.interface(Bonded),

@@ -229,10 +229,10 @@ def test_the_examples_command_gives_the_serial_file(tmp_path: Path) -> None:
 
 @pytest.fixture(scope="session")
 def rust() -> list[str]:
-    """The command of Rust's example."""
+    """The command of Rust's study."""
     if shutil.which("cargo") is None:
         pytest.skip("no cargo: the table cannot be compared with Rust's")
-    return ["cargo", "run", "--quiet", "--release", "--example", "fragility", "--"]
+    return ["cargo", "run", "--quiet", "--release", "--package", "basemat-studies", "--", "fragility"]
 
 
 def read(path: Path) -> Any:

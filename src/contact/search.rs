@@ -394,5 +394,4 @@ impl ModeSearch {
 }
 
 #[cfg(test)]
-#[path = "search_tests.rs"]
 mod tests;

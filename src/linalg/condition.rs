@@ -105,5 +105,4 @@ pub(crate) fn sparse_condition(matrix: &SparseMatrix, factor: &mut SparseFactor)
 }
 
 #[cfg(test)]
-#[path = "condition_tests.rs"]
 mod tests;

@@ -1,10 +1,6 @@
 //! Baseline treatments of accelerograms.
 
-use std::fmt;
-use std::str::FromStr;
-
 use crate::error::{Error, Result};
-use crate::text::words::{count, unknown, with_number};
 
 /// Baseline correction: a polynomial is subtracted from a record so that it ends at, or near, rest.
 ///
@@ -61,65 +57,21 @@ pub enum Baseline {
     },
 }
 
-/// Words of the treatments, in the order of [`Baseline::all`].
-const WORDS: &[&str] = &[
-    "none",
-    "remove_mean",
-    "newmark_parabola",
-    "velocity_polynomial(degree)",
-    "displacement_polynomial(degree)",
-    "rest_to_rest(degree)",
-];
-
-impl Baseline {
-    /// All treatments, those with a degree with this one.
-    fn all(degree: usize) -> [Self; 6] {
-        [
-            Self::None,
-            Self::RemoveMean,
-            Self::NewmarkParabola,
-            Self::VelocityPolynomial { degree },
-            Self::DisplacementPolynomial { degree },
-            Self::RestToRest { degree },
-        ]
-    }
-}
-
-/// The words that `FromStr` reads: `remove_mean`, `rest_to_rest(4)`.
-impl fmt::Display for Baseline {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let degree = match *self {
-            Self::None | Self::RemoveMean | Self::NewmarkParabola => 0,
-            Self::VelocityPolynomial { degree }
-            | Self::DisplacementPolynomial { degree }
-            | Self::RestToRest { degree } => degree,
-        };
-        let named = Self::all(degree).into_iter().zip(WORDS).find(|(own, _)| own == self);
-        f.pad(&named.map_or("", |(_, word)| word).replace("degree", &degree.to_string()))
-    }
-}
-
-/// Degrees are checked where a treatment is applied.
-///
-/// ```
-/// use basemat::motion::Baseline;
-/// let baseline = Baseline::RestToRest { degree: 4 };
-/// assert_eq!("rest_to_rest(4)".parse(), Ok(baseline));
-/// assert_eq!(baseline.to_string(), "rest_to_rest(4)");
-/// assert!("rest_to_rest".parse::<Baseline>().is_err());
-/// ```
-impl FromStr for Baseline {
-    type Err = Error;
-
-    /// # Errors
-    /// [`Error::Word`] with those that are known.
-    fn from_str(text: &str) -> Result<Self> {
-        let found = with_number(text).and_then(|(word, number)| {
-            let degree = number.map_or(Some(0), count)?;
-            let known = if number.is_some() { word + "(degree)" } else { word };
-            Self::all(degree).into_iter().zip(WORDS).find(|(_, word)| **word == known)
-        });
-        found.map(|(own, _)| own).ok_or_else(|| unknown("baseline treatment", text, WORDS))
+words_with_numbers! {
+    /// One of its words, or an [`Error::Word`]. Degrees are checked where a treatment is applied.
+    ///
+    /// ```
+    /// use basemat::motion::Baseline;
+    /// let baseline = Baseline::RestToRest { degree: 4 };
+    /// assert_eq!("rest_to_rest(4)".parse(), Ok(baseline));
+    /// assert_eq!(baseline.to_string(), "rest_to_rest(4)");
+    /// assert!("rest_to_rest".parse::<Baseline>().is_err());
+    /// ```
+    Baseline, "baseline treatment", {
+        None = "none", RemoveMean = "remove_mean", NewmarkParabola = "newmark_parabola";
+        VelocityPolynomial { degree } = "velocity_polynomial",
+        DisplacementPolynomial { degree } = "displacement_polynomial",
+        RestToRest { degree } = "rest_to_rest",
     }
 }
 

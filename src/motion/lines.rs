@@ -7,38 +7,11 @@ use crate::error::{Error, RecordError, Result};
 use crate::text::bounded_line;
 use crate::text::number::{excerpt, finite, has_implied_point, in_field};
 
-/// Why a line is refused, and which.
+/// What is read of lines, or why one is refused, and which.
 pub(super) type Reason<T> = std::result::Result<T, (usize, RecordError)>;
 
-/// The lines of a text, without white space at their ends.
-pub(super) struct Lines<'a> {
-    source: bounded_line::Lines<&'a mut dyn Read>,
-    /// Number of the last line given, from 1.
-    pub(super) number: usize,
-}
-
-impl<'a> Lines<'a> {
-    pub(super) fn new(source: &'a mut dyn Read) -> Self {
-        Self { source: bounded_line::Lines::new(source), number: 0 }
-    }
-
-    /// The next line, or none at the end.
-    pub(super) fn next(&mut self) -> Reason<Option<String>> {
-        Ok(self.next_columns()?.map(|line| line.trim_start().to_owned()))
-    }
-
-    /// The next line with the white space at its beginning.
-    fn next_columns(&mut self) -> Reason<Option<String>> {
-        let there = self.source.advance()?;
-        self.number = self.source.number;
-        Ok(there.then(|| self.source.text().trim_end().to_owned()))
-    }
-
-    /// The error for the last line given.
-    pub(super) fn refuse(&self, reason: RecordError) -> (usize, RecordError) {
-        (self.number, reason)
-    }
-}
+/// The lines of a text.
+pub(super) type Lines<'a> = bounded_line::Lines<&'a mut dyn Read>;
 
 /// The refusal of a line of `file`.
 pub(super) fn refused(file: &str) -> impl Fn((usize, RecordError)) -> Error {

@@ -126,3 +126,20 @@ pub(super) fn label_breaks(
     chart.draw_series(texts)?;
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wide_gaps_are_short_and_marks_tell_where_one_is() {
+        let elements = [(0.0, 4.0), (4.0, 8.0), (40.0, 48.0), (48.5, 50.0)];
+        let elements = elements.map(|(left, right)| ContactElement { left, right });
+        let base = Base::of(elements.into_iter());
+        // 17.5 m of foundations: 32 m become 1.75, half a metre stays.
+        assert_eq!(base.breaks, [Break { from: 8.0, to: 9.75, width: 32.0 }]);
+        for (x, place) in [(0.0, 0.0), (8.0, 8.0), (40.0, 9.75), (48.0, 17.75), (50.0, 19.75)] {
+            assert!((base.place(x) - place).abs() < 1e-12, "{x}");
+        }
+    }
+}

@@ -3,10 +3,10 @@
 //! Whoever shows the SVG chooses the font: widths are estimates for a wide one (DejaVu Sans, not
 //! condensed), so that others fit as well.
 
+use crate::text::wrapped::wrapped;
+
 /// plotters divides sizes of fonts by this.
 const FONT_SCALE: f64 = 1.24;
-/// Stands for the rest of a text that was cut.
-const CUT: char = '…';
 
 /// Width of a letter over the font's size.
 fn letter(c: char) -> f64 {
@@ -25,43 +25,9 @@ pub(super) fn width(text: &str, size: u32) -> f64 {
     text.chars().map(letter).sum::<f64>() * f64::from(size) / FONT_SCALE
 }
 
-/// The text in lines of at most `room` pixels, between words where that can be; what needs more
-/// than `most` lines is cut, and ends in "…".
+/// The text in lines of at most `room` pixels, as [`wrapped`].
 pub(super) fn lines(text: &str, size: u32, room: f64, most: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    let mut cut = false;
-    'all: for word in text.split_whitespace() {
-        let mut line = lines.len() - 1;
-        if !lines[line].is_empty() {
-            // The last line takes of the word what it can.
-            let fits = width(&format!("{} {word}", lines[line]), size) <= room;
-            if fits || lines.len() == most {
-                lines[line].push(' ');
-            } else {
-                lines.push(String::new());
-                line += 1;
-            }
-        }
-        for c in word.chars() {
-            let wider = width(&format!("{}{c}", lines[line]), size) > room;
-            if wider && lines.len() == most {
-                cut = true;
-                break 'all;
-            }
-            if wider {
-                lines.push(String::new());
-                line += 1;
-            }
-            lines[line].push(c);
-        }
-    }
-    if let (true, Some(last)) = (cut, lines.last_mut()) {
-        while !last.is_empty() && width(&format!("{last}{CUT}"), size) > room {
-            last.pop();
-        }
-        *last = format!("{}{CUT}", last.trim_end());
-    }
-    lines
+    wrapped(text, room, most, |text| width(text, size))
 }
 
 /// The text, cut where it is wider than `room` pixels.

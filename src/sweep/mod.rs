@@ -39,7 +39,6 @@ mod grid;
 mod run;
 mod table;
 mod tables;
-mod text;
 
 pub use grid::Parameter;
 pub use run::{Sweep, SweepCase};

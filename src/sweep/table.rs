@@ -1,5 +1,6 @@
 //! Parameters and results of cases, a row each.
 
+use std::fmt;
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::Write;
 use std::path::Path;
@@ -9,7 +10,9 @@ use super::grid::{Grid, LAST_COLUMNS, no_name};
 use crate::error::{Error, Result, SweepError};
 use crate::text::check_sum::CheckSum;
 use crate::text::column::Cell;
-use crate::text::table::csv_line;
+use crate::text::table::{LONGEST_LINE, Table, csv_line};
+use crate::text::unit::number;
+use crate::text::wrapped::in_columns;
 
 /// The cases of a [`Sweep`](super::Sweep), a row each: the case's number, its parameters, its results, and why it has none if it
 /// failed. Prints as a table of five figures no line of which is longer than 99 characters: a wide
@@ -232,4 +235,55 @@ pub(super) fn replaced(path: &Path, content: &str) -> std::io::Result<()> {
     write().inspect_err(|_| {
         let _ = std::fs::remove_file(&temporary);
     })
+}
+
+/// Five figures, counts as they are; the smallest numbers, too, which need not be rounding here.
+fn figures(value: f64) -> String {
+    if value.fract() == 0.0 && value.abs() < 1e15 {
+        // No negative zero.
+        format!("{}", value + 0.0)
+    } else if value.abs() < 1e-6 {
+        format!("{value:.3e}")
+    } else {
+        number(value)
+    }
+}
+
+impl fmt::Display for CaseTable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let columns = self.columns.len();
+        let mut heading = heading(&self.grid, &self.columns);
+        heading.truncate(heading.len() - LAST_COLUMNS.len());
+        let rows = self.rows.iter().map(|row| {
+            let mut cells = vec![row.case.to_string()];
+            cells.extend(parameter_cells(&self.grid, row.case));
+            match &row.outcome {
+                Ok(results) => cells.extend(results.iter().map(|&value| figures(value))),
+                Err(_) => cells.extend(std::iter::repeat_n("failed".to_owned(), columns)),
+            }
+            cells
+        });
+        f.write_str(&Table { heading, repeated: 1, rows: rows.collect() }.text())?;
+        for row in &self.rows {
+            if let Err(reason) = &row.outcome {
+                for line in in_columns(&format!("case {} failed: {reason}", row.case), LONGEST_LINE)
+                {
+                    write!(f, "\n{line}")?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_of_cells() {
+        assert_eq!(figures(1e-12), "1.000e-12");
+        assert_eq!([-0.0, 3600.0, 0.5, 1.25e20].map(figures), ["0", "3600", "0.50000", "1.250e20"]);
+        assert_eq!([figures(f64::NAN), figures(f64::NEG_INFINITY)], ["NaN", "-inf"]);
+    }
 }

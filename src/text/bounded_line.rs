@@ -54,6 +54,21 @@ impl<R: Read> Lines<R> {
         }
     }
 
+    /// The next line without white space at its ends, or none at the end of the source.
+    pub(crate) fn next<E: From<Unread>>(&mut self) -> Result<Option<String>, (usize, E)> {
+        Ok(self.next_columns()?.map(|line| line.trim_start().to_owned()))
+    }
+
+    /// The next line with the white space at its beginning.
+    pub(crate) fn next_columns<E: From<Unread>>(&mut self) -> Result<Option<String>, (usize, E)> {
+        Ok(self.advance()?.then(|| self.text().trim_end().to_owned()))
+    }
+
+    /// The error for the present line.
+    pub(crate) fn refuse<E>(&self, reason: E) -> (usize, E) {
+        (self.number, reason)
+    }
+
     /// The present line with its end. Bytes that are not UTF-8 become signs that are no number; in
     /// comments they do not matter.
     pub(crate) fn text(&self) -> Cow<'_, str> {

@@ -14,3 +14,4 @@ pub(crate) mod column;
 pub(crate) mod number;
 pub(crate) mod table;
 pub(crate) mod unit;
+pub(crate) mod wrapped;

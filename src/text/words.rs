@@ -37,6 +37,50 @@ macro_rules! words {
     };
 }
 
+/// The same for an enum of which some variants have one number, in brackets behind the word:
+/// `reduced(1e-6)`.
+macro_rules! words_with_numbers {
+    (
+        $(#[$doc:meta])*
+        $type:ident, $quantity:literal, {
+            $($plain:ident = $word:literal),+ ;
+            $($variant:ident { $field:ident } = $numbered:literal),+ $(,)?
+        }
+    ) => {
+        /// The word that `FromStr` reads, with its number.
+        impl std::fmt::Display for $type {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                use crate::text::words::Bracketed;
+                match self {
+                    $(Self::$plain => f.pad($word),)+
+                    $(Self::$variant { $field } => {
+                        f.pad(&format!(concat!($numbered, "({})"), $field.shown()))
+                    })+
+                }
+            }
+        }
+
+        $(#[$doc])*
+        impl std::str::FromStr for $type {
+            type Err = crate::error::Error;
+
+            fn from_str(text: &str) -> crate::error::Result<Self> {
+                use crate::text::words::{Bracketed, unknown, with_number};
+                let known =
+                    &[$($word,)+ $(concat!($numbered, "(", stringify!($field), ")")),+];
+                let read = with_number(text).and_then(|(word, number)| match (&word[..], number) {
+                    $(($word, None) => Some(Self::$plain),)+
+                    $(($numbered, Some(number)) => {
+                        Bracketed::read(number).map(|$field| Self::$variant { $field })
+                    })+
+                    _ => None,
+                });
+                read.ok_or_else(|| unknown($quantity, text, known))
+            }
+        }
+    };
+}
+
 /// In lower case, without blanks around, underscores for spaces and hyphens.
 pub(crate) fn plain(text: &str) -> String {
     text.trim().to_lowercase().replace([' ', '-'], "_")
@@ -58,10 +102,31 @@ pub(crate) fn with_number(text: &str) -> Option<(String, Option<f64>)> {
     }
 }
 
-/// `value` as a count, if it is one.
-pub(crate) fn count(value: f64) -> Option<usize> {
-    let most = 9.0e15_f64.min(usize::MAX as f64);
-    let counts = (0.0..=most).contains(&value) && value.fract() == 0.0;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-    counts.then_some(value as usize)
+/// A number in brackets.
+pub(crate) trait Bracketed: Sized {
+    fn read(number: f64) -> Option<Self>;
+    fn shown(&self) -> String;
+}
+
+impl Bracketed for f64 {
+    fn read(number: f64) -> Option<Self> {
+        Some(number)
+    }
+
+    fn shown(&self) -> String {
+        format!("{self:e}")
+    }
+}
+
+impl Bracketed for usize {
+    fn read(number: f64) -> Option<Self> {
+        let most = 9.0e15_f64.min(usize::MAX as f64);
+        let counts = (0.0..=most).contains(&number) && number.fract() == 0.0;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        counts.then_some(number as usize)
+    }
+
+    fn shown(&self) -> String {
+        self.to_string()
+    }
 }

@@ -9,7 +9,7 @@ use basemat::motion::FreeFieldFn;
 use basemat::structure::RigidBlock;
 use basemat::{Error, Result, Simulation, Soil, StepError};
 
-use crate::support::random::Random;
+use basemat_problems::random::Random;
 
 /// A glued block and its shaking.
 #[derive(Debug, Clone, Copy)]

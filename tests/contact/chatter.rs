@@ -5,7 +5,7 @@
 
 use basemat::interface::Activation;
 
-use crate::support::chatter::{Outcome, Scene, Scheme};
+use basemat_problems::chatter::{Outcome, Scene, Scheme};
 
 /// A block that rocks and slides through the first strong seconds of El Centro × 2.
 fn run(friction: f64, time_step: f64, young: Option<f64>) -> Outcome {

@@ -2,8 +2,8 @@
 //! SCENE: random problems of one to four elements, friction from 0 to 3, in sequences.
 //! REFERENCE: all modes tried. The example `contact_problems` runs many more.
 
-use crate::support::contact_problems::{Tally, sequence};
-use crate::support::random::Random;
+use basemat_problems::contact_problems::{Tally, sequence};
+use basemat_problems::random::Random;
 
 #[test]
 fn steps_find_a_solution_of_brute_force() {

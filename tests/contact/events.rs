@@ -10,7 +10,7 @@ use basemat::interface::Mode;
 use basemat::motion::FreeFieldFn;
 use basemat::structure::RigidBlock;
 
-use crate::support::scenes::{GRAVITY, SI, friction, ground};
+use basemat_problems::scenes::{GRAVITY, SI, friction, ground};
 
 /// Samples are compared at multiples of this, s.
 const SAMPLE: f64 = 4e-3;

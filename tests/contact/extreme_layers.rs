@@ -13,7 +13,7 @@ use basemat::motion::FreeFieldFn;
 use basemat::structure::RigidBlock;
 use basemat::{Error, Result, Simulation, Soil, StepError};
 
-use crate::support::random::Random;
+use basemat_problems::random::Random;
 
 const STEPS: usize = 60;
 

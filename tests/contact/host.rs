@@ -10,7 +10,7 @@ use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{ContactNode, Structure, Triplets};
 use basemat::{Error, Simulation};
 
-use crate::support::laws_with_memory::{Adhesion, SlipWeakening};
+use basemat_problems::laws_with_memory::{Adhesion, SlipWeakening};
 
 const STEP: f64 = 1e-3;
 const STEPS: usize = 4000;

@@ -12,7 +12,7 @@ use basemat::motion::FreeFieldFn;
 use basemat::structure::{FemModel, RigidBlock, ShearBuilding, Storey, Structure};
 use basemat::{Simulation, Soil};
 
-use crate::support::random::Random;
+use basemat_problems::random::Random;
 
 const STEPS: usize = 80;
 

@@ -9,8 +9,6 @@ mod host;
 mod long_steps;
 mod paper_parts;
 mod spring_bed;
-#[path = "../support/mod.rs"]
-mod support;
 mod variable_friction;
 mod workable_step;
 mod yielding;

@@ -7,7 +7,7 @@ use basemat::coupled::State;
 use basemat::interface::{Activation, Coulomb, InterfaceLaw, VariableFriction};
 use basemat::{Error, LawError, StepError};
 
-use crate::support::scenes::{SI, TIME_STEP, block, friction, scene, states};
+use basemat_problems::scenes::{SI, TIME_STEP, block, friction, scene, states};
 
 const STEPS: usize = 300;
 

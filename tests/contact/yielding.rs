@@ -14,8 +14,8 @@ use basemat::motion::el_centro_1940;
 use basemat::structure::{RigidBlock, Row};
 use basemat::{Simulation, Soil};
 
-use crate::support::dense::solve;
-use crate::support::random::Random;
+use basemat_problems::dense::solve;
+use basemat_problems::random::Random;
 
 /// A contact problem of three elements in units of its own, and its law's parameters.
 struct Problem {

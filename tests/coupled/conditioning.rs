@@ -9,8 +9,8 @@ use basemat::interface::Bonded;
 use basemat::structure::{ContactNode, CraigBampton, FemModel, RigidBlock, Structure, Triplets};
 use basemat::{Error, Simulation};
 
-use crate::support::inverse::condition_by_inverse;
-use crate::support::scenes::{self, SI, TIME_STEP, friction, ground, scene};
+use basemat_problems::dense::condition_by_inverse;
+use basemat_problems::scenes::{self, SI, TIME_STEP, friction, ground, scene};
 
 /// A block whose matrices are written down by hand: m, I and h with its base of 4 m.
 fn block(mass: f64, inertia: f64, height: f64) -> RigidBlock {

@@ -10,8 +10,9 @@ use basemat::structure::{
     ContactNode, FemModel, RayleighDamping, Row, ShearBuilding, Storey, Structure, Triplets,
 };
 
-use crate::support::scenes::{Rider, SI, block, friction, scene, shake, states, tower};
-use crate::support::wrapped::{Pulled, needed_from};
+use basemat_problems::needed_from;
+use basemat_problems::scenes::{Rider, SI, block, friction, scene, shake, states, tower};
+use basemat_problems::wrapped::Pulled;
 
 /// Makes a scene, as often as it is called.
 type Make<'a> = &'a dyn Fn() -> SimulationBuilder;

@@ -13,8 +13,8 @@ use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::{RigidBlock, StructureGroup};
 use basemat::{Error, LayeredError, Simulation, Soil, StepError, Sweep};
 
-use crate::support::sampled_block::{distance, sample, under_pulse};
-use crate::support::scenes::{SI, TIME_STEP, block, friction, scene, soil, states};
+use basemat_problems::sampled_block::{distance, sample, under_pulse};
+use basemat_problems::scenes::{SI, TIME_STEP, block, friction, scene, soil, states};
 
 fn damping(ratio: f64) -> GeneralizedMaxwell {
     GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).unwrap()

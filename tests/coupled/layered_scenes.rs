@@ -13,7 +13,7 @@ use basemat::soil::{GeneralizedMaxwell, KelvinVoigt, SoilProfile};
 use basemat::structure::RigidBlock;
 use basemat::{Result, Soil};
 
-use crate::support::random::Random;
+use basemat_problems::random::Random;
 
 const SCENES: u64 = 200;
 const STEPS: usize = 60;

@@ -13,7 +13,7 @@ use basemat::structure::{
     Bilinear, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, WithSprings,
 };
 
-use crate::support::scenes::{Rider, SI, block, friction, scene, shake, soil, tower};
+use basemat_problems::scenes::{Rider, SI, block, friction, scene, shake, soil, tower};
 
 fn run(builder: SimulationBuilder, steps: usize) -> Run {
     builder.build().unwrap().run(steps, |_| {}).unwrap()

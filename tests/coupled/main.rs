@@ -13,8 +13,6 @@ mod passive_schemes;
 mod preload_of_soft_structures;
 mod reduced;
 mod runs;
-#[path = "../support/mod.rs"]
-mod support;
 mod sweep;
 mod travel;
 mod wave_passage;

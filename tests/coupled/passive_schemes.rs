@@ -15,9 +15,9 @@ use basemat::motion::{AtRest, el_centro_1940};
 use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure, Triplets};
 use basemat::{Complex, Soil};
 
-use crate::support::dense::{Matrix, dot, form, multiply};
-use crate::support::random::Random;
-use crate::support::scenes::{SI, scene, tower};
+use basemat_problems::dense::{Matrix, dot, form, multiply};
+use basemat_problems::random::Random;
+use basemat_problems::scenes::{SI, scene, tower};
 
 const GAMMAS: [f64; 5] = [0.5, 0.55, 0.7, 0.8, 1.0];
 
@@ -218,7 +218,7 @@ fn order_is_two_for_every_gamma() {
 fn shaken(scheme: impl TimeScheme + 'static, steps: usize) -> Vec<State> {
     let builder = scene(SI, 0.5).structure(tower(SI, None)).interface(Bonded).scheme(scheme);
     let mut simulation = builder.build().unwrap();
-    crate::support::scenes::states(&mut simulation, steps)
+    basemat_problems::scenes::states(&mut simulation, steps)
 }
 
 #[test]

@@ -16,8 +16,8 @@ use basemat::structure::{
 };
 use basemat::{Error, ReducedError, Simulation, Soil};
 
-use crate::support::scenes::{Rider, SI, block, friction, scene, shake, states};
-use crate::support::wrapped::needed_from;
+use basemat_problems::needed_from;
+use basemat_problems::scenes::{Rider, SI, block, friction, scene, shake, states};
 
 const STEPS: usize = 300;
 

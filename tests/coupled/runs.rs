@@ -8,7 +8,7 @@ use basemat::coupled::{Run, State};
 use basemat::results::{Comparison, Recorder};
 use basemat::{Error, Simulation};
 
-use crate::support::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI, block, friction, scene};
 
 const STEPS: usize = 300;
 

@@ -9,7 +9,7 @@ use basemat::coupled::State;
 use basemat::interface::Coulomb;
 use basemat::{CaseError, Error, Soil, Sweep};
 
-use crate::support::scenes::{SI, block, scene, soil, states};
+use basemat_problems::scenes::{SI, block, scene, soil, states};
 
 /// Negative friction is refused.
 const FRICTION: [f64; 5] = [0.2, 0.6, -1.0, 0.4, f64::INFINITY];

@@ -16,7 +16,7 @@ use basemat::structure::{
     Storey, Structure, StructureGroup, Triplets, WithSprings,
 };
 
-use crate::support::scenes::{GRAVITY, SI, friction, shake, soil};
+use basemat_problems::scenes::{GRAVITY, SI, friction, shake, soil};
 
 fn schemes() -> Vec<(&'static str, Box<dyn TimeScheme>)> {
     vec![

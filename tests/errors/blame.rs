@@ -16,8 +16,8 @@ use basemat::structure::{
 use basemat::{Error, Result, Simulation};
 
 use super::{NOT_FINITE, error_with, soil};
-use crate::support::block_on_springs::bed;
-use crate::support::random::Random;
+use basemat_problems::block_on_springs::bed;
+use basemat_problems::random::Random;
 
 const WIDTH: f64 = 4.0;
 const WEIGHT: f64 = 4.0 * 6.0 * 2000.0 * 9.81;

@@ -11,7 +11,7 @@ use basemat::motion::FreeField;
 use basemat::{Error, Simulation};
 
 use super::{BAD, NEGATIVE, NOT_FINITE, error_with, refused};
-use crate::support::block_on_springs::{bed, block};
+use basemat_problems::block_on_springs::{bed, block};
 
 /// A scene that is complete, for one thing to be spoilt.
 pub(crate) fn good() -> SimulationBuilder {

@@ -13,7 +13,7 @@ use basemat::interface::{
 use basemat::{Error, LawError, Simulation, StepError};
 
 use super::NOT_FINITE;
-use crate::support::scenes::{SI, block, scene};
+use basemat_problems::scenes::{SI, block, scene};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Place {

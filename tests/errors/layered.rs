@@ -15,7 +15,7 @@ use basemat::soil::{
 use basemat::structure::RigidBlock;
 use basemat::{Complex, Error, LayeredError, Soil};
 
-use crate::support::profiles::{gmb, p1};
+use basemat_problems::profiles::{gmb, p1};
 
 fn soil() -> Soil {
     Soil::from_shear_wave_speed(150.0, 0.33, 1800.0).unwrap()

@@ -16,8 +16,6 @@ mod soils_and_grounds;
 mod spoilt;
 mod steps;
 mod structures;
-#[path = "../support/mod.rs"]
-mod support;
 mod words;
 
 use basemat::{Error, Soil};

@@ -14,7 +14,7 @@ use basemat::structure::{
 };
 use basemat::{Error, Result, Simulation, StepError};
 
-use crate::support::block_on_springs::bed;
+use basemat_problems::block_on_springs::bed;
 
 /// The one thing that is refused.
 #[derive(Debug, Clone, Copy, PartialEq)]

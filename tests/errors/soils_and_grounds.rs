@@ -12,7 +12,7 @@ use basemat::structure::{ModalDamping, RayleighDamping, RigidBlock, ShearBuildin
 use basemat::{Error, Soil};
 
 use super::{BAD, NEGATIVE, NOT_FINITE, error_with, refused, soil};
-use crate::support::block_on_springs::bed;
+use basemat_problems::block_on_springs::bed;
 
 #[test]
 fn soils() {

@@ -5,7 +5,7 @@ use basemat::coupled::SimulationBuilder;
 use basemat::interface::Bonded;
 use basemat::structure::{ContactNode, NonlinearForce, Structure, Triplets};
 
-use crate::support::block_on_springs::bed;
+use basemat_problems::block_on_springs::bed;
 
 /// A structure of which one part is spoilt.
 #[derive(Clone)]

@@ -13,7 +13,7 @@ use basemat::{Error, MemoryError, Simulation, Soil, StandingError};
 use super::builder::unbuilt;
 use super::spoilt::Spoilt;
 use super::{NOT_FINITE, refused};
-use crate::support::block_on_springs::bed;
+use basemat_problems::block_on_springs::bed;
 
 #[test]
 fn structures_that_write_out_of_range_or_nan_are_refused() {

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::unit_soil;
-use crate::support::close;
+use basemat_problems::close;
 
 /// Four unit elements with three free ones on either side.
 fn ground() -> FullPlaneGround {

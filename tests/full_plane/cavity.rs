@@ -5,8 +5,8 @@
 use basemat::bem::full_plane::{BoundaryMarch, Given, TimeKernel};
 
 use super::{circle, soil};
-use crate::support::series::{whole, within};
-use crate::support::table;
+use basemat_problems::series::{whole, within};
+use basemat_problems::table;
 
 /// Largest error of the radial displacement over 0 < t ≤ 8, relative to the static value ½, and
 /// the largest departure of an element from the mean.

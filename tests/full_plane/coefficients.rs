@@ -6,8 +6,8 @@ use basemat::Error;
 use basemat::bem::full_plane::{Segment, TimeKernel};
 
 use super::{circle, coefficients, soil};
-use crate::support::series::whole;
-use crate::support::{close, table};
+use basemat_problems::series::whole;
+use basemat_problems::{close, table};
 
 /// GOAL: coefficients keep their relative precision at early, middle and late lags.
 /// REFERENCE: quadrature of the fundamental solution with 40 digits; elements on the receiver's

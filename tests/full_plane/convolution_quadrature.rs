@@ -8,7 +8,7 @@ use basemat::bem::full_plane::{BoundaryKernel, ConvolutionQuadrature, CqMethod, 
 use basemat::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
 
 use super::{flat, unit_soil};
-use crate::support::{close, table};
+use basemat_problems::{close, table};
 
 /// A trench: flat, down, flat, up, flat, of unequal elements.
 fn trench() -> Vec<Segment> {

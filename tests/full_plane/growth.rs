@@ -10,7 +10,7 @@ use basemat::bem::full_plane::{
 use basemat::{Result, Soil};
 
 use super::{flat, soil};
-use crate::support::{close, random};
+use basemat_problems::{close, random};
 
 /// Which coefficients: by convolution quadrature, or else the time kernel.
 type Method = Option<CqMethod>;

@@ -6,9 +6,9 @@ use basemat::bem::full_plane::{Boundary, CqMethod, FullPlaneGround};
 use basemat::bem::{ElasticGround, Ground, Strip};
 
 use super::soil;
-use crate::support::close;
-use crate::support::series::{Error as SeriesError, within};
-use crate::support::truncation::{Mesh, block_errors, impedance_errors, rocking};
+use basemat_problems::close;
+use basemat_problems::series::{Error as SeriesError, within};
+use basemat_problems::truncation::{Mesh, block_errors, impedance_errors, rocking};
 
 fn time_mesh(elements: usize, free: usize, beta: f64) -> Mesh {
     Mesh { elements, free, beta, quadrature: None }

@@ -10,7 +10,7 @@ use basemat::bem::{Ground, Strip};
 use basemat::motion::{AtRest, FreeField, FreeFieldFn, RickerDisplacement};
 
 use super::{coefficients, soil};
-use crate::support::series::{Error as SeriesError, whole, within};
+use basemat_problems::series::{Error as SeriesError, whole, within};
 
 /// A box of soil, of elements of length `size`, its top at z = 0.
 fn soil_box(size: f64) -> Vec<Segment> {

@@ -13,8 +13,6 @@ mod incident_waves;
 mod navier;
 mod refused;
 mod stability;
-#[path = "../support/mod.rs"]
-mod support;
 
 use std::f64::consts::PI;
 

@@ -10,8 +10,8 @@ use basemat::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
 use basemat::{Error, Result};
 
 use super::{flat, unit_soil};
-use crate::support::inverse::inverse;
-use crate::support::{close, random};
+use basemat_problems::dense::inverse;
+use basemat_problems::{close, random};
 
 /// Space–time integrals of the full-plane solution on a flat surface of unit elements, by a Gauss
 /// rule of its own: pieces end at the fronts, where sin² takes the root singularities away, and

@@ -10,7 +10,7 @@ use basemat::bem::{
 };
 use basemat::history::{ConvolutionHistory, DirectHistory};
 
-use crate::support::random::Random;
+use basemat_problems::random::Random;
 
 /// h = Σ G^{N−m+1} τ^m, every coefficient asked for by itself.
 fn plain_sum(

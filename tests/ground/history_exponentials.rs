@@ -10,8 +10,8 @@ use basemat::history::{
 };
 use basemat::{Error, MemoryError, Soil};
 
-use crate::support::passivity::Scene;
-use crate::support::random::Random;
+use basemat_problems::passivity::Scene;
+use basemat_problems::random::Random;
 
 /// A strip of length 2 with soil of unit modulus and density, β = c₁Δt over the mean element.
 fn kernel(poisson: f64, beta: f64, elements: Vec<ContactElement>) -> Arc<dyn LagKernel> {

@@ -8,7 +8,7 @@ use basemat::bem::{Grading, InfluenceKernel, Strip};
 use basemat::history::LagKernel;
 use basemat::soil::SoilProfile;
 
-use crate::support::profiles::{gmb, p1};
+use basemat_problems::profiles::{gmb, p1};
 
 /// `G_r2_P1_gmb_Q3_dt0.2.csv`: another program, two stages, lags 1 … 64.
 #[test]

@@ -13,7 +13,7 @@ use basemat::soil::{Relaxation, SoilProfile};
 use basemat::structure::RigidBlock;
 use basemat::{Complex, Error, KernelFileError, LayeredError, Simulation, Soil};
 
-use crate::support::profiles::{gmb, p1, p3};
+use basemat_problems::profiles::{gmb, p1, p3};
 
 /// A file of this test's own, removed at the end.
 struct Temporary(PathBuf);

@@ -7,7 +7,7 @@ use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::soil::{Elastic, Hysteretic, SoilProfile};
 use basemat::{Complex, Error, LayeredError, Soil};
 
-use crate::support::profiles::{p1, p3};
+use basemat_problems::profiles::{p1, p3};
 
 /// Bonded hh, vv, rr, hr and relaxed hh, vv, rr.
 fn all(profile: &SoilProfile, count: usize, omega: f64) -> [Complex; 7] {

@@ -9,7 +9,7 @@ use basemat::bem::{Grading, Strip};
 use basemat::history::LagKernel;
 use basemat::soil::{Elastic, SoilProfile};
 
-use crate::support::profiles::{gmb, p1, p3};
+use basemat_problems::profiles::{gmb, p1, p3};
 
 const STEPS: usize = 256;
 

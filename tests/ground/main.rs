@@ -12,5 +12,3 @@ mod layered_passivity;
 mod passivity;
 mod site_response;
 mod site_round_trip;
-#[path = "../support/mod.rs"]
-mod support;

@@ -5,7 +5,7 @@
 
 use basemat::history::History;
 
-use crate::support::passivity::Scene;
+use basemat_problems::passivity::Scene;
 
 const BETAS: [f64; 8] = [0.02, 0.1, 0.25, 0.5, 1.0, 2.0, 10.0, 50.0];
 const POISSON: [f64; 6] = [-0.5, 0.0, 0.2, 1.0 / 3.0, 0.45, 0.4999];

@@ -6,7 +6,7 @@ use basemat::site::{Column, ControlPoint, VerticalWave};
 use basemat::soil::{GeneralizedMaxwell, Hysteretic, SoilProfile};
 use basemat::{Complex, Error, LayeredError, Soil};
 
-use crate::support::profiles::p1;
+use basemat_problems::profiles::p1;
 
 /// `amplification_1d.csv`: surface over outcrop, hysteretic damping.
 #[test]

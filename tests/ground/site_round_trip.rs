@@ -13,7 +13,7 @@ use basemat::{Complex, Soil};
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 
-use crate::support::random::Random;
+use basemat_problems::random::Random;
 
 fn profile() -> SoilProfile {
     let damping = |ratio| GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0).unwrap();

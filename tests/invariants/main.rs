@@ -2,5 +2,3 @@
 
 mod properties;
 mod random_scenes;
-#[path = "../support/mod.rs"]
-mod support;

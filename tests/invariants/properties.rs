@@ -7,10 +7,10 @@ use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::{Error, Simulation, StepError};
 use proptest::prelude::*;
 
-use crate::support::scenes::{
+use basemat_problems::scenes::{
     Frame, GRAVITY, SI, TIME_STEP, block, friction, scene, shake, states, tower,
 };
-use crate::support::wrapped::Pulled;
+use basemat_problems::wrapped::Pulled;
 
 const STEPS: usize = 400;
 

@@ -13,7 +13,7 @@ use basemat::structure::{FemModel, Structure};
 use basemat::{Error, MeshFileError, Simulation, Soil};
 use proptest::prelude::*;
 
-use crate::support::dense;
+use basemat_problems::dense;
 
 fn concrete() -> Material {
     Material::new(30.0e9, 0.2, 2400.0).unwrap()

@@ -7,7 +7,7 @@ use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::io::GmshMesh;
 use basemat::structure::{FemModel, Structure, Triplets};
 
-use crate::support::dense::{dot, product};
+use basemat_problems::dense::{dot, product};
 
 const FILES: [(&str, usize); 2] = [("block_linear", 4), ("block_second_order", 8)];
 

@@ -3,6 +3,4 @@
 mod gmsh;
 mod gmsh_files;
 mod matrix_market;
-#[path = "../support/mod.rs"]
-mod support;
 mod vtk;

@@ -5,12 +5,12 @@
 use basemat::structure::Triplets;
 use basemat::{Error, MatrixFileError, MemoryError};
 
-use crate::support::random::Random;
+use basemat_problems::random::Random;
 
 /// Dense sums of the entries.
 /// All entries, row by row.
 fn dense(matrix: &Triplets) -> Vec<f64> {
-    crate::support::dense::dense(matrix).concat()
+    basemat_problems::dense::dense(matrix).concat()
 }
 
 fn data(name: &str) -> Triplets {

@@ -13,7 +13,7 @@ use basemat::io::paraview;
 use basemat::results::{Histories, Recorder, WirePoint, Wireframe};
 use basemat::structure::{FemModel, RigidBlock, Row, ShearBuilding, Storey};
 
-use crate::support::scenes::{SI, block, friction, scene, tower};
+use basemat_problems::scenes::{SI, block, friction, scene, tower};
 
 /// A folder of its own for each test, emptied before.
 fn folder(name: &str) -> PathBuf {

@@ -6,7 +6,7 @@ use basemat::Error;
 use basemat::motion::{Baseline, Record, el_centro_1940};
 use proptest::prelude::*;
 
-use crate::support::close;
+use basemat_problems::close;
 
 /// Every treatment of El Centro: what it promises at the end, and what it makes least.
 #[test]

@@ -8,7 +8,7 @@ use basemat::motion::{
     AtRest, FreeField, FreeFieldFn, RickerDisplacement, VerticalIncidence, el_centro_1940,
 };
 
-use crate::support::close;
+use basemat_problems::close;
 
 #[test]
 fn free_fields_agree_with_their_sources() {

@@ -207,7 +207,7 @@ proptest! {
 /// Files that are hard to read, each with every reader.
 #[test]
 fn corpus_is_read_or_refused() {
-    let folder = crate::support::data_path("fuzz");
+    let folder = basemat_problems::data_path("fuzz");
     let mut files = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 use basemat::motion::{Baseline, FreeField, PlaneWave, Record, TravellingWave, el_centro_1940};
 use basemat::{Error, Soil};
 
-use crate::support::table;
+use basemat_problems::table;
 
 fn soil(poisson: f64) -> Soil {
     Soil::new(80e6, poisson, 1900.0).unwrap()

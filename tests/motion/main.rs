@@ -14,8 +14,6 @@ mod odd_headers;
 mod parts_and_files;
 mod records;
 mod response_spectrum;
-#[path = "../support/mod.rs"]
-mod support;
 
 use basemat::motion::{Record, RecordFormat};
 use basemat::{Error, RecordError};

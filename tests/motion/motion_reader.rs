@@ -191,9 +191,9 @@ fn reader_refuses_a_truncated_record() {
 fn files_that_cannot_be_read_are_named() {
     let error = Record::read("/nowhere/record.csv", &metric()).unwrap_err();
     assert_eq!(error.to_string(), "/nowhere/record.csv: cannot be read: entity not found");
-    let error = Record::read(crate::support::data_path(""), &metric()).unwrap_err();
+    let error = Record::read(basemat_problems::data_path(""), &metric()).unwrap_err();
     assert!(matches!(error, Error::Record { reason: RecordError::Unreadable(_), .. }));
-    let file = crate::support::data_path("../../data/elcentro1940_NS_peknold_0319g.csv");
+    let file = basemat_problems::data_path("../../data/elcentro1940_NS_peknold_0319g.csv");
     let format = ColumnFormat::new(AccelerationUnit::StandardGravity);
     assert_eq!(Record::read(file, &format).unwrap(), el_centro_1940());
 }

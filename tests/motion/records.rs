@@ -7,7 +7,7 @@ use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
 use basemat::{Error, RecordError};
 use proptest::prelude::*;
 
-use crate::support::{close, table};
+use basemat_problems::{close, table};
 
 #[test]
 fn bad_samples_and_steps_are_refused() {

@@ -4,7 +4,7 @@
 
 use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
 
-use crate::support::table;
+use basemat_problems::table;
 
 #[test]
 fn el_centro_agrees_with_matrix_exponentials() {

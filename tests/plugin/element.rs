@@ -7,7 +7,7 @@ use basemat::interface::Coulomb;
 use basemat::structure::FemModel;
 
 use super::{run, shaken};
-use crate::support::block_on_springs::bed;
+use basemat_problems::block_on_springs::bed;
 
 /// A column that is only a spring between two heights.
 struct Column([usize; 2]);

@@ -7,7 +7,7 @@ use basemat::interface::Coulomb;
 use basemat::motion::FreeField;
 
 use super::{STEP, run};
-use crate::support::block_on_springs::{bed, block};
+use basemat_problems::block_on_springs::{bed, block};
 
 /// A wave that runs along the surface, so that the elements do not move alike.
 pub(crate) struct Passing {

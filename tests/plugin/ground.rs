@@ -7,7 +7,7 @@ use basemat::bem::{ContactElement, Ground, SpringGround, Strip};
 use basemat::interface::Coulomb;
 
 use super::{assert_same_motion, run, shaken};
-use crate::support::block_on_springs::block;
+use basemat_problems::block_on_springs::block;
 
 /// Springs that know nothing of the crate's own bed.
 pub(crate) struct Bed {

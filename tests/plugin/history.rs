@@ -11,7 +11,7 @@ use basemat::interface::Coulomb;
 use basemat::{Result, Simulation};
 
 use super::{assert_same_motion, push, soil};
-use crate::support::block_on_springs::block;
+use basemat_problems::block_on_springs::block;
 
 /// The convolution as a triple loop over the kernel's classes, with its own store.
 struct Plain {

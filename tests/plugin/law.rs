@@ -7,7 +7,7 @@ use basemat::interface::{
 };
 
 use super::{run, shaken};
-use crate::support::block_on_springs::{bed, block};
+use basemat_problems::block_on_springs::{bed, block};
 
 /// Sticks until it once slid; from then on there is no friction at all.
 pub(crate) struct Glaze(pub(crate) f64);

@@ -12,8 +12,8 @@ use basemat::motion::FreeFieldFn;
 use basemat::structure::RigidBlock;
 
 use super::{run, shaken};
-use crate::support::block_on_springs::{bed, block};
-use crate::support::laws_with_memory::{Adhesion, SlipWeakening, SofteningPads};
+use basemat_problems::block_on_springs::{bed, block};
+use basemat_problems::laws_with_memory::{Adhesion, SlipWeakening, SofteningPads};
 
 const GRAVITY: f64 = 9.81;
 /// Circular frequency of the shaking, and its largest acceleration.

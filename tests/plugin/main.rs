@@ -15,8 +15,6 @@ mod scheme;
 mod shared_kernels;
 mod structure;
 mod structure_with_memory;
-#[path = "../support/mod.rs"]
-mod support;
 mod threads_and_texts;
 
 use std::sync::Arc;

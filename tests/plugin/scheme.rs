@@ -9,8 +9,8 @@ use basemat::interface::Bonded;
 
 use super::{assert_same_motion, run, shaken};
 use crate::structure::Hardening;
-use crate::support::block_on_springs::bed;
-use crate::support::wrapped::Bare;
+use basemat_problems::block_on_springs::bed;
+use basemat_problems::wrapped::Bare;
 
 /// Newmark's average acceleration, not one of the crate's.
 pub(crate) struct AverageAcceleration;

@@ -10,8 +10,8 @@ use basemat::interface::Coulomb;
 use basemat::structure::{ContactNode, NonlinearForce, Structure, Triplets};
 
 use super::{assert_same_motion, run, shaken};
-use crate::support::block_on_springs::{bed, block};
-use crate::support::wrapped::Bare;
+use basemat_problems::block_on_springs::{bed, block};
+use basemat_problems::wrapped::Bare;
 
 /// A mass on a hardening spring on a rigid base: force k d + 4 d³ · k per m².
 pub(crate) struct Hardening {

@@ -14,7 +14,7 @@ use basemat::sweep::{Parameter, Sweep};
 use basemat::{Error, Simulation};
 
 use super::{STEP, push, shaken, soil};
-use crate::support::block_on_springs::{bed, block};
+use basemat_problems::block_on_springs::{bed, block};
 
 #[test]
 fn all_parts_can_be_shown() {

@@ -10,10 +10,10 @@ use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
 use std::f64::consts::PI;
 
-use crate::support::rocking::quarter_period;
-use crate::support::series::{Error, whole, within};
-use crate::support::table;
-use crate::support::wrapped::Pulled;
+use basemat_problems::rocking::quarter_period;
+use basemat_problems::series::{Error, whole, within};
+use basemat_problems::table;
+use basemat_problems::wrapped::Pulled;
 
 /// Rigid block with a moment (counter-clockwise, about the middle of the base) that varies in time.
 fn pushed_block<F>(block: RigidBlock, moment: F) -> Pulled<RigidBlock, F> {

@@ -8,8 +8,8 @@ use basemat::bem::{ElasticGround, Strip};
 use basemat::soil::{Elastic, Kjartansson, SoilProfile};
 
 use super::linear::block_errors;
-use crate::support::profiles::{gmb, p1, p3};
-use crate::support::series::within;
+use basemat_problems::profiles::{gmb, p1, p3};
+use basemat_problems::series::within;
 
 fn ground(profile: SoilProfile, elements: usize) -> ElasticGround {
     ElasticGround::new(profile, Strip::graded(-1.0..1.0, elements).unwrap()).unwrap()

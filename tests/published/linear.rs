@@ -6,14 +6,14 @@
 use basemat::Soil;
 use basemat::bem::{ElasticGround, Grading, Ground, Strip};
 use basemat::coupled::State;
-use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
+use basemat::structure::{RigidBlock, Structure};
 
-use crate::support::cantilever::Cantilever;
-use crate::support::impedance::{impedance_errors, ricker};
-use crate::support::rigid_strip::{Contact, RigidStrip};
-use crate::support::sampled_block::under_pulse;
-use crate::support::series::{Error, Series, whole, within};
-use crate::support::table;
+use basemat_problems::impedance::{impedance_errors, ricker};
+use basemat_problems::rigid_strip::{Contact, RigidStrip};
+use basemat_problems::sampled_block::under_pulse;
+use basemat_problems::series::{Error, Series, whole, within};
+use basemat_problems::table;
+use basemat_problems::tabled_structures::{Cantilever, three_storeys};
 
 /// Errors of `[uy_Fy, ux_Fx, th_Fx, ux_M, th_M]`.
 fn transient_errors(
@@ -160,14 +160,7 @@ fn cantilever_errors(mesh: (Grading, usize, f64), beams: usize) -> [f64; 6] {
 }
 
 fn building_errors(mesh: (Grading, usize, f64)) -> [f64; 7] {
-    let storey = Storey {
-        height: 1.0,
-        mass: 1.0,
-        rotary_inertia: 1.0 / 3.0,
-        stiffness: 2.0,
-        damping: 2.0 * 0.158_885_451_5,
-    };
-    let building = ShearBuilding::new(2.0, 1.0, 1.0 / 3.0, &[storey; 3]).unwrap();
+    let building = three_storeys().unwrap();
     let first_shear = building.shear(0).unwrap();
     // Storey displacements relative to the frame of the base.
     let relative = |j: usize| {

@@ -6,5 +6,3 @@ mod linear;
 mod reference;
 mod reference_tables;
 mod refine;
-#[path = "../support/mod.rs"]
-mod support;

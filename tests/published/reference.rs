@@ -12,7 +12,7 @@ use basemat::reference::{
 use basemat::{Error, Soil};
 use proptest::prelude::*;
 
-use crate::support::close;
+use basemat_problems::close;
 
 const BAD: [f64; 5] = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 

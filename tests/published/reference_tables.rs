@@ -8,7 +8,7 @@ use basemat::reference::{
     NoTensionStrip, RigidStrip, RockingBlock, SlidingBlock, SlidingEvent, WinklerStrip,
 };
 
-use crate::support::{close, table};
+use basemat_problems::{close, table};
 
 /// Housner 1963: periods and next amplitudes of the block 1 m × 4 m.
 #[test]

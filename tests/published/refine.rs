@@ -5,12 +5,12 @@
 use basemat::Soil;
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Refinement, refine};
-use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure};
+use basemat::structure::{RigidBlock, Structure};
 
-use crate::support::cantilever::Cantilever;
-use crate::support::sampled_block::under_pulse;
-use crate::support::series::{Error, Series, whole};
-use crate::support::table;
+use basemat_problems::sampled_block::under_pulse;
+use basemat_problems::series::{Error, Series, whole};
+use basemat_problems::table;
+use basemat_problems::tabled_structures::{Cantilever, three_storeys};
 
 /// Estimated over true error of the base shear's time series, for each setting.
 fn estimates<S: Structure + 'static>(
@@ -75,14 +75,8 @@ fn errors_of_blocks_are_estimated() {
 #[test]
 fn errors_of_flexible_structures_are_estimated() {
     let third = 1.0 / 3.0;
-    let storey = Storey {
-        height: 1.0,
-        mass: 1.0,
-        rotary_inertia: third,
-        stiffness: 2.0,
-        damping: 2.0 * 0.158_885_451_5,
-    };
-    let building = || ShearBuilding::new(2.0, 1.0, third, &[storey; 3]).unwrap();
-    within_a_factor_of_two(estimates("shearbuilding3_SV_nu0333_sig1", third, building));
+    within_a_factor_of_two(estimates("shearbuilding3_SV_nu0333_sig1", third, || {
+        three_storeys().unwrap()
+    }));
     within_a_factor_of_two(estimates("EBcantilever_SV_nu0333", third, || Cantilever::new(12)));
 }

@@ -507,7 +507,7 @@ proptest! {
         table.save_csv(&path).unwrap();
         prop_assert_eq!(&sweep().merge([&path]).unwrap(), &table);
 
-        let mut reader = csv::Reader::from_reader(table.csv().into_bytes().leak() as &[u8]);
+        let mut reader = basemat_problems::csv::Reader::from_reader(table.csv().into_bytes().leak() as &[u8]);
         let heading: Vec<_> = reader.headers().unwrap().iter().map(str::to_owned).collect();
         prop_assert_eq!(&heading, &["case", &*name, "x", "y", "z", "w", "error", "check"]);
         for (record, row) in reader.records().zip(table.rows()) {

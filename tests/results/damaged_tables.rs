@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use basemat::sweep::{CaseTable, Parameter, Sweep, SweepCase};
 use basemat::{CaseFileError, Error, Result, SweepError};
 
-use crate::support::check_sum::{check_sum, text_words};
+use basemat_problems::check_sum::{check_sum, text_words};
 
 fn folder(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("damaged_tables").join(name);
@@ -54,7 +54,7 @@ fn whole(count: u32) -> CaseTable {
 fn the_check_is_that_of_the_row() {
     let table = whole(3);
     let text = table.csv();
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let mut reader = basemat_problems::csv::Reader::from_reader(text.as_bytes());
     let names: Vec<_> = reader.headers().unwrap().iter().map(text_words).collect();
     let names = names.concat();
     for (row, cells) in table.rows().zip(reader.records()) {

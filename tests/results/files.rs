@@ -9,7 +9,7 @@ use basemat::results::{Quantity, Recorder, save_spectrum_csv, write_spectrum_csv
 use basemat::structure::RigidBlock;
 
 use super::{Recorded, STEPS, recorded};
-use crate::support::scenes::{SI, block, scene};
+use basemat_problems::scenes::{SI, block, scene};
 
 /// Heading and rows of what `write` writes.
 fn table(
@@ -17,8 +17,9 @@ fn table(
 ) -> (Vec<String>, Vec<Vec<String>>) {
     let mut text = Vec::new();
     write(&mut text).unwrap();
-    let mut reader = csv::Reader::from_reader(&text[..]);
-    let owned = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect();
+    let mut reader = basemat_problems::csv::Reader::from_reader(&text[..]);
+    let owned =
+        |record: &basemat_problems::csv::StringRecord| record.iter().map(str::to_owned).collect();
     let heading = owned(reader.headers().unwrap());
     (heading, reader.records().map(|record| owned(&record.unwrap())).collect())
 }

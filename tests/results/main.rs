@@ -6,8 +6,8 @@ mod case_tables;
 mod damaged_tables;
 mod files;
 mod foundations;
-mod fragility;
 mod histories;
+mod layout;
 #[cfg(feature = "npz")]
 mod npz;
 mod pages;
@@ -17,14 +17,12 @@ mod resolution;
 mod safety;
 mod serviceability;
 mod spectra;
-#[path = "../support/mod.rs"]
-mod support;
 
 use basemat::Simulation;
 use basemat::coupled::{Probe, Run, State};
 use basemat::results::{Histories, Recorder};
 
-use crate::support::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI, block, friction, scene};
 
 const FRICTION: f64 = 0.35;
 const STEPS: usize = 400;

@@ -1,6 +1,6 @@
 //! GOAL: histories as an archive of arrays that NumPy reads.
 //! SCENE: the block of `main` with contact and motion frames, and without.
-//! REFERENCE: the numbers themselves; `tests/support/read_npz.py` compares what is saved here with
+//! REFERENCE: the numbers themselves; `tests/data/read_npz.py` compares what is saved here with
 //! NumPy's own reader.
 
 use std::collections::BTreeMap;
@@ -13,7 +13,7 @@ use basemat::results::{Histories, Quantity, Recorder};
 use basemat::structure::RigidBlock;
 
 use super::{FRICTION, Recorded, STEPS, recorded};
-use crate::support::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI, block, friction, scene};
 
 /// Type, shape and bytes of an array.
 struct Array {
@@ -141,7 +141,7 @@ fn arrays_are_what_was_kept() {
     assert_eq!(arrays.len(), 12 + 2 + EnergyTerm::ALL.len() + 9 + 4);
 }
 
-/// Files for `tests/support/read_npz.py`.
+/// Files for `tests/data/read_npz.py`.
 #[test]
 fn archives_are_saved_beside_their_tables() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("npz");

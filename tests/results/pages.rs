@@ -8,7 +8,7 @@ use basemat::results::{Comparison, Quantity, Recorder};
 use basemat::structure::RigidBlock;
 
 use super::{FRICTION, Recorded, STEPS, recorded};
-use crate::support::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI, block, friction, scene};
 
 /// Values stay SI in files and turn into what engineers read where they are printed, a label that
 /// nobody knows stays.

@@ -13,8 +13,8 @@ use basemat::results::{Histories, Quantity, Recorder, WirePoint, Wireframe};
 use basemat::structure::{RigidBlock, Row, StructureGroup};
 use basemat::{Error, Simulation};
 
-use crate::support::layout::assert_readable;
-use crate::support::scenes::{self, SI, block, friction, scene};
+use crate::layout::assert_readable;
+use basemat_problems::scenes::{self, SI, block, friction, scene};
 
 fn simulation() -> (Simulation, Wireframe) {
     let shape = Wireframe::of_block(&block(SI), 6.0).unwrap();

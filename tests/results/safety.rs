@@ -13,8 +13,8 @@ use basemat::structure::{RigidBlock, StructureGroup};
 use basemat::{Error, Simulation, Soil};
 
 use super::simulation;
-use crate::support::scenes::{SI, block, scene, soil};
-use crate::support::wrapped::Pulled;
+use basemat_problems::scenes::{SI, block, scene, soil};
+use basemat_problems::wrapped::Pulled;
 
 /// Pushed with H at height h, a block of weight W and width 2b stands with μW/H and Wb/(Hh).
 #[test]

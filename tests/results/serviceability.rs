@@ -7,7 +7,7 @@ use basemat::coupled::{Run, State};
 use basemat::results::{Comparison, Criterion, Serviceability};
 
 use super::{FRICTION, STEPS};
-use crate::support::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI, block, friction, scene};
 
 fn run(limits: Serviceability) -> (Run, Vec<State>) {
     let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION));

@@ -13,7 +13,7 @@ use basemat::structure::{
 };
 use basemat::{CheckpointError, Error, Result, Simulation, Soil};
 
-use crate::support::wrapped::needed_from;
+use basemat_problems::needed_from;
 
 const STEP: f64 = 0.002;
 

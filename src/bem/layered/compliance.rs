@@ -316,5 +316,4 @@ impl Square {
 }
 
 #[cfg(test)]
-#[path = "compliance_tests.rs"]
 mod tests;

@@ -18,7 +18,7 @@ use crate::linalg::Complex;
 
 /// Nanoseconds of one thread for an evaluation of the surface compliance, for each layer in it after the
 /// first, for its moments if its panel is halved, for a form factor, and for a product of the two.
-/// Measured (`examples/layered_cost.rs`).
+/// Measured (`benches/studies/src/layered_cost.rs`).
 const EVALUATION: f64 = 95.0;
 const LAYER: f64 = 130.0;
 const MOMENTS: f64 = 110.0;
@@ -172,5 +172,4 @@ impl Quadrature {
 }
 
 #[cfg(test)]
-#[path = "cost_tests.rs"]
 mod tests;

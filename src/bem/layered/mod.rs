@@ -22,12 +22,9 @@ mod runge_kutta;
 mod static_compliance;
 mod tail;
 #[cfg(test)]
-#[path = "../../../tests/support/profiles.rs"]
 mod test_profiles;
 mod wavenumber;
 
-#[cfg(test)]
-use crate::soil::{GeneralizedMaxwell, Relaxation, Soil, SoilProfile};
 pub use cost::Cost;
 pub use impedance::{StripContact, StripImpedance, rigid_strip_impedances};
 pub use kernel::LayeredKernel;

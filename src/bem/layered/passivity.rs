@@ -61,5 +61,4 @@ pub(crate) fn assembled(classes: &PairClasses, values: &[[Complex; KINDS]]) -> V
 }
 
 #[cfg(test)]
-#[path = "passivity_tests.rs"]
 mod tests;

@@ -393,5 +393,4 @@ fn parts(c: &Surface, weight: f64) -> [f64; 6] {
 }
 
 #[cfg(test)]
-#[path = "wavenumber_tests.rs"]
 mod tests;

@@ -1,11 +1,5 @@
 //! In which coordinates a linear structure is stepped.
 
-use std::fmt;
-use std::str::FromStr;
-
-use crate::error::{Error, Result};
-use crate::text::words::{unknown, with_number};
-
 /// In which coordinates a linear structure is stepped. Results are the same to rounding but for
 /// [`Coordinates::Reduced`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -54,41 +48,20 @@ pub enum Coordinates {
     },
 }
 
-/// The words that `FromStr` reads: `auto`, `reduced(1e-6)`.
-impl fmt::Display for Coordinates {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Auto => f.pad("auto"),
-            Self::Unknowns => f.pad("unknowns"),
-            Self::Modes => f.pad("modes"),
-            Self::Reduced { tolerance } => f.pad(&format!("reduced({tolerance:e})")),
-        }
-    }
-}
-
-/// ```
-/// use basemat::coupled::Coordinates;
-/// let reduced = Coordinates::Reduced { tolerance: 1e-6 };
-/// assert_eq!("reduced(1e-6)".parse(), Ok(reduced));
-/// assert_eq!(reduced.to_string(), "reduced(1e-6)");
-/// let refused = "ritz".parse::<Coordinates>().unwrap_err();
-/// let known = "auto, unknowns, modes, reduced(tolerance)";
-/// assert_eq!(refused.to_string(), format!("there is no kind of coordinates 'ritz', only {known}"));
-/// ```
-impl FromStr for Coordinates {
-    type Err = Error;
-
-    /// # Errors
-    /// [`Error::Word`] with those that are known.
-    fn from_str(text: &str) -> Result<Self> {
-        let known = &["auto", "unknowns", "modes", "reduced(tolerance)"];
-        let read = with_number(text);
-        Ok(match read.as_ref().map(|(word, number)| (&word[..], *number)) {
-            Some(("auto", None)) => Self::Auto,
-            Some(("unknowns", None)) => Self::Unknowns,
-            Some(("modes", None)) => Self::Modes,
-            Some(("reduced", Some(tolerance))) => Self::Reduced { tolerance },
-            _ => return Err(unknown("kind of coordinates", text, known)),
-        })
+words_with_numbers! {
+    /// One of its words, or an [`Error::Word`](crate::Error::Word).
+    ///
+    /// ```
+    /// use basemat::coupled::Coordinates;
+    /// let reduced = Coordinates::Reduced { tolerance: 1e-6 };
+    /// assert_eq!("reduced(1e-6)".parse(), Ok(reduced));
+    /// assert_eq!(reduced.to_string(), "reduced(1e-6)");
+    /// let refused = "ritz".parse::<Coordinates>().unwrap_err();
+    /// let known = "auto, unknowns, modes, reduced(tolerance)";
+    /// assert_eq!(refused.to_string(), format!("there is no kind of coordinates 'ritz', only {known}"));
+    /// ```
+    Coordinates, "kind of coordinates", {
+        Auto = "auto", Unknowns = "unknowns", Modes = "modes";
+        Reduced { tolerance } = "reduced",
     }
 }

@@ -1,4 +1,11 @@
-//! Putting a simulation together.
+//! Putting a simulation together, in the order of [`SimulationBuilder::build`].
+//!
+//! 1. `parts.rs`: what was given, each part checked by itself;
+//! 2. `assembled.rs`: matrices, base and influence vectors of the structure, in its own unknowns;
+//! 3. `statics.rs`: weight first, then the loads at t = 0, by the search of `equilibrium.rs`;
+//! 4. `stepped.rs`: coordinates, chosen once; matrices, base and operators in these. `modes.rs` finds
+//!    vibration modes, `krylov.rs` fewer Ritz modes;
+//! 5. the scene, and in `initial.rs` what moves at t = 0.
 
 pub(crate) mod assembled;
 pub(crate) mod coordinates;
@@ -226,16 +233,16 @@ impl SimulationBuilder {
     /// Checks the parts against each other, finds the static state and factors what stays constant.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a missing part, the typed error of whatever is wrong with a given one.
-    /// [`Error::Supported`] for a structure that is held by more than the ground,
-    /// [`Error::Detached`] for one with a part that is not joined to its base,
-    /// [`Error::Indefinite`] for a negative mass or damping, or a stiffness that is negative with the
-    /// base held.
-    /// [`Error::Probe`] and [`Error::DuplicateName`] for a probe of an unknown that is not there or a
-    /// name that comes twice. [`Error::Standing`] if the structure cannot stand under weight and the loads at
-    /// t = 0, [`Error::Preload`] if no equilibrium was found for another reason,
-    /// [`Error::IllConditioned`] if double precision cannot carry the scene, [`Error::Law`] for an
-    /// interface law that returns numbers which are not finite.
+    /// [`crate::Error::Scene`] for a missing part, the typed error of whatever is wrong with a given one.
+    /// [`crate::Error::Supported`] for a structure that is held by more than the ground,
+    /// [`crate::Error::Detached`] for one with a part that is not joined to its base,
+    /// [`crate::Error::Indefinite`] for a negative mass or damping, or a stiffness that is negative with
+    /// the base held.
+    /// [`crate::Error::Probe`] and [`crate::Error::DuplicateName`] for a probe of an unknown that is not
+    /// there or a name that comes twice. [`crate::Error::Standing`] if the structure cannot stand under
+    /// weight and the loads at t = 0, [`crate::Error::Preload`] if no equilibrium was found for another
+    /// reason, [`crate::Error::IllConditioned`] if double precision cannot carry the scene,
+    /// [`crate::Error::Law`] for an interface law that returns numbers which are not finite.
     pub fn build(self) -> Result<Simulation> {
         let mut parts = Parts::new(self.structure, self.ground, self.given)?;
         let assembled = Assembled::new(parts.structure.as_ref(), &parts.elements)?;

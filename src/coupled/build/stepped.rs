@@ -22,7 +22,7 @@ const STEPS: usize = 10_000;
 const NEEDED: &str = "a linear structure with symmetric matrices, a positive definite mass and a \
                       damping that the modes decouple";
 
-/// Times in nanoseconds that choose the coordinates, as measured by `benches/step.rs`.
+/// Times in nanoseconds that choose the coordinates, as measured by `benches/studies/benches/step.rs`.
 mod cost {
     /// Per entry of a sparse factor or matrix and use.
     pub(super) const SPARSE_ENTRY: f64 = 1.0;

@@ -2,11 +2,11 @@
 //! SCENE: a tower on springs and on the half-plane; seven laws, five schemes, two searches.
 //! REFERENCE: the energy ledger. Only the flow chart may give up, with an error that says so.
 
-use crate::support::scenes::{GRAVITY, SI, friction, ground, shake, soil, tower};
 use basemat::bem::{ContactElement, Grading, SpringGround};
 use basemat::coupled::{ContactSearch, HhtAlpha, Midpoint, Newmark, SimulationBuilder, Theta};
 use basemat::interface::{Activation, Bonded, FrictionLimit, InterfaceLaw, ThinLayer};
 use basemat::{Error, Simulation, StepError};
+use basemat_problems::scenes::{GRAVITY, SI, friction, ground, shake, soil, tower};
 
 fn layer() -> ThinLayer {
     ThinLayer::new(soil(SI), 1.0, 0.3).unwrap()

@@ -2,13 +2,13 @@
 //! SCENE: any motion of the four nodes of a layer element; blocks on layers of several thicknesses.
 //! REFERENCE: one-point and exactly integrated quadrilaterals; hard contact; the weight carried.
 
-use crate::support::scenes::{GRAVITY, SI, block, friction, ground, scene, soil, tower};
 use basemat::bem::{Grading, Ground};
 use basemat::coupled::{Run, State};
 use basemat::fem::{Element, Material, Quad4, QuadFormulation};
 use basemat::interface::{
     ContactState, FrictionLimit, InterfaceLaw, Mode, SlipSense, StepStart, ThinLayer, Tolerance,
 };
+use basemat_problems::scenes::{GRAVITY, SI, block, friction, ground, scene, soil, tower};
 
 const LENGTH: f64 = 1.3;
 const HEIGHT: f64 = 0.8;
@@ -178,7 +178,7 @@ fn conditioning_of_the_contact_operator() {
     println!("none: {hard:.4}");
     assert!(bottom > 0.0);
     for ratio in [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
-        let law = ThinLayer::new(crate::support::scenes::soil(SI), 1.0, 0.3).unwrap();
+        let law = ThinLayer::new(basemat_problems::scenes::soil(SI), 1.0, 0.3).unwrap();
         let law = law.with_thickness_ratio(ratio).unwrap();
         let (soft, _) = condition(law.compliance(Mode::Stick, &start));
         println!("{ratio:e}: {soft:.4}");

@@ -3,9 +3,9 @@
 //! REFERENCE: Hughes 1987; Hilber, Hughes & Taylor 1977; the equation of motion at the end of the
 //! step.
 
-use crate::support::scenes::{SI, block, friction, scene};
 use basemat::coupled::{HhtAlpha, Newmark, SchemeCoefficients, TimeScheme};
 use basemat::structure::{Structure, Triplets};
+use basemat_problems::scenes::{SI, block, friction, scene};
 
 type Matrix = [[f64; 3]; 3];
 

@@ -2,9 +2,9 @@
 //! SCENE: sliding blocks of several strengths and coefficients of friction.
 //! REFERENCE: the robust search, step by step; an unchanged state after an error.
 
-use crate::support::scenes::{SI, block, friction, scene};
 use basemat::coupled::{ContactSearch, SearchMethod, SimulationBuilder};
 use basemat::{Error, StepError};
+use basemat_problems::scenes::{SI, block, friction, scene};
 
 const CHART: ContactSearch = ContactSearch::FlowChart { iterations: 60 };
 

@@ -10,7 +10,7 @@ use basemat::{CheckpointError, Error, Simulation};
 use serde_json::Value;
 
 use super::sum::sum;
-use crate::support::scenes::{SI, scene};
+use basemat_problems::scenes::{SI, scene};
 
 /// Three unknowns on two springs.
 fn simulation() -> Simulation {

@@ -15,7 +15,7 @@ use basemat::soil::SoilProfile;
 use basemat::{CheckpointError, Error, MemoryError, StepError};
 
 use super::{STEPS, carried, half_plane, refusal};
-use crate::support::scenes::{SI, block, friction, scene, soil, states};
+use basemat_problems::scenes::{SI, block, friction, scene, soil, states};
 
 /// A block on equal elements whose ground chooses its history, in at most these bytes.
 pub(crate) fn auto(elements: usize, memory: usize) -> SimulationBuilder {

@@ -8,8 +8,8 @@ use basemat::history::History;
 use basemat::{CheckpointError, Simulation};
 
 use super::{STEPS, carried, half_plane, refusal, spring_bed};
-use crate::support::laws_with_memory::{Adhesion, SlipWeakening, SofteningPads};
-use crate::support::scenes::{SI, block, friction, scene};
+use basemat_problems::laws_with_memory::{Adhesion, SlipWeakening, SofteningPads};
+use basemat_problems::scenes::{SI, block, friction, scene};
 
 const WEAKENING: SlipWeakening = SlipWeakening { first: 0.35, residual: 0.15, distance: 0.05 };
 const GLUE: Adhesion = Adhesion { friction: 0.3, strength: 2e4, breaks_by_sliding: true };

@@ -18,7 +18,7 @@ use basemat::coupled::Checkpoint;
 use basemat::history::History;
 use basemat::{CheckpointError, Error, Simulation};
 
-use crate::support::scenes::{SI, soil};
+use basemat_problems::scenes::{SI, soil};
 
 /// Longer than the window of the exponentials and several leaves of the transforms.
 const STEPS: usize = 260;

@@ -10,8 +10,8 @@ use basemat::structure::{
 use basemat::{CheckpointError, Error, Result};
 
 use super::{half_plane, refusal, spring_bed};
-use crate::support::scenes::{Rider, SI, block, friction, scene};
-use crate::support::wrapped::needed_from;
+use basemat_problems::needed_from;
+use basemat_problems::scenes::{Rider, SI, block, friction, scene};
 
 #[test]
 fn other_scenes_are_refused() {

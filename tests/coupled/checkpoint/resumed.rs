@@ -13,8 +13,8 @@ use basemat::structure::{NonlinearForce, RigidBlock, Structure, Triplets};
 use basemat::{CheckpointError, Result, Simulation};
 
 use super::{STEPS, carried, half_plane, spring_bed};
-use crate::support::scenes::{Rider, SI, block, friction, scene, soil, states, tower};
-use crate::support::wrapped::needed_from;
+use basemat_problems::needed_from;
+use basemat_problems::scenes::{Rider, SI, block, friction, scene, soil, states, tower};
 
 /// Rigid block whose weak spring against rotation slips: it has a memory of its own.
 struct Sticky {

@@ -5,7 +5,7 @@
 use basemat::coupled::Checkpoint;
 use serde_json::Value;
 
-use crate::support::check_sum::{check_sum, text_words};
+use basemat_problems::check_sum::{check_sum, text_words};
 
 const FIELDS: [&str; 8] =
     ["format", "identity", "steps", "modes", "memory", "state", "ground", "structure"];

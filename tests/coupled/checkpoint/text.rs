@@ -12,7 +12,7 @@ use serde_json::Value;
 use super::histories::auto;
 use super::sum::sealed;
 use super::{half_plane, refusal};
-use crate::support::scenes::{SI, block, friction, scene};
+use basemat_problems::scenes::{SI, block, friction, scene};
 
 fn simulation(history: History) -> Simulation {
     let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));

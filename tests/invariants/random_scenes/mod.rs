@@ -18,7 +18,7 @@ use recipe::{Recipe, recipes};
 use run_checks::Scales;
 use tally::{Tally, accepted, for_all};
 
-use crate::support::scenes::{self, Frame, SI};
+use basemat_problems::scenes::{self, Frame, SI};
 
 /// Friction up to which a solution does not depend on where the search begins: see
 /// `docs/validation.md`.

@@ -15,7 +15,7 @@ use basemat::{Error, Simulation, Soil};
 use proptest::prelude::*;
 
 use super::shaking::{Kind, Shaking};
-use crate::support::scenes::{Frame, GRAVITY};
+use basemat_problems::scenes::{Frame, GRAVITY};
 
 /// Steps of a run.
 pub(crate) const STEPS: usize = 80;

@@ -2,9 +2,9 @@
 //! SCENE: cantilevers in any direction, with and without shear flexibility; a bracket of two bars.
 //! REFERENCE: Euler–Bernoulli and Timoshenko theory, orders of convergence.
 
-use crate::support::dense::{eigenvalues, form, mass, part, solve_held, stiffness};
 use basemat::fem::{Beam, Direction, MassKind, Mesh, Truss};
 use basemat::structure::{FemModel, Structure};
+use basemat_problems::dense::{eigenvalues, form, mass, part, solve_held, stiffness};
 
 const E: f64 = 30.0e9;
 const AREA: f64 = 0.4;

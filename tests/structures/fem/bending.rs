@@ -2,9 +2,9 @@
 //! SCENE: cantilevers and single rectangles of any aspect ratio, ν up to nearly ½.
 //! REFERENCE: beam theory and closed-form energies.
 
-use crate::support::dense::{dot, form, solve_held, stiffness};
 use basemat::fem::{Direction, Element, Layer, Material, Mesh, Quad4, QuadFormulation};
 use basemat::structure::{FemModel, Structure};
+use basemat_problems::dense::{dot, form, solve_held, stiffness};
 
 const E: f64 = 1.0e7;
 

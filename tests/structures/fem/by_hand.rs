@@ -2,8 +2,8 @@
 //! SCENE: five storeys of springs and masses.
 //! REFERENCE: `ShearBuilding`.
 
-use crate::support::dense::{mass, stiffness};
 use basemat::structure::{ContactNode, ShearBuilding, Storey, Structure, Triplets};
+use basemat_problems::dense::{mass, stiffness};
 
 /// Five storeys on a rigid base: `[u_x, u_y, θ]` and the floors.
 struct FiveStoreys {

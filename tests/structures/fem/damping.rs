@@ -2,9 +2,9 @@
 //! SCENE: pairs of frequencies and ratios; a meshed column with a spring and a dashpot.
 //! REFERENCE: the ratios at both frequencies; α M + β K plus the dashpots.
 
-use crate::support::dense::{damping, mass, stiffness};
 use basemat::fem::{Dashpot, Direction, Layer, Material, Mesh, Spring};
 use basemat::structure::{FemModel, RayleighDamping};
+use basemat_problems::dense::{damping, mass, stiffness};
 
 #[test]
 fn ratios_are_met_at_both_frequencies() {

@@ -2,12 +2,12 @@
 //! SCENE: compressed and leaning columns, simply supported beams, rigid arms and blocks.
 //! REFERENCE: Euler, Engesser, Timoshenko 1921, and closed-form sway.
 
-use crate::support::dense::{
-    dot, eigenvalues, form, largest, mass, multiply, part, solve_held, stiffness,
-};
 use basemat::Error;
 use basemat::fem::{Beam, Direction, Layer, LumpedMass, MassKind, Material, Mesh};
 use basemat::structure::{ContactNode, FemModel, RigidBlock, Row, Structure};
+use basemat_problems::dense::{
+    dot, eigenvalues, form, largest, mass, multiply, part, solve_held, stiffness,
+};
 
 const E: f64 = 30.0e9;
 const AREA: f64 = 0.4;

@@ -2,7 +2,6 @@
 //! SCENE: towers, shear buildings, a free bar of 400 beams, structures with two footings.
 //! REFERENCE: eigenvalues of C, closed-form bending modes, the march in unknowns.
 
-use crate::support::dense::{damping, eigenvalues, form, largest, mass, multiply, stiffness};
 use basemat::bem::SpringGround;
 use basemat::coupled::Coordinates;
 use basemat::fem::{Beam, Direction, Layer, Material, Mesh};
@@ -13,6 +12,7 @@ use basemat::structure::{
     Structure, Triplets,
 };
 use basemat::{Error, Simulation};
+use basemat_problems::dense::{damping, eigenvalues, form, largest, mass, multiply, stiffness};
 
 fn tower() -> FemModel {
     let material = Material::new(2.0e9, 0.2, 2000.0).unwrap();

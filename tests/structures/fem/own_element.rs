@@ -2,9 +2,9 @@
 //! SCENE: three triangles beside a quadrilateral.
 //! REFERENCE: one uniform strain, and the mass of the whole.
 
-use crate::support::dense::{form, largest, mass, multiply, solve_held, stiffness};
 use basemat::fem::{Direction, Element, MassKind, Material, Mesh, Quad4, QuadFormulation};
 use basemat::structure::FemModel;
+use basemat_problems::dense::{form, largest, mass, multiply, solve_held, stiffness};
 
 struct Triangle {
     nodes: [usize; 3],

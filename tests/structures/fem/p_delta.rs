@@ -2,13 +2,15 @@
 //! SCENE: cantilevers, portals and braced columns under their own weight and masses.
 //! REFERENCE: Greenhill 1881, Euler, Kleinlogel, power series of 40 digits.
 
-use crate::support::dense::{damping, eigenvalues, form, largest, mass, multiply, part, stiffness};
 use basemat::Error;
 use basemat::bem::{ElasticGround, Strip};
 use basemat::fem::{Beam, Direction, Element, LumpedMass, MassKind, Mesh, Truss};
 use basemat::interface::Coulomb;
 use basemat::structure::{FemModel, RayleighDamping, Structure};
 use basemat::{Simulation, Soil};
+use basemat_problems::dense::{
+    damping, eigenvalues, form, largest, mass, multiply, part, stiffness,
+};
 
 const E: f64 = 30.0e9;
 const AREA: f64 = 0.4;
@@ -122,7 +124,7 @@ fn a_mass_on_a_cantilever_buckles_it_as_euler_says() {
         let at = model.unknown(8, Direction::X).unwrap() - above[0];
         let mut load = vec![0.0; free.len()];
         load[at] = 1.0;
-        let found = 1.0 / crate::support::dense::solve(&free, &load)[at] / tip;
+        let found = 1.0 / basemat_problems::dense::solve(&free, &load)[at] / tip;
         let (force, k) = (share * euler, (share * euler / BENDING).sqrt());
         let exact = force / (tip * ((k * LENGTH).tan() / k - LENGTH));
         assert!((found / exact - 1.0).abs() < 1e-5 / (1.0 - share), "{share}: {found} {exact}");

@@ -3,9 +3,9 @@
 //! and Design 1, 1985, fig. 1).
 //! REFERENCE: the uniform strain, its energy and its edge forces.
 
-use crate::support::dense::{collect, dot, form, largest, multiply, solve_held};
 use basemat::fem::{Direction, Material, Mesh, Quad4, QuadFormulation};
 use basemat::structure::{FemModel, Structure};
+use basemat_problems::dense::{collect, dot, form, largest, multiply, solve_held};
 
 pub(crate) const POINTS: [[f64; 2]; 8] = [
     [0.0, 0.0],

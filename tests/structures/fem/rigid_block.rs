@@ -2,8 +2,8 @@
 //! SCENE: single blocks, centred and not.
 //! REFERENCE: the integral over the block, a true small rotation, the potential energy.
 
-use crate::support::dense::{mass, row_value, stiffness};
 use basemat::structure::{RigidBlock, Structure};
+use basemat_problems::dense::{mass, row_value, stiffness};
 
 #[test]
 fn mass_matrix_is_the_integral_over_the_block() {

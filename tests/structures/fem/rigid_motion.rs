@@ -2,14 +2,14 @@
 //! SCENE: one of every element in a distorted mesh.
 //! REFERENCE: total mass, and closed-form rotary inertia.
 
-use crate::support::dense::{
-    assert_symmetric, damping, form, largest, mass, multiply, noise, stiffness,
-};
 use basemat::fem::{
     Beam, Dashpot, Direction, Layer, LumpedMass, MassKind, Material, Mesh, Quad4, QuadFormulation,
     Spring, Truss,
 };
 use basemat::structure::{FemModel, RayleighDamping};
+use basemat_problems::dense::{
+    assert_symmetric, damping, form, largest, mass, multiply, noise, stiffness,
+};
 
 const DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Rotation];
 

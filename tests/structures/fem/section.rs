@@ -2,11 +2,11 @@
 //! SCENE: a frame on a block, under a static load and in any motion.
 //! REFERENCE: the free body above the section, which is a model of its own.
 
-use crate::support::dense::{damping, dot, form, mass, multiply, noise, solve_held, stiffness};
 use basemat::fem::{
     Beam, Dashpot, Direction, Layer, LumpedMass, Material, Mesh, Quad4, QuadFormulation,
 };
 use basemat::structure::{FemModel, RayleighDamping, SectionRows, Structure};
+use basemat_problems::dense::{damping, dot, form, mass, multiply, noise, solve_held, stiffness};
 
 const CUT: f64 = 2.0;
 

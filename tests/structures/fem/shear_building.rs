@@ -2,14 +2,14 @@
 //! SCENE: uniform and uneven buildings.
 //! REFERENCE: closed-form frequencies, Jacobi's method, free bodies, potential energy.
 
-use crate::support::curvature::curvature;
-use crate::support::dense::{
-    assert_symmetric, damping, eigenvalues, form, largest, mass, multiply, noise, part, row_value,
-    stiffness,
-};
+use crate::curvature;
 use basemat::Error;
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::structure::{FemModel, Row, ShearBuilding, Storey, Structure};
+use basemat_problems::dense::{
+    assert_symmetric, damping, eigenvalues, form, largest, mass, multiply, noise, part, row_value,
+    stiffness,
+};
 use std::f64::consts::{PI, TAU};
 
 fn uneven() -> ShearBuilding {

@@ -5,7 +5,7 @@
 
 use basemat::structure::{Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber};
 
-use crate::support::random::Random;
+use basemat_problems::random::Random;
 
 /// All laws, with a yield displacement between 0.5 mm and 1 cm.
 fn laws() -> Vec<(String, Box<dyn Hysteresis>)> {

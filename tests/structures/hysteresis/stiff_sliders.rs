@@ -14,7 +14,7 @@ use basemat::structure::{
     Storey,
 };
 
-use crate::support::random::Random;
+use basemat_problems::random::Random;
 
 const FLOOR: f64 = 20.0e3;
 const LEVEL: IsolationLevel =

@@ -11,7 +11,7 @@ use basemat::structure::{
 };
 
 use super::model::{on_soil, tower};
-use crate::support::dense::{self, largest};
+use basemat_problems::dense::{self, largest};
 
 fn damped() -> FemModel {
     tower(6, 12).with_rayleigh(RayleighDamping::from_ratios([1.0, 8.0], [0.03; 2]).unwrap())

@@ -1,0 +1,90 @@
+//! A structure of 51 102 unknowns, in full and reduced to its contact nodes and a few modes.
+//!
+//! Elements per second are steps per second: with steps of 0.01 s, 100 are real time. All models
+//! march through the same strong half second of El Centro, again and again.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use basemat::coupled::{Checkpoint, Coordinates};
+use basemat::structure::{CraigBampton, MatrixModel, Row};
+use basemat::{Result, Simulation};
+use basemat_problems::tower::{Tower, damped, scene};
+use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+
+/// Steps before those that are timed: the base slides and uplifts by then.
+const BEFORE: usize = 200;
+/// Steps that are timed.
+const STEPS: usize = 50;
+
+/// The full model, and the sway of its top.
+fn full() -> Result<(MatrixModel, Row)> {
+    let Tower { mass, stiffness, contact, top } = Tower::new()?;
+    Ok((damped(mass, stiffness, contact)?, top))
+}
+
+/// A simulation that marches the same steps again and again.
+struct Passage {
+    simulation: Simulation,
+    start: Checkpoint,
+}
+
+impl Passage {
+    fn new(mut simulation: Simulation) -> Result<Self> {
+        simulation.run(BEFORE, |_| {})?;
+        let start = simulation.checkpoint()?;
+        Ok(Self { simulation, start })
+    }
+
+    /// Time of the steps; going back to their start is left out.
+    fn march(&mut self, repetitions: u64) -> Result<Duration> {
+        let mut total = Duration::ZERO;
+        for _ in 0..repetitions {
+            self.simulation.resume(&self.start)?;
+            let begin = Instant::now();
+            for _ in 0..STEPS {
+                black_box(self.simulation.step()?);
+            }
+            total += begin.elapsed();
+        }
+        Ok(total)
+    }
+}
+
+fn steps(criterion: &mut Criterion) {
+    let (model, top) = full().expect("a valid tower");
+    let mut group = criterion.benchmark_group("steps of 0.01 s, tower of 51102 unknowns");
+    group.throughput(Throughput::Elements(STEPS as u64)).sample_size(10);
+    group.warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(2));
+    let mut time = |name: BenchmarkId, simulation: Result<Simulation>| {
+        let mut passage = simulation.and_then(Passage::new).expect("a valid scene");
+        group.bench_function(name, |bencher| {
+            bencher.iter_custom(|times| passage.march(times).expect("every step is solved"));
+        });
+    };
+    for modes in [10, 20, 40, 80] {
+        let reduced = CraigBampton::new(modes).reduce(model.clone()).expect("a valid model");
+        let row = reduced.recovery().row(&top).expect("the top is an unknown");
+        time(BenchmarkId::new("modes", modes), scene(reduced, row, Coordinates::Auto));
+    }
+    time(BenchmarkId::new("modes", "all"), scene(model, top, Coordinates::Unknowns));
+    group.finish();
+}
+
+/// What a reduction takes, once for every model.
+fn reduction(criterion: &mut Criterion) {
+    let (model, _) = full().expect("a valid tower");
+    let mut group = criterion.benchmark_group("reduction, tower of 51102 unknowns");
+    group.sample_size(10).warm_up_time(Duration::from_secs(1));
+    group.bench_function(BenchmarkId::new("modes", 20), |bencher| {
+        bencher.iter_batched(
+            || model.clone(),
+            |model| black_box(CraigBampton::new(20).reduce(model).expect("a valid model")),
+            BatchSize::PerIteration,
+        );
+    });
+    group.finish();
+}
+
+criterion_group!(benches, steps, reduction);
+criterion_main!(benches);

@@ -1,0 +1,100 @@
+//! Time per step of whole scenes, and of the histories alone.
+
+use std::hint::black_box;
+use std::sync::Arc;
+
+use basemat::Soil;
+use basemat::bem::{ContactElement, PatchKernel, Strip};
+use basemat::history::{ConvolutionHistory, DirectHistory, LagKernel, RelaxedFftHistory};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+
+fn soil() -> Soil {
+    Soil::new(80.0e6, 1.0 / 3.0, 1900.0).expect("a valid soil")
+}
+
+/// What each kind of scene pays for a step.
+fn kinds(criterion: &mut Criterion) {
+    let steps = 2_000;
+    let mut group = criterion.benchmark_group("2000 steps of the headline run");
+    group.throughput(Throughput::Elements(2_000)).sample_size(10);
+    for row in &basemat_problems::headline::ROWS {
+        group.bench_function(row.name, |bencher| {
+            bencher.iter_batched(
+                // Told of fewer steps, it would make them in unknowns instead of modes.
+                || row.build(10_000).expect("a valid scene"),
+                |mut simulation| {
+                    black_box(row.march(&mut simulation, steps).expect("every step is solved"))
+                },
+                criterion::BatchSize::LargeInput,
+            );
+        });
+    }
+    group.finish();
+}
+
+fn direct_history(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("direct history, one evaluation");
+    for past in [1_000, 10_000] {
+        let elements: Vec<ContactElement> =
+            Strip::uniform(-5.0..5.0, 10).expect("a valid strip").elements();
+        let kernel = PatchKernel::new(soil(), elements, 2.0e-3).expect("a valid patch");
+        let mut history = DirectHistory::new(Arc::new(kernel));
+        history.reserve(past + 1).expect("kernels");
+        for step in 0..past {
+            let traction: Vec<f64> = (0..20).map(|i| ((step * 7 + i) as f64).sin()).collect();
+            history.push(&traction);
+        }
+        let mut displacement = vec![0.0; 20];
+        // Pressure on settlement and shear on sway, for each pair of elements.
+        group.throughput(Throughput::Elements(2 * 100 * past as u64));
+        group.bench_function(BenchmarkId::new("10 elements", past), |bencher| {
+            bencher.iter(|| history.evaluate(black_box(&mut displacement)));
+        });
+    }
+    group.finish();
+}
+
+/// Whole marches, kernels and memory made ready before.
+fn whole_march(criterion: &mut Criterion) {
+    const STEPS: usize = 10_000;
+    let elements = Strip::uniform(-5.0..5.0, 10).expect("a valid strip").elements();
+    let kernel: Arc<dyn LagKernel> =
+        Arc::new(PatchKernel::new(soil(), elements, 2.0e-3).expect("a valid patch"));
+    let make = |relaxed: bool| -> Box<dyn ConvolutionHistory> {
+        let kernel = Arc::clone(&kernel);
+        if relaxed {
+            Box::new(RelaxedFftHistory::new(kernel))
+        } else {
+            Box::new(DirectHistory::new(kernel))
+        }
+    };
+    let mut group = criterion.benchmark_group("history, 10 000 steps, 10 elements");
+    group.throughput(Throughput::Elements(STEPS as u64)).sample_size(10);
+    for (name, relaxed) in [("direct", false), ("relaxed FFT", true)] {
+        group.bench_function(name, |bencher| {
+            bencher.iter_batched(
+                || {
+                    let mut history = make(relaxed);
+                    history.reserve(STEPS).expect("kernels");
+                    history
+                },
+                |mut history| {
+                    let (mut displacement, mut traction) = ([0.0; 20], [0.0; 20]);
+                    for step in 0..STEPS {
+                        history.evaluate(&mut displacement).expect("a valid history");
+                        for (i, value) in traction.iter_mut().enumerate() {
+                            *value = ((step * 7 + i) % 101) as f64;
+                        }
+                        history.push(&traction);
+                    }
+                    black_box(displacement)
+                },
+                criterion::BatchSize::LargeInput,
+            );
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, kinds, direct_history, whole_march);
+criterion_main!(benches);

@@ -1,0 +1,70 @@
+//! A hundred thousand random contact problems, each solved by a simulation's step and by brute
+//! force: which method found the modes, in how many solves, and where the solution is not unique.
+//!
+//! ```text
+//! cargo study contact-problems
+//! ```
+
+use basemat_problems::contact_problems::{STEPS, Tally, sequence};
+use basemat_problems::random::Random;
+
+/// Random contact problems against brute force.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Options {
+    /// Problems, about
+    #[arg(long, default_value_t = 100_000)]
+    problems: usize,
+    /// Seed of the random numbers
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+/// Ranges of the friction coefficient.
+const FRICTION: [[f64; 2]; 6] =
+    [[0.0, 0.0], [0.0, 0.3], [0.3, 0.6], [0.6, 1.0], [1.0, 2.0], [2.0, 3.0]];
+/// Elements, and how many of a hundred sequences have them.
+const COUNTS: [(usize, usize); 5] = [(1, 10), (2, 30), (3, 40), (4, 18), (5, 2)];
+
+pub(crate) fn run(options: &Options) {
+    let mut random = Random(options.seed);
+    println!(
+        "| operator | friction | problems | active set | Gauss–Seidel | path | solves, mean | most \
+         | several solutions | most | none | failed | conditions off by | from brute force |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+    let mut total = Tally::default();
+    for real in [true, false] {
+        for range in FRICTION {
+            let mut tally = Tally::default();
+            let sequences = options.problems.div_ceil(2 * FRICTION.len() * STEPS);
+            for (count, share) in COUNTS {
+                for _ in 0..(sequences * share).div_ceil(100) {
+                    let friction = random.within(range[0], range[1].max(f64::MIN_POSITIVE));
+                    let friction = if range[1] == 0.0 { 0.0 } else { friction };
+                    tally.add(&sequence(count, friction, real, &mut random));
+                }
+            }
+            let operator = if real { "scene" } else { "invented" };
+            print_row(operator, &format!("{} to {}", range[0], range[1]), &tally);
+            total.add(&tally);
+        }
+    }
+    print_row("all", "0 to 3", &total);
+}
+
+fn print_row(operator: &str, friction: &str, tally: &Tally) {
+    let [active, seidel, path] = tally.methods;
+    let mean = tally.trials as f64 / (tally.problems - tally.failed).max(1) as f64;
+    println!(
+        "| {operator} | {friction} | {} | {active} | {seidel} | {path} | {mean:.2} | {} | {} | {} | {} | {} \
+         | {:.0e} | {:.0e} |",
+        tally.problems,
+        tally.most_trials,
+        tally.several,
+        tally.most_solutions,
+        tally.none,
+        tally.failed,
+        tally.violation,
+        tally.distance
+    );
+}

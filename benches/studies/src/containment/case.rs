@@ -1,0 +1,101 @@
+//! One case: its run, and what is kept of it.
+
+use basemat::Simulation;
+use basemat::bem::{ElasticGround, Strip};
+use basemat::coupled::{Probe, Run};
+use basemat::interface::{Bonded, Coulomb};
+use basemat::motion::el_centro_1940;
+use basemat::results::{Histories, Recorder, Serviceability};
+use basemat_problems::containment::{Containment, PAPER_SHEARS, ROWS};
+
+/// A name and a friction coefficient; `None` is bonded, infinity uplift only.
+#[derive(Debug, Clone)]
+pub(crate) struct Case {
+    pub(crate) name: String,
+    pub(crate) friction: Option<f64>,
+}
+
+/// A case that has run.
+pub(crate) struct Outcome {
+    pub(crate) case: Case,
+    pub(crate) run: Run,
+    /// With the probes of [`Containment::probes`], and "foundation", the acceleration of the foundation's top.
+    pub(crate) histories: Histories,
+    /// Of the superstructure, kg/m.
+    pub(crate) superstructure_mass: f64,
+    /// Largest base shear at the foundation–superstructure interface, N/m.
+    pub(crate) peak_shear: f64,
+    /// Largest displacement of the roof corner to a side, relative to the free field's start, and upwards, m.
+    pub(crate) peak_roof: f64,
+    pub(crate) peak_lift: f64,
+    /// Largest horizontal displacement of the roof corner against the base, m.
+    pub(crate) peak_sway: f64,
+}
+
+impl Case {
+    /// Bonded, uplift only, then one case per friction coefficient.
+    pub(crate) fn list(friction: &[f64]) -> Vec<Self> {
+        let first = ROWS[..2].iter().map(|(name, friction)| ((*name).to_owned(), *friction));
+        let rest =
+            friction.iter().map(|friction| (format!("friction {friction}"), Some(*friction)));
+        first.chain(rest).map(|(name, friction)| Self { name, friction }).collect()
+    }
+
+    /// Peak base shear of the paper's Table 1, lb/ft, where it has this case.
+    pub(crate) fn printed_shear(&self) -> Option<f64> {
+        let row = ROWS.iter().position(|(_, friction)| *friction == self.friction)?;
+        Some(PAPER_SHEARS[row])
+    }
+
+    /// Runs so many seconds of El Centro.
+    pub(crate) fn run(&self, scene: Containment, duration: f64) -> basemat::Result<Outcome> {
+        let model = scene.structure()?;
+        let (probes, top) = (scene.probes(&model)?, scene.foundation_top(&model)?);
+        let builder = Simulation::builder(scene.time_step(0.5))
+            .structure(model)
+            // Equal elements, as in the paper.
+            .ground(ElasticGround::new(
+                scene.soil()?,
+                Strip::uniform(scene.base(), scene.elements)?,
+            )?)
+            .motion(el_centro_1940())
+            .probes(probes)
+            .probe(Probe::acceleration("foundation", top))
+            .serviceability(
+                Serviceability::new()
+                    .with_slip(25e-3)?
+                    .with_gap(10e-3)?
+                    .with_uplifted_fraction(0.75)?
+                    .with_rotation(2e-3)?,
+            );
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above zero")]
+        let steps = (duration / scene.time_step(0.5)).round() as usize;
+        let builder = builder.expected_steps(steps);
+        let mut simulation = match self.friction {
+            None => builder.interface(Bonded),
+            Some(friction) => builder.interface(Coulomb::new(friction)?),
+        }
+        .build()?;
+        let mut histories = Recorder::new().start(&simulation)?;
+        histories.reserve(steps);
+        let run = simulation.run(steps, |state| histories.record(state))?;
+        Ok(Outcome {
+            case: self.clone(),
+            superstructure_mass: scene.superstructure_mass(),
+            peak_shear: run.probe("base shear")?.magnitude(),
+            peak_roof: run.probe("roof x")?.magnitude(),
+            peak_lift: run.probe("roof y")?.highest.value,
+            peak_sway: run.probe("sway")?.magnitude(),
+            run,
+            histories,
+        })
+    }
+}
+
+impl Outcome {
+    /// Times and values of a probe, multiplied by a factor.
+    pub(crate) fn curve(&self, probe: &str, factor: f64) -> basemat::Result<Vec<(f64, f64)>> {
+        let values = self.histories.probe(probe)?.iter().map(|value| factor * value);
+        Ok(self.histories.times().iter().copied().zip(values).collect())
+    }
+}

@@ -1,0 +1,63 @@
+//! Documents and tables: text between markers, comma-separated files, the machine that a table was made on.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::AnyError;
+
+/// Puts `text` between the markers of this name in a file of `benches/studies/tables`.
+pub(crate) fn splice(file: &str, name: &str, text: &str) -> Result<(), AnyError> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tables").join(file);
+    let [begin, end] = ["begin", "end"].map(|place| format!("<!-- {name}: {place} -->"));
+    let old = std::fs::read_to_string(&path)?;
+    let missing = || format!("{}: no markers '{begin}', '{end}'", path.display());
+    let (before, rest) = old.split_once(&begin).ok_or_else(missing)?;
+    let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
+    let new = format!("{before}{begin}\n\n{}\n\n{end}{after}", text.trim());
+    Ok(std::fs::write(path, new)?)
+}
+
+/// Writes a comma-separated file: its columns, then its rows.
+pub(crate) fn write_csv<const N: usize>(
+    path: impl AsRef<Path>,
+    columns: [&str; N],
+    rows: impl IntoIterator<Item = [String; N]>,
+) -> Result<(), AnyError> {
+    let mut writer = csv::Writer::from_path(path)?;
+    writer.write_record(columns)?;
+    for row in rows {
+        writer.write_record(row)?;
+    }
+    Ok(writer.flush()?)
+}
+
+/// Name of a file or of a part of its name: letters and digits only.
+pub(crate) fn file_stem(name: &str) -> String {
+    name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect()
+}
+
+/// What `/proc/cpuinfo` says of the first processor, or "unknown".
+pub(crate) fn processor(what: &str) -> String {
+    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let line = text.lines().find_map(|line| line.strip_prefix(what)?.split_once(": "));
+    line.map_or("unknown", |(_, value)| value.trim()).to_owned()
+}
+
+/// Number of processors.
+pub(crate) fn threads() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// What a command prints, or "unknown".
+pub(crate) fn told_by(command: &str, arguments: &[&str]) -> String {
+    let output = Command::new(command).args(arguments).output().ok();
+    let told = output.filter(|output| output.status.success());
+    told.map_or("unknown".into(), |output| String::from_utf8_lossy(&output.stdout).trim().into())
+}
+
+/// Largest resident memory of this process so far, MB; `None` where the system does not tell.
+pub(crate) fn peak_memory() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(1.024e-3 * peak.split_whitespace().next()?.parse::<f64>().ok()?)
+}

@@ -1,0 +1,302 @@
+//! Fragility curves from thousands of runs: friction × width of the base × motions × intensities.
+//!
+//! ```text
+//! cargo study fragility
+//! cargo study fragility --shard 0/2 --out runs    # and 1/2, elsewhere
+//! cargo study fragility --merge --out runs
+//! ```
+//!
+//! A shear building stands on a mat that may uplift and slide. El Centro and near-fault pulses are scaled to
+//! levels of peak ground velocity. Where the demand (residual slip, unless another column is asked for)
+//! exceeds its limit, a run counts; a lognormal curve is fitted to the counts of each friction and width by
+//! maximum likelihood. Bands hold 90 % of the curves of a bootstrap over the motions: the
+//! motions at one level are the same as at the next, so that runs are not independent.
+//!
+//! Cases are rows of one table. Those that fail are rows that say why, and are left out of the counts.
+//! A run that is killed goes on where it was; `docs/sweeps.md` spreads it over a cluster.
+
+mod lognormal;
+mod motions;
+mod picture;
+mod scene;
+#[cfg(test)]
+mod tests;
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use basemat::bem::SharedKernels;
+use basemat::sweep::{CaseTable, Parameter, Sweep};
+use basemat_problems::random::Random;
+use cpu_time::ProcessTime;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::AnyError;
+use crate::document::write_csv;
+use lognormal::{Curve, Fit, Outcomes, Stripe};
+use motions::Motion;
+
+/// Curves of the bootstrap, and the share of them within a band.
+const SAMPLES: usize = 1000;
+const BAND: f64 = 0.9;
+
+/// The curve of a friction coefficient and a width.
+pub(crate) struct Group {
+    pub(crate) friction: f64,
+    pub(crate) width: f64,
+    pub(crate) stripes: Vec<Stripe>,
+    pub(crate) fit: Option<Fit>,
+    /// Of the bootstrap.
+    pub(crate) samples: Vec<Curve>,
+}
+
+/// Fragility of a shear building that may uplift and slide: friction × width × motions × intensities.
+///
+/// Writes the table of all cases, the fitted curves and a picture. A shard writes its part of the table
+/// only, and goes on where it was if it is started again.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct Options {
+    /// Folder for the files.
+    #[arg(long, default_value = "target/study/fragility")]
+    pub(crate) out: PathBuf,
+    /// Runs share I of N only, from 0: `--shard 3/16`.
+    #[arg(long, value_parser = shard, conflicts_with = "merge")]
+    pub(crate) shard: Option<Shard>,
+    /// Runs nothing: merges the shards in the folder, and fits.
+    #[arg(long)]
+    pub(crate) merge: bool,
+    /// Threads; more than one need the feature `rayon`, which takes all processors unless told.
+    #[arg(long)]
+    pub(crate) threads: Option<usize>,
+    /// Few cases, in seconds: to see that all works.
+    #[arg(long)]
+    pub(crate) short: bool,
+    /// Column of the table that is compared with the limit.
+    #[arg(long, default_value = "residual_slip_m")]
+    pub(crate) demand: String,
+    /// Limit of the demand, in the column's unit.
+    #[arg(long, default_value_t = 0.05)]
+    pub(crate) limit: f64,
+    /// Prints the table of all cases, too.
+    #[arg(long)]
+    pub(crate) table: bool,
+}
+
+/// A share of the cases.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shard {
+    pub(crate) index: usize,
+    pub(crate) of: usize,
+}
+
+impl Shard {
+    pub(crate) fn file(self) -> String {
+        format!("shard_{}_of_{}.csv", self.index, self.of)
+    }
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    let numbers = text
+        .split_once('/')
+        .and_then(|(index, of)| Some(Shard { index: index.parse().ok()?, of: of.parse().ok()? }));
+    numbers.ok_or_else(|| "must be like 3/16".to_owned())
+}
+
+pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+    threads(options.threads)?;
+    let motions = motions::list(scene::STEP, options.short)?;
+    let (frictions, widths, levels): (&[f64], &[f64], &[f64]) = if options.short {
+        (&[0.2, 0.4], &[8.0], &[0.2, 0.5, 1.0, 1.6])
+    } else {
+        let levels = &[0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.3, 1.6, 2.0];
+        (&[0.2, 0.3, 0.4], &[6.0, 9.0, 12.0], levels)
+    };
+    let sweep = || {
+        Sweep::grid([
+            Parameter::numbers("friction", frictions.iter().copied()),
+            Parameter::numbers("width_m", widths.iter().copied()),
+            Parameter::texts("motion", motions.iter().map(|(name, _)| name)),
+            Parameter::numbers("peak_velocity_m_per_s", levels.iter().copied()),
+        ])
+    };
+    std::fs::create_dir_all(&options.out)?;
+    if let Some(shard) = options.shard {
+        let path = options.out.join(shard.file());
+        compute(sweep()?.shard(shard.index, shard.of)?, &path, &motions)?;
+        return Ok(());
+    }
+    let cases = options.out.join("cases.csv");
+    let table = if options.merge {
+        let table = sweep()?.merge(shards(&options.out)?)?;
+        table.save_csv(&cases)?;
+        table
+    } else {
+        compute(sweep()?, &cases, &motions)?
+    };
+    if options.table {
+        println!("{table}\n");
+    }
+
+    let mut groups = Vec::new();
+    for &friction in frictions {
+        for &width in widths {
+            groups.push(group(&table, friction, width, levels, motions.len(), options)?);
+        }
+    }
+    report(&groups, options);
+    write(&options.out.join("curves.csv"), &groups)?;
+    picture::draw(&options.out.join("fragility.svg"), &groups, widths, options)?;
+    println!("files in {}", options.out.display());
+    Ok(())
+}
+
+/// As many threads as are asked for.
+fn threads(count: Option<usize>) -> Result<(), AnyError> {
+    #[cfg(feature = "rayon")]
+    if let Some(count) = count {
+        rayon::ThreadPoolBuilder::new().num_threads(count).build_global()?;
+    }
+    if cfg!(not(feature = "rayon")) && count.is_some_and(|count| count > 1) {
+        return Err("more than one thread needs the feature `rayon`".into());
+    }
+    Ok(())
+}
+
+/// Runs the cases that the file does not have yet, and tells what they cost.
+fn compute(sweep: Sweep<'_>, path: &Path, motions: &[Motion]) -> Result<CaseTable, AnyError> {
+    let bar = ProgressBar::new(sweep.cases().len() as u64);
+    bar.set_style(ProgressStyle::with_template("{bar:40} {pos}/{len} cases, {eta} left")?);
+    let (begin, before) = (Instant::now(), ProcessTime::try_now()?);
+    let (kernels, runs) = (SharedKernels::default(), AtomicUsize::new(0));
+    let table = sweep.on_progress(|_, _| bar.inc(1)).table_in(path, scene::COLUMNS, |case| {
+        runs.fetch_add(1, Ordering::Relaxed);
+        let (friction, width) = (case.value("friction")?, case.value("width_m")?);
+        let motion = &motions[case.place("motion")?].1;
+        scene::shake(friction, width, motion, case.value("peak_velocity_m_per_s")?, &kernels)
+    })?;
+    bar.finish_and_clear();
+    let (wall, processors) = (begin.elapsed(), before.try_elapsed()?);
+    let (runs, failed) = (runs.into_inner(), failures(&table));
+    let there = table.rows().len() - runs;
+    println!("{}: {runs} cases run, {there} already there, {failed} failed", path.display());
+    if runs > 0 {
+        let thousands = 1e-3 * runs as f64;
+        println!(
+            "{:.2} s by the clock, {:.2} s of processors; a thousand runs {:.2} s, {:.2} s of processors",
+            wall.as_secs_f64(),
+            processors.as_secs_f64(),
+            wall.as_secs_f64() / thousands,
+            processors.as_secs_f64() / thousands
+        );
+    }
+    Ok(table)
+}
+
+fn failures(table: &CaseTable) -> usize {
+    table.rows().filter(|row| row.results().is_err()).count()
+}
+
+/// Files of shards in a folder.
+fn shards(folder: &Path) -> Result<Vec<PathBuf>, AnyError> {
+    let mut paths = Vec::new();
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        if name.starts_with("shard_") && path.extension().is_some_and(|end| end == "csv") {
+            paths.push(path);
+        }
+    }
+    paths.sort();
+    Ok(paths)
+}
+
+/// Counts, curve and bootstrap of one friction coefficient and width.
+fn group(
+    table: &CaseTable,
+    friction: f64,
+    width: f64,
+    levels: &[f64],
+    motions: usize,
+    options: &Options,
+) -> Result<Group, AnyError> {
+    let mut outcomes: Outcomes = vec![vec![None; levels.len()]; motions];
+    for row in table.rows() {
+        if row.value("friction")? == friction && row.value("width_m")? == width {
+            let place = [row.place("motion")?, row.place("peak_velocity_m_per_s")?];
+            if row.results().is_ok() {
+                let demand = row.value(&options.demand)?;
+                outcomes[place[0]][place[1]] = (!demand.is_nan()).then_some(demand > options.limit);
+            }
+        }
+    }
+    let stripes = lognormal::stripes(levels, outcomes.iter());
+    // The same samples in every run.
+    let mut random = Random(1);
+    let samples = lognormal::resampled(levels, &outcomes, SAMPLES, || random.bits());
+    Ok(Group { friction, width, fit: lognormal::fit(&stripes), stripes, samples })
+}
+
+impl Group {
+    /// Bounds of the band: quantiles of a number that the curves of the bootstrap have.
+    pub(crate) fn band(&self, of: impl Fn(&Curve) -> f64) -> [f64; 2] {
+        let tail = 0.5 * (1.0 - BAND);
+        let values: Vec<_> = self.samples.iter().map(of).collect();
+        [tail, 1.0 - tail].map(|share| lognormal::quantile(values.clone(), share))
+    }
+}
+
+fn report(groups: &[Group], options: &Options) {
+    println!(
+        "\nPeak ground velocity at which {} exceeds {}, m/s: median and dispersion of the lognormal\n\
+         curve, 90 % of a bootstrap over the motions, standard errors if all runs were independent\n",
+        options.demand, options.limit
+    );
+    println!("| friction | width, m | runs | median | 90 % | dispersion | 90 % | errors |");
+    println!("|---|---|---|---|---|---|---|---|");
+    for group in groups {
+        let runs: f64 = group.stripes.iter().map(|stripe| stripe.runs).sum();
+        print!("| {} | {} | {runs} |", group.friction, group.width);
+        match group.fit {
+            None => {
+                let beyond: f64 = group.stripes.iter().map(|stripe| stripe.exceeded).sum();
+                println!(" no curve: {beyond} beyond the limit | | | | |");
+            }
+            Some(Fit { curve, errors }) => {
+                let [low, high] = group.band(|curve| curve.median);
+                let [least, most] = group.band(|curve| curve.dispersion);
+                println!(
+                    " {:.3} | {low:.3} to {high:.3} | {:.2} | {least:.2} to {most:.2} | {:.3}, {:.2} |",
+                    curve.median,
+                    curve.dispersion,
+                    curve.median * errors[0],
+                    errors[1]
+                );
+            }
+        }
+    }
+    println!();
+}
+
+/// The fits as CSV.
+fn write(path: &Path, groups: &[Group]) -> Result<(), AnyError> {
+    let row = |group: &Group| {
+        let fit = group.fit.map(|fit| [fit.curve.median, fit.curve.dispersion]);
+        let [median, dispersion] = fit.unwrap_or([f64::NAN; 2]);
+        let [low, high] = group.band(|curve| curve.median);
+        let [least, most] = group.band(|curve| curve.dispersion);
+        [group.friction, group.width, median, low, high, dispersion, least, most]
+            .map(|value| value.to_string())
+    };
+    let columns = [
+        "friction",
+        "width_m",
+        "median_m_per_s",
+        "median_low_m_per_s",
+        "median_high_m_per_s",
+        "dispersion",
+        "dispersion_low",
+        "dispersion_high",
+    ];
+    write_csv(path, columns, groups.iter().map(row))
+}

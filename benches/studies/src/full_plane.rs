@@ -1,0 +1,188 @@
+//! How many free-surface elements the full-plane ground needs: impedances of the bonded rigid strip
+//! against their table, and a coupled run against the half-plane.
+//!
+//! What the truncated surface leaves is told from what the mesh leaves by the distance to the same
+//! mesh with many free elements. Each row says whether its march is bounded.
+//!
+//! ```text
+//! cargo study full-plane
+//! ```
+//!
+//! Writes impedances.csv and impedances.svg.
+
+use std::path::PathBuf;
+
+use plotters::prelude::SeriesLabelPosition;
+
+use crate::AnyError;
+use crate::figure::{BLUE, Figure, GREEN, Panel, RED, VIOLET};
+use basemat::Soil;
+use basemat::bem::full_plane::CqMethod;
+use basemat_problems::series::print_errors;
+use basemat_problems::truncation::{Mesh, block_errors, bonded_impedances, distances, tabled};
+
+/// Errors of the full-plane ground over the number of free-surface elements.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Options {
+    /// Folder for the files.
+    #[arg(long, default_value = "target/study/full_plane")]
+    out: PathBuf,
+    /// Small meshes, in seconds: to see that all works, not to be quoted.
+    #[arg(long)]
+    short: bool,
+}
+
+const NAMES: [&str; 4] = ["khh", "kvv", "krr", "khr"];
+
+const POISSON: f64 = 1.0 / 3.0;
+
+/// β = c₁Δt/l of the strip.
+const BETA: f64 = 1.15;
+
+/// Errors of one mesh.
+struct Row {
+    mesh: Mesh,
+    /// Growth per step with the base uplifted and bonded.
+    growth: [f64; 2],
+    /// Smallest eigenvalue of the work, relative.
+    passivity: f64,
+    /// Distance from the table.
+    total: [f64; 4],
+    /// Distance from the same mesh with four times the largest number of free elements, if that
+    /// can march.
+    truncation: Option<[f64; 4]>,
+}
+
+impl Row {
+    /// Length of the free surface on either side over the half width of the strip.
+    fn length(&self) -> f64 {
+        2.0 * self.mesh.free as f64 / self.mesh.elements as f64
+    }
+}
+
+fn rows(
+    quadrature: Option<CqMethod>,
+    elements: usize,
+    frees: &[usize],
+) -> Result<Vec<Row>, AnyError> {
+    let (frequencies, wanted) = tabled("0333");
+    let mesh = |free| Mesh { elements, free, beta: BETA, quadrature };
+    let most = frees.last().map_or(0, |free| 4 * free);
+    // The time kernel grows on so long a surface.
+    let settled = quadrature.map(|_| bonded_impedances(POISSON, mesh(most), &frequencies));
+    let soil = Soil::new(1.0, POISSON, 1.0)?;
+    frees
+        .iter()
+        .map(|&free| {
+            let mesh = mesh(free);
+            let found = bonded_impedances(POISSON, mesh, &frequencies);
+            let mut ground = mesh.ground(soil);
+            let stability = ground.assess(mesh.time_step(soil))?;
+            Ok(Row {
+                mesh,
+                growth: [&stability.uplifted, &stability.bonded].map(|s| s.growth_per_step),
+                passivity: stability.bonded.passivity.unwrap_or(f64::NAN),
+                total: distances(&found, &wanted),
+                truncation: settled.as_ref().map(|settled| distances(&found, settled)),
+            })
+        })
+        .collect()
+}
+
+fn print(rows: &[Row]) {
+    println!(
+        "{:>5} {:>5} {:>7} {:>9} {:>9}  {:<36} truncation alone: the same",
+        "elem.", "free", "length", "growth", "passivity", "from the table: khh kvv krr khr"
+    );
+    let four = |e: &[f64; 4]| e.map(|e| format!("{e:.1e}")).join("  ");
+    for row in rows {
+        let growth = row.growth[0].max(row.growth[1]);
+        let growth = if growth > 0.0 { format!("{growth:.1e}") } else { "none".to_owned() };
+        println!(
+            "{:>5} {:>5} {:>7.2} {:>9} {:>9.0e}  {:<36} {}",
+            row.mesh.elements,
+            row.mesh.free,
+            row.length(),
+            growth,
+            row.passivity,
+            four(&row.total),
+            row.truncation.as_ref().map_or(String::new(), four)
+        );
+    }
+}
+
+fn write(path: &std::path::Path, rows: &[Row]) -> Result<(), AnyError> {
+    let mut file = csv::Writer::from_path(path)?;
+    let header = ["kernel", "elements", "free", "length", "growth_uplifted", "growth_bonded"];
+    let kinds = ["total", "truncation"].into_iter();
+    let columns = kinds.flat_map(|kind| NAMES.map(|name| format!("{kind}_{name}")));
+    let header = header.map(str::to_owned).into_iter().chain(["passivity".to_owned()]);
+    file.write_record(header.chain(columns))?;
+    for row in rows {
+        let kernel = row.mesh.quadrature.map_or("time".to_owned(), |q| format!("{q:?}"));
+        let mesh = [kernel, row.mesh.elements.to_string(), row.mesh.free.to_string()];
+        let figures = [row.length(), row.growth[0], row.growth[1], row.passivity];
+        let truncation = row.truncation.unwrap_or([f64::NAN; 4]);
+        let numbers = figures.iter().chain(&row.total).chain(&truncation);
+        file.write_record(mesh.into_iter().chain(numbers.map(|x| format!("{x:.4e}"))))?;
+    }
+    file.flush()?;
+    Ok(())
+}
+
+pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+    std::fs::create_dir_all(&options.out)?;
+    let (meshes, frees) = if options.short {
+        (vec![4, 8], vec![0, 2, 5])
+    } else {
+        (vec![8, 16], vec![0, 1, 2, 5, 10, 20, 40])
+    };
+    println!("bonded strip over 0.1 <= a0 <= 4, beta = {BETA}; lengths over the half width");
+    let mut all = vec![];
+    for (name, quadrature) in [("BDF2", Some(CqMethod::Bdf2)), ("time kernel", None)] {
+        println!("{name}");
+        for &elements in &meshes {
+            let rows = rows(quadrature, elements, &frees)?;
+            print(&rows);
+            all.extend(rows);
+        }
+    }
+    write(&options.out.join("impedances.csv"), &all)?;
+    draw(&options.out.join("impedances.svg"), &all)?;
+    println!("rigid block under a Ricker pulse against the half-plane, time kernel at beta = 1");
+    for (elements, frees) in [(8, &[0, 5, 10, 20][..]), (16, &[0, 5, 10, 20])] {
+        for &free in frees.iter().take(if options.short { 2 } else { 4 }) {
+            let mesh = Mesh { elements, free, beta: 1.0, quadrature: None };
+            let scene = format!("{elements} elements, {free} free on either side");
+            print_errors(&scene, &["u_base", "theta", "V"], &block_errors(mesh));
+        }
+    }
+    Ok(())
+}
+
+/// Errors of the impedances over the free elements, a panel per mesh of convolution quadrature: lines from the table,
+/// circles of the truncation alone.
+fn draw(path: &std::path::Path, rows: &[Row]) -> Result<(), AnyError> {
+    let stable = || rows.iter().filter(|row| row.mesh.quadrature.is_some());
+    let mut meshes: Vec<usize> = stable().map(|row| row.mesh.elements).collect();
+    meshes.dedup();
+    let panel = |elements: &usize| {
+        let x = format!("free elements on either side of {elements} (0 at 0.5)");
+        let mut panel = Panel::new(&x, "relative error, root mean square").double_logarithmic();
+        panel = panel.legend(SeriesLabelPosition::LowerLeft).room(0.4, 0.05);
+        for (k, (name, color)) in NAMES.iter().zip([BLUE, GREEN, VIOLET, RED]).enumerate() {
+            // Zero has a place on the logarithmic axis: half an element.
+            let points = |value: &dyn Fn(&Row) -> Option<f64>| {
+                let own = stable().filter(|row| row.mesh.elements == *elements);
+                own.filter_map(|row| Some(((row.mesh.free as f64).max(0.5), value(row)?))).collect()
+            };
+            let total = points(&|row| Some(row.total[k]));
+            let cut = points(&|row| row.truncation.map(|errors| errors[k]));
+            panel = panel.line(&format!("{name}, from the table"), color, total);
+            panel = panel.circles(&format!("{name}, truncation alone"), color, cut);
+        }
+        panel
+    };
+    let title = "Full plane, BDF2: errors of the bonded strip over the free-surface elements";
+    Figure::new(title, 2, meshes.iter().map(panel).collect()).draw(path)
+}

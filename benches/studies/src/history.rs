@@ -1,0 +1,167 @@
+//! Convolution histories by themselves: time, accuracy and memory over the number of steps, and of the history by
+//! exponentials over its tolerance.
+//!
+//! ```text
+//! cargo study history-cost
+//! cargo study history-exponentials
+//! ```
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use basemat::bem::{PatchKernel, Strip};
+use basemat::history::{
+    ConvolutionHistory, DirectHistory, ExponentialHistory, LagKernel, RelaxedFftHistory,
+};
+use basemat::{Result, Soil};
+
+use crate::AnyError;
+
+/// Time, accuracy and memory of the convolution histories over the number of steps.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Cost {
+    /// Elements of the strip.
+    #[arg(default_value_t = 10)]
+    elements: usize,
+    /// Largest number of steps.
+    #[arg(default_value_t = 1_000_000)]
+    longest: usize,
+}
+
+/// Accuracy, passivity, time and memory of the history by exponentials over its tolerance.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Exponentials {
+    /// Elements of the strip.
+    #[arg(default_value_t = 10)]
+    elements: usize,
+    /// Steps that are timed.
+    #[arg(default_value_t = 100_000)]
+    steps: usize,
+    /// Steps that are compared with the direct sum.
+    #[arg(default_value_t = 1_000)]
+    compared: usize,
+}
+
+/// The direct sum is not marched further than this.
+const LONGEST_DIRECT: usize = 10_000;
+
+/// 1.5 ft elements, steps of half an element over the pressure wave speed.
+fn patch(count: usize) -> Result<Arc<dyn LagKernel>> {
+    let soil = Soil::from_wave_speeds(198.12, 396.24, 1803.8)?;
+    let half = 0.2286 * count as f64;
+    let elements = Strip::uniform(-half..half, count)?.elements();
+    Ok(Arc::new(PatchKernel::new(soil, elements, 0.2286 / 396.24)?))
+}
+
+/// Tractions of a step that repeat themselves late.
+pub(crate) fn traction(step: usize, traction: &mut [f64]) {
+    for (i, value) in traction.iter_mut().enumerate() {
+        *value = ((step * 7919 + i * 104_729) % 1009) as f64;
+    }
+}
+
+/// Seconds of a whole march and of its slowest step; `see` gets the displacements of every step.
+fn march(
+    history: &mut dyn ConvolutionHistory,
+    size: usize,
+    steps: usize,
+    mut see: impl FnMut(&[f64]),
+) -> Result<[f64; 2]> {
+    let (mut displacement, mut input) = (vec![0.0; size], vec![0.0; size]);
+    let (begin, mut slowest) = (Instant::now(), 0.0_f64);
+    for step in 0..steps {
+        let begin = Instant::now();
+        history.evaluate(&mut displacement)?;
+        traction(step, &mut input);
+        history.push(&input);
+        slowest = slowest.max(begin.elapsed().as_secs_f64());
+        see(&displacement);
+    }
+    Ok([begin.elapsed().as_secs_f64(), slowest])
+}
+
+/// Largest difference of all displacements over the largest of the direct sum's, and its seconds.
+fn error(kernel: Arc<dyn LagKernel>, size: usize, found: &[f64]) -> Result<(f64, f64)> {
+    let steps = found.len() / size;
+    let mut direct = DirectHistory::new(kernel);
+    direct.reserve(steps)?;
+    let (mut apart, mut largest, mut place) = (0.0_f64, 0.0_f64, found.chunks_exact(size));
+    let [seconds, _] = march(&mut direct, size, steps, |wanted| {
+        for (a, b) in place.next().unwrap_or_default().iter().zip(wanted) {
+            apart = apart.max((a - b).abs());
+            largest = largest.max(b.abs());
+        }
+    })?;
+    Ok((apart / largest, seconds))
+}
+
+/// The table over the number of steps.
+pub(crate) fn cost(options: &Cost) -> std::result::Result<(), AnyError> {
+    let Cost { elements, longest } = *options;
+    let (kernel, size) = (patch(elements)?, 2 * elements);
+    println!("{elements} elements");
+    println!("    steps   setup s   march s  µs/step  slowest ms      MB  direct s   ratio  error");
+    let all = [100, 300, 1_000, 3_000, 10_000, 30_000, 54_000, 100_000, 300_000, 1_000_000];
+    for steps in all.into_iter().take_while(|steps| *steps <= longest) {
+        let begin = Instant::now();
+        let mut relaxed = RelaxedFftHistory::new(Arc::clone(&kernel));
+        relaxed.reserve(steps)?;
+        let setup = begin.elapsed().as_secs_f64();
+        let compared = steps <= LONGEST_DIRECT;
+        let mut found = Vec::with_capacity(if compared { steps * size } else { 0 });
+        let [total, slowest] = march(&mut relaxed, size, steps, |displacement| {
+            if compared {
+                found.extend_from_slice(displacement);
+            }
+        })?;
+        print!(
+            "{steps:9} {setup:9.4} {total:9.4} {:8.2} {:11.3} {:7.1}",
+            1e6 * total / steps as f64,
+            1e3 * slowest,
+            relaxed.memory() as f64 / 1e6,
+        );
+        if compared {
+            let (error, seconds) = error(Arc::clone(&kernel), size, &found)?;
+            print!(" {seconds:9.4} {:7.1} {error:.1e}", seconds / total);
+        }
+        println!();
+    }
+    Ok(())
+}
+
+/// The table over the tolerance.
+pub(crate) fn exponentials(options: &Exponentials) -> std::result::Result<(), AnyError> {
+    let Exponentials { elements, steps, compared } = *options;
+    let (kernel, size) = (patch(elements)?, 2 * elements);
+    println!("{elements} elements, {steps} steps");
+    println!(
+        "tolerance      error  window  poles functions  passivity  setup s   µs/step       kB error, march"
+    );
+    for exponent in 3..=12 {
+        let begin = Instant::now();
+        let tolerance = 10.0_f64.powi(-exponent);
+        let mut history = match ExponentialHistory::new(Arc::clone(&kernel), tolerance) {
+            Ok(history) => history,
+            Err(error) => {
+                println!("{tolerance:>9.0e} {error}");
+                continue;
+            }
+        };
+        let setup = begin.elapsed().as_secs_f64();
+        let mut found = Vec::with_capacity(compared * size);
+        march(&mut history, size, compared, |displacement| found.extend_from_slice(displacement))?;
+        let (error, _) = error(Arc::clone(&kernel), size, &found)?;
+        let [total, _] = march(&mut history, size, steps, |_| ())?;
+        println!(
+            "{tolerance:>9.0e} {:>10.1e} {:>7} {:>6} {:>9} {:>10.4} {setup:>8.3} {:>9.2} {:>8.0} {error:>12.1e}",
+            history.error_bound(),
+            history.window(),
+            history.poles(),
+            history.functions(),
+            history.passivity_margin(),
+            1e6 * total / steps as f64,
+            history.memory() as f64 / 1e3,
+        );
+    }
+    Ok(())
+}

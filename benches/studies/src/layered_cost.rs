@@ -1,0 +1,165 @@
+//! What coefficients of layered ground cost, as [`ElasticGround::cost`] says beforehand and as a clock
+//! says afterwards: the table of `docs/layered.md`, and where the crate's figures for a nanosecond's work
+//! come from.
+//!
+//! ```text
+//! cargo study layered-cost
+//! ```
+//!
+//! Processor time of one thread; coefficients alone, without the histories' transforms of them.
+
+use basemat::bem::layered::{LayeredKernel, Stages};
+use basemat::bem::{ElasticGround, Grading, Strip};
+use basemat::history::LagKernel;
+use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+use basemat::{Result, Soil};
+use cpu_time::ThreadTime;
+
+use crate::AnyError;
+
+/// Cost beforehand and afterwards.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Options {
+    /// Few steps, to see that all works.
+    #[arg(long)]
+    short: bool,
+}
+
+fn damping(ratio: f64) -> Result<GeneralizedMaxwell> {
+    GeneralizedMaxwell::constant_q(ratio, [0.1, 30.0], 1.0)
+}
+
+/// Layers of these shear wave speeds (m/s) and thicknesses, with 5 % damping on 1 % or none at all, on rock or a
+/// rigid base.
+fn profile(layers: &[(f64, f64)], damped: bool, rigid: bool) -> Result<SoilProfile> {
+    let mut profile = if rigid {
+        SoilProfile::on_rigid_base()
+    } else {
+        SoilProfile::on_half_plane(Soil::from_shear_wave_speed(600.0, 0.3, 2200.0)?)
+    };
+    if damped {
+        profile = profile.with_base_damping(damping(0.01)?);
+    }
+    for (speed, thickness) in layers {
+        let soil = Soil::from_shear_wave_speed(*speed, 0.33, 1800.0)?;
+        profile = profile.with_layer(soil, *thickness)?;
+        if damped {
+            profile = profile.with_damping(damping(0.05)?);
+        }
+    }
+    Ok(profile)
+}
+
+struct Case {
+    name: &'static str,
+    profile: SoilProfile,
+    elements: usize,
+    grading: Grading,
+    stages: Stages,
+    time_step: f64,
+    steps: usize,
+}
+
+fn cases() -> Result<Vec<Case>> {
+    let clay = [(150.0, 6.0)];
+    let ten: Vec<_> = (0..10).map(|i| (150.0 + 20.0 * f64::from(i), 2.0)).collect();
+    // Shear waves travel this share of an element of 0.5 m in a step.
+    let share = |share: f64| share * 0.5 / 150.0;
+    let case = |name, profile, elements, grading, stages, time_step, steps| Case {
+        name,
+        profile,
+        elements,
+        grading,
+        stages,
+        time_step,
+        steps,
+    };
+    let (two, three) = (Stages::Two, Stages::Three);
+    let (graded, equal) = (Grading::Cosine, Grading::Uniform);
+    let rows = [
+        case("layer on rock", profile(&clay, true, false)?, 12, graded, two, 5e-3, 2000),
+        case("the same, three stages", profile(&clay, true, false)?, 12, graded, three, 5e-3, 2000),
+        case("the same, undamped", profile(&clay, false, false)?, 12, graded, three, 5e-3, 1000),
+        case("rigid base", profile(&clay, true, true)?, 8, graded, two, 5e-3, 1000),
+        case("rigid base, undamped", profile(&clay, false, true)?, 8, graded, three, 5e-3, 1000),
+        case("half-plane, damped", profile(&[], true, false)?, 8, graded, two, 5e-3, 4000),
+        case(
+            "three layers, 32 elements",
+            profile(&ten[..3], true, false)?,
+            32,
+            graded,
+            three,
+            5e-3,
+            500,
+        ),
+        case("ten layers", profile(&ten, true, false)?, 12, graded, three, 5e-3, 500),
+        case(
+            "skin of 1 cm",
+            profile(&[(300.0, 0.01), clay[0]], true, false)?,
+            8,
+            graded,
+            two,
+            5e-3,
+            200,
+        ),
+        case(
+            "skin of 1 mm",
+            profile(&[(300.0, 1e-3), clay[0]], true, false)?,
+            8,
+            graded,
+            two,
+            5e-3,
+            100,
+        ),
+        case(
+            "slab on clay",
+            profile(&[(2300.0, 0.5), (100.0, 20.0)], true, false)?,
+            12,
+            graded,
+            three,
+            5e-3,
+            500,
+        ),
+        case("c Δt/l = 0.1", profile(&clay, true, false)?, 12, equal, two, share(0.1), 400),
+        case("c Δt/l = 0.01", profile(&clay, true, false)?, 12, equal, two, share(0.01), 400),
+        case("c Δt/l = 0.003", profile(&clay, true, false)?, 12, equal, two, share(0.003), 400),
+        case("c Δt/l = 0.001", profile(&clay, true, false)?, 12, equal, two, share(0.001), 400),
+    ];
+    Ok(rows.into())
+}
+
+pub(crate) fn run(options: &Options) -> std::result::Result<(), AnyError> {
+    println!(
+        "| ground | elements | steps | s beforehand | s afterwards | MB | estimate took, ms |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    for Case { name, profile, elements, grading, stages, time_step, steps } in cases()? {
+        let steps = if options.short { 100 } else { steps };
+        let strip = Strip::new(-3.0..3.0, elements, grading)?;
+        let ground = ElasticGround::new(profile.clone(), strip)?.with_stages(stages);
+        let begin = ThreadTime::try_now()?;
+        let cost = ground.cost(time_step, steps)?;
+        let asked = begin.try_elapsed()?.as_secs_f64();
+        if options.short && cost.seconds > 2.0 {
+            println!(
+                "| {name} | {elements} | {steps} | {:.2} | – | {:.0} | {:.1} |",
+                cost.seconds,
+                cost.memory / 1e6,
+                1e3 * asked
+            );
+            continue;
+        }
+        let strip = Strip::new(-3.0..3.0, elements, grading)?;
+        let kernel = LayeredKernel::new(profile, strip.elements(), time_step)?.with_stages(stages);
+        let begin = ThreadTime::try_now()?;
+        kernel.prepare(steps.next_power_of_two())?;
+        let taken = begin.try_elapsed()?.as_secs_f64();
+        println!(
+            "| {name} | {elements} | {steps} | {:.2} | {taken:.2} | {:.0} | {:.1} |",
+            cost.seconds,
+            cost.memory / 1e6,
+            1e3 * asked
+        );
+    }
+    Ok(())
+}

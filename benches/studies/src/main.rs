@@ -1,0 +1,95 @@
+//! Studies of basemat: what the tables and figures of its documents come from, one subcommand each.
+//!
+//! ```text
+//! cargo study                          # names them
+//! cargo study validation --short       # one of them
+//! cargo study validation --help        # its options
+//! ```
+//!
+//! `cargo study` is short for `cargo run --release -p basemat-studies --`. Files go to a folder of the study's
+//! name under `target/study`; with `--docs docs` tables and pictures go between the markers of the documents.
+
+mod contact_chatter;
+mod contact_problems;
+mod containment;
+mod document;
+mod figure;
+mod fragility;
+mod full_plane;
+mod history;
+mod key;
+mod layered_accuracy;
+mod layered_cost;
+mod opensees;
+mod paper_readings;
+mod paper_scheme;
+mod passivity;
+mod performance;
+mod precision;
+mod stability;
+mod validation;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+type AnyError = Box<dyn std::error::Error + Send + Sync>;
+
+/// What the tables and figures of basemat's documents come from.
+#[derive(Debug, Parser)]
+#[command(bin_name = "cargo study")]
+enum Study {
+    Validation(validation::Options),
+    Precision(precision::Options),
+    Stability(stability::Options),
+    Performance(performance::Options),
+    Containment(containment::Options),
+    PaperReadings(paper_readings::Options),
+    PaperScheme(paper_scheme::Options),
+    FullPlane(full_plane::Options),
+    Fragility(fragility::Options),
+    Opensees(opensees::Options),
+    Passivity(passivity::Options),
+    ContactChatter(contact_chatter::Options),
+    ContactProblems(contact_problems::Options),
+    HistoryCost(history::Cost),
+    HistoryExponentials(history::Exponentials),
+    LayeredAccuracy(layered_accuracy::Options),
+    LayeredCost(layered_cost::Options),
+}
+
+fn main() -> ExitCode {
+    let done = match Study::parse() {
+        Study::Validation(options) => validation::run(&options),
+        Study::Precision(options) => precision::run(&options),
+        Study::Stability(options) => stability::run(&options),
+        Study::Performance(options) => performance::run(&options),
+        Study::Containment(options) => containment::run(&options),
+        Study::PaperReadings(options) => paper_readings::run(options),
+        Study::PaperScheme(options) => paper_scheme::run(&options),
+        Study::FullPlane(options) => full_plane::run(&options),
+        Study::Fragility(options) => fragility::run(&options),
+        Study::Opensees(options) => opensees::run(&options),
+        Study::Passivity(options) => {
+            passivity::run(&options);
+            Ok(())
+        }
+        Study::ContactChatter(options) => contact_chatter::run(&options),
+        Study::ContactProblems(options) => {
+            contact_problems::run(&options);
+            Ok(())
+        }
+        Study::HistoryCost(options) => history::cost(&options),
+        Study::HistoryExponentials(options) => history::exponentials(&options),
+        Study::LayeredAccuracy(options) => layered_accuracy::run(&options),
+        Study::LayeredCost(options) => layered_cost::run(&options),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        // In words: which shards are missing, say.
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! The crate's half of a comparison with OpenSees: a rigid block on soil under a vertically
+//! incident SV pulse, bonded, or with its weight, uplift and friction.
+//!
+//! ```text
+//! cargo study opensees --elements 16 --step 0.002            # bonded
+//! cargo study opensees --elements 16 --step 0.002 --friction
+//! ```
+//!
+//! The scene is that of `scene.json`, which the other half reads too; `compare.py` runs both and
+//! says by how much they differ and what each costs. Prints time series of the block.
+
+use std::io::{BufWriter, Write};
+
+use basemat::coupled::Placement;
+use basemat::interface::ContactState;
+use basemat::motion::RickerDisplacement;
+use basemat::prelude::*;
+use serde_json::Value;
+
+use crate::AnyError;
+use crate::document::peak_memory;
+
+/// A rigid block on soil under an SV pulse: the crate's half of a comparison with OpenSees.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct Options {
+    /// Elements of the base, graded towards its edges.
+    #[arg(long)]
+    elements: usize,
+    /// Time step, s.
+    #[arg(long)]
+    step: f64,
+    /// Weight, uplift and friction instead of a bonded base.
+    #[arg(long)]
+    friction: bool,
+}
+
+pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+    let scene: Value = serde_json::from_str(include_str!("scene.json"))?;
+    let number = |name: &str| scene[name].as_f64().ok_or(format!("scene.json: no number {name}"));
+    let (height, width) = (number("height")?, number("width")?);
+    let soil = Soil::from_shear_wave_speed(
+        number("shear_wave_speed")?,
+        number("poisson")?,
+        number("soil_density")?,
+    )?;
+    let block = RigidBlock::new(width, height, number("block_density")?)?;
+    // The acceleration of the pulse is −6 A/σ² at its peak.
+    let sigma = number("sigma")?;
+    let amplitude = number("peak_acceleration")? * sigma.powi(2) / 6.0;
+    let pulse = RickerDisplacement::new(amplitude, sigma, number("center")?)?;
+    let law: Box<dyn InterfaceLaw> = if options.friction {
+        Box::new(Coulomb::new(number("friction")?)?)
+    } else {
+        Box::new(Bonded)
+    };
+    let roof = block.horizontal_at(height);
+    let mut simulation = Simulation::builder(options.step)
+        .ground(ElasticGround::under(soil, &block, options.elements)?)
+        .structure(block)
+        .interface(law)
+        .gravity(number("gravity")?)
+        // As in the finite elements: friction acts while the weight comes on.
+        .placement(Placement::WithInterfaceLaw)
+        .motion(pulse)
+        .probe(Probe::displacement("roof", roof.clone()))
+        .probe(Probe::acceleration("acceleration", roof))
+        .probe(Probe::displacement("vertical", RigidBlock::VERTICAL))
+        .build()?;
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    // The acceleration of a step is its mean: it belongs to the middle of the step.
+    writeln!(out, "time,roof,acceleration,rotation,vertical,slip,left_gap,right_gap")?;
+    let write = |out: &mut dyn Write, state: &State| {
+        let gap = |contact: Option<&ContactState>| contact.map_or(0.0, |contact| contact.gap);
+        writeln!(
+            out,
+            "{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e}",
+            state.time,
+            state.probes[0],
+            state.probes[1],
+            state.base_rotation,
+            state.probes[2],
+            state.mean_slip,
+            gap(state.contact.first()),
+            gap(state.contact.last()),
+        )
+    };
+    write(&mut out, simulation.state())?;
+    let steps = simulation.steps_for(number("duration")?);
+    let told = |error: std::io::Error| basemat::Error::part("output", error.to_string());
+    simulation.run(steps, |state| write(&mut out, state).map_err(told))?;
+    out.flush()?;
+    // The system's own figure for a child would start from that of the program that made it.
+    if let Some(megabytes) = peak_memory() {
+        eprintln!("{{\"megabytes\": {megabytes}}}");
+    }
+    Ok(())
+}

@@ -1,0 +1,162 @@
+//! Readings of the paper by Patel & Spyrakos, one at a time: which of them gives its peak base
+//! shears, and what speaks for and against?
+//!
+//! ```text
+//! cargo study paper-readings                     # those of docs/paper.md
+//! cargo study paper-readings --all            # all, then geometries: minutes
+//! cargo study paper-readings --limit lagged   # one
+//! ```
+//!
+//! Structure, soil and record are those of the example `containment`, the soil by the crate's
+//! half-plane. The interface is the paper's layer and the time scheme Newmark's, unless the options say
+//! otherwise.
+
+mod evidence;
+mod forcing;
+mod law;
+mod options;
+mod run;
+mod table;
+
+use std::path::PathBuf;
+
+use clap::Parser;
+
+use crate::AnyError;
+
+use options::Reading;
+use table::Table;
+
+/// The readings of docs/paper.md, as command lines.
+const READINGS: &[&str] = &[
+    "",
+    "--law hard --scheme midpoint",
+    "--debonded 0",
+    "--ratio 0.01",
+    "--ratio 0.001",
+    "--ratio 0.001 --debonded 0",
+    "--sense last-velocity",
+    "--gravity 0",
+    "--gravity 0.3006 --law hard --scheme midpoint",
+    "--kinetic 0 --law hard --scheme midpoint",
+    "--kinetic 0.05 --law hard --scheme midpoint",
+    "--friction-factor 0.3006 --law hard --scheme midpoint",
+    "--length-left-out --law hard --scheme midpoint",
+    "--length-left-out --elements 15 --law hard --scheme midpoint",
+    "--printed-forcing",
+];
+
+/// The others, with `--all`.
+const OTHERS: &[&str] = &[
+    "--law hard",
+    "--law hard --scheme hht",
+    "--scheme midpoint",
+    "--scheme hht",
+    "--flow-chart",
+    "--flow-chart --law hard --scheme midpoint",
+    "--ratio 1",
+    "--ratio 1 --debonded 0",
+    "--one-point",
+    "--limit lagged",
+    "--limit dynamic",
+    "--limit compression",
+    "--limit static",
+    "--limit static --lag-modes",
+    "--limit weight --lag-modes",
+    "--sense velocity",
+    "--lag-modes",
+    "--slip-shear 0.001",
+    "--slip-shear 0.001 --debonded 0",
+    "--slip-normal 0.001",
+    "--gravity 0 --limit weight --lag-modes",
+    "--gravity 0.3",
+    "--gravity 0.5",
+    "--friction-factor 0.5",
+    "--friction-factor 0.3333",
+    "--friction-factor 0.31",
+    "--friction-factor 0.25",
+    "--friction-factor 0.31 --law hard --scheme midpoint",
+    "--friction-factor 0.3 --limit weight --lag-modes",
+    "--length-left-out",
+    "--length-left-out --elements 20 --law hard --scheme midpoint",
+    "--friction-factor 0.3048 --law hard --scheme midpoint",
+    "--kinetic 0.1 --law hard --scheme midpoint",
+    "--kinetic 0.5 --law hard --scheme midpoint",
+    "--printed-forcing --law hard --scheme midpoint",
+    "--limit lagged --static-share 0.25",
+    "--foundation-density 0.3333",
+    "--damping 0.05",
+    "--gamma 0.6",
+    "--gamma 1",
+    "--record 0.5",
+    "--neighbour 3.4",
+    "--soil-density 2.8",
+    "--soil-density 4.2",
+    "--width 28 --height 80.6 --law hard --scheme midpoint",
+    "--width 40 --height 79.2 --law hard --scheme midpoint",
+];
+
+/// Processor time of a run over the time that it covers, on a core of these years.
+const COST: f64 = 0.009;
+
+/// Runs of the geometries and searches.
+const EVIDENCE_RUNS: f64 = 1900.0;
+
+/// One reading, those of docs/paper.md, or all that were tried.
+#[derive(Debug, Clone, Parser)]
+pub(crate) struct Options {
+    /// All readings, then geometries and searches.
+    #[arg(long)]
+    all: bool,
+    /// Three seconds of the record, few readings and geometries: to see that all works, not to be quoted.
+    #[arg(long)]
+    short: bool,
+    /// Folder for readings.csv.
+    #[arg(long, default_value = "target/study/paper_readings")]
+    out: PathBuf,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+pub(crate) fn run(mut options: Options) -> Result<(), AnyError> {
+    if options.short {
+        options.reading.duration = 3.0;
+    }
+    let duration = options.reading.duration;
+    let mut lines: Vec<&str> = READINGS.to_vec();
+    if options.short {
+        lines.truncate(2);
+    } else if options.all {
+        lines.extend(OTHERS);
+    }
+    let mut readings = Vec::new();
+    for line in lines {
+        let words = line.split(' ').filter(|word| !word.is_empty());
+        let reading = Options::try_parse_from(std::iter::once("").chain(words))?.reading;
+        readings.push((line.to_owned(), Reading { duration, ..reading }));
+    }
+    let plain = Reading { duration, ..readings[0].1.clone() };
+    if options.reading != plain {
+        let words: Vec<_> = std::env::args().skip(2).collect();
+        readings = vec![(words.join(" "), options.reading.clone())];
+    }
+
+    let runs = readings.iter().map(|(_, reading)| reading.rows.len()).sum::<usize>() as f64;
+    let evidence = options.all && !options.short;
+    let all = runs + if evidence { EVIDENCE_RUNS } else { 0.0 };
+    println!(
+        "{runs} runs over {duration} s of the record{}: about {:.0} s of processor time\n",
+        if evidence { ", then some 1900 for geometries and searches" } else { "" },
+        (COST * duration * all).max(1.0)
+    );
+    let mut table = Table::new(&options.out)?;
+    for (line, reading) in &readings {
+        table.add(line, reading)?;
+    }
+    if options.all {
+        evidence::print_calibration(&options.reading, options.short);
+        evidence::print_geometries(&options.reading, options.short);
+        evidence::print_search(&options.reading, options.short);
+    }
+    Ok(())
+}

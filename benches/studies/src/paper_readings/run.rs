@@ -1,0 +1,92 @@
+//! A reading's runs.
+
+use basemat::Simulation;
+use basemat::bem::{ElasticGround, Strip};
+use basemat::coupled::{ContactSearch, HhtAlpha, Midpoint, Newmark, SimulationBuilder};
+use basemat::interface::{Bonded, InterfaceLaw};
+use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+
+use super::forcing::PrintedForcing;
+use super::options::{Law, Reading, Scheme};
+use basemat_problems::containment::{FOOT, ROWS, pounds_per_foot};
+
+/// Results of a case.
+pub(crate) struct Row {
+    /// Peak shears between foundation and superstructure, and under the base, lb/ft.
+    pub(crate) shear: [f64; 2],
+    /// Largest uplifted fraction.
+    pub(crate) uplift: f64,
+    /// Largest slip of an element, m.
+    pub(crate) slip: f64,
+    /// Largest absolute motion of A to a side, and upwards, m.
+    pub(crate) roof: [f64; 2],
+    /// Steps in which the flow chart did not settle.
+    pub(crate) cycles: usize,
+}
+
+impl Reading {
+    pub(crate) fn run(&self, row: usize) -> basemat::Result<Row> {
+        let scene = self.containment();
+        let (soil, model) = (scene.soil()?, scene.structure()?);
+        let probes = scene.probes(&model)?;
+        let time_step = scene.time_step(0.5);
+        let record = el_centro_1940();
+        let record = if self.record == 1.0 { record } else { record.scaled(self.record)? };
+        let builder = Simulation::builder(time_step);
+        let builder = if self.printed_forcing {
+            builder.structure(PrintedForcing::new(model, record.clone())?)
+        } else {
+            builder.structure(model)
+        };
+        let builder = builder
+            .ground(ElasticGround::new(soil, Strip::uniform(scene.base(), scene.elements)?)?)
+            .motion(record)
+            .gravity(self.gravity * STANDARD_GRAVITY)
+            .probes(probes);
+        let friction = ROWS[row].1.unwrap_or(f64::NAN) * self.friction_share();
+        let mean_pressure = STANDARD_GRAVITY * scene.mass() / (scene.width * FOOT);
+        let law = |_| match row {
+            0 => self.glue(&soil),
+            _ => self.law(friction, &soil, mean_pressure),
+        };
+        let builder = if row == 0 && self.law == Law::Hard {
+            builder.interface(Bonded)
+        } else {
+            let laws = (0..scene.elements).map(law);
+            builder.interfaces(laws.collect::<basemat::Result<Vec<Box<dyn InterfaceLaw>>>>()?)
+        };
+        let mut simulation = self.with_scheme(builder)?.build()?;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above zero")]
+        let run = simulation.run((self.duration / time_step).round() as usize, |_| {})?;
+        let probe = run.probe("base shear")?.largest().value;
+        Ok(Row {
+            shear: [probe, run.whole.base_shear.largest().value]
+                .map(|force| pounds_per_foot(force.abs())),
+            uplift: run.whole.uplifted_fraction.largest().value,
+            slip: run.whole.largest_slip.largest().value,
+            roof: [run.probe("roof x")?.magnitude(), run.probe("roof y")?.highest.value],
+            cycles: run.fallbacks.total(),
+        })
+    }
+
+    fn with_scheme(&self, builder: SimulationBuilder) -> basemat::Result<SimulationBuilder> {
+        let builder = match self.scheme {
+            Scheme::Newmark => {
+                let beta = 0.25 * (self.gamma + 0.5).powi(2);
+                builder.scheme(Newmark::new(self.gamma, beta)?)
+            }
+            Scheme::Hht => builder.scheme(HhtAlpha::new(-0.1)?),
+            Scheme::Midpoint => builder.scheme(Midpoint),
+        };
+        Ok(if self.flow_chart {
+            builder.contact_search(ContactSearch::FlowChart { iterations: 100 })
+        } else {
+            builder
+        })
+    }
+}
+
+/// √(Σ x²/n).
+pub(crate) fn root_mean_square(values: &[f64]) -> f64 {
+    (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt()
+}

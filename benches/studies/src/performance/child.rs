@@ -1,0 +1,169 @@
+//! Whole runs in processes of their own, whose peak resident memory the system tells.
+
+use std::process::Command;
+use std::time::Instant;
+
+use basemat::bem::{ElasticGround, Grading, SharedKernels, Strip};
+use basemat::interface::{Bonded, Coulomb};
+use basemat::structure::RigidBlock;
+use basemat::{Result, Sweep};
+
+use super::timed;
+use crate::AnyError;
+use crate::document::peak_memory;
+use basemat_problems::headline::{COUNT, ELEMENT, headline, soil, time_step, without_end};
+
+/// Cases of the sweep.
+const CASES: usize = 8;
+
+/// A whole run.
+#[derive(Debug, Clone, Copy, PartialEq, clap::ValueEnum)]
+pub(crate) enum Scene {
+    Bonded,
+    Friction,
+    /// Friction, ten graded elements.
+    Graded,
+    /// Friction, under a record that goes on as long as the run.
+    Long,
+    /// 200 elements under a rigid block, bonded.
+    Wide,
+    /// Eight coefficients of friction, on as many threads as there are.
+    Sweep,
+}
+
+/// What a run took.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Taken {
+    /// Processor time of all threads, s.
+    pub(crate) seconds: f64,
+    /// Of this the steps, s.
+    pub(crate) march: f64,
+    /// By the clock, s.
+    pub(crate) wall: f64,
+    /// Largest resident memory, MB; NaN where the system does not tell.
+    pub(crate) peak: f64,
+    /// Slowest step by the clock, s.
+    pub(crate) slowest: f64,
+}
+
+/// Runs `scene` here, and prints what [`measure`] reads.
+pub(crate) fn run(scene: Scene, steps: usize) -> std::result::Result<(), AnyError> {
+    let begin = Instant::now();
+    let [slowest, march] = if scene == Scene::Sweep { sweep(steps)? } else { march(scene, steps)? };
+    let seconds = cpu_time::ProcessTime::try_now()?.as_duration().as_secs_f64();
+    let peak = peak_memory().unwrap_or(f64::NAN);
+    println!("{seconds} {march} {} {peak} {slowest}", begin.elapsed().as_secs_f64());
+    Ok(())
+}
+
+/// The slowest step, but for the first, and what all steps take.
+fn march(scene: Scene, steps: usize) -> Result<[f64; 2]> {
+    let (builder, ground) = headline(if scene == Scene::Wide { 200 } else { COUNT })?;
+    let mut simulation = match scene {
+        Scene::Wide => {
+            let block = RigidBlock::new(200.0 * ELEMENT, 20.0, 500.0)?;
+            builder.ground(ground).structure(block).interface(Bonded)
+        }
+        Scene::Bonded => builder.ground(ground).interface(Bonded),
+        Scene::Graded => {
+            let half = 0.5 * ELEMENT * COUNT as f64;
+            let strip = Strip::new(-half..half, COUNT, Grading::Cosine)?;
+            let ground = ElasticGround::new(soil()?, strip)?;
+            builder.ground(ground).interface(Coulomb::new(0.4)?)
+        }
+        Scene::Long => {
+            let record = without_end(steps as f64 * time_step())?;
+            builder.ground(ground).interface(Coulomb::new(0.4)?).motion(record)
+        }
+        Scene::Friction | Scene::Sweep => builder.ground(ground).interface(Coulomb::new(0.4)?),
+    }
+    .expected_steps(steps)
+    .build()?;
+    let (mut last, mut slowest) = (Instant::now(), 0.0_f64);
+    let (run, seconds) = timed(|| {
+        simulation.run(steps, |state| {
+            if state.step > 1 {
+                slowest = slowest.max(last.elapsed().as_secs_f64());
+            }
+            last = Instant::now();
+        })
+    });
+    run.map(|_| [slowest, seconds])
+}
+
+fn sweep(steps: usize) -> Result<[f64; 2]> {
+    let kernels = SharedKernels::default();
+    let mut outcome = Ok([0.0; 2]);
+    Sweep::new(CASES).run(
+        |case| {
+            let (builder, ground) = headline(COUNT)?;
+            let builder = builder
+                .ground(ground.with_shared_kernels(&kernels))
+                .interface(Coulomb::new(0.1 * (case.index() + 1) as f64)?);
+            builder.expected_steps(steps).build()?.run(steps, |_| ()).map(|_| ())
+        },
+        |_, result| {
+            if let Err(error) = result {
+                outcome = Err(error.into());
+            }
+        },
+    );
+    outcome
+}
+
+/// Runs `scene` in a process of its own, on `threads` threads.
+pub(crate) fn measure(
+    scene: Scene,
+    steps: usize,
+    threads: usize,
+) -> std::result::Result<Taken, AnyError> {
+    let name = format!("{scene:?}").to_lowercase();
+    let output = Command::new(std::env::current_exe()?)
+        .args(["performance", "--child", &name, "--steps", &steps.to_string()])
+        .env("RAYON_NUM_THREADS", threads.to_string())
+        .output()?;
+    if !output.status.success() {
+        return Err(format!("{name}: {}", String::from_utf8_lossy(&output.stderr)).into());
+    }
+    let text = String::from_utf8(output.stdout)?;
+    let mut numbers = text.split_whitespace().map(str::parse::<f64>);
+    let mut next = || numbers.next().ok_or("a number is missing");
+    Ok(Taken {
+        seconds: next()??,
+        march: next()??,
+        wall: next()??,
+        peak: next()??,
+        slowest: next()??,
+    })
+}
+
+/// The example `containment` as it is by default, files and plots included: processor time of all
+/// its threads and time by the clock, s.
+pub(crate) fn containment() -> std::result::Result<[f64; 2], AnyError> {
+    let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".into());
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+    let mut build = Command::new(cargo);
+    build.current_dir(root);
+    build.args(["build", "--quiet", "--release", "--example", "containment"]);
+    let folder = std::env::current_exe()?;
+    let folder = folder.parent().ok_or("this program is nowhere")?;
+    if !build.status()?.success() {
+        return Err("the example containment does not compile".into());
+    }
+    let begin = Instant::now();
+    let before = children_time();
+    let output = Command::new(folder.join("examples/containment")).output()?;
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into());
+    }
+    Ok([children_time() - before, begin.elapsed().as_secs_f64()])
+}
+
+/// Processor time of all children that have ended, s; NaN where the system does not tell.
+fn children_time() -> f64 {
+    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let fields = text.rsplit(") ").next().unwrap_or_default().split_whitespace();
+    // `cutime` and `cstime`, the 16th and 17th, in hundredths of a second.
+    let ticks: Vec<f64> = fields.skip(13).take(2).filter_map(|field| field.parse().ok()).collect();
+    if let [user, system] = ticks[..] { 0.01 * (user + system) } else { f64::NAN }
+}

@@ -1,0 +1,67 @@
+//! The crate's performance targets, measured: histories, coefficients, whole runs, growth, memory,
+//! scenes, reduced coordinates, sweeps.
+//!
+//! ```text
+//! cargo study performance                # a minute or two
+//! cargo study performance --short     # shorter runs
+//! cargo study performance --docs docs # to the documentation
+//! ```
+//!
+//! Prints Markdown. Times are those of the thread on the processor, so that other work on the
+//! machine disturbs little; the largest single step and what says so are wall time. Whole runs are
+//! child processes, whose peak resident memory the system reports.
+
+mod child;
+mod histories;
+mod reduced;
+mod report;
+
+mod targets;
+
+use std::path::PathBuf;
+
+use crate::AnyError;
+use crate::document::splice;
+use basemat_problems::headline::STEPS;
+use report::Report;
+
+/// The crate's performance targets, measured.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct Options {
+    /// Shorter runs: to see that all works, not to be quoted.
+    #[arg(long)]
+    short: bool,
+    /// Folder of the documentation: given, the tables go to benches/studies/tables/performance.md.
+    #[arg(long)]
+    docs: Option<PathBuf>,
+    /// Run one scene in this process and print what it took.
+    #[arg(long, hide = true)]
+    child: Option<child::Scene>,
+    #[arg(long, hide = true, default_value_t = STEPS)]
+    steps: usize,
+}
+
+/// What `work` gives, and the seconds that this thread was on a processor for it.
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let begin = cpu_time::ThreadTime::now();
+    let result = work();
+    (result, begin.elapsed().as_secs_f64())
+}
+
+pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+    if let Some(scene) = options.child {
+        return child::run(scene, options.steps);
+    }
+    let mut report = Report::new();
+    targets::runs(&mut report, options.short)?;
+    targets::histories(&mut report, options.short)?;
+    targets::scenes(&mut report, options.short)?;
+    reduced::table(&mut report, options.short)?;
+    targets::sweep(&mut report, options.short)?;
+    let text = report.text();
+    println!("{text}");
+    if options.docs.is_some() {
+        splice("performance.md", "performance", &text)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,139 @@
+//! The scenes that are computed.
+
+use basemat::Soil;
+use basemat::coupled::SimulationBuilder;
+use basemat::interface::{Bonded, Coulomb};
+use basemat::motion::{RickerDisplacement, STANDARD_GRAVITY, el_centro_1940};
+use basemat::structure::RigidBlock;
+
+use basemat_problems::containment::{Containment, FOOT};
+use basemat_problems::tabled_structures::three_storeys;
+
+use super::force::Force;
+use super::scene::Scene;
+use crate::AnyError;
+
+/// A block of a reference table: base from −1 to 1, μ = ρ = c_S = 1, bonded, under a Ricker pulse.
+pub(crate) struct Table {
+    name: &'static str,
+    /// After `td_`.
+    file: &'static str,
+    poisson: f64,
+    structure: Structure,
+}
+
+#[derive(Clone, Copy)]
+enum Structure {
+    /// Height and density.
+    Block(f64, f64),
+    Building,
+}
+
+/// The scenes with tables; the first is swept.
+pub(crate) const TABLES: [Table; 7] = [
+    Table {
+        name: "block, ν = 1/3",
+        file: "block_SV_nu0333_h2_rho1",
+        poisson: 1.0 / 3.0,
+        structure: Structure::Block(2.0, 1.0),
+    },
+    Table {
+        name: "block, ν = 1/4",
+        file: "block_SV_nu025_h2_rho1",
+        poisson: 0.25,
+        structure: Structure::Block(2.0, 1.0),
+    },
+    Table {
+        name: "squat block",
+        file: "block_SV_nu0333_h1_rho1",
+        poisson: 1.0 / 3.0,
+        structure: Structure::Block(1.0, 1.0),
+    },
+    Table {
+        name: "squat, ν = 1/4",
+        file: "block_SV_nu025_h1_rho1",
+        poisson: 0.25,
+        structure: Structure::Block(1.0, 1.0),
+    },
+    Table {
+        name: "slender block",
+        file: "block_SV_nu0333_h4_rho0.5",
+        poisson: 1.0 / 3.0,
+        structure: Structure::Block(4.0, 0.5),
+    },
+    Table {
+        name: "slender, ν = 1/4",
+        file: "block_SV_nu025_h4_rho0.5",
+        poisson: 0.25,
+        structure: Structure::Block(4.0, 0.5),
+    },
+    Table {
+        name: "shear building",
+        file: "shearbuilding3_SV_nu0333_sig1",
+        poisson: 1.0 / 3.0,
+        structure: Structure::Building,
+    },
+];
+
+impl Table {
+    /// The scene and its base shear.
+    pub(crate) fn open(&self) -> Result<(Scene, Force), AnyError> {
+        let force = Force::from_table(&format!("td_{}.csv", self.file), "V");
+        let structure = self.structure;
+        let scene = Scene {
+            name: self.name,
+            soil: Soil::new(1.0, self.poisson, 1.0)?,
+            width: 2.0,
+            duration: force.duration(),
+            parts: Box::new(move |builder| {
+                let builder = match structure {
+                    Structure::Block(height, density) => {
+                        builder.structure(RigidBlock::new(2.0, height, density)?)
+                    }
+                    Structure::Building => builder.structure(three_storeys()?),
+                };
+                let pulse = RickerDisplacement::new(1.0, 1.0, 5.0)?;
+                // Without dimensions, and without weight.
+                Ok(builder.interface(Bonded).motion(pulse).gravity(0.0))
+            }),
+        };
+        Ok((scene, force))
+    }
+}
+
+/// The containment of the example of that name, 15 ft wide and 35 ft high, under the first
+/// `duration` seconds of El Centro; bonded, or with friction. Ten columns of finite elements,
+/// whatever the ground's mesh.
+pub(crate) fn containment(
+    name: &'static str,
+    friction: Option<f64>,
+    duration: f64,
+) -> Result<Scene, AnyError> {
+    let small = Containment { width: 15.0, height: 35.0, ..Containment::default() };
+    Ok(Scene {
+        name,
+        soil: small.soil()?,
+        width: small.width * FOOT,
+        duration,
+        parts: Box::new(move |builder| {
+            let builder = builder
+                .structure(small.structure()?)
+                .motion(el_centro_1940())
+                .gravity(STANDARD_GRAVITY);
+            with_friction(builder, friction)
+        }),
+    })
+}
+
+/// The paper's time step on ten elements: a P wave crosses half of one.
+pub(crate) const CONTAINMENT_STEP: f64 = 0.75 / 1300.0;
+
+fn with_friction(
+    builder: SimulationBuilder,
+    friction: Option<f64>,
+) -> basemat::Result<SimulationBuilder> {
+    Ok(match friction {
+        None => builder.interface(Bonded),
+        Some(friction) => builder.interface(Coulomb::new(friction)?),
+    })
+}

@@ -1,0 +1,92 @@
+//! How a scene is computed: mesh, time step, history, time scheme.
+
+use basemat::bem::{ElasticGround, Grading, Strip};
+use basemat::coupled::{Midpoint, Newmark, SimulationBuilder, Theta};
+use basemat::history::History;
+use basemat::{Result, Soil};
+
+/// How the past is summed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Past {
+    pub(crate) name: &'static str,
+    kind: History,
+    /// Of the coefficients, where they are approximate.
+    tolerance: Option<f64>,
+}
+
+/// Histories that are compared. A new kind of [`History`] is one more line.
+pub(crate) const HISTORIES: [Past; 5] = [
+    Past { name: "transforms", kind: History::RelaxedFft, tolerance: None },
+    Past { name: "direct", kind: History::Direct, tolerance: None },
+    Past { name: "exponentials 1e-10", kind: History::Exponentials, tolerance: Some(1e-10) },
+    Past { name: "exponentials 1e-6", kind: History::Exponentials, tolerance: Some(1e-6) },
+    Past { name: "exponentials 1e-3", kind: History::Exponentials, tolerance: Some(1e-3) },
+];
+
+/// A time scheme of the structure. A new one is one more variant and its arms below.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Scheme {
+    Midpoint,
+    Theta(f64),
+    /// γ and β.
+    Newmark(f64, f64),
+}
+
+/// What is tried beside the midpoint rule: damped, and the two common members of Newmark's family.
+pub(crate) const SCHEMES: [Scheme; 3] =
+    [Scheme::Theta(0.55), Scheme::Newmark(0.5, 0.25), Scheme::Newmark(0.6, 0.3025)];
+
+impl Scheme {
+    pub(crate) fn name(self) -> String {
+        match self {
+            Self::Midpoint => "midpoint".into(),
+            Self::Theta(theta) => format!("θ = {theta}"),
+            Self::Newmark(gamma, beta) => format!("Newmark {gamma}, {beta}"),
+        }
+    }
+
+    pub(crate) fn give(self, builder: SimulationBuilder) -> Result<SimulationBuilder> {
+        Ok(match self {
+            Self::Midpoint => builder.scheme(Midpoint),
+            Self::Theta(theta) => builder.scheme(Theta::new(theta)?),
+            Self::Newmark(gamma, beta) => builder.scheme(Newmark::new(gamma, beta)?),
+        })
+    }
+}
+
+/// One point of a sweep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Settings {
+    pub(crate) elements: usize,
+    pub(crate) grading: Grading,
+    /// s.
+    pub(crate) time_step: f64,
+    pub(crate) history: Past,
+    pub(crate) scheme: Scheme,
+}
+
+impl Settings {
+    /// With the default history and scheme.
+    pub(crate) fn new(elements: usize, grading: Grading, time_step: f64) -> Self {
+        let (history, scheme) = (HISTORIES[0], Scheme::Midpoint);
+        Self { elements, grading, time_step, history, scheme }
+    }
+
+    pub(crate) fn grading_name(&self) -> &'static str {
+        match self.grading {
+            Grading::Uniform => "uniform",
+            Grading::Cosine => "cosine",
+            _ => "other",
+        }
+    }
+
+    /// Half-plane under a base between −`half` and `half`.
+    pub(crate) fn ground(&self, soil: Soil, half: f64) -> Result<ElasticGround> {
+        let strip = Strip::new(-half..half, self.elements, self.grading)?;
+        let ground = ElasticGround::new(soil, strip)?.with_history_kind(self.history.kind);
+        match self.history.tolerance {
+            Some(tolerance) => ground.with_history_tolerance(tolerance),
+            None => Ok(ground),
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Sweeps over settings.
+
+use basemat::bem::Grading;
+use indicatif::ProgressBar;
+
+use super::catalogue::{CONTAINMENT_STEP, TABLES, containment};
+use super::force::{Errors, Force};
+use super::scene::Scene;
+use super::settings::{HISTORIES, SCHEMES, Settings};
+use crate::AnyError;
+
+/// Runs longer than this are not repeated, s.
+const LONG: f64 = 1.0;
+
+/// A scene, what is true of it, and the settings to try.
+pub(crate) struct Sweep {
+    pub(crate) scene: Scene,
+    pub(crate) reference: Reference,
+    pub(crate) settings: Vec<Settings>,
+    /// Time in which an S wave crosses the base, s.
+    pub(crate) crossing: f64,
+}
+
+/// What a sweep is compared with.
+pub(crate) enum Reference {
+    Table(Force),
+    /// A run with these settings, beside it one with half the elements and twice the step.
+    Run(Settings),
+}
+
+/// Settings, and what they gave.
+pub(crate) struct Point {
+    pub(crate) settings: Settings,
+    pub(crate) errors: Errors,
+    /// Processor time, s.
+    pub(crate) seconds: f64,
+    /// Whether no other point is both faster and closer in the history.
+    pub(crate) front: bool,
+}
+
+/// A sweep that has run.
+pub(crate) struct Outcome {
+    pub(crate) scene: &'static str,
+    pub(crate) crossing: f64,
+    pub(crate) points: Vec<Point>,
+    /// How far the run beside the reference is from it.
+    pub(crate) doubt: Option<Errors>,
+}
+
+impl Sweep {
+    fn new(scene: Scene, reference: Reference, settings: Vec<Settings>) -> Self {
+        let crossing = scene.width / scene.soil.shear_wave_speed();
+        Self { scene, reference, settings, crossing }
+    }
+
+    /// All sweeps.
+    pub(crate) fn list(short: bool) -> Result<Vec<Self>, AnyError> {
+        let mut sweeps = Vec::new();
+        let (scene, force) = TABLES[0].open()?;
+        sweeps.push(Self::new(scene, Reference::Table(force), block_settings(short)));
+        let duration = if short { 0.5 } else { 5.0 };
+        let (elements, factor) = if short { (16, 1.0) } else { (40, 0.25) };
+        let reference = Settings::new(elements, Grading::Cosine, factor * CONTAINMENT_STEP);
+        sweeps.push(Self::new(
+            containment("containment, friction 0.4", Some(0.4), duration)?,
+            Reference::Run(reference),
+            containment_settings(short),
+        ));
+        Ok(sweeps)
+    }
+
+    /// Runs everything, the fastest of `repeats` counting.
+    pub(crate) fn run(self, repeats: u8, bar: &ProgressBar) -> Result<Outcome, AnyError> {
+        let (reference, doubt) = match self.reference {
+            Reference::Table(force) => (force, None),
+            Reference::Run(fine) => {
+                let reference = self.scene.run(&fine)?.force;
+                let coarse = Settings::new(fine.elements / 2, fine.grading, 2.0 * fine.time_step);
+                let doubt = self.scene.run(&coarse)?.force.errors(&reference);
+                (reference, Some(doubt))
+            }
+        };
+        let mut points = Vec::with_capacity(self.settings.len());
+        for settings in self.settings {
+            let mut outcome = self.scene.run(&settings)?;
+            for _ in 1..repeats {
+                if outcome.seconds > LONG {
+                    break;
+                }
+                outcome.seconds = outcome.seconds.min(self.scene.run(&settings)?.seconds);
+            }
+            let errors = outcome.force.errors(&reference);
+            points.push(Point { settings, errors, seconds: outcome.seconds, front: false });
+            bar.inc(1);
+        }
+        mark_front(&mut points);
+        Ok(Outcome { scene: self.scene.name, crossing: self.crossing, points, doubt })
+    }
+}
+
+/// Pareto's front of time and history error.
+fn mark_front(points: &mut [Point]) {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&a, &b| points[a].seconds.total_cmp(&points[b].seconds));
+    let mut best = f64::INFINITY;
+    for index in order {
+        let point = &mut points[index];
+        // By a percent at least: histories that are equal but for rounding would share the front.
+        if point.errors.history < 0.99 * best {
+            best = point.errors.history;
+            point.front = true;
+        }
+    }
+}
+
+/// Elements and steps of the blocks; steps in units of B/c_S, of which the base is two wide.
+fn block_settings(short: bool) -> Vec<Settings> {
+    let elements: &[usize] = if short { &[4, 8] } else { &[4, 8, 16, 32, 64] };
+    let steps: &[f64] = if short { &[0.4, 0.2] } else { &[0.4, 0.2, 0.1, 0.05, 0.025] };
+    let mut list = Vec::new();
+    for &count in elements {
+        for &step in steps {
+            for grading in [Grading::Uniform, Grading::Cosine] {
+                let settings = Settings::new(count, grading, step);
+                list.extend(HISTORIES.map(|history| Settings { history, ..settings }));
+            }
+            if count < 64 {
+                let settings = Settings::new(count, Grading::Cosine, step);
+                list.extend(SCHEMES.map(|scheme| Settings { scheme, ..settings }));
+            }
+        }
+    }
+    list
+}
+
+/// Elements of the ground and steps of the containment; the structure keeps its ten columns.
+fn containment_settings(short: bool) -> Vec<Settings> {
+    let uniform: &[usize] = if short { &[10] } else { &[5, 10, 20] };
+    let cosine: &[usize] = if short { &[6] } else { &[6, 10, 16, 24] };
+    let factors: &[f64] = if short { &[8.0, 4.0] } else { &[16.0, 8.0, 4.0, 2.0, 1.0, 0.5] };
+    let mut list = Vec::new();
+    for (grading, counts) in [(Grading::Uniform, uniform), (Grading::Cosine, cosine)] {
+        for &count in counts {
+            for &factor in factors {
+                let settings = Settings::new(count, grading, factor * CONTAINMENT_STEP);
+                list.push(settings);
+                if count == 10 {
+                    // The direct sum of many steps takes minutes and gives the same force.
+                    let others = HISTORIES.iter().skip(1);
+                    let others = others.filter(|past| factor > 1.0 || past.name != "direct");
+                    list.extend(others.map(|&history| Settings { history, ..settings }));
+                    list.extend(SCHEMES.map(|scheme| Settings { scheme, ..settings }));
+                }
+            }
+        }
+    }
+    list
+}

@@ -1,0 +1,149 @@
+//! Lamb's problem: a line load, and a uniform load on an element, on the surface of a half-plane.
+
+use std::f64::consts::PI;
+
+use basemat::Soil;
+use basemat::bem::{ContactElement, InfluenceKernel};
+use basemat::fundamental::{FundamentalSolution, HalfPlane, LoadHistory};
+use plotters::prelude::SeriesLabelPosition;
+
+use super::outcome::{Case, Check, Outcome, worse};
+use crate::AnyError;
+use crate::figure::{BLUE, Figure, GREEN, Panel, RED};
+use basemat_problems::table;
+
+pub(crate) const CASE: Case = Case {
+    name: "lamb",
+    title: "Lamb's problem",
+    reference: "tables from an independent Cagniard–de Hoop inversion; late-time limit",
+    settings: "ν = 0, 1/4, 1/3; closed forms, and step coefficients of 8 steps",
+    run,
+};
+
+const TABLES: [(&str, f64); 3] = [("0", 0.0), ("025", 0.25), ("0333", 1.0 / 3.0)];
+
+/// Largest error of the line load's four components, of the element's by differences of closed
+/// forms, and of the element's by summed step coefficients.
+fn errors(name: &str, poisson: f64) -> Result<[f64; 3], AnyError> {
+    let soil = Soil::new(1.0, poisson, 1.0)?;
+    let plane = HalfPlane::new(soil);
+    let mut worst = [0.0_f64; 3];
+    // Columns: ij is displacement i due to load j; y down.
+    let line = table(&format!("lamb_heaviside_nu{name}.csv"));
+    for [time, xx, xy, yx, yy] in line.rows(["t", "u_xx", "u_xy", "u_yx", "u_yy"]) {
+        let u = plane.displacement([1.0, 0.0], time, LoadHistory::Step)?;
+        for (found, wanted) in [(u[0][0], xx), (u[0][1], xy), (u[1][0], yx), (u[1][1], yy)] {
+            worst[0] = worse(worst[0], (found - wanted).abs());
+        }
+    }
+    let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
+    let mean = table(&format!("lamb_galerkin_nu{name}.csv"));
+    for [distance, time, xx, xy, yx, yy] in mean.rows(["d", "t", "xx", "xy", "yx", "yy"]) {
+        let closed = plane.element_mean(element(distance), element(0.0), time)?;
+        let summed = held(&soil, distance, time, 8)?;
+        for (k, [a, b, c]) in [(1, [closed.xx, closed.zx, closed.zz]), (2, summed)] {
+            for (found, wanted) in [(a, xx), (-b, xy), (b, yx), (c, yy)] {
+                worst[k] = worse(worst[k], (found - wanted).abs());
+            }
+        }
+    }
+    Ok(worst)
+}
+
+/// Mean displacement `[xx, zx, zz]` of an element after a traction was held for `steps` steps.
+fn held(soil: &Soil, distance: f64, time: f64, steps: usize) -> Result<[f64; 3], AnyError> {
+    let kernel = InfluenceKernel::new(*soil, time / steps as f64)?;
+    let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
+    let pair = kernel.pair(element(distance), element(0.0))?;
+    Ok((1..=steps)
+        .map(|lag| pair.at(lag))
+        .fold([0.0; 3], |[xx, zx, zz], g| [xx + g.xx, zx + g.zx, zz + g.zz]))
+}
+
+/// Relative distance of late step coefficients from their limit: u grows by (1−ν)/(π μ) ln t.
+fn late(poisson: f64) -> Result<f64, AnyError> {
+    let kernel = InfluenceKernel::new(Soil::new(1.0, poisson, 1.0)?, 0.5)?;
+    let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
+    let lag = 100_000;
+    let limit = (1.0 - poisson) / PI * (lag as f64 / (lag as f64 - 1.0)).ln();
+    let g = kernel.pair(element(3.0), element(0.0))?.at(lag);
+    Ok(worse((g.zz / limit - 1.0).abs(), (g.xx / limit - 1.0).abs()))
+}
+
+fn run(_short: bool) -> Result<Outcome, AnyError> {
+    let mut worst = [0.0_f64; 4];
+    for (name, poisson) in TABLES {
+        let [line, closed, summed] = errors(name, poisson)?;
+        for (worst, error) in worst.iter_mut().zip([line, closed, summed, late(poisson)?]) {
+            *worst = worse(*worst, error);
+        }
+    }
+    let names = [
+        "line load H(t), all components, error of μu/F",
+        "element mean of element, closed form, error of μu/(pl)",
+        "the same, sum of the step coefficients that are marched with",
+        "step coefficients at lag 100 000 against (1−ν)/(πμ) ln t, relative",
+    ];
+    let checks = Check::list(&names, &worst, &[1e-12, 1e-11, 1e-11, 1e-8]);
+    Ok(Outcome { checks, figure: figure()? })
+}
+
+fn figure() -> Result<Figure, AnyError> {
+    let soil = Soil::new(1.0, 0.25, 1.0)?;
+    let plane = HalfPlane::new(soil);
+    let components = [("u_xx", [0, 0], BLUE), ("u_zz", [1, 1], RED), ("u_zx", [1, 0], GREEN)];
+    let line = table("lamb_heaviside_nu025.csv");
+    let mut left = Panel::new("c_S t / x", "μ u / F").legend(SeriesLabelPosition::LowerRight);
+    for (name, [i, j], color) in components {
+        let column = ["u_xx", "u_xy", "u_yx", "u_yy"][2 * i + j];
+        let points: Vec<_> = line.rows(["t", column]).into_iter().filter(|p| p[0] <= 3.0).collect();
+        left = left.reference(
+            &format!("{name}, table"),
+            color,
+            points.iter().map(|p| (p[0], p[1])).collect(),
+        );
+        let mut found = Vec::new();
+        for k in 1..=600 {
+            let time = 0.005 * f64::from(k);
+            let u = plane.displacement([1.0, 0.0], time, LoadHistory::Step)?;
+            found.push((time, u[i][j]));
+        }
+        left = left.line(&format!("{name}, basemat"), color, found);
+    }
+    let mean = table("lamb_galerkin_nu025.csv");
+    let rows = mean.rows(["d", "t", "yy"]);
+    let mut right = Panel::new("c_S t / l", "μ ū_zz / (p l)")
+        .legend(SeriesLabelPosition::UpperLeft)
+        .room(0.05, 0.35);
+    let end = rows.iter().fold(0.0_f64, |end, row| end.max(row[1])).min(3.5);
+    for (distance, place, color) in [
+        (0.0, "the loaded element", BLUE),
+        (1.0, "its neighbour", RED),
+        (2.0, "the next one", GREEN),
+    ] {
+        let points: Vec<_> = rows.iter().filter(|r| r[0] == distance && r[1] <= end).collect();
+        if points.is_empty() {
+            continue;
+        }
+        let points = points.into_iter().map(|row| (row[1], row[2])).collect();
+        right = right.circles(&format!("{place}, table"), color, points);
+        let kernel = InfluenceKernel::new(soil, 0.02)?;
+        let element = |middle: f64| ContactElement { left: middle - 0.5, right: middle + 0.5 };
+        let pair = kernel.pair(element(distance), element(0.0))?;
+        let (mut sum, mut found) = (0.0, vec![(0.0, 0.0)]);
+        for lag in 1.. {
+            let time = 0.02 * lag as f64;
+            if time > end {
+                break;
+            }
+            sum += pair.at(lag).zz;
+            found.push((time, sum));
+        }
+        right = right.line("basemat, summed coefficients", color, found);
+    }
+    Ok(Figure::new(
+        "Lamb's problem, ν = 1/4: line load (left), uniform load on an element of length l (right)",
+        2,
+        vec![left, right],
+    ))
+}

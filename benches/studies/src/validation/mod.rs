@@ -1,0 +1,107 @@
+//! Physics that must come out: eleven problems with a reference that shares no code with the crate.
+//!
+//! Each case states its errors and a limit for each; the process fails if one is exceeded. What is
+//! in `benches/studies/tables/validation.md` comes from
+//!
+//! ```text
+//! cargo study validation --docs docs
+//! ```
+
+mod containment;
+mod convergence;
+mod lamb;
+mod newmark_block;
+mod outcome;
+mod punch;
+mod report;
+mod rocking_block;
+mod strip_impedance;
+mod transient;
+mod yim_chopra;
+
+use std::path::PathBuf;
+
+use cpu_time::ProcessTime;
+
+use crate::AnyError;
+use outcome::{Case, Finished};
+
+/// The validation problems: errors against references, limits, pictures.
+///
+/// Prints a table a case, writes checks.csv and SVG plots, and fails if a limit is exceeded.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct Options {
+    /// Only the case of this name.
+    #[arg(long)]
+    case: Option<String>,
+    /// Folder for the files.
+    #[arg(long, default_value = "target/study/validation")]
+    pub(crate) out: PathBuf,
+    /// Folder of the documentation: given, the numbers go to benches/studies/tables, and its
+    /// images/ the plots.
+    #[arg(long, conflicts_with_all = ["case", "short"])]
+    pub(crate) docs: Option<PathBuf>,
+    /// Fewer and shorter runs, in seconds: for continuous integration.
+    #[arg(long)]
+    pub(crate) short: bool,
+}
+
+impl Options {
+    /// Whether the case called `name` was asked for.
+    pub(crate) fn wants(&self, name: &str) -> bool {
+        self.case.as_deref().is_none_or(|case| case == name)
+    }
+}
+
+const CASES: [Case; 11] = [
+    lamb::CASE,
+    strip_impedance::CASE,
+    transient::BLOCKS,
+    transient::CANTILEVER,
+    transient::THREE_STOREYS,
+    punch::CASE,
+    newmark_block::CASE,
+    rocking_block::CASE,
+    yim_chopra::CASE,
+    convergence::CASE,
+    containment::CASE,
+];
+
+pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+    std::fs::create_dir_all(&options.out)?;
+    let mut finished = Vec::new();
+    // Cases with a number outside its limits, or that did not run to their end.
+    let mut failed = Vec::new();
+    for case in CASES.into_iter().filter(|case| options.wants(case.name)) {
+        let begin = ProcessTime::try_now()?;
+        let outcome = match (case.run)(options.short) {
+            Ok(outcome) => outcome,
+            Err(error) => {
+                println!("\n{} ({}): {error}   <-- FAILS", case.title, case.name);
+                failed.push(case.name);
+                continue;
+            }
+        };
+        let seconds = begin.try_elapsed()?.as_secs_f64();
+        let case = Finished { case, outcome, seconds };
+        report::print(&case);
+        case.outcome.figure.draw(&options.out.join(case.image()))?;
+        if !case.holds() {
+            failed.push(case.case.name);
+        }
+        finished.push(case);
+    }
+    if finished.is_empty() && failed.is_empty() {
+        let names: Vec<&str> = CASES.iter().map(|case| case.name).collect();
+        return Err(format!("no such case; there are {}", names.join(", ")).into());
+    }
+    report::write_checks(&options.out.join("checks.csv"), &finished)?;
+    if let Some(docs) = &options.docs {
+        report::write_docs(docs, &finished)?;
+    }
+    println!("files in {}", options.out.display());
+    if failed.is_empty() {
+        return Ok(());
+    }
+    Err(format!("failed: {}", failed.join(", ")).into())
+}

@@ -1,0 +1,192 @@
+//! A rigid punch under an eccentric load that lifts off, and one that is glued: static contact.
+
+use std::f64::consts::PI;
+
+use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, Strip};
+use basemat::interface::{Bonded, Coulomb};
+use basemat::structure::{RigidBlock, Structure};
+use basemat::{Simulation, Soil};
+use plotters::prelude::SeriesLabelPosition;
+
+use super::outcome::{Case, Check, Outcome, worse};
+use crate::AnyError;
+use crate::figure::{BLUE, Figure, GREEN, Panel, RED};
+use basemat_problems::table;
+use basemat_problems::wrapped::Pulled;
+
+pub(crate) const CASE: Case = Case {
+    name: "punch",
+    title: "Partial uplift of a punch",
+    reference: "inclined punch in closed form (Muskhelishvili; Johnson), and its table",
+    settings: "10, 20, 40 cosine-graded elements, static, frictionless or glued, ν = 0 and 1/3",
+    run,
+};
+
+/// Half width and load are 1, the shear modulus too.
+const ECCENTRICITIES: [f64; 4] = [0.3, 0.6, 0.75, 0.9];
+
+/// Rigid block under a constant clockwise moment.
+fn tilted(moment: f64) -> basemat::Result<impl Structure> {
+    let structure = RigidBlock::new(2.0, 1.0, 0.5)?;
+    Ok(Pulled { structure, along: RigidBlock::ROTATION.into(), force: move |_| -moment })
+}
+
+/// Clockwise tilt, length of contact, and pressure of every element.
+struct Found {
+    tilt: f64,
+    length: f64,
+    pressure: Vec<(ContactElement, f64)>,
+}
+
+fn punch(poisson: f64, eccentricity: f64, elements: usize) -> Result<Found, AnyError> {
+    let soil = Soil::new(1.0, poisson, 1.0)?;
+    let strip = Strip::new(-1.0..1.0, elements, Grading::Cosine)?;
+    let ground = ElasticGround::new(soil, strip)?;
+    let places = ground.elements().to_vec();
+    let simulation = Simulation::builder(0.1)
+        .structure(tilted(eccentricity)?)
+        .ground(ground)
+        .interface(Coulomb::new(0.0)?)
+        .gravity(1.0)
+        .build()?;
+    let state = simulation.state();
+    Ok(Found {
+        tilt: -simulation.static_displacement()[RigidBlock::ROTATION],
+        length: 2.0 * (1.0 - state.uplifted_fraction),
+        pressure: places.into_iter().zip(state.contact.iter().map(|c| c.pressure)).collect(),
+    })
+}
+
+/// Tilt of the smooth punch and length of its contact. With full contact (e ≤ ½) the pressure is
+/// (1 + 2ex)/(π√(1−x²)); beyond, contact is over L = 4(1−e) at the right edge.
+fn exact(poisson: f64, eccentricity: f64) -> [f64; 2] {
+    let unit = (1.0 - poisson) / PI;
+    if eccentricity <= 0.5 {
+        [2.0 * eccentricity * unit, 2.0]
+    } else {
+        [unit / (2.0 * (1.0 - eccentricity)), 4.0 * (1.0 - eccentricity)]
+    }
+}
+
+/// Load carried to the left of x once the punch has lifted: ∫ (2/πL) √(u/(L−u)) du.
+fn carried(eccentricity: f64, x: f64) -> f64 {
+    let length = 4.0 * (1.0 - eccentricity);
+    let u = (x - 1.0 + length).clamp(0.0, length);
+    2.0 / (PI * length) * (length * (u / length).sqrt().asin() - (u * (length - u)).sqrt())
+}
+
+/// Tilt (clockwise) and sideways motion (to the right) of the strip glued to the ground under a
+/// clockwise moment of 1: found, and in closed form with ε = ln(3−4ν)/(2π),
+/// θ = 2(1−ν)/((1+4ε²)πμb²) and u = 2εbθ.
+fn glued(poisson: f64, elements: usize) -> Result<[[f64; 2]; 2], AnyError> {
+    let soil = Soil::new(1.0, poisson, 1.0)?;
+    let strip = Strip::new(-1.0..1.0, elements, Grading::Cosine)?;
+    let simulation = Simulation::builder(0.1)
+        .structure(tilted(1.0)?)
+        .ground(ElasticGround::new(soil, strip)?)
+        .interface(Bonded)
+        .gravity(1.0)
+        .build()?;
+    let u = simulation.static_displacement();
+    let exponent = (3.0 - 4.0 * poisson).ln() / (2.0 * PI);
+    let tilt = 2.0 * (1.0 - poisson) / ((1.0 + 4.0 * exponent * exponent) * PI);
+    let found = [-u[RigidBlock::ROTATION], u[RigidBlock::HORIZONTAL]];
+    Ok([found, [tilt, 2.0 * exponent * tilt]])
+}
+
+fn run(_short: bool) -> Result<Outcome, AnyError> {
+    let limits = [1e-3, 1.2e-3, 2.5e-3, 7.2e-3];
+    let mut checks = Vec::new();
+    let (mut order, mut edge, mut table_error) = ([f64::INFINITY, 0.0_f64], 0.0_f64, 0.0_f64);
+    let rows =
+        table("halfplane_tilted_punch.csv").rows(["nu", "f", "e", "theta", "contact_length"]);
+    for (e, limit) in ECCENTRICITIES.into_iter().zip(limits) {
+        let mut worst = 0.0_f64;
+        for poisson in [0.0, 1.0 / 3.0] {
+            let [tilt, length] = exact(poisson, e);
+            let mut errors = [0.0; 3];
+            for (error, elements) in errors.iter_mut().zip([10, 20, 40]) {
+                let found = punch(poisson, e, elements)?;
+                *error = (found.tilt / tilt - 1.0).abs();
+                let longest = PI / elements as f64;
+                edge = worse(edge, (found.length - length).abs() / longest);
+            }
+            worst = worse(worst, errors[2]);
+            let slope = (errors[1] / errors[2]).log2();
+            order = [order[0].min(slope), order[1].max(slope)];
+            // The closed form that is used here against the table.
+            for [nu, friction, eccentricity, theta, contact] in &rows {
+                let same = |a: f64, b: f64| (a - b).abs() < 1e-9;
+                if *friction == 0.0 && same(*nu, poisson) && same(*eccentricity, e) {
+                    let off = worse((theta / tilt - 1.0).abs(), (contact / length - 1.0).abs());
+                    table_error = worse(table_error, off);
+                }
+            }
+        }
+        checks.push(Check::below(
+            format!("tilt at e = {e} b, 40 elements, relative"),
+            worst,
+            limit,
+        ));
+    }
+    checks.push(Check::within("order in the element size, smallest", order[0], 1.9..=2.2));
+    checks.push(Check::within("order in the element size, largest", order[1], 1.9..=2.2));
+    checks.push(Check::below("edge of contact, off by elements", edge, 1.0));
+    checks.push(Check::below("closed form against the table", table_error, 1e-9));
+    let pressed = punch(0.0, 0.75, 40)?;
+    let misplaced: f64 = pressed
+        .pressure
+        .iter()
+        .map(|(element, p)| {
+            let wanted = carried(0.75, element.right) - carried(0.75, element.left);
+            (p * element.length() - wanted).abs()
+        })
+        .sum();
+    checks.push(Check::below(
+        "pressure at e = 0.75 b, misplaced part of the load",
+        misplaced,
+        1e-2,
+    ));
+    let mut worst = [0.0_f64; 2];
+    for poisson in [0.0, 1.0 / 3.0] {
+        let [found, wanted] = glued(poisson, 40)?;
+        for k in 0..2 {
+            worst[k] = worse(worst[k], (found[k] / wanted[k] - 1.0).abs());
+        }
+    }
+    let names =
+        ["glued strip: tilt under a moment, relative", "glued strip: sideways motion, relative"];
+    checks.extend(Check::list(&names, &worst, &[1.2e-3, 1e-3]));
+    Ok(Outcome { checks, figure: figure(&pressed)? })
+}
+
+fn figure(pressed: &Found) -> Result<Figure, AnyError> {
+    // Tilts over that at which the punch starts to lift, θ₀ = (1−ν)N/(πμb).
+    let unit = 1.0 / PI;
+    let curve = (1..=97).map(|k| 0.01 * f64::from(k));
+    let curve = curve.map(|e| (exact(0.0, e)[0] / unit, e)).collect();
+    let bonded = (0..=100).map(|k| 0.02 * f64::from(k)).map(|t| (t, 0.5 * t)).collect();
+    let mut left = Panel::new("tilt θ/θ₀, θ₀ = (1−ν)N/(πμb)", "moment M/(N b)")
+        .legend(SeriesLabelPosition::LowerRight)
+        .dashed("without uplift", GREEN, bonded)
+        .reference("closed form", RED, curve);
+    for (elements, name, color) in [(10, "basemat, 10 elements", GREEN), (40, "40 elements", BLUE)]
+    {
+        let mut points = Vec::new();
+        for e in [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.93] {
+            points.push((punch(0.0, e, elements)?.tilt / unit, e));
+        }
+        left = left.circles(name, color, points);
+    }
+    left = left.room(0.02, 0.08);
+    let middle = |element: &ContactElement| 0.5 * (element.left + element.right);
+    let pressure = |x: f64| 2.0 / PI * (x / (1.0 - x)).sqrt();
+    let exact = (0..=970).map(|k| 1e-3 * f64::from(k)).map(|x| (x, pressure(x))).collect();
+    let found = pressed.pressure.iter().filter(|(element, _)| middle(element) < 0.97);
+    let right = Panel::new("place under the punch, x/b", "pressure p b/N, e = 0.75 b")
+        .legend(SeriesLabelPosition::UpperLeft)
+        .reference("closed form: contact over 0 ≤ x ≤ b", RED, exact)
+        .circles("basemat, 40 elements", BLUE, found.map(|(e, p)| (middle(e), *p)).collect());
+    let title = "Rigid frictionless punch of half width b under a load N at eccentricity e = M/N";
+    Ok(Figure::new(title, 2, vec![left, right]))
+}

@@ -1,0 +1,268 @@
+//! A rocking block: Housner's with its impacts, and the quarter period on the half-plane.
+
+use std::f64::consts::PI;
+
+use basemat::bem::{ElasticGround, Grading, Ground, SpringGround, Strip};
+use basemat::interface::Coulomb;
+use basemat::motion::STANDARD_GRAVITY;
+use basemat::structure::{ContactNode, RigidBlock, Structure, Triplets};
+use basemat::{Simulation, Soil};
+use plotters::prelude::SeriesLabelPosition;
+
+use super::outcome::{Case, Check, Outcome, worse};
+use crate::AnyError;
+use crate::figure::{BLUE, Figure, Panel, RED};
+use basemat_problems::rocking::quarter_period;
+use basemat_problems::series::{Error, whole};
+
+pub(crate) const CASE: Case = Case {
+    name: "rocking_block",
+    title: "Rocking block",
+    reference: "Housner's block, integrated apart; quarter period in closed form",
+    settings: "two stiff elements, Δt = 0.02 ms; half-plane, 16 and 32 cosine-graded, Δt = 2.5 ms",
+    run,
+};
+
+/// Half width, half height (m), density (kg/m³).
+const B: f64 = 0.5;
+const H: f64 = 2.0;
+const DENSITY: f64 = 2500.0;
+/// The block is pushed for this long (s), with `PUSH` times the moment that lifts it at most.
+const PUSHED: f64 = 0.5;
+const PUSH: f64 = 1.6;
+/// Impacts that are compared: later ones follow each other ever faster, until the block stands.
+const IMPACTS: usize = 8;
+/// Samples of histories, s.
+const SAMPLE: f64 = 0.01;
+
+fn mass() -> f64 {
+    4.0 * B * H * DENSITY
+}
+
+fn weight() -> f64 {
+    mass() * STANDARD_GRAVITY
+}
+
+/// About the middle of the base.
+fn inertia() -> f64 {
+    mass() * (B * B + H * H) / 3.0 + mass() * H * H
+}
+
+fn push(time: f64) -> f64 {
+    if time < PUSHED { PUSH * weight() * B * (PI * time / PUSHED).sin() } else { 0.0 }
+}
+
+/// The block with its P–Δ effect and the push, on a base of its own width.
+struct Pushed(RigidBlock);
+
+impl Pushed {
+    fn on_base(width: f64) -> Result<Self, AnyError> {
+        let central = inertia() - mass() * H * H;
+        let block = RigidBlock::from_mass(width, mass(), central, H)?;
+        Ok(Self(block.with_p_delta(STANDARD_GRAVITY)?))
+    }
+}
+
+impl Structure for Pushed {
+    fn unknowns(&self) -> usize {
+        self.0.unknowns()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        self.0.contact_nodes()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.0.mass(matrix)
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.0.stiffness(matrix)
+    }
+
+    fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
+        load[RigidBlock::ROTATION] += push(time);
+        Ok(())
+    }
+}
+
+/// Tilts every step, the first at t = 0.
+fn tilts(
+    ground: impl Ground + 'static,
+    width: f64,
+    time_step: f64,
+    duration: f64,
+) -> Result<Vec<f64>, AnyError> {
+    let mut simulation = Simulation::builder(time_step)
+        .structure(Pushed::on_base(width)?)
+        .ground(ground)
+        .interface(Coulomb::uplift_only())
+        .build()?;
+    let mut tilts = vec![0.0];
+    let steps = whole(duration / time_step);
+    let run = simulation.run(steps, |state| tilts.push(state.absolute_displacement()[2]))?;
+    if run.ledger_residual > 1e-9 {
+        return Err(format!("ledger open by {:.1e}", run.ledger_residual).into());
+    }
+    Ok(tilts)
+}
+
+/// Housner's block for small tilts, every `SAMPLE`: about the corner that is down,
+/// I θ″ = M ∓ N(b ∓ hθ); at an impact the moment of momentum about the new corner is kept, so the
+/// rate falls to η = (I₀ − m b²)/(I₀ + m b²) of itself, I₀ about the middle of the base.
+/// Gives tilts, and the times of impacts.
+fn housner(duration: f64) -> (Vec<f64>, Vec<f64>) {
+    let moment_of_inertia = inertia() + mass() * B * B;
+    let kept = (inertia() - mass() * B * B) / moment_of_inertia;
+    // Side: +1 on the left corner (tilts counter-clockwise), −1 on the right one, 0 at rest.
+    let acceleration = |time: f64, tilt: f64, side: f64| {
+        (push(time) - side * weight() * B + weight() * H * tilt) / moment_of_inertia
+    };
+    let substeps = 2000;
+    let step = SAMPLE / f64::from(substeps);
+    let (mut tilt, mut rate, mut side) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut tilts, mut impacts) = (vec![0.0], Vec::new());
+    for n in 0..whole(duration / SAMPLE) {
+        for k in 0..substeps {
+            let time = n as f64 * SAMPLE + f64::from(k) * step;
+            if side == 0.0 {
+                if push(time).abs() <= weight() * B {
+                    continue;
+                }
+                side = push(time).signum();
+            }
+            // Velocity Verlet.
+            let before = acceleration(time, tilt, side);
+            let mut next = tilt + step * (rate + 0.5 * step * before);
+            rate += 0.5 * step * (before + acceleration(time + step, next, side));
+            if next * side < 0.0 {
+                // Linear within the step: the event is off by step² at most.
+                let part = tilt / (tilt - next);
+                impacts.push(time + part * step);
+                rate *= kept;
+                side = -side;
+                next = rate * (1.0 - part) * step;
+            }
+            tilt = next;
+        }
+        tilts.push(tilt);
+    }
+    (tilts, impacts)
+}
+
+/// Housner on two elements, whose pressures act at their middles, ±b: the two corners. The bed is
+/// stiff, and damped enough that a corner lands without rebound and the bed is back (c/k) within
+/// 0.05 ms.
+fn corners(time_step: f64, duration: f64) -> Result<Vec<f64>, AnyError> {
+    let (stiffness, dashpot) = (4e12, 2e8);
+    let bed = SpringGround::new(-2.0 * B..2.0 * B, 2, stiffness, 1e13)?
+        .with_dashpots(dashpot, 0.0)?
+        .with_theta(1.0)?;
+    let every = whole(SAMPLE / time_step);
+    Ok(tilts(bed, 4.0 * B, time_step, duration)?.into_iter().step_by(every).collect())
+}
+
+/// Where a sampled tilt changes sign, by the straight line between samples.
+fn crossings(tilts: &[f64]) -> Vec<f64> {
+    let pairs = tilts.windows(2).enumerate().filter(|(_, pair)| pair[0] * pair[1] < 0.0);
+    pairs.map(|(k, pair)| (k as f64 + pair[0] / (pair[0] - pair[1])) * SAMPLE).collect()
+}
+
+/// Quarter period of free rocking on the half-plane over Housner's, and over that on a
+/// half-plane without inertia.
+fn quarter(speed: f64, elements: usize) -> Result<[f64; 2], AnyError> {
+    let (poisson, time_step) = (1.0 / 3.0, 0.0025);
+    let soil = Soil::from_wave_speeds(speed, 2.0 * speed, 2000.0)?;
+    let strip = Strip::new(-B..B, elements, Grading::Cosine)?;
+    let ground = ElasticGround::new(soil, strip)?;
+    let edge = ground.elements()[0].length();
+    let tilts = tilts(ground, 2.0 * B, time_step, 1.5)?;
+    let peak = (whole(PUSHED / time_step)..tilts.len() - 1)
+        .find(|&k| tilts[k + 1] < tilts[k])
+        .ok_or("the block does not turn back")?;
+    let [before, tilt, after] = [tilts[peak - 1], tilts[peak], tilts[peak + 1]];
+    let turned = peak as f64 + 0.5 * (before - after) / (before - 2.0 * tilt + after);
+    let upright = (peak..tilts.len() - 1)
+        .find(|&k| tilts[k + 1] < 0.0)
+        .ok_or("the block does not come back")?;
+    let crossed = upright as f64 + tilts[upright] / (tilts[upright] - tilts[upright + 1]);
+    let found = (crossed - turned) * time_step;
+    let rate = (weight() * H / (inertia() + mass() * B * B)).sqrt();
+    let housner = (1.0 / (1.0 - tilt * H / B)).acosh() / rate;
+    let lift_off = (1.0 - poisson) * weight() / (PI * soil.shear_modulus() * B);
+    // Pressure on the last element acts at its middle: the block turns about that point.
+    let slenderness = (B - 0.5 * edge) / H;
+    let yielding = quarter_period(tilt, lift_off, slenderness, rate);
+    Ok([found / housner, found / yielding])
+}
+
+fn run(short: bool) -> Result<Outcome, AnyError> {
+    let duration = if short { 5.0 } else { 6.5 };
+    let (wanted, impacts) = housner(duration);
+    let found = corners(2e-5, duration)?;
+    let mut error = Error::default();
+    found.iter().zip(&wanted).for_each(|(a, b)| error.add(*a, *b));
+    let times = crossings(&found);
+    if times.len() < IMPACTS || impacts.len() <= IMPACTS {
+        return Err("fewer impacts than are compared".into());
+    }
+    let off =
+        times.iter().zip(&impacts[..IMPACTS]).fold(0.0_f64, |m, (a, b)| worse(m, (a - b).abs()));
+    let peak = |tilts: &[f64], from: f64, to: f64| {
+        let part = &tilts[whole(from / SAMPLE)..=whole(to / SAMPLE)];
+        part.iter().fold(0.0_f64, |most, tilt| worse(most, tilt.abs()))
+    };
+    let mut peaks = 0.0_f64;
+    for pair in impacts[..=IMPACTS].windows(2) {
+        let [a, b] = [&found, &wanted].map(|tilts| peak(tilts, pair[0], pair[1]));
+        peaks = worse(peaks, (a / b - 1.0).abs());
+    }
+    let mut checks = vec![
+        Check::below("two corners: tilt, relative L2", error.relative(), 2e-2),
+        Check::below("two corners: times of 8 impacts, s", off, 6e-3),
+        Check::below("two corners: 8 amplitudes between impacts, relative", peaks, 8e-3),
+    ];
+    // The step's share: an impact lasts a fraction of 0.1 ms.
+    for (step, name, limit) in [(1e-4, "0.1", 4.5e-2), (5e-4, "0.5", 0.12)] {
+        let mut error = Error::default();
+        let found = corners(step, duration)?;
+        found.iter().zip(&wanted).for_each(|(a, b)| error.add(*a, *b));
+        let name = format!("two corners, Δt = {name} ms: tilt, relative L2");
+        checks.push(Check::below(name, error.relative(), limit));
+    }
+    let list = [
+        (100.0, 16, 1.8e-2, 5.5e-3),
+        (200.0, 16, 7.7e-3, 5e-3),
+        (400.0, 16, 6.5e-3, 2.1e-3),
+        (400.0, 32, 2.1e-3, 1.5e-3),
+        (800.0, 16, 6.5e-3, 8e-4),
+    ];
+    let list = if short { &list[2..3] } else { &list[..] };
+    let (mut over_housner, mut over_yielding) = (Vec::new(), Vec::new());
+    for &(speed, elements, housner, yielding) in list {
+        let [rigid, soft] = quarter(speed, elements)?;
+        let scene = format!("c_S = {speed} m/s, {elements} elements: quarter period");
+        // Slower than on a rigid base, never faster.
+        checks.push(Check::within(format!("{scene} over Housner's"), rigid, 1.0..=1.0 + housner));
+        let name = format!("{scene} against yielding soil");
+        checks.push(Check::below(name, (soft - 1.0).abs(), yielding));
+        if elements == 16 {
+            over_housner.push((speed, 100.0 * (rigid - 1.0)));
+            over_yielding.push((speed, 100.0 * (soft - 1.0)));
+        }
+    }
+    let points = |tilts: &[f64]| {
+        let each = tilts.iter().enumerate();
+        each.map(|(k, tilt)| (k as f64 * SAMPLE, 1e3 * tilt)).collect::<Vec<_>>()
+    };
+    let left = Panel::new("time, s", "tilt, mrad")
+        .reference("Housner 1963, integrated apart", RED, points(&wanted))
+        .line("basemat, two corners on a stiff bed", BLUE, points(&found));
+    let right = Panel::new("c_S of the soil, m/s", "quarter period too long by, %")
+        .legend(SeriesLabelPosition::UpperRight)
+        .room(0.15, 0.15)
+        .crosses("against Housner's rigid base", RED, over_housner)
+        .circles("against soil that yields without inertia", BLUE, over_yielding);
+    let title = "Block 1 m × 4 m, pushed for half a second, then free: tilt (left); 16 elements on the half-plane (right)";
+    Ok(Outcome { checks, figure: Figure::new(title, 2, vec![left, right]) })
+}

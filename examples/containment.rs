@@ -1,0 +1,117 @@
+//! El Centro on a containment that may uplift and slide: the problem of Patel & Spyrakos,
+//! "Uplifting-sliding response of flexible structures to seismic loads".
+//!
+//! ```text
+//! cargo run --release --example containment
+//! ```
+//!
+//! Five runs as in the paper's Table 1: bonded, uplift only, friction 0.4, 0.3 and 0.2. Prints a table; writes
+//! time series as CSV and pictures to `target/containment`. The figure with the dimensions is lost: contact
+//! length and height are calibrated on the first two rows of Table 1, the density of the soil is assumed.
+
+use std::path::Path;
+
+use basemat::Result;
+use basemat::fem::{Direction, Layer, Material, Mesh};
+use basemat::plot;
+use basemat::prelude::*;
+
+/// The paper's units in SI: feet, pounds per square foot, slugs per cubic foot, pounds per foot.
+const FOOT: f64 = 0.3048;
+const PSF: f64 = 47.880_258_980_335_84;
+const SLUG: f64 = 515.378_818_393_229_5;
+const POUND_PER_FOOT: f64 = 14.593_902_937_206_364;
+
+/// Contact length and height, ft; elements along the base, layers of rectangles.
+const WIDTH: f64 = 34.0;
+const HEIGHT: f64 = 80.0;
+const ELEMENTS: usize = 10;
+const LAYERS: usize = 13;
+
+/// Cases, their friction (`None` is bonded), and the peak base shears of Table 1, lb/ft.
+const CASES: [(&str, Option<f64>, f64); 5] = [
+    ("bonded", None, 28_970.0),
+    ("uplift only", Some(f64::INFINITY), 20_130.0),
+    ("friction 0.4", Some(0.4), 10_233.0),
+    ("friction 0.3", Some(0.3), 6_415.0),
+    ("friction 0.2", Some(0.2), 5_958.0),
+];
+
+/// Finite elements: the lowest layer is the basemat, the twelve above it the containment.
+fn structure() -> Result<FemModel> {
+    let solid = |young, density: f64| Material::new(young * PSF, 1.0 / 3.0, density * SLUG);
+    let (half, layer) = (0.5 * WIDTH * FOOT, HEIGHT * FOOT / LAYERS as f64);
+    let foundation = Layer::new(layer, 1, solid(106_560_369.0, 3.043_48)?);
+    let above = (LAYERS - 1) as f64 * layer;
+    let superstructure = Layer::new(above, LAYERS - 1, solid(106_577_648.0, 0.590_06)?);
+    FemModel::on_base(Mesh::layered_block(-half..half, ELEMENTS, &[foundation, superstructure])?)
+}
+
+/// A run of the whole record, and its time series.
+fn shake(friction: Option<f64>) -> Result<(Run, Histories)> {
+    let model = structure()?;
+    let (half, layer) = (0.5 * WIDTH * FOOT, HEIGHT * FOOT / LAYERS as f64);
+    // A corner of the roof; the force of the superstructure on the foundation.
+    let corner = model.node_at(-half, LAYERS as f64 * layer)?;
+    let roof = [("roof x", Direction::X), ("roof y", Direction::Y)].map(|(name, direction)| {
+        Ok(Probe::absolute_displacement(name, model.row(corner, direction)?))
+    });
+    let shear = Probe::section("base shear", &model.section(layer, 0.0)?.shear);
+
+    let soil = Soil::from_wave_speeds(650.0 * FOOT, 1300.0 * FOOT, 3.5 * SLUG)?;
+    // A pressure wave crosses half an element in a step.
+    let builder = Simulation::builder(0.5 * (WIDTH / ELEMENTS as f64) / 1300.0)
+        .structure(model)
+        .ground(ElasticGround::new(soil, Strip::uniform(-half..half, ELEMENTS)?)?)
+        .motion(el_centro_1940())
+        .probes(roof.into_iter().collect::<Result<Vec<_>>>()?)
+        .probe(shear);
+    let mut simulation = match friction {
+        None => builder.interface(Bonded),
+        Some(friction) => builder.interface(Coulomb::new(friction)?),
+    }
+    .build()?;
+    let steps = simulation.steps_for(el_centro_1940().duration());
+    // Gaps, slips and tractions of the elements at every 24th step, for the picture of modes.
+    let mut histories = Recorder::new().contact(24).start(&simulation)?;
+    let run = simulation.run(steps, |state| histories.record(state))?;
+    Ok((run, histories))
+}
+
+fn main() -> Result<()> {
+    let out = Path::new("target/containment");
+    // Runs are independent: with the feature `rayon`, as many at a time as there are processors.
+    let runs = Sweep::new(CASES.len()).collect(|case| shake(CASES[case.index()].1));
+    let runs: Vec<_> = runs.into_iter().collect::<std::result::Result<_, _>>()?;
+
+    println!(
+        "{:<14}{:>7}{:>17}{:>9}{:>8}{:>10}{:>11}{:>9}{:>8}",
+        "case", "lb/ft", "ratio (paper)", "uplift", "slip", "residual", "roof", "ledger", "run"
+    );
+    let bonded = runs[0].0.probe("base shear")?.magnitude();
+    for ((name, _, printed), (run, histories)) in CASES.iter().zip(&runs) {
+        let shear = run.probe("base shear")?.magnitude();
+        println!(
+            "{name:<14}{:>7.0}{:>9.3} ({:.3}){:>7.0} %{:>5.1} mm{:>7.2} mm{:>8.1} mm{:>9.0e}{:>6.2} s",
+            shear / POUND_PER_FOOT,
+            shear / bonded,
+            printed / CASES[0].2,
+            100.0 * run.whole.uplifted_fraction.largest().value,
+            1e3 * run.whole.mean_slip.magnitude(),
+            1e3 * run.whole.residual_slip,
+            1e3 * run.probe("roof x")?.magnitude(),
+            run.ledger_residual,
+            run.wall.as_secs_f64()
+        );
+        let name = name.replace([' ', '.'], "_");
+        histories.save_csv(out.join(format!("{name}.csv")))?;
+        plot::mode_map("Contact modes", histories)?.save(out.join(format!("modes_{name}.svg")))?;
+    }
+    let curves: Vec<_> = CASES.iter().zip(&runs).map(|(case, (_, h))| (case.0, h)).collect();
+    for probe in ["base shear", "roof x", "roof y"] {
+        let file = out.join(format!("{}.svg", probe.replace(' ', "_")));
+        plot::probe_history("El Centro on a containment", &curves, probe)?.save(file)?;
+    }
+    println!("\nratio: over the bonded shear, in the paper's Table 1; files in {}", out.display());
+    Ok(())
+}

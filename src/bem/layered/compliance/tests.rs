@@ -1,0 +1,171 @@
+//! The surface compliance against 60-digit values, closed forms and limits.
+
+use super::*;
+use crate::soil::{Relaxation, Soil};
+
+/// A constant complex modulus, as in the tables.
+#[derive(Debug)]
+struct Loss(f64);
+
+impl Relaxation for Loss {
+    fn modulus(&self, _s: Complex) -> Complex {
+        Complex::new(1.0, self.0)
+    }
+}
+
+fn profile(layers: &str, rigid: bool) -> SoilProfile {
+    let parse = |text: &str| -> Vec<f64> { text.split(':').map(|x| x.parse().unwrap()).collect() };
+    let layers: Vec<_> = layers.split('|').map(parse).collect();
+    let soil = |l: &[f64]| Soil::new(l[1], l[3], l[0]).unwrap();
+    let last = layers.last().unwrap();
+    let (mut profile, above) = if rigid {
+        (SoilProfile::on_rigid_base(), &layers[..])
+    } else {
+        let base =
+            SoilProfile::on_half_plane(soil(last)).with_base_damping(Loss(last[2] / last[1]));
+        (base, &layers[..layers.len() - 1])
+    };
+    for l in above {
+        profile = profile.with_layer(soil(l), l[4]).unwrap().with_damping(Loss(l[2] / l[1]));
+    }
+    profile
+}
+
+/// Published digits: `kernel_C_ks.csv`, 80 random rows of 60-digit arithmetic.
+#[test]
+fn agrees_with_sixty_digits() {
+    agrees(include_str!("../../../../tests/data/layered/kernel_C_ks.csv"), 80);
+}
+
+/// `contrasts_C_ks.csv`: slabs up to 1e8 times as stiff as the ground below, at rest and in motion, by matrix
+/// exponentials in 120 digits.
+#[test]
+fn stiff_layers_over_soft_ground_keep_their_digits() {
+    agrees(include_str!("../../../../tests/data/layered/contrasts_C_ks.csv"), 144);
+}
+
+fn agrees(table: &str, count: usize) {
+    let (mut worst, mut worst_xz, mut rows) = (0.0_f64, 0.0_f64, 0);
+    for line in table.lines().filter(|l| l.starts_with(|c: char| c.is_ascii_digit())) {
+        let (numbers, layers) = line.rsplit_once(',').unwrap();
+        let n: Vec<f64> = numbers.split(',').map(|x| x.parse().unwrap()).collect();
+        let profile = profile(layers, n[3] == 1.0);
+        let mut compliance = Compliance::default();
+        compliance.set(&profile, Complex::new(n[1], n[2])).unwrap();
+        let found = compliance.at(n[0]);
+        let wanted = [4, 6, 8].map(|i| Complex::new(n[i], n[i + 1]));
+        let size = wanted.iter().map(|c| c.abs()).fold(0.0, f64::max);
+        for (found, wanted) in [found.xx, found.zz, found.xz].into_iter().zip(wanted) {
+            worst = worst.max((found - wanted).abs() / size);
+        }
+        worst_xz = worst_xz.max((found.xz - wanted[2]).abs() / wanted[2].abs());
+        rows += 1;
+    }
+    println!("{rows} rows: {worst:e} of max|C|, {worst_xz:e} of C_xz");
+    assert_eq!(rows, count);
+    assert!(worst < 1e-12, "{worst:e}");
+}
+
+#[test]
+fn identical_layers_are_one_half_plane() {
+    let mut worst = 0.0_f64;
+    for nu in [-0.9, 0.0, 0.25, 0.4999] {
+        let soil = Soil::new(2.0, nu, 1.5).unwrap();
+        let one = SoilProfile::on_half_plane(soil);
+        let mut many = one.clone();
+        for h in [0.3, 2.0, 0.01, 0.7] {
+            many = many.with_layer(soil, h).unwrap();
+        }
+        for s in [
+            Complex::real(1e-6),
+            Complex::real(3.0),
+            Complex::new(0.01, 2.0),
+            Complex::new(1.0, -30.0),
+        ] {
+            for k in [1e-5, 1e-3, 0.1, 1.0, 7.0, 100.0] {
+                let at = |profile: &SoilProfile| {
+                    let mut compliance = Compliance::default();
+                    compliance.set(profile, s).unwrap();
+                    compliance.at(k)
+                };
+                let (a, b) = (at(&one), at(&many));
+                let size = a.xx.abs().max(a.zz.abs());
+                for (a, b) in [(a.xx, b.xx), (a.zz, b.zz), (a.xz, b.xz)] {
+                    worst = worst.max((a - b).abs() / size);
+                }
+            }
+        }
+    }
+    println!("{worst:e}");
+    assert!(worst < 1e-11, "{worst:e}");
+}
+
+/// Closed form of Lamb's problem: C = [β, α] q₂/(μ R), R = (2k² + q₂)² − 4k²αβ.
+#[test]
+fn half_plane_is_lambs() {
+    let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
+    let s = Complex::new(0.7, 2.0);
+    let mut compliance = Compliance::default();
+    compliance.set(&SoilProfile::on_half_plane(soil), s).unwrap();
+    for k in [0.1, 1.0, 5.0] {
+        let q2 = (s * s).scale(0.75);
+        let k2 = Complex::real(k * k);
+        let (alpha, beta) = ((k2 + q2.scale(soil.speed_ratio_squared())).sqrt(), (k2 + q2).sqrt());
+        let sum = k2.scale(2.0) + q2;
+        let r = (sum * sum - (alpha * beta).scale(4.0 * k * k)).scale(2.0);
+        let found = compliance.at(k);
+        assert!((found.xx - q2 * beta / r).abs() < 1e-12 * found.xx.abs());
+        assert!((found.zz - q2 * alpha / r).abs() < 1e-12 * found.zz.abs());
+        let coupled = (sum - (alpha * beta).scale(2.0)).scale(k) / r;
+        assert!((found.xz - coupled).abs() < 1e-12 * found.zz.abs());
+    }
+}
+
+#[test]
+fn extremes_are_finite() {
+    let soft = Soil::new(1.0, 0.4999, 1.0).unwrap();
+    let stiff = Soil::new(1e6, -0.99, 3.0).unwrap();
+    for profile in [
+        SoilProfile::on_half_plane(stiff)
+            .with_layer(soft, 1e-3)
+            .unwrap()
+            .with_layer(stiff, 1e5)
+            .unwrap(),
+        SoilProfile::on_rigid_base().with_layer(soft, 2.0).unwrap(),
+    ] {
+        for s in [0.0, 1e-9, 1e-3, 1.0, 1e4] {
+            for im in [0.0, 1e-6, 1.0, 1e5] {
+                let s = Complex::new(s, im);
+                let mut compliance = Compliance::default();
+                if s.re == 0.0 && im > 0.0 {
+                    continue;
+                }
+                compliance.set(&profile, s).unwrap();
+                for k in [1e-6, 1e-3, 1.0, 1e3, 1e7] {
+                    let c = compliance.at(k);
+                    for x in [c.xx, c.zz, c.xz] {
+                        assert!(x.is_finite(), "{s:?} {k} {c:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// k → 0 on a rigid base: shear and pressure columns, tanh(sh/c)/(ρcs).
+#[test]
+fn long_waves_see_a_column() {
+    let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
+    let profile = SoilProfile::on_rigid_base().with_layer(soil, 2.0).unwrap();
+    for s in [0.1, 1.0, 5.0] {
+        let mut compliance = Compliance::default();
+        compliance.set(&profile, Complex::real(s)).unwrap();
+        let found = compliance.at(1e-7);
+        for (found, speed) in
+            [(found.xx, soil.shear_wave_speed()), (found.zz, soil.pressure_wave_speed())]
+        {
+            let wanted = (s * 2.0 / speed).tanh() / (1.5 * speed * s);
+            assert!((found.re - wanted).abs() < 1e-13 * wanted, "{s} {found:?} {wanted}");
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! Profiles of the tables, of the types that unit tests see: P1, a layer on rock; P3, the same layer on a rigid base.
+
+use crate::soil::{GeneralizedMaxwell, Relaxation, Soil, SoilProfile};
+
+/// The law of `gmb.json` for 5 % or 1 %.
+pub(super) fn gmb(percent: u32) -> GeneralizedMaxwell {
+    let (long_term, moduli, frequencies) = basemat_problems::profiles::gmb_numbers(percent);
+    GeneralizedMaxwell::new(long_term, moduli, frequencies).unwrap()
+}
+
+fn with_layer(profile: SoilProfile, damping: impl Relaxation + 'static) -> SoilProfile {
+    let layer = Soil::new(1.0, 0.333_333_333_3, 1.0).unwrap();
+    profile.with_layer(layer, 2.0).unwrap().with_damping(damping)
+}
+
+pub(super) fn p1(
+    layer_damping: impl Relaxation + 'static,
+    rock_damping: impl Relaxation + 'static,
+) -> SoilProfile {
+    let rock = Soil::from_shear_wave_speed(3.0, 0.3, 1.2).unwrap();
+    with_layer(SoilProfile::on_half_plane(rock).with_base_damping(rock_damping), layer_damping)
+}
+
+pub(super) fn p3(damping: impl Relaxation + 'static) -> SoilProfile {
+    with_layer(SoilProfile::on_rigid_base(), damping)
+}

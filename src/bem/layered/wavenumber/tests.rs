@@ -1,0 +1,146 @@
+//! Element compliances against tables, closed forms and themselves.
+
+use super::*;
+use crate::bem::layered::passivity::assembled;
+use crate::bem::layered::test_profiles::{gmb, p1};
+use crate::bem::{Grading, Strip};
+use crate::fundamental::HalfPlane;
+use crate::soil::Soil;
+
+fn all(
+    profile: &SoilProfile,
+    strip: &Strip,
+    s: Complex,
+    tolerance: f64,
+) -> (Vec<[Complex; 3]>, usize) {
+    let classes = PairClasses::new(strip.elements()).unwrap();
+    let integrals = Wavenumbers::new(&classes, tolerance);
+    let mut work = Workspace::default();
+    let mut values = vec![[Complex::default(); 3]; classes.count()];
+    integrals.compliance(profile, s, &mut work, &mut values).unwrap();
+    (values, work.evaluations)
+}
+
+/// `F_s_P1_gmb_Q3.csv`: another program, tolerance 1e-12.
+#[test]
+fn agrees_with_the_table_of_a_damped_layer_on_rock() {
+    let strip = Strip::uniform(-1.0..1.0, 3).unwrap();
+    let classes = PairClasses::new(strip.elements()).unwrap();
+    let integrals = Wavenumbers::new(&classes, 1e-11);
+    let profile = p1(gmb(5), gmb(1));
+    let table = include_str!("../../../../tests/data/layered/F_s_P1_gmb_Q3.csv");
+    let (mut worst, mut largest, mut rows) = (0.0_f64, 0.0_f64, 0);
+    let mut values = vec![[Complex::default(); 3]; classes.count()];
+    for line in table.lines().skip(2) {
+        let n: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
+        let s = Complex::new(n[0], n[1]);
+        integrals.compliance(&profile, s, &mut Workspace::default(), &mut values).unwrap();
+        let index = |i: usize| line.split(',').nth(i).unwrap().parse::<usize>().unwrap();
+        let (row, column) = (index(2), index(3));
+        let found = assembled(&classes, &values);
+        if (row, column) == (0, 0) {
+            // u_xx of an element on itself.
+            largest = found[3 * 6 + 3].norm();
+        }
+        worst = worst
+            .max((found[row * 6 + column] - Complex::new(n[4], n[5]).inner()).norm() / largest);
+        rows += 1;
+    }
+    println!("{rows} entries, {worst:e} of the largest");
+    assert_eq!(rows, 252);
+    assert!(worst < 1e-8, "{worst:e}");
+}
+
+/// s ∫ e^(−st) u(t) dt with the closed form of the half-plane for a traction that is switched on.
+#[test]
+fn homogeneous_ground_is_the_closed_form() {
+    let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
+    let strip = Strip::new(-1.0..1.0, 4, Grading::Cosine).unwrap();
+    let classes = PairClasses::new(strip.elements()).unwrap();
+    let plane = HalfPlane::new(soil);
+    let mut many = SoilProfile::on_half_plane(soil);
+    for h in [0.4, 1.1] {
+        many = many.with_layer(soil, h).unwrap();
+    }
+    let s = 1.3;
+    let (found, _) = all(&SoilProfile::on_half_plane(soil), &strip, Complex::real(s), 1e-11);
+    let (layers, _) = all(&many, &strip, Complex::real(s), 1e-11);
+    let rule = crate::linalg::gauss::largest();
+    let mut worst = 0.0_f64;
+    for class in 0..classes.count() {
+        let [source, receiver] = classes.representative(class).unwrap();
+        let mut sum = [0.0; 3];
+        // Elements' ends meet waves at these times; pieces in between are smooth enough.
+        let (end, pieces) = (30.0, 6000);
+        for piece in 0..pieces {
+            let h = end / f64::from(pieces);
+            for (node, weight) in rule
+                .nodes
+                .iter()
+                .zip(&rule.weights)
+                .step_by(2)
+                .chain(rule.nodes.iter().zip(&rule.weights).skip(1).step_by(2))
+            {
+                let t = h * (f64::from(piece) + 0.5 * (1.0 + node));
+                let u = plane.element_mean(receiver, source, t).unwrap();
+                let factor = 0.5 * h * weight * s * (-s * t).exp() * receiver.length();
+                for (sum, u) in sum.iter_mut().zip([u.zz, u.xx, u.zx]) {
+                    *sum += factor * u;
+                }
+            }
+        }
+        let size = found[class][0].re;
+        for component in 0..3 {
+            worst = worst.max((found[class][component].re - sum[component]).abs() / size);
+            let same = (found[class][component] - layers[class][component]).abs();
+            assert!(same < 1e-11 * size, "{class} {component} {same:e}");
+        }
+    }
+    println!("{worst:e} of each pair's zz");
+    assert!(worst < 1e-7, "{worst:e}");
+}
+
+/// The tolerance holds, relative to each pair's own elements, for every kind of s.
+#[test]
+fn tolerance_holds() {
+    let strip = Strip::new(-1.0..1.0, 12, Grading::Cosine).unwrap();
+    let classes = PairClasses::new(strip.elements()).unwrap();
+    let elastic = p1(crate::soil::Elastic, crate::soil::Elastic);
+    let mut worst = [0.0_f64; 3];
+    for profile in [p1(gmb(5), gmb(1)), elastic] {
+        for s in [
+            Complex::real(1e-3),
+            Complex::new(0.01, 0.3),
+            Complex::new(0.003, 1.3),
+            Complex::new(0.02, 6.0),
+            Complex::new(3.0, 20.0),
+            Complex::real(60.0),
+        ] {
+            let (fine, many) = all(&profile, &strip, s, 1e-14);
+            let size = |element: crate::bem::ContactElement| {
+                let own = |e: &[crate::bem::ContactElement; 2]| {
+                    e[0] == e[1] && (e[0].length() / element.length() - 1.0).abs() < 1e-9
+                };
+                let class = (0..classes.count())
+                    .find(|c| own(&classes.representative(*c).unwrap()))
+                    .unwrap();
+                fine[class][0].abs().min(fine[class][1].abs())
+            };
+            for (tolerance, worst) in [1e-8, 1e-10, 1e-12].into_iter().zip(&mut worst) {
+                let (found, evaluations) = all(&profile, &strip, s, tolerance);
+                let mut largest = 0.0_f64;
+                for class in 0..classes.count() {
+                    let [p, q] = classes.representative(class).unwrap();
+                    let unit = (size(p) * size(q)).sqrt();
+                    for c in 0..3 {
+                        largest = largest.max((found[class][c] - fine[class][c]).abs() / unit);
+                    }
+                }
+                println!("{s:?} tolerance {tolerance:e}: {largest:e}, {evaluations} of {many}");
+                *worst = worst.max(largest / tolerance);
+            }
+        }
+    }
+    println!("{worst:?}");
+    assert!(worst.iter().all(|w| *w < 1.0), "{worst:?}");
+}

@@ -1,0 +1,216 @@
+//! The containment of Patel & Spyrakos: soil, structure and time step, in the paper's units.
+//!
+//! Contact length and height are calibrated on the first two rows of the paper's Table 1; what else is
+//! not printed is assumed: see docs/paper.md.
+
+use std::ops::Range;
+
+use basemat::Soil;
+use basemat::coupled::Probe;
+use basemat::fem::{Direction, Layer, Material, Mesh, QuadFormulation};
+use basemat::interface::{
+    Condition, ContactState, InterfaceLaw, Mode, StepStart, ThinLayer, Tolerance,
+};
+use basemat::motion::STANDARD_GRAVITY;
+use basemat::structure::{FemModel, RayleighDamping, Row, Structure};
+
+pub const FOOT: f64 = 0.3048;
+pub const POUND_FORCE_PER_FOOT: f64 = 14.593_902_937_206_364;
+pub const PSF: f64 = 47.880_258_980_335_84;
+pub const SLUG_PER_CUBIC_FOOT: f64 = 515.378_818_393_229_5;
+
+/// Rows of the paper's Table 1 and their friction; `None` is bonded, infinity uplift only.
+pub const ROWS: [(&str, Option<f64>); 5] = [
+    ("bonded", None),
+    ("uplift only", Some(f64::INFINITY)),
+    ("friction 0.4", Some(0.4)),
+    ("friction 0.3", Some(0.3)),
+    ("friction 0.2", Some(0.2)),
+];
+/// Their peak base shears, printed in lb, taken as lb/ft.
+pub const PAPER_SHEARS: [f64; 5] = [28_970.0, 20_130.0, 10_233.0, 6_415.0, 5_958.0];
+
+/// What is to be chosen; the defaults are given in the paper, calibrated, or assumed.
+#[derive(Debug, Clone, Copy)]
+pub struct Containment {
+    /// Contact length, ft; calibrated.
+    pub width: f64,
+    /// Height, ft; calibrated.
+    pub height: f64,
+    /// Layers of rectangles, of equal height; that the lowest is the basemat is assumed.
+    pub layers: usize,
+    /// Elements along the base.
+    pub elements: usize,
+    pub formulation: QuadFormulation,
+    /// Density of the basemat, slug/ft³.
+    pub foundation_density: f64,
+    /// Damping ratio of the structure at 1 and 10 Hz (Rayleigh).
+    pub damping: f64,
+    /// Shear and pressure wave speed of the soil, ft/s.
+    pub wave_speeds: [f64; 2],
+    /// Density of the soil, slug/ft³.
+    pub soil_density: f64,
+}
+
+impl Default for Containment {
+    fn default() -> Self {
+        Self {
+            width: 34.0,
+            height: 80.0,
+            layers: 13,
+            elements: 10,
+            formulation: QuadFormulation::Full,
+            foundation_density: 3.043_48,
+            damping: 0.0,
+            wave_speeds: [650.0, 1300.0],
+            soil_density: 3.5,
+        }
+    }
+}
+
+const SUPERSTRUCTURE_DENSITY: f64 = 0.590_06;
+
+impl Containment {
+    pub fn soil(&self) -> basemat::Result<Soil> {
+        let [shear, pressure] = self.wave_speeds.map(|speed| speed * FOOT);
+        Soil::from_wave_speeds(shear, pressure, self.soil_density * SLUG_PER_CUBIC_FOOT)
+    }
+
+    /// The base, m.
+    pub fn base(&self) -> Range<f64> {
+        let half = 0.5 * self.width * FOOT;
+        -half..half
+    }
+
+    /// Height of a layer, m.
+    pub fn layer_height(&self) -> f64 {
+        self.height * FOOT / self.layers as f64
+    }
+
+    /// Height of all layers but the basemat, m.
+    fn superstructure_height(&self) -> f64 {
+        self.layer_height() * (self.layers - 1) as f64
+    }
+
+    /// The time in which a P wave crosses `beta` of an element, s; the paper has ½.
+    pub fn time_step(&self, beta: f64) -> f64 {
+        beta * (self.width / self.elements as f64) / self.wave_speeds[1]
+    }
+
+    /// The finite elements.
+    pub fn structure(&self) -> basemat::Result<FemModel> {
+        let solid = |young_psf: f64, density: f64| {
+            Material::new(young_psf * PSF, 1.0 / 3.0, density * SLUG_PER_CUBIC_FOOT)
+        };
+        let layer = |height, rows, material| {
+            Layer::new(height, rows, material).with_formulation(self.formulation)
+        };
+        let foundation = solid(106_560_369.0, self.foundation_density)?;
+        let superstructure = solid(106_577_648.0, SUPERSTRUCTURE_DENSITY)?;
+        let mesh = Mesh::layered_block(
+            self.base(),
+            self.elements,
+            &[
+                layer(self.layer_height(), 1, foundation),
+                layer(self.superstructure_height(), self.layers - 1, superstructure),
+            ],
+        )?;
+        let model = FemModel::on_base(mesh)?;
+        if self.damping > 0.0 {
+            let damping = RayleighDamping::from_ratios([1.0, 10.0], [self.damping; 2])?;
+            return Ok(model.with_rayleigh(damping));
+        }
+        Ok(model)
+    }
+
+    /// Mass per metre of thickness, kg/m.
+    pub fn mass(&self) -> f64 {
+        let above = (self.layers - 1) as f64 * SUPERSTRUCTURE_DENSITY;
+        let density = (self.foundation_density + above) * SLUG_PER_CUBIC_FOOT;
+        self.width * FOOT * self.layer_height() * density
+    }
+
+    /// Mass of the superstructure per metre of thickness, kg/m.
+    pub fn superstructure_mass(&self) -> f64 {
+        let height = self.superstructure_height();
+        self.width * FOOT * height * SUPERSTRUCTURE_DENSITY * SLUG_PER_CUBIC_FOOT
+    }
+
+    /// Weights of all and of the superstructure per metre of thickness, N/m.
+    pub fn weights(&self) -> [f64; 2] {
+        [self.mass(), self.superstructure_mass()].map(|mass| STANDARD_GRAVITY * mass)
+    }
+
+    /// Mean horizontal motion of the nodes at the foundation's top, as terms of a probe.
+    pub fn foundation_top(&self, model: &FemModel) -> basemat::Result<Vec<(usize, f64)>> {
+        let share = 1.0 / (self.elements + 1) as f64;
+        let Range { start, end } = self.base();
+        let mut terms = Vec::new();
+        for k in 0..=self.elements {
+            let x = start + (end - start) * k as f64 / self.elements as f64;
+            let row = model.row(model.node_at(x, self.layer_height())?, Direction::X)?;
+            terms.extend(row.terms().iter().map(|(unknown, weight)| (*unknown, share * weight)));
+        }
+        Ok(terms)
+    }
+
+    /// The roof's left corner, m; that it is the paper's location A is assumed.
+    pub fn corner(&self) -> [f64; 2] {
+        [self.base().start, self.layer_height() + self.superstructure_height()]
+    }
+
+    /// "roof x" and "roof y", absolute motion of location A; "base shear"; "sway", the horizontal displacement of A
+    /// against the base.
+    pub fn probes(&self, model: &FemModel) -> basemat::Result<[Probe; 4]> {
+        let [left, roof] = self.corner();
+        let corner = model.node_at(left, roof)?;
+        let [x, y] = [Direction::X, Direction::Y].map(|direction| model.row(corner, direction));
+        let (x, y) = (x?, y?);
+        let feet: Vec<_> = model
+            .contact_nodes()
+            .iter()
+            .flat_map(|node| node.horizontal.terms().to_vec())
+            .collect();
+        let share = 1.0 / feet.len() as f64;
+        let feet = feet.into_iter().map(|(unknown, weight)| (unknown, -share * weight));
+        let sway: Row = x.terms().iter().copied().chain(feet).collect();
+        Ok([
+            Probe::absolute_displacement("roof x", x),
+            Probe::absolute_displacement("roof y", y),
+            self.base_shear(model)?,
+            Probe::displacement("sway", sway),
+        ])
+    }
+
+    /// Horizontal force of the superstructure on the foundation, where the paper takes its base
+    /// shear.
+    pub fn base_shear(&self, model: &FemModel) -> basemat::Result<Probe> {
+        Ok(Probe::section("base shear", &model.section(self.layer_height(), 0.0)?.shear))
+    }
+}
+
+/// Newtons per metre as pounds per foot.
+pub fn pounds_per_foot(force: f64) -> f64 {
+    force / POUND_FORCE_PER_FOOT
+}
+
+/// A thin layer that never lets go, in its stick mode for good: what "bonded" is with the paper's interface elements.
+pub struct Glue(pub ThinLayer);
+
+impl InterfaceLaw for Glue {
+    fn modes(&self) -> &[Mode] {
+        &[Mode::Stick]
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        self.0.conditions(mode, start)
+    }
+
+    fn next_mode(&self, _: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+        Mode::Stick
+    }
+
+    fn compliance(&self, mode: Mode, start: &StepStart) -> [f64; 2] {
+        self.0.compliance(mode, start)
+    }
+}

@@ -1,0 +1,180 @@
+//! Scenes whose steps are timed, by this example and by `benches/step.rs`: what one does not need,
+//! it should not pay for.
+
+use basemat::bem::{ElasticGround, Strip};
+use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};
+use basemat::fem::{Layer, Material, Mesh};
+use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
+use basemat::motion::{Baseline, Record, STANDARD_GRAVITY, VerticalIncidence, el_centro_1940};
+use basemat::structure::{FemModel, RigidBlock};
+use basemat::{Result, Simulation, Soil};
+
+/// 1.5 ft.
+pub const ELEMENT: f64 = 0.4572;
+/// Contact length of the headline problem, 15 ft, on so many elements.
+pub const COUNT: usize = 10;
+/// The whole record at half an element over `c_P`.
+pub const STEPS: usize = 54_000;
+
+/// The soil of the headline problem: ν = 1/3, waves of 650 and 1300 ft/s.
+pub fn soil() -> Result<Soil> {
+    Soil::from_wave_speeds(198.12, 396.24, 1804.0)
+}
+
+/// `c_P` Δt is half an element.
+pub fn time_step() -> f64 {
+    0.5 * ELEMENT / 396.24
+}
+
+/// So many elements, all alike.
+pub fn strip(count: usize) -> Result<Strip> {
+    let half = 0.5 * ELEMENT * count as f64;
+    Strip::uniform(-half..half, count)
+}
+
+/// The headline problem without law and history: the paper's model, a basemat and twelve layers of
+/// the containment, 35 ft high in all, under El Centro.
+pub fn headline(count: usize) -> Result<(SimulationBuilder, ElasticGround)> {
+    let half = 0.5 * ELEMENT * count as f64;
+    let (psf, slug, layer) = (47.880_259, 515.378_818, 35.0 * 0.3048 / 13.0);
+    let foundation = Material::new(106_560_369.0 * psf, 1.0 / 3.0, 3.043_48 * slug)?;
+    let above = Material::new(106_577_648.0 * psf, 1.0 / 3.0, 0.590_06 * slug)?;
+    let layers = [Layer::new(layer, 1, foundation), Layer::new(12.0 * layer, 12, above)];
+    let tower = FemModel::on_base(Mesh::layered_block(-half..half, COUNT, &layers)?)?;
+    let builder = Simulation::builder(time_step())
+        .structure(tower)
+        .motion(el_centro_1940())
+        .gravity(STANDARD_GRAVITY);
+    Ok((builder, ElasticGround::new(soil()?, strip(count)?)?))
+}
+
+/// El Centro, at rest at its end, over and over again for `duration` seconds.
+pub fn without_end(duration: f64) -> Result<Record> {
+    let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 5 })?;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "minutes at most")]
+    let samples = 2 + (duration / record.time_step()).ceil() as usize;
+    let again = record.accelerations().iter().copied().cycle().take(samples);
+    Record::new(record.time_step(), again.collect())
+}
+
+/// A scene of the table.
+pub struct Row {
+    pub name: &'static str,
+    /// What its steps do without.
+    pub left_out: &'static str,
+    pub make: fn(SimulationBuilder) -> Result<SimulationBuilder>,
+    /// What an observer looks at after each step.
+    pub observe: fn(&State) -> f64,
+}
+
+fn friction(builder: SimulationBuilder, friction: f64) -> Result<SimulationBuilder> {
+    Ok(builder.interface(Coulomb::new(friction)?))
+}
+
+fn vertical(builder: SimulationBuilder, law: impl InterfaceLaw + 'static) -> SimulationBuilder {
+    builder.interface(law).motion(VerticalIncidence::vertical(el_centro_1940()))
+}
+
+fn nothing(_: &State) -> f64 {
+    0.0
+}
+
+/// All of the table.
+pub const ROWS: [Row; 12] = [
+    Row {
+        name: "bonded",
+        left_out: "the mode search: one solve with factors made once",
+        make: |builder| Ok(builder.interface(Bonded)),
+        observe: nothing,
+    },
+    Row {
+        name: "bonded, without ledger",
+        left_out: "the mode search, the energy ledger",
+        make: |builder| Ok(builder.interface(Bonded).without_ledger()),
+        observe: nothing,
+    },
+    Row {
+        name: "bonded, without weight",
+        left_out: "the mode search; by `build` the static state",
+        make: |builder| Ok(builder.interface(Bonded).gravity(0.0)),
+        observe: nothing,
+    },
+    Row {
+        name: "bonded, symmetric load",
+        left_out: "the mode search; symmetry is not made use of",
+        make: |builder| Ok(vertical(builder, Bonded)),
+        observe: nothing,
+    },
+    Row {
+        name: "frictionless, vertical motion",
+        left_out: "tangential tractions: a system of Q instead of 2Q; symmetry is not made use of",
+        make: |builder| Ok(vertical(builder, Coulomb::new(0.0)?)),
+        observe: nothing,
+    },
+    Row {
+        name: "uplift only",
+        left_out: "elements that are open: no unknowns",
+        make: |builder| Ok(builder.interface(Coulomb::uplift_only())),
+        observe: nothing,
+    },
+    Row {
+        name: "uplift and sliding, friction 0.4",
+        left_out: "the same; no observers: nothing of the structure's interior is computed",
+        make: |builder| friction(builder, 0.4),
+        observe: nothing,
+    },
+    Row {
+        name: "the same, without ledger",
+        left_out: "the energy ledger",
+        make: |builder| friction(builder.without_ledger(), 0.4),
+        observe: nothing,
+    },
+    Row {
+        name: "the same, three probes",
+        left_out: "unknowns that no probe asks for",
+        make: |builder| {
+            let probe = |name, row| Probe::displacement(name, vec![(row, 1.0)]);
+            let builder = builder.probe(probe("a", 0)).probe(probe("b", 1)).probe(probe("c", 2));
+            friction(builder, 0.4)
+        },
+        observe: nothing,
+    },
+    Row {
+        name: "the same, all displacements read at every step",
+        left_out: "nothing",
+        make: |builder| friction(builder, 0.4),
+        observe: |state| state.absolute_displacement().iter().sum(),
+    },
+    Row {
+        name: "the same, in unknowns instead of modes",
+        left_out: "the modes: back-substitution with sparse factors",
+        make: |builder| friction(builder.coordinates(Coordinates::Unknowns), 0.4),
+        observe: nothing,
+    },
+    Row {
+        name: "rigid block, friction 0.4",
+        left_out: "all but three unknowns of the structure",
+        make: |builder| {
+            let width = ELEMENT * COUNT as f64;
+            friction(builder.structure(RigidBlock::new(width, 35.0 * 0.3048, 400.0)?), 0.4)
+        },
+        observe: nothing,
+    },
+];
+
+impl Row {
+    /// The scene, ready for `steps`.
+    pub fn build(&self, steps: usize) -> Result<Simulation> {
+        let (builder, ground) = headline(COUNT)?;
+        (self.make)(builder.ground(ground).expected_steps(steps))?.build()
+    }
+
+    /// Makes `steps` steps; a sum of what the observer saw.
+    pub fn march(&self, simulation: &mut Simulation, steps: usize) -> Result<f64> {
+        let mut sum = 0.0;
+        for _ in 0..steps {
+            sum += (self.observe)(simulation.step()?);
+        }
+        Ok(sum)
+    }
+}

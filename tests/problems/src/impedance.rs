@@ -1,0 +1,110 @@
+//! Impedances of the rigid strip from its response to pulses.
+
+use basemat::bem::Grading;
+
+use super::rigid_strip::{Contact, RigidStrip};
+use super::series::{Error, whole};
+use super::table;
+
+/// Ricker pulse of peak 1.
+pub fn ricker(time: f64, sigma: f64, center: f64) -> f64 {
+    let a = ((time - center) / sigma).powi(2);
+    (1.0 - 2.0 * a) * (-a).exp()
+}
+
+/// Sum of `values`(k) e^(−iωt(k)): its real and imaginary part.
+fn transform(values: &[f64], omega: f64, time: impl Fn(usize) -> f64) -> [f64; 2] {
+    values.iter().enumerate().fold([0.0; 2], |[re, im], (k, v)| {
+        let phase = omega * time(k);
+        [re + v * phase.cos(), im - v * phase.sin()]
+    })
+}
+
+fn divide([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
+    let square = c * c + d * d;
+    [(a * c + b * d) / square, (b * c - a * d) / square]
+}
+
+/// What a force is to the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Force {
+    /// Its mean over the step.
+    Mean,
+    /// Its value at the end of the step.
+    End,
+}
+
+/// Impedances `[hh, vv, rr, hr]` at each of `frequencies`, of strips marched with `time_step`.
+pub fn impedances(
+    make: impl Fn(Contact) -> RigidStrip,
+    time_step: f64,
+    force: Force,
+    bonded: bool,
+    frequencies: &[f64],
+) -> Vec<[[f64; 2]; 4]> {
+    let steps = whole(60.0 / time_step);
+    let pulse: Vec<f64> = (1..=steps).map(|n| ricker(n as f64 * time_step, 0.5, 3.0)).collect();
+    // By symmetry vertical and horizontal, or vertical and rocking, do not mix.
+    let run = |contact, motion: [f64; 3]| -> [Vec<f64>; 3] {
+        let mut strip = make(contact);
+        let mut forces = [const { Vec::new() }; 3];
+        for p in &pulse {
+            for (list, force) in forces.iter_mut().zip(strip.drive(motion.map(|m| m * p))) {
+                list.push(force);
+            }
+        }
+        forces
+    };
+    let forces = if bonded {
+        let [hh, vv, _] = run(Contact::Bonded, [1.0, 1.0, 0.0]);
+        let [hr, _, rr] = run(Contact::Bonded, [0.0, 0.0, 1.0]);
+        [hh, vv, rr, hr]
+    } else {
+        let [hr, vv, rr] = run(Contact::Normal, [0.0, 1.0, 1.0]);
+        let [hh, _, _] = run(Contact::Tangential, [1.0, 0.0, 0.0]);
+        [hh, vv, rr, hr]
+    };
+    frequencies
+        .iter()
+        .map(|&omega| {
+            let motion = transform(&pulse, omega, |k| (k + 1) as f64 * time_step);
+            // The transform of means over a step has this factor.
+            let phase = 0.5 * omega * time_step;
+            let (place, mean) = match force {
+                Force::Mean => (0.5, phase.sin() / phase),
+                Force::End => (1.0, 1.0),
+            };
+            std::array::from_fn(|k| {
+                let force = transform(&forces[k], omega, |k| (k as f64 + place) * time_step);
+                divide(force, motion).map(|x| x / mean)
+            })
+        })
+        .collect()
+}
+
+/// Errors of `[hh, vv, rr, hr]` over 0.1 ≤ a₀ ≤ 4, each the root mean square of the error over that
+/// of the modulus.
+pub fn impedance_errors(
+    file: &str,
+    poisson: f64,
+    mesh: (Grading, usize, f64),
+    bonded: bool,
+) -> [f64; 4] {
+    let columns =
+        ["a0", "re_khh", "im_khh", "re_kvv", "im_kvv", "re_krr", "im_krr", "re_khr", "im_khr"];
+    let rows = table(file).rows(columns).into_iter();
+    let rows: Vec<_> = rows.filter(|row| (0.0999..4.0001).contains(&row[0])).collect();
+    let frequencies: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    let (grading, elements, time_step) = mesh;
+    let strip = |contact| RigidStrip::new(poisson, grading, elements, time_step, contact);
+    let found = impedances(strip, time_step, Force::Mean, bonded, &frequencies);
+    let mut errors = [Error::default(); 4];
+    for (row, found) in rows.iter().zip(&found) {
+        for k in 0..4 {
+            for part in 0..2 {
+                errors[k].add(found[k][part], row[2 * k + 1 + part]);
+            }
+        }
+    }
+    errors.map(Error::relative)
+}

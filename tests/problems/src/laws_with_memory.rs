@@ -1,0 +1,159 @@
+//! Laws that remember something of each element.
+
+use basemat::interface::{
+    Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+};
+
+/// Friction that falls with the distance slid: residual + (first − residual) e^(−slid/distance).
+/// The memory is that distance.
+#[derive(Debug, Clone, Copy)]
+pub struct SlipWeakening {
+    pub first: f64,
+    pub residual: f64,
+    pub distance: f64,
+}
+
+impl SlipWeakening {
+    pub fn friction(&self, slid: f64) -> f64 {
+        self.residual + (self.first - self.residual) * (-slid / self.distance).exp()
+    }
+
+    fn now(&self, start: &StepStart) -> Coulomb {
+        Coulomb::new(self.friction(start.memory[0])).unwrap()
+    }
+}
+
+impl InterfaceLaw for SlipWeakening {
+    fn modes(&self) -> &[Mode] {
+        &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        self.now(start).conditions(mode, start)
+    }
+
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &StepStart,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        self.now(start).next_mode(mode, start, trial, tolerance)
+    }
+
+    fn memory(&self) -> usize {
+        1
+    }
+
+    fn commit(&self, start: &StepStart, end: &ContactState, mode: Mode, memory: &mut [f64]) {
+        assert_eq!(memory, start.memory, "a commit begins with the memory of the step's start");
+        if mode.is_slip() {
+            memory[0] += (end.slip - start.state.slip).abs();
+        }
+    }
+}
+
+/// Glue that breaks once, by opening (and by sliding, unless it is ductile in shear): tensile strength,
+/// and friction · strength of cohesion. The memory is the strength that is left, and the static
+/// pressure.
+#[derive(Debug, Clone, Copy)]
+pub struct Adhesion {
+    pub friction: f64,
+    pub strength: f64,
+    pub breaks_by_sliding: bool,
+}
+
+impl Adhesion {
+    fn now(&self, start: &StepStart) -> Coulomb {
+        let law = Coulomb::new(self.friction).unwrap();
+        law.with_tensile_strength(start.memory[0]).unwrap()
+    }
+
+    /// Coulomb's law keeps no strength for what has once opened: here that is the memory's to say.
+    fn seen<'a>(start: &StepStart<'a>) -> StepStart<'a> {
+        let mut start = *start;
+        start.has_opened = false;
+        start
+    }
+}
+
+impl InterfaceLaw for Adhesion {
+    fn modes(&self) -> &[Mode] {
+        &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
+    }
+
+    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+        self.now(start).conditions(mode, &Self::seen(start))
+    }
+
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &StepStart,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        self.now(start).next_mode(mode, &Self::seen(start), trial, tolerance)
+    }
+
+    fn memory(&self) -> usize {
+        2
+    }
+
+    fn initial_memory(&self, start: &StepStart, memory: &mut [f64]) {
+        let strength = if start.has_opened { 0.0 } else { self.strength };
+        memory.copy_from_slice(&[strength, start.static_pressure]);
+    }
+
+    fn commit(&self, _: &StepStart, _: &ContactState, mode: Mode, memory: &mut [f64]) {
+        if mode == Mode::Open || (self.breaks_by_sliding && mode.is_slip()) {
+            memory[0] = 0.0;
+        }
+    }
+}
+
+/// Elastic pads, bonded to both sides, that soften with the largest pressure they have borne:
+/// stiffness / (1 + pressure / softening). The memory is that pressure.
+#[derive(Debug, Clone, Copy)]
+pub struct SofteningPads {
+    /// Across and along the base, Pa/m.
+    pub stiffness: [f64; 2],
+    pub softening: f64,
+}
+
+impl SofteningPads {
+    pub fn compliance_after(&self, borne: f64) -> [f64; 2] {
+        self.stiffness.map(|k| (1.0 + borne / self.softening) / k)
+    }
+}
+
+impl InterfaceLaw for SofteningPads {
+    fn modes(&self) -> &[Mode] {
+        &[Mode::Stick]
+    }
+
+    fn conditions(&self, _: Mode, start: &StepStart) -> [Condition; 2] {
+        let [normal, shear] = self.compliance_after(start.memory[0]);
+        [
+            Condition { gap: 1.0 / normal, ..Condition::pressure_is(0.0) },
+            Condition { slip: -1.0 / shear, ..Condition::shear_is(0.0) },
+        ]
+    }
+
+    fn next_mode(&self, _: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+        Mode::Stick
+    }
+
+    fn compliance(&self, _: Mode, start: &StepStart) -> [f64; 2] {
+        self.compliance_after(start.memory[0])
+    }
+
+    fn memory(&self) -> usize {
+        1
+    }
+
+    fn commit(&self, _: &StepStart, end: &ContactState, _: Mode, memory: &mut [f64]) {
+        memory[0] = memory[0].max(end.pressure);
+    }
+}

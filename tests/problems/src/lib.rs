@@ -1,0 +1,37 @@
+//! Scenes, closed forms and reference tables that tests, benches and studies share, each written once.
+//!
+//! They are for scenes that stand: what does not panics.
+
+#![allow(missing_docs, missing_debug_implementations, reason = "not published")]
+#![allow(
+    clippy::len_without_is_empty,
+    clippy::missing_errors_doc,
+    clippy::missing_panics_doc,
+    reason = "not published"
+)]
+
+pub mod block_on_springs;
+pub mod chatter;
+pub mod check_sum;
+pub mod contact_problems;
+pub mod containment;
+pub mod dense;
+pub mod headline;
+pub mod impedance;
+pub mod laws_with_memory;
+pub mod passivity;
+pub mod profiles;
+pub mod random;
+pub mod rigid_strip;
+pub mod rocking;
+pub mod sampled_block;
+pub mod scenes;
+pub mod series;
+pub mod table;
+pub mod tabled_structures;
+pub mod tower;
+pub mod truncation;
+pub mod wrapped;
+
+pub use csv;
+pub use table::{Table, close, data_path, table};

@@ -1,0 +1,124 @@
+//! Energy that a half-plane gives or takes under random tractions.
+
+use basemat::Soil;
+use basemat::bem::{ElasticGround, Ground, Strip};
+use basemat::history::History;
+
+use super::dense::inverse;
+use super::random::Random;
+
+/// A strip, its step and what drives it.
+#[derive(Debug, Clone, Copy)]
+pub struct Scene {
+    pub poisson: f64,
+    /// c₁ Δt over the mean element length.
+    pub beta: f64,
+    pub graded: bool,
+    pub elements: usize,
+    pub steps: usize,
+    pub seed: u64,
+    pub history: History,
+    /// Allowed tolerance of the history; 0 for none.
+    pub tolerance: f64,
+}
+
+impl Scene {
+    fn ground(&self) -> ElasticGround {
+        let soil = Soil::new(1.0, self.poisson, 1.0).unwrap();
+        let strip = if self.graded { Strip::graded } else { Strip::uniform };
+        let strip = strip(-1.0..1.0, self.elements).unwrap();
+        let mut ground = ElasticGround::new(soil, strip).unwrap().with_history_kind(self.history);
+        if self.tolerance > 0.0 {
+            ground = ground.with_history_tolerance(self.tolerance).unwrap();
+        }
+        let length = 2.0 / self.elements as f64;
+        ground.prepare(self.beta * length / soil.pressure_wave_speed()).unwrap();
+        ground.reserve(self.steps).unwrap();
+        ground
+    }
+
+    /// Work W_N = Σ A τ·Δs after the first ten steps: its smallest value over that after ten steps.
+    ///
+    /// Tractions are white noise for ten steps, then for half of the run they take out as much
+    /// energy in each step as they can: τ = −½ G⁻¹(h − s₀) minimises τ·A(h + Gτ − s₀). Slow noise
+    /// follows.
+    pub fn least_work(&self) -> f64 {
+        let mut ground = self.ground();
+        let size = 2 * self.elements;
+        let mut operator = vec![0.0; size * size];
+        ground.instantaneous(&mut operator).unwrap();
+        let inverse = inverse(&operator, size);
+        let lengths: Vec<f64> = ground.elements().iter().map(|e| e.right - e.left).collect();
+        let mut random = Random(self.seed);
+        let (mut traction, mut history) = (vec![0.0; size], vec![0.0; size]);
+        let mut before = vec![0.0; size];
+        let (mut work, mut least, mut given) = (0.0, f64::INFINITY, 0.0);
+        for step in 0..self.steps {
+            ground.history(&mut history).unwrap();
+            let noise = step < 10;
+            if !noise && step < self.steps / 2 {
+                let change: Vec<f64> =
+                    history.iter().zip(&before).map(|(h, s)| -0.5 * (h - s)).collect();
+                traction = multiply(&inverse, &change);
+            } else {
+                for t in &mut traction {
+                    let kick = random.within(-1.0, 1.0);
+                    *t = if noise { kick } else { 0.95 * *t + 0.3 * kick };
+                }
+            }
+            let mut now = multiply(&operator, &traction);
+            for (s, h) in now.iter_mut().zip(&history) {
+                *s += h;
+            }
+            for i in 0..size {
+                work += lengths[i % self.elements] * traction[i] * (now[i] - before[i]);
+            }
+            if noise {
+                given = work;
+            }
+            if !noise || work < 0.0 {
+                least = least.min(work);
+            }
+            ground.commit(&traction);
+            before.copy_from_slice(&now);
+        }
+        least / given
+    }
+
+    /// Tractions that random displacements need: the largest of the run's last tenth over the
+    /// largest of its first tenth. Displacements move by white noise of one size.
+    pub fn growth_of_tractions(&self) -> f64 {
+        let mut ground = self.ground();
+        let size = 2 * self.elements;
+        let mut operator = vec![0.0; size * size];
+        ground.instantaneous(&mut operator).unwrap();
+        let inverse = inverse(&operator, size);
+        let mut random = Random(self.seed);
+        let (mut history, mut open) = (vec![0.0; size], vec![0.0; size]);
+        let tenth = self.steps / 10;
+        let (mut early, mut late) = (0.0_f64, 0.0_f64);
+        for step in 0..self.steps {
+            ground.history(&mut history).unwrap();
+            for (o, h) in open.iter_mut().zip(&history) {
+                *o = random.within(-1.0, 1.0) - h;
+            }
+            let traction = multiply(&inverse, &open);
+            let largest = traction.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
+            if !largest.is_finite() {
+                return f64::INFINITY;
+            }
+            if step < tenth {
+                early = early.max(largest);
+            } else if step >= self.steps - tenth {
+                late = late.max(largest);
+            }
+            ground.commit(&traction);
+        }
+        late / early
+    }
+}
+
+fn multiply(matrix: &[f64], x: &[f64]) -> Vec<f64> {
+    let row = |row: &[f64]| row.iter().zip(x).map(|(a, b)| a * b).sum();
+    matrix.chunks_exact(x.len()).map(row).collect()
+}

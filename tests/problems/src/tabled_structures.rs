@@ -1,0 +1,81 @@
+//! Flexible structures of the tables `td_*`.
+
+use basemat::fem::{Beam, Element, MassKind};
+use basemat::structure::{ContactNode, ShearBuilding, Storey, Structure, Triplets};
+
+/// The three storeys of `td_shearbuilding3_*`.
+pub fn three_storeys() -> basemat::Result<ShearBuilding> {
+    let storey = Storey {
+        height: 1.0,
+        mass: 1.0,
+        rotary_inertia: 1.0 / 3.0,
+        stiffness: 2.0,
+        damping: 2.0 * 0.158_885_451_5,
+    };
+    ShearBuilding::new(2.0, 1.0, 1.0 / 3.0, &[storey; 3])
+}
+
+/// The cantilever of `td_EBcantilever_*`. Beam on a rigid base with mass and rotary inertia: node 0 is the middle of the base.
+pub struct Cantilever {
+    beams: Vec<Beam>,
+    heights: Vec<[f64; 2]>,
+}
+
+impl Cantilever {
+    pub fn new(elements: usize) -> Self {
+        // EI = 20, mass per length 1, and an area that keeps the axial mode out of the way.
+        let beam = |k| Beam::new([k, k + 1], 20.0, 1.0, 1.0, 1.0).unwrap();
+        let height = |k| [0.0, 4.0 * k as f64 / elements as f64];
+        Self {
+            beams: (0..elements).map(beam).collect(),
+            heights: (0..=elements).map(height).collect(),
+        }
+    }
+
+    /// Unknown of the top's displacement.
+    pub fn top(&self) -> usize {
+        3 * self.beams.len()
+    }
+
+    fn add(
+        &self,
+        factor: f64,
+        matrix: &mut Triplets,
+        fill: impl Fn(&Beam, &[[f64; 2]], &mut [f64]),
+    ) {
+        for (k, beam) in self.beams.iter().enumerate() {
+            let mut block = [0.0; 36];
+            fill(beam, &self.heights[k..k + 2], &mut block);
+            let unknowns: Vec<usize> = (3 * k..3 * k + 6).collect();
+            matrix.add_block(&unknowns, &block.map(|x| factor * x));
+        }
+    }
+}
+
+impl Structure for Cantilever {
+    fn unknowns(&self) -> usize {
+        3 * self.heights.len()
+    }
+
+    fn contact_nodes(&self) -> Vec<ContactNode> {
+        ContactNode::rigid_base(-1.0, 1.0, [0, 1, 2])
+    }
+
+    fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        matrix.add(0, 0, 1.0);
+        matrix.add(1, 1, 1.0);
+        matrix.add(2, 2, 1.0 / 3.0);
+        self.add(1.0, matrix, |beam, at, block| beam.mass(at, MassKind::Consistent, block));
+        Ok(())
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.add(1.0, matrix, Beam::stiffness);
+        Ok(())
+    }
+
+    fn damping(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.add(0.02, matrix, Beam::stiffness);
+        Ok(())
+    }
+}

@@ -1,0 +1,56 @@
+//! Wrappers of a structure: one that forwards the least, one that pulls it.
+
+use basemat::structure::{Row, Structure, Triplets};
+
+/// What every structure must say, as a field says it.
+#[macro_export]
+macro_rules! needed_from {
+    ($field:tt) => {
+        fn unknowns(&self) -> usize {
+            self.$field.unknowns()
+        }
+
+        fn contact_nodes(&self) -> Vec<basemat::structure::ContactNode> {
+            self.$field.contact_nodes()
+        }
+
+        fn mass(&self, matrix: &mut basemat::structure::Triplets) -> basemat::Result<()> {
+            self.$field.mass(matrix)
+        }
+
+        fn stiffness(&self, matrix: &mut basemat::structure::Triplets) -> basemat::Result<()> {
+            self.$field.stiffness(matrix)
+        }
+    };
+}
+
+/// A structure of which nothing but what every structure must say is left.
+pub struct Bare<S>(pub S);
+
+impl<S: Structure> Structure for Bare<S> {
+    needed_from!(0);
+}
+
+/// A structure that a force pulls.
+pub struct Pulled<S, F> {
+    pub structure: S,
+    /// Displacement in the direction of the force of the point it acts on.
+    pub along: Row,
+    /// The force at a time, N/m.
+    pub force: F,
+}
+
+impl<S: Structure, F: Fn(f64) -> f64 + Send + 'static> Structure for Pulled<S, F> {
+    needed_from!(structure);
+
+    fn damping(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+        self.structure.damping(matrix)
+    }
+
+    fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
+        for &(unknown, weight) in self.along.terms() {
+            load[unknown] += weight * (self.force)(time);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,133 @@
+//! GOAL: a frame of beam elements on two strip footings: its frequency on a fixed base, and statics while the footings
+//! uplift and slide.
+//! SCENE: a portal, each column on a rigid footing of its own, under El Centro.
+//! REFERENCE: slope deflection by hand; the moment of inertia forces against the axial pair and the moments of the
+//! footings, in every step.
+
+use basemat::Result;
+use basemat::fem::{Beam, Direction, LumpedMass, Mesh};
+use basemat::prelude::*;
+use basemat::structure::{CraigBampton, Row};
+
+/// Of the columns, m; the beam is as long as the columns are apart.
+const HEIGHT: f64 = 5.0;
+const SPAN: f64 = 8.0;
+/// Area (m²/m) and second moment of area (m⁴/m): columns 0.6 × 0.6 m and a beam 0.4 × 0.8 m, every 5 m.
+const COLUMN: [f64; 2] = [0.072, 2.16e-3];
+const BEAM: [f64; 2] = [0.064, 3.413e-3];
+const YOUNG_MODULUS: f64 = 30.0e9;
+/// Of the roof, frame included, kg/m.
+const ROOF_MASS: f64 = 30.0e3;
+/// Thickness (m) and density (kg/m³) of the footings.
+const FOOTING: [f64; 2] = [0.6, 2400.0];
+
+/// The frame, and its results as weighted sums of its unknowns.
+struct Portal {
+    model: FemModel,
+    /// Mass of one footing, kg/m.
+    footing: f64,
+    /// Moment that inertia exerts on the ground about the frame's middle, from accelerations.
+    overturning: Row,
+}
+
+impl Portal {
+    /// On footings of `width` (m); the area of columns and beam is `stretch` times what it is.
+    fn new(width: f64, stretch: f64) -> Result<Self> {
+        let member = |ends, [area, second_moment]: [f64; 2]| {
+            Beam::new(ends, YOUNG_MODULUS, stretch * area, second_moment, 0.0)
+        };
+        let [depth, density] = FOOTING;
+        let mut mesh = Mesh::new();
+        let mut lines = Vec::new();
+        for x in [-0.5 * SPAN, 0.5 * SPAN] {
+            let line = [x - 0.5 * width, x, x + 0.5 * width].map(|x| mesh.add_node(x, 0.0));
+            let line = line.into_iter().collect::<Result<Vec<_>>>()?;
+            for ends in [[line[0], line[1]], [line[1], line[2]]] {
+                mesh.add(Beam::new(ends, YOUNG_MODULUS, depth, depth.powi(3) / 12.0, density)?)?;
+            }
+            let top = mesh.add_node(x, HEIGHT)?;
+            mesh.add(member([line[1], top], COLUMN)?)?;
+            mesh.add(LumpedMass::new(top, 0.5 * ROOF_MASS)?)?;
+            lines.push(line);
+        }
+        let [left, right] = [-0.5 * SPAN, 0.5 * SPAN].map(|x| mesh.node_at(x, HEIGHT));
+        mesh.add(member([left?, right?], BEAM)?)?;
+        let mut model = FemModel::on_foundations(mesh, &lines)?;
+        for line in &lines {
+            model = model.with_rigid_link(line[1], &[line[0], line[2]])?;
+        }
+
+        let (roof, footing) = (0.5 * ROOF_MASS, density * depth * width);
+        let mut overturning = Row::default();
+        for x in [-0.5 * SPAN, 0.5 * SPAN] {
+            let [foot, top] = [model.node_at(x, 0.0)?, model.node_at(x, HEIGHT)?];
+            let sway = model.row(top, Direction::X)?;
+            overturning += roof * HEIGHT * sway
+                - x * roof * model.row(top, Direction::Y)?
+                - x * footing * model.row(foot, Direction::Y)?
+                - footing * width.powi(2) / 12.0 * model.row(foot, Direction::Rotation)?;
+        }
+        Ok(Self { model, footing, overturning })
+    }
+
+    /// Lowest frequency (Hz) with the footings held: sway, and nothing has mass but the roof.
+    fn fixed_base_frequency(self) -> Result<f64> {
+        Ok(CraigBampton::new(1).reduce(self.model)?.frequencies()[0])
+    }
+
+    /// El Centro: statics must hold at rest and in every step.
+    fn shake(self, law: impl InterfaceLaw + 'static) -> Result<()> {
+        let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
+        // 5 % of critical damping in the sway on a fixed base.
+        let beta = 0.05 / (std::f64::consts::PI * closed_form_frequency());
+        let model = self.model.with_rayleigh(RayleighDamping::new(0.0, beta)?);
+        let mut simulation = Simulation::builder(0.005)
+            .ground(ElasticGround::under(soil, &model, 8)?)
+            .structure(model)
+            .interface(law)
+            .motion(el_centro_1940())
+            .probe(Probe::acceleration("overturning", self.overturning).in_unit("N·m/m"))
+            .build()?;
+
+        let weight = STANDARD_GRAVITY * (ROOF_MASS + 2.0 * self.footing);
+        assert!((simulation.state().normal_force / weight - 1.0).abs() < 1e-9);
+        let (mut largest, mut error) = (0.0_f64, 0.0_f64);
+        simulation.run(simulation.steps_for(8.0), |state| {
+            // The axial pair of the footings and their own moments balance the inertia forces.
+            let [left, right] = &state.foundations[..] else { unreachable!("two foundations") };
+            let pair = 0.5 * SPAN * (left.normal_force - right.normal_force);
+            let moment = pair + left.base_moment + right.base_moment;
+            largest = largest.max(moment.abs());
+            error = error.max((moment - state.probes[0]).abs());
+        })?;
+        assert!(error < 1e-9 * largest, "moments differ by {error} of {largest}");
+        Ok(())
+    }
+}
+
+/// First frequency (Hz) on a fixed base when no member changes its length: lateral stiffness
+/// 24 E I_c/h³ · (1 + 6k)/(4 + 6k) with k = (I_b/l)/(I_c/h) (slope deflection by hand).
+fn closed_form_frequency() -> f64 {
+    let [[_, column], [_, beam]] = [COLUMN, BEAM];
+    let k = beam / SPAN / (column / HEIGHT);
+    let ends = (1.0 + 6.0 * k) / (4.0 + 6.0 * k);
+    let stiffness = 24.0 * YOUNG_MODULUS * column / HEIGHT.powi(3) * ends;
+    (stiffness / ROOF_MASS).sqrt() / std::f64::consts::TAU
+}
+
+#[test]
+fn frequency_on_a_fixed_base() {
+    let closed = closed_form_frequency();
+    let [stiff, real] = [1e5, 1.0].map(|stretch| {
+        Portal::new(2.0, stretch).unwrap().fixed_base_frequency().unwrap() / closed - 1.0
+    });
+    // Members that stretch make it softer.
+    assert!(stiff.abs() < 1e-6 && (-0.01..0.0).contains(&real), "{stiff:e}, {real:e}");
+}
+
+#[test]
+fn statics_of_two_footings_in_every_step() {
+    Portal::new(2.0, 1.0).unwrap().shake(Bonded).unwrap();
+    Portal::new(2.0, 1.0).unwrap().shake(Coulomb::new(0.3).unwrap()).unwrap();
+    Portal::new(2.0, 1.0).unwrap().shake(Coulomb::new(0.5).unwrap()).unwrap();
+}
