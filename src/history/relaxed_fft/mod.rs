@@ -153,8 +153,8 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let count = self.kernel.classes().elements().len();
-        same_length("displacement of the history", displacement.len(), 2 * count)?;
+        let size = self.kernel.classes().layout().len();
+        same_length("displacement of the history", displacement.len(), size)?;
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }

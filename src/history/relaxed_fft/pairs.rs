@@ -56,7 +56,7 @@ impl Space for Pairs {
     fn extent(&self) -> Extent {
         Extent {
             along_surface: false,
-            width: 2 * self.classes.elements().len(),
+            width: self.classes.layout().len(),
             parts: 1,
             lags: self.leaf.max(self.direct + 1),
             ahead: self.direct,
