@@ -101,6 +101,7 @@ pub fn refine(
     time_step: f64,
     mut scene: impl FnMut(usize, f64) -> Result<Vec<f64>>,
 ) -> Result<Refinement> {
+    const NAME: &str = "list of a scene's results";
     positive("number of elements", elements as f64)?;
     positive("time step", time_step)?;
     let mut settings: Vec<Setting> = Vec::with_capacity(RUNS.len());
@@ -110,7 +111,6 @@ pub fn refine(
         let begin = clock();
         let results = scene(elements, time_step)?;
         let wall = begin.map_or(Duration::ZERO, |begin| begin.elapsed());
-        const NAME: &str = "list of a scene's results";
         if results.is_empty() {
             return Err(Error::Size { quantity: NAME, found: 0, needed: 1 });
         }
