@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use basemat::bem::{ElasticGround, Ground, PatchKernel, Strip};
-use basemat::history::{ConvolutionHistory, DirectHistory, LagKernel, RelaxedFftHistory};
+use basemat::history::{ConvolutionHistory, ConvolutionWeights, DirectHistory, RelaxedFftHistory};
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
 use basemat::motion::el_centro_1940;
 use basemat::results::Recorder;
@@ -38,7 +38,7 @@ const JOBS: [(&str, Prepare); 8] = [
 
 fn headline_steps(law: impl InterfaceLaw + 'static) -> Result<Timed> {
     let (builder, ground) = headline::headline(headline::COUNT)?;
-    // Told of fewer steps, it would make them in unknowns instead of modes.
+    // Told of fewer steps, it would make them in degrees of freedom instead of modes.
     let builder = builder.ground(ground).interface(law).expected_steps(headline::STEPS);
     let mut simulation = builder.build()?;
     Ok(Box::new(move || simulation.run(4_000, |_| ()).map(drop)))
@@ -94,7 +94,7 @@ fn layers() -> Result<Timed> {
 
 fn convolution() -> Result<Timed> {
     let elements = Strip::uniform(-5.0..5.0, 10)?.elements();
-    let kernel: Arc<dyn LagKernel> =
+    let kernel: Arc<dyn ConvolutionWeights> =
         Arc::new(PatchKernel::new(headline::soil()?, elements, 2.0e-3)?);
     let mut history = RelaxedFftHistory::new(kernel);
     history.reserve(10_000)?;

@@ -12,11 +12,11 @@ use std::fmt::Write as _;
 
 use basemat::bem::{ElasticGround, Grading, Ground, SpringGround, Strip};
 use basemat::coupled::{
-    Coordinates, HhtAlpha, Load, Newmark, Placement, Probe, SimulationBuilder, Theta,
+    Coordinates, GravityStage, HhtAlpha, Load, Newmark, Probe, SimulationBuilder, Theta,
 };
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::history::History;
-use basemat::interface::{Adhesive, Bonded, Coulomb, ThinLayer, VariableFriction, Yielding};
+use basemat::interface::{Bonded, Cohesive, Coulomb, ThinLayer, VariableFriction, Yielding};
 use basemat::motion::{PlaneWave, Record, VerticalIncidence, el_centro_1940};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::{
@@ -125,7 +125,7 @@ const SCENES: [(&str, Make); 32] = [
     ("block, uplift only", || block_under(Coulomb::uplift_only())),
     ("block, frictionless", || block_under(Coulomb::new(0.0)?)),
     ("block, thin layer", || block_under(ThinLayer::new(soil()?, 1.0, 0.4)?)),
-    ("block, cohesive", || block_under(Adhesive::new(2.0e4, 5.0e4, 0.5)?)),
+    ("block, cohesive", || block_under(Cohesive::new(2.0e4, 5.0e4, 0.5)?)),
     ("block, bearing pressure", || block_under(Yielding::new(2.5e5, 0.5)?)),
     ("block, friction of speed", || {
         block_under(VariableFriction::new(|start| {
@@ -158,14 +158,14 @@ const SCENES: [(&str, Make); 32] = [
     ("block, tilted and loaded", || {
         let block = block()?;
         let load = Load::new(block.horizontal_at(5.0), |t| 4.0e4 * (9.0 * t).sin());
-        Ok(block_under(Coulomb::new(0.4)?)?.load(load).placement(Placement::WithInterfaceLaw))
+        Ok(block_under(Coulomb::new(0.4)?)?.load(load).placement(GravityStage::WithInterfaceLaw))
     }),
     ("block, without weight", || Ok(block_under(Bonded)?.gravity(0.0))),
-    ("tower, physical", || tower_in(Coordinates::Unknowns)),
+    ("tower, physical", || tower_in(Coordinates::Physical)),
     ("tower, modal", || tower_in(Coordinates::Modes)),
     ("tower, reduced", || tower_in(Coordinates::Reduced { tolerance: 1.0e-6 })),
-    ("tower, theta", || Ok(tower_in(Coordinates::Unknowns)?.scheme(Theta::new(0.6)?))),
-    ("tower, Newmark", || Ok(tower_in(Coordinates::Unknowns)?.scheme(Newmark::default()))),
+    ("tower, theta", || Ok(tower_in(Coordinates::Physical)?.scheme(Theta::new(0.6)?))),
+    ("tower, Newmark", || Ok(tower_in(Coordinates::Physical)?.scheme(Newmark::default()))),
     ("tower, HHT", || Ok(tower_in(Coordinates::Modes)?.scheme(HhtAlpha::new(-0.1)?))),
     ("building", || Ok(on(building()?, half_plane(&building()?)?).interface(Coulomb::new(0.4)?))),
     ("building, yielding", || {
@@ -176,8 +176,10 @@ const SCENES: [(&str, Make); 32] = [
         Ok(on(isolated, half_plane(&building()?)?).interface(Coulomb::new(0.4)?))
     }),
     ("group", || Ok(on(group()?, half_plane(&group()?)?).interface(Coulomb::new(0.4)?))),
-    ("group, without ledger", || {
-        Ok(on(group()?, half_plane(&group()?)?).interface(Coulomb::new(0.3)?).without_ledger())
+    ("group, without energy balance", || {
+        Ok(on(group()?, half_plane(&group()?)?)
+            .interface(Coulomb::new(0.3)?)
+            .without_energy_balance())
     }),
 ];
 
@@ -196,7 +198,7 @@ fn rows(name: &str, out: &mut String) -> Result<()> {
     let (_, make) = SCENES.iter().find(|(own, _)| *own == name).expect("a name of the table");
     let mut builder = make()?.expected_steps(STEPS);
     if coordinates(name) == "physical" {
-        builder = builder.coordinates(Coordinates::Unknowns);
+        builder = builder.coordinates(Coordinates::Physical);
     }
     let mut simulation = builder.build()?;
     for step in 0..=STEPS {
@@ -211,7 +213,7 @@ fn rows(name: &str, out: &mut String) -> Result<()> {
         values.extend(state.displacement());
         values.extend(state.velocity());
         values.extend(state.acceleration());
-        let e = &state.ledger;
+        let e = &state.energy_balance;
         values.extend([e.kinetic, e.strain, e.hysteresis, e.damping, e.soil, e.contact, e.input]);
         write!(out, "{name}\t{}\t{step}", coordinates(name)).expect("strings take all");
         for value in values {

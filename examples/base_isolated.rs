@@ -7,7 +7,7 @@
 //! The same building stands on its basemat directly, elastic and with columns that yield, on friction
 //! pendulums and on lead–rubber bearings. The pendulums' law takes the static weight and one friction
 //! coefficient: no vertical motion, no dependence on speed. Below the basemat, soil and contact are as
-//! ever: the base may uplift and slide. The law of a spring says what force a drift meets; the ledger says what it took.
+//! ever: the base may uplift and slide. The law of a spring says what force a drift meets; the energy balance says what it took.
 
 use basemat::Result;
 use basemat::prelude::*;
@@ -79,8 +79,8 @@ fn main() -> Result<()> {
             run.probe("roof")?.magnitude() / STANDARD_GRAVITY,
             run.whole.base_shear.magnitude() / total,
             100.0 * run.whole.uplifted_fraction.largest().value,
-            1e-3 * run.ledger.input,
-            1e-3 * run.ledger.hysteresis,
+            1e-3 * run.energy_balance.input,
+            1e-3 * run.energy_balance.hysteresis,
         );
     }
     Ok(())

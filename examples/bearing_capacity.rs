@@ -15,7 +15,9 @@ fn main() -> Result<()> {
     let soil = Soil::from_shear_wave_speed(180.0, 0.33, 1900.0)?;
     let mean = 8.0 * 2000.0 * STANDARD_GRAVITY;
     println!("El Centro × 1.3 on a block of 4 m × 8 m, mean pressure {:.0} kPa\n", 1e-3 * mean);
-    println!("q / mean   shear / weight   rotation left, mrad   sunk, mm: edge   middle   ledger");
+    println!(
+        "q / mean   shear / weight   rotation left, mrad   sunk, mm: edge   middle   energy balance"
+    );
     for factor in [f64::INFINITY, 8.0, 5.0, 3.5, 2.5] {
         let block = RigidBlock::new(4.0, 8.0, 2000.0)?;
         let builder = Simulation::builder(0.005)
@@ -29,14 +31,14 @@ fn main() -> Result<()> {
         };
         let run = simulation.run(7000, |_| {})?;
         let state = simulation.state();
-        let sunk = |element| 1e3 * state.law_memory(element).first().copied().unwrap_or(0.0);
+        let sunk = |element| 1e3 * state.state_variables(element).first().copied().unwrap_or(0.0);
         println!(
             "{factor:8.1}{:17.3}{:22.2}{:17.1}{:9.1}{:9.0e}",
             run.whole.base_shear.magnitude() / run.whole.static_normal_force,
             1e3 * state.base_rotation,
             sunk(0).max(sunk(11)),
             sunk(6),
-            run.ledger_residual
+            run.energy_error
         );
     }
     Ok(())

@@ -48,7 +48,7 @@ fn structure() -> Result<FemModel> {
 }
 
 /// A run of the whole record, and its time series.
-fn shake(friction: Option<f64>) -> Result<(Run, Histories)> {
+fn shake(friction: Option<f64>) -> Result<(Run, TimeSeries)> {
     let model = structure()?;
     let (half, layer) = (0.5 * WIDTH * FOOT, HEIGHT * FOOT / LAYERS as f64);
     // A corner of the roof; the force of the superstructure on the foundation.
@@ -86,7 +86,15 @@ fn main() -> Result<()> {
 
     println!(
         "{:<14}{:>7}{:>17}{:>9}{:>8}{:>10}{:>11}{:>9}{:>8}",
-        "case", "lb/ft", "ratio (paper)", "uplift", "slip", "residual", "roof", "ledger", "run"
+        "case",
+        "lb/ft",
+        "ratio (paper)",
+        "uplift",
+        "slip",
+        "residual",
+        "roof",
+        "energy balance",
+        "run"
     );
     let bonded = runs[0].0.probe("base shear")?.magnitude();
     for ((name, _, printed), (run, histories)) in CASES.iter().zip(&runs) {
@@ -100,7 +108,7 @@ fn main() -> Result<()> {
             1e3 * run.whole.mean_slip.magnitude(),
             1e3 * run.whole.residual_slip,
             1e3 * run.probe("roof x")?.magnitude(),
-            run.ledger_residual,
+            run.energy_error,
             run.wall.as_secs_f64()
         );
         let name = name.replace([' ', '.'], "_");

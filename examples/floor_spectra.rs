@@ -17,7 +17,7 @@ use basemat::structure::ModalDamping;
 /// Damping ratio of the equipment.
 const DAMPING: f64 = 0.05;
 
-fn shake(law: impl InterfaceLaw + 'static) -> Result<Histories> {
+fn shake(law: impl InterfaceLaw + 'static) -> Result<TimeSeries> {
     let storeys = [Storey::new(3.0, 30.0e3, 60.0e6); 5];
     let building = ShearBuilding::new(8.0, 60.0e3, 4.0e5, &storeys)?;
     let (first, roof) = (building.floor(0)?, building.roof());

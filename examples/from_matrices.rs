@@ -1,4 +1,4 @@
-//! A structure of 50 000 unknowns from Matrix Market files, reduced so that it marches in real time.
+//! A structure of 50 000 degrees of freedom from Matrix Market files, reduced so that it marches in real time.
 //!
 //! ```text
 //! cargo run --release --example from_matrices
@@ -16,7 +16,7 @@ use basemat::Result;
 use basemat::coupled::Coordinates;
 use basemat::fem::{Direction, Layer, MassKind, Material, Mesh};
 use basemat::prelude::*;
-use basemat::structure::{CraigBampton, MatrixModel, Row};
+use basemat::structure::{CraigBampton, DofCombination, MatrixModel};
 
 const TIME_STEP: f64 = 0.01;
 const MODES: usize = 20;
@@ -25,11 +25,14 @@ const TWO_PERIODS: usize = 430;
 
 /// Writes the matrices of a tower, 10 m wide and 100 m high, of quadrilaterals of 0.2 m; its contact nodes and the
 /// displacement of its top.
-fn write_files(mass_file: &Path, stiffness_file: &Path) -> Result<(Vec<ContactNode>, Row)> {
+fn write_files(
+    mass_file: &Path,
+    stiffness_file: &Path,
+) -> Result<(Vec<ContactNode>, DofCombination)> {
     let layer = Layer::new(100.0, 500, Material::new(5.0e9, 0.2, 600.0)?);
     let mesh = Mesh::layered_block(-5.0..5.0, 50, &[layer])?;
     let model = FemModel::on_base(mesh)?.with_mass(MassKind::Lumped);
-    let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(model.unknowns()));
+    let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(model.dofs()));
     model.mass(&mut mass)?;
     model.stiffness(&mut stiffness)?;
     mass.write_matrix_market(mass_file)?;
@@ -41,7 +44,7 @@ fn write_files(mass_file: &Path, stiffness_file: &Path) -> Result<(Vec<ContactNo
 /// The structure on soil, with the displacement of its top as a probe, ready to march.
 fn scene(
     structure: impl Structure + 'static,
-    top: Row,
+    top: DofCombination,
     coordinates: Coordinates,
 ) -> Result<Simulation> {
     let soil = Soil::new(200.0e6, 0.33, 1900.0)?;
@@ -74,31 +77,31 @@ fn main() -> Result<()> {
     let damping = RayleighDamping::from_ratios([0.5, 5.0], [0.03; 2])?;
     let model = MatrixModel::new(mass?, stiffness?, contact)?.with_rayleigh(damping);
     let read = begin.elapsed().as_secs_f64();
-    println!("{} unknowns read in {read:.2} s", model.unknowns());
+    println!("{} degrees of freedom read in {read:.2} s", model.dofs());
 
     let begin = Instant::now();
     let reduced = CraigBampton::new(MODES).reduce(model.clone())?;
     println!(
-        "reduced to {} unknowns in {:.2} s, modes on a fixed base {:.2} to {:.1} Hz",
-        reduced.unknowns(),
+        "reduced to {} degrees of freedom in {:.2} s, modes on a fixed base {:.2} to {:.1} Hz",
+        reduced.dofs(),
         begin.elapsed().as_secs_f64(),
         reduced.frequencies()[0],
         reduced.frequencies()[MODES - 1]
     );
     let recovery = reduced.recovery();
 
-    // The top is no unknown of the reduced model, but a weighted sum of them.
+    // The top is no degree of freedom of the reduced model, but a weighted sum of them.
     let row = recovery.row(&top)?;
     let mut small = scene(reduced, row, Coordinates::Auto)?;
-    let mut large = scene(model, top.clone(), Coordinates::Unknowns)?;
+    let mut large = scene(model, top.clone(), Coordinates::Physical)?;
     let (sway_full, time_full) = march(&mut large, TWO_PERIODS)?;
     let (sway, time_reduced) = march(&mut small, 3000)?;
 
-    println!("\n          unknowns   ms per step   times real time");
+    println!("\n          degrees of freedom   ms per step   times real time");
     for (name, simulation, time) in [("full", &large, time_full), ("reduced", &small, time_reduced)]
     {
-        let unknowns = simulation.state().absolute_displacement().len();
-        println!("{name:<8} {unknowns:9} {:13.3} {:17.1}", 1e3 * time, TIME_STEP / time);
+        let dofs = simulation.state().absolute_displacement().len();
+        println!("{name:<8} {dofs:9} {:13.3} {:17.1}", 1e3 * time, TIME_STEP / time);
     }
 
     let largest = |values: &[f64]| values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
@@ -112,7 +115,7 @@ fn main() -> Result<()> {
     // Any unknown of the full model, whenever it is wanted.
     let everything = recovery.full(small.state().absolute_displacement())?;
     println!(
-        "all {} unknowns at the end: the top at {:.3} mm",
+        "all {} degrees of freedom at the end: the top at {:.3} mm",
         everything.len(),
         1e3 * top.value(&everything)
     );

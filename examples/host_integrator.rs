@@ -5,13 +5,13 @@
 //! cargo run --release --example host_integrator
 //! ```
 //!
-//! The structure is a rigid base with a mass on a column: unknowns are base to the right, base up,
+//! The structure is a rigid base with a mass on a column: degrees of freedom are base to the right, base up,
 //! rotation, mass to the right. Its mass matrix is diagonal, so a step needs no solve:
 //! `u₁ = 2u₀ − u₋₁ + Δt² M⁻¹ (−K u₀ − BᵀA τ)`, and `W = G¹ + Δt² B M⁻¹ BᵀA`.
 
 use basemat::bem::{ContactElement, ElasticGround, Ground, Strip};
 use basemat::contact::ContactProblem;
-use basemat::interface::{ContactState, Coulomb, Mode, StepStart};
+use basemat::interface::{ContactState, Coulomb, Mode, PreviousContact};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::{Result, Soil};
 
@@ -53,7 +53,7 @@ fn main() -> Result<()> {
     ground.prepare(STEP)?;
     ground.reserve(STEPS)?;
     let mut delassus = vec![0.0; size * size];
-    ground.instantaneous(&mut delassus)?;
+    ground.step_compliance(&mut delassus)?;
     for column in 0..size {
         let mut unit = vec![0.0; size];
         unit[column] = 1.0;
@@ -70,7 +70,8 @@ fn main() -> Result<()> {
     let mut contact = ContactProblem::new(delassus, vec![Box::new(Coulomb::new(0.4)?)])?
         .with_static_tractions(at_rest)?;
     let pressed = ContactState { pressure, ..ContactState::default() };
-    let mut start = contact.start(&vec![StepStart::new(pressed, Mode::Stick, STEP); count])?;
+    let mut start =
+        contact.start(&vec![PreviousContact::new(pressed, Mode::Stick, STEP); count])?;
 
     let (mut before, mut now) = ([0.0; 4], [0.0; 4]);
     let [mut history, mut free_field] = [vec![0.0; size], vec![0.0; size]];

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The record, El Centro at 0.15 g, is that of the rock's outcrop. A simulation takes the motion of the
-//! free surface, so on rock it is the record itself, elsewhere what `site::Column` makes of it on the
+//! free surface, so on rock it is the record itself, elsewhere what `site::SoilColumn` makes of it on the
 //! way up through the damped layers. The three soils see the same surface motion: what differs in
 //! their columns comes from the ground under the building alone. Writes floor spectra to `target/layered_site.svg`.
 
@@ -15,7 +15,7 @@ use basemat::coupled::EnergyTerm;
 use basemat::motion::SpectralOrdinate;
 use basemat::prelude::*;
 use basemat::results::log_spaced;
-use basemat::site::{Column, ControlPoint, VerticalWave};
+use basemat::site::{ControlPoint, SoilColumn, VerticalWave};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::ModalDamping;
 use basemat::{Result, plot};
@@ -70,7 +70,7 @@ fn main() -> Result<()> {
     let (damped, elastic) = (site(true)?, site(false)?);
     println!("{damped}\n");
     let outcrop = el_centro_1940().scaled_to_peak(0.15 * STANDARD_GRAVITY)?.resampled(STEP)?;
-    let column = Column::new(damped.clone(), VerticalWave::Shear)?;
+    let column = SoilColumn::new(damped.clone(), VerticalWave::Shear)?;
     let surface = column.to_surface(ControlPoint::Outcrop, STEP, outcrop.accelerations())?;
     let surface = Record::new(STEP, surface.samples)?;
 
@@ -102,7 +102,7 @@ fn main() -> Result<()> {
     let mut spectra = Vec::new();
     for (name, (run, spectrum)) in names.into_iter().zip([rock, clay, elastic, damped]) {
         let peak = spectrum.iter().fold(0.0_f64, |m, o| m.max(o.pseudo_acceleration));
-        let soil = 100.0 * run.ledger.share(EnergyTerm::Soil).unwrap_or(f64::NAN);
+        let soil = 100.0 * run.energy_balance.share(EnergyTerm::Soil).unwrap_or(f64::NAN);
         println!(
             "{name:<16} roof's spectrum {:.1} g, {soil:.0} % of the energy to the soil",
             peak / STANDARD_GRAVITY

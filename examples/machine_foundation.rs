@@ -103,7 +103,7 @@ fn main() -> Result<()> {
         assert!(error.abs() < 0.02);
     }
     println!(
-        "\nRun-up from 2 to 25 Hz in 12 s\n\n              top, mm   open, %   slip, mm   ledger"
+        "\nRun-up from 2 to 25 Hz in 12 s\n\n              top, mm   open, %   slip, mm   energy balance"
     );
     for (name, run) in [("bonded", run_up(Bonded)?), ("friction 0.5", run_up(Coulomb::new(0.5)?)?)]
     {
@@ -112,7 +112,7 @@ fn main() -> Result<()> {
             1e3 * run.probes[0].extremes.magnitude(),
             1e2 * run.whole.uplifted_fraction.largest().value,
             1e3 * run.whole.largest_slip.magnitude(),
-            run.ledger_residual
+            run.energy_error
         );
     }
     Ok(())

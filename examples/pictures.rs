@@ -14,19 +14,19 @@ use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::io::paraview;
 use basemat::plot::{self, Svg};
 use basemat::prelude::*;
-use basemat::results::{Wireframe, log_spaced};
+use basemat::results::{DeformedShape, log_spaced};
 
 const STEPS: usize = 2400;
 const FRICTION: f64 = 0.3;
 
-fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, Histories, Wireframe)> {
+fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, TimeSeries, DeformedShape)> {
     let material = Material::new(1.0e9, 0.2, 800.0)?;
     let mesh = Mesh::layered_block(-4.0..4.0, 8, &[Layer::new(20.0, 16, material)])?;
     let damping = RayleighDamping::from_ratios([1.5, 15.0], [0.05; 2])?;
     let tower = FemModel::on_base(mesh)?.with_rayleigh(damping);
     let roof = tower.row(tower.node_at(0.0, 20.0)?, Direction::X)?;
     // The structure moves into the simulation: its shape is kept for the pictures.
-    let shape = Wireframe::of_model(&tower);
+    let shape = DeformedShape::of_model(&tower);
     let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;
     let mut simulation = Simulation::builder(5.0e-3)
         // Two equal elements of contact under each of the mesh.

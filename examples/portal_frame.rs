@@ -10,7 +10,7 @@
 
 use basemat::fem::{Beam, Direction, LumpedMass, Mesh};
 use basemat::prelude::*;
-use basemat::structure::Row;
+use basemat::structure::DofCombination;
 use basemat::{CaseError, Result};
 
 /// Of the columns, and between them, m.
@@ -28,7 +28,7 @@ const FREQUENCY: f64 = 2.707;
 const FOOTING: [f64; 2] = [0.6, 2400.0];
 
 /// The frame on footings of `width` (m), and the sway of its roof against the mean of the footings.
-fn portal(width: f64) -> Result<(FemModel, Row)> {
+fn portal(width: f64) -> Result<(FemModel, DofCombination)> {
     let member = |ends, [area, second_moment]: [f64; 2]| {
         Beam::new(ends, YOUNG_MODULUS, area, second_moment, 0.0)
     };
@@ -52,7 +52,7 @@ fn portal(width: f64) -> Result<(FemModel, Row)> {
     for line in &lines {
         model = model.with_rigid_link(line[1], &[line[0], line[2]])?;
     }
-    let mut drift = Row::default();
+    let mut drift = DofCombination::default();
     for x in [-0.5 * SPAN, 0.5 * SPAN] {
         let [foot, top] = [model.node_at(x, 0.0)?, model.node_at(x, HEIGHT)?];
         drift += 0.5 * model.row(top, Direction::X)? - 0.5 * model.row(foot, Direction::X)?;

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Each storey gets two probes, one for the shear in its columns and one for its drift. Probes are
-//! weighted sums of the structure's unknowns; the building hands out the weights.
+//! weighted sums of the structure's degrees of freedom; the building hands out the weights.
 
 use basemat::Result;
 use basemat::prelude::*;

@@ -8,7 +8,7 @@
 
 use basemat::Result;
 use basemat::prelude::*;
-use basemat::site::{Column, ControlPoint, VerticalWave};
+use basemat::site::{ControlPoint, SoilColumn, VerticalWave};
 use basemat::soil::{Hysteretic, SoilProfile};
 
 /// Thickness, speed, density, damping ratio.
@@ -30,7 +30,7 @@ fn main() -> Result<()> {
         println!("layer,{thickness},{speed},{density},{ratio}");
     }
     println!("layer,,{speed},{density},{ratio}");
-    let column = Column::new(profile, VerticalWave::Shear)?;
+    let column = SoilColumn::new(profile, VerticalWave::Shear)?;
     for i in 1..=250 {
         let frequency = 0.1 * f64::from(i);
         let outcrop = column.transfer(ControlPoint::Outcrop, frequency)?;

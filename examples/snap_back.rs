@@ -18,7 +18,7 @@ fn main() -> Result<()> {
     let building = || ShearBuilding::new(8.0, 40.0e3, 4.0e5, &storeys);
     let (roof, fixed) = (building()?.roof(), building()?.fixed_base_frequency());
     println!("Fixed base: {:.3} s\n", 1.0 / fixed);
-    println!("c_S, m/s   pulled, mm   period, s   damping, %   ledger");
+    println!("c_S, m/s   pulled, mm   period, s   damping, %   energy balance");
     for speed in [800.0, 400.0, 200.0, 100.0] {
         let soil = Soil::from_shear_wave_speed(speed, 0.33, 1900.0)?;
         let mut simulation = Simulation::builder(TIME_STEP)
@@ -46,7 +46,7 @@ fn main() -> Result<()> {
             "{speed:8.0}{:13.2}{period:12.3}{:13.2}{:9.0e}",
             1e3 * pulled,
             1e2 * damping,
-            run.ledger_residual
+            run.energy_error
         );
     }
     Ok(())

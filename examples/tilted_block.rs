@@ -8,7 +8,7 @@
 //! On rigid ground both are Housner's (1963). Soil gives way under the edge, and takes less at an impact.
 
 use basemat::Result;
-use basemat::coupled::Placement;
+use basemat::coupled::GravityStage;
 use basemat::prelude::*;
 use basemat::reference::RockingBlock;
 
@@ -17,7 +17,7 @@ fn main() -> Result<()> {
     let rigid = RockingBlock::new(0.5 * width, 0.5 * height, STANDARD_GRAVITY)?;
     let tilt = 0.3 * rigid.slenderness_angle();
     let quarter = 0.25 * rigid.period(tilt)?;
-    println!("c_S, m/s   upright after, s   other side, % of the tilt   ledger");
+    println!("c_S, m/s   upright after, s   other side, % of the tilt   energy balance");
     println!("   rigid{quarter:19.4}{:28.1}", 100.0 * rigid.next_peak(tilt)? / tilt);
     for speed in [800.0, 400.0, 200.0, 100.0] {
         let block = RigidBlock::new(width, height, 2500.0)?.with_p_delta(STANDARD_GRAVITY)?;
@@ -27,7 +27,7 @@ fn main() -> Result<()> {
             .structure(block)
             .interface(Coulomb::new(1.0)?)
             // Nothing presses at first; the block stands on its left edge.
-            .placement(Placement::Unloaded)
+            .placement(GravityStage::Unloaded)
             .initial_displacement([0.0, 0.5 * width * tilt, tilt])
             .build()?;
         let mut upright = None;
@@ -42,7 +42,7 @@ fn main() -> Result<()> {
             "{speed:8.0}{:19.4}{:28.1}{:9.0e}",
             upright.unwrap_or(f64::NAN),
             100.0 * over,
-            run.ledger_residual
+            run.energy_error
         );
     }
     Ok(())

@@ -58,7 +58,7 @@ impl Ground for Columns {
         Ok(())
     }
 
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let size = self.displacement.len();
         matrix.fill(0.0);
         for i in 0..size {

@@ -12,12 +12,14 @@
 //! 3. is the trial that came out admissible, and if not, which mode should be tried next
 //!    ([`InterfaceLaw::next_mode`]).
 //!
-//! The end of the step before is in [`StepStart`], here the speed at which the element slid. What a law has to
-//! remember for longer is its memory ([`InterfaceLaw::memory`]).
+//! The end of the step before is in [`PreviousContact`], here the speed at which the element slid. What a law has to
+//! remember for longer is its memory ([`InterfaceLaw::state_variables`]).
 //!
 //! Where only the coefficient changes, a closure in [`VariableFriction`] is enough: the last but one row.
 
-use basemat::interface::{Condition, ContactState, Mode, StepStart, Tolerance, VariableFriction};
+use basemat::interface::{
+    Condition, ContactState, Mode, PreviousContact, Tolerance, VariableFriction,
+};
 use basemat::prelude::*;
 
 /// Friction that falls as the speed of sliding (m/s) grows: fast + (slow − fast) e^(−|v|/speed).
@@ -29,7 +31,7 @@ struct VelocityWeakening {
 
 impl VelocityWeakening {
     /// The coefficient of this step: of its start alone, so that it stands while modes are searched for.
-    fn friction(&self, start: &StepStart) -> f64 {
+    fn friction(&self, start: &PreviousContact) -> f64 {
         self.fast + (self.slow - self.fast) * (-start.slip_rate.abs() / self.speed).exp()
     }
 }
@@ -39,7 +41,7 @@ impl InterfaceLaw for VelocityWeakening {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         // ±shear − friction · pressure = 0, divided by the friction where that is large: up to
         // infinite friction the condition then stays one.
         let cone = |side: f64| {
@@ -61,7 +63,7 @@ impl InterfaceLaw for VelocityWeakening {
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
@@ -107,13 +109,13 @@ fn main() -> basemat::Result<()> {
         ("the same, from a closure", slide(closure)?),
         ("Coulomb, 0.25", slide(Coulomb::new(0.25)?)?),
     ];
-    println!("{:<28}{:>14}{:>14}{:>16}", "law", "largest slip", "residual slip", "ledger residual");
+    println!("{:<28}{:>14}{:>14}{:>16}", "law", "largest slip", "residual slip", "energy error");
     for (name, run) in cases {
         println!(
             "{name:<28}{:>11.1} mm{:>11.1} mm{:>16.1e}",
             1e3 * run.whole.largest_slip.largest().value,
             1e3 * run.whole.residual_slip,
-            run.ledger_residual
+            run.energy_error
         );
     }
     Ok(())

@@ -4,15 +4,15 @@
 //! cargo run --release --example your_own_structure
 //! ```
 //!
-//! `basemat` knows nothing of storeys and columns here. It asks a [`Structure`] for its unknowns,
+//! `basemat` knows nothing of storeys and columns here. It asks a [`Structure`] for its degrees of freedom,
 //! the points of its base, and its matrices; everything else (ground, contact, time steps, energy
-//! ledger) comes with the crate. Four methods are needed, `damping` is the fifth below.
+//! energy balance) comes with the crate. Four methods are needed, `damping` is the fifth below.
 
 use basemat::prelude::*;
 
 const FLOORS: usize = 5;
 
-/// Unknowns: `[u_x, u_y, θ]` of the rigid base, then the absolute sway of each floor.
+/// Degrees of freedom: `[u_x, u_y, θ]` of the rigid base, then the absolute sway of each floor.
 /// All per metre of thickness, in kg, N and m.
 struct Building {
     width: f64,
@@ -35,7 +35,7 @@ impl Building {
 }
 
 impl Structure for Building {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         3 + FLOORS
     }
 

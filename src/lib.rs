@@ -48,7 +48,7 @@
 //! assert_eq!(run.steps, 300);
 //! assert!(run.whole.base_shear.magnitude() > 0.0);
 //! // Every joule is accounted for.
-//! assert!(run.ledger_residual < 1e-9);
+//! assert!(run.energy_error < 1e-9);
 //! println!("{run}");
 //! # Ok::<(), basemat::Error>(())
 //! ```
@@ -87,7 +87,7 @@
 //!
 //! The soil's term is the energy that the tractions put into a real ground, so it is never
 //! negative, and contact without tensile strength only takes energy away: nothing can blow up.
-//! [`coupled::Ledger`] computes each term from its own definition, and its residual comes with
+//! [`coupled::EnergyBalance`] computes each term from its own definition, and its residual comes with
 //! every run. The [theory] has derivations and sources.
 //!
 //! [theory]: https://github.com/basemat/basemat/blob/main/docs/theory.md
@@ -103,7 +103,7 @@
 //! | shear, base shear | what the structure exerts on the soil, positive to the right |
 //! | gap, slip | positive when open; positive when the structure moved to the right over the soil |
 //! | contact vectors | 2Q numbers for Q elements: Q normal components (pressure; displacement **down**), then Q tangential ones (to the right) |
-//! | unknowns | matrices are written for absolute displacements; [`coupled::State`] and probes give changes against the static state, relative to the free field's translation unless they say absolute |
+//! | degrees of freedom | matrices are written for absolute displacements; [`coupled::State`] and probes give changes against the static state, relative to the free field's translation unless they say absolute |
 //! | velocities, accelerations | total |
 //! | time | step n ends at t = nΔt; tractions belong to the whole step |
 //!
@@ -112,7 +112,7 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`prelude`] | what most programs name, in one `use` |
-//! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy ledger |
+//! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy balance |
 //! | [`results`] | histories, peaks, envelopes, factors of safety, tables for reports |
 //! | [`sweep`] | [`Sweep`]: many simulations over parameters, on all processors with the feature `rayon`; their table, shards |
 //! | [`structure`] | finite-element model, shear building, rigid block, given matrices, reduction, hysteretic springs, and the trait for your own |
@@ -122,7 +122,7 @@
 //! | [`soil`] | [`Soil`], damping laws, [`soil::SoilProfile`] of horizontal layers |
 //! | [`bem`] | [`bem::ElasticGround`], [`bem::SpringGround`], grounds of any step coefficients |
 //! | [`bem::layered`] | step coefficients of layered ground, impedances of strips on it |
-//! | [`site`] | from the outcrop of the rock to the surface: [`site::Column`], [`site::InclinedWave`] |
+//! | [`site`] | from the outcrop of the rock to the surface: [`site::SoilColumn`], [`site::InclinedWave`] |
 //! | [`history`] | the convolution with all past tractions, its kinds and their choice |
 //! | [`fundamental`] | elastodynamic fundamental solutions |
 //! | [`motion`] | records and their files, spectra, baselines, free fields, El Centro 1940 |
@@ -134,13 +134,13 @@
 //! | feature | what it adds |
 //! |---|---|
 //! | `full-plane` | `bem::full_plane`: boundaries that are not flat, the paper's own scheme and its stability; `fundamental::FullPlane` |
-//! | `io` | `io`: meshes from Gmsh, matrices by Matrix Market, grids for ParaView; `results::Wireframe` |
+//! | `io` | `io`: meshes from Gmsh, matrices by Matrix Market, grids for ParaView; `results::DeformedShape` |
 //! | `reference` | `reference`: closed forms from the literature, to check against |
-//! | `plot` | `plot`: pictures of histories, contact, spectra and shapes, as SVG; `results::Wireframe` |
+//! | `plot` | `plot`: pictures of histories, contact, spectra and shapes, as SVG; `results::DeformedShape` |
 //! | `png` | `plot`, and the same pictures as PNG |
 //! | `rayon` | [`Sweep`], and coefficients of layered ground, on all processors |
 //! | `serde` | `Serialize` and `Deserialize` of settings, results, records and [`Checkpoint`](coupled::Checkpoint)s |
-//! | `npz` | [`results::Histories`] as an archive of NumPy's arrays |
+//! | `npz` | [`results::TimeSeries`] as an archive of NumPy's arrays |
 //!
 //! ## Settings and results in serde's formats
 //!
@@ -149,7 +149,7 @@
 //! constructor checks is checked when it is read. Choices are words, those of their `Display` where they have one
 //! (`"slip_left"`), with their numbers in a map (`{"reduced": {"tolerance": 1e-6}}`).
 //! In formats that people read, a number that is NaN is null and infinities are `"inf"` and `"-inf"`, where
-//! they can occur (peaks, ledgers, conditions, friction); elsewhere numbers are finite. Floating-point
+//! they can occur (peaks, energy balances, conditions, friction); elsewhere numbers are finite. Floating-point
 //! numbers read back as they were, with serde_json if its feature `float_roundtrip` is on.
 //!
 //! # Bring your own
@@ -163,7 +163,7 @@
 //! | law between base and soil | [`interface::InterfaceLaw`] | 3 |
 //! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |
 //! | soil | [`bem::Ground`] | 6 |
-//! | soil that knows its step coefficients | [`bem::KernelSource`] and [`history::LagKernel`] | 2 each |
+//! | soil that knows its step coefficients | [`bem::WeightsSource`] and [`history::ConvolutionWeights`] | 2 each |
 //! | damping law of a soil | [`soil::Relaxation`] | 1 |
 //! | time scheme | [`coupled::TimeScheme`] | 1 |
 //! | convolution algorithm | [`history::ConvolutionHistory`] | 4 |
@@ -214,7 +214,7 @@ pub mod sweep;
 pub use coupled::Simulation;
 pub use error::{
     CaseError, CaseFileError, CheckpointError, Error, KernelFileError, LawError, LayeredError,
-    MemoryError, RecordError, ReducedError, Result, StandingError, StepError, SweepError,
+    MemoryError, RecordError, ReducedError, Result, StabilityError, StepError, SweepError,
     memory_limit, set_memory_limit,
 };
 #[cfg(feature = "io")]

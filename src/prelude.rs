@@ -4,7 +4,7 @@ pub use crate::bem::{ElasticGround, Ground, SpringGround, Strip};
 pub use crate::coupled::{Load, Probe, Run, Simulation, State};
 pub use crate::interface::{Bonded, Coulomb, InterfaceLaw};
 pub use crate::motion::{FreeField, Record, STANDARD_GRAVITY, el_centro_1940};
-pub use crate::results::{Comparison, Histories, Quantity, Recorder};
+pub use crate::results::{Comparison, Quantity, Recorder, TimeSeries};
 pub use crate::soil::Soil;
 pub use crate::structure::{
     ContactNode, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, Structure,

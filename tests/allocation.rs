@@ -1,6 +1,6 @@
 //! GOAL: no step allocates after warm-up, whatever the scene, nor does recording once memory is
 //! reserved.
-//! SCENE: bonded, sliding and uplifting blocks and towers, in modes and in unknowns; both grounds.
+//! SCENE: bonded, sliding and uplifting blocks and towers, in modes and in degrees of freedom; both grounds.
 //! REFERENCE: a global allocator that counts per thread, which is why this is a binary of its own.
 #![allow(unsafe_code, reason = "an allocator that counts has to be one")]
 
@@ -156,8 +156,8 @@ fn steps_do_not_allocate() {
 #[test]
 fn recording_does_not_allocate_once_memory_is_reserved() {
     let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(0.3));
-    // From modes, the state itself has to make the unknowns of a frame.
-    let builder = builder.coordinates(Coordinates::Unknowns);
+    // From modes, the state itself has to make the degrees of freedom of a frame.
+    let builder = builder.coordinates(Coordinates::Physical);
     let mut simulation = builder.expected_steps(WARM + STEPS).build().unwrap();
     let recorder = Recorder::new().contact(2).motion(3);
     let mut histories = recorder.start(&simulation).unwrap();

@@ -49,7 +49,7 @@ fn history(scene: Scene, (grading, elements): (Grading, usize), time_step: f64) 
     let mut simulation = builder.build().unwrap();
     let every = whole(SAMPLE / time_step);
     let (history, run) = sample(&mut simulation, whole(scene.duration / time_step), every).unwrap();
-    assert!(run.ledger_residual < 1e-9, "ledger open by {:.1e}", run.ledger_residual);
+    assert!(run.energy_error < 1e-9, "energy balance open by {:.1e}", run.energy_error);
     println!(
         "{scene:?} {grading:?} {elements}, step {time_step}: uplift {:.2}, slip {:.2}",
         run.whole.uplifted_fraction.largest().value,

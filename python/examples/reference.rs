@@ -7,7 +7,7 @@ use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::Run;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::el_centro_1940;
-use basemat::results::{Histories, Quantity, Recorder};
+use basemat::results::{Quantity, Recorder, TimeSeries};
 use basemat::{Result, Simulation};
 use basemat_problems::containment::Containment;
 
@@ -29,21 +29,23 @@ fn scene(friction: Option<f64>, steps: usize) -> Result<Simulation> {
     .build()
 }
 
-fn run(simulation: &mut Simulation, steps: usize) -> Result<(Run, Histories)> {
+fn run(simulation: &mut Simulation, steps: usize) -> Result<(Run, TimeSeries)> {
     let mut histories = Recorder::new().start(simulation)?;
     histories.reserve(steps);
     let run = simulation.run(steps, |state| histories.record(state))?;
     Ok((run, histories))
 }
 
-/// Every number as the sixteen digits of its bits: time, scalars, probes, ledger's input.
-fn write(histories: &Histories) -> Result<()> {
+/// Every number as the sixteen digits of its bits: time, scalars, probes, energy balance's input.
+fn write(histories: &TimeSeries) -> Result<()> {
     let mut columns = vec![histories.times().to_vec()];
     columns.extend(Quantity::ALL.map(|quantity| histories.series(quantity).to_vec()));
     for probe in histories.probes() {
         columns.push(histories.probe(&probe.name)?.to_vec());
     }
-    columns.push(histories.ledgers().iter().map(|ledger| ledger.input).collect());
+    columns.push(
+        histories.energy_balances().iter().map(|energy_balance| energy_balance.input).collect(),
+    );
     for k in 0..histories.times().len() {
         let row: Vec<String> =
             columns.iter().map(|column| format!("{:016x}", column[k].to_bits())).collect();

@@ -127,7 +127,7 @@ class Polished:
     modes = ("stick", "slip left", "slip right", "open")
     memory = 1
 
-    def law(self, start: bm.StepStart) -> bm.Coulomb:
+    def law(self, start: bm.PreviousContact) -> bm.Coulomb:
         """Coulomb's law with the friction of this step."""
         return bm.Coulomb(0.2 + 0.1 * float(np.exp(-start.memory[0] / 0.01)))
 

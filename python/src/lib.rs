@@ -34,7 +34,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<profile::PyDampingLaw>()?;
     module.add_class::<profile::PySoilLayer>()?;
     module.add_class::<profile::PySoilProfile>()?;
-    module.add_class::<row::PyRow>()?;
+    module.add_class::<row::PyDofCombination>()?;
     module.add_class::<row::PySectionRows>()?;
     module.add_class::<probe::PyProbe>()?;
     module.add_class::<structure::PyStructure>()?;
@@ -67,11 +67,11 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<interface::PyInterfaceLaw>()?;
     module.add_class::<interface::PyBonded>()?;
     module.add_class::<interface::PyCoulomb>()?;
-    module.add_class::<interface::PyAdhesive>()?;
+    module.add_class::<interface::PyCohesive>()?;
     module.add_class::<interface::PyYielding>()?;
     module.add_class::<interface::PyThinLayer>()?;
     module.add_class::<interface::PyVariableFriction>()?;
-    module.add_class::<user::PyStepStart>()?;
+    module.add_class::<user::PyPreviousContact>()?;
     module.add_class::<user::PyCondition>()?;
     module.add_class::<user::PyContactState>()?;
     module.add_class::<user::PyTolerance>()?;
@@ -98,7 +98,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<results::PyRun>()?;
     module.add_class::<results::PyPeak>()?;
     module.add_class::<results::PyExtremes>()?;
-    module.add_class::<results::PyLedger>()?;
+    module.add_class::<results::PyEnergyBalance>()?;
     module.add_class::<results::PyFoundationSummary>()?;
     module.add_class::<results::PyServiceCheck>()?;
     Ok(())

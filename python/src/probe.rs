@@ -3,7 +3,7 @@
 use basemat::coupled::Probe;
 use pyo3::prelude::*;
 
-use crate::row::{Order, PyRow, PySectionRows, RowLike};
+use crate::row::{Order, PyDofCombination, PySectionRows, RowLike};
 
 /// A quantity read off at every step: a weighted sum of displacements, velocities or accelerations.
 ///
@@ -74,9 +74,9 @@ impl PyProbe {
 
     /// Its rows: of displacements, velocities, accelerations.
     #[getter]
-    fn rows(&self) -> [PyRow; 3] {
+    fn rows(&self) -> [PyDofCombination; 3] {
         [&self.0.displacement, &self.0.velocity, &self.0.acceleration]
-            .map(|row| PyRow(row.clone(), self.1))
+            .map(|row| PyDofCombination(row.clone(), self.1))
     }
 
     fn __repr__(&self) -> String {

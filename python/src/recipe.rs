@@ -19,8 +19,8 @@ impl<T> Clone for Shared<T> {
 }
 
 impl<T: Structure + Sync> Structure for Shared<T> {
-    fn unknowns(&self) -> usize {
-        self.0.unknowns()
+    fn dofs(&self) -> usize {
+        self.0.dofs()
     }
 
     fn contact_nodes(&self) -> Vec<ContactNode> {
@@ -47,8 +47,8 @@ impl<T: Structure + Sync> Structure for Shared<T> {
         self.0.has_active_damping()
     }
 
-    fn describe(&self, unknowns: &[usize]) -> Option<String> {
-        self.0.describe(unknowns)
+    fn describe(&self, dofs: &[usize]) -> Option<String> {
+        self.0.describe(dofs)
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {

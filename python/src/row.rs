@@ -1,6 +1,6 @@
-//! Weighted sums of unknowns.
+//! Weighted sums of degrees of freedom.
 
-use basemat::structure::{Row, SectionRows};
+use basemat::structure::{DofCombination, SectionRows};
 use numpy::{PyArray1, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
@@ -10,31 +10,31 @@ use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::structure;
 
-/// A weighted sum of a structure's unknowns, ``Σ weight · unknown``: where a probe reads and a load
+/// A weighted sum of a structure's degrees of freedom, ``Σ weight · unknown``: where a probe reads and a load
 /// acts.
 ///
-/// Rows add, subtract and scale. Wherever a row is asked for, an unknown's number, a dict
+/// Rows add, subtract and scale. Wherever a row is asked for, a degree of freedom's number, a dict
 /// ``{unknown: weight}``, a list of pairs ``(unknown, weight)`` or an array of all n weights will do.
-#[pyclass(name = "Row", module = "basemat", frozen, eq)]
+#[pyclass(name = "DofCombination", module = "basemat", frozen, eq)]
 #[derive(Clone)]
-pub(crate) struct PyRow(pub(crate) Row, pub(crate) Order);
+pub(crate) struct PyDofCombination(pub(crate) DofCombination, pub(crate) Order);
 
-impl PartialEq for PyRow {
+impl PartialEq for PyDofCombination {
     fn eq(&self, other: &Self) -> bool {
         self.0 == other.0
     }
 }
 
-impl From<Row> for PyRow {
-    fn from(row: Row) -> Self {
+impl From<DofCombination> for PyDofCombination {
+    fn from(row: DofCombination) -> Self {
         Self(row, Order::default())
     }
 }
 
 /// A row in any of the forms that Python may give it.
-pub(crate) struct RowLike(pub(crate) Row, pub(crate) Order);
+pub(crate) struct RowLike(pub(crate) DofCombination, pub(crate) Order);
 
-/// The number of unknowns of the structure that a row is for, known if it was given all weights.
+/// The number of degrees of freedom of the structure that a row is for, known if it was given all weights.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Order(Option<usize>);
 
@@ -50,10 +50,10 @@ impl Order {
     }
 
     /// Refuses a row for another structure; `name` says whose it is.
-    pub(crate) fn check(self, name: &str, unknowns: usize) -> PyResult<()> {
+    pub(crate) fn check(self, name: &str, dofs: usize) -> PyResult<()> {
         match self.0 {
-            Some(weights) if weights != unknowns => Err(refuse(format!(
-                "{name} has an array of {weights} weights, but the structure has {unknowns} unknowns"
+            Some(weights) if weights != dofs => Err(refuse(format!(
+                "{name} has an array of {weights} weights, but the structure has {dofs} degrees of freedom"
             ))),
             _ => Ok(()),
         }
@@ -64,8 +64,8 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(row) = object.cast::<PyRow>() {
-            let PyRow(row, order) = row.get();
+        if let Ok(row) = object.cast::<PyDofCombination>() {
+            let PyDofCombination(row, order) = row.get();
             return Ok(Self(row.clone(), *order));
         }
         if object.is_instance_of::<PyInt>() {
@@ -91,7 +91,7 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
         match object.extract::<Vec<(usize, f64)>>() {
             Ok(terms) => Ok(Self(terms.into(), Order::default())),
             Err(_) => Err(refuse(
-                "a row must be a Row, an unknown's number, a dict {unknown: weight}, a list of \
+                "a row must be a DofCombination, a degree of freedom's number, a dict {unknown: weight}, a list of \
                  pairs (unknown, weight) or an array of weights",
             )),
         }
@@ -99,7 +99,7 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
 }
 
 #[pymethods]
-impl PyRow {
+impl PyDofCombination {
     #[new]
     fn new(terms: RowLike) -> Self {
         Self(terms.0, terms.1)
@@ -111,33 +111,32 @@ impl PyRow {
         self.0.terms().to_vec()
     }
 
-    /// The sum for given unknowns (array of shape (n,)).
-    fn value(&self, unknowns: Numbers) -> PyResult<f64> {
-        let Numbers(unknowns) = unknowns;
-        self.1.check("the row", unknowns.len())?;
-        if let Some((index, _)) = self.0.iter().find(|(index, _)| *index >= unknowns.len()) {
-            return Err(refuse(format!("unknown {index} of a row, of {} given", unknowns.len())));
+    /// The sum for given degrees of freedom (array of shape (n,)).
+    fn value(&self, dofs: Numbers) -> PyResult<f64> {
+        let Numbers(dofs) = dofs;
+        self.1.check("the row", dofs.len())?;
+        if let Some((index, _)) = self.0.iter().find(|(index, _)| *index >= dofs.len()) {
+            return Err(refuse(format!("unknown {index} of a row, of {} given", dofs.len())));
         }
-        Ok(self.0.value(&unknowns))
+        Ok(self.0.value(&dofs))
     }
 
     /// All n weights as an array of shape (n,).
     fn weights<'py>(
         &self,
         py: Python<'py>,
-        #[pyo3(from_py_with = whole)] unknowns: usize,
+        #[pyo3(from_py_with = whole)] dofs: usize,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.1.check("the row", unknowns)?;
+        self.1.check("the row", dofs)?;
         let mut weights = Vec::new();
-        weights.try_reserve_exact(unknowns).map_err(|_| {
-            PyMemoryError::new_err(format!("an array of {unknowns} weights does not fit"))
+        weights.try_reserve_exact(dofs).map_err(|_| {
+            PyMemoryError::new_err(format!("an array of {dofs} weights does not fit"))
         })?;
-        weights.resize(unknowns, 0.0);
+        weights.resize(dofs, 0.0);
         for &(index, weight) in &self.0 {
             *weights
                 .get_mut(index)
-                .ok_or_else(|| refuse(format!("unknown {index} of a row, of {unknowns}")))? +=
-                weight;
+                .ok_or_else(|| refuse(format!("unknown {index} of a row, of {dofs}")))? += weight;
         }
         Ok(PyArray1::from_vec(py, weights))
     }
@@ -145,15 +144,15 @@ impl PyRow {
     /// This displacement to the right less that of the middle of the structure's base.
     fn relative_to_base(&self, structure: Bound<'_, PyAny>) -> PyResult<Self> {
         let structure = structure::recipe(&structure)?().or_raise()?;
-        self.1.check("the row", structure.unknowns())?;
+        self.1.check("the row", structure.dofs())?;
         Ok(Self(self.0.relative_to_base(structure.as_ref()).or_raise()?, self.1))
     }
 
     /// The same less what the base's rotation makes of it at ``height`` (m): the sway.
-    fn sway(&self, structure: Bound<'_, PyAny>, height: f64) -> PyResult<Self> {
+    fn total_drift(&self, structure: Bound<'_, PyAny>, height: f64) -> PyResult<Self> {
         let structure = structure::recipe(&structure)?().or_raise()?;
-        self.1.check("the row", structure.unknowns())?;
-        Ok(Self(self.0.sway(structure.as_ref(), height).or_raise()?, self.1))
+        self.1.check("the row", structure.dofs())?;
+        Ok(Self(self.0.total_drift(structure.as_ref(), height).or_raise()?, self.1))
     }
 
     fn __add__(&self, other: RowLike) -> PyResult<Self> {
@@ -181,12 +180,12 @@ impl PyRow {
     }
 
     fn __repr__(&self) -> String {
-        format!("Row({:?})", self.0.terms())
+        format!("DofCombination({:?})", self.0.terms())
     }
 
     fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>,)> {
         match self.1.0 {
-            Some(unknowns) => Ok((self.weights(py, unknowns)?.into_any(),)),
+            Some(dofs) => Ok((self.weights(py, dofs)?.into_any(),)),
             None => Ok((self.terms().into_pyobject(py)?,)),
         }
     }
@@ -226,7 +225,8 @@ impl PySectionRows {
     fn __getnewargs_ex__<'py>(
         &self,
         py: Python<'py>,
-    ) -> PyResult<((PyRow, PyRow, PyRow), Bound<'py, PyDict>)> {
+    ) -> PyResult<((PyDofCombination, PyDofCombination, PyDofCombination), Bound<'py, PyDict>)>
+    {
         let unit = PyDict::new(py);
         unit.set_item("unit", self.0.unit)?;
         Ok(((self.displacement(), self.velocity(), self.acceleration()), unit))
@@ -240,19 +240,19 @@ impl PySectionRows {
 
     /// Weights of the displacements.
     #[getter]
-    fn displacement(&self) -> PyRow {
-        PyRow(self.0.displacement.clone(), self.1)
+    fn displacement(&self) -> PyDofCombination {
+        PyDofCombination(self.0.displacement.clone(), self.1)
     }
 
     /// Weights of the velocities.
     #[getter]
-    fn velocity(&self) -> PyRow {
-        PyRow(self.0.velocity.clone(), self.1)
+    fn velocity(&self) -> PyDofCombination {
+        PyDofCombination(self.0.velocity.clone(), self.1)
     }
 
     /// Weights of the accelerations.
     #[getter]
-    fn acceleration(&self) -> PyRow {
-        PyRow(self.0.acceleration.clone(), self.1)
+    fn acceleration(&self) -> PyDofCombination {
+        PyDofCombination(self.0.acceleration.clone(), self.1)
     }
 }

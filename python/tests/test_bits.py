@@ -48,7 +48,7 @@ def test_containment(reference: Path, friction: float | None) -> None:
     assert rust.shape == (steps + 1, len(SERIES) + 1)
     for column, key in enumerate(SERIES):
         assert same_bits(run[key], np.ascontiguousarray(rust[:, column])), key
-    assert same_bits(run.ledgers["input"], np.ascontiguousarray(rust[:, -1]))
+    assert same_bits(run.energy_balances["input"], np.ascontiguousarray(rust[:, -1]))
     # It shook, and where it may it opened: zeros would be equal, too.
     assert run.base_shear.magnitude > 1.0e5
     assert (run.uplifted_fraction.value > 0.0) == (friction is not None)
@@ -68,7 +68,7 @@ def test_steps_and_runs_are_the_same(rocking) -> None:
 
 def test_python_structure_and_law_give_the_same_bits(soil: bm.Soil, rocking, block) -> None:
     class Own:
-        unknowns = 3
+        dofs = 3
 
         def contact_nodes(self):
             return block.contact_nodes()

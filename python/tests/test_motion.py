@@ -105,7 +105,7 @@ def test_inclined_waves_without_layers_are_plane_waves() -> None:
 def test_there_and_back_through_a_site() -> None:
     layers = [bm.SoilLayer(bm.Soil.from_shear_wave_speed(200.0, 0.35, 1900.0), 15.0)]
     rock = bm.Soil.from_shear_wave_speed(1000.0, 0.25, 2300.0)
-    column = bm.Column(bm.SoilProfile(layers, rock))
+    column = bm.SoilColumn(bm.SoilProfile(layers, rock))
     random = np.random.default_rng(23)
     pulse = np.zeros(301)
     pulse[150:180] = 1.0

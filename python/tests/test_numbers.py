@@ -43,7 +43,7 @@ TEXTS = [["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]]
         lambda: bm.Record(0.01, ["0.0", "1.0"]),
         lambda: bm.Record(0.01, [0.0, None]),
         lambda: bm.Record(0.01, np.arange(3).astype("datetime64[s]")),
-        lambda: bm.Row(np.array([1.0 + 1.0j, 0.0])),
+        lambda: bm.DofCombination(np.array([1.0 + 1.0j, 0.0])),
         lambda: bm.Load.table(0, [0.0, 1.0], [0.0, 1.0j]),
         lambda: bm.Mesh([["0", "0"], ["1", "0"]]),
         lambda: bm.free_field(displacement=lambda x, t: np.complex128(1j)).displacement(0.0, 1.0),
@@ -90,12 +90,12 @@ def test_rows_of_all_weights_belong_to_a_structure_of_as_many_unknowns(soil: bm.
     simulation(probes=[bm.Probe.displacement("roof", eight)], loads=[bm.Load.constant(eight, 1.0)])
     with pytest.raises(bm.InputError, match="probe 'roof' has an array of 3 weights, but .* 8 unk"):
         simulation(probes=[bm.Probe.displacement("roof", three)])
-    section = bm.SectionRows(bm.Row(three), {0: 1.0}, 0)
+    section = bm.SectionRows(bm.DofCombination(three), {0: 1.0}, 0)
     for probe in (
-        bm.Probe.acceleration("roof", 2.0 * bm.Row(three) - bm.Row(0)),
+        bm.Probe.acceleration("roof", 2.0 * bm.DofCombination(three) - bm.DofCombination(0)),
         bm.Probe.section("roof", section),
         bm.Probe.section("roof", pickle.loads(pickle.dumps(section))),
-        bm.Probe.velocity("roof", pickle.loads(pickle.dumps(bm.Row(three)))),
+        bm.Probe.velocity("roof", pickle.loads(pickle.dumps(bm.DofCombination(three)))),
     ):
         with pytest.raises(bm.InputError, match="probe 'roof' has an array of 3 weights"):
             simulation(probes=[probe])
@@ -110,19 +110,19 @@ def test_rows_of_all_weights_belong_to_a_structure_of_as_many_unknowns(soil: bm.
     law = bm.Bilinear(1e6, 1e3, 0.1)
     for refused in (
         lambda: bm.WithSprings(BUILDING, [(three, law)]),
-        lambda: bm.Row(three) + eight,
+        lambda: bm.DofCombination(three) + eight,
         lambda: bm.StructureGroup([(BUILDING, 0.0)]).row(0, three),
         lambda: bm.ReducedModel(BUILDING, 2).row(three),
-        lambda: bm.Row(three).sway(BUILDING, 3.0),
-        lambda: bm.Row(three).weights(8),
-        lambda: bm.Row(eight).value(three),
+        lambda: bm.DofCombination(three).total_drift(BUILDING, 3.0),
+        lambda: bm.DofCombination(three).weights(8),
+        lambda: bm.DofCombination(eight).value(three),
         lambda: bm.MatrixModel(
             np.eye(3), np.zeros((3, 3)), [bm.ContactNode(0.0, eight, 1), BASE[1]]
         ),
     ):
         with pytest.raises(bm.InputError, match="weights"):
             refused()
-    assert bm.Row(three) == bm.Row(0) == pickle.loads(pickle.dumps(bm.Row(three)))
+    assert bm.DofCombination(three) == bm.DofCombination(0) == pickle.loads(pickle.dumps(bm.DofCombination(three)))
 
 
 MATRICES = np.ones((2, 3))
@@ -178,7 +178,7 @@ def test_counts_of_a_run_are_whole_and_not_negative(rocking) -> None:
 class Block:
     """A block from Python, whose methods may be replaced."""
 
-    unknowns = 3
+    dofs = 3
 
     def __init__(self, **others: object) -> None:
         self.block = bm.RigidBlock(6.0, 9.0, 1000.0)
@@ -216,7 +216,7 @@ class Law:
         (r"mass of the structure returned .* matrix of shape \(2, 3\)", {"mass": lambda: MATRICES}),
         (r"stiffness of the structure returned a .*\(2, 2\)", {"stiffness": lambda: np.eye(2)}),
         ("damping of the structure returned", {"damping": lambda: "none"}),
-        ("unknowns of the structure returned", {"unknowns": "three"}),
+        ("degrees of freedom of the structure returned", {"dofs": "three"}),
         ("contact_nodes of the structure returned", {"contact_nodes": lambda: [1, 2]}),
         (r"load of the structure returned .* \(2,\), .* \(3,\)", {"load": lambda t: [0.0, 1.0]}),
     ],

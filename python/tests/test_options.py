@@ -93,7 +93,7 @@ def test_schemes_differ_as_they_should() -> None:
         simulation = bm.Simulation(
             5e-3, building, stiff, bm.Bonded(), scheme=scheme, initial_velocity=start
         )
-        losses[name] = simulation.run(200).ledger.numerical
+        losses[name] = simulation.run(200).energy_balance.algorithmic
     energy = 0.5 * 20e3 * 0.1**2
     assert abs(losses["midpoint"]) < 1e-12 * energy
     assert all(losses[name] > 0.01 * energy for name in ("newmark", "theta", "hht")), losses
@@ -105,7 +105,7 @@ def test_moment_center_ledger_and_safety(rocking) -> None:
     middle, left = rocking().run(200), rocking(moment_center=-3.0).run(200)
     lever = left["base_moment"] - middle["base_moment"]
     np.testing.assert_allclose(np.abs(lever), 3.0 * middle["normal_force"], rtol=1e-9)
-    assert np.isnan(rocking(ledger=False).run(10).ledger_residual)
+    assert np.isnan(rocking(energy_balance=False).run(10).energy_error)
     bonded = rocking(interface=bm.Bonded()).run(200)
     assert bonded.least_sliding_safety is None or bonded.least_sliding_safety.value == np.inf
     held = rocking(interface=bm.Bonded(), safety_friction=0.3).run(200)
@@ -142,12 +142,12 @@ def test_coordinates_change_rounding_only(soil: bm.Soil) -> None:
         law, motion = bm.Coulomb(0.4), bm.el_centro_1940()
         return bm.Simulation(0.005, building, ground, law, motion=motion, **options).run(400)
 
-    unknowns, modes = run(coordinates="unknowns"), run(coordinates="modes")
-    scale = unknowns.base_shear.magnitude
-    np.testing.assert_allclose(modes["base_shear"], unknowns["base_shear"], atol=1e-7 * scale)
-    assert not same_bits(modes["base_shear"], unknowns["base_shear"])
+    dofs, modes = run(coordinates="dofs"), run(coordinates="modes")
+    scale = dofs.base_shear.magnitude
+    np.testing.assert_allclose(modes["base_shear"], dofs["base_shear"], atol=1e-7 * scale)
+    assert not same_bits(modes["base_shear"], dofs["base_shear"])
     reduced = run(coordinates=1e-6)
-    np.testing.assert_allclose(reduced["base_shear"], unknowns["base_shear"], atol=1e-4 * scale)
+    np.testing.assert_allclose(reduced["base_shear"], dofs["base_shear"], atol=1e-4 * scale)
     with pytest.raises(bm.InputError, match="no kind of coordinates 'modal', only auto"):
         run(coordinates="modal")
 
@@ -188,7 +188,7 @@ def test_laws_of_the_interface_bound_its_tractions(rocking, soil) -> None:
     strong = bm.el_centro_1940().scaled(1.5)
     held = rocking(interface=bm.Coulomb(0.4, tensile_strength=1e7), motion=strong).run(300)
     assert held.uplifted_fraction.value == 0.0
-    glued = rocking(interface=bm.Adhesive(1e7, 1e7, 0.4), motion=strong).run(300)
+    glued = rocking(interface=bm.Cohesive(1e7, 1e7, 0.4), motion=strong).run(300)
     assert glued.uplifted_fraction.value == 0.0
     soft = rocking(interface=bm.Yielding(4.0e5, 0.4), motion=strong).run(300, contact_every=1)
     assert soft.contact["pressure"].max() < 4.0e5 * (1.0 + 1e-9)
@@ -236,8 +236,8 @@ def test_words_are_those_of_the_crate_and_those_of_the_docstrings(rocking, soil,
 
 def test_all_modes_of_the_crate_have_a_number(rocking) -> None:
     with pytest.raises(bm.InputError) as refused:
-        bm.StepStart(bm.ContactState(), "glide", 0.01)
+        bm.PreviousContact(bm.ContactState(), "glide", 0.01)
     known = str(refused.value).partition(", only ")[2].split(", ")
     assert [word.replace("_", " ") for word in known] == list(bm.MODES)
     for mode in bm.MODES:
-        assert bm.StepStart(bm.ContactState(), mode, 0.01).mode == mode
+        assert bm.PreviousContact(bm.ContactState(), mode, 0.01).mode == mode

@@ -126,7 +126,7 @@ def test_motions_laws_loads_and_probes() -> None:
     probe = copied(bm.Probe.section("shear", BUILDING.shear(0), unit="N/m"))
     assert (probe.name, probe.unit) == ("shear", "N/m")
     ground = bm.ElasticGround.under(SOIL, BUILDING, 4)
-    for law in (bm.Bonded(), bm.Adhesive(1e5, 1e5, 0.4), bm.ThinLayer(SOIL, 1.0, 0.4)):
+    for law in (bm.Bonded(), bm.Cohesive(1e5, 1e5, 0.4), bm.ThinLayer(SOIL, 1.0, 0.4)):
         runs = [
             bm.Simulation(0.005, BUILDING, ground, own, loads=[load], probes=[probe]).run(50)[
                 "shear"

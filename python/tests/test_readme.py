@@ -32,7 +32,7 @@ def test_the_first_program_is_short_and_uplifts(names: dict[str, object]) -> Non
     run, spectra = names["run"], names["spectra"]
     assert isinstance(run, bm.Run)
     assert run.uplifted_fraction.value > 0.2
-    assert run.ledger_residual < 1e-9
+    assert run.energy_error < 1e-9
     assert isinstance(spectra, dict)
     # Short oscillators follow the floor.
     peak = run.probes["roof"].magnitude

@@ -47,7 +47,7 @@ def test_time_series_have_a_value_per_step_and_agree_with_the_summary(rocking) -
     np.testing.assert_allclose(pressure @ lengths[:, 0], run["normal_force"][::10], rtol=1e-12)
     envelope = run.envelope
     assert envelope["gap"].max() == run.largest_gap.value
-    assert run.ledgers["residual"].max() < 1e-9
+    assert run.energy_balances["residual"].max() < 1e-9
 
 
 def test_frames(rocking) -> None:
@@ -113,7 +113,7 @@ def test_reset_goes_back_to_the_first_bit(rocking) -> None:
     class Unsaved:
         """Takes steps over and does not say what it took."""
 
-        unknowns = 3
+        dofs = 3
         block = bm.RigidBlock(6.0, 9.0, 1000.0)
         contact_nodes, mass, stiffness = block.contact_nodes, block.mass, block.stiffness
 
@@ -259,7 +259,7 @@ def test_sizes_beyond_memory_are_refused_with_what_they_take() -> None:
         bm.set_memory_limit(limit)
 
 
-@pytest.mark.parametrize("value", [bm.Soil(80e6, 0.33, 1900.0), bm.Row([(3, 1.5), (0, -1.0)])])
+@pytest.mark.parametrize("value", [bm.Soil(80e6, 0.33, 1900.0), bm.DofCombination([(3, 1.5), (0, -1.0)])])
 def test_descriptions_pickle(value: object) -> None:
     assert repr(pickle.loads(pickle.dumps(value))) == repr(value)
 

@@ -11,7 +11,7 @@ import basemat as bm
 class Tuned:
     """A block with a mass on top on a spring that hardens; it may raise."""
 
-    unknowns = 4
+    dofs = 4
 
     def __init__(self, block: bm.RigidBlock, breaks_at: float = np.inf) -> None:
         self.block, self.breaks_at = block, breaks_at
@@ -62,13 +62,13 @@ PROBE = bm.Probe.displacement("stretch", {3: 1.0, 0: -1.0, 2: 9.0})
 def test_a_nonlinear_structure_is_called_and_the_ledger_closes(rocking, block) -> None:
     own = Tuned(block)
     run = rocking(structure=own, probes=[PROBE]).run(300)
-    assert run.ledger_residual < 1e-9
+    assert run.energy_error < 1e-9
     assert run.probes["stretch"].magnitude > 5e-3
     # Its strain energy is that of the spring: ½ k s² + ¼ k₃ s⁴.
     stretch = run["stretch"]
     expected = 0.5e6 * stretch**2 + 0.25e10 * stretch**4
     np.testing.assert_allclose(
-        run.ledgers["strain"], expected, rtol=0.0, atol=0.02 * expected.max()
+        run.energy_balances["strain"], expected, rtol=0.0, atol=0.02 * expected.max()
     )
     assert own.committed == [], "a simulation has a copy of its own"
 
@@ -85,7 +85,7 @@ def test_an_exception_of_the_structure_comes_out_of_the_run(rocking, block) -> N
     assert simulation.state.step == state.step
 
 
-@pytest.mark.parametrize("method", ["unknowns", "contact_nodes", "mass", "stiffness", "tangent"])
+@pytest.mark.parametrize("method", ["dofs", "contact_nodes", "mass", "stiffness", "tangent"])
 def test_an_exception_while_a_simulation_is_built(rocking, block, method: str) -> None:
     def fail(*_: object) -> None:
         raise NotImplementedError(method)
@@ -106,7 +106,7 @@ class Weakening:
     def __init__(self) -> None:
         self.calls = 0
 
-    def law(self, start: bm.StepStart) -> bm.Coulomb:
+    def law(self, start: bm.PreviousContact) -> bm.Coulomb:
         return bm.Coulomb(0.15 + 0.25 * np.exp(-start.memory[0] / 0.01))
 
     def called(self, method: str) -> None:
@@ -114,7 +114,7 @@ class Weakening:
         if method == self.fails_in and self.calls > 3000:
             raise TimeoutError(method)
 
-    def conditions(self, mode: str, start: bm.StepStart):
+    def conditions(self, mode: str, start: bm.PreviousContact):
         self.called("conditions")
         return self.law(start).conditions(mode, start)
 
@@ -130,10 +130,10 @@ class Weakening:
 def test_a_law_remembers(rocking) -> None:
     simulation = rocking(interface=Weakening(), motion=bm.el_centro_1940().scaled(1.5))
     run = simulation.run(600)
-    slid = simulation.state.law_memory(3)[0]
+    slid = simulation.state.state_variables(3)[0]
     assert slid > 0.01
     assert slid >= abs(simulation.state.slip[3]) - 1e-12
-    assert run.ledger_residual < 1e-9
+    assert run.energy_error < 1e-9
     # Between the limits of its friction.
     strong, weak = (
         rocking(f, motion=bm.el_centro_1940().scaled(1.5)).run(600) for f in (0.4, 0.15)
@@ -223,7 +223,7 @@ def raises(*_: object) -> float:
 
 
 FALLING = bm.free_field(displacement=raises)
-START = bm.StepStart(bm.ContactState(pressure=1e5), "stick", 0.01)
+START = bm.PreviousContact(bm.ContactState(pressure=1e5), "stick", 0.01)
 
 
 @pytest.mark.parametrize(
@@ -249,7 +249,7 @@ def test_an_exception_comes_out_of_the_call_that_met_it(rocking, call) -> None:
 def test_an_exception_of_a_run_is_not_taken_by_a_call_inside_it(rocking) -> None:
     armed, asked, caught = False, 0, []
 
-    def friction(start: bm.StepStart) -> float:
+    def friction(start: bm.PreviousContact) -> float:
         nonlocal asked
         asked += armed
         if asked == 1:

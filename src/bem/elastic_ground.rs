@@ -8,11 +8,11 @@ use super::layered::{
     check_tolerance, rigid_strip_impedances, static_compliance,
 };
 use super::{
-    Grading, Ground, KernelGround, KernelSource, PatchKernel, SharedKernels, StaticKernel, Strip,
+    Grading, Ground, PatchKernel, SharedKernels, StaticKernel, Strip, WeightsGround, WeightsSource,
 };
 use crate::error::{Result, positive};
 use crate::geometry::{ContactElement, check_order};
-use crate::history::{ConvolutionHistory, History, HistoryChoice, LagKernel};
+use crate::history::{ConvolutionHistory, ConvolutionWeights, History, HistoryChoice};
 use crate::motion::FreeField;
 use crate::soil::{Base, Soil, SoilProfile};
 use crate::structure::Structure;
@@ -29,7 +29,7 @@ use crate::structure::Structure;
 /// [`Stages::for_profile`] and is reported by [`Ground::history_choice`].
 ///
 /// Both are passive for every time step, mesh, Poisson's ratio, profile and passive damping law. The
-/// free field is that of the surface; [`site::Column`](crate::site::Column) computes it from a motion
+/// free field is that of the surface; [`site::SoilColumn`](crate::site::SoilColumn) computes it from a motion
 /// at depth in the same profile.
 ///
 /// ```
@@ -39,7 +39,7 @@ use crate::structure::Structure;
 /// let mut ground = ElasticGround::new(soil, Strip::graded(-5.0..5.0, 20)?)?;
 /// ground.prepare(1.0e-4)?;
 /// let mut matrix = vec![0.0; 40 * 40];
-/// ground.instantaneous(&mut matrix)?;
+/// ground.step_compliance(&mut matrix)?;
 /// // Before waves reach the edges, a pressure moves the surface by p·t/(ρ c₁); a step of 0.1 ms
 /// // leaves all but the outer few percent of an element of 0.8 m, at the middle, in that state.
 /// let plane_wave = 1.0e-4 / (1900.0 * soil.pressure_wave_speed());
@@ -69,7 +69,7 @@ use crate::structure::Structure;
 ///     .motion(el_centro_1940())
 ///     .build()?;
 /// let run = simulation.run(400, |_| {})?;
-/// assert!(run.ledger_residual < 1e-9);
+/// assert!(run.energy_error < 1e-9);
 /// assert!(simulation.history_choice().unwrap().to_string().contains("3 stages"));
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -77,7 +77,7 @@ pub struct ElasticGround {
     source: ElasticSource,
     /// Stages of the last [`Ground::prepare`].
     used: Option<Stages>,
-    ground: KernelGround,
+    ground: WeightsGround,
 }
 
 short_debug! { ElasticGround; self; source: self.source, ground: self.ground }
@@ -114,8 +114,12 @@ impl ElasticSource {
     }
 }
 
-impl KernelSource for ElasticSource {
-    fn kernel(&self, elements: &[ContactElement], time_step: f64) -> Result<Arc<dyn LagKernel>> {
+impl WeightsSource for ElasticSource {
+    fn kernel(
+        &self,
+        elements: &[ContactElement],
+        time_step: f64,
+    ) -> Result<Arc<dyn ConvolutionWeights>> {
         match (self.stages(time_step), self.profile.base()) {
             (None, Base::HalfPlane { soil, .. }) => {
                 Ok(Arc::new(PatchKernel::new(*soil, elements.to_vec(), time_step)?))
@@ -172,7 +176,7 @@ impl ElasticGround {
         profile.check()?;
         let (tolerance, limit) = (TOLERANCE, LIMIT);
         let source = ElasticSource { profile, stages: None, tolerance, file: None, limit };
-        let ground = KernelGround::new(source.clone(), elements)?;
+        let ground = WeightsGround::new(source.clone(), elements)?;
         Ok(Self { source, used: None, ground })
     }
 
@@ -227,13 +231,13 @@ impl ElasticGround {
         Ok(self.changed(|source| source.limit = limit))
     }
 
-    /// As [`KernelGround::with_history_kind`]; only the closed form has exponentials.
+    /// As [`WeightsGround::with_history_kind`]; only the closed form has exponentials.
     #[must_use]
     pub fn with_history_kind(self, history: History) -> Self {
         Self { ground: self.ground.with_history_kind(history), ..self }
     }
 
-    /// As [`KernelGround::with_history_tolerance`]; only the closed form makes use of it.
+    /// As [`WeightsGround::with_history_tolerance`]; only the closed form makes use of it.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
@@ -241,22 +245,22 @@ impl ElasticGround {
         Ok(Self { ground: self.ground.with_history_tolerance(tolerance)?, ..self })
     }
 
-    /// As [`KernelGround::with_history_memory`].
+    /// As [`WeightsGround::with_history_memory`].
     #[must_use]
     pub fn with_history_memory(self, bytes: usize) -> Self {
         Self { ground: self.ground.with_history_memory(bytes), ..self }
     }
 
-    /// As [`KernelGround::with_history`].
+    /// As [`WeightsGround::with_history`].
     #[must_use]
     pub fn with_history(
         self,
-        make: impl Fn(Arc<dyn LagKernel>) -> Box<dyn ConvolutionHistory> + Send + 'static,
+        make: impl Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory> + Send + 'static,
     ) -> Self {
         Self { ground: self.ground.with_history(make), ..self }
     }
 
-    /// As [`KernelGround::with_shared_kernels`].
+    /// As [`WeightsGround::with_shared_kernels`].
     #[must_use]
     pub fn with_shared_kernels(self, kernels: &SharedKernels) -> Self {
         Self { ground: self.ground.with_shared_kernels(kernels), ..self }
@@ -287,7 +291,7 @@ impl ElasticGround {
         positive("time step", time_step)?;
         let Some(stages) = self.source.stages(time_step) else { return Ok(Cost::default()) };
         let kernel = self.source.layered(self.elements(), time_step, stages)?;
-        // Histories take lags by powers of two.
+        // TimeSeries take lags by powers of two.
         kernel.cost(steps.checked_next_power_of_two().unwrap_or(usize::MAX))
     }
 
@@ -334,9 +338,9 @@ impl Ground for ElasticGround {
     forward! {
         self.ground;
         fn elements(&self) -> &[ContactElement];
-        fn announce(&mut self, steps: usize) -> Result<()>;
+        fn expect_steps(&mut self, steps: usize) -> Result<()>;
         fn reserve(&mut self, steps: usize) -> Result<()>;
-        fn instantaneous(&self, matrix: &mut [f64]) -> Result<()>;
+        fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
         fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
         fn commit(&mut self, traction: &[f64]);
         fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;

@@ -25,7 +25,7 @@ use super::influence::LateSeries;
 use crate::error::Result;
 use crate::fundamental::rayleigh::TERMS;
 use crate::geometry::ContactElement;
-use crate::history::{ExponentialTail, LagKernel, LateLags, TailProduct};
+use crate::history::{ConvolutionWeights, ExponentialSum, LateLags, TailProduct};
 use crate::linalg::gauss;
 
 /// Times that the Rayleigh wave has crossed the patch when exponentials take over. Behind three,
@@ -55,7 +55,7 @@ impl LateLags for PatchKernel {
         window: usize,
         horizon: usize,
         tolerance: f64,
-    ) -> Result<ExponentialTail> {
+    ) -> Result<ExponentialSum> {
         let basis = Basis::new(self.classes().elements(), DEGREES);
         tail(&self.late_series(), basis, [window as f64, horizon as f64], tolerance)
     }
@@ -67,7 +67,7 @@ fn tail(
     mut basis: Basis,
     [window, horizon]: [f64; 2],
     tolerance: f64,
-) -> Result<ExponentialTail> {
+) -> Result<ExponentialSum> {
     // The error of the trapezoidal rule is about e^(3−π²/h), the strip narrowed by the Rayleigh wave
     // included.
     let h = std::f64::consts::PI.powi(2) / (3.0 - tolerance.ln());
@@ -108,7 +108,7 @@ fn tail(
         }
     }
     let rates = poles.iter().map(|pole| pole.s * step).collect();
-    ExponentialTail::new(rates, basis.into_means(), products)
+    ExponentialSum::new(rates, basis.into_means(), products)
 }
 
 /// A rate and the Legendre coefficients of Φ that go with it.

@@ -11,7 +11,6 @@ mod elastic_ground;
 #[cfg(feature = "full-plane")]
 pub mod full_plane;
 mod influence;
-mod kernel_ground;
 mod late_exponentials;
 pub mod layered;
 mod overlap;
@@ -20,15 +19,16 @@ mod shared;
 mod spring;
 mod static_kernel;
 mod strip;
+mod weights_ground;
 
 pub use elastic_ground::ElasticGround;
 pub use influence::{Influence, InfluenceKernel, PairInfluence};
-pub use kernel_ground::KernelGround;
 pub use patch::PatchKernel;
 pub use shared::SharedKernels;
 pub use spring::SpringGround;
 pub use static_kernel::StaticKernel;
 pub use strip::{Grading, Strip};
+pub use weights_ground::WeightsGround;
 
 use std::any::Any;
 use std::sync::Arc;
@@ -37,7 +37,7 @@ pub use crate::geometry::ContactElement;
 
 use crate::error::{CheckpointError, Result};
 use crate::geometry::ContactLayout;
-use crate::history::{HistoryChoice, LagKernel};
+use crate::history::{ConvolutionWeights, HistoryChoice};
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
@@ -68,7 +68,7 @@ pub trait Ground: Any + Send {
     ///
     /// # Errors
     /// As for [`Ground::history`].
-    fn announce(&mut self, _steps: usize) -> Result<()> {
+    fn expect_steps(&mut self, _steps: usize) -> Result<()> {
         Ok(())
     }
 
@@ -86,7 +86,7 @@ pub trait Ground: Any + Send {
     ///
     /// # Errors
     /// If the ground is not prepared or the slice has the wrong length.
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()>;
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
 
     /// Overwrites `displacement` (2Q, m) with what all committed tractions give at the end of the
     /// next step.
@@ -159,15 +159,19 @@ pub trait Ground: Any + Send {
 }
 
 /// A soil that knows its step coefficients and its static compliance: all that
-/// [`KernelGround`] needs.
-pub trait KernelSource: Any + Send {
+/// [`WeightsGround`] needs.
+pub trait WeightsSource: Any + Send {
     /// The coefficients under `elements` (left to right, not overlapping) for steps of `time_step`
     /// seconds. They should be computed when they are asked for, not now: other grounds may be
     /// waiting for the same kernel.
     ///
     /// # Errors
     /// If the soil has none for these elements or this step.
-    fn kernel(&self, elements: &[ContactElement], time_step: f64) -> Result<Arc<dyn LagKernel>>;
+    fn kernel(
+        &self,
+        elements: &[ContactElement],
+        time_step: f64,
+    ) -> Result<Arc<dyn ConvolutionWeights>>;
 
     /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa; 2Q numbers as in the module) with the
     /// mean static displacements of the elements due to unit tractions, up to a rigid settlement.

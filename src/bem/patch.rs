@@ -4,10 +4,10 @@ use super::InfluenceKernel;
 use super::influence::LateSeries;
 use crate::error::Result;
 use crate::geometry::ContactElement;
-use crate::history::{KINDS, LagKernel, LateLags, PairClasses, SharedSpectra};
+use crate::history::{ConvolutionWeights, KINDS, LateLags, PairClasses, SharedSpectra};
 use crate::soil::Soil;
 
-/// The [`LagKernel`] of the half-plane: coefficients Gⁿ of a patch of surface elements, closed form.
+/// The [`ConvolutionWeights`] of the half-plane: coefficients Gⁿ of a patch of surface elements, closed form.
 ///
 /// Its coupling ends when the Rayleigh wave has crossed a pair.
 #[derive(Debug, Clone)]
@@ -34,7 +34,7 @@ impl PatchKernel {
     }
 }
 
-impl LagKernel for PatchKernel {
+impl ConvolutionWeights for PatchKernel {
     fn classes(&self) -> &PairClasses {
         &self.classes
     }

@@ -5,10 +5,10 @@ use std::fmt;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, ThreadId};
 
-use super::KernelSource;
+use super::WeightsSource;
 use crate::error::{Error, Result};
 use crate::geometry::ContactElement;
-use crate::history::LagKernel;
+use crate::history::ConvolutionWeights;
 
 /// Kernels kept, at most: the latest.
 const KEPT: usize = 8;
@@ -16,9 +16,9 @@ const KEPT: usize = 8;
 /// Coefficients, and spectra made of them, that grounds of one soil, mesh and time step share.
 ///
 /// Grounds with clones of one and the same store ([`ElasticGround::with_shared_kernels`],
-/// [`KernelGround::with_shared_kernels`](super::KernelGround::with_shared_kernels)) compute and hold
+/// [`WeightsGround::with_shared_kernels`](super::WeightsGround::with_shared_kernels)) compute and hold
 /// them once. The store keeps those of the last eight different soils, meshes and steps. Results are the
-/// same to the last bit. What one soil is says [`KernelSource::identity`]. Who asks for coefficients
+/// same to the last bit. What one soil is says [`WeightsSource::identity`]. Who asks for coefficients
 /// that another thread is computing waits for them. A source may take other coefficients from the
 /// same store while it makes its own.
 ///
@@ -72,7 +72,7 @@ struct Key {
 
 struct Entry {
     key: Arc<Key>,
-    kernel: Arc<dyn LagKernel>,
+    kernel: Arc<dyn ConvolutionWeights>,
 }
 
 impl fmt::Debug for Entry {
@@ -133,10 +133,10 @@ impl SharedKernels {
     /// The kernel of these elements, made now if it is not there or `source` has no identity.
     pub(super) fn kernel(
         &self,
-        source: &dyn KernelSource,
+        source: &dyn WeightsSource,
         elements: &[ContactElement],
         time_step: f64,
-    ) -> Result<Arc<dyn LagKernel>> {
+    ) -> Result<Arc<dyn ConvolutionWeights>> {
         let Some(identity) = source.identity() else { return source.kernel(elements, time_step) };
         let any: &dyn Any = source;
         let key = Arc::new(Key {
@@ -162,7 +162,7 @@ impl SharedKernels {
     }
 
     /// The kernel of `key` once no other thread is making it; none if it is for the caller to make.
-    fn kept_or_begun(&self, key: &Arc<Key>) -> Result<Option<Arc<dyn LagKernel>>> {
+    fn kept_or_begun(&self, key: &Arc<Key>) -> Result<Option<Arc<dyn ConvolutionWeights>>> {
         let own = thread::current().id();
         let mut kernels = self.kernels();
         loop {

@@ -16,7 +16,7 @@ use crate::structure::Structure;
 /// let mut bed = SpringGround::new(-2.0..2.0, 4, 20.0e6, 10.0e6)?.with_dashpots(4.0e5, 0.0)?;
 /// bed.prepare(1.0e-3)?;
 /// let mut matrix = vec![0.0; 64];
-/// bed.instantaneous(&mut matrix)?;
+/// bed.step_compliance(&mut matrix)?;
 /// assert!((matrix[0] - 1.0 / (0.5 * 20.0e6 + 4.0e5 / 1.0e-3)).abs() < 1e-18);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -150,7 +150,7 @@ impl Ground for SpringGround {
         Ok(())
     }
 
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         self.check_prepared()?;
         self.fill_diagonal(matrix, |component| 1.0 / self.impedance(component))
     }
@@ -216,7 +216,7 @@ mod tests {
         }
         bed.history(&mut s).unwrap();
         let mut matrix = [0.0; 4];
-        bed.instantaneous(&mut matrix).unwrap();
+        bed.step_compliance(&mut matrix).unwrap();
         assert!((s[0] + matrix[0] * 200.0 - 2.0).abs() < 1e-12);
         assert!((s[1] + matrix[3] * -50.0 + 1.0).abs() < 1e-12);
     }

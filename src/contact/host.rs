@@ -5,7 +5,9 @@ use super::problem::{ContactInput, ContactSolver};
 use super::search::{ContactSearch, ModeSearch, SearchMethod};
 use crate::error::{Error, Result, StepError, finite, positive, same_length};
 use crate::geometry::{COMPONENTS, ContactLayout};
-use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, StepStarts, memory_ends};
+use crate::interface::{
+    ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, memory_ends,
+};
 use crate::linalg::largest;
 
 /// The contact problem of one step after another, condensed to the tractions of Q elements.
@@ -18,7 +20,7 @@ use crate::linalg::largest;
 /// ```
 ///
 /// with W the Delassus operator: the ground's instantaneous operator
-/// ([`Ground::instantaneous`](crate::bem::Ground::instantaneous)) and what unit tractions on the
+/// ([`Ground::step_compliance`](crate::bem::Ground::step_compliance)) and what unit tractions on the
 /// structure move its base by, within the step of the host's scheme. `j_free` is the free field, plus
 /// the convolution history of the ground, less the base displacement without changes of traction.
 ///
@@ -26,14 +28,14 @@ use crate::linalg::largest;
 ///
 /// ```
 /// use basemat::contact::ContactProblem;
-/// use basemat::interface::{ContactState, Coulomb, Mode, StepStart};
+/// use basemat::interface::{ContactState, Coulomb, Mode, PreviousContact};
 ///
 /// // One element, pressed by 10 kPa, on a ground that yields by 1 mm per 10 kPa both ways.
 /// let law = Coulomb::new(0.5)?;
 /// let mut problem = ContactProblem::new(vec![1e-7, 0.0, 0.0, 1e-7], vec![Box::new(law)])?
 ///     .with_static_tractions(vec![10.0e3, 0.0])?;
 /// let pressed = ContactState { pressure: 10.0e3, ..ContactState::default() };
-/// let mut start = problem.start(&[StepStart::new(pressed, Mode::Stick, 0.01)])?;
+/// let mut start = problem.start(&[PreviousContact::new(pressed, Mode::Stick, 0.01)])?;
 /// // The structure moves to the right by 2 mm: it sticks up to 5 kPa, and slips the rest.
 /// let solution = problem.solve(&[0.0, -2.0e-3], &start)?;
 /// assert_eq!(solution.modes, [Mode::SlipRight]);
@@ -98,7 +100,7 @@ impl ContactSolution<'_> {
     /// # Errors
     /// [`Error::Size`] or [`Error::Scene`] for the start of another problem, [`Error::Step`] if a law remembers a number
     /// that is not finite; `start` is then as it was.
-    pub fn commit(self, start: &mut StepStarts) -> Result<()> {
+    pub fn commit(self, start: &mut PreviousContacts) -> Result<()> {
         check_start(start, self.states.len(), self.memory_ends)?;
         let Self { laws, states, modes, memory, step, time, .. } = self;
         let remembered = start.remember(laws, states, modes, memory);
@@ -171,14 +173,14 @@ impl ContactProblem {
         Ok(())
     }
 
-    /// The start of the first step, from that of each element ([`StepStart::new`]). An element whose
+    /// The start of the first step, from that of each element ([`PreviousContact::new`]). An element whose
     /// `memory` is empty gets what its law begins with.
     ///
     /// # Errors
     /// [`Error::Size`] for a list or a memory of another length, [`Error::Input`] for time steps that
     /// are not above zero or not all the same, and for numbers that are not finite;
     /// [`Error::Law`] if these are a law's.
-    pub fn start(&self, elements: &[StepStart<'_>]) -> Result<StepStarts> {
+    pub fn start(&self, elements: &[PreviousContact<'_>]) -> Result<PreviousContacts> {
         same_length("starts of the step", elements.len(), self.modes.len())?;
         for start in elements {
             let value = positive("time step", start.time_step)?;
@@ -189,7 +191,7 @@ impl ContactProblem {
             finite("static pressure", start.static_pressure)?;
             check_element(start)?;
         }
-        StepStarts::new(&self.laws, elements)
+        PreviousContacts::new(&self.laws, elements)
     }
 
     /// Solves the step whose jump without changes of traction is `free_jump` (2Q, m), for laws that
@@ -201,7 +203,11 @@ impl ContactProblem {
     /// or is not finite;
     /// [`Error::Step`] if no modes satisfy the laws or a law returns a number that is not finite,
     /// numbered by the problems solved so far and with the time of as many steps.
-    pub fn solve(&mut self, free_jump: &[f64], start: &StepStarts) -> Result<ContactSolution<'_>> {
+    pub fn solve(
+        &mut self,
+        free_jump: &[f64],
+        start: &PreviousContacts,
+    ) -> Result<ContactSolution<'_>> {
         same_length("free jump", free_jump.len(), self.static_traction.len())?;
         check_start(start, self.modes.len(), &self.memory_ends)?;
         check_finite("free jump", free_jump)?;
@@ -240,7 +246,7 @@ impl ContactProblem {
 }
 
 /// Whether a start is that of `count` elements whose memories end where those of the laws do.
-fn check_start(start: &StepStarts, count: usize, memory_ends: &[usize]) -> Result<()> {
+fn check_start(start: &PreviousContacts, count: usize, memory_ends: &[usize]) -> Result<()> {
     same_length("starts of the step", start.len(), count)?;
     if start.memory_ends() == memory_ends {
         return Ok(());
@@ -249,7 +255,7 @@ fn check_start(start: &StepStarts, count: usize, memory_ends: &[usize]) -> Resul
     Err(Error::Scene { quantity: "start of the step", needed })
 }
 
-fn check_element(start: &StepStart<'_>) -> Result<()> {
+fn check_element(start: &PreviousContact<'_>) -> Result<()> {
     let ContactState { gap, slip, pressure, shear } = start.state;
     check_finite("state of an element", &[gap, slip, pressure, shear, start.slip_rate])
 }

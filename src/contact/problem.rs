@@ -13,7 +13,8 @@ use super::delassus::Delassus;
 use crate::error::LawError;
 use crate::geometry::{COMPONENTS, ContactLayout};
 use crate::interface::{
-    Condition, ContactState, InterfaceLaw, Mode, StepStart, StepStarts, Tolerance, law_of,
+    Condition, ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance,
+    law_of,
 };
 use crate::linalg::{DenseFactor, dense_condition, largest};
 
@@ -38,7 +39,7 @@ pub(crate) struct ContactInput<'a> {
     /// Static tractions, 2Q.
     pub(crate) static_traction: &'a [f64],
     /// Per element, the end of the step before.
-    pub(crate) start: &'a StepStarts,
+    pub(crate) start: &'a PreviousContacts,
     /// One law for all elements, or one each.
     pub(crate) laws: &'a [Box<dyn InterfaceLaw>],
     /// Largest displacement that went into j₀: its rounding is the finest gap that can be told.
@@ -60,7 +61,7 @@ impl ContactInput<'_> {
 
     /// Start of the step as an element's law is to see it: a bond that breaks in the step is gone.
     #[inline]
-    pub(super) fn start_of(&self, element: usize) -> StepStart<'_> {
+    pub(super) fn start_of(&self, element: usize) -> PreviousContact<'_> {
         let mut start = self.start.of(element);
         start.has_opened |= self.bond(element) == Bond::Broken;
         start
@@ -144,7 +145,7 @@ pub(crate) struct ContactSolver {
     /// Per row of the reduced system: element, which condition, and the row's scale.
     rows: Vec<(usize, usize, f64)>,
     /// Contact components that are unknown; the others follow from one condition alone.
-    unknowns: Vec<usize>,
+    dofs: Vec<usize>,
     /// Change of traction of the last trial, 2Q.
     pub(crate) traction: Vec<f64>,
     /// Opening and total traction of the last trial, per element.
@@ -169,7 +170,7 @@ impl ContactSolver {
             matrix: Vec::with_capacity(layout.square()),
             rhs: Vec::with_capacity(size),
             rows: Vec::with_capacity(size),
-            unknowns: Vec::with_capacity(size),
+            dofs: Vec::with_capacity(size),
             traction: vec![0.0; size],
             states: vec![ContactState::default(); count],
             jump: vec![0.0; size],
@@ -188,7 +189,7 @@ impl ContactSolver {
         &mut self,
         delassus: &Delassus,
         static_traction: &[f64],
-        start: &StepStarts,
+        start: &PreviousContacts,
         laws: &[Box<dyn InterfaceLaw>],
     ) -> Result<f64, LawError> {
         let (free_jump, length_scale, bonds) = (static_traction, 0.0, &[]);
@@ -205,7 +206,7 @@ impl ContactSolver {
             return Ok(f64::INFINITY);
         }
         // The diagonal is to scale it, not the rows' largest entries.
-        let order = self.unknowns.len();
+        let order = self.dofs.len();
         for (row, &(_, _, scale)) in self.matrix.chunks_exact_mut(order.max(1)).zip(&self.rows) {
             for value in row {
                 *value /= scale;
@@ -249,12 +250,12 @@ impl ContactSolver {
     fn assemble(&mut self, input: &ContactInput<'_>) -> bool {
         let (layout, size) = (self.layout, self.layout.len());
         self.rows.clear();
-        self.unknowns.clear();
+        self.dofs.clear();
         for (e, pair) in self.conditions.iter().enumerate() {
             let fixed = pair.map(fixed_component);
             for component in 0..COMPONENTS {
                 if !fixed.contains(&Some(component)) {
-                    self.unknowns.push(layout.place(component, e));
+                    self.dofs.push(layout.place(component, e));
                 }
             }
             for (which, fixed) in fixed.iter().enumerate() {
@@ -263,7 +264,7 @@ impl ContactSolver {
                 }
             }
         }
-        let order = self.unknowns.len();
+        let order = self.dofs.len();
         if self.rows.len() != order {
             return false;
         }
@@ -272,7 +273,7 @@ impl ContactSolver {
             let condition = self.conditions[*e][*which];
             let [normal, tangential] = layout.places(*e);
             let begin = self.matrix.len();
-            for &j in &self.unknowns {
+            for &j in &self.dofs {
                 let mut value = condition.gap * input.delassus[normal * size + j]
                     - condition.slip * input.delassus[tangential * size + j];
                 if j == normal {
@@ -313,7 +314,7 @@ impl ContactSolver {
         }
         // What the fixed tractions do to the gaps and slips of the others.
         self.jump.copy_from_slice(input.free_jump);
-        if self.unknowns.len() < layout.len() {
+        if self.dofs.len() < layout.len() {
             input.delassus.multiply_add(&self.traction, &mut self.jump);
         }
         self.rhs.clear();
@@ -326,7 +327,7 @@ impl ContactSolver {
             self.rhs.push(scale * (condition.value - known));
         }
         self.factor.solve(&mut self.rhs);
-        for (&i, value) in self.unknowns.iter().zip(&self.rhs) {
+        for (&i, value) in self.dofs.iter().zip(&self.rhs) {
             self.traction[i] = *value;
         }
     }

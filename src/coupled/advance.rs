@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::ledger::Ledger;
+use super::energy_balance::EnergyBalance;
 use super::motion::Motion;
 use super::scene::Scene;
 use super::state::{Context, Foundation, Origin, State, Transition};
@@ -10,7 +10,7 @@ use super::step::forcing::Forcing;
 use super::step::increment::Increment;
 use crate::contact::SearchMethod;
 use crate::error::Result;
-use crate::interface::{ContactState, StepStart, StepStarts};
+use crate::interface::{ContactState, PreviousContact, PreviousContacts};
 
 impl State {
     /// The static state.
@@ -28,11 +28,11 @@ impl State {
         let modes = at.modes_with(&scene.laws);
         let start: Vec<_> = (0..count)
             .map(|e| {
-                let start = StepStart::new(contact[e], modes[e], scene.time_step);
+                let start = PreviousContact::new(contact[e], modes[e], scene.time_step);
                 start.with_memory(at.memory.get(e).map_or(&[], Vec::as_slice))
             })
             .collect();
-        let start = StepStarts::new(&scene.laws, &start)?;
+        let start = PreviousContacts::new(&scene.laws, &start)?;
         let foundations = scene.base.foundations().map(|(_, elements)| Foundation::new(elements));
         let mut state = Self {
             step: 0,
@@ -56,7 +56,7 @@ impl State {
             base_rotation: 0.0,
             foundations: foundations.collect(),
             free_field: [0.0; 2],
-            ledger: Ledger::default(),
+            energy_balance: EnergyBalance::default(),
             trials: 0,
             method: SearchMethod::ActiveSet,
             start,

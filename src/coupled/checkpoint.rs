@@ -1,7 +1,7 @@
 //! Saving a run and going on with it later, to the last bit.
 
-use super::books::Books;
-use super::ledger::Ledger;
+use super::energy_accumulator::EnergyAccumulator;
+use super::energy_balance::EnergyBalance;
 use super::motion::Translation;
 use super::scene::Scene;
 use super::scene::operators::Operators;
@@ -57,9 +57,9 @@ pub struct Checkpoint {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 struct Identity {
-    unknowns: usize,
-    /// Whether a ledger is kept.
-    ledger: bool,
+    dofs: usize,
+    /// Whether a energy balance is kept.
+    energy_balance: bool,
     probes: Vec<String>,
     /// Where the memory of each element's law ends; empty if no law has any.
     memory: Vec<usize>,
@@ -108,10 +108,19 @@ impl Checkpoint {
 
 impl Identity {
     fn add_to(&self, sum: &mut CheckSum) {
-        let Self { unknowns, ledger, probes, memory, steps, elements, structure, ground, preload } =
-            self;
-        sum.add(*unknowns as u64);
-        sum.add(u64::from(*ledger));
+        let Self {
+            dofs,
+            energy_balance,
+            probes,
+            memory,
+            steps,
+            elements,
+            structure,
+            ground,
+            preload,
+        } = self;
+        sum.add(*dofs as u64);
+        sum.add(u64::from(*energy_balance));
         sum.add(probes.len() as u64);
         for name in probes {
             sum.add_text(name);
@@ -130,10 +139,10 @@ impl Identity {
         };
         let span = crate::linalg::largest(&own.elements);
         for (same, quantity) in [
-            (self.unknowns == own.unknowns, "number of unknowns"),
+            (self.dofs == own.dofs, "number of degrees of freedom"),
             (close(&self.steps, &own.steps, 0.0), "time step or scheme"),
             (close(&self.elements, &own.elements, span), "list of contact elements"),
-            (self.ledger == own.ledger, "energy ledger"),
+            (self.energy_balance == own.energy_balance, "energy balance"),
             (self.probes == own.probes, "list of probes"),
             (self.memory == own.memory, "memory of the interface laws"),
             (close(&self.structure, &own.structure, 0.0), "structure"),
@@ -155,7 +164,7 @@ pub(super) fn save(
     ground: &dyn Ground,
     operators: &Operators,
     state: &State,
-    books: Option<&Books>,
+    books: Option<&EnergyAccumulator>,
 ) -> Result<Checkpoint> {
     let modes = state
         .start
@@ -193,8 +202,8 @@ pub(super) fn restore(
     structure: &mut dyn Structure,
     ground: &mut dyn Ground,
     operators: &Operators,
-    (state, books): (&State, Option<&Books>),
-) -> Result<(State, Option<Books>)> {
+    (state, books): (&State, Option<&EnergyAccumulator>),
+) -> Result<(State, Option<EnergyAccumulator>)> {
     if checkpoint.format != FORMAT {
         let found = checkpoint.format;
         return Err(CheckpointError::Format { found, needed: FORMAT }.into());
@@ -240,7 +249,8 @@ pub(super) fn restore(
     (state.trials, state.method) = (0, SearchMethod::ActiveSet);
     state.transitions.clear();
     state.motion.changed();
-    state.ledger = books.as_ref().map_or(Ledger::LEFT_OUT, |books| books.ledger);
+    state.energy_balance =
+        books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
     state.update_resultants(scene);
     Ok((state, books))
 }
@@ -259,7 +269,7 @@ fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> R
     Ok(())
 }
 
-fn identity(scene: &Scene, operators: &Operators, state: &State, ledger: bool) -> Identity {
+fn identity(scene: &Scene, operators: &Operators, state: &State, energy_balance: bool) -> Identity {
     let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
     let model = &scene.model;
     // Modes may come with either sign. A nonlinear structure has none, and columns that change.
@@ -271,8 +281,8 @@ fn identity(scene: &Scene, operators: &Operators, state: &State, ledger: bool) -
         steps.extend(row);
     }
     Identity {
-        unknowns: model.unknowns,
-        ledger,
+        dofs: model.dofs,
+        energy_balance,
         probes: scene.probes.iter().map(|probe| probe.name.clone()).collect(),
         memory: state.start.memory_ends().to_vec(),
         steps,
@@ -290,7 +300,7 @@ fn identity(scene: &Scene, operators: &Operators, state: &State, ledger: bool) -
 }
 
 /// Every number that a step leaves to the next, always in this order.
-fn numbers<'a>(state: &'a mut State, books: Option<&'a mut Books>) -> Vec<&'a mut f64> {
+fn numbers<'a>(state: &'a mut State, books: Option<&'a mut EnergyAccumulator>) -> Vec<&'a mut f64> {
     let mut all = Vec::new();
     let State { motion, contact, start, free_field, .. } = state;
     for values in [&mut motion.displacement, &mut motion.velocity, &mut motion.acceleration] {
@@ -308,7 +318,7 @@ fn numbers<'a>(state: &'a mut State, books: Option<&'a mut Books>) -> Vec<&'a mu
         all.extend([gap, slip, pressure, shear]);
     }
     all.extend(start.slip_rates_mut());
-    all.extend(books.into_iter().flat_map(Books::numbers));
+    all.extend(books.into_iter().flat_map(EnergyAccumulator::numbers));
     all
 }
 

@@ -1,16 +1,16 @@
-//! External loads: a row of unknowns times a function of time.
+//! External loads: a row of degrees of freedom times a function of time.
 
 use std::fmt;
 
 use super::scene::transformation::{Transformation, Weights};
 use crate::error::{Error, Result, finite, positive};
 use crate::motion::Record;
-use crate::structure::Row;
+use crate::structure::DofCombination;
 
 /// A force that acts on a structure from outside: wind, machinery, blast, impact.
 ///
-/// The force of every unknown is its weight in `row` times the load's value at the time, so that the
-/// load does the work value × Δ(row): for the [`Row`] of a displacement a force (N per metre of
+/// The force of every degree of freedom is its weight in `row` times the load's value at the time, so that the
+/// load does the work value × Δ(row): for the [`DofCombination`] of a displacement a force (N per metre of
 /// thickness), for that of a rotation a moment. Its value at t = 0 belongs to the static state, after
 /// the weight; what acts suddenly is zero there.
 ///
@@ -36,34 +36,37 @@ use crate::structure::Row;
 /// let run = simulation.run(400, |_| {})?;
 /// // It swings back.
 /// assert!(run.probes[0].extremes.lowest.value < -5e-3);
-/// assert!(run.whole.base_shear.lowest.value < 0.0 && run.ledger_residual < 1e-9);
+/// assert!(run.whole.base_shear.lowest.value < 0.0 && run.energy_error < 1e-9);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct Load {
-    row: Row,
+    row: DofCombination,
     value: Box<dyn Fn(f64) -> f64 + Send>,
 }
 
 impl Load {
     /// `value(t)`, t in seconds, on `row`. A value that is not finite ends the step with an error.
-    pub fn new(row: impl Into<Row>, value: impl Fn(f64) -> f64 + Send + 'static) -> Self {
+    pub fn new(
+        row: impl Into<DofCombination>,
+        value: impl Fn(f64) -> f64 + Send + 'static,
+    ) -> Self {
         Self { row: row.into(), value: Box::new(value) }
     }
 
     /// The same `force` at any time, the static state included.
-    pub fn constant(row: impl Into<Row>, force: f64) -> Self {
+    pub fn constant(row: impl Into<DofCombination>, force: f64) -> Self {
         Self::new(row, move |_| force)
     }
 
     /// A `force` of the static state that is gone from the first step on (snap-back). Without a static
-    /// state (no gravity, or [`Placement::Unloaded`](super::Placement::Unloaded)) it never acts.
-    pub fn released(row: impl Into<Row>, force: f64) -> Self {
+    /// state (no gravity, or [`GravityStage::Unloaded`](super::GravityStage::Unloaded)) it never acts.
+    pub fn released(row: impl Into<DofCombination>, force: f64) -> Self {
         Self::new(row, move |time| if time > 0.0 { 0.0 } else { force })
     }
 
     /// `force` times the samples of a record, linear between them and zero beyond its ends. The
     /// samples are in m/s² whatever they stand for.
-    pub fn record(row: impl Into<Row>, record: &Record, force: f64) -> Self {
+    pub fn record(row: impl Into<DofCombination>, record: &Record, force: f64) -> Self {
         let record = record.clone();
         Self::new(row, move |time| force * record.acceleration_at(time))
     }
@@ -74,7 +77,7 @@ impl Load {
     /// # Errors
     /// [`Error::Size`] for lists that differ in length or are empty, [`Error::Input`] for numbers
     /// that are not finite or times that do not ascend.
-    pub fn table(row: impl Into<Row>, times: &[f64], forces: &[f64]) -> Result<Self> {
+    pub fn table(row: impl Into<DofCombination>, times: &[f64], forces: &[f64]) -> Result<Self> {
         let sizes = |found, needed| Error::Size { quantity: "table of a load", found, needed };
         if times.len() != forces.len() || times.is_empty() {
             return Err(sizes(forces.len(), times.len().max(1)));
@@ -102,7 +105,7 @@ impl Load {
     }
 
     /// Where it acts.
-    pub fn row(&self) -> &Row {
+    pub fn row(&self) -> &DofCombination {
         &self.row
     }
 
@@ -111,10 +114,10 @@ impl Load {
         (self.value)(time)
     }
 
-    /// Refuses a row with other unknowns than the structure's, and a value at t = 0 that is not finite;
+    /// Refuses a row with other degrees of freedom than the structure's, and a value at t = 0 that is not finite;
     /// `index` is the load's number.
-    pub(crate) fn check(&self, index: usize, unknowns: usize) -> Result<()> {
-        self.row.check("unknown of a load", unknowns)?;
+    pub(crate) fn check(&self, index: usize, dofs: usize) -> Result<()> {
+        self.row.check("unknown of a load", dofs)?;
         let (quantity, value) = ("external load at t = 0", self.value(0.0));
         if value.is_finite() { Ok(()) } else { Err(Error::NotFinite { quantity, index, value }) }
     }

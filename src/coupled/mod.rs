@@ -17,7 +17,7 @@
 //! jump = gap₀ + (s_ff − y) + h + G¹ τ − B (u₀ + Δu)
 //! ```
 //!
-//! where B takes unknowns to element means of the base displacement (normal components down), A
+//! where B takes degrees of freedom to element means of the base displacement (normal components down), A
 //! holds the element lengths, h is the convolution history of all earlier tractions and `s_ff` the
 //! free field; K R = 0 and B R is a unit translation.
 //! The normal components of the jump are gaps; slip is minus the tangential ones. Eliminating Δu
@@ -34,7 +34,7 @@
 //! 2. predicted increment: one solve with the factors of K_eff (`step/linear.rs`);
 //! 3. contact: the mode of each element and τ, from `j_free` and W alone (`crate::contact`);
 //! 4. increment: the answer of Δu to τ; nothing is committed so far;
-//! 5. ledger (`books.rs`), state (`advance.rs`), ground and structure take over the increment.
+//! 5. energy balance (`books.rs`), state (`advance.rs`), ground and structure take over the increment.
 //!
 //! For a linear structure W is computed once. For a nonlinear one Newton's method goes around
 //! steps 2 and 3, with a new W whenever the tangent changes.
@@ -51,33 +51,34 @@
 //! # Preload
 //!
 //! With [`SimulationBuilder::gravity`] above zero, the run starts from a static state in stages: the
-//! weight first, placed as [`Placement`] says, then the loads at t = 0 with the interface laws, in
+//! weight first, placed as [`GravityStage`] says, then the loads at t = 0 with the interface laws, in
 //! increments where elements slide or yield; contact conditions included, with the static compliance
-//! of the ground. What cannot stand is refused with its cause ([`crate::StandingError`]).
+//! of the ground. What cannot stand is refused with its cause ([`crate::StabilityError`]).
 //! The structure has no support of its own and the half-plane no static datum, so the search is a
 //! proximal point iteration: weak springs to the last iterate, which pull at nothing once it
 //! converges. An equilibrium need not be stable:
 //! a block that P–Δ would topple is found standing, and falls when the ground shakes.
 //!
-//! # Ledger
+//! # EnergyBalance
 //!
 //! ```text
 //! kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input
 //! ```
 //!
-//! holds exactly for the discrete equations; see [`Ledger`] for the terms. [`Run::ledger_residual`]
+//! holds exactly for the discrete equations; see [`EnergyBalance`] for the terms. [`Run::energy_error`]
 //! is the largest violation of a run, relative to the largest energy until then.
 
 mod advance;
-mod books;
 pub(crate) mod build;
 mod checkpoint;
 mod diagnosis;
-mod ledger;
+mod energy_accumulator;
+mod energy_balance;
 mod load;
 mod motion;
 mod observed;
 
+mod largest_convergent_step;
 mod refine;
 mod resolution;
 pub(crate) mod run;
@@ -87,21 +88,21 @@ mod simulation;
 mod state;
 mod step;
 mod warning;
-mod workable_step;
 
 pub use crate::contact::{ContactSearch, SearchMethod};
 pub use build::SimulationBuilder;
 pub use build::coordinates::Coordinates;
-pub use build::parts::Placement;
+pub use build::parts::GravityStage;
 pub use checkpoint::Checkpoint;
 pub use diagnosis::conditioning::Conditioning;
-pub use ledger::{EnergyTerm, Ledger};
+pub use energy_balance::{EnergyBalance, EnergyTerm};
 pub use load::Load;
 pub use observed::Observed;
 pub(crate) use run::peak::probe_index;
 pub use run::{Extremes, Fallbacks, Peak, ProbeExtremes, Run};
 
 pub use crate::structure::probe::Probe;
+pub use largest_convergent_step::largest_convergent_step;
 pub use refine::{Refinement, Setting, refine};
 pub(crate) use resolution::Resolution;
 pub use scheme::{
@@ -111,4 +112,3 @@ pub use simulation::Simulation;
 pub(crate) use state::Origin;
 pub use state::{Foundation, State, Transition};
 pub use warning::Warning;
-pub use workable_step::workable_step;

@@ -43,7 +43,7 @@ impl Translation {
 }
 
 /// Displacement relative to the free field's translation, total velocity and acceleration, and the
-/// unknowns once they have been asked for.
+/// degrees of freedom once they have been asked for.
 #[derive(Clone)]
 pub(crate) struct Motion {
     pub(crate) displacement: Vec<f64>,
@@ -53,7 +53,7 @@ pub(crate) struct Motion {
     pub(crate) translations: Vec<Translation>,
     influence: Arc<Influence>,
     transformation: Transformation,
-    unknowns: [OnceLock<Vec<f64>>; 4],
+    dofs: [OnceLock<Vec<f64>>; 4],
 }
 
 /// Quantities of [`Motion`].
@@ -76,17 +76,17 @@ impl Motion {
             translations: vec![Translation::default(); model.influence.parts().len()],
             influence: model.influence.clone(),
             transformation: model.transformation.clone(),
-            unknowns: Default::default(),
+            dofs: Default::default(),
         }
     }
 
     /// To be called when coordinates have changed.
     pub(crate) fn changed(&mut self) {
-        self.unknowns.iter_mut().for_each(|seen| drop(seen.take()));
+        self.dofs.iter_mut().for_each(|seen| drop(seen.take()));
     }
 
-    /// The unknowns.
-    pub(crate) fn unknowns(&self, quantity: Quantity) -> &[f64] {
+    /// The degrees of freedom.
+    pub(crate) fn dofs(&self, quantity: Quantity) -> &[f64] {
         let coordinates = match quantity {
             Quantity::Displacement | Quantity::AbsoluteDisplacement => &self.displacement,
             Quantity::Velocity => &self.velocity,
@@ -96,13 +96,13 @@ impl Motion {
         if let (Transformation::Identity, false) = (&self.transformation, absolute) {
             return coordinates;
         }
-        self.unknowns[quantity as usize].get_or_init(|| {
+        self.dofs[quantity as usize].get_or_init(|| {
             let mut values = coordinates.clone();
             if absolute {
                 let translations = self.translations.iter().map(|y| y.displacement);
                 self.influence.translate(1.0, translations, &mut values);
             }
-            self.transformation.unknowns(values)
+            self.transformation.dofs(values)
         })
     }
 }
@@ -116,7 +116,7 @@ const ALL: [(Quantity, &str); 4] = [
 
 impl PartialEq for Motion {
     fn eq(&self, other: &Self) -> bool {
-        ALL.into_iter().all(|(which, _)| self.unknowns(which) == other.unknowns(which))
+        ALL.into_iter().all(|(which, _)| self.dofs(which) == other.dofs(which))
     }
 }
 
@@ -124,7 +124,7 @@ impl std::fmt::Debug for Motion {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut shown = f.debug_struct("Motion");
         for (which, name) in ALL {
-            shown.field(name, &self.unknowns(which));
+            shown.field(name, &self.dofs(which));
         }
         shown.finish()
     }

@@ -2,9 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use super::books::Books;
 use super::checkpoint::{self, Checkpoint};
 use super::diagnosis::conditioning::Conditioning;
+use super::energy_accumulator::EnergyAccumulator;
 use super::observed::Observed;
 use super::resolution::Resolution;
 use super::scene::Scene;
@@ -32,8 +32,8 @@ pub struct Simulation {
     pub(super) forcing: Forcing,
     pub(super) solver: Solver,
     pub(super) increment: Increment,
-    /// The energy ledger, unless it is left out.
-    pub(super) books: Option<Books>,
+    /// The energy balance, unless it is left out.
+    pub(super) books: Option<EnergyAccumulator>,
     pub(super) state: State,
     pub(super) conditioning: Conditioning,
 }
@@ -41,7 +41,7 @@ pub struct Simulation {
 short_debug! {
     Simulation;
     self;
-    unknowns: self.scene.model.unknowns,
+    dofs: self.scene.model.dofs,
     elements: self.scene.count(),
     time_step: self.scene.time_step,
     step: self.state.step,
@@ -64,7 +64,7 @@ impl Simulation {
         let Self { scene, structure, ground, forcing, increment, state, .. } = self;
         if let Some(books) = &mut self.books {
             books.book(scene, structure.as_ref(), ground.as_ref(), state, forcing, increment);
-            state.ledger = books.ledger;
+            state.energy_balance = books.energy_balance;
         }
         state.advance(scene, forcing, increment);
         ground.commit(&increment.traction);
@@ -114,7 +114,7 @@ impl Simulation {
     ///     .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
     ///     .interface(Bonded)
     ///     .build()?;
-    /// assert_eq!(simulation.structure().unknowns(), 3);
+    /// assert_eq!(simulation.structure().dofs(), 3);
     /// let structure: &dyn Any = simulation.structure();
     /// let block = structure.downcast_ref::<RigidBlock>();
     /// assert!(block.is_some_and(|block| block.total_mass() == 48.0e3));
@@ -164,7 +164,7 @@ impl Simulation {
         &self.scene.probes
     }
 
-    /// Static displacement of the structure's unknowns under weight and loads at t = 0, m and rad. Its rigid
+    /// Static displacement of the structure's degrees of freedom under weight and loads at t = 0, m and rad. Its rigid
     /// settlement has no meaning on a half-plane, which has no datum in two dimensions.
     pub fn static_displacement(&self) -> &[f64] {
         &self.scene.static_state.displacement
@@ -182,7 +182,7 @@ impl Simulation {
     /// Makes up to `steps` steps, calling `observe` after each with the new state.
     ///
     /// `observe` may return nothing, [`ControlFlow`] to stop early, or a [`Result`] of either: see
-    /// [`Observed`]. It may feed [`Histories`](crate::results::Histories), and a [`Run`] that spans
+    /// [`Observed`]. It may feed [`TimeSeries`](crate::results::TimeSeries), and a [`Run`] that spans
     /// several calls or outlives a failure ([`Simulation::begin_run`]).
     ///
     /// # Errors
@@ -195,7 +195,7 @@ impl Simulation {
     ) -> Result<Run> {
         // Of so many steps an observer may well stop the run: histories grow by doubling then.
         let announced = self.state.step.saturating_add(steps);
-        self.ground.announce(announced)?;
+        self.ground.expect_steps(announced)?;
         if steps <= RESERVED_STEPS {
             self.ground.reserve(announced)?;
         }
@@ -233,7 +233,7 @@ impl Simulation {
     /// }
     /// let run = simulation.end_run(run);
     /// assert_eq!(run.steps, 300);
-    /// assert!(run.ledger_residual < 1e-9);
+    /// assert!(run.energy_error < 1e-9);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn begin_run(&self) -> Run {

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::ledger::Ledger;
+use super::energy_balance::EnergyBalance;
 use super::motion::{Motion, Quantity};
 use crate::contact::SearchMethod;
 use crate::error::{Error, Result};
 use crate::geometry::ContactElement;
-use crate::interface::{ContactState, Mode, StepStarts};
+use crate::interface::{ContactState, Mode, PreviousContacts};
 
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -155,8 +155,8 @@ pub struct State {
     pub foundations: Vec<Foundation>,
     /// Mean horizontal and vertical (up) displacement of the free field under the base, m.
     pub free_field: [f64; 2],
-    /// The energy ledger; every term is NaN if none is kept.
-    pub ledger: Ledger,
+    /// The energy balance; every term is NaN if none is kept.
+    pub energy_balance: EnergyBalance,
     /// Linear solves that the mode search needed.
     pub trials: usize,
     /// Method that found the modes; in a nonlinear step, the last resort of any iteration.
@@ -170,11 +170,11 @@ pub struct State {
     pub(crate) motion: Motion,
     /// Start of the next step as the laws see it, per element.
     #[cfg_attr(feature = "serde", serde(skip))]
-    pub(crate) start: StepStarts,
+    pub(crate) start: PreviousContacts,
 }
 
 impl State {
-    /// Displacements of the structure's unknowns (m, rad) relative to the free field: what each
+    /// Displacements of the structure's degrees of freedom (m, rad) relative to the free field: what each
     /// connected part has moved since t = 0 beyond the mean translation of the ground under it.
     ///
     /// These four are worked out when they are first asked for in a step: a structure that is
@@ -182,22 +182,22 @@ impl State {
     /// are made at every step that asks for them. A few quantities
     /// at every step are cheaper as a [`Probe`](super::Probe).
     pub fn displacement(&self) -> &[f64] {
-        self.motion.unknowns(Quantity::Displacement)
+        self.motion.dofs(Quantity::Displacement)
     }
 
     /// The same with the translation of the free field: where the structure has got to.
     pub fn absolute_displacement(&self) -> &[f64] {
-        self.motion.unknowns(Quantity::AbsoluteDisplacement)
+        self.motion.dofs(Quantity::AbsoluteDisplacement)
     }
 
-    /// Total (not relative) rates of the unknowns at the end of the step.
+    /// Total (not relative) rates of the degrees of freedom at the end of the step.
     pub fn velocity(&self) -> &[f64] {
-        self.motion.unknowns(Quantity::Velocity)
+        self.motion.dofs(Quantity::Velocity)
     }
 
-    /// Total accelerations of the unknowns; for the midpoint and θ rules the mean over the step.
+    /// Total accelerations of the degrees of freedom; for the midpoint and θ rules the mean over the step.
     pub fn acceleration(&self) -> &[f64] {
-        self.motion.unknowns(Quantity::Acceleration)
+        self.motion.dofs(Quantity::Acceleration)
     }
 
     /// The value of the probe called `name`: looked for by its name at every call; by its place,
@@ -235,9 +235,9 @@ impl State {
     }
 
     /// The numbers that the law of an element remembers
-    /// ([`InterfaceLaw::memory`](crate::interface::InterfaceLaw::memory)); none if it has no memory,
+    /// ([`InterfaceLaw::state_variables`](crate::interface::InterfaceLaw::state_variables)); none if it has no memory,
     /// or if there is no such element.
-    pub fn law_memory(&self, element: usize) -> &[f64] {
+    pub fn state_variables(&self, element: usize) -> &[f64] {
         if element < self.start.len() { self.start.memory_of(element) } else { &[] }
     }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::ledger::Ledger;
+use super::energy_balance::EnergyBalance;
 use crate::motion::STANDARD_GRAVITY;
 use crate::soil::Soil;
 
@@ -24,8 +24,8 @@ pub enum Warning {
         /// Largest rotation, rad.
         rotation: f64,
     },
-    /// The energy ledger does not close to 1e-9 at the end.
-    Ledger {
+    /// The energy balance does not close to 1e-9 at the end.
+    EnergyBalance {
         /// Its residual, relative to the largest energy of the run.
         #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
         residual: f64,
@@ -91,8 +91,8 @@ pub enum Warning {
 impl Warning {
     /// Rotation above which a run warns, rad: the cosine is off by half a percent.
     pub const ROTATION_LIMIT: f64 = 0.1;
-    /// Ledger residual at the end of a run above which it warns. Earlier, while energies are still
-    /// small, the residual may be larger: see [`Run::ledger_residual`](super::Run::ledger_residual).
+    /// EnergyBalance residual at the end of a run above which it warns. Earlier, while energies are still
+    /// small, the residual may be larger: see [`Run::energy_error`](super::Run::energy_error).
     pub const LEDGER_LIMIT: f64 = 1e-9;
     /// Energy that the time scheme may make before a run warns, relative to the largest energy.
     pub const ALGORITHMIC_LIMIT: f64 = 0.02;
@@ -111,14 +111,14 @@ impl Warning {
         unusual.map(|[shear_wave_speed, density]| Self::UnusualSoil { shear_wave_speed, density })
     }
 
-    /// Those that largest slip, mean element length, largest rotation, the last ledger and the least
+    /// Those that largest slip, mean element length, largest rotation, the last energy balance and the least
     /// algorithmic energy of the run call for.
     pub(crate) fn all(
         slip: f64,
         element_length: f64,
         rotation: f64,
-        ledger: &Ledger,
-        least_numerical: f64,
+        energy_balance: &EnergyBalance,
+        least_algorithmic: f64,
     ) -> Vec<Self> {
         let (slip, rotation) = (slip.abs(), rotation.abs());
         let mut warnings = Vec::new();
@@ -128,11 +128,11 @@ impl Warning {
         if rotation > Self::ROTATION_LIMIT {
             warnings.push(Self::LargeRotation { rotation });
         }
-        let residual = ledger.residual();
-        if residual > Self::LEDGER_LIMIT || (residual.is_nan() && !ledger.is_left_out()) {
-            warnings.push(Self::Ledger { residual });
+        let residual = energy_balance.residual();
+        if residual > Self::LEDGER_LIMIT || (residual.is_nan() && !energy_balance.is_left_out()) {
+            warnings.push(Self::EnergyBalance { residual });
         }
-        let made = -least_numerical / ledger.scale();
+        let made = -least_algorithmic / energy_balance.scale();
         if made > Self::ALGORITHMIC_LIMIT {
             warnings.push(Self::AlgorithmicEnergy { made });
         }
@@ -154,7 +154,7 @@ impl fmt::Display for Warning {
                     "base rotation of {rotation:.3e} rad: geometry is that of small rotations"
                 )
             }
-            Self::Ledger { residual } => write!(f, "energy ledger open by {residual:.1e}"),
+            Self::EnergyBalance { residual } => write!(f, "energy balance open by {residual:.1e}"),
             Self::AlgorithmicEnergy { made } => write!(
                 f,
                 "time scheme made {:.1} % of the largest energy: take `Midpoint`, or shorter steps",

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A size for which more memory would be needed than is allowed: by [`memory_limit`](crate::memory_limit) for what is
-/// given, by [`with_history_memory`](crate::bem::KernelGround::with_history_memory) for a convolution history. Nothing was
+/// given, by [`with_history_memory`](crate::bem::WeightsGround::with_history_memory) for a convolution history. Nothing was
 /// allocated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
@@ -43,7 +43,7 @@ pub fn memory_limit() -> u64 {
 /// Sets the limit (bytes) for the whole process: to what the machine has, less what else runs on
 /// it.
 ///
-/// Sizes given as numbers (columns of a block, elements of a strip, unknowns of a matrix, steps of
+/// Sizes given as numbers (columns of a block, elements of a strip, degrees of freedom of a matrix, steps of
 /// a record) are held against it before anything is allocated, and refused with a [`MemoryError`]
 /// that says what they would take. It is an estimate for each part by itself, no account of all
 /// that a program holds.

@@ -17,7 +17,7 @@ mod mesh_file;
 mod part;
 mod record;
 mod reduced;
-mod standing;
+mod stability;
 mod step;
 
 pub use case::{CaseError, CaseFileError, SweepError};
@@ -34,7 +34,7 @@ pub use memory::{MemoryError, memory_limit, set_memory_limit};
 pub use mesh_file::MeshFileError;
 pub use record::RecordError;
 pub use reduced::ReducedError;
-pub use standing::StandingError;
+pub use stability::StabilityError;
 pub use step::StepError;
 
 /// Result of every fallible function of the crate.
@@ -62,7 +62,7 @@ pub enum Error {
     NotFinite {
         /// Name of the list.
         quantity: &'static str,
-        /// Place in the list, from 0: an unknown, or the number of a load.
+        /// Place in the list, from 0: a degree of freedom, or the number of a load.
         index: usize,
         /// The value.
         value: f64,
@@ -148,7 +148,9 @@ pub enum Error {
         distance: f64,
     },
     /// A node that no element moves in the direction that was asked for.
-    #[error("node {node} has no unknown in direction {direction}: no element needs one there")]
+    #[error(
+        "node {node} has no degree of freedom in direction {direction}: no element needs one there"
+    )]
     NoUnknown {
         /// The node.
         node: usize,
@@ -217,10 +219,10 @@ pub enum Error {
          {force:.2e} N at unknown {unknown}, {share:.1e} of the stiffness around (entries of a \
          stiffness matrix in a file need eleven digits or more)"
     )]
-    Supported {
+    Restrained {
         /// Direction of the translation that is resisted.
         direction: &'static str,
-        /// Force per metre of it at the unknown, N/m; where the structure is held so that it can
+        /// Force per metre of it at the degree of freedom, N/m; where the structure is held so that it can
         /// hardly translate, that at the contact nodes.
         force: f64,
         /// The unknown where the force is largest beside the stiffness around.
@@ -235,8 +237,8 @@ pub enum Error {
          hold nothing up)"
     )]
     Detached {
-        /// The unknowns of all such parts, ascending.
-        unknowns: Vec<usize>,
+        /// The degrees of freedom of all such parts, ascending.
+        dofs: Vec<usize>,
         /// The structure's own names of them: see
         /// [`Structure::describe`](crate::structure::Structure::describe).
         place: String,
@@ -268,7 +270,7 @@ pub enum Error {
     Indefinite {
         /// Name of the matrix.
         matrix: &'static str,
-        /// Row, and unknown, at which it shows.
+        /// DofCombination, and unknown, at which it shows.
         row: usize,
         /// Entry on the diagonal there.
         diagonal: f64,
@@ -304,7 +306,7 @@ pub enum Error {
     },
     /// Weight and loads at t = 0 cannot be carried, and why.
     #[error("the structure cannot stand: {0}")]
-    Standing(Box<StandingError>),
+    Stability(Box<StabilityError>),
     /// An interface law answered what it must not before the first step.
     #[error(transparent)]
     Law(#[from] LawError),

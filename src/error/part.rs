@@ -8,7 +8,7 @@ impl Error {
     /// ```
     /// use basemat::bem::SpringGround;
     /// use basemat::interface::{
-    ///     Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+    ///     Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
     /// };
     /// use basemat::structure::RigidBlock;
     /// use basemat::{Error, Result, Simulation};
@@ -25,11 +25,11 @@ impl Error {
     ///     }
     ///     // The rest is Coulomb's.
     ///     # fn modes(&self) -> &[Mode] { self.0.modes() }
-    ///     # fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    ///     # fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
     ///     #     self.0.conditions(mode, start)
     ///     # }
     ///     # fn next_mode(
-    ///     #     &self, mode: Mode, start: &StepStart, trial: &ContactState, tolerance: Tolerance,
+    ///     #     &self, mode: Mode, start: &PreviousContact, trial: &ContactState, tolerance: Tolerance,
     ///     # ) -> Mode {
     ///     #     self.0.next_mode(mode, start, trial, tolerance)
     ///     # }

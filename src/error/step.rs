@@ -9,7 +9,7 @@ pub enum StepError {
     /// No set of contact modes satisfied the interface laws.
     #[error(
         "contact modes not found in {iterations} trials{}, residual {residual:e}, modes {} \
-         (`coupled::workable_step` finds a time step that gets through)",
+         (`coupled::largest_convergent_step` finds a time step that gets through)",
         all(*sets), modes.join(" ")
     )]
     Contact {
@@ -27,7 +27,7 @@ pub enum StepError {
     /// Newton's iteration for a nonlinear structure did not converge.
     #[error(
         "Newton's iteration not converged in {iterations} iterations, residual {residual:e}, \
-         modes {} (`coupled::workable_step` finds a time step that gets through)",
+         modes {} (`coupled::largest_convergent_step` finds a time step that gets through)",
         modes.join(" ")
     )]
     Newton {
@@ -57,7 +57,7 @@ pub enum StepError {
     NotFinite {
         /// Name of the quantity.
         quantity: &'static str,
-        /// Place in it, from 0: the unknown (or mode, where those are stepped) of a quantity of the
+        /// Place in it, from 0: the degree of freedom (or mode, where those are stepped) of a quantity of the
         /// structure, the component of one of the base (normal ones first, then tangential ones),
         /// the number of an external load.
         index: usize,
@@ -65,10 +65,10 @@ pub enum StepError {
         value: f64,
     },
     /// The structure has lost its stability and runs away: under its weight on yielding columns
-    /// (P–Δ), by a negative damping, with a ground that grows. The ledger closes all the same.
+    /// (P–Δ), by a negative damping, with a ground that grows. The energy balance closes all the same.
     #[error("the structure runs away: it moves by {increment:e} in one step")]
     Runaway {
-        /// Largest change of an unknown in the step, m or rad (in modes, times the root of a mass).
+        /// Largest change of a degree of freedom in the step, m or rad (in modes, times the root of a mass).
         increment: f64,
     },
     /// A matrix of the step is singular.

@@ -100,7 +100,7 @@ pub(crate) fn assemble(
     }
 }
 
-/// Lets every element of `mesh` take the static state; `displacement` (m, rad) in the unknowns of
+/// Lets every element of `mesh` take the static state; `displacement` (m, rad) in the degrees of freedom of
 /// `numbering`, `gravity` in m/s².
 ///
 /// # Errors
@@ -125,11 +125,11 @@ pub(crate) fn set_static_state(
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Numbering {
     numbers: Vec<[Option<usize>; 3]>,
-    unknowns: usize,
+    dofs: usize,
 }
 
 impl Numbering {
-    /// Numbers the unknowns of `mesh`.
+    /// Numbers the degrees of freedom of `mesh`.
     pub(crate) fn new(mesh: &Mesh) -> Self {
         let mut used = vec![[false; 3]; mesh.nodes().len()];
         for element in mesh.elements() {
@@ -139,28 +139,28 @@ impl Numbering {
                 }
             }
         }
-        let mut unknowns = 0;
+        let mut dofs = 0;
         let mut next = |is_used: bool| {
             is_used.then(|| {
-                unknowns += 1;
-                unknowns - 1
+                dofs += 1;
+                dofs - 1
             })
         };
         let numbers = used.into_iter().map(|node| node.map(&mut next)).collect();
-        Self { numbers, unknowns }
+        Self { numbers, dofs }
     }
 
-    /// Number of unknowns.
-    pub(crate) fn unknowns(&self) -> usize {
-        self.unknowns
+    /// Number of degrees of freedom.
+    pub(crate) fn dofs(&self) -> usize {
+        self.dofs
     }
 
-    /// Index of the unknown of `node` in `direction`, if there is one.
+    /// Index of the degree of freedom of `node` in `direction`, if there is one.
     pub(crate) fn unknown(&self, node: usize, direction: Direction) -> Option<usize> {
         self.numbers.get(node)?[slot(direction)]
     }
 
-    /// Indices of the unknowns of `element`, in the order of its matrices; replaces `indices`.
+    /// Indices of the degrees of freedom of `element`, in the order of its matrices; replaces `indices`.
     pub(crate) fn of_element(&self, element: &dyn Element, indices: &mut Vec<usize>) {
         indices.clear();
         for &node in element.nodes() {

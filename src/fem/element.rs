@@ -3,7 +3,7 @@
 use crate::error::Result;
 use crate::geometry::Direction;
 
-/// Distribution of an element's mass over its unknowns.
+/// Distribution of an element's mass over its degrees of freedom.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -23,7 +23,7 @@ words! { MassKind, "kind of mass", {
 
 /// A finite element: implement this to bring your own.
 ///
-/// Its matrices are dense, row-major and square, of order [`order`](Element::order); the unknowns
+/// Its matrices are dense, row-major and square, of order [`order`](Element::order); the degrees of freedom
 /// run through the nodes in the element's order and, within a node, through
 /// [`directions`](Element::directions). `coordinates` holds one [x, y] (m) for each of the
 /// element's nodes. Every matrix is **added to**; the caller passes a zeroed buffer when it wants
@@ -57,7 +57,7 @@ pub trait Element: Send + Sync {
     /// Its nodes, as indices into the mesh.
     fn nodes(&self) -> &[usize];
 
-    /// The unknowns it uses, the same ones at each of its nodes.
+    /// The degrees of freedom it uses, the same ones at each of its nodes.
     fn directions(&self) -> &[Direction];
 
     /// Adds the stiffness matrix (N/m per metre) to `matrix`. Symmetric; a rigid motion of all
@@ -71,7 +71,7 @@ pub trait Element: Send + Sync {
     fn geometric_stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
 
     /// This element with the geometric stiffness of the static state under the structure's weight:
-    /// `displacement` holds the element's unknowns there, `gravity` (m/s²) acts downwards. Called by
+    /// `displacement` holds the element's degrees of freedom there, `gravity` (m/s²) acts downwards. Called by
     /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta). Default: `None`, the
     /// element stays what it is.
     fn in_static_state(

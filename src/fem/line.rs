@@ -24,14 +24,14 @@ impl Line {
         positive(quantity, Self::between(coordinates).map_or(0.0, |line| line.length)).map(drop)
     }
 
-    /// Adds `stiffness` against lengthening of the line; unknowns x, y at both ends.
+    /// Adds `stiffness` against lengthening of the line; degrees of freedom x, y at both ends.
     pub(super) fn add_axial(&self, stiffness: f64, matrix: &mut [f64]) {
         let row = [-self.cosine, -self.sine, self.cosine, self.sine];
         add_square(matrix, &row.map(|a| row.map(|b| stiffness * a * b)));
     }
 
     /// Adds the geometric stiffness −P/L of a bar with a compressive force P against swaying across
-    /// itself; unknowns x, y at both ends.
+    /// itself; degrees of freedom x, y at both ends.
     pub(super) fn add_sway(&self, compression: f64, matrix: &mut [f64]) {
         let row = [self.sine, -self.cosine, -self.sine, self.cosine];
         let factor = -compression / self.length;
@@ -44,7 +44,7 @@ impl Line {
     }
 
     /// Adds a `local` matrix (along the line, across it to the left, rotation; both ends) in global
-    /// unknowns x, y, rotation.
+    /// degrees of freedom x, y, rotation.
     pub(super) fn add_rotated(&self, local: &[[f64; 6]; 6], matrix: &mut [f64]) {
         let mut to_local = [[0.0; 6]; 6];
         for end in [0, 3] {

@@ -74,7 +74,11 @@ impl Mesh {
     pub fn add(&mut self, element: impl Element + 'static) -> Result<usize> {
         let nodes = element.nodes();
         if element.order() == 0 {
-            return Err(Error::Size { quantity: "unknowns of the element", found: 0, needed: 1 });
+            return Err(Error::Size {
+                quantity: "degrees of freedom of the element",
+                found: 0,
+                needed: 1,
+            });
         }
         if repeats(nodes) || repeats(element.directions()) {
             return Err(Error::Scene {

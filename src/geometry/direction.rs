@@ -1,6 +1,6 @@
-//! Directions of unknowns.
+//! Directions of degrees of freedom.
 
-/// Direction of an unknown at a node.
+/// Direction of a degree of freedom at a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

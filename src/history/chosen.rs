@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use super::choice::{ChoiceReason, History, HistoryChoice};
 use super::convolution::ConvolutionHistory;
+use super::convolution_weights::ConvolutionWeights;
 use super::cost::Estimate;
 use super::exponentials::{ExponentialHistory, LONGEST};
-use super::lag_kernel::LagKernel;
 use super::options::{HistoryOptions, Kept};
 use super::relaxed_fft::LEAF;
 use crate::error::{Error, MemoryError, Result};
@@ -20,7 +20,7 @@ const AHEAD: usize = 64;
 /// Where steps go on beyond, it gives way to the exponentials if it was chosen and not asked for,
 /// at a step that depends on options and announcement alone; otherwise the step is refused.
 pub(crate) struct ChosenHistory {
-    kernel: Arc<dyn LagKernel>,
+    kernel: Arc<dyn ConvolutionWeights>,
     options: HistoryOptions,
     choice: HistoryChoice,
     announced: Option<usize>,
@@ -30,7 +30,7 @@ pub(crate) struct ChosenHistory {
 }
 
 /// Steps that a history of this kind holds in the memory allowed.
-fn room(options: HistoryOptions, kind: History, kernel: &dyn LagKernel) -> Result<usize> {
+fn room(options: HistoryOptions, kind: History, kernel: &dyn ConvolutionWeights) -> Result<usize> {
     let mut most = 0;
     // Memory grows by doubling, so that a power of two fills it.
     for power in LEAF.ilog2() + 1..usize::BITS {
@@ -47,7 +47,7 @@ impl ChosenHistory {
     /// An empty history for this many steps, if that is known.
     pub(crate) fn new(
         options: HistoryOptions,
-        kernel: &Arc<dyn LagKernel>,
+        kernel: &Arc<dyn ConvolutionWeights>,
         steps: Option<usize>,
     ) -> Result<Self> {
         let (kept, choice) = options.make(kernel, steps)?;
@@ -61,7 +61,7 @@ impl ChosenHistory {
     }
 
     /// Notes the steps to come for a history that was asked for before they were known.
-    pub(crate) fn announce(&mut self, steps: usize) {
+    pub(crate) fn expect_steps(&mut self, steps: usize) {
         if self.choice.reason == ChoiceReason::Asked {
             self.announced = self.announced.or(Some(steps).filter(|steps| *steps < LONGEST));
         }

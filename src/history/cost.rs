@@ -1,7 +1,7 @@
 //! Cost model of the histories: the table of [`History`].
 
 use super::choice::History;
-use super::lag_kernel::{LagKernel, LateLags};
+use super::convolution_weights::{ConvolutionWeights, LateLags};
 use super::relaxed_fft::{LEAF, RelaxedFftHistory};
 use crate::error::Result;
 
@@ -30,7 +30,11 @@ const TAIL: f64 = 3000.0;
 
 impl Estimate {
     /// Of a history over `steps` steps; without bound for exponentials that cannot be had.
-    pub(super) fn new(kind: History, kernel: &dyn LagKernel, steps: usize) -> Result<Self> {
+    pub(super) fn new(
+        kind: History,
+        kernel: &dyn ConvolutionWeights,
+        steps: usize,
+    ) -> Result<Self> {
         let classes = kernel.classes();
         let (q, classes) = (classes.elements().len() as f64, classes.count() as f64);
         // A coupling that does not end is a third series of coefficients, and twice the products.
@@ -59,7 +63,7 @@ impl Estimate {
 
     /// Bytes of a window of so many lags with the inputs in it, and of the lags themselves while
     /// the exponentials behind it are made.
-    pub(super) fn window(kernel: &dyn LagKernel, lags: usize) -> Result<f64> {
+    pub(super) fn window(kernel: &dyn ConvolutionWeights, lags: usize) -> Result<f64> {
         let classes = kernel.classes();
         let (q, classes) = (classes.elements().len() as f64, classes.count() as f64);
         let lasts = if couples_without_end(kernel)? { 1.0 } else { 0.0 };
@@ -68,7 +72,7 @@ impl Estimate {
     }
 
     /// Of blocks up to this many steps.
-    fn transforms(kernel: &dyn LagKernel, steps: usize, lasts: f64) -> Self {
+    fn transforms(kernel: &dyn ConvolutionWeights, steps: usize, lasts: f64) -> Self {
         let classes = kernel.classes();
         let (q, classes) = (classes.elements().len() as f64, classes.count() as f64);
         let length = (steps as f64).max(64.0).log2().ceil().exp2();
@@ -106,7 +110,7 @@ impl Estimate {
 }
 
 /// Whether the coupling of the pair farthest apart never ends.
-fn couples_without_end(kernel: &dyn LagKernel) -> Result<bool> {
+fn couples_without_end(kernel: &dyn ConvolutionWeights) -> Result<bool> {
     let classes = kernel.classes();
     let farthest = classes.pairs()[classes.elements().len() - 1].class;
     Ok(kernel.last_coupling_lag(farthest)?.is_none())

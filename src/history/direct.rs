@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::convolution::{ConvolutionHistory, ExactHistory, check_inputs};
-use super::lag_kernel::LagKernel;
+use super::convolution_weights::ConvolutionWeights;
 use super::pair_classes::{ACTIONS, KINDS};
 use crate::error::{Result, same_length};
 use crate::linalg::dot;
@@ -19,7 +19,7 @@ const RESERVED_STEPS: usize = 100_000;
 /// Kernels are kept per pair *class* (on a uniform patch, per offset), reversed in time, so that
 /// each contribution is one contiguous dot product.
 pub struct DirectHistory {
-    kernel: Arc<dyn LagKernel>,
+    kernel: Arc<dyn ConvolutionWeights>,
     /// Lags for which coefficients are stored; grows by doubling.
     capacity: usize,
     /// Of each kind, class by class: the coefficient of lag n at the length less n. The coupling only
@@ -36,7 +36,7 @@ short_debug! {
 
 impl DirectHistory {
     /// History of `kernel`, empty.
-    pub fn new(kernel: Arc<dyn LagKernel>) -> Self {
+    pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
         let classes = kernel.classes();
         let kinds = [(); KINDS].map(|()| vec![Vec::new(); classes.count()]);
         let traction = vec![Vec::new(); classes.layout().len()];

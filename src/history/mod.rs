@@ -1,16 +1,16 @@
 //! Convolution histories: what all past tractions give at the end of the next step.
 //!
-//! A [`LagKernel`] tells the coefficients of a ground, lag by lag; the histories sum them over all
+//! A [`ConvolutionWeights`] tells the coefficients of a ground, lag by lag; the histories sum them over all
 //! past tractions, exactly ([`DirectHistory`], [`RelaxedFftHistory`]) or within a tolerance
 //! ([`ExponentialHistory`]). [`History::Auto`] chooses. Nothing here knows what the ground is made of.
 
 mod choice;
 mod chosen;
 mod convolution;
+mod convolution_weights;
 mod cost;
 mod direct;
 mod exponentials;
-mod lag_kernel;
 mod options;
 mod pair_classes;
 mod relaxed_fft;
@@ -19,9 +19,9 @@ pub(crate) use choice::SavedChoice;
 pub use choice::{ChoiceReason, History, HistoryChoice};
 pub(crate) use chosen::ChosenHistory;
 pub use convolution::ConvolutionHistory;
+pub use convolution_weights::{ConvolutionWeights, LateLags};
 pub use direct::DirectHistory;
-pub use exponentials::{ExponentialHistory, ExponentialTail, TailProduct};
-pub use lag_kernel::{LagKernel, LateLags};
+pub use exponentials::{ExponentialHistory, ExponentialSum, TailProduct};
 pub(crate) use options::HistoryOptions;
 pub(crate) use pair_classes::KINDS;
 pub use pair_classes::{Pair, PairClasses};

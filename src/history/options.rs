@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::choice::{ChoiceReason, History, HistoryChoice};
 use super::convolution::ExactHistory;
+use super::convolution_weights::ConvolutionWeights;
 use super::cost::Estimate;
 use super::direct::DirectHistory;
 use super::exponentials::{ExponentialHistory, LONGEST, MEMORY};
-use super::lag_kernel::LagKernel;
 use super::relaxed_fft::{LEAF, RelaxedFftHistory};
 use crate::error::Result;
 use crate::error::memory;
@@ -43,7 +43,7 @@ impl HistoryOptions {
     /// An empty history for this many steps, if that is known, and why it is this one.
     pub(super) fn make(
         self,
-        kernel: &Arc<dyn LagKernel>,
+        kernel: &Arc<dyn ConvolutionWeights>,
         steps: Option<usize>,
     ) -> Result<(Kept, HistoryChoice)> {
         // No run lasts so long: an observer is meant to stop it, nobody knows when.
@@ -124,7 +124,7 @@ impl HistoryOptions {
     pub(super) fn prepared_steps(
         self,
         kind: History,
-        kernel: &dyn LagKernel,
+        kernel: &dyn ConvolutionWeights,
         mut steps: usize,
     ) -> Result<usize> {
         if let History::Direct | History::RelaxedFft = kind {

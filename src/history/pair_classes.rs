@@ -59,7 +59,7 @@ const SHORTEST: f64 = 1e-8;
 /// On a laterally homogeneous ground (any layering, but no change from place to place) a pair's
 /// coefficients depend on the two lengths and the distance alone, and by reciprocity
 /// lₚ Gₚq = l_q G_qp. So pairs fall into classes: Q of them on a uniform strip, about Q²/4 on a graded
-/// one, instead of Q². Whoever writes a [`LagKernel`](super::LagKernel) computes one pair of each.
+/// one, instead of Q². Whoever writes a [`ConvolutionWeights`](super::ConvolutionWeights) computes one pair of each.
 ///
 /// ```
 /// use basemat::bem::Strip;

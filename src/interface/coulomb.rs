@@ -1,6 +1,6 @@
 //! Hard unilateral contact with Coulomb friction.
 
-use super::{Condition, ContactState, InterfaceLaw, Mode, StepStart, Tolerance};
+use super::{Condition, ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance};
 use crate::error::{Error, Result, not_negative};
 
 /// On what the contact conditions of a closed element act.
@@ -8,14 +8,14 @@ use crate::error::{Error, Result, not_negative};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
-pub enum Activation {
+pub enum UnilateralCondition {
     /// On the gap at the end of the step: g ≥ 0, p ≥ 0, p·g = 0 (Signorini).
     #[default]
-    Gap,
+    Position,
     /// On its change: an element whose gap at the start is at most `closed_below` (m) obeys
     /// Δg ≥ 0, p ≥ 0, p·Δg = 0, any other one is free (Moreau 1988; Jean 1999). The base may
     /// penetrate by what it moves within the step of its landing.
-    Rate {
+    Velocity {
         /// Gap up to which an element counts as closed, m.
         closed_below: f64,
     },
@@ -41,7 +41,7 @@ pub struct Coulomb {
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     friction: f64,
     tensile_strength: f64,
-    activation: Activation,
+    activation: UnilateralCondition,
 }
 
 validated! {
@@ -51,7 +51,7 @@ validated! {
         #[serde(default)]
         tensile_strength: f64,
         #[serde(default)]
-        activation: Activation,
+        activation: UnilateralCondition,
     }
     => Coulomb::new(friction)?.with_tensile_strength(tensile_strength)?.with_activation(activation)
 }
@@ -63,7 +63,7 @@ impl Coulomb {
     /// [`Error::Input`] for NaN or a negative coefficient.
     pub fn new(friction: f64) -> Result<Self> {
         if friction >= 0.0 {
-            Ok(Self { friction, tensile_strength: 0.0, activation: Activation::Gap })
+            Ok(Self { friction, tensile_strength: 0.0, activation: UnilateralCondition::Position })
         } else {
             Err(Error::Input {
                 quantity: "friction coefficient",
@@ -75,12 +75,16 @@ impl Coulomb {
 
     /// Law that opens but never slides (infinite friction).
     pub fn uplift_only() -> Self {
-        Self { friction: f64::INFINITY, tensile_strength: 0.0, activation: Activation::Gap }
+        Self {
+            friction: f64::INFINITY,
+            tensile_strength: 0.0,
+            activation: UnilateralCondition::Position,
+        }
     }
 
     /// Law without friction.
-    pub(super) fn smooth() -> Self {
-        Self { friction: 0.0, tensile_strength: 0.0, activation: Activation::Gap }
+    pub(super) fn frictionless() -> Self {
+        Self { friction: 0.0, tensile_strength: 0.0, activation: UnilateralCondition::Position }
     }
 
     /// The same with another coefficient, unchecked.
@@ -98,12 +102,12 @@ impl Coulomb {
         Ok(self)
     }
 
-    /// With another [`Activation`] of the contact conditions.
+    /// With another [`UnilateralCondition`] of the contact conditions.
     ///
     /// # Errors
     /// [`Error::Input`] unless `closed_below` is finite and not below zero.
-    pub fn with_activation(mut self, activation: Activation) -> Result<Self> {
-        if let Activation::Rate { closed_below } = activation {
+    pub fn with_activation(mut self, activation: UnilateralCondition) -> Result<Self> {
+        if let UnilateralCondition::Velocity { closed_below } = activation {
             not_negative("gap below which contact is closed", closed_below)?;
         }
         self.activation = activation;
@@ -124,14 +128,14 @@ impl Coulomb {
         crate::text::forms::number::serialize(&self.friction, to)
     }
 
-    fn strength(&self, start: &StepStart) -> f64 {
+    fn strength(&self, start: &PreviousContact) -> f64 {
         if start.has_opened { 0.0 } else { self.tensile_strength }
     }
 
     /// τ = ±friction (p + strength), written so that infinite friction has its limit: p + strength
     /// = 0 with the shear traction free. Without it the incremental problem need not have a
     /// solution: an element about to open under shear could neither stick nor let go.
-    fn slip_condition(&self, direction: f64, start: &StepStart) -> Condition {
+    fn slip_condition(&self, direction: f64, start: &PreviousContact) -> Condition {
         let (friction, strength) = (self.friction, self.strength(start));
         let [shear, pressure] =
             if friction > 1.0 { [-direction / friction, 1.0] } else { [direction, -friction] };
@@ -139,10 +143,10 @@ impl Coulomb {
     }
 
     /// Gap that a closed element must have at the end of the step; `None` if it cannot close.
-    fn closed_gap(&self, start: &StepStart) -> Option<f64> {
+    fn closed_gap(&self, start: &PreviousContact) -> Option<f64> {
         match self.activation {
-            Activation::Gap => Some(0.0),
-            Activation::Rate { closed_below } => {
+            UnilateralCondition::Position => Some(0.0),
+            UnilateralCondition::Velocity { closed_below } => {
                 (start.state.gap <= closed_below).then_some(start.state.gap)
             }
         }
@@ -154,7 +158,7 @@ impl InterfaceLaw for Coulomb {
         Mode::with_friction(self.friction)
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let open = [Condition::pressure_is(0.0), Condition::shear_is(0.0)];
         let Some(closed_gap) = self.closed_gap(start) else { return open };
         let closed = Condition::gap_is(closed_gap);
@@ -169,7 +173,7 @@ impl InterfaceLaw for Coulomb {
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
@@ -214,8 +218,8 @@ mod tests {
 
     const TOLERANCE: Tolerance = Tolerance { length: 1e-12, traction: 1e-9 };
 
-    fn start(mode: Mode) -> StepStart<'static> {
-        StepStart::new(ContactState::default(), mode, 0.01)
+    fn start(mode: Mode) -> PreviousContact<'static> {
+        PreviousContact::new(ContactState::default(), mode, 0.01)
     }
 
     #[test]
@@ -254,6 +258,6 @@ mod tests {
         start.has_opened = true;
         assert_eq!(law.next_mode(Mode::Stick, &start, &state, TOLERANCE), Mode::Open);
         assert!(law.with_tensile_strength(f64::NAN).is_err());
-        assert!(law.with_activation(Activation::Rate { closed_below: -1.0 }).is_err());
+        assert!(law.with_activation(UnilateralCondition::Velocity { closed_below: -1.0 }).is_err());
     }
 }

@@ -4,17 +4,17 @@
 //! [`Condition`]s between the element's opening and its traction, and after a trial it says which
 //! mode comes next. The mode search of [`crate::coupled`] does the rest and knows no law.
 
-mod adhesive;
+mod cohesive;
 mod coulomb;
-mod step_start;
+mod previous_contact;
 mod thin_layer;
 mod variable_friction;
 mod yielding;
 
-pub use adhesive::{Adhesive, Bonded};
-pub use coulomb::{Activation, Coulomb};
-pub(crate) use step_start::memory_ends;
-pub use step_start::{StepStart, StepStarts};
+pub use cohesive::{Bonded, Cohesive};
+pub use coulomb::{Coulomb, UnilateralCondition};
+pub(crate) use previous_contact::memory_ends;
+pub use previous_contact::{PreviousContact, PreviousContacts};
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
 pub use variable_friction::VariableFriction;
 pub use yielding::Yielding;
@@ -231,9 +231,9 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 
 /// Contact law between base and soil: implement this for a law of your own.
 ///
-/// A law is a rule and keeps nothing itself. The end of the step before is in [`StepStart`]; what
+/// A law is a rule and keeps nothing itself. The end of the step before is in [`PreviousContact`]; what
 /// else it needs of the past it declares as a memory of a few numbers per element, which the
-/// simulation keeps, shows in [`StepStart::memory`] and saves in checkpoints. Numbers of a law that
+/// simulation keeps, shows in [`PreviousContact::memory`] and saves in checkpoints. Numbers of a law that
 /// are not finite, and a next mode that is none of its modes, are a [`LawError`](crate::LawError).
 ///
 /// Friction that falls from 0.5 to 0.3 with the distance that an element has slid:
@@ -241,7 +241,7 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 /// use basemat::Simulation;
 /// use basemat::bem::SpringGround;
 /// use basemat::interface::{
-///     Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+///     Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
 /// };
 /// use basemat::motion::el_centro_1940;
 /// use basemat::structure::RigidBlock;
@@ -250,7 +250,7 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 ///
 /// impl SlipWeakening {
 ///     /// Coulomb's law with the friction of this step.
-///     fn now(&self, start: &StepStart) -> Coulomb {
+///     fn now(&self, start: &PreviousContact) -> Coulomb {
 ///         let slid = start.memory[0];
 ///         Coulomb::new(0.3 + 0.2 * (-slid / 0.01).exp()).expect("a friction above zero")
 ///     }
@@ -260,18 +260,18 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 ///     fn modes(&self) -> &[Mode] {
 ///         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
 ///     }
-///     fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+///     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
 ///         self.now(start).conditions(mode, start)
 ///     }
 ///     fn next_mode(
-///         &self, mode: Mode, start: &StepStart, trial: &ContactState, tolerance: Tolerance,
+///         &self, mode: Mode, start: &PreviousContact, trial: &ContactState, tolerance: Tolerance,
 ///     ) -> Mode {
 ///         self.now(start).next_mode(mode, start, trial, tolerance)
 ///     }
-///     fn memory(&self) -> usize {
+///     fn state_variables(&self) -> usize {
 ///         1
 ///     }
-///     fn commit(&self, start: &StepStart, end: &ContactState, mode: Mode, memory: &mut [f64]) {
+///     fn commit(&self, start: &PreviousContact, end: &ContactState, mode: Mode, memory: &mut [f64]) {
 ///         if mode.is_slip() {
 ///             memory[0] += (end.slip - start.state.slip).abs();
 ///         }
@@ -285,9 +285,9 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 ///     .motion(el_centro_1940().scaled(3.0)?)
 ///     .build()?;
 /// let run = simulation.run(1000, |_| {})?;
-/// let slid = simulation.state().law_memory(3)[0];
+/// let slid = simulation.state().state_variables(3)[0];
 /// assert!(slid > 0.02 && slid > run.whole.largest_slip.magnitude());
-/// assert!(run.ledger_residual < 1e-9);
+/// assert!(run.energy_error < 1e-9);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[auto_impl::auto_impl(Box)]
@@ -296,44 +296,51 @@ pub trait InterfaceLaw: Send {
     fn modes(&self) -> &[Mode];
 
     /// The two conditions that `mode` imposes on the end of the step.
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2];
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2];
 
     /// The mode to try next, given the `trial` that the conditions of `mode` led to; `mode` itself
     /// if the trial is admissible.
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode;
 
     /// Elastic opening per traction in `mode`, m/Pa: gap per tension and slip per shear traction.
-    /// Zero (the default) for hard contact. The energy ledger books what so much elasticity
+    /// Zero (the default) for hard contact. The energy balance books what so much elasticity
     /// stores, ½ compliance · traction² at the end of the step; only the rest of gap and slip, and
     /// what goes with a compliance that changes, can be lost to friction, impact and damage.
     ///
     /// Asked for every mode at the static state, and once per solved step for the mode it ends in. A
     /// law without memory that is hard in every mode at the static state counts as hard for the
     /// whole run.
-    fn compliance(&self, _mode: Mode, _start: &StepStart) -> [f64; 2] {
+    fn compliance(&self, _mode: Mode, _start: &PreviousContact) -> [f64; 2] {
         [0.0; 2]
     }
 
     /// Count of the numbers that the law remembers of each element, always the same; none by default.
-    fn memory(&self) -> usize {
+    fn state_variables(&self) -> usize {
         0
     }
 
     /// Sets the memory that an element begins a run with, zeros unless this says otherwise, from
     /// the `start` of its first step (and, where the law acts while the weight comes on, from one
     /// without pressure for that). Not called for a law without memory.
-    fn initial_memory(&self, _start: &StepStart, _memory: &mut [f64]) {}
+    fn initial_state_variables(&self, _start: &PreviousContact, _memory: &mut [f64]) {}
 
     /// Brings the memory of an element to the `end` of a step in `mode`: it holds what it was at the
     /// `start` of the step. Called once per accepted step, after its modes are found, and not for a
     /// law without memory.
-    fn commit(&self, _start: &StepStart, _end: &ContactState, _mode: Mode, _memory: &mut [f64]) {}
+    fn commit(
+        &self,
+        _start: &PreviousContact,
+        _end: &ContactState,
+        _mode: Mode,
+        _memory: &mut [f64],
+    ) {
+    }
 
     /// The friction coefficient, for the factor of safety against sliding
     /// ([`Quantity::SlidingSafety`](crate::results::Quantity::SlidingSafety)): the base resists by this times the pressure.
@@ -348,7 +355,7 @@ pub trait InterfaceLaw: Send {
     /// A step holds elements with a bond in their mode of rest, whatever their tractions, until all
     /// other modes are found; then bonds break where the overload is largest, the modes are found anew,
     /// and so on. From there on the law sees a broken bond as `start.has_opened`.
-    fn bond_overload(&self, _start: &StepStart, _trial: &ContactState) -> Option<f64> {
+    fn bond_overload(&self, _start: &PreviousContact, _trial: &ContactState) -> Option<f64> {
         None
     }
 
@@ -357,14 +364,14 @@ pub trait InterfaceLaw: Send {
     /// # Errors
     /// With the number behind it, as [`Error::Input`](crate::Error::Input) or
     /// [`Error::part`](crate::Error::part).
-    fn check_start(&self, _start: &StepStart) -> Result<()> {
+    fn check_start(&self, _start: &PreviousContact) -> Result<()> {
         Ok(())
     }
 
     /// This law without friction and adhesion, for setting the structure down on the ground; hard
     /// and smooth contact unless the law says otherwise.
-    fn smooth(&self) -> Box<dyn InterfaceLaw> {
-        Box::new(Coulomb::smooth())
+    fn frictionless(&self) -> Box<dyn InterfaceLaw> {
+        Box::new(Coulomb::frictionless())
     }
 
     /// Asked once, when a simulation is put together: whether this law makes sense in it.

@@ -9,9 +9,11 @@
 //! A four-node element of length L and thickness t, integrated at its centre, knows the mean
 //! strains ε_yy = g/t and γ = s/t of its two long sides (and ε_xx, which is of the order of t/L
 //! beside them). Its nodal forces are those of tractions D₂₂ g/t and μ s/t on L: a law of one
-//! element's means, with no unknowns of its own.
+//! element's means, with no degrees of freedom of its own.
 
-use super::{Condition, ContactScene, ContactState, InterfaceLaw, Mode, StepStart, Tolerance};
+use super::{
+    Condition, ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance,
+};
 use crate::error::{Error, Result, not_negative, positive};
 use crate::soil::Soil;
 
@@ -83,7 +85,7 @@ words! { SlipSense, "sense of slip", {
 /// carries some up to the moment it lands, when nothing is left of it: a few steps in a hundred
 /// thousand then have no solution, closed or open, and are a
 /// [`StepError::Contact`](crate::StepError::Contact), which says so where there are up to eight elements.
-/// [`with_debonded_share(0.0)`](ThinLayer::with_debonded_share) has none of them. The other
+/// [`with_debonded_ratio(0.0)`](ThinLayer::with_debonded_ratio) has none of them. The other
 /// readings let a closed element carry shear up to its opening, or slide against its traction, and
 /// meet such steps more often.
 ///
@@ -133,8 +135,8 @@ validated! {
         let [normal, shear] = reference_stiffness;
         let layer = ThinLayer::from_stiffness(normal, shear, friction)?
             .with_thickness_ratio(thickness_ratio)?
-            .with_debonded_share(debonded_share)?
-            .with_slip_stiffness_share(slip_stiffness_share)?;
+            .with_debonded_ratio(debonded_share)?
+            .with_slip_stiffness_ratio(slip_stiffness_share)?;
         Ok(layer.with_friction_limit(friction_limit).with_slip_sense(slip_sense))
     }
 }
@@ -195,7 +197,7 @@ impl ThinLayer {
     ///
     /// # Errors
     /// [`Error::Input`] outside 0 to 1.
-    pub fn with_debonded_share(mut self, share: f64) -> Result<Self> {
+    pub fn with_debonded_ratio(mut self, share: f64) -> Result<Self> {
         self.debonded = share_of_one("share of stiffness left in debonding", share)?;
         Ok(self)
     }
@@ -219,7 +221,7 @@ impl ThinLayer {
     ///
     /// # Errors
     /// [`Error::Input`] outside 0 to 1.
-    pub fn with_slip_stiffness_share(mut self, share: f64) -> Result<Self> {
+    pub fn with_slip_stiffness_ratio(mut self, share: f64) -> Result<Self> {
         self.slip_stiffness = share_of_one("share of shear stiffness left in slip", share)?;
         Ok(self)
     }
@@ -235,7 +237,7 @@ impl ThinLayer {
     }
 
     /// Friction's limit of the shear traction, if it is known before the step.
-    fn known_limit(&self, start: &StepStart) -> Option<f64> {
+    fn known_limit(&self, start: &PreviousContact) -> Option<f64> {
         let pressure = match self.limit {
             FrictionLimit::Total => return None,
             _ if self.friction == f64::INFINITY => return None,
@@ -248,7 +250,7 @@ impl ThinLayer {
 
     /// ± τ = limit + share · k_s (±Δs), written so that infinite friction has its limit (see
     /// [`super::Coulomb`]).
-    fn slip_condition(&self, direction: f64, start: &StepStart) -> Condition {
+    fn slip_condition(&self, direction: f64, start: &PreviousContact) -> Condition {
         let drag = self.slip_stiffness * self.stiffness()[1];
         let moved = drag * start.state.slip;
         if let Some(limit) = self.known_limit(start) {
@@ -267,7 +269,7 @@ impl ThinLayer {
     }
 
     /// Slip of the structure in this step, as [`SlipSense`] sees it.
-    fn advance(&self, start: &StepStart, trial: &ContactState) -> f64 {
+    fn advance(&self, start: &PreviousContact, trial: &ContactState) -> f64 {
         let moved = trial.slip - start.state.slip;
         match self.sense {
             SlipSense::Inelastic => moved - (trial.shear - start.state.shear) / self.stiffness()[1],
@@ -292,7 +294,7 @@ impl InterfaceLaw for ThinLayer {
         Mode::with_friction(self.friction)
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let share = if mode == Mode::Open { self.debonded } else { 1.0 };
         let [normal, shear] = self.stiffness().map(|k| share * k);
         let layer = Condition { gap: normal, ..Condition::pressure_is(0.0) };
@@ -312,7 +314,7 @@ impl InterfaceLaw for ThinLayer {
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
@@ -353,7 +355,7 @@ impl InterfaceLaw for ThinLayer {
         }
     }
 
-    fn compliance(&self, mode: Mode, _: &StepStart) -> [f64; 2] {
+    fn compliance(&self, mode: Mode, _: &PreviousContact) -> [f64; 2] {
         match mode {
             Mode::Open if self.debonded == 0.0 => [0.0; 2],
             Mode::Open => self.stiffness().map(|k| 1.0 / (self.debonded * k)),
@@ -366,7 +368,7 @@ impl InterfaceLaw for ThinLayer {
         Some(self.friction)
     }
 
-    fn smooth(&self) -> Box<dyn InterfaceLaw> {
+    fn frictionless(&self) -> Box<dyn InterfaceLaw> {
         let smooth = Self { friction: 0.0, limit: FrictionLimit::Total, ..*self };
         Box::new(Self { slip_stiffness: 0.0, ..smooth })
     }

@@ -1,14 +1,15 @@
 //! Coulomb friction whose coefficient changes from step to step.
 
 use super::{
-    Activation, Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+    Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
+    UnilateralCondition,
 };
 use crate::error::Result;
 
-type Coefficient = Box<dyn Fn(&StepStart) -> f64 + Send>;
+type Coefficient = Box<dyn Fn(&PreviousContact) -> f64 + Send>;
 
 /// [`Coulomb`]'s law with a friction coefficient for each step: of the speed of sliding, of the
-/// way slid, of the pressure, whatever [`StepStart`] knows.
+/// way slid, of the pressure, whatever [`PreviousContact`] knows.
 ///
 /// The coefficient is that of the start of the step, so that it cannot change while the modes of
 /// the step are searched for, and what it depends on lags by a step.
@@ -48,8 +49,8 @@ impl VariableFriction {
     /// Law with the friction coefficient `coefficient(start)`: zero or more, infinite where nothing
     /// slides. Where it is negative or NaN, the step is refused with a
     /// [`LawError`](crate::LawError) that names it.
-    pub fn new(coefficient: impl Fn(&StepStart) -> f64 + Send + 'static) -> Self {
-        Self { coefficient: Box::new(coefficient), contact: Coulomb::smooth() }
+    pub fn new(coefficient: impl Fn(&PreviousContact) -> f64 + Send + 'static) -> Self {
+        Self { coefficient: Box::new(coefficient), contact: Coulomb::frictionless() }
     }
 
     /// As [`Coulomb::with_tensile_strength`].
@@ -65,13 +66,13 @@ impl VariableFriction {
     ///
     /// # Errors
     /// The same.
-    pub fn with_activation(mut self, activation: Activation) -> Result<Self> {
+    pub fn with_activation(mut self, activation: UnilateralCondition) -> Result<Self> {
         self.contact = self.contact.with_activation(activation)?;
         Ok(self)
     }
 
     /// The law of the step.
-    fn at(&self, start: &StepStart) -> Coulomb {
+    fn at(&self, start: &PreviousContact) -> Coulomb {
         self.contact.with_coefficient((self.coefficient)(start))
     }
 }
@@ -81,7 +82,7 @@ impl InterfaceLaw for VariableFriction {
         Mode::with_friction(f64::INFINITY)
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let law = self.at(start);
         if law.friction() >= 0.0 {
             law.conditions(mode, start)
@@ -94,14 +95,14 @@ impl InterfaceLaw for VariableFriction {
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
         self.at(start).next_mode(mode, start, trial, tolerance)
     }
 
-    fn check_start(&self, start: &StepStart) -> Result<()> {
+    fn check_start(&self, start: &PreviousContact) -> Result<()> {
         Coulomb::new(self.at(start).friction()).map(|_| ())
     }
 }

@@ -1,6 +1,6 @@
 //! Contact on soil that yields under its bearing pressure.
 
-use super::{Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance};
+use super::{Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance};
 use crate::error::{Result, positive};
 
 /// Coulomb friction and uplift on soil whose contact pressure is bounded: where it reaches the
@@ -15,7 +15,7 @@ use crate::error::{Result, positive};
 /// | closed | g = −w, 0 ≤ p ≤ q |
 /// | yielding | p = q, g ≤ −w; w becomes −g |
 ///
-/// The ledger books q times the indentation in `contact`. It is the near field of a foundation: a
+/// The energy balance books q times the indentation in `contact`. It is the near field of a foundation: a
 /// rocking base settles and its soil is rounded, as in beds of yielding springs (Allotey & El Naggar
 /// 2003), while the half-plane below stays elastic. Sliding does not lower q.
 ///
@@ -36,9 +36,9 @@ use crate::error::{Result, positive};
 /// let run = simulation.run(2500, |state| {
 ///     assert!(state.contact.iter().all(|c| c.pressure <= 300.0e3 * (1.0 + 1e-9)));
 /// })?;
-/// let indentation = simulation.state().law_memory(0)[0];
+/// let indentation = simulation.state().state_variables(0)[0];
 /// assert!(indentation > 1e-3, "the edge has sunk in: {indentation}");
-/// assert!(run.ledger_residual < 1e-9 && simulation.state().ledger.contact > 0.0);
+/// assert!(run.energy_error < 1e-9 && simulation.state().energy_balance.contact > 0.0);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,7 +86,7 @@ impl Yielding {
 }
 
 /// The indentation that an element remembers.
-fn indentation(start: &StepStart) -> f64 {
+fn indentation(start: &PreviousContact) -> f64 {
     start.memory.first().copied().unwrap_or(0.0)
 }
 
@@ -103,7 +103,7 @@ impl InterfaceLaw for Yielding {
         }
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let [normal, tangential] = self.contact.conditions(mode.elastic(), start);
         if mode.is_yield() {
             let bearing = Condition::pressure_is(self.bearing_pressure);
@@ -118,7 +118,7 @@ impl InterfaceLaw for Yielding {
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
@@ -137,11 +137,11 @@ impl InterfaceLaw for Yielding {
         if yields { next.yielding() } else { next }
     }
 
-    fn memory(&self) -> usize {
+    fn state_variables(&self) -> usize {
         1
     }
 
-    fn commit(&self, _start: &StepStart, end: &ContactState, mode: Mode, memory: &mut [f64]) {
+    fn commit(&self, _start: &PreviousContact, end: &ContactState, mode: Mode, memory: &mut [f64]) {
         if mode.is_yield() {
             memory[0] = memory[0].max(-end.gap);
         }
@@ -152,7 +152,7 @@ impl InterfaceLaw for Yielding {
     }
 
     /// The same bearing pressure without friction.
-    fn smooth(&self) -> Box<dyn InterfaceLaw> {
-        Box::new(Self { contact: Coulomb::smooth(), ..*self })
+    fn frictionless(&self) -> Box<dyn InterfaceLaw> {
+        Box::new(Self { contact: Coulomb::frictionless(), ..*self })
     }
 }

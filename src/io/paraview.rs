@@ -10,9 +10,9 @@
 //!
 //! ```no_run
 //! # fn scene() -> basemat::Result<(basemat::Simulation, basemat::structure::RigidBlock)> { unimplemented!() }
-//! use basemat::results::{Recorder, Wireframe};
+//! use basemat::results::{Recorder, DeformedShape};
 //! let (mut simulation, block) = scene()?;
-//! let shape = Wireframe::of_block(&block, 10.0)?;
+//! let shape = DeformedShape::of_block(&block, 10.0)?;
 //! let mut histories = Recorder::new().contact(10).motion(10).start(&simulation)?;
 //! simulation.run(2000, |state| histories.record(state))?;
 //! // results/block.pvd, block_0000.vtu, block_base_0000.vtu, …
@@ -25,7 +25,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result, write_file};
 use crate::interface::Mode;
-use crate::results::{ContactFrame, Histories, MotionFrame, Wireframe};
+use crate::results::{ContactFrame, DeformedShape, MotionFrame, TimeSeries};
 
 /// Writes `name.pvd`, and for every frame of motion that `histories` keep a grid of the structure
 /// (`name_0000.vtu`, …) and for every frame of contact one of the base (`name_base_0000.vtu`, …),
@@ -38,8 +38,8 @@ use crate::results::{ContactFrame, Histories, MotionFrame, Wireframe};
 pub fn write_series(
     folder: impl AsRef<Path>,
     name: &str,
-    shape: &Wireframe,
-    histories: &Histories,
+    shape: &DeformedShape,
+    histories: &TimeSeries,
 ) -> Result<usize> {
     let folder = folder.as_ref();
     let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
@@ -72,7 +72,7 @@ pub fn write_series(
     Ok(entries.len())
 }
 
-fn structure(shape: &Wireframe, frame: &MotionFrame<'_>) -> Result<String> {
+fn structure(shape: &DeformedShape, frame: &MotionFrame<'_>) -> Result<String> {
     let grid = Grid {
         points: shape.points().iter().map(|point| point.position).collect(),
         cells: shape.cells(),
@@ -85,7 +85,7 @@ fn structure(shape: &Wireframe, frame: &MotionFrame<'_>) -> Result<String> {
     Ok(grid.xml())
 }
 
-fn base(histories: &Histories, cells: &[Vec<usize>], frame: &ContactFrame<'_>) -> String {
+fn base(histories: &TimeSeries, cells: &[Vec<usize>], frame: &ContactFrame<'_>) -> String {
     let ends = histories.elements().iter().flat_map(|e| [[e.left, 0.0], [e.right, 0.0]]);
     let states = frame.states.iter();
     let number = |mode: &Mode| match mode {

@@ -1,7 +1,7 @@
 //! Condition numbers from factors.
 //!
 //! The condition is that of the matrix scaled by the roots of its diagonal, SAS with sᵢ = |aᵢᵢ|^−½:
-//! it does not depend on units (an unknown may be a length or an angle), it is within a factor of
+//! it does not depend on units (a degree of freedom may be a length or an angle), it is within a factor of
 //! the order of the least that any scaling reaches for positive definite matrices (van der Sluis
 //! 1969), and it is what bounds the error of a Cholesky solve, scaled or not (Higham 2002, theorem
 //! 10.6 with § 10.1.1).

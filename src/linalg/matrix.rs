@@ -1,4 +1,4 @@
-//! Matrices of a structure: sparse in its unknowns, diagonal in its modes.
+//! Matrices of a structure: sparse in its degrees of freedom, diagonal in its modes.
 
 use std::ops::Deref;
 
@@ -7,10 +7,10 @@ use crate::error::{Error, MemoryError, Result, same_length};
 use crate::linalg::Triplets;
 use crate::linalg::{dense_multiply_add, weighted_dot};
 
-/// Bytes of an unknown in the sparse matrices of a structure, their factor and its states.
+/// Bytes of a degree of freedom in the sparse matrices of a structure, their factor and its states.
 const BYTES_PER_UNKNOWN: f64 = 400.0;
 
-/// Error for so many unknowns, rows of a matrix or whatever `quantity` says, that a structure with
+/// Error for so many degrees of freedom, rows of a matrix or whatever `quantity` says, that a structure with
 /// them would not fit into memory.
 pub(crate) fn check_order(
     quantity: &'static str,
@@ -240,7 +240,7 @@ impl Deref for Thinned {
 /// A matrix of the equations of motion in the coordinates in which they are stepped.
 #[derive(Debug, Clone)]
 pub(crate) enum Matrix {
-    /// In the structure's own unknowns.
+    /// In the structure's own degrees of freedom.
     Sparse(SparseMatrix),
     /// In its modes.
     Diagonal(Vec<f64>),

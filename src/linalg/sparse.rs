@@ -171,7 +171,7 @@ impl SparseFactor {
     }
 }
 
-/// Row of a symmetric matrix at which it is found not to be positive semi-definite, if it is not.
+/// DofCombination of a symmetric matrix at which it is found not to be positive semi-definite, if it is not.
 ///
 /// Entries on the diagonal smaller than `floor` are rounding, and count as `floor`, negative ones up
 /// to it too; eigenvalues count from −`tolerance` in the matrix scaled to a diagonal of one. So what
@@ -322,7 +322,7 @@ mod tests {
         for (value, found) in [(0.99e-6, None), (1.01e-6, Some(1))] {
             assert_eq!(rows(&[(0, 0, 1.0), (0, 1, value), (1, 0, value)]), found);
         }
-        // Singular ones are none: a row of zeros, a mass on a weighted sum of unknowns.
+        // Singular ones are none: a row of zeros, a mass on a weighted sum of degrees of freedom.
         assert_eq!(rows(&[(0, 0, 1.0)]), None);
         assert_eq!(rows(&[(0, 0, 4.0), (0, 1, 6.0), (1, 0, 6.0), (1, 1, 9.0)]), None);
     }

@@ -126,7 +126,7 @@ impl Triplets {
         }
     }
 
-    /// Adds a spring `stiffness` between two unknowns.
+    /// Adds a spring `stiffness` between two degrees of freedom.
     pub fn add_spring(&mut self, first: usize, second: usize, stiffness: f64) {
         self.add(first, first, stiffness);
         self.add(second, second, stiffness);
@@ -134,7 +134,7 @@ impl Triplets {
         self.add(second, first, -stiffness);
     }
 
-    /// Adds `factor · l lᵀ`, where the row vector l is a [`Row`](crate::structure::Row) or a list of (unknown,
+    /// Adds `factor · l lᵀ`, where the row vector l is a [`DofCombination`](crate::structure::DofCombination) or a list of (unknown,
     /// weight) terms: the matrix of a spring (or dashpot) that sees the deformation l·u.
     pub fn add_outer(&mut self, row: impl AsRef<[(usize, f64)]>, factor: f64) {
         let terms = row.as_ref();

@@ -9,7 +9,7 @@ use super::shape::{SOIL, SURFACE, bounds, places};
 use super::svg::Svg;
 use super::text::{fitted, short, width};
 use crate::error::{Error, Result, positive};
-use crate::results::{Histories, Wireframe};
+use crate::results::{DeformedShape, TimeSeries};
 
 const WIDTH: f64 = 940.0;
 const HEIGHT: f64 = 640.0;
@@ -34,8 +34,8 @@ const MOST_TIMES: usize = 150;
 /// positive, or for more than 600 frames; [`Error::Index`] if `shape` belongs to another structure.
 pub fn animation(
     title: &str,
-    shape: &Wireframe,
-    histories: &Histories,
+    shape: &DeformedShape,
+    histories: &TimeSeries,
     magnification: f64,
     slowness: f64,
 ) -> Result<Svg> {
@@ -101,10 +101,10 @@ impl Screen {
     }
 
     /// Outlines of the cells as an SVG path: the same commands for every frame.
-    fn path(&self, shape: &Wireframe, places: &[[f64; 2]]) -> String {
+    fn path(&self, shape: &DeformedShape, places: &[[f64; 2]]) -> String {
         let mut path = String::new();
         for cell in shape.cells() {
-            let corners = Wireframe::corners(cell);
+            let corners = DeformedShape::corners(cell);
             for (k, &corner) in corners.iter().enumerate() {
                 let [x, y] = self.place(places[corner]);
                 let _ = write!(path, "{}{x:.1} {y:.1}", if k == 0 { 'M' } else { 'L' });
@@ -186,7 +186,7 @@ fn hex(RGBColor(red, green, blue): RGBColor) -> String {
 }
 
 /// A rectangle for every contact element, coloured by its mode, and the key to the colours.
-fn base(histories: &Histories, screen: &Screen, frames: usize, duration: &str) -> String {
+fn base(histories: &TimeSeries, screen: &Screen, frames: usize, duration: &str) -> String {
     let contact: Vec<_> = histories.contact_frames().collect();
     let mut out = String::new();
     if contact.len() != frames {

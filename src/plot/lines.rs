@@ -6,10 +6,10 @@ use super::axes::{Axis, chart, draw_curve, drawable, range_of};
 use super::key::{Key, Sample};
 use super::stroke::Stroke;
 use super::svg::{Sheet, Svg};
-use crate::coupled::Ledger;
+use crate::coupled::EnergyBalance;
 use crate::error::{Error, Result};
 use crate::motion::SpectralOrdinate;
-use crate::results::{Histories, Quantity};
+use crate::results::{Quantity, TimeSeries};
 use crate::text::unit::printed;
 
 /// Stretches of a curve that are drawn by their extremes: more than pixels help nobody.
@@ -74,7 +74,7 @@ fn with_limit(title: &str, x: &str, y: &str, curves: &[Curve], limit: Option<&st
 ///
 /// # Errors
 /// As for [`curves`].
-pub fn history(title: &str, runs: &[(&str, &Histories)], quantity: Quantity) -> Result<Svg> {
+pub fn history(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity) -> Result<Svg> {
     let limit = quantity.limit();
     let (factor, unit) = quantity.printed();
     let value = |&value: &f64| match limit {
@@ -83,11 +83,11 @@ pub fn history(title: &str, runs: &[(&str, &Histories)], quantity: Quantity) -> 
         Some(_) => value.recip().min(MOST_DEMAND),
         None => factor * value,
     };
-    let points = |histories: &Histories| -> Vec<(f64, f64)> {
+    let points = |histories: &TimeSeries| -> Vec<(f64, f64)> {
         let values = histories.series(quantity).iter().map(value);
         histories.times().iter().copied().zip(values).collect()
     };
-    let curve = |&(name, histories): &(&str, &Histories)| Curve {
+    let curve = |&(name, histories): &(&str, &TimeSeries)| Curve {
         name: name.into(),
         points: points(histories),
     };
@@ -108,7 +108,7 @@ pub fn history(title: &str, runs: &[(&str, &Histories)], quantity: Quantity) -> 
 /// # Errors
 /// [`Error::Name`] if a run has no such probe, [`Error::Scene`] if the runs have it in different
 /// units, and as for [`curves`].
-pub fn probe_history(title: &str, runs: &[(&str, &Histories)], probe: &str) -> Result<Svg> {
+pub fn probe_history(title: &str, runs: &[(&str, &TimeSeries)], probe: &str) -> Result<Svg> {
     let mut units = Vec::with_capacity(runs.len());
     for (_, histories) in runs {
         units.push(&histories.probes()[histories.probe_index(probe)?].unit[..]);
@@ -117,7 +117,7 @@ pub fn probe_history(title: &str, runs: &[(&str, &Histories)], probe: &str) -> R
         return Err(Error::Scene { quantity: "unit of a probe", needed: "the same in all runs" });
     }
     let (factor, unit) = printed(units.first().copied().unwrap_or_default());
-    let curve = |&(name, histories): &(&str, &Histories)| {
+    let curve = |&(name, histories): &(&str, &TimeSeries)| {
         let values = histories.probe(probe)?.iter().map(|value| factor * value);
         let points = histories.times().iter().copied().zip(values).collect();
         Ok(Curve { name: name.to_owned(), points })
@@ -152,15 +152,17 @@ pub(super) fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     kept
 }
 
-/// The terms of the energy ledger over time, those that stay below a thousandth of the largest left
+/// The terms of the energy balance over time, those that stay below a thousandth of the largest left
 /// out.
 ///
 /// # Errors
 /// Those of [`curves`].
-pub fn energy(title: &str, histories: &Histories) -> Result<Svg> {
+pub fn energy(title: &str, histories: &TimeSeries) -> Result<Svg> {
     // The input, then what it has become.
-    let terms = |ledger: &Ledger| [vec![("input", ledger.input)], ledger.parts()].concat();
-    let rows: Vec<_> = histories.ledgers().iter().map(terms).collect();
+    let terms = |energy_balance: &EnergyBalance| {
+        [vec![("input", energy_balance.input)], energy_balance.parts()].concat()
+    };
+    let rows: Vec<_> = histories.energy_balances().iter().map(terms).collect();
     let largest = |k: usize| rows.iter().fold(0.0_f64, |m, row| m.max(row[k].1.abs()));
     let names: Vec<_> = rows.first().into_iter().flatten().map(|(name, _)| *name).collect();
     let scale = (0..names.len()).map(largest).fold(0.0, f64::max);

@@ -16,7 +16,7 @@
 //! | the structure in motion, with its base | [`animation`] (an SVG that browsers play) |
 //!
 //! ```no_run
-//! # fn recorded() -> basemat::results::Histories { unimplemented!() }
+//! # fn recorded() -> basemat::results::TimeSeries { unimplemented!() }
 //! use basemat::{plot, results::Quantity};
 //! let histories = recorded();
 //! plot::history("Base shear", &[("friction 0.4", &histories)], Quantity::BaseShear)?

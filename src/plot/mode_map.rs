@@ -9,7 +9,7 @@ use super::stroke::{COLORS, Stroke};
 use super::svg::{Sheet, Svg};
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, Mode};
-use crate::results::{ContactFrame, ElementEnvelope, Histories, Run};
+use crate::results::{ContactFrame, ElementEnvelope, Run, TimeSeries};
 
 /// Columns of the map: more than pixels help nobody.
 const COLUMNS: usize = 1000;
@@ -87,7 +87,7 @@ pub(super) fn shown(frames: &[ContactFrame<'_>]) -> (Vec<Vec<Shown>>, Vec<Shown>
 /// # Errors
 /// [`Error::Scene`] if fewer than two frames of contact were kept
 /// ([`crate::results::Recorder::contact`]).
-pub fn mode_map(title: &str, histories: &Histories) -> Result<Svg> {
+pub fn mode_map(title: &str, histories: &TimeSeries) -> Result<Svg> {
     let frames: Vec<_> = histories.contact_frames().collect();
     let elements = histories.elements();
     if elements.is_empty() || frames.len() < 2 {

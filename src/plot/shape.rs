@@ -8,16 +8,16 @@ use super::stroke::Stroke;
 use super::svg::{Sheet, Svg};
 use super::text::short;
 use crate::error::{Error, Result, finite, positive};
-use crate::results::{Histories, MotionFrame, Wireframe};
+use crate::results::{DeformedShape, MotionFrame, TimeSeries};
 
 /// Places of the points, m: displacements relative to the free field, magnified.
 pub(super) fn places(
-    shape: &Wireframe,
+    shape: &DeformedShape,
     frame: &MotionFrame<'_>,
     magnification: f64,
 ) -> Result<Vec<[f64; 2]>> {
     let moved = shape.displacements(frame.displacement)?;
-    let place = |(point, u): (&crate::results::WirePoint, [f64; 2])| {
+    let place = |(point, u): (&crate::results::ShapePoint, [f64; 2])| {
         [0, 1].map(|k| point.position[k] + magnification * u[k])
     };
     let places: Vec<[f64; 2]> = shape.points().iter().zip(moved).map(place).collect();
@@ -47,10 +47,10 @@ pub(super) fn bounds(places: &[[f64; 2]]) -> [[f64; 2]; 2] {
 }
 
 /// Outlines of a wireframe's cells at these places, end to end, broken by NaN.
-fn outlines(shape: &Wireframe, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
+fn outlines(shape: &DeformedShape, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
     let mut points = Vec::new();
     for cell in shape.cells() {
-        let corners = Wireframe::corners(cell);
+        let corners = DeformedShape::corners(cell);
         points.extend(corners.iter().map(|&k| (places[k][0], places[k][1])));
         if corners.len() > 2 {
             points.push((places[corners[0]][0], places[corners[0]][1]));
@@ -69,8 +69,8 @@ fn outlines(shape: &Wireframe, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
 /// [`Error::Index`] if `shape` belongs to another structure.
 pub fn deformed_shapes(
     title: &str,
-    shape: &Wireframe,
-    histories: &Histories,
+    shape: &DeformedShape,
+    histories: &TimeSeries,
     times: &[f64],
     magnification: f64,
 ) -> Result<Svg> {

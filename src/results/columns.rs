@@ -1,6 +1,6 @@
 //! The columns of histories, in CSV and in archives of arrays.
 
-use super::{Histories, Quantity};
+use super::{Quantity, TimeSeries};
 use crate::coupled::{EnergyTerm, Probe};
 use crate::text::column::{column, distinct};
 
@@ -21,7 +21,7 @@ pub(super) const CONTACT: [&str; 9] = [
 pub(super) const MOTION: [&str; 4] =
     ["motion_time_s", "motion_displacement", "motion_velocity", "motion_free_field_m"];
 
-impl Histories {
+impl TimeSeries {
     /// Names of time, scalars and probes; those of probes differ from all others in any file.
     pub(super) fn columns(&self) -> Vec<String> {
         let mut columns = vec![column("time", "s")];

@@ -70,7 +70,7 @@ const DERIVED: [Derived; 9] = [
     ("  first excess at", "s", "serviceability_first_excess_s", 1.0, |s| {
         s.serviceability.iter().filter_map(|check| check.first_excess).reduce(f64::min)
     }),
-    ("energy input", "kJ/m", "input_energy_j_per_m", 1e-3, |s| Some(s.ledger.input)),
+    ("energy input", "kJ/m", "input_energy_j_per_m", 1e-3, |s| Some(s.energy_balance.input)),
 ];
 
 /// All rows: quantities, with the times of some, then what is derived.
@@ -106,7 +106,9 @@ fn lines() -> Vec<Line> {
         unit: "%",
         column: format!("energy_share_{term}"),
         factor: 100.0,
-        value: Box::new(move |run: &Run| run.ledger.share(term).filter(|share| *share != 0.0)),
+        value: Box::new(move |run: &Run| {
+            run.energy_balance.share(term).filter(|share| *share != 0.0)
+        }),
     }));
     lines
 }

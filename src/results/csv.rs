@@ -1,9 +1,9 @@
-//! Histories, envelopes and spectra as CSV.
+//! TimeSeries, envelopes and spectra as CSV.
 
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::{Histories, Run};
+use super::{Run, TimeSeries};
 use crate::coupled::EnergyTerm;
 use crate::error::{Result, write_file};
 use crate::motion::SpectralOrdinate;
@@ -17,8 +17,8 @@ fn save(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Re
     write_file(path, text)
 }
 
-impl Histories {
-    /// Writes the CSV of [`Histories::write_csv`] to a file; its folder is made if it is not there.
+impl TimeSeries {
+    /// Writes the CSV of [`TimeSeries::write_csv`] to a file; its folder is made if it is not there.
     ///
     /// # Errors
     /// [`Error::Write`](crate::Error::Write) if that fails.
@@ -26,7 +26,7 @@ impl Histories {
         save(path.as_ref(), |out| self.write_csv(out))
     }
 
-    /// Writes times, scalars, probes and the ledger's input as CSV: a heading and a line for every
+    /// Writes times, scalars, probes and the energy balance's input as CSV: a heading and a line for every
     /// kept step, by [the rule](super#columns-and-numbers-in-files).
     ///
     /// # Errors
@@ -35,14 +35,15 @@ impl Histories {
         let mut columns = self.columns();
         columns.push(EnergyTerm::Input.column());
         out.write_all(line(columns).as_bytes())?;
-        for (k, ledger) in self.ledgers().iter().enumerate() {
-            let numbers = self.column_values().map(|values| values[k]).chain([ledger.input]);
+        for (k, energy_balance) in self.energy_balances().iter().enumerate() {
+            let numbers =
+                self.column_values().map(|values| values[k]).chain([energy_balance.input]);
             out.write_all(line(numbers.map(Cell)).as_bytes())?;
         }
         Ok(())
     }
 
-    /// Writes the CSV of [`Histories::write_contact_csv`] to a file; its folder is made if it is not
+    /// Writes the CSV of [`TimeSeries::write_contact_csv`] to a file; its folder is made if it is not
     /// there.
     ///
     /// # Errors
@@ -51,7 +52,7 @@ impl Histories {
         save(path.as_ref(), |out| self.write_contact_csv(out))
     }
 
-    /// Writes the [contact frames](Histories::contact_frames) as CSV in long form: a heading and a
+    /// Writes the [contact frames](TimeSeries::contact_frames) as CSV in long form: a heading and a
     /// line for every frame and element, elements from 0 on with their ends.
     ///
     /// ```

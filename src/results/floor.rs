@@ -1,11 +1,11 @@
 //! Response spectra of points of the structure.
 
-use super::Histories;
+use super::TimeSeries;
 use crate::coupled::Probe;
 use crate::error::{Error, Result, not_negative, positive};
 use crate::motion::{Record, SpectralOrdinate};
 
-impl Histories {
+impl TimeSeries {
     /// The record of an acceleration probe (total acceleration, m/s²), from rest.
     ///
     /// Accelerations are means over steps for the midpoint and θ rules, so the record is half a
@@ -36,7 +36,7 @@ impl Histories {
     /// point of an acceleration probe, at `periods` (s) with the damping ratio `damping`.
     ///
     /// # Errors
-    /// As for [`Histories::acceleration_record`] and [`Record::response_spectrum`].
+    /// As for [`TimeSeries::acceleration_record`] and [`Record::response_spectrum`].
     pub fn floor_spectrum(
         &self,
         probe: &str,

@@ -21,7 +21,7 @@ pub struct ContactFrame<'a> {
 pub struct MotionFrame<'a> {
     /// Time, s.
     pub time: f64,
-    /// Unknowns as changes against the static state, relative to the free field's translation, m
+    /// Degrees of freedom as changes against the static state, relative to the free field's translation, m
     /// and rad.
     pub displacement: &'a [f64],
     /// Their total rates.
@@ -93,7 +93,7 @@ impl MotionFrames {
         self.free_field.push(state.free_field);
     }
 
-    /// For so many more steps of `count` unknowns each.
+    /// For so many more steps of `count` degrees of freedom each.
     pub(super) fn reserve(&mut self, steps: usize, count: usize) {
         let frames = steps / self.every + 1;
         self.times.reserve(frames);
@@ -103,7 +103,7 @@ impl MotionFrames {
         self.free_field.reserve(frames);
     }
 
-    /// Frames of `count` unknowns each.
+    /// Frames of `count` degrees of freedom each.
     pub(super) fn frames(&self, count: usize) -> impl ExactSizeIterator<Item = MotionFrame<'_>> {
         self.times.iter().enumerate().map(move |(k, &time)| {
             let range = k * count..(k + 1) * count;

@@ -2,7 +2,7 @@
 //!
 //! [`Simulation::run`](crate::Simulation::run) gives a [`Run`]: peaks, envelopes, factors of safety,
 //! printed a page for the report. A [`Comparison`] puts several into one table. For time series and
-//! snapshots a [`Recorder`] says what to keep, and [`Histories`] keep it as the observer of the run.
+//! snapshots a [`Recorder`] says what to keep, and [`TimeSeries`] keep it as the observer of the run.
 //!
 //! ```
 //! use basemat::bem::ElasticGround;
@@ -32,7 +32,7 @@
 //! // Coulomb's limit: the factor of safety never falls below one.
 //! assert!(run.whole.sliding_safety.lowest.value > 1.0 - 1e-9);
 //! // The shares of the energy add up to all of it.
-//! let shares = run.ledger.shares().unwrap_or_default();
+//! let shares = run.energy_balance.shares().unwrap_or_default();
 //! assert!((shares.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-9);
 //!
 //! // A history, and the response spectrum of the roof.
@@ -55,7 +55,7 @@
 //!
 //! Nothing where it is not used. The scalar histories take 24 numbers and one per probe at every
 //! kept step (192 kB for 1000 steps); contact and motion frames are off unless asked for, see
-//! [`Histories::bytes`]. A [`Run`] keeps numbers per element and the slip events. Its peaks,
+//! [`TimeSeries::bytes`]. A [`Run`] keeps numbers per element and the slip events. Its peaks,
 //! envelopes and events are those of all steps, however few the histories keep.
 //!
 //! # Conventions
@@ -66,14 +66,14 @@
 mod columns;
 mod comparison;
 mod csv;
+#[cfg(any(feature = "io", feature = "plot"))]
+mod deformed_shape;
 mod floor;
 mod frames;
-mod histories;
 #[cfg(feature = "npz")]
 mod npz;
 mod recorder;
-#[cfg(any(feature = "io", feature = "plot"))]
-mod wireframe;
+mod time_series;
 
 pub use crate::coupled::run::{
     Criterion, ElementEnvelope, Extremes, Fallbacks, Peak, ProbeExtremes, Quantity, Run,
@@ -81,9 +81,9 @@ pub use crate::coupled::run::{
 };
 pub use comparison::Comparison;
 pub use csv::{save_spectrum_csv, write_spectrum_csv};
+#[cfg(any(feature = "io", feature = "plot"))]
+pub use deformed_shape::{DeformedShape, ShapePoint};
 pub use floor::{broadened, log_spaced};
 pub use frames::{ContactFrame, MotionFrame};
-pub use histories::Histories;
 pub use recorder::Recorder;
-#[cfg(any(feature = "io", feature = "plot"))]
-pub use wireframe::{WirePoint, Wireframe};
+pub use time_series::TimeSeries;

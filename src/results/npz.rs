@@ -1,4 +1,4 @@
-//! Histories as an archive of NumPy's arrays.
+//! TimeSeries as an archive of NumPy's arrays.
 //!
 //! An NPZ file is a ZIP archive of files `name.npy`: a magic number, the length of the header, a Python
 //! dictionary of type, order and shape, blanks up to a multiple of 64 bytes, and the numbers (NumPy
@@ -10,7 +10,7 @@ use std::path::Path;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use super::Histories;
+use super::TimeSeries;
 use super::columns::{CONTACT, MOTION};
 use crate::coupled::EnergyTerm;
 use crate::error::{Error, Result, write_file};
@@ -70,8 +70,8 @@ impl Archive {
     }
 }
 
-impl Histories {
-    /// Writes the archive of [`Histories::write_npz`] to a file; its folder is made if it is not there.
+impl TimeSeries {
+    /// Writes the archive of [`TimeSeries::write_npz`] to a file; its folder is made if it is not there.
     ///
     /// # Errors
     /// [`Error::Write`] if that fails.
@@ -90,15 +90,15 @@ impl Histories {
     ///
     /// | arrays | shape | |
     /// |---|---|---|
-    /// | `time_s`; scalars and probes, called as [in CSV](Histories::write_csv) | kept steps | |
-    /// | `kinetic_energy_j_per_m` … `input_energy_j_per_m`, `soil_error_bound_j_per_m` | kept steps | terms of the [ledger](crate::coupled::Ledger) |
+    /// | `time_s`; scalars and probes, called as [in CSV](TimeSeries::write_csv) | kept steps | |
+    /// | `kinetic_energy_j_per_m` … `input_energy_j_per_m`, `soil_error_bound_j_per_m` | kept steps | terms of the [energy balance](crate::coupled::EnergyBalance) |
     /// | `element_left_m`, `element_right_m` | elements | ends of the contact elements |
     /// | `contact_time_s` | frames | with [`Recorder::contact`](super::Recorder::contact) |
     /// | `contact_gap_m`, `contact_slip_m`, `contact_pressure_pa`, `contact_shear_pa` | frames × elements | |
     /// | `contact_mode`, integers | frames × elements | places in `contact_mode_words` |
     /// | `contact_mode_words` | modes | texts |
     /// | `motion_time_s` | frames | with [`Recorder::motion`](super::Recorder::motion) |
-    /// | `motion_displacement`, `motion_velocity` | frames × unknowns | as in [`MotionFrame`](super::MotionFrame) |
+    /// | `motion_displacement`, `motion_velocity` | frames × degrees of freedom | as in [`MotionFrame`](super::MotionFrame) |
     /// | `motion_free_field_m` | frames × 2 | to the right, up |
     ///
     /// # Errors
@@ -110,7 +110,8 @@ impl Histories {
             archive.add_numbers(name, &[steps], values.iter().copied())?;
         }
         for term in EnergyTerm::ALL {
-            let values = self.ledgers().iter().map(|ledger| ledger.term(term));
+            let values =
+                self.energy_balances().iter().map(|energy_balance| energy_balance.term(term));
             archive.add_numbers(&term.column(), &[steps], values)?;
         }
         self.add_contact(&mut archive)?;
@@ -149,12 +150,12 @@ impl Histories {
         }
         let frames = || self.motion_frames();
         let (count, [time, displacement, velocity, free_field]) = (frames().count(), MOTION);
-        let unknowns = frames().next().map_or(0, |frame| frame.displacement.len());
+        let dofs = frames().next().map_or(0, |frame| frame.displacement.len());
         archive.add_numbers(time, &[count], frames().map(|frame| frame.time))?;
         let values = frames().flat_map(|frame| frame.displacement.iter().copied());
-        archive.add_numbers(displacement, &[count, unknowns], values)?;
+        archive.add_numbers(displacement, &[count, dofs], values)?;
         let values = frames().flat_map(|frame| frame.velocity.iter().copied());
-        archive.add_numbers(velocity, &[count, unknowns], values)?;
+        archive.add_numbers(velocity, &[count, dofs], values)?;
         archive.add_numbers(free_field, &[count, 2], frames().flat_map(|frame| frame.free_field))
     }
 }

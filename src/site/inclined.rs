@@ -28,7 +28,7 @@ pub enum InclinedControl {
 ///
 /// With the horizontal slowness p = sin θ/c of the base's elastic constants, all layers move as f(t − px):
 /// each frequency is refracted and reflected in all of them, the surface moves horizontally and
-/// vertically. At vertical incidence it is [`Column`](super::Column), without layers
+/// vertically. At vertical incidence it is [`SoilColumn`](super::SoilColumn), without layers
 /// [`PlaneWave`]. A damped base has a complex speed: p stays real, so the wave is as strong everywhere
 /// along the surface.
 ///
@@ -126,10 +126,10 @@ impl InclinedWave {
 
     /// Motion of the surface, horizontal and up, from `motion` of `control` at the same x, samples
     /// `time_step` seconds apart; any of displacement, velocity and acceleration. The ground is at
-    /// rest at first. It rings after the end of `motion`, as under a [`Column`](super::Column).
+    /// rest at first. It rings after the end of `motion`, as under a [`SoilColumn`](super::SoilColumn).
     ///
     /// # Errors
-    /// As for [`InclinedWave::transfer`] and [`Column::to_surface`](super::Column::to_surface);
+    /// As for [`InclinedWave::transfer`] and [`SoilColumn::to_surface`](super::SoilColumn::to_surface);
     /// [`LayeredError::BeyondCritical`] where waves are out of phase and so have no beginning.
     pub fn to_surface(
         &self,

@@ -164,7 +164,7 @@ pub(super) fn least_squares(matrix: &[f64], columns: usize, right: &[f64]) -> Ve
     let mut free = vec![false; columns];
     let column = |j: usize| (0..rows).map(move |i| matrix[i * columns + j]);
     let dot = |j: usize, v: &[f64]| column(j).zip(v).map(|(a, b)| a * b).sum::<f64>();
-    // Each pass frees one unknown; a few may go back and forth.
+    // Each pass frees one degree of freedom; a few may go back and forth.
     for _ in 0..10 * columns {
         let residual: Vec<f64> = (0..rows)
             .map(|i| right[i] - (0..columns).map(|j| matrix[i * columns + j] * x[j]).sum::<f64>())
@@ -199,7 +199,7 @@ pub(super) fn least_squares(matrix: &[f64], columns: usize, right: &[f64]) -> Ve
     x
 }
 
-/// Least squares over the free unknowns by modified Gram–Schmidt; the others are zero.
+/// Least squares over the free degrees of freedom by modified Gram–Schmidt; the others are zero.
 fn restricted(matrix: &[f64], columns: usize, right: &[f64], free: &[bool]) -> Vec<f64> {
     let rows = right.len();
     let chosen: Vec<usize> = (0..columns).filter(|&j| free[j]).collect();

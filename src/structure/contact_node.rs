@@ -2,20 +2,20 @@
 
 use std::ops::Range;
 
-use super::Row;
+use super::DofCombination;
 use crate::error::{Error, Result, finite};
 
-/// A point of the base: where it is, and how the unknowns move it.
+/// A point of the base: where it is, and how the degrees of freedom move it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ContactNode {
     /// Coordinate along the surface, m.
     pub x: f64,
-    /// Horizontal displacement (to the right) as a weighted sum of unknowns.
-    pub horizontal: Row,
-    /// Vertical displacement (up) as a weighted sum of unknowns.
-    pub vertical: Row,
+    /// Horizontal displacement (to the right) as a weighted sum of degrees of freedom.
+    pub horizontal: DofCombination,
+    /// Vertical displacement (up) as a weighted sum of degrees of freedom.
+    pub vertical: DofCombination,
 }
 
 impl ContactNode {
@@ -24,9 +24,9 @@ impl ContactNode {
         Self { x, horizontal: horizontal.into(), vertical: vertical.into() }
     }
 
-    /// A point of a rigid flat base with unknowns `[horizontal, vertical, rotation]` at `center`.
-    pub fn rigid(x: f64, center: f64, unknowns: [usize; 3]) -> Self {
-        let [horizontal, vertical, rotation] = unknowns;
+    /// A point of a rigid flat base with degrees of freedom `[horizontal, vertical, rotation]` at `center`.
+    pub fn rigid(x: f64, center: f64, dofs: [usize; 3]) -> Self {
+        let [horizontal, vertical, rotation] = dofs;
         Self {
             x,
             horizontal: horizontal.into(),
@@ -34,21 +34,21 @@ impl ContactNode {
         }
     }
 
-    /// The unknowns that move it.
-    pub(crate) fn unknowns(&self) -> impl Iterator<Item = usize> {
+    /// The degrees of freedom that move it.
+    pub(crate) fn dofs(&self) -> impl Iterator<Item = usize> {
         let terms = self.horizontal.iter().chain(self.vertical.iter());
         terms.filter(|(_, weight)| *weight != 0.0).map(|(unknown, _)| *unknown)
     }
 
-    /// The two ends of a rigid flat base from `left` to `right`, unknowns at its middle.
-    pub fn rigid_base(left: f64, right: f64, unknowns: [usize; 3]) -> Vec<Self> {
+    /// The two ends of a rigid flat base from `left` to `right`, degrees of freedom at its middle.
+    pub fn rigid_base(left: f64, right: f64, dofs: [usize; 3]) -> Vec<Self> {
         let center = 0.5 * (left + right);
-        vec![Self::rigid(left, center, unknowns), Self::rigid(right, center, unknowns)]
+        vec![Self::rigid(left, center, dofs), Self::rigid(right, center, dofs)]
     }
 }
 
-/// Refuses too few nodes, places and weights that are not finite, and unknowns that there are not.
-pub(crate) fn check_contact_nodes(nodes: &[ContactNode], unknowns: usize) -> Result<()> {
+/// Refuses too few nodes, places and weights that are not finite, and degrees of freedom that there are not.
+pub(crate) fn check_contact_nodes(nodes: &[ContactNode], dofs: usize) -> Result<()> {
     if nodes.len() < 2 {
         let quantity = "list of contact nodes";
         return Err(Error::Size { quantity, found: nodes.len(), needed: 2 });
@@ -57,9 +57,9 @@ pub(crate) fn check_contact_nodes(nodes: &[ContactNode], unknowns: usize) -> Res
         finite("coordinate of a contact node", node.x)?;
         for &(index, weight) in (&node.horizontal).into_iter().chain(&node.vertical) {
             finite("weight of a contact node", weight)?;
-            if index >= unknowns {
+            if index >= dofs {
                 let quantity = "unknown of a contact node";
-                return Err(Error::Index { quantity, index, bound: unknowns });
+                return Err(Error::Index { quantity, index, bound: dofs });
             }
         }
     }

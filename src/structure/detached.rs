@@ -11,10 +11,10 @@ const FLOATS: f64 = 1e14;
 /// Distance of a mass from one up to which it is that of a mode, normalised.
 const NORMALISED: f64 = 1e-6;
 
-/// Most unknowns or nodes that a text names one by one.
+/// Most degrees of freedom or nodes that a text names one by one.
 pub(super) const NAMED: usize = 8;
 
-/// Refuses a structure with a part that no stiffness joins to one of the unknowns `base`; without
+/// Refuses a structure with a part that no stiffness joins to one of the degrees of freedom `base`; without
 /// any there is nothing to ask for.
 pub(crate) fn check_attached(
     structure: &dyn Structure,
@@ -22,19 +22,19 @@ pub(crate) fn check_attached(
     mass: &SparseMatrix,
     base: &[usize],
 ) -> Result<()> {
-    let unknowns = detached(stiffness, mass, base)?;
-    if unknowns.is_empty() {
+    let dofs = detached(stiffness, mass, base)?;
+    if dofs.is_empty() {
         return Ok(());
     }
-    let place = structure.describe(&unknowns).unwrap_or_else(|| numbers(&unknowns));
-    Err(Error::Detached { unknowns, place })
+    let place = structure.describe(&dofs).unwrap_or_else(|| numbers(&dofs));
+    Err(Error::Detached { dofs, place })
 }
 
-/// Unknowns by their numbers.
-pub(crate) fn numbers(unknowns: &[usize]) -> String {
-    let texts: Vec<String> = unknowns.iter().take(NAMED).map(ToString::to_string).collect();
-    let noun = if unknowns.len() == 1 { "unknown" } else { "unknowns" };
-    format!("{noun} {}", listed(&texts, unknowns.len()))
+/// Degrees of freedom by their numbers.
+pub(crate) fn numbers(dofs: &[usize]) -> String {
+    let texts: Vec<String> = dofs.iter().take(NAMED).map(ToString::to_string).collect();
+    let noun = if dofs.len() == 1 { "unknown" } else { "dofs" };
+    format!("{noun} {}", listed(&texts, dofs.len()))
 }
 
 /// The first few of `count` things.
@@ -43,10 +43,10 @@ pub(super) fn listed(texts: &[String], count: usize) -> String {
     if count > texts.len() { format!("{list} and {} more", count - texts.len()) } else { list }
 }
 
-/// Unknowns of all parts that have mass or stiffness, and no way by stiffness to one of the
-/// unknowns `base`; ascending. Symmetric or not, entries that are exactly zero couple nothing.
+/// Degrees of freedom of all parts that have mass or stiffness, and no way by stiffness to one of the
+/// degrees of freedom `base`; ascending. Symmetric or not, entries that are exactly zero couple nothing.
 ///
-/// A part whose own stiffness holds it is none if the mass couples it with the rest: its unknowns
+/// A part whose own stiffness holds it is none if the mass couples it with the rest: its degrees of freedom
 /// are coordinates relative to the base, those of modes for example. A mode that the base does not
 /// excite is told by its unit mass.
 fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Result<Vec<usize>> {
@@ -67,8 +67,8 @@ fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Re
     let ground = by_any.root(first);
 
     let mut place = vec![(0, 0); n];
-    for (part, unknowns) in parts.iter().enumerate() {
-        unknowns.iter().enumerate().for_each(|(k, &unknown)| place[unknown] = (part, k));
+    for (part, dofs) in parts.iter().enumerate() {
+        dofs.iter().enumerate().for_each(|(k, &unknown)| place[unknown] = (part, k));
     }
     let base_part = place[first].0;
     let mut own: Vec<_> = parts.iter().map(|part| Triplets::new(part.len())).collect();
@@ -81,14 +81,14 @@ fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Re
     let masses = mass.diagonal();
     let massless = MASSLESS * largest(&masses);
     let mut found = Vec::new();
-    for (part, unknowns) in parts.iter().enumerate().filter(|(part, _)| *part != base_part) {
-        let has_mass = unknowns.iter().any(|&unknown| masses[unknown].abs() > massless);
-        let is_mode = unknowns.len() == 1 && (masses[unknowns[0]] - 1.0).abs() <= NORMALISED;
-        let takes_part = !has_mass || is_mode || by_any.root(unknowns[0]) == ground;
+    for (part, dofs) in parts.iter().enumerate().filter(|(part, _)| *part != base_part) {
+        let has_mass = dofs.iter().any(|&unknown| masses[unknown].abs() > massless);
+        let is_mode = dofs.len() == 1 && (masses[dofs[0]] - 1.0).abs() <= NORMALISED;
+        let takes_part = !has_mass || is_mode || by_any.root(dofs[0]) == ground;
         let is_empty = !has_mass && own[part].entries().is_empty();
         let is_attached = is_empty || takes_part && holds_itself(&own[part])?;
         if !is_attached {
-            found.extend_from_slice(unknowns);
+            found.extend_from_slice(dofs);
         }
     }
     found.sort_unstable();

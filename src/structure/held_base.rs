@@ -5,7 +5,7 @@
 //! | N | displacements of the contact nodes |
 //! | γ | stiffness of the springs |
 
-use super::{ContactNode, Row, Triplets};
+use super::{ContactNode, DofCombination, Triplets};
 use crate::error::Result;
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 
@@ -52,7 +52,7 @@ impl<'a> HeldBase<'a> {
     }
 
     /// Forces of springs that are pulled by these amounts.
-    fn forces<'b>(&self, pulled: impl Iterator<Item = (&'b Row, f64)>) -> Vec<f64> {
+    fn forces<'b>(&self, pulled: impl Iterator<Item = (&'b DofCombination, f64)>) -> Vec<f64> {
         let mut force = vec![0.0; self.matrix.order()];
         for (row, amount) in pulled {
             for &(i, weight) in row {

@@ -3,6 +3,7 @@
 mod contact_node;
 mod damping;
 mod detached;
+mod dof_combination;
 mod held_base;
 mod hysteresis;
 mod matrix_checks;
@@ -10,13 +11,13 @@ mod models;
 mod nonlinear;
 pub(crate) mod probe;
 mod reduction;
-mod row;
 
 pub use crate::linalg::Triplets;
 pub use contact_node::ContactNode;
 pub(crate) use contact_node::{check_contact_nodes, foundation_nodes};
 pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
 pub(crate) use detached::{check_attached, numbers as unknown_numbers};
+pub use dof_combination::DofCombination;
 pub(crate) use held_base::{HeldBase, stiffest};
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
@@ -32,7 +33,6 @@ pub(crate) use nonlinear::{
     Tangent, is_nonlinear, nonlinear_state, restore_variables, save_variables,
 };
 pub use reduction::{CraigBampton, Recovery, ReducedModel};
-pub use row::Row;
 
 use std::any::Any;
 
@@ -40,7 +40,7 @@ use crate::error::Result;
 
 /// A structure as the integrator sees it: implement this for your own model.
 ///
-/// A structure has `n` unknowns, displacements and rotations (m, rad; x to the right, y up, rotations
+/// A structure has `n` degrees of freedom, displacements and rotations (m, rad; x to the right, y up, rotations
 /// counter-clockwise), measured from the unloaded state. Its matrices are written for **absolute**
 /// ones. Since no translation strains it, f is evaluated, and a step committed, at displacements less
 /// the mean translation of the base (of each connected part), with the static ones added. It obeys
@@ -51,13 +51,13 @@ use crate::error::Result;
 ///
 /// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping
 /// does not act on the translation with the ground) and f the optional [`NonlinearForce`]. Four methods
-/// are needed: [`unknowns`](Structure::unknowns), [`contact_nodes`](Structure::contact_nodes),
+/// are needed: [`dofs`](Structure::degrees of freedom), [`contact_nodes`](Structure::contact_nodes),
 /// [`mass`](Structure::mass) and [`stiffness`](Structure::stiffness).
 ///
 /// No support is fixed, the ground holds the structure up: neither K nor the tangent of f at rest
 /// may resist a rigid translation to the right or upwards. Structures with stiffness to a fixed point are
-/// refused when a simulation is built ([`Error::Supported`](crate::Error::Supported)), and so are
-/// those with a part that has mass or stiffness, but no way by stiffness to the unknowns of a contact
+/// refused when a simulation is built ([`Error::Restrained`](crate::Error::Restrained)), and so are
+/// those with a part that has mass or stiffness, but no way by stiffness to the degrees of freedom of a contact
 /// node ([`Error::Detached`](crate::Error::Detached)). Coordinates of modes and others relative to
 /// the base, which a stiffness of their own holds and the mass couples with the rest, are no such part.
 ///
@@ -69,8 +69,8 @@ use crate::error::Result;
 /// back to your own type, and what its internal variables have become.
 #[auto_impl::auto_impl(Box)]
 pub trait Structure: Any + Send {
-    /// Number of unknowns n.
-    fn unknowns(&self) -> usize;
+    /// Number of degrees of freedom n.
+    fn dofs(&self) -> usize;
 
     /// Points of the base that touch the ground, from left to right; between neighbours the base
     /// is straight. A rigid base needs two.
@@ -84,7 +84,7 @@ pub trait Structure: Any + Send {
 
     /// Adds the mass matrix (n × n, kg/m) to `matrix`. Symmetric, positive semi-definite.
     ///
-    /// Unknowns without mass are allowed. Rounding passes: entries on the diagonal down to −10⁻¹² of
+    /// Degrees of freedom without mass are allowed. Rounding passes: entries on the diagonal down to −10⁻¹² of
     /// the largest entry of the matrix, and eigenvalues down to −10⁻⁶ of the matrix scaled to a
     /// diagonal of one. With more than that no simulation is built
     /// ([`Error::Indefinite`](crate::Error::Indefinite)).
@@ -98,7 +98,7 @@ pub trait Structure: Any + Send {
     /// Where it is symmetric and the structure linear, it must be positive semi-definite with the
     /// base held, up to rounding (10⁻¹² of its largest entry on the diagonal), or no simulation is
     /// built ([`Error::Indefinite`](crate::Error::Indefinite)). Lagrange multipliers are excepted:
-    /// an unknown with exactly zero on the diagonal, no mass and no damping, but coefficients cⱼ in
+    /// a degree of freedom with exactly zero on the diagonal, no mass and no damping, but coefficients cⱼ in
     /// its row and column, is the force that keeps Σ cⱼ uⱼ = 0, and the rest must be positive
     /// semi-definite for the displacements that this leaves.
     ///
@@ -124,7 +124,7 @@ pub trait Structure: Any + Send {
         false
     }
 
-    /// Name of these unknowns in errors, for a person who knows the structure by its nodes or storeys.
+    /// Name of these degrees of freedom in errors, for a person who knows the structure by its nodes or storeys.
     /// Default: `None`, and errors give their numbers.
     fn describe(&self, _unknowns: &[usize]) -> Option<String> {
         None

@@ -21,8 +21,8 @@ use crate::linalg::matrix::SparseMatrix;
 /// struct Tuned(RigidBlock);
 ///
 /// impl Structure for Tuned {
-///     fn unknowns(&self) -> usize {
-///         self.0.unknowns() + 1
+///     fn dofs(&self) -> usize {
+///         self.0.dofs() + 1
 ///     }
 ///     fn contact_nodes(&self) -> Vec<ContactNode> {
 ///         self.0.contact_nodes()
@@ -84,8 +84,8 @@ pub trait NonlinearForce {
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()>;
 
     /// Energies of f at `displacement`, where they are known: stored energy then counts as strain
-    /// energy of the ledger, dissipated energy as
-    /// [`hysteresis`](crate::coupled::Ledger::hysteresis). Default: unknown, and all work of f counts
+    /// energy of the energy balance, dissipated energy as
+    /// [`hysteresis`](crate::coupled::EnergyBalance::hysteresis). Default: unknown, and all work of f counts
     /// as strain energy.
     fn energy(&self, _displacement: &[f64]) -> Option<InternalEnergy> {
         None
@@ -169,8 +169,8 @@ pub(crate) struct Tangent {
 }
 
 impl Tangent {
-    pub(crate) fn new(unknowns: usize) -> Self {
-        Self { matrix: SparseMatrix::default(), entries: Triplets::new(unknowns) }
+    pub(crate) fn new(dofs: usize) -> Self {
+        Self { matrix: SparseMatrix::default(), entries: Triplets::new(dofs) }
     }
 
     /// The tangent at a displacement.

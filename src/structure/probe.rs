@@ -1,14 +1,14 @@
 //! Quantities that are read off at every step.
 
 use crate::error::{Error, Result};
-use crate::structure::{Row, SectionRows};
+use crate::structure::{DofCombination, SectionRows};
 use crate::text::column::column;
 
 /// A quantity read off at every step: a weighted sum of displacements, velocities, accelerations.
 ///
 /// Displacements are changes against the static state, relative to the translation of the free
 /// field (under the connected part they belong to); [`Probe::absolute_displacement`] includes it,
-/// [`Row::relative_to_base`] and [`Row::sway`] take the motion of the base out as well. Velocities
+/// [`DofCombination::relative_to_base`] and [`DofCombination::total_drift`] take the motion of the base out as well. Velocities
 /// and accelerations are total.
 ///
 /// ```
@@ -20,7 +20,7 @@ use crate::text::column::column;
 /// let probes = [
 ///     Probe::acceleration("roof", building.roof()),
 ///     Probe::displacement("lowest drift", building.drift(0)?),
-///     Probe::displacement("sway of the roof", building.sway(4)?),
+///     Probe::displacement("sway of the roof", building.total_drift(4)?),
 ///     Probe::section("base shear", &building.shear(0)?),
 ///     Probe::displacement("rotation", ShearBuilding::ROTATION).in_unit("rad"),
 /// ];
@@ -38,33 +38,33 @@ pub struct Probe {
     /// says.
     pub unit: String,
     /// Sum of displacements (changes against the static state).
-    pub displacement: Row,
+    pub displacement: DofCombination,
     /// Whether these include the translation of the free field.
     pub absolute: bool,
     /// Sum of velocities.
-    pub velocity: Row,
+    pub velocity: DofCombination,
     /// Sum of accelerations.
-    pub acceleration: Row,
+    pub acceleration: DofCombination,
 }
 
 impl Probe {
-    /// Displacement (m) relative to the free field: an unknown, or a weighted sum of some.
-    pub fn displacement(name: impl Into<String>, row: impl Into<Row>) -> Self {
+    /// Displacement (m) relative to the free field: a degree of freedom, or a weighted sum of some.
+    pub fn displacement(name: impl Into<String>, row: impl Into<DofCombination>) -> Self {
         Self { displacement: row.into(), ..Self::new(name, "m") }
     }
 
     /// The same with the translation of the free field.
-    pub fn absolute_displacement(name: impl Into<String>, row: impl Into<Row>) -> Self {
+    pub fn absolute_displacement(name: impl Into<String>, row: impl Into<DofCombination>) -> Self {
         Self { absolute: true, ..Self::displacement(name, row) }
     }
 
-    /// Velocity (m/s): an unknown's, or a weighted sum of some.
-    pub fn velocity(name: impl Into<String>, row: impl Into<Row>) -> Self {
+    /// Velocity (m/s): a degree of freedom's, or a weighted sum of some.
+    pub fn velocity(name: impl Into<String>, row: impl Into<DofCombination>) -> Self {
         Self { velocity: row.into(), ..Self::new(name, "m/s") }
     }
 
-    /// Acceleration (m/s²): an unknown's, or a weighted sum of some.
-    pub fn acceleration(name: impl Into<String>, row: impl Into<Row>) -> Self {
+    /// Acceleration (m/s²): a degree of freedom's, or a weighted sum of some.
+    pub fn acceleration(name: impl Into<String>, row: impl Into<DofCombination>) -> Self {
         Self { acceleration: row.into(), ..Self::new(name, "m/s²") }
     }
 
@@ -101,14 +101,17 @@ impl Probe {
         Self { name: name.into(), unit: unit.to_owned(), ..Self::default() }
     }
 
-    pub(crate) fn rows(&self) -> [&Row; 3] {
+    pub(crate) fn rows(&self) -> [&DofCombination; 3] {
         [&self.displacement, &self.velocity, &self.acceleration]
     }
 
-    /// The same probe with its rows in other unknowns; an error names the probe.
-    pub(crate) fn try_map_rows(self, map: impl Fn(Row) -> Result<Row>) -> Result<Self> {
+    /// The same probe with its rows in other degrees of freedom; an error names the probe.
+    pub(crate) fn try_map_rows(
+        self,
+        map: impl Fn(DofCombination) -> Result<DofCombination>,
+    ) -> Result<Self> {
         let Self { name, displacement, velocity, acceleration, .. } = self.clone();
-        let mapped = |row: Row| {
+        let mapped = |row: DofCombination| {
             let named = |source: Error| Error::Probe { name: name.clone(), source: source.into() };
             map(row).map_err(named)
         };
@@ -118,14 +121,14 @@ impl Probe {
     }
 }
 
-/// Refuses probes of unknowns that there are not, and two of the same name.
-pub(crate) fn check(probes: &[Probe], unknowns: usize) -> Result<()> {
+/// Refuses probes of degrees of freedom that there are not, and two of the same name.
+pub(crate) fn check(probes: &[Probe], dofs: usize) -> Result<()> {
     let mut names = std::collections::BTreeSet::new();
     for probe in probes {
         let name = || probe.name.clone();
         for row in probe.rows() {
             let named = |source| Error::Probe { name: name(), source: Box::new(source) };
-            row.check("unknown", unknowns).map_err(named)?;
+            row.check("unknown", dofs).map_err(named)?;
         }
         if !names.insert(&probe.name) {
             return Err(Error::DuplicateName { quantity: "probe", name: name() });

@@ -4,7 +4,7 @@
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::State;
-use basemat::interface::Adhesive;
+use basemat::interface::Cohesive;
 use basemat::motion::FreeFieldFn;
 use basemat::structure::RigidBlock;
 use basemat::{Error, Result, Simulation, Soil, StepError};
@@ -78,7 +78,7 @@ impl Glued {
         Simulation::builder(self.time_step)
             .structure(block)
             .ground(ground)
-            .interface(Adhesive::new(tension, cohesion, friction)?)
+            .interface(Cohesive::new(tension, cohesion, friction)?)
             .motion(motion)
             .build()
     }
@@ -102,7 +102,7 @@ struct Tally {
 }
 
 fn glued(simulation: &Simulation, element: usize) -> bool {
-    simulation.state().law_memory(element) == [1.0]
+    simulation.state().state_variables(element) == [1.0]
 }
 
 /// How far the end of a step is from what glue, or friction where it has broken, allows.
@@ -162,8 +162,8 @@ fn shake(scene: &Glued, steps: usize, tally: &mut Tally) {
         }
         let distance = violation(scene, &before, &state, &held, [force, length.max(1e-4)]);
         tally.violation = tally.violation.max(distance);
-        let lost = state.ledger.contact - before.ledger.contact;
-        energy = energy.max(state.ledger.kinetic).max(state.ledger.input.abs());
+        let lost = state.energy_balance.contact - before.energy_balance.contact;
+        energy = energy.max(state.energy_balance.kinetic).max(state.energy_balance.input.abs());
         // Below a joule the tractions of the weight show their rounding.
         tally.given_back = tally.given_back.max(-lost / energy.max(1.0));
         before = state;

@@ -83,12 +83,12 @@ fn refine(
         })
         .collect();
     for run in &runs {
-        let Run { mode_changes, trials, steps, fallbacks, ledger_residual, .. } = &run.run;
+        let Run { mode_changes, trials, steps, fallbacks, energy_error, .. } = &run.run;
         println!(
-            "{name}: {steps} steps, {trials} solves, fallbacks {fallbacks:?}, {mode_changes} changes, {} at once, ledger {ledger_residual:.1e}",
+            "{name}: {steps} steps, {trials} solves, fallbacks {fallbacks:?}, {mode_changes} changes, {} at once, energy balance {energy_error:.1e}",
             run.at_once
         );
-        assert!(*ledger_residual < 1e-9, "{name}");
+        assert!(*energy_error < 1e-9, "{name}");
         // Contact is found by a few solves a step, whatever happens in it.
         assert!(*trials < 3 * steps, "{name}");
     }

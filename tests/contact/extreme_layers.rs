@@ -58,7 +58,7 @@ fn build(reading: Reading, random: &mut Random) -> Result<Simulation> {
     let law = |e: usize| -> Result<Box<dyn InterfaceLaw>> {
         Ok(match reading {
             Reading::Plain => Box::new(layer),
-            Reading::Released => Box::new(layer.with_debonded_share(0.0)?),
+            Reading::Released => Box::new(layer.with_debonded_ratio(0.0)?),
             Reading::Any => Box::new(layer.with_friction_limit(limit).with_slip_sense(sense)),
             Reading::Mixed if e.is_multiple_of(2) => Box::new(layer),
             Reading::Mixed => Box::new(Coulomb::new(friction)?),

@@ -5,7 +5,7 @@
 
 use basemat::bem::{ContactElement, Ground, SpringGround};
 use basemat::contact::ContactProblem;
-use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, StepStart};
+use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{ContactNode, Structure, Triplets};
 use basemat::{Error, Simulation};
@@ -19,11 +19,11 @@ const COLUMN: f64 = 4.0e6;
 const HEIGHT: f64 = 6.0;
 const FRICTION: f64 = 0.15;
 
-/// Unknowns: base to the right, base up, rotation, mass to the right.
+/// Degrees of freedom: base to the right, base up, rotation, mass to the right.
 struct Tower;
 
 impl Structure for Tower {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         4
     }
 
@@ -82,7 +82,7 @@ fn by_hand() -> Vec<[f64; 3]> {
     };
     ground.prepare(STEP).unwrap();
     let mut delassus = vec![0.0; size * size];
-    ground.instantaneous(&mut delassus).unwrap();
+    ground.step_compliance(&mut delassus).unwrap();
     for column in 0..size {
         let mut unit = vec![0.0; size];
         unit[column] = 1.0;
@@ -98,7 +98,7 @@ fn by_hand() -> Vec<[f64; 3]> {
     let mut problem = problem.with_static_tractions(at_rest).unwrap();
     let pressed = ContactState { pressure, ..ContactState::default() };
     let mut start =
-        problem.start(&vec![StepStart::new(pressed, Mode::Stick, STEP); count]).unwrap();
+        problem.start(&vec![PreviousContact::new(pressed, Mode::Stick, STEP); count]).unwrap();
     let (mut before, mut now) = ([0.0; 4], [0.0; 4]);
     let [mut history, mut free_field] = [vec![0.0; size], vec![0.0; size]];
     let mut seen = Vec::new();
@@ -157,7 +157,7 @@ fn bad_problems_are_errors() {
     }
     let problem = || ContactProblem::new(unit(), laws()).unwrap();
     assert!(matches!(problem().with_static_tractions(vec![1.0]), Err(Error::Size { .. })));
-    let element = StepStart::new(ContactState::default(), Mode::Stick, STEP);
+    let element = PreviousContact::new(ContactState::default(), Mode::Stick, STEP);
     let mut own = problem();
     let start = own.start(&[element]).unwrap();
     assert!(matches!(own.solve(&[0.0], &start), Err(Error::Size { .. })));
@@ -199,7 +199,7 @@ fn glued(law: Adhesion) -> ContactProblem {
 fn glue_of_a_host_breaks_once() {
     let law = Adhesion { friction: 0.5, strength: 1e4, breaks_by_sliding: true };
     let mut problem = glued(law);
-    let element = StepStart::new(ContactState::default(), Mode::Stick, STEP);
+    let element = PreviousContact::new(ContactState::default(), Mode::Stick, STEP);
     let mut start = problem.start(&[element]).unwrap();
     assert_eq!(start.get(0).unwrap().memory, [1e4, 0.0]);
     assert_eq!(start.get(1), None);
@@ -235,7 +235,7 @@ fn hosts_own_the_memory() {
     let problem = ContactProblem::new(operator, vec![Box::new(law())]).unwrap();
     let mut problem = problem.with_static_tractions(vec![1e4, 0.0]).unwrap();
     let pressed = ContactState { pressure: 1e4, ..ContactState::default() };
-    let mut start = problem.start(&[StepStart::new(pressed, Mode::Stick, STEP)]).unwrap();
+    let mut start = problem.start(&[PreviousContact::new(pressed, Mode::Stick, STEP)]).unwrap();
     let mut slid = 0.0_f64;
     for step in 1..=20 {
         let jump = [0.0, -1e-3 * f64::from(step)];
@@ -251,7 +251,7 @@ fn hosts_own_the_memory() {
         solution.commit(&mut start).unwrap();
         assert!((start.get(0).unwrap().memory[0] - slid).abs() < 1e-12);
         // Taken apart and put together again, it is the same.
-        let elements: Vec<StepStart> = start.iter().collect();
+        let elements: Vec<PreviousContact> = start.iter().collect();
         let again = problem.start(&elements).unwrap();
         assert_eq!(again, start);
         start = again;

@@ -110,7 +110,7 @@ fn rocking_block_on_a_bed_without_tension() {
         let error: f64 = tilt.iter().zip(&expected).map(|(a, b)| (a - b).powi(2)).sum();
         let norm: f64 = expected.iter().map(|b| b * b).sum();
         errors.push((error / norm).sqrt());
-        assert!(run.ledger_residual < 1e-10, "ledger {:e}", run.ledger_residual);
+        assert!(run.energy_error < 1e-10, "energy balance {:e}", run.energy_error);
         assert!(run.whole.uplifted_fraction.largest().value >= 0.75);
     }
     println!("relative error of the tilt at 5, 2.5, 1.25 ms: {errors:?}");

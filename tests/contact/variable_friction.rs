@@ -4,7 +4,7 @@
 //! states.
 
 use basemat::coupled::State;
-use basemat::interface::{Activation, Coulomb, InterfaceLaw, VariableFriction};
+use basemat::interface::{Coulomb, InterfaceLaw, UnilateralCondition, VariableFriction};
 use basemat::{Error, LawError, StepError};
 
 use basemat_problems::scenes::{SI, TIME_STEP, block, friction, scene, states};
@@ -28,7 +28,7 @@ fn a_constant_is_coulomb() {
         assert_ne!(stuck, plain);
         assert_eq!(stuck, run(variable().with_tensile_strength(2e4).unwrap()), "{coefficient}");
     }
-    let rate = Activation::Rate { closed_below: 1e-6 };
+    let rate = UnilateralCondition::Velocity { closed_below: 1e-6 };
     let jumping = run(friction(0.3).with_activation(rate).unwrap());
     let variable = VariableFriction::new(|_| 0.3).with_activation(rate).unwrap();
     assert_eq!(jumping, run(variable));
@@ -40,7 +40,7 @@ fn a_constant_is_coulomb() {
         assert!(apart < 1e-9 * largest, "{apart:e} of {largest:e}");
     }
     assert!(VariableFriction::new(|_| 0.3).with_tensile_strength(f64::NAN).is_err());
-    let refused = Activation::Rate { closed_below: -1.0 };
+    let refused = UnilateralCondition::Velocity { closed_below: -1.0 };
     assert!(VariableFriction::new(|_| 0.3).with_activation(refused).is_err());
     assert_eq!(VariableFriction::new(|_| 0.3).friction_coefficient(), None);
     assert_eq!(friction(0.3).friction_coefficient(), Some(0.3));

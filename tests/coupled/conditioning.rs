@@ -3,7 +3,7 @@
 //! REFERENCE: the inverse, a closed form, and the rigid block.
 
 use basemat::bem::{ElasticGround, Grading, Ground};
-use basemat::coupled::{Coordinates, Placement, SimulationBuilder, State};
+use basemat::coupled::{Coordinates, GravityStage, SimulationBuilder, State};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::structure::{ContactNode, CraigBampton, FemModel, RigidBlock, Structure, Triplets};
@@ -21,7 +21,7 @@ fn block(mass: f64, inertia: f64, height: f64) -> RigidBlock {
 #[test]
 fn effective_stiffness_of_a_block_is_known_in_closed_form() {
     for (mass, inertia, height) in [(1e4, 1e5, 1.0), (1e5, 1e4, 30.0), (3.0, 1e-3, 2.0)] {
-        let builder = scene(SI, 0.0).coordinates(Coordinates::Unknowns).interface(Bonded);
+        let builder = scene(SI, 0.0).coordinates(Coordinates::Physical).interface(Bonded);
         let builder = builder.structure(block(mass, inertia, height));
         let found = builder.build().unwrap().conditioning().effective_stiffness;
         let r = (mass * height * height / (inertia + mass * height * height)).sqrt();
@@ -39,7 +39,7 @@ fn ground_and_delassus_match_their_inverses() {
         soil.prepare(TIME_STEP).unwrap();
         let size = 2 * count;
         let mut matrix = vec![0.0; size * size];
-        soil.instantaneous(&mut matrix).unwrap();
+        soil.step_compliance(&mut matrix).unwrap();
         let exact_ground = condition_by_inverse(&matrix, size);
         // 2M/Δt² inverted: sway and rocking meet by −mh.
         let scale = TIME_STEP * TIME_STEP / 2.0;
@@ -86,13 +86,13 @@ fn tower(young: f64) -> FemModel {
 }
 
 fn bonded() -> SimulationBuilder {
-    scene(SI, 0.5).coordinates(Coordinates::Unknowns).interface(Bonded).gravity(0.0)
+    scene(SI, 0.5).coordinates(Coordinates::Physical).interface(Bonded).gravity(0.0)
 }
 
-/// States of 200 steps, and the largest ledger residual.
+/// States of 200 steps, and the largest energy error.
 fn run(mut simulation: Simulation) -> (Vec<State>, f64) {
     let states = scenes::states(&mut simulation, 200);
-    let worst = states.iter().map(|state| state.ledger.residual()).fold(0.0, f64::max);
+    let worst = states.iter().map(|state| state.energy_balance.residual()).fold(0.0, f64::max);
     (states, worst)
 }
 
@@ -113,12 +113,12 @@ fn condition_of_the_stiffness_bounds_the_error() {
         let simulation = bonded().structure(tower(young)).build().unwrap();
         let condition = simulation.conditioning().effective_stiffness;
         let rounding = condition * f64::EPSILON;
-        let (states, ledger) = run(simulation);
+        let (states, energy_balance) = run(simulation);
         let error = apart(&states, &rigid, |state| state.base_rotation);
         println!(
-            "E = 1e{power}: condition {condition:.1e}, ledger {ledger:.1e}, from rigid {error:.1e}"
+            "E = 1e{power}: condition {condition:.1e}, energy balance {energy_balance:.1e}, from rigid {error:.1e}"
         );
-        assert!(error < 3e8 / young + 60.0 * rounding && ledger < 60.0 * rounding);
+        assert!(error < 3e8 / young + 60.0 * rounding && energy_balance < 60.0 * rounding);
     }
     let error = bonded().structure(tower(1e20)).build().err().unwrap();
     let Error::IllConditioned { matrix, condition, limit, quantity, ratio } = error else {
@@ -142,8 +142,8 @@ fn condition_of_the_delassus_operator_is_carried_until_the_ground_is_lost() {
         let (simulation, density) = light(power);
         let simulation = simulation.unwrap();
         let condition = simulation.conditioning().delassus;
-        let (states, ledger) = run(simulation);
-        assert!(ledger < 1e-9, "{power}: {ledger:e}");
+        let (states, energy_balance) = run(simulation);
+        assert!(energy_balance < 1e-9, "{power}: {energy_balance:e}");
         (states.iter().map(|state| state.base_shear / density).collect::<Vec<_>>(), condition)
     };
     let (reference, _) = shear(9);
@@ -169,7 +169,7 @@ fn condition_of_the_delassus_operator_is_carried_until_the_ground_is_lost() {
 struct Wheels;
 
 impl Structure for Wheels {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         5
     }
 
@@ -205,7 +205,7 @@ fn stiffness_within_a_structure_is_named() {
 fn stiff_structures_stand_or_say_why_not() {
     let weighed = |young: f64| {
         let builder = scene(SI, 0.5).structure(tower(young)).interface(friction(0.4));
-        builder.placement(Placement::Frictionless).build()
+        builder.placement(GravityStage::Frictionless).build()
     };
     let weight = 4.0 * 6.0 * 1500.0 * scenes::GRAVITY;
     for young in [1e13, 1e14, 1e15] {
@@ -220,7 +220,7 @@ fn stiff_structures_stand_or_say_why_not() {
     assert_eq!(quantity, "stiffness of the structure over that of the ground");
 }
 
-/// A stiff tower that the ground throws off, without weight: its ledger is open by a few dozen roundings
+/// A stiff tower that the ground throws off, without weight: its energy balance is open by a few dozen roundings
 /// times the condition, since K_eff Δu is rounded in proportion to the flight, near the limit of
 /// incompressibility as elsewhere. A reduced one keeps the rounding of the whole one's stiffness
 /// under rigid motions, whatever its own condition. In modes, where a flight meets no stiffness, both close.
@@ -240,13 +240,13 @@ fn flights_of_stiff_structures_open_the_ledger_by_rounding_only() {
             };
             let simulation = builder.coordinates(coordinates).build().unwrap();
             let condition = simulation.conditioning().effective_stiffness;
-            let (states, ledger) = run(simulation);
+            let (states, energy_balance) = run(simulation);
             let off = states.iter().filter(|state| state.uplifted_fraction == 1.0).count();
             assert!(off > 50, "{off} steps in flight");
-            (condition * f64::EPSILON, ledger)
+            (condition * f64::EPSILON, energy_balance)
         };
-        let (rounding, whole) = fly(false, Coordinates::Unknowns);
-        let (_, reduced) = fly(true, Coordinates::Unknowns);
+        let (rounding, whole) = fly(false, Coordinates::Physical);
+        let (_, reduced) = fly(true, Coordinates::Physical);
         let [(_, whole_modes), (_, reduced_modes)] =
             [false, true].map(|reduced| fly(reduced, Coordinates::Modes));
         println!(

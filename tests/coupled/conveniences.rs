@@ -33,7 +33,7 @@ fn simulation() -> Simulation {
 struct Ends(Vec<f64>, Vec<usize>);
 
 impl Structure for Ends {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         2
     }
     fn contact_nodes(&self) -> Vec<ContactNode> {

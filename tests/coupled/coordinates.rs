@@ -1,13 +1,14 @@
-//! GOAL: modal coordinates and unknowns step the same structure.
+//! GOAL: modal coordinates and degrees of freedom step the same structure.
 //! SCENE: towers, shear buildings and blocks, bonded, sliding, uplifting and pulled; three schemes.
-//! REFERENCE: the run in unknowns, to rounding; a typed error where modes do not decouple.
+//! REFERENCE: the run in degrees of freedom, to rounding; a typed error where modes do not decouple.
 
 use basemat::Error;
 use basemat::coupled::{Coordinates, Midpoint, Newmark, Probe, SimulationBuilder, State, Theta};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::structure::{
-    ContactNode, FemModel, RayleighDamping, Row, ShearBuilding, Storey, Structure, Triplets,
+    ContactNode, DofCombination, FemModel, RayleighDamping, ShearBuilding, Storey, Structure,
+    Triplets,
 };
 
 use basemat_problems::needed_from;
@@ -41,7 +42,7 @@ fn apart<'a>(one: &'a [State], two: &'a [State], quantity: impl Fn(&'a State) ->
 
 /// Somebody pulls it at the top.
 fn pulled(tower: FemModel) -> impl Structure {
-    let along = Row::from(tower.unknowns() - 2);
+    let along = DofCombination::from(tower.dofs() - 2);
     Pulled { structure: tower, along, force: |time: f64| 2e4 * (20.0 * time).sin() }
 }
 
@@ -71,25 +72,25 @@ fn modes_and_unknowns_agree() {
                 _ => builder.scheme(Newmark::default()),
             };
             let modes = march(scheme(make()), Coordinates::Modes);
-            let unknowns = march(scheme(make()), Coordinates::Unknowns);
+            let dofs = march(scheme(make()), Coordinates::Physical);
             let all_modes =
                 |states: &[State]| -> Vec<_> { states.iter().map(|s| s.modes.clone()).collect() };
-            assert!(all_modes(&modes) == all_modes(&unknowns), "{name}: modes of contact differ");
-            let ledger = |s: &State| {
-                let l = &s.ledger;
-                vec![l.kinetic, l.strain, l.damping, l.numerical, l.soil, l.contact, l.input]
+            assert!(all_modes(&modes) == all_modes(&dofs), "{name}: modes of contact differ");
+            let energy_balance = |s: &State| {
+                let l = &s.energy_balance;
+                vec![l.kinetic, l.strain, l.damping, l.algorithmic, l.soil, l.contact, l.input]
             };
             let differences = [
-                apart(&modes, &unknowns, |s| s.absolute_displacement().to_vec()),
-                apart(&modes, &unknowns, |s| s.velocity().to_vec()),
-                apart(&modes, &unknowns, |s| s.acceleration().to_vec()),
-                apart(&modes, &unknowns, |s| vec![s.probes[0]]),
-                apart(&modes, &unknowns, |s| vec![s.probes[1]]),
-                apart(&modes, &unknowns, |s| vec![s.probes[2]]),
-                apart(&modes, &unknowns, |s| vec![s.base_shear, s.normal_force]),
+                apart(&modes, &dofs, |s| s.absolute_displacement().to_vec()),
+                apart(&modes, &dofs, |s| s.velocity().to_vec()),
+                apart(&modes, &dofs, |s| s.acceleration().to_vec()),
+                apart(&modes, &dofs, |s| vec![s.probes[0]]),
+                apart(&modes, &dofs, |s| vec![s.probes[1]]),
+                apart(&modes, &dofs, |s| vec![s.probes[2]]),
+                apart(&modes, &dofs, |s| vec![s.base_shear, s.normal_force]),
                 // Measured against the ride: a smooth base does not rock.
-                apart(&modes, &unknowns, |s| vec![s.base_rotation, s.free_field[0]]),
-                apart(&modes, &unknowns, ledger),
+                apart(&modes, &dofs, |s| vec![s.base_rotation, s.free_field[0]]),
+                apart(&modes, &dofs, energy_balance),
             ];
             println!("{name}: {differences:?}");
             assert!(differences.iter().all(|d| *d < 1e-9), "{name}: {differences:?}");
@@ -101,7 +102,7 @@ fn modes_and_unknowns_agree() {
 /// is no longer small. K does not see the ride, and in modes no rigid motion at all.
 #[test]
 fn stiffness_does_not_open_the_ledger() {
-    for coordinates in [Coordinates::Modes, Coordinates::Unknowns] {
+    for coordinates in [Coordinates::Modes, Coordinates::Physical] {
         for (modulus, strength) in [(2e8, 1.0), (1e13, 1.0), (1e13, 10.0)] {
             let material = Material::new(modulus, 0.2, 1500.0).unwrap();
             let mesh = Mesh::layered_block(-2.0..2.0, 6, &[Layer::new(6.0, 6, material)]).unwrap();
@@ -109,9 +110,9 @@ fn stiffness_does_not_open_the_ledger() {
             let bonded = scene(SI, strength).motion(shake(SI, strength)).interface(Bonded);
             let builder = bonded.structure(model).coordinates(coordinates);
             let run = builder.build().unwrap().run(STEPS, |_| {}).unwrap();
-            let (largest, end) = (run.ledger_residual, run.ledger.residual());
+            let (largest, end) = (run.energy_error, run.energy_balance.residual());
             println!("{coordinates:?}, E = {modulus:e}, × {strength}: {largest:.1e}, {end:.1e}");
-            // In unknowns rocking is left, which K sees; a ride of 1 m would give 1e-8.
+            // In degrees of freedom rocking is left, which K sees; a ride of 1 m would give 1e-8.
             let limit = match coordinates {
                 Coordinates::Modes => 1e-12,
                 _ => 1e-10 + 1e-22 * modulus,
@@ -132,13 +133,12 @@ fn modes_of_a_large_structure_agree() {
         let model = FemModel::on_base(Mesh::layered_block(-2.0..2.0, 10, &layers).unwrap());
         scene(SI, 0.6).structure(model.unwrap()).interface(friction(0.3))
     };
-    let (modes, unknowns) =
-        (march(make(), Coordinates::Modes), march(make(), Coordinates::Unknowns));
-    let difference = apart(&modes, &unknowns, |s| s.absolute_displacement().to_vec());
+    let (modes, dofs) = (march(make(), Coordinates::Modes), march(make(), Coordinates::Physical));
+    let difference = apart(&modes, &dofs, |s| s.absolute_displacement().to_vec());
     assert!(modes[0].absolute_displacement().len() == 286 && difference < 1e-9, "{difference:e}");
 }
 
-/// What modes cannot decouple keeps its unknowns, and says so if modes are insisted on.
+/// What modes cannot decouple keeps its degrees of freedom, and says so if modes are insisted on.
 #[test]
 fn modes_are_refused_where_they_do_not_decouple() {
     struct Dashpot(FemModel);
@@ -165,11 +165,12 @@ fn modes_are_refused_where_they_do_not_decouple() {
 fn modes_know_a_base_that_cannot_lift() {
     struct Slider;
     impl Structure for Slider {
-        fn unknowns(&self) -> usize {
+        fn dofs(&self) -> usize {
             2
         }
         fn contact_nodes(&self) -> Vec<ContactNode> {
-            let node = |x| ContactNode { x, horizontal: 0.into(), vertical: Row::default() };
+            let node =
+                |x| ContactNode { x, horizontal: 0.into(), vertical: DofCombination::default() };
             vec![node(-2.0), node(2.0)]
         }
         fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
@@ -185,9 +186,9 @@ fn modes_know_a_base_that_cannot_lift() {
         let builder = scene(SI, 0.6).gravity(0.0).structure(Slider).interface(Bonded);
         states(&mut builder.coordinates(coordinates).build().unwrap(), STEPS)
     };
-    let (modes, unknowns) = (run(Coordinates::Modes), run(Coordinates::Unknowns));
-    let sway = apart(&modes, &unknowns, |s| s.displacement().to_vec());
-    let shear = apart(&modes, &unknowns, |s| vec![s.base_shear]);
+    let (modes, dofs) = (run(Coordinates::Modes), run(Coordinates::Physical));
+    let sway = apart(&modes, &dofs, |s| s.displacement().to_vec());
+    let shear = apart(&modes, &dofs, |s| vec![s.base_shear]);
     assert!(sway < 1e-9 && shear < 1e-9, "{sway:e} {shear:e}");
-    assert!(unknowns.iter().any(|s| s.base_shear.abs() > 1e3));
+    assert!(dofs.iter().any(|s| s.base_shear.abs() > 1e3));
 }

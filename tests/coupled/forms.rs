@@ -10,13 +10,14 @@ use basemat::bem::full_plane::CqMethod;
 use basemat::bem::layered::{Stages, StripContact};
 use basemat::bem::{ContactElement, Grading, SpringGround, Strip};
 use basemat::coupled::{
-    Checkpoint, ContactSearch, Coordinates, DissipativeMidpoint, HhtAlpha, Ledger, Midpoint,
-    Newmark, Peak, Placement, Probe, Run, Theta, Warning, refine,
+    Checkpoint, ContactSearch, Coordinates, DissipativeMidpoint, EnergyBalance, GravityStage,
+    HhtAlpha, Midpoint, Newmark, Peak, Probe, Run, Theta, Warning, refine,
 };
 use basemat::fem::{Direction, Layer, MassKind, Material, Quad8Integration, QuadFormulation};
 use basemat::history::History;
 use basemat::interface::{
-    Activation, Adhesive, Bonded, Coulomb, FrictionLimit, Mode, SlipSense, ThinLayer, Yielding,
+    Bonded, Cohesive, Coulomb, FrictionLimit, Mode, SlipSense, ThinLayer, UnilateralCondition,
+    Yielding,
 };
 use basemat::motion::{
     AccelerationUnit, Baseline, ColumnFormat, CosmosFormat, KNetFormat, PeerFormat, Record,
@@ -28,7 +29,7 @@ use basemat::soil::{
     Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation, SoilProfile,
 };
 use basemat::structure::{
-    ContactNode, IsolationLevel, ModalDamping, RayleighDamping, RigidBlock, Row, Storey,
+    ContactNode, DofCombination, IsolationLevel, ModalDamping, RayleighDamping, RigidBlock, Storey,
 };
 use basemat::{Complex, Simulation, Soil};
 use serde::Serialize;
@@ -172,7 +173,7 @@ fn interface_laws() {
     let law = Coulomb::new(0.4).unwrap();
     let form = json!({"friction": 0.4, "tensile_strength": 0.0, "activation": "gap"});
     written(&law, form);
-    let rate = Activation::Rate { closed_below: 1e-3 };
+    let rate = UnilateralCondition::Velocity { closed_below: 1e-3 };
     kept(&law.with_activation(rate).unwrap().with_tensile_strength(1e3).unwrap());
     assert_eq!(kept(&Coulomb::uplift_only())["friction"], "inf");
     assert_eq!(serde_json::from_value::<Coulomb>(json!({"friction": 1})).unwrap().friction(), 1.0);
@@ -183,8 +184,8 @@ fn interface_laws() {
     let bad = json!({"friction": 0.1, "activation": {"rate": {"closed_below": -1.0}}});
     refused::<Coulomb>(bad, "gap below which");
     let form = json!({"tension": 1e5, "cohesion": 8e4, "friction": 0.6});
-    written(&Adhesive::new(1e5, 8e4, 0.6).unwrap(), form);
-    refused::<Adhesive>(
+    written(&Cohesive::new(1e5, 8e4, 0.6).unwrap(), form);
+    refused::<Cohesive>(
         json!({"tension": -1.0, "cohesion": 0.0, "friction": 0.6}),
         "tensile strength",
     );
@@ -193,8 +194,8 @@ fn interface_laws() {
     refused::<Yielding>(json!({"bearing_pressure": 0.0, "friction": 0.6}), "bearing pressure");
     let layer = ThinLayer::from_stiffness(1e9, 3e8, 0.4).unwrap();
     kept(&layer);
-    let layer = layer.with_thickness_ratio(0.1).unwrap().with_debonded_share(0.0).unwrap();
-    let layer = layer.with_slip_stiffness_share(0.5).unwrap().with_slip_sense(SlipSense::Velocity);
+    let layer = layer.with_thickness_ratio(0.1).unwrap().with_debonded_ratio(0.0).unwrap();
+    let layer = layer.with_slip_stiffness_ratio(0.5).unwrap().with_slip_sense(SlipSense::Velocity);
     let mut form = kept(&layer.with_friction_limit(FrictionLimit::Lagged));
     form["thickness_ratio"] = json!(0.0);
     refused::<ThinLayer>(form.clone(), "thickness ratio");
@@ -245,7 +246,7 @@ fn choices_are_their_words() {
     words(&[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight]);
     words(&[History::Direct, History::RelaxedFft, History::Exponentials, History::Auto]);
     words(&[Grading::Uniform, Grading::Cosine]);
-    words(&[Placement::Frictionless, Placement::WithInterfaceLaw, Placement::Unloaded]);
+    words(&[GravityStage::Frictionless, GravityStage::WithInterfaceLaw, GravityStage::Unloaded]);
     words(&[Criterion::Slip, Criterion::Gap, Criterion::UpliftedFraction, Criterion::Rotation]);
     words(&[FrictionLimit::Total, FrictionLimit::Lagged, FrictionLimit::Static]);
     words(&[SlipSense::Inelastic, SlipSense::Velocity, SlipSense::LastVelocity]);
@@ -262,7 +263,7 @@ fn choices_are_their_words() {
         AccelerationUnit::FootPerSecondSquared,
         AccelerationUnit::InchPerSecondSquared,
     ]);
-    words(&[Coordinates::Auto, Coordinates::Unknowns, Coordinates::Modes]);
+    words(&[Coordinates::Auto, Coordinates::Physical, Coordinates::Modes]);
     words(&[Baseline::None, Baseline::RemoveMean, Baseline::NewmarkParabola]);
     written(&Coordinates::Reduced { tolerance: 1e-6 }, json!({"reduced": {"tolerance": 1e-6}}));
     written(&ContactSearch::FlowChart { iterations: 9 }, json!({"flow_chart": {"iterations": 9}}));
@@ -281,7 +282,7 @@ fn probes_storeys_layers_and_formats_of_files() {
     let probe: Probe = serde_json::from_value(form).unwrap();
     assert_eq!(probe, Probe::acceleration("roof", 7));
     refused::<Probe>(json!({"nam": "roof"}), "unknown field `nam`");
-    written(&Row::from([(3, 1.0), (0, -0.5)]), json!([[3, 1.0], [0, -0.5]]));
+    written(&DofCombination::from([(3, 1.0), (0, -0.5)]), json!([[3, 1.0], [0, -0.5]]));
     let storey = json!({"height": 3.0, "mass": 2e4, "stiffness": 4e7});
     assert_eq!(serde_json::from_value::<Storey>(storey).unwrap(), Storey::new(3.0, 2e4, 4e7));
     kept(&Storey::new(3.0, 2e4, 4e7));
@@ -376,7 +377,7 @@ fn runs_with_all_that_is_in_them() {
     closed::<Checkpoint>(&serde_json::to_value(simulation.checkpoint().unwrap()).unwrap());
     assert_eq!(serde_json::to_string(&read).unwrap(), text);
     assert_eq!(read.to_string(), run.to_string());
-    assert_eq!((read.wall, read.ledger), (run.wall, run.ledger));
+    assert_eq!((read.wall, read.energy_balance), (run.wall, run.energy_balance));
     assert!(run.slip_events() > 0 && !run.warnings.is_empty() && run.whole.uplift.count > 0);
     for foundation in &run.foundations {
         kept(foundation);
@@ -424,21 +425,21 @@ fn numbers_that_are_not_finite() {
     assert!(peak.value.is_nan() && peak.time == 3.0);
     assert_eq!(serde_json::to_value(peak).unwrap(), json!({"value": null, "time": 3.0}));
     let warning: Vec<Warning> =
-        serde_json::from_value(json!([{"ledger": {"residual": "inf"}}])).unwrap();
-    assert_eq!(warning, [Warning::Ledger { residual: f64::INFINITY }]);
+        serde_json::from_value(json!([{"energy balance": {"residual": "inf"}}])).unwrap();
+    assert_eq!(warning, [Warning::EnergyBalance { residual: f64::INFINITY }]);
 
     let block = RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
     let simulation = Simulation::builder(0.01)
         .structure(block)
         .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7).unwrap())
         .interface(Coulomb::new(0.4).unwrap())
-        .without_ledger()
+        .without_energy_balance()
         .build()
         .unwrap();
-    let ledger = simulation.state().ledger;
-    assert!(ledger.is_left_out());
-    assert_eq!(kept(&ledger)["input"], Value::Null);
-    let (mut form, given) = (kept(&Ledger::default()), json!("inf"));
+    let energy_balance = simulation.state().energy_balance;
+    assert!(energy_balance.is_left_out());
+    assert_eq!(kept(&energy_balance)["input"], Value::Null);
+    let (mut form, given) = (kept(&EnergyBalance::default()), json!("inf"));
     form["soil"] = given;
-    assert_eq!(serde_json::from_value::<Ledger>(form).unwrap().soil, f64::INFINITY);
+    assert_eq!(serde_json::from_value::<EnergyBalance>(form).unwrap().soil, f64::INFINITY);
 }

@@ -2,7 +2,7 @@
 //! SCENE: 200 blocks on one to three layers, uplifting and sliding; steps from 0.02 to 50 elements
 //! per wave, ν up to 0.4999, contrasts from 1 to 100, layers from 1/20 of an element to 100 bases,
 //! damping from 0 to 20 %.
-//! REFERENCE: the energy ledger.
+//! REFERENCE: the energy balance.
 
 use basemat::Simulation;
 use basemat::bem::layered::Stages;
@@ -19,7 +19,7 @@ const SCENES: u64 = 200;
 const STEPS: usize = 60;
 const WIDTH: f64 = 4.0;
 
-/// Ledger residual, and whether the base opened and slid.
+/// EnergyBalance residual, and whether the base opened and slid.
 fn run(seed: u64) -> Result<(f64, bool, bool)> {
     let mut random = Random(seed);
     let elements = random.pick(&[3, 4, 5, 6]);
@@ -79,7 +79,7 @@ fn run(seed: u64) -> Result<(f64, bool, bool)> {
         .build()?;
     let run = simulation.run(STEPS, |_| {})?;
     let slid = run.whole.largest_slip.largest().value > 0.0;
-    Ok((run.ledger_residual, run.whole.uplifted_fraction.largest().value > 0.0, slid))
+    Ok((run.energy_error, run.whole.uplifted_fraction.largest().value > 0.0, slid))
 }
 
 #[test]

@@ -1,17 +1,17 @@
-//! GOAL: loads, static stages and initial motion are what mechanics says, and the ledger books them.
+//! GOAL: loads, static stages and initial motion are what mechanics says, and the energy balance books them.
 //! SCENE: blocks, frames and towers that are pushed, pulled, let go, thrown, tilted and dropped.
 //! REFERENCE: statics, a structure with the same load of its own, energy, free fall, Housner's block.
 
 use basemat::bem::ElasticGround;
-use basemat::coupled::{Load, Placement, SimulationBuilder};
+use basemat::coupled::{GravityStage, Load, SimulationBuilder};
 use basemat::fem::{Beam, Material, Mesh, Quad4, QuadFormulation};
-use basemat::interface::{Adhesive, Bonded, Coulomb, FrictionLimit, ThinLayer, Yielding};
+use basemat::interface::{Bonded, Cohesive, Coulomb, FrictionLimit, ThinLayer, Yielding};
 use basemat::reference::RockingBlock;
 use basemat::structure::{
-    Bilinear, ContactNode, FemModel, RigidBlock, Row, ShearBuilding, Storey, Structure,
+    Bilinear, ContactNode, DofCombination, FemModel, RigidBlock, ShearBuilding, Storey, Structure,
     StructureGroup, Triplets,
 };
-use basemat::{Error, Result, Simulation, Soil, StandingError};
+use basemat::{Error, Result, Simulation, Soil, StabilityError};
 
 const GRAVITY: f64 = 9.80665;
 
@@ -31,19 +31,19 @@ fn on_half_plane(structure: impl Structure + 'static) -> SimulationBuilder {
     Simulation::builder(0.005).ground(ground).structure(structure)
 }
 
-fn refused(builder: SimulationBuilder) -> StandingError {
+fn refused(builder: SimulationBuilder) -> StabilityError {
     match builder.build().map(|_| ()).unwrap_err() {
-        Error::Standing(cause) => *cause,
+        Error::Stability(cause) => *cause,
         other => panic!("{other}"),
     }
 }
 
 /// A structure with a load of its own.
-struct Loaded<S>(S, Row, fn(f64) -> f64);
+struct Loaded<S>(S, DofCombination, fn(f64) -> f64);
 
 impl<S: Structure> Structure for Loaded<S> {
-    fn unknowns(&self) -> usize {
-        self.0.unknowns()
+    fn dofs(&self) -> usize {
+        self.0.dofs()
     }
     fn contact_nodes(&self) -> Vec<ContactNode> {
         self.0.contact_nodes()
@@ -67,7 +67,7 @@ fn a_load_of_the_builder_is_one_of_the_structure() {
     let push = |t: f64| 150.0e3 * (1.0 + (8.0 * t).sin());
     let building =
         || ShearBuilding::new(8.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 4.0e6); 5]).unwrap();
-    let roof = Row::from(building().roof());
+    let roof = DofCombination::from(building().roof());
     let law = || Coulomb::new(0.6).unwrap();
     let mut inside =
         on_half_plane(Loaded(building(), roof.clone(), push)).interface(law()).build().unwrap();
@@ -84,8 +84,11 @@ fn a_load_of_the_builder_is_one_of_the_structure() {
     let [u, v] = [&inside, &outside].map(|simulation| simulation.state().displacement().to_vec());
     let largest = u.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     assert!(u.iter().zip(&v).all(|(a, b)| (a - b).abs() < 1e-10 * largest), "{u:?} {v:?}");
-    assert!(a.ledger_residual < 1e-9 && b.ledger_residual < 1e-9);
-    assert!((inside.state().ledger.input / outside.state().ledger.input - 1.0).abs() < 1e-10);
+    assert!(a.energy_error < 1e-9 && b.energy_error < 1e-9);
+    assert!(
+        (inside.state().energy_balance.input / outside.state().energy_balance.input - 1.0).abs()
+            < 1e-10
+    );
 }
 
 /// Any horizontal load at t = 0, however small, is carried; its resultants are those of statics.
@@ -140,7 +143,7 @@ fn what_cannot_stand_is_refused_with_its_cause() {
         let load = Load::constant(block().horizontal_at(height), force);
         on_half_plane(block()).interface(law()).load(load)
     };
-    let StandingError::Slides { horizontal, normal, resistance, ratio, .. } =
+    let StabilityError::Sliding { horizontal, normal, resistance, ratio, .. } =
         refused(pushed(0.0, -0.6 * WEIGHT))
     else {
         panic!()
@@ -148,7 +151,7 @@ fn what_cannot_stand_is_refused_with_its_cause() {
     assert!((horizontal / WEIGHT + 0.6).abs() < 1e-9 && (normal / WEIGHT - 1.0).abs() < 1e-9);
     assert!((resistance / WEIGHT - 0.5).abs() < 1e-9 && (ratio - 1.2).abs() < 1e-9);
 
-    let StandingError::Overturns { moment, eccentricity, ratio, .. } =
+    let StabilityError::Overturning { moment, eccentricity, ratio, .. } =
         refused(pushed(9.0, 0.4 * WEIGHT))
     else {
         panic!()
@@ -157,7 +160,7 @@ fn what_cannot_stand_is_refused_with_its_cause() {
     assert!((eccentricity - 3.6).abs() < 1e-6 && (ratio - 1.2).abs() < 1e-6, "{eccentricity}");
 
     let up = Load::constant(block().vertical_at(0.0), 1.5 * WEIGHT);
-    let StandingError::Lifted { upward, .. } =
+    let StabilityError::Uplift { upward, .. } =
         refused(on_half_plane(block()).interface(law()).load(up))
     else {
         panic!()
@@ -168,7 +171,7 @@ fn what_cannot_stand_is_refused_with_its_cause() {
     let group = StructureGroup::new().with(block(), 0.0).unwrap().with(block(), 20.0).unwrap();
     let push = group.row(1, block().horizontal_at(0.0)).unwrap();
     let load = Load::constant(push, 0.6 * WEIGHT);
-    let StandingError::Slides { ends, ratio, .. } =
+    let StabilityError::Sliding { ends, ratio, .. } =
         refused(on_half_plane(group).interface(law()).load(load))
     else {
         panic!()
@@ -180,7 +183,7 @@ fn what_cannot_stand_is_refused_with_its_cause() {
     for (share, push, needed, left) in [(0.8, 0.0, 1.25, 6.0), (1.2, 1.0, 1.25, 4.0)] {
         let soft = Yielding::new(share * WEIGHT / 6.0, 0.5).unwrap();
         let load = Load::constant(block().horizontal_at(9.0), push * WEIGHT / 9.0);
-        let StandingError::Sinks { ratio, width, .. } =
+        let StabilityError::BearingFailure { ratio, width, .. } =
             refused(on_half_plane(block()).interface(soft).load(load))
         else {
             panic!()
@@ -201,12 +204,11 @@ fn what_cannot_stand_is_refused_with_its_cause() {
     let model = FemModel::new(mesh, &line).unwrap();
     let own = [basemat::fem::Direction::X, basemat::fem::Direction::Y]
         .map(|direction| model.unknown(top, direction).unwrap());
-    let StandingError::Mechanism { unknowns, place } =
-        refused(on_half_plane(model).interface(law()))
+    let StabilityError::Mechanism { dofs, place } = refused(on_half_plane(model).interface(law()))
     else {
         panic!()
     };
-    assert_eq!(unknowns, own, "{place}");
+    assert_eq!(dofs, own, "{place}");
     assert!(place.contains("(0.5, 4)"), "{place}");
 }
 
@@ -238,7 +240,7 @@ fn a_beam_hinged_on_solids_is_a_mechanism() {
         on_half_plane(FemModel::on_base(mesh).unwrap()).interface(Coulomb::new(0.5).unwrap())
     };
     for lean in [0.0, 1.0] {
-        let StandingError::Mechanism { place, .. } = refused(built(false, lean)) else { panic!() };
+        let StabilityError::Mechanism { place, .. } = refused(built(false, lean)) else { panic!() };
         let top = format!("({lean}, 6)");
         assert!(place.contains(&top) && !place.contains("(0, 0)"), "{place}");
         built(true, lean).build().unwrap();
@@ -280,7 +282,7 @@ fn tables_of_huge_values_stay_finite() {
 fn a_released_load_leaves_its_energy() {
     let building =
         || ShearBuilding::new(8.0, 5.0e5, 4.0e6, &[Storey::new(3.0, 20.0e3, 4.0e6)]).unwrap();
-    let roof = Row::from(building().roof());
+    let roof = DofCombination::from(building().roof());
     let force = 20.0e3;
     let mut simulation = on_half_plane(building())
         .interface(Bonded)
@@ -289,15 +291,18 @@ fn a_released_load_leaves_its_energy() {
         .unwrap();
     let pulled = roof.value(simulation.static_displacement());
     let run = simulation.run(8000, |_| {}).unwrap();
-    assert!(run.ledger_residual < 1e-9);
+    assert!(run.energy_error < 1e-9);
     // In the end it has gone back by F/k in the storey, and by what base and soil had given way.
     let moved = roof.value(simulation.state().displacement());
     assert!(pulled > force / 4.0e6 && moved < -force / 4.0e6, "{pulled} {moved}");
     // Half of the work of −F is stored there, the other half radiated.
-    let ledger = simulation.state().ledger;
+    let energy_balance = simulation.state().energy_balance;
     let stored = 0.5 * 4.0e6 * (force / 4.0e6_f64).powi(2);
-    assert!((ledger.strain / stored - 1.0).abs() < 1e-2, "{ledger}");
-    assert!(ledger.soil > stored && ledger.soil < 2.0 * -force * moved, "{ledger}");
+    assert!((energy_balance.strain / stored - 1.0).abs() < 1e-2, "{energy_balance}");
+    assert!(
+        energy_balance.soil > stored && energy_balance.soil < 2.0 * -force * moved,
+        "{energy_balance}"
+    );
 }
 
 #[test]
@@ -305,12 +310,12 @@ fn an_initial_velocity_is_the_energy_that_a_run_begins_with() {
     let building =
         || ShearBuilding::new(8.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 4.0e6); 3]).unwrap();
     let roof = building().roof();
-    let mut velocity = vec![0.0; building().unknowns()];
+    let mut velocity = vec![0.0; building().dofs()];
     velocity[roof] = 0.5;
-    let mut displacement = vec![0.0; building().unknowns()];
+    let mut displacement = vec![0.0; building().dofs()];
     displacement[roof] = 0.01;
     for coordinates in
-        [basemat::coupled::Coordinates::Unknowns, basemat::coupled::Coordinates::Modes]
+        [basemat::coupled::Coordinates::Physical, basemat::coupled::Coordinates::Modes]
     {
         for newmark in [false, true] {
             let mut builder = on_half_plane(building())
@@ -322,7 +327,7 @@ fn an_initial_velocity_is_the_energy_that_a_run_begins_with() {
                 builder = builder.scheme(basemat::coupled::Newmark::default());
             }
             let mut simulation = builder.build().unwrap();
-            let begun = simulation.state().ledger;
+            let begun = simulation.state().energy_balance;
             let (kinetic, strain) = (0.5 * 20.0e3 * 0.25, 0.5 * 4.0e6 * 1e-4);
             assert!((begun.kinetic / kinetic - 1.0).abs() < 1e-9, "{begun}");
             assert!((begun.strain / strain - 1.0).abs() < 1e-9, "{begun}");
@@ -332,11 +337,11 @@ fn an_initial_velocity_is_the_energy_that_a_run_begins_with() {
             let wanted = if newmark { -4.0e6 * 0.01 / 20.0e3 } else { 0.0 };
             assert!((acceleration - wanted).abs() < 1e-9, "{acceleration} {wanted}");
             let run = simulation.run(1000, |_| {}).unwrap();
-            assert!(run.ledger_residual < 1e-9, "{run}");
+            assert!(run.energy_error < 1e-9, "{run}");
             // The soil has taken the rest.
-            let ledger = simulation.state().ledger;
-            let left = ledger.kinetic + ledger.strain;
-            assert!(left < 0.9 * (kinetic + strain) && ledger.soil > 0.0, "{run}");
+            let energy_balance = simulation.state().energy_balance;
+            let left = energy_balance.kinetic + energy_balance.strain;
+            assert!(left < 0.9 * (kinetic + strain) && energy_balance.soil > 0.0, "{run}");
         }
     }
 }
@@ -347,7 +352,7 @@ fn a_dropped_block_falls_freely_and_lands() {
     let height = 0.05;
     let mut simulation = on_half_plane(block())
         .interface(Coulomb::new(0.5).unwrap())
-        .placement(Placement::Unloaded)
+        .placement(GravityStage::Unloaded)
         .initial_displacement([0.0, height, 0.0])
         .build()
         .unwrap();
@@ -362,7 +367,7 @@ fn a_dropped_block_falls_freely_and_lands() {
     }
     let mut highest = 0.0_f64;
     let run = simulation.run(600, |state| highest = highest.max(state.contact[3].gap)).unwrap();
-    assert!(run.ledger_residual < 1e-9 && highest < 0.5 * height, "{highest}");
+    assert!(run.energy_error < 1e-9 && highest < 0.5 * height, "{highest}");
     // In the end the soil carries the weight.
     assert!((simulation.state().normal_force / WEIGHT - 1.0).abs() < 0.01, "{run}");
 }
@@ -370,7 +375,7 @@ fn a_dropped_block_falls_freely_and_lands() {
 #[test]
 fn initial_motions_and_loads_that_make_no_sense_are_refused() {
     let scene = || on_half_plane(block()).interface(Coulomb::new(0.5).unwrap());
-    let unloaded = || scene().placement(Placement::Unloaded);
+    let unloaded = || scene().placement(GravityStage::Unloaded);
     let text = |builder: SimulationBuilder| builder.build().map(|_| ()).unwrap_err().to_string();
     let own = [
         text(scene().initial_displacement([0.0, 0.0])),
@@ -379,9 +384,9 @@ fn initial_motions_and_loads_that_make_no_sense_are_refused() {
         text(unloaded().initial_displacement([0.0, -0.01, 0.0])),
         text(unloaded().initial_displacement([0.0, 0.0, 0.01])),
         text(unloaded().interface(Bonded).initial_displacement([0.0, 0.1, 0.0])),
-        text(scene().load(Load::constant(Row::from(3), 1.0))),
-        text(scene().load(Load::constant(Row::from((0, f64::NAN)), 1.0))),
-        text(scene().load(Load::new(Row::from(0), |t| 1.0 / t))),
+        text(scene().load(Load::constant(DofCombination::from(3), 1.0))),
+        text(scene().load(Load::constant(DofCombination::from((0, f64::NAN)), 1.0))),
+        text(scene().load(Load::new(DofCombination::from(0), |t| 1.0 / t))),
     ];
     for (text, word) in own.iter().zip([
         "initial displacement",
@@ -391,13 +396,13 @@ fn initial_motions_and_loads_that_make_no_sense_are_refused() {
         "gap of an element",
         "does not open",
         "unknown of a load",
-        "weight of an unknown",
+        "weight of a degree of freedom",
         "external load at t = 0",
     ]) {
         assert!(text.contains(word), "{text}: {word}");
     }
     let mut late = scene()
-        .load(Load::new(Row::from(0), |t| if t > 0.02 { f64::NAN } else { 0.0 }))
+        .load(Load::new(DofCombination::from(0), |t| if t > 0.02 { f64::NAN } else { 0.0 }))
         .build()
         .unwrap();
     let error = late.run(100, |_| {}).unwrap_err();
@@ -427,7 +432,7 @@ fn rocked(shear_wave_speed: f64, elements: usize, step: f64) -> [f64; 2] {
         .ground(ElasticGround::under(soil, &block, elements).unwrap())
         .structure(block)
         .interface(Coulomb::new(2.0).unwrap())
-        .placement(Placement::Unloaded)
+        .placement(GravityStage::Unloaded)
         .initial_displacement([0.0, 0.5 * tilt, tilt])
         .build()
         .unwrap();
@@ -442,7 +447,7 @@ fn rocked(shear_wave_speed: f64, elements: usize, step: f64) -> [f64; 2] {
             (before, far) = (now, far.min(now));
         })
         .unwrap();
-    assert!(run.ledger_residual < 1e-9);
+    assert!(run.energy_error < 1e-9);
     [upright / quarter, -far / tilt]
 }
 
@@ -480,7 +485,7 @@ fn a_tilted_block_rocks_as_housner_s_on_stiff_soil() {
 fn hysteretic_storeys_begin_where_statics_left_them() {
     let building =
         ShearBuilding::new(8.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 4.0e6)]).unwrap();
-    let roof = Row::from(building.roof());
+    let roof = DofCombination::from(building.roof());
     let law = Bilinear::new(4.0e6, 10.0e3, 0.2).unwrap();
     let structure = building.with_law(0, law).unwrap();
     let mut simulation = on_half_plane(structure)
@@ -488,14 +493,14 @@ fn hysteretic_storeys_begin_where_statics_left_them() {
         .load(Load::released(roof.clone(), 15.0e3))
         .build()
         .unwrap();
-    let mut heat = simulation.state().ledger.hysteresis;
+    let mut heat = simulation.state().energy_balance.hysteresis;
     let run = simulation
         .run(400, |state| {
-            assert!(state.ledger.hysteresis >= heat - 1e-9, "{}", state.ledger);
-            heat = state.ledger.hysteresis;
+            assert!(state.energy_balance.hysteresis >= heat - 1e-9, "{}", state.energy_balance);
+            heat = state.energy_balance.hysteresis;
         })
         .unwrap();
-    assert!(run.ledger_residual < 1e-9);
+    assert!(run.energy_error < 1e-9);
     // The elastic branch: 15 kN less take 15/4 mm off the storey at most.
     let moved = roof.value(simulation.state().displacement());
     assert!(moved < 0.0 && moved > -2.0 * 15.0e3 / 4.0e6, "{moved}");
@@ -509,7 +514,7 @@ fn runs_with_loads_and_starts_resume() {
             .interface(Coulomb::new(0.5).unwrap())
             .gravity(gravity)
             .load(Load::new(block().horizontal_at(9.0), |t| 1.0e5 * (9.0 * t).sin()))
-            .placement(Placement::Unloaded)
+            .placement(GravityStage::Unloaded)
             .initial_displacement([0.0, 0.03, 0.01])
             .build()
             .unwrap()
@@ -532,7 +537,7 @@ fn a_weight_that_acts_from_the_start_accelerates_at_once() {
     let scene = || {
         on_half_plane(block())
             .interface(Coulomb::new(0.5).unwrap())
-            .placement(Placement::Unloaded)
+            .placement(GravityStage::Unloaded)
             .scheme(basemat::coupled::Newmark::default())
     };
     let alone = scene().build().unwrap();
@@ -551,7 +556,7 @@ fn a_weight_that_acts_from_the_start_accelerates_at_once() {
 fn glued_bases_are_not_said_to_slide() {
     let glued = |height: f64, share: f64| {
         let load = Load::constant(block().horizontal_at(height), share * WEIGHT);
-        on_half_plane(block()).interface(Adhesive::new(1.0e3, 1.0e6, 0.3).unwrap()).load(load)
+        on_half_plane(block()).interface(Cohesive::new(1.0e3, 1.0e6, 0.3).unwrap()).load(load)
     };
     let simulation = glued(0.0, 0.4).build().unwrap();
     assert!((simulation.state().base_shear / WEIGHT - 0.4).abs() < 1e-6);

@@ -1,18 +1,19 @@
-//! GOAL: reduced coordinates keep their tolerance, the ledger and all that is read off a run.
-//! SCENE: damped towers of 1 092 unknowns, bonded, uplifting and sliding, by all schemes; two towers; loads; a
+//! GOAL: reduced coordinates keep their tolerance, the energy balance and all that is read off a run.
+//! SCENE: damped towers of 1 092 degrees of freedom, bonded, uplifting and sliding, by all schemes; two towers; loads; a
 //! start in motion; structures that cannot be reduced.
-//! REFERENCE: the run in unknowns; the ledger; a run without interruption.
+//! REFERENCE: the run in degrees of freedom; the energy balance; a run without interruption.
 
 use basemat::bem::ElasticGround;
 use basemat::coupled::{
-    Coordinates, DissipativeMidpoint, HhtAlpha, Load, Midpoint, Newmark, Placement, Probe,
+    Coordinates, DissipativeMidpoint, GravityStage, HhtAlpha, Load, Midpoint, Newmark, Probe,
     SimulationBuilder, State, Theta,
 };
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
-    FemModel, RayleighDamping, Row, ShearBuilding, Storey, Structure, StructureGroup, Triplets,
+    DofCombination, FemModel, RayleighDamping, ShearBuilding, Storey, Structure, StructureGroup,
+    Triplets,
 };
 use basemat::{Error, ReducedError, Simulation, Soil};
 
@@ -40,8 +41,8 @@ fn reduced(tolerance: f64) -> Coordinates {
     Coordinates::Reduced { tolerance }
 }
 
-fn roof() -> Row {
-    Row::from(tower().unknowns() - 2)
+fn roof() -> DofCombination {
+    DofCombination::from(tower().dofs() - 2)
 }
 
 fn march(builder: SimulationBuilder, coordinates: Coordinates) -> Vec<State> {
@@ -60,12 +61,12 @@ fn apart<'a>(one: &'a [State], two: &'a [State], quantity: impl Fn(&'a State) ->
     apart / scale
 }
 
-/// Errors of base shear, of all displacements and of each probe; all ledgers close.
+/// Errors of base shear, of all displacements and of each probe; all energy balances close.
 fn errors(make: &dyn Fn() -> SimulationBuilder, tolerance: f64) -> Vec<f64> {
-    let full = march(make(), Coordinates::Unknowns);
+    let full = march(make(), Coordinates::Physical);
     let few = march(make(), reduced(tolerance));
     assert_eq!(few[0].displacement().len(), full[0].displacement().len());
-    assert!(few.iter().all(|state| state.ledger.residual() < 1e-9));
+    assert!(few.iter().all(|state| state.energy_balance.residual() < 1e-9));
     let mut errors = vec![
         apart(&few, &full, |s| vec![s.base_shear]),
         apart(&few, &full, |s| s.absolute_displacement().to_vec()),
@@ -96,7 +97,7 @@ fn bonded_towers_keep_the_tolerance() {
         last = 0.3 * errors[3];
     }
     // Without a tolerance nothing is reduced.
-    assert_eq!(march(make(), Coordinates::Auto), march(make(), Coordinates::Unknowns));
+    assert_eq!(march(make(), Coordinates::Auto), march(make(), Coordinates::Physical));
 }
 
 #[test]
@@ -124,9 +125,9 @@ fn all_schemes_are_reduced() {
     for scheme in schemes {
         let make = || {
             let builder = scene(SI, 0.8).structure(tower()).interface(friction(0.4));
-            scheme(probed(builder).without_ledger())
+            scheme(probed(builder).without_energy_balance())
         };
-        let full = march(make(), Coordinates::Unknowns);
+        let full = march(make(), Coordinates::Physical);
         let few = march(make(), reduced(1e-5));
         within(&[apart(&few, &full, |s| vec![s.base_shear])], 1e-5);
         within(&[apart(&few, &full, |s| vec![s.probes[1]])], 1e-5);
@@ -135,15 +136,15 @@ fn all_schemes_are_reduced() {
 
 #[test]
 fn loads_motions_and_probes_are_in_the_basis() {
-    let n = tower().unknowns();
+    let n = tower().dofs();
     let push = |t: f64| 2e4 * (20.0 * t).sin();
-    let drift = Row::from(n - 2) - Row::from(n - 802);
+    let drift = DofCombination::from(n - 2) - DofCombination::from(n - 802);
     let start: Vec<f64> = (0..n).map(|i| if i > 500 { (i as f64).sin() } else { 0.0 }).collect();
     let small = |scale: f64| start.iter().map(|x| scale * x).collect::<Vec<_>>();
     let make = || {
-        let gradual = Load::new(Row::from(n - 301), push);
+        let gradual = Load::new(DofCombination::from(n - 301), push);
         let builder = scene(SI, 0.1).structure(tower()).interface(Bonded);
-        let builder = builder.load(gradual).load(Load::released(Row::from(n - 2), 1e4));
+        let builder = builder.load(gradual).load(Load::released(DofCombination::from(n - 2), 1e4));
         let builder = builder.initial_displacement(small(1e-4)).initial_velocity(small(1e-2));
         builder.probe(Probe::displacement("drift", drift.clone()))
     };
@@ -152,7 +153,7 @@ fn loads_motions_and_probes_are_in_the_basis() {
     for (x, given) in few.state().displacement().iter().zip(small(1e-4)) {
         assert!((x - given).abs() < 1e-12);
     }
-    let drop = || make().placement(Placement::Unloaded);
+    let drop = || make().placement(GravityStage::Unloaded);
     within(&errors(&drop, 1e-6), 1e-6);
 }
 
@@ -163,7 +164,7 @@ fn loads_that_jump_keep_it() {
     let lightly = RayleighDamping::from_ratios([2.0, 20.0], [0.02; 2]).unwrap();
     let tower = || bare(-2.0..2.0, 20, 25).with_rayleigh(lightly);
     let section = tower().section(3.84, 0.0).unwrap();
-    let n = tower().unknowns();
+    let n = tower().dofs();
     let jump = |t: f64| if t > 0.05 { 1e5 } else { 0.0 };
     let square = |t: f64| if (10.0 * t) % 2.0 > 1.0 { 1e5 } else { 0.0 };
     let values: [fn(f64) -> f64; 2] = [jump, square];
@@ -172,10 +173,10 @@ fn loads_that_jump_keep_it() {
             let make = || {
                 let builder = scene(SI, 0.0).structure(tower()).interface(Bonded);
                 builder
-                    .load(Load::new(Row::from(row), value))
+                    .load(Load::new(DofCombination::from(row), value))
                     .probe(Probe::velocity("roof's velocity", roof()))
                     .probe(Probe::acceleration("roof", roof()))
-                    .probe(Probe::acceleration("below the load", Row::from(row)))
+                    .probe(Probe::acceleration("below the load", DofCombination::from(row)))
                     .probe(Probe::section("shear", &section.shear))
                     .probe(Probe::section("compression", &section.compression))
                     .probe(Probe::section("moment", &section.moment))

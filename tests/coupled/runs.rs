@@ -21,7 +21,7 @@ fn told(run: Run) -> String {
     let page = run.to_string();
     let page: Vec<&str> = page.lines().filter(|line| !line.starts_with("Time taken")).collect();
     let (page, fields) =
-        (page.join("\n"), (run.trials, run.fallbacks, run.ledger, run.warnings.clone()));
+        (page.join("\n"), (run.trials, run.fallbacks, run.energy_balance, run.warnings.clone()));
     let parts = (
         run.envelope.clone(),
         run.foundations.clone(),

@@ -116,7 +116,7 @@ fn shared_kernels_are_told_apart_and_bounded() {
             .with_shared_kernels(&kernels);
         ground.prepare(step).unwrap();
         let mut matrix = vec![0.0; 4 * count * count];
-        ground.instantaneous(&mut matrix).unwrap();
+        ground.step_compliance(&mut matrix).unwrap();
         matrix
     };
     let first = prepare(8e7, 4, 1e-3);

@@ -1,4 +1,4 @@
-//! GOAL: an error blames the part that is at fault, by name, place and value, however unknowns are
+//! GOAL: an error blames the part that is at fault, by name, place and value, however degrees of freedom are
 //! numbered.
 //! SCENE: loads that a coarse base cannot carry, friction that changes, bonds that break, mechanisms,
 //! motions without inertia, numbers that are NaN, grounds and laws of one's own that cannot be right.
@@ -7,8 +7,8 @@
 use basemat::bem::{ContactElement, ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Load, SimulationBuilder};
 use basemat::interface::{
-    Adhesive, Bonded, Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
-    VariableFriction,
+    Bonded, Cohesive, Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact,
+    Tolerance, VariableFriction,
 };
 use basemat::structure::{
     ContactNode, InternalEnergy, NonlinearForce, RigidBlock, Structure, Triplets,
@@ -72,13 +72,13 @@ fn what_pushes_a_base_off_is_named_whatever_the_law() {
     let pushed = standing(8, true).interface(variable()).load(push(0.6));
     says(&["pushes it off", "2.000 times the friction"], pushed);
     // A bond that carries a third of what pushes, beside the friction that stays.
-    let bond = || Adhesive::new(1e6, 0.2 * WEIGHT / WIDTH, 0.2).unwrap();
+    let bond = || Cohesive::new(1e6, 0.2 * WEIGHT / WIDTH, 0.2).unwrap();
     standing(8, true).interface(bond()).load(push(0.1)).build().unwrap();
     let pushed = standing(8, true).interface(bond()).load(push(0.6));
     says(&["bond of the interface breaks", "pushes it off", "3.000 times the friction"], pushed);
     // A bond that is pulled off.
     let up = Load::constant(block().vertical_at(0.0), 1.5 * WEIGHT);
-    let pulled = standing(8, true).interface(Adhesive::new(1e3, 1e6, 0.2).unwrap()).load(up);
+    let pulled = standing(8, true).interface(Cohesive::new(1e3, 1e6, 0.2).unwrap()).load(up);
     says(&["bond of the interface breaks", "lift it"], pulled);
 }
 
@@ -114,12 +114,12 @@ fn loads_that_are_not_finite_are_named_with_number_and_value() {
     }
 }
 
-/// Springs and masses on a rigid base: unknowns 0 to 2 are its motion to the right, up and around.
+/// Springs and masses on a rigid base: degrees of freedom 0 to 2 are its motion to the right, up and around.
 #[derive(Clone)]
 struct Frame {
     springs: Vec<(Vec<(usize, f64)>, f64)>,
     masses: Vec<f64>,
-    /// The number of each unknown.
+    /// The number of each degree of freedom.
     number: Vec<usize>,
 }
 
@@ -144,7 +144,7 @@ impl Frame {
 }
 
 impl Structure for Frame {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         self.masses.len()
     }
 
@@ -167,15 +167,15 @@ impl Structure for Frame {
         Ok(())
     }
 
-    fn describe(&self, unknowns: &[usize]) -> Option<String> {
+    fn describe(&self, dofs: &[usize]) -> Option<String> {
         let own = |number: &usize| self.number.iter().position(|n| n == number);
-        let mut own: Vec<usize> = unknowns.iter().filter_map(own).collect();
+        let mut own: Vec<usize> = dofs.iter().filter_map(own).collect();
         own.sort_unstable();
         Some(format!("{own:?}"))
     }
 }
 
-/// A bar in the direction (x, y) between two points, each with unknowns to the right and up.
+/// A bar in the direction (x, y) between two points, each with degrees of freedom to the right and up.
 fn bar(
     from: [usize; 2],
     to: [usize; 2],
@@ -203,8 +203,8 @@ fn mechanisms_are_the_same_in_any_numbering() {
             "[3, 4, 5, 6]",
         ),
     ] {
-        let unknowns = 3 + 2 * bars.len();
-        let masses = (0..unknowns).map(|i| 1.7e4 * (1.0 + 0.3 * i as f64)).collect();
+        let dofs = 3 + 2 * bars.len();
+        let masses = (0..dofs).map(|i| 1.7e4 * (1.0 + 0.3 * i as f64)).collect();
         let frame = Frame::new(bars, masses);
         for _ in 0..1200 {
             let frame = frame.renumbered(&mut random);
@@ -240,7 +240,7 @@ fn a_base_without_mass_is_named() {
 fn a_base_of_many_nodes_is_accepted() {
     struct Wide(usize);
     impl Structure for Wide {
-        fn unknowns(&self) -> usize {
+        fn dofs(&self) -> usize {
             3
         }
         fn contact_nodes(&self) -> Vec<ContactNode> {
@@ -276,11 +276,11 @@ impl InterfaceLaw for Foreign {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight]
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         Coulomb::uplift_only().conditions(mode, start)
     }
 
-    fn next_mode(&self, mode: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+    fn next_mode(&self, mode: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
         if mode == Mode::Stick { Mode::Yield } else { mode }
     }
 }
@@ -296,7 +296,7 @@ fn a_mode_that_the_law_does_not_have_is_named() {
 struct Told(f64);
 
 impl Structure for Told {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         4
     }
     fn contact_nodes(&self) -> Vec<ContactNode> {
@@ -353,7 +353,7 @@ impl Ground for Answering {
     fn prepare(&mut self, _: f64) -> Result<()> {
         Ok(())
     }
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         matrix.copy_from_slice(&self.1);
         Ok(())
     }

@@ -5,7 +5,7 @@
 use basemat::bem::SpringGround;
 use basemat::coupled::{Probe, SchemeCoefficients, SimulationBuilder, Theta, TimeScheme};
 use basemat::interface::{
-    Bonded, Condition, ContactState, InterfaceLaw, Mode, StepStart, Tolerance,
+    Bonded, Condition, ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance,
 };
 use basemat::motion::FreeField;
 use basemat::{Error, Simulation};
@@ -62,7 +62,7 @@ fn builders_refuse_parts_that_do_not_fit() {
     assert_eq!(error, Error::Probe { name: "far".to_owned(), source });
     for bad in NOT_FINITE {
         let probe = Probe::displacement("bad", (0, bad));
-        let error = unbuilt("probe 'bad': weight of an unknown", good().probe(probe));
+        let error = unbuilt("probe 'bad': weight of a degree of freedom", good().probe(probe));
         assert!(
             matches!(error, Error::Probe { source, .. } if matches!(*source, Error::Input { .. }))
         );
@@ -96,11 +96,11 @@ impl InterfaceLaw for NoModes {
         &[]
     }
 
-    fn conditions(&self, _: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, _: Mode, start: &PreviousContact) -> [Condition; 2] {
         Bonded.conditions(Mode::Stick, start)
     }
 
-    fn next_mode(&self, mode: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+    fn next_mode(&self, mode: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
         mode
     }
 }

@@ -11,7 +11,7 @@ use basemat::motion::{AccelerationUnit, ColumnFormat, Record, el_centro_1940};
 use basemat::structure::{RigidBlock, Triplets};
 use basemat::{
     CaseError, CheckpointError, Error, MatrixFileError, MeshFileError, RecordError, Simulation,
-    StandingError, StepError,
+    StabilityError, StepError,
 };
 
 /// `error` prints `inside` once, alone and with its sources.
@@ -56,8 +56,8 @@ fn errors_print_what_is_inside_them_once() {
     says_once(&record, torn);
     let checkpoint = CheckpointError::Unsupported { part: "roof" };
     says_once(&Error::from(checkpoint.clone()), &checkpoint.to_string());
-    let standing = StandingError::Lifted { ends: [0.0, 1.0], upward: 1.0 };
-    says_once(&Error::Standing(Box::new(standing.clone())), &standing.to_string());
+    let standing = StabilityError::Uplift { ends: [0.0, 1.0], upward: 1.0 };
+    says_once(&Error::Stability(Box::new(standing.clone())), &standing.to_string());
     let mesh = MeshFileError::LineTooLong { bytes: 9 };
     says_once(&Error::MeshFile { file: file(), line: 1, reason: mesh.clone() }, &mesh.to_string());
     let matrix = MatrixFileError::Empty;

@@ -6,9 +6,9 @@
 
 use basemat::bem::SpringGround;
 use basemat::contact::ContactProblem;
-use basemat::coupled::Placement;
+use basemat::coupled::GravityStage;
 use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+    Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
 };
 use basemat::{Error, LawError, Simulation, StepError};
 
@@ -46,7 +46,7 @@ impl InterfaceLaw for Spoilt {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let mut pair = coulomb().conditions(mode, start);
         for number in 0..10 {
             if self.breaks(Place::Condition(number), start.memory[0]) {
@@ -60,29 +60,29 @@ impl InterfaceLaw for Spoilt {
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
         coulomb().next_mode(mode, start, trial, tolerance)
     }
 
-    fn compliance(&self, _: Mode, start: &StepStart) -> [f64; 2] {
+    fn compliance(&self, _: Mode, start: &PreviousContact) -> [f64; 2] {
         let broken = self.breaks(Place::Compliance, start.memory[0]);
         [0.0, if broken { self.value } else { 0.0 }]
     }
 
-    fn memory(&self) -> usize {
+    fn state_variables(&self) -> usize {
         2
     }
 
-    fn initial_memory(&self, _: &StepStart, memory: &mut [f64]) {
+    fn initial_state_variables(&self, _: &PreviousContact, memory: &mut [f64]) {
         if self.breaks(Place::InitialMemory, f64::INFINITY) {
             memory[1] = self.value;
         }
     }
 
-    fn commit(&self, start: &StepStart, end: &ContactState, _: Mode, memory: &mut [f64]) {
+    fn commit(&self, start: &PreviousContact, end: &ContactState, _: Mode, memory: &mut [f64]) {
         memory[0] += (end.slip - start.state.slip).abs();
         if self.breaks(Place::Memory, memory[0]) {
             memory[1] = self.value;
@@ -146,7 +146,7 @@ fn numbers_that_break_in_a_step_are_named_and_nothing_is_committed() {
                 let before = simulation.state().clone();
                 assert!(before.step < 600, "{place:?} of {value} was accepted");
                 let memory: Vec<f64> =
-                    (0..4).flat_map(|e| simulation.state().law_memory(e).to_vec()).collect();
+                    (0..4).flat_map(|e| simulation.state().state_variables(e).to_vec()).collect();
                 assert!(memory.iter().all(|number| number.is_finite()));
                 if let Err(error) = simulation.step() {
                     assert_eq!(*simulation.state(), before);
@@ -179,7 +179,7 @@ fn numbers_that_are_broken_from_the_start_are_named_by_build() {
     let spoilt = Spoilt { place: Some(Place::Condition(0)), value: f64::NAN, slid: 0.0 };
     let ground = SpringGround::new(-2.0..2.0, 1, 5e7, 4e7).unwrap();
     let built = scene(SI, 0.6).structure(block(SI)).ground(ground).interface(spoilt);
-    let Err(Error::Law(error)) = built.placement(Placement::WithInterfaceLaw).build() else {
+    let Err(Error::Law(error)) = built.placement(GravityStage::WithInterfaceLaw).build() else {
         panic!("accepted");
     };
     assert!(matches!(error, LawError::NotFinite { element: 0, mode: "stick", .. }));
@@ -193,15 +193,15 @@ impl InterfaceLaw for Memorious {
         &[Mode::Stick]
     }
 
-    fn conditions(&self, _: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, _: Mode, start: &PreviousContact) -> [Condition; 2] {
         [Condition::gap_is(0.0), Condition::slip_is(start.state.slip)]
     }
 
-    fn next_mode(&self, _: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+    fn next_mode(&self, _: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
         Mode::Stick
     }
 
-    fn memory(&self) -> usize {
+    fn state_variables(&self) -> usize {
         self.0
     }
 }
@@ -223,7 +223,7 @@ fn more_numbers_than_memory_holds_are_refused() {
 fn hosts_are_told_too_and_keep_their_start() {
     let unit = || vec![1e-7, 0.0, 0.0, 1e-7];
     let pressed = ContactState { pressure: 1e4, ..ContactState::default() };
-    let element = StepStart::new(pressed, Mode::Stick, 0.01);
+    let element = PreviousContact::new(pressed, Mode::Stick, 0.01);
     for place in [Place::Condition(9), Place::Memory] {
         let spoilt = Spoilt { place: Some(place), value: f64::NAN, slid: 0.0 };
         let problem = ContactProblem::new(unit(), vec![Box::new(spoilt)]).unwrap();

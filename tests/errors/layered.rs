@@ -6,7 +6,7 @@ use basemat::bem::layered::{
     LayeredKernel, Stages, StripContact, rigid_strip_impedances, static_compliance,
 };
 use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, Strip};
-use basemat::history::LagKernel;
+use basemat::history::ConvolutionWeights;
 use basemat::interface::Bonded;
 use basemat::soil::{
     Base, Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation, SoilLayer,

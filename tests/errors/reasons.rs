@@ -51,7 +51,7 @@ impl Refusing {
 }
 
 impl Structure for Refusing {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         4
     }
 

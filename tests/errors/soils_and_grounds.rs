@@ -65,7 +65,7 @@ fn strips_and_grounds() {
 #[test]
 fn an_unprepared_half_plane_says_so() {
     let mut ground = ElasticGround::new(soil(), Strip::uniform(0.0..1.0, 1).unwrap()).unwrap();
-    error_with("prepare", ground.instantaneous(&mut [0.0; 4]));
+    error_with("prepare", ground.step_compliance(&mut [0.0; 4]));
     error_with("prepare", ground.history(&mut [0.0; 2]));
     error_with("prepare", ground.reserve(10));
 }
@@ -73,7 +73,7 @@ fn an_unprepared_half_plane_says_so() {
 #[test]
 fn an_unprepared_spring_bed_says_so() {
     let mut bed = SpringGround::new(0.0..1.0, 1, 1e6, 1e6).unwrap();
-    error_with("prepare", bed.instantaneous(&mut [0.0; 4]));
+    error_with("prepare", bed.step_compliance(&mut [0.0; 4]));
     error_with("prepare", bed.history(&mut [0.0; 2]));
 }
 
@@ -91,7 +91,7 @@ fn absurd_counts_do_not_panic() {
     // Steps beside which the fronts' passage is no time at all must not split pieces without end.
     for step in [1e200, 1e300] {
         ground.prepare(step).unwrap();
-        assert!(ground.instantaneous(&mut [0.0; 4]).is_ok());
+        assert!(ground.step_compliance(&mut [0.0; 4]).is_ok());
     }
 
     let left = ContactElement { left: 0.0, right: 1.0 };

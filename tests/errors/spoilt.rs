@@ -10,7 +10,7 @@ use basemat_problems::block_on_springs::bed;
 /// A structure of which one part is spoilt.
 #[derive(Clone)]
 pub(crate) struct Spoilt {
-    pub(crate) unknowns: usize,
+    pub(crate) dofs: usize,
     pub(crate) nodes: Vec<ContactNode>,
     pub(crate) mass: (usize, usize, f64),
     pub(crate) stiffness: (usize, usize, f64),
@@ -24,7 +24,7 @@ pub(crate) struct Spoilt {
 impl Spoilt {
     pub(crate) fn sound() -> Self {
         Self {
-            unknowns: 3,
+            dofs: 3,
             nodes: ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2]),
             mass: (0, 0, 0.0),
             stiffness: (0, 0, 0.0),
@@ -42,8 +42,8 @@ impl Spoilt {
 }
 
 impl Structure for Spoilt {
-    fn unknowns(&self) -> usize {
-        self.unknowns
+    fn dofs(&self) -> usize {
+        self.dofs
     }
 
     fn contact_nodes(&self) -> Vec<ContactNode> {
@@ -51,7 +51,7 @@ impl Structure for Spoilt {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
-        for i in 0..self.unknowns.min(3) {
+        for i in 0..self.dofs.min(3) {
             matrix.add(i, i, 1e4);
         }
         let (row, column, value) = self.mass;

@@ -6,7 +6,7 @@
 use std::fmt::Debug;
 
 use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+    Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
 };
 use basemat::motion::FreeFieldFn;
 use basemat::{Error, Simulation, StepError};
@@ -73,11 +73,11 @@ impl InterfaceLaw for Fickle {
         &[Mode::Stick, Mode::Open]
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         Coulomb::uplift_only().conditions(mode, start)
     }
 
-    fn next_mode(&self, mode: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+    fn next_mode(&self, mode: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
         if mode == Mode::Stick { Mode::Open } else { Mode::Stick }
     }
 }

@@ -3,12 +3,12 @@
 //! REFERENCE: the fields of the error.
 
 use basemat::bem::ElasticGround;
-use basemat::coupled::Placement;
+use basemat::coupled::GravityStage;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::{
-    ContactNode, CraigBampton, ModalDamping, Row, Structure, StructureGroup, Triplets,
+    ContactNode, CraigBampton, DofCombination, ModalDamping, Structure, StructureGroup, Triplets,
 };
-use basemat::{Error, MemoryError, Simulation, Soil, StandingError};
+use basemat::{Error, MemoryError, Simulation, Soil, StabilityError};
 
 use super::builder::unbuilt;
 use super::spoilt::Spoilt;
@@ -77,19 +77,23 @@ fn structures_with_a_bad_base_are_refused() {
         nodes[0].vertical = (1, x).into();
         with(nodes).build().map(drop)
     });
-    let none = Spoilt { unknowns: 0, nodes: empty_base(), ..Spoilt::sound() };
+    let none = Spoilt { dofs: 0, nodes: empty_base(), ..Spoilt::sound() };
     assert!(matches!(
         Simulation::builder(1e-3).structure(none).ground(bed(4)).interface(Bonded).build(),
         Err(Error::Size { found: 0, .. } | Error::Index { .. })
     ));
-    // The base moves with one unknown only: nothing turns it, nothing moves it sideways.
+    // The base moves with one degree of freedom only: nothing turns it, nothing moves it sideways.
     let floating = unbuilt("singular", with(empty_base()));
     assert!(matches!(floating, Error::Singular { order: 3, .. }));
 }
 
 fn empty_base() -> Vec<ContactNode> {
     [-2.0, 2.0]
-        .map(|x| ContactNode { x, horizontal: Row::default(), vertical: Row::default() })
+        .map(|x| ContactNode {
+            x,
+            horizontal: DofCombination::default(),
+            vertical: DofCombination::default(),
+        })
         .into()
 }
 
@@ -98,16 +102,16 @@ fn a_structure_that_slides_away_under_its_static_load_is_refused() {
     let pushed = |push| Spoilt { push, ..Spoilt::sound() }.scene();
     let law = Coulomb::new(0.3).unwrap();
     // It is set down without friction; friction of 0.3 then holds it.
-    for placement in [Placement::Frictionless, Placement::WithInterfaceLaw] {
+    for placement in [GravityStage::Frictionless, GravityStage::WithInterfaceLaw] {
         let placed = pushed(1e4).interface(law).placement(placement);
         let shear = placed.build().unwrap().state().base_shear;
         assert!((shear - 1e4).abs() < 1e-4, "{shear}");
     }
     let weight = pushed(0.0).interface(law).build().unwrap().state().normal_force;
     let error = unbuilt("pushes it off", pushed(0.31 * weight).interface(law));
-    let Error::Standing(cause) = error else { panic!("{error:?}") };
+    let Error::Stability(cause) = error else { panic!("{error:?}") };
     match *cause {
-        StandingError::Slides { ratio, .. } => {
+        StabilityError::Sliding { ratio, .. } => {
             assert!((ratio - 0.31 / 0.3).abs() < 1e-6, "{ratio}");
         }
         other => panic!("{other:?}"),
@@ -116,11 +120,11 @@ fn a_structure_that_slides_away_under_its_static_load_is_refused() {
 
 #[test]
 fn structures_without_end_are_refused() {
-    // More unknowns than any machine holds.
-    let endless = Spoilt { unknowns: usize::MAX, ..Spoilt::sound() };
+    // More degrees of freedom than any machine holds.
+    let endless = Spoilt { dofs: usize::MAX, ..Spoilt::sound() };
     match endless.scene().build().err() {
         Some(Error::Memory(MemoryError { quantity, .. })) => {
-            assert_eq!(quantity, "unknowns of the structure");
+            assert_eq!(quantity, "degrees of freedom of the structure");
         }
         other => panic!("{other:?}"),
     }
@@ -130,7 +134,7 @@ fn structures_without_end_are_refused() {
 struct Grown;
 
 impl Structure for Grown {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         3
     }
     fn contact_nodes(&self) -> Vec<ContactNode> {
@@ -157,7 +161,7 @@ fn matrices_of_another_order_are_refused_by_whatever_reads_them() {
 
 #[test]
 fn groups_of_endless_structures_are_refused() {
-    let endless = || Spoilt { unknowns: usize::MAX, ..Spoilt::sound() };
+    let endless = || Spoilt { dofs: usize::MAX, ..Spoilt::sound() };
     let group = StructureGroup::new().with(endless(), 0.0).unwrap().with(endless(), 9.0).unwrap();
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     assert!(ElasticGround::under(soil, &group, 4).is_ok());

@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 use basemat::Error;
 use basemat::bem::Grading;
-use basemat::coupled::{ContactSearch, Coordinates, Placement, SearchMethod};
+use basemat::coupled::{ContactSearch, Coordinates, GravityStage, SearchMethod};
 use basemat::fem::{Direction, MassKind};
 use basemat::history::History;
 use basemat::interface::{FrictionLimit, Mode, SlipSense};
@@ -52,8 +52,8 @@ fn choices_are_read_as_they_are_shown() {
     };
     use Criterion::{Gap, Rotation, Slip, UpliftedFraction};
     use FrictionLimit::{Dynamic, Lagged, Static, Total};
+    use GravityStage::{Frictionless, Unloaded, WithInterfaceLaw};
     use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight};
-    use Placement::{Frictionless, Unloaded, WithInterfaceLaw};
     use SearchMethod::{ActiveSet, GaussSeidel, Path};
     use SlipSense::{Inelastic, LastVelocity, Velocity};
 
@@ -72,7 +72,7 @@ fn choices_are_read_as_they_are_shown() {
     check("quantity", &Quantity::ALL);
     let tolerances = [1e-6, 0.5, 1.0 / 3.0, 5e-324];
     let reduced = tolerances.map(|tolerance| Coordinates::Reduced { tolerance });
-    check("kind of coordinates", &[Coordinates::Unknowns, Coordinates::Modes]);
+    check("kind of coordinates", &[Coordinates::Physical, Coordinates::Modes]);
     for choice in reduced.iter().chain(&[Coordinates::Auto]) {
         assert_eq!(choice.to_string().parse(), Ok(*choice));
     }

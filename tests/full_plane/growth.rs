@@ -78,8 +78,8 @@ impl Case {
             let mut sum = 0.0;
             for _ in from..to {
                 march.step(&rest).unwrap();
-                let unknowns = if held { march.traction() } else { march.displacement() };
-                sum += unknowns.iter().fold(0.0_f64, |m, x| m.max(x.abs())).ln();
+                let dofs = if held { march.traction() } else { march.displacement() };
+                sum += dofs.iter().fold(0.0_f64, |m, x| m.max(x.abs())).ln();
             }
             sum / (to - from) as f64
         };

@@ -49,14 +49,14 @@ fn bad_input_is_refused() {
     let flat = |x: f64| Segment { from: [x, 0.0], to: [x + 1.0, 0.0] };
     let mut ground = FullPlaneGround::strip(soil, -1.0..1.0, 2, 2).unwrap();
     assert!(matches!(ground.history(&mut [0.0; 4]), Err(Error::Scene { .. })));
-    assert!(matches!(ground.instantaneous(&mut [0.0; 16]), Err(Error::Scene { .. })));
+    assert!(matches!(ground.step_compliance(&mut [0.0; 16]), Err(Error::Scene { .. })));
     assert!(matches!(ground.reserve(9), Err(Error::Scene { .. })));
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(ground.prepare(step), Err(Error::Input { .. })));
     }
     ground.prepare(0.5).unwrap();
     assert!(matches!(ground.history(&mut [0.0; 3]), Err(Error::Size { .. })));
-    assert!(matches!(ground.instantaneous(&mut [0.0; 15]), Err(Error::Size { .. })));
+    assert!(matches!(ground.step_compliance(&mut [0.0; 15]), Err(Error::Size { .. })));
     assert!(matches!(ground.static_compliance(&mut [0.0; 15]), Err(Error::Size { .. })));
     ground.commit(&[]);
     let [empty, nan, point] =

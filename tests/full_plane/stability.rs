@@ -139,11 +139,11 @@ fn marched_growth(kernel: &dyn BoundaryKernel, prescribed: bool, steps: usize) -
         .collect();
     let inverse = inverse(&lags[0], order);
     let mut random = random::Random(7);
-    let mut unknowns: Vec<Vec<f64>> = vec![(0..order).map(|_| random.within(-1.0, 1.0)).collect()];
+    let mut dofs: Vec<Vec<f64>> = vec![(0..order).map(|_| random.within(-1.0, 1.0)).collect()];
     let mut sizes = vec![];
     for step in 1..steps {
         let mut rhs = vec![0.0; order];
-        for (lag, unknown) in (1..=step).zip(unknowns.iter().rev()) {
+        for (lag, unknown) in (1..=step).zip(dofs.iter().rev()) {
             for (row, rhs) in rhs.iter_mut().enumerate() {
                 let line = &lags[lag][row * order..][..order];
                 *rhs -= line.iter().zip(unknown).map(|(a, b)| a * b).sum::<f64>();
@@ -153,7 +153,7 @@ fn marched_growth(kernel: &dyn BoundaryKernel, prescribed: bool, steps: usize) -
             .map(|row| inverse[row * order..][..order].iter().zip(&rhs).map(|(a, b)| a * b).sum())
             .collect();
         sizes.push(next.iter().fold(0.0_f64, |m, x| m.max(x.abs())).ln());
-        unknowns.push(next);
+        dofs.push(next);
     }
     // Means over sixths smooth the beat of modes that turn.
     let window = steps / 6;

@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, PatchKernel, Strip};
 use basemat::history::{
-    ChoiceReason, ConvolutionHistory, DirectHistory, ExponentialHistory, History, LagKernel,
+    ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
+    History,
 };
 use basemat::{Error, MemoryError, Soil};
 
@@ -14,7 +15,7 @@ use basemat_problems::passivity::Scene;
 use basemat_problems::random::Random;
 
 /// A strip of length 2 with soil of unit modulus and density, β = c₁Δt over the mean element.
-fn kernel(poisson: f64, beta: f64, elements: Vec<ContactElement>) -> Arc<dyn LagKernel> {
+fn kernel(poisson: f64, beta: f64, elements: Vec<ContactElement>) -> Arc<dyn ConvolutionWeights> {
     let soil = Soil::new(1.0, poisson, 1.0).unwrap();
     let length = 2.0 / elements.len() as f64;
     let step = beta * length / soil.pressure_wave_speed();
@@ -41,14 +42,14 @@ struct March {
     work: [f64; 2],
 }
 
-fn march(kernel: &Arc<dyn LagKernel>, tolerance: f64) -> March {
+fn march(kernel: &Arc<dyn ConvolutionWeights>, tolerance: f64) -> March {
     let mut history = ExponentialHistory::new(Arc::clone(kernel), tolerance).unwrap();
     let mut direct = DirectHistory::new(Arc::clone(kernel));
     let steps = 4 * history.window() + 200;
     let count = kernel.classes().elements().len();
     let size = 2 * count;
     let mut instantaneous = vec![0.0; size * size];
-    kernel.instantaneous(&mut instantaneous).unwrap();
+    kernel.step_compliance(&mut instantaneous).unwrap();
     let mut random = Random(7);
     let [mut a, mut b, mut traction, mut before, mut last] = [(); 5].map(|()| vec![0.0; size]);
     let (mut worst, mut largest, mut increment) = (0.0_f64, 0.0_f64, 0.0_f64);

@@ -5,11 +5,13 @@
 use std::sync::Arc;
 
 use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, PatchKernel, Strip};
-use basemat::history::{ConvolutionHistory, DirectHistory, History, LagKernel, RelaxedFftHistory};
+use basemat::history::{
+    ConvolutionHistory, ConvolutionWeights, DirectHistory, History, RelaxedFftHistory,
+};
 use basemat::{Error, Soil};
 use proptest::prelude::*;
 
-fn kernel(elements: Vec<ContactElement>, time_step: f64) -> Arc<dyn LagKernel> {
+fn kernel(elements: Vec<ContactElement>, time_step: f64) -> Arc<dyn ConvolutionWeights> {
     let soil = Soil::new(80.0e6, 1.0 / 3.0, 1900.0).unwrap();
     Arc::new(PatchKernel::new(soil, elements, time_step).unwrap())
 }
@@ -26,7 +28,7 @@ fn noise(step: usize, traction: &mut [f64]) {
 }
 
 /// How a relaxed history may be made: by pairs, by wavenumbers, as it chooses, with other leaves.
-fn makes(kernel: &Arc<dyn LagKernel>) -> [RelaxedFftHistory; 5] {
+fn makes(kernel: &Arc<dyn ConvolutionWeights>) -> [RelaxedFftHistory; 5] {
     let new = || RelaxedFftHistory::new(Arc::clone(kernel));
     [
         new(),
@@ -39,7 +41,7 @@ fn makes(kernel: &Arc<dyn LagKernel>) -> [RelaxedFftHistory; 5] {
 
 /// Largest difference from the direct sum over a march, relative to the largest value, for each
 /// way to make the history.
-fn difference(kernel: &Arc<dyn LagKernel>, steps: usize, reserved: usize) -> [f64; 5] {
+fn difference(kernel: &Arc<dyn ConvolutionWeights>, steps: usize, reserved: usize) -> [f64; 5] {
     let size = 2 * kernel.classes().elements().len();
     let mut direct = DirectHistory::new(Arc::clone(kernel));
     let mut all = makes(kernel);

@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use basemat::motion::{FreeField, PlaneWave, Record};
-use basemat::site::{Column, ControlPoint, InclinedControl, InclinedWave, VerticalWave};
+use basemat::site::{ControlPoint, InclinedControl, InclinedWave, SoilColumn, VerticalWave};
 use basemat::soil::{
     Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Relaxation, SoilProfile,
 };
@@ -42,7 +42,7 @@ fn vertical_incidence_is_the_column() {
     let mut worst = 0.0_f64;
     for profile in [profile(Elastic, Elastic), profile(damping(0.05), damping(0.02))] {
         for (make, wave) in BOTH.into_iter().zip([VerticalWave::Shear, VerticalWave::Pressure]) {
-            let column = Column::new(profile.clone(), wave).unwrap();
+            let column = SoilColumn::new(profile.clone(), wave).unwrap();
             let inclined = make(profile.clone(), 0.0).unwrap();
             let (along, control) = match wave {
                 VerticalWave::Shear => (0, InclinedControl::OutcropHorizontal),

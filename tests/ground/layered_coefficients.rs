@@ -5,7 +5,7 @@
 use basemat::Soil;
 use basemat::bem::layered::{LayeredKernel, Stages};
 use basemat::bem::{Grading, InfluenceKernel, Strip};
-use basemat::history::LagKernel;
+use basemat::history::ConvolutionWeights;
 use basemat::soil::SoilProfile;
 
 use basemat_problems::profiles::{gmb, p1};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use basemat::bem::layered::{LayeredKernel, Stages};
 use basemat::bem::{ContactElement, ElasticGround, Ground, SharedKernels, Strip};
-use basemat::history::LagKernel;
+use basemat::history::ConvolutionWeights;
 use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::soil::{Relaxation, SoilProfile};
@@ -248,6 +248,6 @@ fn runs_from_a_file_are_the_same_to_the_last_bit() {
     let ground = ElasticGround::new(p3(gmb(5)), Strip::uniform(-1.0..1.0, 2).unwrap()).unwrap();
     let mut ground = ground.with_kernel_file(&file.0);
     ground.prepare(0.2).unwrap();
-    let found = ground.instantaneous(&mut [0.0; 16]).unwrap_err();
+    let found = ground.step_compliance(&mut [0.0; 16]).unwrap_err();
     assert!(matches!(found, Error::Layered(LayeredError::File { .. })), "{found}");
 }

@@ -6,7 +6,7 @@
 use basemat::Soil;
 use basemat::bem::layered::{LayeredKernel, Stages};
 use basemat::bem::{Grading, Strip};
-use basemat::history::LagKernel;
+use basemat::history::ConvolutionWeights;
 use basemat::soil::{Elastic, SoilProfile};
 
 use basemat_problems::profiles::{gmb, p1, p3};

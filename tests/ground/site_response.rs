@@ -2,7 +2,7 @@
 //! SCENE: damped and elastic layers on rock and on a rigid base.
 //! REFERENCE: a table of another program, sums of reflections, the motion itself.
 
-use basemat::site::{Column, ControlPoint, VerticalWave};
+use basemat::site::{ControlPoint, SoilColumn, VerticalWave};
 use basemat::soil::{GeneralizedMaxwell, Hysteretic, SoilProfile};
 use basemat::{Complex, Error, LayeredError, Soil};
 
@@ -12,7 +12,7 @@ use basemat_problems::profiles::p1;
 #[test]
 fn amplification_matches_the_table() {
     let damping = |ratio: f64| Hysteretic::new(ratio).unwrap();
-    let column = Column::new(p1(damping(0.05), damping(0.01)), VerticalWave::Shear).unwrap();
+    let column = SoilColumn::new(p1(damping(0.05), damping(0.01)), VerticalWave::Shear).unwrap();
     let table = include_str!("../data/layered/amplification_1d.csv");
     let (mut worst, mut rows) = (0.0_f64, 0);
     for line in table.lines().filter(|line| line.starts_with("P1")) {
@@ -45,7 +45,7 @@ fn reflections_in_an_elastic_layer() {
         (VerticalWave::Shear, [layer.shear_wave_speed(), rock.shear_wave_speed()]),
         (VerticalWave::Pressure, [layer.pressure_wave_speed(), rock.pressure_wave_speed()]),
     ] {
-        let column = Column::new(profile.clone(), wave).unwrap();
+        let column = SoilColumn::new(profile.clone(), wave).unwrap();
         let surface = column.to_surface(ControlPoint::Outcrop, dt, &motion).unwrap().samples;
         let within = column.from_surface(ControlPoint::Within, dt, &surface).unwrap().samples;
         let ratio = layer.density() * speeds[0] / (rock.density() * speeds[1]);
@@ -74,7 +74,7 @@ fn reflections_in_an_elastic_layer() {
 fn reflections_on_a_rigid_base_never_end() {
     let layer = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0).unwrap();
     let profile = SoilProfile::on_rigid_base().with_layer(layer, 35.0).unwrap();
-    let column = Column::new(profile, VerticalWave::Shear).unwrap();
+    let column = SoilColumn::new(profile, VerticalWave::Shear).unwrap();
     let (dt, count, travel) = (0.01, 1500, 35.0 / 200.0);
     let motion: Vec<f64> = (0..count).map(|i| ricker(dt * f64::from(i))).collect();
     let surface = column.to_surface(ControlPoint::Outcrop, dt, &motion).unwrap().samples;
@@ -105,7 +105,7 @@ fn deconvolution_undoes_convolution() {
             .with_damping(law.clone());
         let motion: Vec<f64> = (0..12_001).map(|i| ricker(0.005 * f64::from(i))).collect();
         for wave in [VerticalWave::Shear, VerticalWave::Pressure] {
-            let column = Column::new(profile.clone(), wave).unwrap();
+            let column = SoilColumn::new(profile.clone(), wave).unwrap();
             for control in [ControlPoint::Outcrop, ControlPoint::Within] {
                 let surface = column.to_surface(control, 0.005, &motion).unwrap();
                 let back = column.from_surface(control, 0.005, &surface.samples).unwrap();
@@ -128,7 +128,7 @@ fn deconvolution_undoes_convolution() {
 fn bad_motions_are_refused() {
     let soil = Soil::from_shear_wave_speed(150.0, 0.4, 1800.0).unwrap();
     let profile = SoilProfile::on_rigid_base().with_layer(soil, 5.0).unwrap();
-    let column = Column::new(profile.clone(), VerticalWave::Shear).unwrap();
+    let column = SoilColumn::new(profile.clone(), VerticalWave::Shear).unwrap();
     let control = ControlPoint::Within;
     for (step, motion) in [
         (0.0, vec![1.0]),
@@ -141,9 +141,9 @@ fn bad_motions_are_refused() {
     }
     assert!(column.transfer(control, -1.0).is_err());
     assert!(column.transfer(control, f64::NAN).is_err());
-    assert!(Column::new(SoilProfile::on_rigid_base(), VerticalWave::Shear).is_err());
+    assert!(SoilColumn::new(SoilProfile::on_rigid_base(), VerticalWave::Shear).is_err());
     let profile = profile.with_damping(Hysteretic::new(0.05).unwrap());
-    let column = Column::new(profile, VerticalWave::Shear).unwrap();
+    let column = SoilColumn::new(profile, VerticalWave::Shear).unwrap();
     let found = column.to_surface(control, 0.1, &[1.0]);
     assert!(matches!(found, Err(Error::Layered(LayeredError::NotCausal { layer: 1, .. }))));
     assert!(found.unwrap_err().to_string().contains("GeneralizedMaxwell"));

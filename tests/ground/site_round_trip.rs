@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use basemat::motion::el_centro_1940;
 use basemat::site::{
-    Column, ControlPoint, InclinedControl, InclinedWave, SiteMotion, VerticalWave,
+    ControlPoint, InclinedControl, InclinedWave, SiteMotion, SoilColumn, VerticalWave,
 };
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::{Complex, Soil};
@@ -125,7 +125,7 @@ fn low(ratio: f64) -> f64 {
 /// With quiet time on both sides nothing is lost, and it comes back; without, what is lost is said.
 #[test]
 fn there_and_back() {
-    let column = Column::new(profile(), VerticalWave::Shear).unwrap();
+    let column = SoilColumn::new(profile(), VerticalWave::Shear).unwrap();
     let (mut worst, mut most) = (0.0_f64, 0.0_f64);
     for (name, step, samples) in records() {
         for control in [ControlPoint::Outcrop, ControlPoint::Within] {
@@ -153,7 +153,7 @@ fn there_and_back() {
 /// of them to a factor of four.
 #[test]
 fn the_surface_moves_by_the_transfer_function() {
-    let column = Column::new(profile(), VerticalWave::Shear).unwrap();
+    let column = SoilColumn::new(profile(), VerticalWave::Shear).unwrap();
     let sv = InclinedWave::sv(profile(), 0.35).unwrap();
     let p = InclinedWave::p(profile(), -0.8).unwrap();
     let (control, incident) = (InclinedControl::OutcropHorizontal, InclinedControl::Incident);

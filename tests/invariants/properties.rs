@@ -2,7 +2,7 @@
 //! SCENE: block and tower on the half-plane that slide, uplift or stay bonded.
 //! REFERENCE: the mirrored, rescaled or superposed run, and statics.
 
-use basemat::coupled::{Placement, State};
+use basemat::coupled::{GravityStage, State};
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::{Error, Simulation, StepError};
 use proptest::prelude::*;
@@ -98,7 +98,7 @@ fn contact_conditions_hold_at_every_step() {
             states.iter().flat_map(|s| &s.contact).fold(0.0_f64, |m, c| m.max(c.pressure));
         let length =
             states.iter().flat_map(State::displacement).fold(0.0_f64, |m, u| m.max(u.abs()));
-        let input = states.iter().fold(0.0_f64, |m, s| m.max(s.ledger.input.abs()));
+        let input = states.iter().fold(0.0_f64, |m, s| m.max(s.energy_balance.input.abs()));
         for pair in states.windows(2) {
             for (e, (before, now)) in pair[0].contact.iter().zip(&pair[1].contact).enumerate() {
                 let mode = pair[1].modes[e];
@@ -119,7 +119,7 @@ fn contact_conditions_hold_at_every_step() {
                 lifted += usize::from(mode == Mode::Open);
                 slid += usize::from(mode.is_slip());
             }
-            let lost = pair[1].ledger.contact - pair[0].ledger.contact;
+            let lost = pair[1].energy_balance.contact - pair[0].energy_balance.contact;
             assert!(lost >= -1e-14 * input, "friction {mu}: {lost:e} gained");
         }
     }
@@ -130,7 +130,7 @@ fn contact_conditions_hold_at_every_step() {
 #[test]
 fn preload_is_in_equilibrium() {
     let weight = block(SI).total_mass() * GRAVITY;
-    for placement in [Placement::Frictionless, Placement::WithInterfaceLaw] {
+    for placement in [GravityStage::Frictionless, GravityStage::WithInterfaceLaw] {
         for mu in [0.0, 0.4, f64::INFINITY] {
             let simulations =
                 [scene(SI, 0.0).structure(block(SI)), scene(SI, 0.0).structure(tower(SI, None))]
@@ -213,14 +213,14 @@ fn step_without_modes_changes_nothing() {
         fn conditions(
             &self,
             mode: Mode,
-            start: &basemat::interface::StepStart,
+            start: &basemat::interface::PreviousContact,
         ) -> [basemat::interface::Condition; 2] {
             self.0.conditions(mode, start)
         }
         fn next_mode(
             &self,
             mode: Mode,
-            start: &basemat::interface::StepStart,
+            start: &basemat::interface::PreviousContact,
             trial: &basemat::interface::ContactState,
             tolerance: basemat::interface::Tolerance,
         ) -> Mode {

@@ -30,7 +30,7 @@ fn model(gmsh: &GmshMesh) -> FemModel {
 }
 
 fn stiffness(model: &FemModel) -> Triplets {
-    let mut matrix = Triplets::new(model.unknowns());
+    let mut matrix = Triplets::new(model.dofs());
     model.stiffness(&mut matrix).unwrap();
     matrix
 }
@@ -69,13 +69,13 @@ fn areas_materials_and_the_order_of_nodes_are_right() {
     for (name, _) in FILES {
         let model = model(&file(name));
         let ride = model.rigid_motion(Direction::X, [0.0; 2]);
-        let mut mass = Triplets::new(model.unknowns());
+        let mut mass = Triplets::new(model.dofs());
         model.mass(&mut mass).unwrap();
         let expected = 2500.0 * 12.0 + 1800.0 * 18.0;
         let found = dot(&ride, &product(&mass, &ride));
         assert!((found / expected - 1.0).abs() < 1e-9, "{name}: {found}");
         // u_x = x: σ_xx ε_xx = λ + 2μ.
-        let mut strain = vec![0.0; model.unknowns()];
+        let mut strain = vec![0.0; model.dofs()];
         for (node, [x, _]) in model.mesh().nodes().iter().enumerate() {
             strain[model.unknown(node, Direction::X).unwrap()] = *x;
         }
@@ -99,7 +99,7 @@ fn areas_materials_and_the_order_of_nodes_are_right() {
 /// Work of a sideways weight of 1 m/s² on the block that stands on a fixed base: f·K⁻¹f by conjugate
 /// gradients.
 fn compliance(model: &FemModel) -> f64 {
-    let n = model.unknowns();
+    let n = model.dofs();
     let mut held = vec![false; n];
     for node in model.contact_nodes() {
         node.horizontal.iter().chain(&node.vertical).for_each(|&(unknown, _)| held[unknown] = true);

@@ -10,8 +10,8 @@ use basemat::coupled::State;
 use basemat::fem::{Beam, Direction, Mesh};
 use basemat::interface::Mode;
 use basemat::io::paraview;
-use basemat::results::{Histories, Recorder, WirePoint, Wireframe};
-use basemat::structure::{FemModel, RigidBlock, Row, ShearBuilding, Storey};
+use basemat::results::{DeformedShape, Recorder, ShapePoint, TimeSeries};
+use basemat::structure::{DofCombination, FemModel, RigidBlock, ShearBuilding, Storey};
 
 use basemat_problems::scenes::{SI, block, friction, scene, tower};
 
@@ -45,9 +45,9 @@ fn arrays(xml: &str) -> BTreeMap<String, Vec<f64>> {
     found
 }
 
-fn recorded() -> (Vec<State>, Histories, Wireframe) {
+fn recorded() -> (Vec<State>, TimeSeries, DeformedShape) {
     let tower = tower(SI, None);
-    let shape = Wireframe::of_model(&tower);
+    let shape = DeformedShape::of_model(&tower);
     let mut simulation = scene(SI, 0.6).structure(tower).interface(friction(0.35)).build().unwrap();
     let mut histories = Recorder::new().contact(40).motion(40).start(&simulation).unwrap();
     let mut states = vec![simulation.state().clone()];
@@ -113,7 +113,7 @@ fn wireframes_move_as_their_structures() {
     let storeys = [Storey::new(3.0, 1e4, 1e7), Storey::new(4.0, 1e4, 1e7)];
     let building = ShearBuilding::new(10.0, 1e4, 1e5, &storeys).unwrap();
     let building = building.centered_at(7.0).unwrap();
-    let shape = Wireframe::of_building(&building).unwrap();
+    let shape = DeformedShape::of_building(&building).unwrap();
     assert_eq!(shape.points()[5].position, [12.0, 7.0]);
     assert_eq!(shape.cells().len(), 3 + 4);
     let moved = shape.displacements(&[0.1, 0.2, 0.01, 0.3, 0.4]).unwrap();
@@ -123,7 +123,7 @@ fn wireframes_move_as_their_structures() {
     assert_eq!(moved[0][0], 0.1);
     assert_eq!(moved[2][0], 0.3);
 
-    // Beams are lines, and a node without unknowns does not move.
+    // Beams are lines, and a node without degrees of freedom does not move.
     let mut mesh = Mesh::new();
     let nodes = [0.0, 1.0, 2.0].map(|x| mesh.add_node(x, 0.0).unwrap());
     mesh.add_node(5.0, 5.0).unwrap();
@@ -131,11 +131,11 @@ fn wireframes_move_as_their_structures() {
         mesh.add(Beam::new([nodes[k], nodes[k + 1]], 1e6, 1e6, 1.0, 1.0).unwrap()).unwrap();
     }
     let model = FemModel::new(mesh, &nodes).unwrap();
-    let shape = Wireframe::of_model(&model);
+    let shape = DeformedShape::of_model(&model);
     assert_eq!(shape.cells(), [[0, 1], [1, 2]]);
-    let mut unknowns = vec![0.0; 9];
-    unknowns[model.unknown(1, Direction::Y).unwrap()] = 0.25;
-    let moved = shape.displacements(&unknowns).unwrap();
+    let mut dofs = vec![0.0; 9];
+    dofs[model.unknown(1, Direction::Y).unwrap()] = 0.25;
+    let moved = shape.displacements(&dofs).unwrap();
     assert_eq!(moved, [[0.0; 2], [0.0, 0.25], [0.0; 2], [0.0; 2]]);
 
     // Followers of a rigid link go with it.
@@ -149,11 +149,11 @@ fn wireframes_move_as_their_structures() {
     let model = FemModel::new(mesh, &[left, right]).unwrap();
     let model = model.with_rigid_link(foot, &[left, right]).unwrap();
     let ride = model.rigid_motion(Direction::X, [0.0; 2]);
-    let moved = Wireframe::of_model(&model).displacements(&ride).unwrap();
+    let moved = DeformedShape::of_model(&model).displacements(&ride).unwrap();
     assert_eq!(moved, [[1.0, 0.0]; 4]);
 
     // P from a block: a rigid turn leaves all distances, to second order.
-    let shape = Wireframe::of_block(&RigidBlock::new(4.0, 6.0, 1e3).unwrap(), 6.0).unwrap();
+    let shape = DeformedShape::of_block(&RigidBlock::new(4.0, 6.0, 1e3).unwrap(), 6.0).unwrap();
     let moved = shape.displacements(&[0.0, 0.0, 1e-5]).unwrap();
     let at = |k: usize| [0, 1].map(|d| shape.points()[k].position[d] + moved[k][d]);
     let distance = (at(0)[0] - at(2)[0]).hypot(at(0)[1] - at(2)[1]);
@@ -164,15 +164,19 @@ fn wireframes_move_as_their_structures() {
 fn bad_requests_are_errors() {
     let (_, histories, shape) = recorded();
     let folder = folder("errors");
-    let series = |name, shape: &Wireframe, histories| {
+    let series = |name, shape: &DeformedShape, histories| {
         paraview::write_series(&folder, name, shape, histories).unwrap_err()
     };
     for name in ["", "a/b", "..", "a b", "\"x\""] {
         assert!(matches!(series(name, &shape, &histories), Error::Scene { .. }));
     }
-    // More unknowns than the run has.
-    let point = WirePoint { position: [0.0; 2], horizontal: 98.into(), vertical: Row::default() };
-    let other = Wireframe::new(vec![point.clone()], vec![vec![0]]).unwrap();
+    // More degrees of freedom than the run has.
+    let point = ShapePoint {
+        position: [0.0; 2],
+        horizontal: 98.into(),
+        vertical: DofCombination::default(),
+    };
+    let other = DeformedShape::new(vec![point.clone()], vec![vec![0]]).unwrap();
     assert!(matches!(series("a", &other, &histories), Error::Index { index: 98, bound: 98, .. }));
     let simulation = scene(SI, 0.6).structure(block(SI)).interface(friction(0.3)).build().unwrap();
     let without = Recorder::new().start(&simulation).unwrap();
@@ -183,12 +187,12 @@ fn bad_requests_are_errors() {
     let fault = paraview::write_series(folder.join("file/deeper"), "a", &shape, &histories);
     assert!(matches!(fault, Err(Error::Write { .. })));
 
-    assert!(Wireframe::new(vec![], vec![]).is_err());
-    assert!(Wireframe::new(vec![point.clone()], vec![vec![]]).is_err());
-    assert!(Wireframe::new(vec![point.clone()], vec![vec![0, 1]]).is_err());
-    let nan = WirePoint { position: [f64::NAN, 0.0], ..point.clone() };
-    assert!(Wireframe::new(vec![nan], vec![]).is_err());
-    let infinite = WirePoint { vertical: (0, f64::INFINITY).into(), ..point };
-    assert!(Wireframe::new(vec![infinite], vec![]).is_err());
-    assert!(Wireframe::of_block(&block(SI), 0.0).is_err());
+    assert!(DeformedShape::new(vec![], vec![]).is_err());
+    assert!(DeformedShape::new(vec![point.clone()], vec![vec![]]).is_err());
+    assert!(DeformedShape::new(vec![point.clone()], vec![vec![0, 1]]).is_err());
+    let nan = ShapePoint { position: [f64::NAN, 0.0], ..point.clone() };
+    assert!(DeformedShape::new(vec![nan], vec![]).is_err());
+    let infinite = ShapePoint { vertical: (0, f64::INFINITY).into(), ..point };
+    assert!(DeformedShape::new(vec![infinite], vec![]).is_err());
+    assert!(DeformedShape::of_block(&block(SI), 0.0).is_err());
 }

@@ -1,6 +1,6 @@
 //! GOAL: a finite element of one's own.
 //! SCENE: a tripod of struts on a block of quadrilaterals.
-//! REFERENCE: a run with a closed ledger.
+//! REFERENCE: a run with a closed energy balance.
 
 use basemat::fem::{Direction, Element, Layer, MassKind, Material, Mesh};
 use basemat::interface::Coulomb;

@@ -41,7 +41,7 @@ impl Ground for Bed {
         Ok(())
     }
 
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         self.diagonal(matrix, 2.0);
         Ok(())
     }

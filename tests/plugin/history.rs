@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use basemat::bem::{ElasticGround, PatchKernel, Strip};
 use basemat::coupled::SimulationBuilder;
-use basemat::history::{ConvolutionHistory, DirectHistory, LagKernel};
+use basemat::history::{ConvolutionHistory, ConvolutionWeights, DirectHistory};
 use basemat::interface::Coulomb;
 use basemat::{Result, Simulation};
 
@@ -15,7 +15,7 @@ use basemat_problems::block_on_springs::block;
 
 /// The convolution as a triple loop over the kernel's classes, with its own store.
 struct Plain {
-    kernel: Arc<dyn LagKernel>,
+    kernel: Arc<dyn ConvolutionWeights>,
     past: Vec<Vec<f64>>,
 }
 
@@ -80,7 +80,8 @@ fn own_history() {
 #[test]
 fn histories_agree_with_the_direct_sum() {
     let elements = Strip::uniform(0.0..3.0, 3).unwrap().elements();
-    let kernel: Arc<dyn LagKernel> = Arc::new(PatchKernel::new(soil(), elements, 2e-3).unwrap());
+    let kernel: Arc<dyn ConvolutionWeights> =
+        Arc::new(PatchKernel::new(soil(), elements, 2e-3).unwrap());
     let mut plain = Plain { kernel: Arc::clone(&kernel), past: Vec::new() };
     let mut direct = DirectHistory::new(kernel);
     let (mut a, mut b) = ([f64::NAN; 6], [f64::NAN; 6]);

@@ -3,13 +3,13 @@
 use std::sync::{Arc, Mutex};
 
 use basemat::bem::{
-    ContactElement, ElasticGround, Grading, Ground, KernelGround, KernelSource, PatchKernel,
-    SharedKernels, SpringGround, Strip,
+    ContactElement, ElasticGround, Grading, Ground, PatchKernel, SharedKernels, SpringGround,
+    Strip, WeightsGround, WeightsSource,
 };
 use basemat::coupled::Run;
 use basemat::history::{
-    ChoiceReason, ConvolutionHistory, DirectHistory, ExponentialHistory, ExponentialTail, History,
-    LagKernel, LateLags, PairClasses, RelaxedFftHistory, SharedSpectra, TailProduct,
+    ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
+    ExponentialSum, History, LateLags, PairClasses, RelaxedFftHistory, SharedSpectra, TailProduct,
 };
 use basemat::interface::Coulomb;
 use basemat::{Error, Result, Simulation};
@@ -42,7 +42,7 @@ impl Fading {
     }
 }
 
-impl LagKernel for Fading {
+impl ConvolutionWeights for Fading {
     fn classes(&self) -> &PairClasses {
         &self.classes
     }
@@ -78,7 +78,7 @@ impl InBlocks {
     }
 }
 
-impl LagKernel for InBlocks {
+impl ConvolutionWeights for InBlocks {
     fn classes(&self) -> &PairClasses {
         &self.kernel.classes
     }
@@ -184,7 +184,7 @@ fn coefficients_do_not_depend_on_the_cut() {
     const LAGS: usize = 700;
     let patch = PatchKernel::new(soil(), strips(Grading::Cosine), 2e-3).unwrap();
     let blocks = InBlocks::new(Fading::new(strips(Grading::Cosine), None));
-    for kernel in [&patch as &dyn LagKernel, &blocks] {
+    for kernel in [&patch as &dyn ConvolutionWeights, &blocks] {
         for class in [0, 1, kernel.classes().count() - 1] {
             let fill = |first: usize, count: usize| {
                 let [mut zz, mut xx, mut zx] = [(); 3].map(|()| vec![f64::NAN; count]);
@@ -235,7 +235,7 @@ impl VoigtKernel {
     }
 }
 
-impl LagKernel for VoigtKernel {
+impl ConvolutionWeights for VoigtKernel {
     fn classes(&self) -> &PairClasses {
         &self.classes
     }
@@ -267,7 +267,7 @@ impl LateLags for VoigtKernel {
     }
 
     /// One rate; one function for each element, which is 1 there and 0 elsewhere.
-    fn exponentials(&self, window: usize, _: usize, _: f64) -> Result<ExponentialTail> {
+    fn exponentials(&self, window: usize, _: usize, _: f64) -> Result<ExponentialSum> {
         let elements = self.classes.elements();
         let functions = (0..elements.len())
             .map(|own| (0..elements.len()).map(|e| f64::from(u8::from(e == own))).collect())
@@ -277,12 +277,16 @@ impl LateLags for VoigtKernel {
             TailProduct { functions: [own; 2], normal: weights.clone(), tangential: weights }
         };
         let products = (0..elements.len()).map(product).collect();
-        ExponentialTail::new(vec![self.rate], functions, products)
+        ExponentialSum::new(vec![self.rate], functions, products)
     }
 }
 
-impl KernelSource for Voigt {
-    fn kernel(&self, elements: &[ContactElement], time_step: f64) -> Result<Arc<dyn LagKernel>> {
+impl WeightsSource for Voigt {
+    fn kernel(
+        &self,
+        elements: &[ContactElement],
+        time_step: f64,
+    ) -> Result<Arc<dyn ConvolutionWeights>> {
         Ok(Arc::new(VoigtKernel::new(*self, elements, time_step)))
     }
 
@@ -304,7 +308,7 @@ impl KernelSource for Voigt {
 #[test]
 fn a_held_pressure_on_the_voigt_bed() {
     let elements = strips(Grading::Cosine);
-    let kernel: Arc<dyn LagKernel> = Arc::new(VoigtKernel::new(VOIGT, &elements, 1e-4));
+    let kernel: Arc<dyn ConvolutionWeights> = Arc::new(VoigtKernel::new(VOIGT, &elements, 1e-4));
     let exponentials = ExponentialHistory::with_horizon(Arc::clone(&kernel), 1e-10, 3000).unwrap();
     assert_eq!((exponentials.poles(), exponentials.functions()), (1, 10));
     let histories: [Box<dyn ConvolutionHistory>; 3] = [
@@ -313,7 +317,7 @@ fn a_held_pressure_on_the_voigt_bed() {
         Box::new(exponentials),
     ];
     let mut instantaneous = vec![f64::NAN; 400];
-    kernel.instantaneous(&mut instantaneous).unwrap();
+    kernel.step_compliance(&mut instantaneous).unwrap();
     for (number, mut history) in histories.into_iter().enumerate() {
         let mut s = vec![f64::NAN; 20];
         for step in 1..=500 {
@@ -339,8 +343,8 @@ fn run(ground: impl Ground + 'static, time_step: f64, steps: usize) -> (Simulati
     (simulation, run)
 }
 
-fn bed() -> KernelGround {
-    KernelGround::new(VOIGT, Strip::uniform(-2.0..2.0, 8).unwrap().elements()).unwrap()
+fn bed() -> WeightsGround {
+    WeightsGround::new(VOIGT, Strip::uniform(-2.0..2.0, 8).unwrap().elements()).unwrap()
 }
 
 /// GOAL: a foreign kernel carries a structure, whatever the history.
@@ -352,7 +356,7 @@ fn a_block_on_the_voigt_bed() {
         kinds.map(|kind| run(bed().with_history_kind(kind), 2e-3, 600));
     assert_eq!(auto.0.history_choice().unwrap().kind, History::RelaxedFft);
     for (simulation, run) in [&auto, &direct, &exponentials] {
-        assert!(run.ledger_residual < 1e-9, "{:e}", run.ledger_residual);
+        assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
         assert_same_motion(simulation, &auto.0, 1e-6);
     }
     let difference = |time_step: f64, steps| {
@@ -373,8 +377,12 @@ fn a_block_on_the_voigt_bed() {
 #[test]
 fn a_kernel_ground_is_what_the_half_plane_is_made_of() {
     struct Outside(ElasticGround);
-    impl KernelSource for Outside {
-        fn kernel(&self, elements: &[ContactElement], dt: f64) -> Result<Arc<dyn LagKernel>> {
+    impl WeightsSource for Outside {
+        fn kernel(
+            &self,
+            elements: &[ContactElement],
+            dt: f64,
+        ) -> Result<Arc<dyn ConvolutionWeights>> {
             Ok(Arc::new(PatchKernel::new(soil(), elements.to_vec(), dt)?))
         }
         fn static_compliance(&self, _: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
@@ -383,7 +391,7 @@ fn a_kernel_ground_is_what_the_half_plane_is_made_of() {
     }
     let ground = || ElasticGround::new(soil(), Strip::graded(-2.0..2.0, 6).unwrap()).unwrap();
     let elements = ground().elements().to_vec();
-    let own = KernelGround::new(Outside(ground()), elements).unwrap();
+    let own = WeightsGround::new(Outside(ground()), elements).unwrap();
     let (own, other) = (run(own, 5e-3, 300).0, run(ground(), 5e-3, 300).0);
     assert_eq!(own.state(), other.state());
 }
@@ -392,7 +400,7 @@ fn a_kernel_ground_is_what_the_half_plane_is_made_of() {
 fn kernels_are_shared_by_type_and_identity() {
     let kernels = SharedKernels::default();
     let prepare = |soil: Voigt, time_step: f64| {
-        let ground = KernelGround::new(soil, strips(Grading::Uniform)).unwrap();
+        let ground = WeightsGround::new(soil, strips(Grading::Uniform)).unwrap();
         ground.with_shared_kernels(&kernels).prepare(time_step).unwrap();
         kernels.len()
     };
@@ -404,7 +412,7 @@ fn kernels_are_shared_by_type_and_identity() {
 
 /// Says nothing of where its coupling ends.
 struct Coupled(VoigtKernel);
-impl LagKernel for Coupled {
+impl ConvolutionWeights for Coupled {
     fn classes(&self) -> &PairClasses {
         self.0.classes()
     }
@@ -419,13 +427,13 @@ impl LagKernel for Coupled {
 #[test]
 fn without_late_lags_exponentials_are_refused() {
     let none = Voigt { late: false, ..VOIGT };
-    let ground = || KernelGround::new(none, strips(Grading::Uniform)).unwrap();
+    let ground = || WeightsGround::new(none, strips(Grading::Uniform)).unwrap();
     let refused = ground().with_history_kind(History::Exponentials).prepare(1e-3);
     assert!(matches!(refused, Err(Error::NoExponentials { .. })), "{refused:?}");
     // Auto takes the transforms, in any memory.
     let mut auto = ground().with_history_memory(1000).with_history_tolerance(1e-6).unwrap();
     auto.prepare(1e-3).unwrap();
-    auto.announce(5000).unwrap();
+    auto.expect_steps(5000).unwrap();
     let choice = auto.history_choice().unwrap();
     let wanted = (History::RelaxedFft, ChoiceReason::NoExponentials);
     assert_eq!((choice.kind, choice.reason), wanted);
@@ -443,7 +451,7 @@ fn a_tail_that_does_not_fit_is_refused() {
         tangential: tangential.to_vec(),
     };
     let new = |rate: f64, functions: &[Vec<f64>], product: TailProduct| {
-        ExponentialTail::new(vec![rate], functions.to_vec(), vec![product])
+        ExponentialSum::new(vec![rate], functions.to_vec(), vec![product])
     };
     let ones = [vec![1.0; 10]];
     let fits = product([0, 0], &[1.0], &[1.0]);

@@ -3,7 +3,7 @@
 //! REFERENCE: Coulomb's law, which slides less.
 
 use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+    Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
 };
 
 use super::{run, shaken};
@@ -17,7 +17,7 @@ impl InterfaceLaw for Glaze {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let law = if start.mode.is_slip() { 0.0 } else { self.0 };
         Coulomb::new(law).unwrap().conditions(mode, start)
     }
@@ -25,7 +25,7 @@ impl InterfaceLaw for Glaze {
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {

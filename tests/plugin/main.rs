@@ -1,6 +1,6 @@
 //! GOAL: every trait can be implemented outside the crate, and all of them together.
 //! SCENE: a block on springs or half-plane under a pulse, one part replaced at a time.
-//! REFERENCE: the part of the crate that is the same or nearly so; a closed ledger.
+//! REFERENCE: the part of the crate that is the same or nearly so; a closed energy balance.
 
 mod element;
 mod forwarding;
@@ -10,9 +10,9 @@ mod ground;
 mod history;
 mod kernel;
 mod law;
-mod law_memory;
 mod scheme;
 mod shared_kernels;
+mod state_variables;
 mod structure;
 mod structure_with_memory;
 mod threads_and_texts;
@@ -48,7 +48,7 @@ fn shaken() -> SimulationBuilder {
 fn run(builder: SimulationBuilder) -> (Run, Simulation) {
     let mut simulation = builder.build().unwrap();
     let run = simulation.run(600, |_| {}).unwrap();
-    assert!(run.ledger_residual < 1e-9, "{run}");
+    assert!(run.energy_error < 1e-9, "{run}");
     assert!(run.whole.base_shear.magnitude() > 0.0, "{run}");
     (run, simulation)
 }

@@ -8,9 +8,9 @@ use std::sync::{Arc, Barrier, mpsc};
 use std::time::Duration;
 
 use basemat::bem::{
-    ContactElement, Ground, KernelGround, KernelSource, PatchKernel, SharedKernels, Strip,
+    ContactElement, Ground, PatchKernel, SharedKernels, Strip, WeightsGround, WeightsSource,
 };
-use basemat::history::LagKernel;
+use basemat::history::ConvolutionWeights;
 use basemat::{Error, Result};
 
 use super::soil;
@@ -33,13 +33,17 @@ impl Asking {
 
     fn prepare(&self) -> Result<()> {
         let elements = Strip::uniform(-1.0..1.0, 2)?.elements();
-        let ground = KernelGround::new(self.clone(), elements)?;
+        let ground = WeightsGround::new(self.clone(), elements)?;
         ground.with_shared_kernels(&self.kernels).prepare(1e-3)
     }
 }
 
-impl KernelSource for Asking {
-    fn kernel(&self, elements: &[ContactElement], time_step: f64) -> Result<Arc<dyn LagKernel>> {
+impl WeightsSource for Asking {
+    fn kernel(
+        &self,
+        elements: &[ContactElement],
+        time_step: f64,
+    ) -> Result<Arc<dyn ConvolutionWeights>> {
         self.made.fetch_add(1, Ordering::Relaxed);
         if let Some(barrier) = &self.meets {
             barrier.wait();
@@ -139,7 +143,7 @@ fn what_another_thread_makes_is_waited_for() {
     let elements = Strip::uniform(-1.0..1.0, 2).unwrap().elements();
     let store = kernels.clone();
     let caught = std::thread::spawn(move || {
-        let ground = KernelGround::new(panics, elements).unwrap();
+        let ground = WeightsGround::new(panics, elements).unwrap();
         ground.with_shared_kernels(&store).prepare(1e-3)
     });
     assert!(caught.join().is_err());
@@ -147,7 +151,7 @@ fn what_another_thread_makes_is_waited_for() {
     let store = kernels.clone();
     let made = in_time(vec![Box::new(move || {
         let elements = Strip::uniform(-1.0..1.0, 2)?.elements();
-        KernelGround::new(again, elements)?.with_shared_kernels(&store).prepare(1e-3)
+        WeightsGround::new(again, elements)?.with_shared_kernels(&store).prepare(1e-3)
     })]);
     assert_eq!((made, kernels.len()), (vec![Ok(())], 2));
 }
@@ -155,8 +159,12 @@ fn what_another_thread_makes_is_waited_for() {
 /// Panics while it makes a kernel whose number is positive; its identity has no sign.
 struct Panicking(Asking);
 
-impl KernelSource for Panicking {
-    fn kernel(&self, elements: &[ContactElement], time_step: f64) -> Result<Arc<dyn LagKernel>> {
+impl WeightsSource for Panicking {
+    fn kernel(
+        &self,
+        elements: &[ContactElement],
+        time_step: f64,
+    ) -> Result<Arc<dyn ConvolutionWeights>> {
         assert!(self.0.number < 0.0, "as it should");
         self.0.kernel(elements, time_step)
     }

@@ -31,7 +31,7 @@ impl Hardening {
 }
 
 impl Structure for Hardening {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         4
     }
 

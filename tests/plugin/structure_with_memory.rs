@@ -18,7 +18,7 @@ const STRENGTH: f64 = 1.0e4;
 const HARDENING: f64 = 0.1;
 const YIELD: f64 = STRENGTH / STIFFNESS;
 
-/// Unknowns: slab to the right, up and turning, mass to the right.
+/// Degrees of freedom: slab to the right, up and turning, mass to the right.
 const DRIFT: [(usize, f64); 2] = [(3, 1.0), (0, -1.0)];
 
 /// Bouc and Wen's law with n = 1, A = 1, β = γ = ½: dz/dd = 1 − |z| while loading, 1 while
@@ -51,7 +51,7 @@ fn drift(u: &[f64]) -> f64 {
 }
 
 impl Structure for Isolator {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         4
     }
 
@@ -169,7 +169,7 @@ fn an_isolator_of_ones_own_follows_its_differential_equation() {
                 error = error.max((state.probes[0] - exact[state.step / steps - 1]).abs());
             }
         });
-        assert!(run.unwrap().ledger_residual < 1e-9);
+        assert!(run.unwrap().energy_error < 1e-9);
         error / largest
     });
     println!("peak drift {largest:.4} m, errors {errors:?}");

@@ -58,7 +58,7 @@ fn transient_errors(
 /// A column, the same quantity of a state, and whether it is a mean over the step.
 type Check<'a> = (&'a str, &'a dyn Fn(&State) -> f64, bool);
 
-/// Errors of a structure with unknowns `[u_x, u_y, θ, …]` under the vertically incident S wave of
+/// Errors of a structure with degrees of freedom `[u_x, u_y, θ, …]` under the vertically incident S wave of
 /// the tables.
 fn structure_errors<const N: usize>(
     file: &str,
@@ -84,8 +84,8 @@ fn structure_errors<const N: usize>(
             }
         })
         .unwrap();
-    assert!(run.ledger_residual < 1e-9, "ledger open by {:.1e}", run.ledger_residual);
-    assert!(run.ledger.soil > 0.0, "energy radiated: {:e}", run.ledger.soil);
+    assert!(run.energy_error < 1e-9, "energy balance open by {:.1e}", run.energy_error);
+    assert!(run.energy_balance.soil > 0.0, "energy radiated: {:e}", run.energy_balance.soil);
     errors.map(Error::relative)
 }
 

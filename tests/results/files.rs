@@ -51,7 +51,7 @@ fn histories_have_a_column_for_every_series() {
             same(cell, histories.series(quantity)[k]);
         }
         same(&row[12], histories.probe("top").unwrap()[k]);
-        same(&row[14], histories.ledgers()[k].input);
+        same(&row[14], histories.energy_balances()[k].input);
     }
     // At the start nothing shears: the factor of safety is infinite.
     assert_eq!(rows[0][10], "inf");
@@ -63,7 +63,7 @@ fn what_is_not_known_is_an_empty_cell() {
         .structure(block(SI))
         .interface(Coulomb::uplift_only())
         .motion(AtRest)
-        .without_ledger()
+        .without_energy_balance()
         .build()
         .unwrap();
     let mut histories = Recorder::new().start(&simulation).unwrap();

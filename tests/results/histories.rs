@@ -21,7 +21,7 @@ fn histories_and_peaks_are_those_of_the_states() {
     assert_eq!(histories.series(Quantity::BaseRotation), rotation);
     let top: Vec<f64> = states.iter().map(|s| s.probes[0]).collect();
     assert_eq!(histories.probe("top").unwrap(), top);
-    assert_eq!(histories.ledgers()[STEPS], states[STEPS].ledger);
+    assert_eq!(histories.energy_balances()[STEPS], states[STEPS].energy_balance);
 
     let peak = (0..=STEPS).max_by(|&a, &b| shear[a].total_cmp(&shear[b])).unwrap();
     let found = run.whole.base_shear.highest;
@@ -110,13 +110,16 @@ fn histories_and_peaks_are_those_of_the_states() {
     let least = run.whole.sliding_safety.lowest;
     assert!((least.value - 1.0).abs() < 1e-9);
 
-    // Energy: shares of the last ledger, which close.
-    let ledger = states[STEPS].ledger;
-    assert_eq!(run.ledger, ledger);
-    let shares = ledger.shares().unwrap();
+    // Energy: shares of the last energy balance, which close.
+    let energy_balance = states[STEPS].energy_balance;
+    assert_eq!(run.energy_balance, energy_balance);
+    let shares = energy_balance.shares().unwrap();
     assert!((shares.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-9);
-    let share = |term| ledger.share(term).unwrap();
-    assert!((share(EnergyTerm::Contact) * ledger.input / ledger.contact - 1.0).abs() < 1e-12);
+    let share = |term| energy_balance.share(term).unwrap();
+    assert!(
+        (share(EnergyTerm::Contact) * energy_balance.input / energy_balance.contact - 1.0).abs()
+            < 1e-12
+    );
     assert!(share(EnergyTerm::Soil) > 0.05 && share(EnergyTerm::Contact) > 0.05);
 
     // Frames are the states.
@@ -134,7 +137,7 @@ fn thinned_histories_are_every_seventh_state() {
     for (k, &shear) in histories.series(Quantity::BaseShear).iter().enumerate() {
         assert_eq!(shear, states[7 * k].base_shear);
     }
-    // Time, 11 scalars, 2 probes, 12 terms of the ledger and its largest energy.
+    // Time, 11 scalars, 2 probes, 12 terms of the energy balance and its largest energy.
     assert_eq!(all.bytes(), 8 * (1 + 11 + 2 + 13) * (STEPS + 1));
     assert!(histories.bytes() < all.bytes());
     assert_eq!(histories.contact_frames().count(), 21);

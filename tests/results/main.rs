@@ -20,7 +20,7 @@ mod spectra;
 
 use basemat::Simulation;
 use basemat::coupled::{Probe, Run, State};
-use basemat::results::{Histories, Recorder};
+use basemat::results::{Recorder, TimeSeries};
 
 use basemat_problems::scenes::{SI, block, friction, scene};
 
@@ -41,7 +41,7 @@ fn simulation() -> Simulation {
 struct Recorded {
     simulation: Simulation,
     states: Vec<State>,
-    histories: Histories,
+    histories: TimeSeries,
     run: Run,
 }
 

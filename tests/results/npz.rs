@@ -9,7 +9,7 @@ use std::path::Path;
 
 use basemat::Error;
 use basemat::coupled::{EnergyTerm, Probe};
-use basemat::results::{Histories, Quantity, Recorder};
+use basemat::results::{Quantity, Recorder, TimeSeries};
 use basemat::structure::RigidBlock;
 
 use super::{FRICTION, Recorded, STEPS, recorded};
@@ -57,7 +57,7 @@ impl Array {
     }
 }
 
-fn arrays(histories: &Histories) -> BTreeMap<String, Array> {
+fn arrays(histories: &TimeSeries) -> BTreeMap<String, Array> {
     let mut bytes = Vec::new();
     histories.write_npz(&mut bytes).unwrap();
     let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
@@ -93,21 +93,21 @@ fn arrays_are_what_was_kept() {
     }
     same("top_m", &[kept], histories.probe("top").unwrap());
     same("top_acceleration_m_per_s2", &[kept], histories.probe("top acceleration").unwrap());
-    let ledger = |of: fn(&basemat::coupled::Ledger) -> f64| -> Vec<f64> {
-        histories.ledgers().iter().map(of).collect()
+    let energy_balance = |of: fn(&basemat::coupled::EnergyBalance) -> f64| -> Vec<f64> {
+        histories.energy_balances().iter().map(of).collect()
     };
-    same("kinetic_energy_j_per_m", &[kept], &ledger(|l| l.kinetic));
-    same("strain_energy_j_per_m", &[kept], &ledger(|l| l.strain));
-    same("hysteresis_energy_j_per_m", &[kept], &ledger(|l| l.hysteresis));
-    same("damping_energy_j_per_m", &[kept], &ledger(|l| l.damping));
-    same("numerical_energy_j_per_m", &[kept], &ledger(|l| l.numerical));
-    same("soil_energy_j_per_m", &[kept], &ledger(|l| l.soil));
-    same("contact_energy_j_per_m", &[kept], &ledger(|l| l.contact));
-    same("layer_energy_j_per_m", &[kept], &ledger(|l| l.layer));
-    same("preload_energy_j_per_m", &[kept], &ledger(|l| l.preload));
-    same("input_energy_j_per_m", &[kept], &ledger(|l| l.input));
-    same("relative_input_energy_j_per_m", &[kept], &ledger(|l| l.relative_input));
-    same("soil_error_bound_j_per_m", &[kept], &ledger(|l| l.soil_error_bound));
+    same("kinetic_energy_j_per_m", &[kept], &energy_balance(|l| l.kinetic));
+    same("strain_energy_j_per_m", &[kept], &energy_balance(|l| l.strain));
+    same("hysteresis_energy_j_per_m", &[kept], &energy_balance(|l| l.hysteresis));
+    same("damping_energy_j_per_m", &[kept], &energy_balance(|l| l.damping));
+    same("algorithmic_energy_j_per_m", &[kept], &energy_balance(|l| l.algorithmic));
+    same("soil_energy_j_per_m", &[kept], &energy_balance(|l| l.soil));
+    same("contact_energy_j_per_m", &[kept], &energy_balance(|l| l.contact));
+    same("interface_energy_j_per_m", &[kept], &energy_balance(|l| l.interface));
+    same("static_contact_energy_j_per_m", &[kept], &energy_balance(|l| l.static_contact));
+    same("input_energy_j_per_m", &[kept], &energy_balance(|l| l.input));
+    same("relative_input_energy_j_per_m", &[kept], &energy_balance(|l| l.relative_input));
+    same("soil_error_bound_j_per_m", &[kept], &energy_balance(|l| l.soil_error_bound));
 
     let elements = histories.elements();
     let count = elements.len();

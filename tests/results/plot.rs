@@ -9,24 +9,24 @@ use basemat::coupled::{Probe, Run};
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::{SpectralOrdinate, el_centro_1940};
 use basemat::plot::{self, Curve, Svg};
-use basemat::results::{Histories, Quantity, Recorder, WirePoint, Wireframe};
-use basemat::structure::{RigidBlock, Row, StructureGroup};
+use basemat::results::{DeformedShape, Quantity, Recorder, ShapePoint, TimeSeries};
+use basemat::structure::{DofCombination, RigidBlock, StructureGroup};
 use basemat::{Error, Simulation};
 
 use crate::layout::assert_readable;
 use basemat_problems::scenes::{self, SI, block, friction, scene};
 
-fn simulation() -> (Simulation, Wireframe) {
-    let shape = Wireframe::of_block(&block(SI), 6.0).unwrap();
+fn simulation() -> (Simulation, DeformedShape) {
+    let shape = DeformedShape::of_block(&block(SI), 6.0).unwrap();
     (scene(SI, 0.6).structure(block(SI)).interface(friction(0.35)).build().unwrap(), shape)
 }
 
-fn recorded(recorder: Recorder) -> (Histories, Wireframe) {
+fn recorded(recorder: Recorder) -> (TimeSeries, DeformedShape) {
     let (histories, shape, _) = ran(recorder);
     (histories, shape)
 }
 
-fn ran(recorder: Recorder) -> (Histories, Wireframe, Run) {
+fn ran(recorder: Recorder) -> (TimeSeries, DeformedShape, Run) {
     let (mut simulation, shape) = simulation();
     let mut histories = recorder.start(&simulation).unwrap();
     let run = simulation.run(200, |state| histories.record(state)).unwrap();
@@ -261,19 +261,19 @@ fn every_text_can_be_read_whatever_is_drawn() {
 }
 
 /// Blocks of 4 m, so far apart.
-fn apart(distances: &[f64]) -> (Histories, Wireframe, Run) {
+fn apart(distances: &[f64]) -> (TimeSeries, DeformedShape, Run) {
     let mut group = StructureGroup::new().with(block(SI), 0.0).unwrap();
     let mut strips = vec![Strip::uniform(-2.0..2.0, 4).unwrap()];
-    let single = Wireframe::of_block(&block(SI), 6.0).unwrap();
+    let single = DeformedShape::of_block(&block(SI), 6.0).unwrap();
     let (mut points, mut cells) = (single.points().to_vec(), single.cells().to_vec());
     for (k, distance) in distances.iter().enumerate() {
         group = group.with(block(SI), *distance).unwrap();
         strips.push(Strip::uniform(distance - 2.0..distance + 2.0, 4).unwrap());
         let first = points.len();
-        let shift = |row: &Row| {
+        let shift = |row: &DofCombination| {
             row.into_iter().map(|(unknown, weight)| (unknown + 3 * (k + 1), *weight)).collect()
         };
-        let moved = single.points().iter().map(|point| WirePoint {
+        let moved = single.points().iter().map(|point| ShapePoint {
             position: [point.position[0] + distance, point.position[1]],
             horizontal: shift(&point.horizontal),
             vertical: shift(&point.vertical),
@@ -287,7 +287,7 @@ fn apart(distances: &[f64]) -> (Histories, Wireframe, Run) {
     let recorder = Recorder::new().contact(4).motion(4);
     let mut histories = recorder.start(&simulation).unwrap();
     let run = simulation.run(160, |state| histories.record(state)).unwrap();
-    (histories, Wireframe::new(points, cells).unwrap(), run)
+    (histories, DeformedShape::new(points, cells).unwrap(), run)
 }
 
 #[test]

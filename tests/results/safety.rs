@@ -3,12 +3,13 @@
 //! REFERENCE: statics, μW/H and Wb/(Hh).
 
 use basemat::bem::{ElasticGround, SpringGround, Strip};
-use basemat::coupled::{Placement, Run};
+use basemat::coupled::{GravityStage, Run};
 use basemat::interface::{
-    Bonded, Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, ThinLayer, Tolerance,
+    Bonded, Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, ThinLayer,
+    Tolerance,
 };
 use basemat::motion::{AtRest, STANDARD_GRAVITY, el_centro_1940};
-use basemat::results::{Histories, Quantity, Recorder};
+use basemat::results::{Quantity, Recorder, TimeSeries};
 use basemat::structure::{RigidBlock, StructureGroup};
 use basemat::{Error, Simulation, Soil};
 
@@ -31,7 +32,7 @@ fn statics_of_a_pushed_block() {
             .ground(SpringGround::new(-2.0..2.0, 40, 4e7, 2e7).unwrap())
             .motion(AtRest)
             .gravity(STANDARD_GRAVITY)
-            .placement(Placement::WithInterfaceLaw);
+            .placement(GravityStage::WithInterfaceLaw);
         let builder = if bonded {
             builder.interface(Bonded)
         } else {
@@ -89,14 +90,14 @@ impl InterfaceLaw for Nonsense {
         self.0.modes()
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         self.0.conditions(mode, start)
     }
 
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
@@ -129,7 +130,7 @@ fn friction_is_that_of_the_laws() {
     };
     let graded = |e: usize| 0.3 + 0.01 * e as f64;
     // Without the static state, which has no shear.
-    let factor = |marched: Result<(Run, Histories), Error>| {
+    let factor = |marched: Result<(Run, TimeSeries), Error>| {
         marched.unwrap().1.series(Quantity::SlidingSafety)[1..].to_vec()
     };
     let told = |laws: Laws| factor(march(laws, (0..count).map(graded).collect()));

@@ -8,8 +8,8 @@ use basemat::history::History;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{RickerDisplacement, STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
-    CraigBampton, ModalDamping, NonlinearForce, RigidBlock, Row, ShearBuilding, Storey, Structure,
-    StructureGroup, Triplets, WithSprings,
+    CraigBampton, DofCombination, ModalDamping, NonlinearForce, RigidBlock, ShearBuilding, Storey,
+    Structure, StructureGroup, Triplets, WithSprings,
 };
 use basemat::{CheckpointError, Error, Result, Simulation, Soil};
 
@@ -73,7 +73,7 @@ fn apart(whole: &[State], part: &[State], first: usize) -> f64 {
 fn two_far_apart_are_two_alone_until_waves_arrive() {
     let run = |builder: SimulationBuilder, steps| {
         let bonded = builder.gravity(0.0).interface(Bonded);
-        states(bonded.coordinates(Coordinates::Unknowns).build().unwrap(), steps)
+        states(bonded.coordinates(Coordinates::Physical).build().unwrap(), steps)
     };
     let distance = 20.0;
     let travel = (distance - 3.5) / soil().pressure_wave_speed();
@@ -97,14 +97,14 @@ fn two_far_apart_are_two_alone_until_waves_arrive() {
 
 /// GOAL: without a soil between them, two structures are two single runs: modes, weight, uplift,
 /// sliding and all.
-/// CONFIG: spring beds, in unknowns and in modes.
+/// CONFIG: spring beds, in degrees of freedom and in modes.
 #[test]
 fn on_springs_each_is_alone() {
     let bed = |center: f64, width: f64| -> SpringGround {
         let range = center - 0.5 * width..center + 0.5 * width;
         SpringGround::new(range, 6, 60.0e6, 40.0e6).unwrap().with_dashpots(3.0e5, 2.0e5).unwrap()
     };
-    for coordinates in [Coordinates::Unknowns, Coordinates::Modes] {
+    for coordinates in [Coordinates::Physical, Coordinates::Modes] {
         // Elements of one bed from −2 to 2 carry the first, of its continuation the second.
         let first = base().structure(tower()).ground(bed(0.0, 4.0)).coordinates(coordinates);
         let first = states(first.build().unwrap(), 2000);
@@ -130,7 +130,7 @@ fn on_springs_each_is_alone() {
             assert!((foundation.mean_slip - own.mean_slip).abs() < 1e-9);
             assert_eq!(foundation.uplifted_fraction, own.uplifted_fraction);
         }
-        assert!(both.iter().all(|state| state.ledger.residual() < 1e-9));
+        assert!(both.iter().all(|state| state.energy_balance.residual() < 1e-9));
     }
 }
 
@@ -176,8 +176,8 @@ impl basemat::bem::Ground for TwoBeds {
         self.beds.iter_mut().try_for_each(|bed| bed.prepare(time_step))
     }
 
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
-        Self::spread(matrix, |k, block| self.beds[k].instantaneous(block))
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        Self::spread(matrix, |k, block| self.beds[k].step_compliance(block))
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
@@ -354,12 +354,12 @@ fn foundations_that_end_nowhere_are_refused() {
 }
 
 /// GOAL: a probe of one member never reads another one.
-/// CONFIG: a tower of seven unknowns before a block of three.
+/// CONFIG: a tower of seven degrees of freedom before a block of three.
 #[test]
 fn rows_and_probes_stay_within_their_member() {
     let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 5.0).unwrap();
-    assert_eq!(group.row(0, tower().roof()).unwrap(), Row::from(6));
-    assert_eq!(group.row(1, 2).unwrap(), Row::from(9));
+    assert_eq!(group.row(0, tower().roof()).unwrap(), DofCombination::from(6));
+    assert_eq!(group.row(1, 2).unwrap(), DofCombination::from(9));
     // The tower's eighth unknown would be the block's first.
     let quantity = "unknown of a structure of the group";
     assert_eq!(group.row(0, 7), Err(Error::Index { quantity, index: 7, bound: 7 }));
@@ -380,7 +380,8 @@ fn rows_and_probes_stay_within_their_member() {
         [(&moved.displacement, &alone.displacement), (&moved.velocity, &alone.velocity)]
     {
         assert!(!alone.is_empty());
-        let expected: Row = alone.into_iter().map(|&(index, weight)| (index + 3, weight)).collect();
+        let expected: DofCombination =
+            alone.into_iter().map(|&(index, weight)| (index + 3, weight)).collect();
         assert_eq!(*moved, expected);
     }
     assert!(moved.acceleration.is_empty());

@@ -7,7 +7,7 @@
 use basemat::Result;
 use basemat::fem::{Beam, Direction, LumpedMass, Mesh};
 use basemat::prelude::*;
-use basemat::structure::{CraigBampton, Row};
+use basemat::structure::{CraigBampton, DofCombination};
 
 /// Of the columns, m; the beam is as long as the columns are apart.
 const HEIGHT: f64 = 5.0;
@@ -21,13 +21,13 @@ const ROOF_MASS: f64 = 30.0e3;
 /// Thickness (m) and density (kg/m³) of the footings.
 const FOOTING: [f64; 2] = [0.6, 2400.0];
 
-/// The frame, and its results as weighted sums of its unknowns.
+/// The frame, and its results as weighted sums of its degrees of freedom.
 struct Portal {
     model: FemModel,
     /// Mass of one footing, kg/m.
     footing: f64,
     /// Moment that inertia exerts on the ground about the frame's middle, from accelerations.
-    overturning: Row,
+    overturning: DofCombination,
 }
 
 impl Portal {
@@ -58,7 +58,7 @@ impl Portal {
         }
 
         let (roof, footing) = (0.5 * ROOF_MASS, density * depth * width);
-        let mut overturning = Row::default();
+        let mut overturning = DofCombination::default();
         for x in [-0.5 * SPAN, 0.5 * SPAN] {
             let [foot, top] = [model.node_at(x, 0.0)?, model.node_at(x, HEIGHT)?];
             let sway = model.row(top, Direction::X)?;

@@ -4,7 +4,7 @@ use basemat::Soil;
 use basemat::bem::layered::LayeredKernel;
 use basemat::bem::{ContactElement, InfluenceKernel, PatchKernel, Strip};
 use basemat::fundamental::{FullPlane, FundamentalSolution, HalfPlane, LoadHistory};
-use basemat::history::{ConvolutionHistory, LagKernel, RelaxedFftHistory};
+use basemat::history::{ConvolutionHistory, ConvolutionWeights, RelaxedFftHistory};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -105,7 +105,7 @@ fn relaxed_history(criterion: &mut Criterion) {
         let elements = Strip::uniform(0.0..f64::from(count), count as usize)
             .expect("a valid strip")
             .elements();
-        let kernel: Arc<dyn LagKernel> =
+        let kernel: Arc<dyn ConvolutionWeights> =
             Arc::new(PatchKernel::new(soil, elements, 0.25).expect("a valid patch"));
         let mut displacement = vec![0.0; 2 * count as usize];
         let traction: Vec<f64> = (0..2 * count).map(|i| f64::from(i).sin()).collect();

@@ -1,4 +1,4 @@
-//! A structure of 51 102 unknowns, in full and reduced to its contact nodes and a few modes.
+//! A structure of 51 102 degrees of freedom, in full and reduced to its contact nodes and a few modes.
 //!
 //! Elements per second are steps per second: with steps of 0.01 s, 100 are real time. All models
 //! march through the same strong half second of El Centro, again and again.
@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use basemat::coupled::{Checkpoint, Coordinates};
-use basemat::structure::{CraigBampton, MatrixModel, Row};
+use basemat::structure::{CraigBampton, DofCombination, MatrixModel};
 use basemat::{Result, Simulation};
 use basemat_problems::tower::{Tower, damped, scene};
 use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
@@ -18,7 +18,7 @@ const BEFORE: usize = 200;
 const STEPS: usize = 50;
 
 /// The full model, and the sway of its top.
-fn full() -> Result<(MatrixModel, Row)> {
+fn full() -> Result<(MatrixModel, DofCombination)> {
     let Tower { mass, stiffness, contact, top } = Tower::new()?;
     Ok((damped(mass, stiffness, contact)?, top))
 }
@@ -53,7 +53,7 @@ impl Passage {
 
 fn steps(criterion: &mut Criterion) {
     let (model, top) = full().expect("a valid tower");
-    let mut group = criterion.benchmark_group("steps of 0.01 s, tower of 51102 unknowns");
+    let mut group = criterion.benchmark_group("steps of 0.01 s, tower of 51102 degrees of freedom");
     group.throughput(Throughput::Elements(STEPS as u64)).sample_size(10);
     group.warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(2));
     let mut time = |name: BenchmarkId, simulation: Result<Simulation>| {
@@ -64,17 +64,17 @@ fn steps(criterion: &mut Criterion) {
     };
     for modes in [10, 20, 40, 80] {
         let reduced = CraigBampton::new(modes).reduce(model.clone()).expect("a valid model");
-        let row = reduced.recovery().row(&top).expect("the top is an unknown");
+        let row = reduced.recovery().row(&top).expect("the top is a degree of freedom");
         time(BenchmarkId::new("modes", modes), scene(reduced, row, Coordinates::Auto));
     }
-    time(BenchmarkId::new("modes", "all"), scene(model, top, Coordinates::Unknowns));
+    time(BenchmarkId::new("modes", "all"), scene(model, top, Coordinates::Physical));
     group.finish();
 }
 
 /// What a reduction takes, once for every model.
 fn reduction(criterion: &mut Criterion) {
     let (model, _) = full().expect("a valid tower");
-    let mut group = criterion.benchmark_group("reduction, tower of 51102 unknowns");
+    let mut group = criterion.benchmark_group("reduction, tower of 51102 degrees of freedom");
     group.sample_size(10).warm_up_time(Duration::from_secs(1));
     group.bench_function(BenchmarkId::new("modes", 20), |bencher| {
         bencher.iter_batched(

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use basemat::Soil;
 use basemat::bem::{ContactElement, PatchKernel, Strip};
-use basemat::history::{ConvolutionHistory, DirectHistory, LagKernel, RelaxedFftHistory};
+use basemat::history::{ConvolutionHistory, ConvolutionWeights, DirectHistory, RelaxedFftHistory};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 fn soil() -> Soil {
@@ -20,7 +20,7 @@ fn kinds(criterion: &mut Criterion) {
     for row in &basemat_problems::headline::ROWS {
         group.bench_function(row.name, |bencher| {
             bencher.iter_batched(
-                // Told of fewer steps, it would make them in unknowns instead of modes.
+                // Told of fewer steps, it would make them in degrees of freedom instead of modes.
                 || row.build(10_000).expect("a valid scene"),
                 |mut simulation| {
                     black_box(row.march(&mut simulation, steps).expect("every step is solved"))
@@ -58,7 +58,7 @@ fn direct_history(criterion: &mut Criterion) {
 fn whole_march(criterion: &mut Criterion) {
     const STEPS: usize = 10_000;
     let elements = Strip::uniform(-5.0..5.0, 10).expect("a valid strip").elements();
-    let kernel: Arc<dyn LagKernel> =
+    let kernel: Arc<dyn ConvolutionWeights> =
         Arc::new(PatchKernel::new(soil(), elements, 2.0e-3).expect("a valid patch"));
     let make = |relaxed: bool| -> Box<dyn ConvolutionHistory> {
         let kernel = Arc::clone(&kernel);

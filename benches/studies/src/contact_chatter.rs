@@ -2,13 +2,13 @@
 //!
 //! A block of 4 m × 8 m rocks and slides on soil under El Centro, twice as strong. For every
 //! scheme and three time steps the table shows the content of the normal force and of the top's
-//! acceleration above 20 Hz, base shear, slip, uplift, rotation, and what the energy ledger says.
+//! acceleration above 20 Hz, base shear, slip, uplift, rotation, and what the energy balance says.
 //!
 //! ```text
 //! cargo study contact-chatter
 //! ```
 
-use basemat::interface::Activation;
+use basemat::interface::UnilateralCondition;
 use basemat_problems::chatter::{Scene, Scheme};
 
 use crate::AnyError;
@@ -40,13 +40,13 @@ pub(crate) struct Options {
 }
 
 pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
-    let rate = Activation::Rate { closed_below: 1e-9 };
+    let rate = UnilateralCondition::Velocity { closed_below: 1e-9 };
     let schemes = [
-        ("midpoint, gap", Scheme::Midpoint, Activation::Gap),
-        ("θ = 0.55, gap", Scheme::Theta(0.55), Activation::Gap),
-        ("θ = 0.6, gap", Scheme::Theta(0.6), Activation::Gap),
-        ("dissipative, γ = 0.8", Scheme::Dissipative(0.8), Activation::Gap),
-        ("dissipative, γ = 1", Scheme::Dissipative(1.0), Activation::Gap),
+        ("midpoint, gap", Scheme::Midpoint, UnilateralCondition::Position),
+        ("θ = 0.55, gap", Scheme::Theta(0.55), UnilateralCondition::Position),
+        ("θ = 0.6, gap", Scheme::Theta(0.6), UnilateralCondition::Position),
+        ("dissipative, γ = 0.8", Scheme::Dissipative(0.8), UnilateralCondition::Position),
+        ("dissipative, γ = 1", Scheme::Dissipative(1.0), UnilateralCondition::Position),
         ("midpoint, rate", Scheme::Midpoint, rate),
         ("θ = 0.55, rate", Scheme::Theta(0.55), rate),
         ("θ = 0.6, rate", Scheme::Theta(0.6), rate),
@@ -57,7 +57,7 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
             "\n| friction {friction} | Δt, ms | rms > 20 Hz, % | peak > 20 Hz, % | alternating, % | \
              acceleration > 20 Hz, g | alternating, g | peak shear / weight | peak slip | \
              residual slip | uplift | peak rotation, mrad | contact | numerical | penetration | \
-             ledger | changes |"
+             energy balance | changes |"
         );
         println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
         for (name, scheme, activation) in schemes {
@@ -90,9 +90,9 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
                     o.uplift,
                     1e3 * o.rotation,
                     o.contact,
-                    o.numerical,
+                    o.algorithmic,
                     1e3 * o.penetration,
-                    o.ledger_residual,
+                    o.energy_error,
                     o.changes
                 );
             }

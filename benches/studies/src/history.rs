@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use basemat::bem::{PatchKernel, Strip};
 use basemat::history::{
-    ConvolutionHistory, DirectHistory, ExponentialHistory, LagKernel, RelaxedFftHistory,
+    ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory, RelaxedFftHistory,
 };
 use basemat::{Result, Soil};
 
@@ -46,7 +46,7 @@ pub(crate) struct Exponentials {
 const LONGEST_DIRECT: usize = 10_000;
 
 /// 1.5 ft elements, steps of half an element over the pressure wave speed.
-fn patch(count: usize) -> Result<Arc<dyn LagKernel>> {
+fn patch(count: usize) -> Result<Arc<dyn ConvolutionWeights>> {
     let soil = Soil::from_wave_speeds(198.12, 396.24, 1803.8)?;
     let half = 0.2286 * count as f64;
     let elements = Strip::uniform(-half..half, count)?.elements();
@@ -81,7 +81,7 @@ fn march(
 }
 
 /// Largest difference of all displacements over the largest of the direct sum's, and its seconds.
-fn error(kernel: Arc<dyn LagKernel>, size: usize, found: &[f64]) -> Result<(f64, f64)> {
+fn error(kernel: Arc<dyn ConvolutionWeights>, size: usize, found: &[f64]) -> Result<(f64, f64)> {
     let steps = found.len() / size;
     let mut direct = DirectHistory::new(kernel);
     direct.reserve(steps)?;

@@ -10,7 +10,7 @@
 
 use basemat::bem::layered::{LayeredKernel, Stages};
 use basemat::bem::{ElasticGround, Grading, Strip};
-use basemat::history::LagKernel;
+use basemat::history::ConvolutionWeights;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::{Result, Soil};
 use cpu_time::ThreadTime;

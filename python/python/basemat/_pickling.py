@@ -28,7 +28,7 @@ _DESCRIBED = (
     _core.SpringGround,
     _core.Bonded,
     _core.Coulomb,
-    _core.Adhesive,
+    _core.Cohesive,
     _core.Yielding,
     _core.ThinLayer,
     _core.VariableFriction,

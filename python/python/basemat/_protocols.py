@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from ._core import Condition, ContactNode, ContactState, StepStart, Tolerance
+    from ._core import Condition, ContactNode, ContactState, PreviousContact, Tolerance
 
 
 class UserStructure(Protocol):
-    """A structure of n unknowns written in Python: ``unknowns``, an int, and these methods.
+    """A structure of n dofs written in Python: ``dofs``, an int, and these methods.
 
     If it has them, these are called too: ``damping()`` (n × n), ``load(time)`` (shape (n,), N/m),
     ``foundation_ends()`` (numbers of the contact nodes that end a foundation but the last),
@@ -41,7 +41,7 @@ class UserLaw(Protocol):
 
     If it has them, these count too: ``compliance(mode, start)`` (normal and tangential, m/Pa),
     ``memory`` (count of the numbers that it remembers of each element),
-    ``initial_memory(start)`` and ``commit(start, end, mode)`` (which return them),
+    ``initial_state_variables(start)`` and ``commit(start, end, mode)`` (which return them),
     ``friction_coefficient`` (for the factor of safety), ``check(gravity, time_step)`` (may refuse).
 
     What they raise comes out of the run; the simulation stays at the last accepted step.
@@ -51,10 +51,10 @@ class UserLaw(Protocol):
     def modes(self) -> Sequence[str]:
         """The modes that it uses, of :data:`basemat.MODES`; the first is that of an element at rest."""
 
-    def conditions(self, mode: str, start: StepStart) -> Sequence[Condition]:
+    def conditions(self, mode: str, start: PreviousContact) -> Sequence[Condition]:
         """The two conditions that ``mode`` imposes on the end of the step."""
 
     def next_mode(
-        self, mode: str, start: StepStart, trial: ContactState, tolerance: Tolerance
+        self, mode: str, start: PreviousContact, trial: ContactState, tolerance: Tolerance
     ) -> str:
         """The mode to try next, after the ``trial`` that ``mode`` led to; ``mode`` if that will do."""

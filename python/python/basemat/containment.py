@@ -24,7 +24,7 @@ from . import (
     Mesh,
     Probe,
     Record,
-    Row,
+    DofCombination,
     Run,
     Simulation,
     Soil,
@@ -84,11 +84,11 @@ def probes(model: FemModel) -> list[Probe]:
     """Motion of a roof corner, and the shear of the superstructure on the basemat."""
     height = HEIGHT * FOOT / LAYERS
     corner = model.node_at(-0.5 * WIDTH * FOOT, height + height * (LAYERS - 1))
-    feet = Row([])
+    feet = DofCombination([])
     for node in model.contact_nodes():
         feet = feet + node.horizontal
     share = 1.0 / len(feet.terms)
-    sway = Row(model.row(corner, "x").terms + [(unknown, -share * w) for unknown, w in feet.terms])
+    sway = DofCombination(model.row(corner, "x").terms + [(unknown, -share * w) for unknown, w in feet.terms])
     shear, _, _ = model.section(height)
     return [
         Probe.absolute_displacement("roof x", model.row(corner, "x")),
@@ -138,7 +138,7 @@ def row(friction: float | None, run: Run, bonded: float) -> str:
         f"{name(friction):<13}{1e-3 * shear:>10.1f}{shear / bonded:>8.3f}{ratio:>8}"
         f"{100.0 * run.uplifted_fraction.value:>9.0f}{1e3 * abs(run.largest_slip.value):>9.3f}"
         f"{1e3 * run.residual_slip + 0.0:>10.3f}{1e3 * run.probes['roof x'].magnitude:>9.2f}"
-        f"{run.ledger_residual:>9.0e}{run.wall:>7.2f}"
+        f"{run.energy_error:>9.0e}{run.wall:>7.2f}"
     )
 
 
@@ -154,7 +154,7 @@ def main(arguments: list[str] | None = None) -> None:
     cases: list[float | None] = [None, math.inf, *options.friction]
     print(
         f"{'':<13}{'shear':>10}{'ratio':>8}{'paper':>8}{'uplift':>9}{'slip':>9}{'residual':>10}"
-        f"{'roof x':>9}{'ledger':>9}{'run':>7}\n"
+        f"{'roof x':>9}{'energy balance':>9}{'run':>7}\n"
         f"{'case':<13}{'kN/m':>10}{'':>16}{'%':>9}{'mm':>9}{'mm':>10}{'mm':>9}{'':>9}{'s':>7}"
     )
     bonded = 1.0

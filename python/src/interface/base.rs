@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use crate::error::{OrRaise, heard, refuse};
 use crate::names::{mode, mode_name};
 use crate::recipe::Recipe;
-use crate::user::{PyCondition, PyContactState, PyStepStart, PyTolerance, UserLaw};
+use crate::user::{PyCondition, PyContactState, PyPreviousContact, PyTolerance, UserLaw};
 
 /// A law between base and ground.
 #[pyclass(name = "InterfaceLaw", module = "basemat", subclass, frozen, dict)]
@@ -32,7 +32,11 @@ impl PyInterfaceLaw {
     }
 
     /// The two conditions that ``mode`` imposes on the end of a step.
-    fn conditions(&self, mode: &str, start: &PyStepStart) -> PyResult<(PyCondition, PyCondition)> {
+    fn conditions(
+        &self,
+        mode: &str,
+        start: &PyPreviousContact,
+    ) -> PyResult<(PyCondition, PyCondition)> {
         heard(|| {
             let law = (self.make)().or_raise()?;
             let [first, second] = law.conditions(self::mode(mode)?, &start.core());
@@ -44,7 +48,7 @@ impl PyInterfaceLaw {
     fn next_mode(
         &self,
         mode: &str,
-        start: &PyStepStart,
+        start: &PyPreviousContact,
         trial: &PyContactState,
         tolerance: &PyTolerance,
     ) -> PyResult<&'static str> {

@@ -1,6 +1,6 @@
 //! The core's laws.
 
-use basemat::interface::{Activation, Adhesive, Bonded, Coulomb, ThinLayer, Yielding};
+use basemat::interface::{Bonded, Cohesive, Coulomb, ThinLayer, UnilateralCondition, Yielding};
 use pyo3::prelude::*;
 
 use super::PyInterfaceLaw;
@@ -46,7 +46,7 @@ impl PyCoulomb {
             .and_then(|law| law.with_tensile_strength(tensile_strength))
             .or_raise()?;
         if let Some(closed_below) = closed_below {
-            law = law.with_activation(Activation::Rate { closed_below }).or_raise()?;
+            law = law.with_activation(UnilateralCondition::Velocity { closed_below }).or_raise()?;
         }
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
     }
@@ -64,14 +64,14 @@ impl PyCoulomb {
 
 /// Glue that breaks once, and friction afterwards: ``tension`` and ``cohesion`` are its strengths
 /// (Pa), ``friction`` the coefficient when it is broken.
-#[pyclass(name = "Adhesive", module = "basemat", extends = PyInterfaceLaw, frozen)]
-pub(crate) struct PyAdhesive;
+#[pyclass(name = "Cohesive", module = "basemat", extends = PyInterfaceLaw, frozen)]
+pub(crate) struct PyCohesive;
 
 #[pymethods]
-impl PyAdhesive {
+impl PyCohesive {
     #[new]
     fn new(tension: f64, cohesion: f64, friction: f64) -> PyResult<PyClassInitializer<Self>> {
-        let law = Adhesive::new(tension, cohesion, friction).or_raise()?;
+        let law = Cohesive::new(tension, cohesion, friction).or_raise()?;
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self))
     }
 }
@@ -110,10 +110,10 @@ fn layer(
         law = law.with_thickness_ratio(ratio).or_raise()?;
     }
     if let Some(share) = debonded_share {
-        law = law.with_debonded_share(share).or_raise()?;
+        law = law.with_debonded_ratio(share).or_raise()?;
     }
     if let Some(share) = slip_stiffness_share {
-        law = law.with_slip_stiffness_share(share).or_raise()?;
+        law = law.with_slip_stiffness_ratio(share).or_raise()?;
     }
     if let Some(limit) = friction_limit {
         law = law.with_friction_limit(limit.parse().or_raise()?);

@@ -5,5 +5,5 @@ mod laws;
 mod variable;
 
 pub(crate) use base::{PyInterfaceLaw, recipes};
-pub(crate) use laws::{PyAdhesive, PyBonded, PyCoulomb, PyThinLayer, PyYielding};
+pub(crate) use laws::{PyBonded, PyCohesive, PyCoulomb, PyThinLayer, PyYielding};
 pub(crate) use variable::PyVariableFriction;

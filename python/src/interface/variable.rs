@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use basemat::interface::{StepStart, VariableFriction};
+use basemat::interface::{PreviousContact, VariableFriction};
 use pyo3::prelude::*;
 
 use super::PyInterfaceLaw;
 use crate::array::real;
 use crate::error::{OrRaise, keep, refuse};
-use crate::user::PyStepStart;
+use crate::user::PyPreviousContact;
 
 /// Coulomb friction whose coefficient is a function of the start of the step:
-/// ``coefficient(start) -> float``, ``start`` a :class:`StepStart`. It may raise: the exception
+/// ``coefficient(start) -> float``, ``start`` a :class:`PreviousContact`. It may raise: the exception
 /// comes out of the run.
 #[pyclass(name = "VariableFriction", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyVariableFriction;
@@ -32,7 +32,7 @@ impl PyVariableFriction {
         VariableFriction::new(|_| 0.0).with_tensile_strength(tensile_strength).or_raise()?;
         let make = move || {
             let function = Arc::clone(&function);
-            let own = move |start: &StepStart<'_>| coefficient_of(&function, start);
+            let own = move |start: &PreviousContact<'_>| coefficient_of(&function, start);
             Ok(Box::new(VariableFriction::new(own).with_tensile_strength(tensile_strength)?)
                 as Box<_>)
         };
@@ -41,9 +41,9 @@ impl PyVariableFriction {
 }
 
 /// The coefficient, or NaN (which ends the step) if the function raises.
-fn coefficient_of(function: &Py<PyAny>, start: &StepStart<'_>) -> f64 {
+fn coefficient_of(function: &Py<PyAny>, start: &PreviousContact<'_>) -> f64 {
     Python::attach(|py| {
-        let found = function.call1(py, (PyStepStart::of(start),));
+        let found = function.call1(py, (PyPreviousContact::of(start),));
         let found = found.and_then(|value| real("the coefficient's function", value.bind(py)));
         found.unwrap_or_else(|error: PyErr| {
             keep(error);

@@ -7,7 +7,7 @@ use basemat::motion::{
     FreeField, PlaneWave, Record, RickerDisplacement, TravellingWave, VerticalIncidence,
 };
 use basemat::site::{
-    Column, ControlPoint, InclinedControl, InclinedWave, SiteMotion, VerticalWave,
+    ControlPoint, InclinedControl, InclinedWave, SiteMotion, SoilColumn, VerticalWave,
 };
 use numpy::{Complex64, PyArray1};
 use pyo3::exceptions::PyUserWarning;
@@ -124,7 +124,7 @@ impl PyPlaneWave {
 
 /// A soil profile as a column that waves travel up and down; ``wave``: "shear" or "pressure".
 #[pyclass(name = "Column", module = "basemat", frozen, dict)]
-pub(crate) struct PyColumn(Column);
+pub(crate) struct PyColumn(SoilColumn);
 
 fn control(name: &str) -> PyResult<ControlPoint> {
     match name {
@@ -156,7 +156,7 @@ impl PyColumn {
                 return Err(refuse(format!("wave is '{wave}', but must be 'shear' or 'pressure'")));
             }
         };
-        Ok(Self(Column::new(profile.0.clone(), wave).or_raise()?))
+        Ok(Self(SoilColumn::new(profile.0.clone(), wave).or_raise()?))
     }
 
     /// Motion of the surface by that of the ``control`` ("outcrop" or "within") for e^(iωt):

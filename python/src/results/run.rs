@@ -1,13 +1,13 @@
 //! A run: its summary and its time series.
 
 use basemat::coupled::Run;
-use basemat::results::{ElementEnvelope, Histories, Quantity};
+use basemat::results::{ElementEnvelope, Quantity, TimeSeries};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::base::{events, known};
-use super::{PyExtremes, PyFoundationSummary, PyLedger, PyPeak, PyServiceCheck, series};
+use super::{PyEnergyBalance, PyExtremes, PyFoundationSummary, PyPeak, PyServiceCheck, series};
 use crate::array::Numbers;
 use crate::error::{OrRaise, refuse};
 use crate::motion::{PyRecord, PySpectrum};
@@ -22,15 +22,15 @@ type Column = fn(&ElementEnvelope) -> f64;
 #[pyclass(name = "Run", module = "basemat", frozen)]
 pub(crate) struct PyRun {
     pub(super) run: Run,
-    histories: Option<Histories>,
+    histories: Option<TimeSeries>,
 }
 
 impl PyRun {
-    pub(crate) fn new(run: Run, histories: Option<Histories>) -> Self {
+    pub(crate) fn new(run: Run, histories: Option<TimeSeries>) -> Self {
         Self { run, histories }
     }
 
-    fn kept(&self) -> PyResult<&Histories> {
+    fn kept(&self) -> PyResult<&TimeSeries> {
         self.histories
             .as_ref()
             .ok_or_else(|| refuse("the run kept no time series (`series=False`)"))
@@ -74,10 +74,10 @@ impl PyRun {
         series::all(py, self.kept()?)
     }
 
-    /// Terms of the energy ledger over time: dict of arrays of shape (steps + 1,), J/m.
+    /// Terms of the energy balance over time: dict of arrays of shape (steps + 1,), J/m.
     #[getter]
-    fn ledgers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        series::ledgers(py, self.kept()?)
+    fn energy_balances<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        series::energy_balances(py, self.kept()?)
     }
 
     /// Snapshots of the base: dict of "time" (frames,) and "gap", "slip" (m), "pressure", "shear"
@@ -285,22 +285,22 @@ impl PyRun {
         self.run.mode_changes
     }
 
-    /// The ledger at the end.
+    /// The energy balance at the end.
     #[getter]
-    fn ledger(&self) -> PyLedger {
-        PyLedger(self.run.ledger)
+    fn energy_balance(&self) -> PyEnergyBalance {
+        PyEnergyBalance(self.run.energy_balance)
     }
 
-    /// Largest residual of the ledger; NaN if none is kept.
+    /// Largest residual of the energy balance; NaN if none is kept.
     #[getter]
-    fn ledger_residual(&self) -> f64 {
-        self.run.ledger_residual
+    fn energy_error(&self) -> f64 {
+        self.run.energy_error
     }
 
     /// Shares of the energy input at the end, by their names; None if that is not positive.
     #[getter]
     fn energy_shares<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let Some(energy) = self.run.ledger.shares() else { return Ok(None) };
+        let Some(energy) = self.run.energy_balance.shares() else { return Ok(None) };
         let shares = PyDict::new(py);
         for (name, share) in energy {
             shares.set_item(name, share)?;
@@ -347,8 +347,8 @@ impl PyRun {
             ("largest_gap", Some(run.largest_gap().value)),
             ("largest_pressure", run.largest_pressure().map(|(_, peak)| peak.value)),
             ("residual_slip", Some(run.whole.residual_slip)),
-            ("energy_input", Some(run.ledger.input)),
-            ("ledger_residual", Some(run.ledger_residual)),
+            ("energy_input", Some(run.energy_balance.input)),
+            ("energy_error", Some(run.energy_error)),
         ] {
             numbers.set_item(name, value)?;
         }

@@ -2,7 +2,7 @@
 
 use basemat::coupled::EnergyTerm;
 use basemat::interface::ContactState;
-use basemat::results::{ContactFrame, Histories, Quantity};
+use basemat::results::{ContactFrame, Quantity, TimeSeries};
 use numpy::{PyArray1, PyArrayMethods, ToPyArray};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -15,7 +15,7 @@ type Array<'py> = Bound<'py, PyArray1<f64>>;
 /// A scalar, or a probe, by its name.
 pub(super) fn named<'py>(
     py: Python<'py>,
-    histories: &Histories,
+    histories: &TimeSeries,
     name: &str,
 ) -> PyResult<Array<'py>> {
     if name == "time" {
@@ -36,12 +36,12 @@ pub(super) fn named<'py>(
 }
 
 /// Names of the probes.
-pub(super) fn names(histories: &Histories) -> Vec<String> {
+pub(super) fn names(histories: &TimeSeries) -> Vec<String> {
     histories.probes().iter().map(|probe| probe.name.clone()).collect()
 }
 
 /// All scalars and probes by their names.
-pub(super) fn all<'py>(py: Python<'py>, histories: &Histories) -> PyResult<Bound<'py, PyDict>> {
+pub(super) fn all<'py>(py: Python<'py>, histories: &TimeSeries) -> PyResult<Bound<'py, PyDict>> {
     let series = PyDict::new(py);
     series.set_item("time", PyArray1::from_slice(py, histories.times()))?;
     for quantity in Quantity::ALL {
@@ -54,21 +54,29 @@ pub(super) fn all<'py>(py: Python<'py>, histories: &Histories) -> PyResult<Bound
     Ok(series)
 }
 
-/// Terms of the ledger over time.
-pub(super) fn ledgers<'py>(py: Python<'py>, histories: &Histories) -> PyResult<Bound<'py, PyDict>> {
+/// Terms of the energy balance over time.
+pub(super) fn energy_balances<'py>(
+    py: Python<'py>,
+    histories: &TimeSeries,
+) -> PyResult<Bound<'py, PyDict>> {
     let series = PyDict::new(py);
     series.set_item("time", PyArray1::from_slice(py, histories.times()))?;
     for term in EnergyTerm::ALL {
-        let values = histories.ledgers().iter().map(|ledger| ledger.term(term));
+        let values =
+            histories.energy_balances().iter().map(|energy_balance| energy_balance.term(term));
         series.set_item(term.to_string(), PyArray1::from_iter(py, values))?;
     }
-    let residuals = histories.ledgers().iter().map(basemat::coupled::Ledger::residual);
+    let residuals =
+        histories.energy_balances().iter().map(basemat::coupled::EnergyBalance::residual);
     series.set_item("residual", PyArray1::from_iter(py, residuals))?;
     Ok(series)
 }
 
 /// Snapshots of the base: times, and arrays of shape (frames, elements).
-pub(super) fn contact<'py>(py: Python<'py>, histories: &Histories) -> PyResult<Bound<'py, PyDict>> {
+pub(super) fn contact<'py>(
+    py: Python<'py>,
+    histories: &TimeSeries,
+) -> PyResult<Bound<'py, PyDict>> {
     let frames: Vec<ContactFrame<'_>> = histories.contact_frames().collect();
     if frames.is_empty() {
         return Err(refuse("no contact was kept: give `contact_every` to `run`"));
@@ -91,7 +99,7 @@ pub(super) fn contact<'py>(py: Python<'py>, histories: &Histories) -> PyResult<B
 }
 
 /// Snapshots of the structure: times, and arrays of shape (frames, n).
-pub(super) fn motion<'py>(py: Python<'py>, histories: &Histories) -> PyResult<Bound<'py, PyDict>> {
+pub(super) fn motion<'py>(py: Python<'py>, histories: &TimeSeries) -> PyResult<Bound<'py, PyDict>> {
     let frames: Vec<_> = histories.motion_frames().collect();
     let Some(first) = frames.first() else {
         return Err(refuse("no motion was kept: give `motion_every` to `run`"));

@@ -1,7 +1,7 @@
 //! From Python's arguments to a simulation of the core.
 
 use basemat::Simulation;
-use basemat::coupled::{ContactSearch, Coordinates, Placement, Probe, SimulationBuilder};
+use basemat::coupled::{ContactSearch, Coordinates, GravityStage, Probe, SimulationBuilder};
 use basemat::results::{Quantity, Serviceability};
 use pyo3::prelude::*;
 
@@ -9,7 +9,7 @@ use crate::error::{OrRaise, refuse};
 use crate::probe::PyProbe;
 
 /// A placement by its name.
-pub(super) fn placement(name: &str) -> PyResult<Placement> {
+pub(super) fn placement(name: &str) -> PyResult<GravityStage> {
     name.parse().or_raise()
 }
 
@@ -21,15 +21,15 @@ pub(super) fn coordinates(given: &Bound<'_, PyAny>) -> PyResult<Coordinates> {
     }
 }
 
-/// The probes of a structure of so many unknowns, none of which has the name of another time series of a run.
+/// The probes of a structure of so many degrees of freedom, none of which has the name of another time series of a run.
 pub(super) fn probes<'a, 'py: 'a>(
     given: impl Iterator<Item = &'a Bound<'py, PyProbe>>,
-    unknowns: usize,
+    dofs: usize,
 ) -> PyResult<Vec<Probe>> {
     given
         .map(|probe| {
             let PyProbe(probe, order) = probe.get();
-            order.check(&format!("the probe '{}'", probe.name), unknowns)?;
+            order.check(&format!("the probe '{}'", probe.name), dofs)?;
             let name = probe.name.as_str();
             if name == "time" || Quantity::ALL.iter().any(|own| own.to_string() == name) {
                 return Err(refuse(format!(

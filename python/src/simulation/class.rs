@@ -88,7 +88,7 @@ impl PySimulation {
         time_step, structure, ground, interface, *,
         motion=None, probes=None, loads=None, gravity=None, placement="frictionless",
         initial_displacement=None, initial_velocity=None, scheme=None, coordinates=None,
-        expected_steps=None, moment_center=None, ledger=true, safety_friction=None,
+        expected_steps=None, moment_center=None, energy_balance=true, safety_friction=None,
         allowable_slip=None, allowable_gap=None, allowable_uplifted_fraction=None,
         allowable_rotation=None, flow_chart_iterations=None,
     ))]
@@ -109,7 +109,7 @@ impl PySimulation {
         coordinates: Option<Bound<'_, PyAny>>,
         #[pyo3(from_py_with = whole)] expected_steps: Option<usize>,
         moment_center: Option<f64>,
-        ledger: bool,
+        energy_balance: bool,
         safety_friction: Option<f64>,
         allowable_slip: Option<f64>,
         allowable_gap: Option<f64>,
@@ -121,7 +121,7 @@ impl PySimulation {
         let laws = interface::recipes(&interface)?;
         let laws = laws.iter().map(|make| make()).collect::<basemat::Result<_>>().or_raise()?;
         let structure = structure::recipe(&structure)?().or_raise()?;
-        let unknowns = structure.unknowns();
+        let dofs = structure.dofs();
         let mut builder = Simulation::builder(time_step)
             .structure(structure)
             .ground((ground.get().make)().or_raise()?)
@@ -134,9 +134,9 @@ impl PySimulation {
                 allowable_uplifted_fraction,
                 allowable_rotation,
             )?)
-            .probes(build::probes(probes.iter().flatten(), unknowns)?);
+            .probes(build::probes(probes.iter().flatten(), dofs)?);
         for load in loads.iter().flatten() {
-            load.get().order.check("a load", unknowns)?;
+            load.get().order.check("a load", dofs)?;
             builder = builder.load((load.get().make)().or_raise()?);
         }
         if let Some(motion) = &motion {
@@ -163,8 +163,8 @@ impl PySimulation {
         if let Some(x) = moment_center {
             builder = builder.moment_center(x);
         }
-        if !ledger {
-            builder = builder.without_ledger();
+        if !energy_balance {
+            builder = builder.without_energy_balance();
         }
         if let Some(coefficient) = safety_friction {
             builder = builder.safety_friction(coefficient);

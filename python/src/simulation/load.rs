@@ -10,7 +10,7 @@ use crate::error::{OrRaise, keep, refuse};
 use crate::motion::PyRecord;
 use crate::row::{Order, RowLike};
 
-/// A force that acts on a structure from outside, on a row of unknowns.
+/// A force that acts on a structure from outside, on a row of degrees of freedom.
 ///
 /// ``value``: a function of time (s) that returns the force (N/m; on a rotation a moment, N·m/m); it
 /// may raise. Its value at t = 0 belongs to the static state.

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 
 use crate::array::whole;
 use crate::names::{mode_name, mode_number};
-use crate::results::PyLedger;
+use crate::results::PyEnergyBalance;
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 
@@ -159,10 +159,10 @@ impl PyState {
         self.0.free_field
     }
 
-    /// The energy ledger.
+    /// The energy balance.
     #[getter]
-    fn ledger(&self) -> PyLedger {
-        PyLedger(self.0.ledger)
+    fn energy_balance(&self) -> PyEnergyBalance {
+        PyEnergyBalance(self.0.energy_balance)
     }
 
     /// Linear solves that the search for contact modes needed.
@@ -181,7 +181,7 @@ impl PyState {
         }
     }
 
-    /// Displacement of the unknowns relative to the free field: array of shape (n,), m and rad.
+    /// Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad.
     #[getter]
     fn displacement<'py>(&self, py: Python<'py>) -> Array<'py> {
         PyArray1::from_slice(py, self.0.displacement())
@@ -206,8 +206,8 @@ impl PyState {
     }
 
     /// Numbers that the law of an element remembers.
-    fn law_memory(&self, #[pyo3(from_py_with = whole)] element: usize) -> Vec<f64> {
-        self.0.law_memory(element).to_vec()
+    fn state_variables(&self, #[pyo3(from_py_with = whole)] element: usize) -> Vec<f64> {
+        self.0.state_variables(element).to_vec()
     }
 
     fn __repr__(&self) -> String {

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use basemat::coupled::{Run, State};
-use basemat::results::Histories;
+use basemat::results::TimeSeries;
 use pyo3::prelude::*;
 
 use super::PyState;
@@ -28,7 +28,7 @@ pub(super) struct Watched {
     ticker: Ticker,
     observe: Option<Py<PyAny>>,
     observe_every: usize,
-    histories: Option<Histories>,
+    histories: Option<TimeSeries>,
     done: usize,
     stopped: Option<PyErr>,
 }
@@ -39,7 +39,7 @@ impl Watched {
         steps: usize,
         observe: Option<Py<PyAny>>,
         observe_every: usize,
-        histories: Option<Histories>,
+        histories: Option<TimeSeries>,
     ) -> Self {
         let ticker = Ticker::new(progress, steps);
         Self { ticker, observe, observe_every, histories, done: 0, stopped: None }

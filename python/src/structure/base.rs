@@ -42,7 +42,7 @@ pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure
     )))
 }
 
-/// Most unknowns of a structure whose matrices are written out: an array takes 3.2 GB.
+/// Most degrees of freedom of a structure whose matrices are written out: an array takes 3.2 GB.
 const MOST_UNKNOWNS: usize = 20_000;
 
 /// An n × n array of what `fill` adds up.
@@ -51,10 +51,10 @@ fn array<'py>(
     structure: &dyn Structure,
     fill: impl FnOnce(&dyn Structure, &mut Triplets) -> basemat::Result<()>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let order = structure.unknowns();
+    let order = structure.dofs();
     if order > MOST_UNKNOWNS {
         return Err(refuse(format!(
-            "the structure has {order} unknowns, but its matrices are arrays up to {MOST_UNKNOWNS}"
+            "the structure has {order} degrees of freedom, but its matrices are arrays up to {MOST_UNKNOWNS}"
         )));
     }
     let mut entries = Triplets::new(order);
@@ -81,10 +81,10 @@ fn array<'py>(
 
 #[pymethods]
 impl PyStructure {
-    /// Number of unknowns n.
+    /// Number of degrees of freedom n.
     #[getter]
-    fn unknowns(&self) -> PyResult<usize> {
-        Ok((self.make)().or_raise()?.unknowns())
+    fn dofs(&self) -> PyResult<usize> {
+        Ok((self.make)().or_raise()?.dofs())
     }
 
     /// Points of the base that touch the ground, from left to right.
@@ -92,7 +92,7 @@ impl PyStructure {
         Ok((self.make)().or_raise()?.contact_nodes().into_iter().map(PyContactNode::from).collect())
     }
 
-    /// Mass matrix (n × n array, kg/m); this and the others of up to 20 000 unknowns.
+    /// Mass matrix (n × n array, kg/m); this and the others of up to 20 000 degrees of freedom.
     fn mass<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         array(py, (self.make)().or_raise()?.as_ref(), Structure::mass)
     }

@@ -5,9 +5,9 @@ use pyo3::prelude::*;
 
 use super::PyStructure;
 use crate::error::OrRaise;
-use crate::row::PyRow;
+use crate::row::PyDofCombination;
 
-/// A rigid block on a flat base, with three unknowns at the middle of its base: displacement to the
+/// A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to the
 /// right, displacement up, rotation.
 ///
 /// ``width``, ``height`` in m, ``density`` in kg/m³. ``center``: x of its middle, m. ``p_delta``:
@@ -82,12 +82,12 @@ impl PyRigidBlock {
     }
 
     /// Horizontal displacement at a height (m) above the base.
-    fn horizontal_at(&self, height: f64) -> PyRow {
+    fn horizontal_at(&self, height: f64) -> PyDofCombination {
         self.0.horizontal_at(height).into()
     }
 
     /// Vertical displacement at x (m).
-    fn vertical_at(&self, x: f64) -> PyRow {
+    fn vertical_at(&self, x: f64) -> PyDofCombination {
         self.0.vertical_at(x).into()
     }
 }

@@ -11,7 +11,7 @@ use super::hysteresis::PyHysteresis;
 use crate::array::whole;
 use crate::error::OrRaise;
 use crate::recipe::Recipe;
-use crate::row::{PyRow, PySectionRows};
+use crate::row::{PyDofCombination, PySectionRows};
 
 /// A storey of a :class:`ShearBuilding`, per metre of thickness: ``height`` of its columns (m),
 /// ``mass`` of the floor above (kg), sway ``stiffness`` (N/m), ``rotary_inertia`` of the floor
@@ -54,7 +54,7 @@ fn following(mut building: ShearBuilding, laws: &Laws) -> basemat::Result<ShearB
 
 /// Floors on sway columns on a rigid base.
 ///
-/// Unknowns: displacement to the right, up, and rotation of the base, then the absolute horizontal
+/// Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute horizontal
 /// displacement of every floor from below. ``width`` of the base in m, ``base_mass`` in kg/m,
 /// ``base_inertia`` in kg m²/m. ``damping``: ratio in the first mode on a fixed base, by damping
 /// proportional to stiffness. ``p_delta``: gravity (m/s²) of the P–Δ effect; none unless given.
@@ -157,13 +157,16 @@ impl PyShearBuilding {
     }
 
     /// Drift of a storey: its floors' relative displacement less the turn of the base, m.
-    fn drift(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PyRow> {
+    fn drift(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PyDofCombination> {
         Ok(self.made()?.drift(storey).or_raise()?.into())
     }
 
     /// Displacement of a storey's floor less the motion of the base, m.
-    fn sway(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PyRow> {
-        Ok(self.made()?.sway(storey).or_raise()?.into())
+    fn total_drift(
+        &self,
+        #[pyo3(from_py_with = whole)] storey: usize,
+    ) -> PyResult<PyDofCombination> {
+        Ok(self.made()?.total_drift(storey).or_raise()?.into())
     }
 
     /// Force of what is above a storey's columns on what is below, N/m; of a storey that follows a

@@ -12,7 +12,7 @@ use super::{PyStructure, recipe};
 use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::recipe::{Recipe, Shared};
-use crate::row::{PyRow, RowLike};
+use crate::row::{PyDofCombination, RowLike};
 
 /// Rayleigh damping: ``mass`` (1/s) times the mass matrix and ``stiffness`` (s) times the stiffness.
 #[pyclass(name = "RayleighDamping", module = "basemat", frozen, dict)]
@@ -49,7 +49,7 @@ impl PyRayleighDamping {
     }
 }
 
-/// A structure reduced by Craig and Bampton's method to its contact nodes, the unknowns in ``keep``
+/// A structure reduced by Craig and Bampton's method to its contact nodes, the degrees of freedom in ``keep``
 /// and the lowest ``modes`` modes of the rest. ``damping_ratio``: of these modes, in place of the
 /// structure's damping.
 #[pyclass(name = "ReducedModel", module = "basemat", extends = PyStructure, frozen)]
@@ -86,13 +86,13 @@ impl PyReducedModel {
         PyArray1::from_vec(py, self.0.frequencies())
     }
 
-    /// A row of the full structure in the unknowns of the reduced one, for a probe or a load.
-    fn row(&self, row: RowLike) -> PyResult<PyRow> {
+    /// A row of the full structure in the degrees of freedom of the reduced one, for a probe or a load.
+    fn row(&self, row: RowLike) -> PyResult<PyDofCombination> {
         row.1.check("the row", self.0.recovery().full_unknowns())?;
         Ok(self.0.recovery().row(row.0).or_raise()?.into())
     }
 
-    /// Unknowns of the full structure (array of shape (n,)) from those of the reduced one.
+    /// Degrees of freedom of the full structure (array of shape (n,)) from those of the reduced one.
     fn full<'py>(&self, py: Python<'py>, reduced: Numbers) -> PyResult<Bound<'py, PyArray1<f64>>> {
         Ok(PyArray1::from_vec(py, self.0.recovery().full(&reduced.0).or_raise()?))
     }
@@ -103,8 +103,8 @@ impl PyReducedModel {
 #[pyclass(name = "StructureGroup", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyStructureGroup {
     make: Arc<dyn Fn() -> basemat::Result<StructureGroup> + Send + Sync>,
-    /// Unknowns of each structure.
-    unknowns: Vec<usize>,
+    /// Degrees of freedom of each structure.
+    dofs: Vec<usize>,
 }
 
 #[pymethods]
@@ -118,8 +118,8 @@ impl PyStructureGroup {
         if members.is_empty() {
             return Err(refuse("a group needs at least one structure"));
         }
-        let unknowns = members.iter().map(|(structure, _)| Ok(structure()?.unknowns()));
-        let unknowns = unknowns.collect::<basemat::Result<_>>().or_raise()?;
+        let dofs = members.iter().map(|(structure, _)| Ok(structure()?.dofs()));
+        let dofs = dofs.collect::<basemat::Result<_>>().or_raise()?;
         let make = Arc::new(move || {
             let mut group = StructureGroup::new();
             for (structure, shift) in &members {
@@ -130,14 +130,18 @@ impl PyStructureGroup {
         make().or_raise()?;
         let own = Arc::clone(&make);
         let base = PyStructure { make: Arc::new(move || Ok(Box::new(own()?))) };
-        Ok(PyClassInitializer::from(base).add_subclass(Self { make, unknowns }))
+        Ok(PyClassInitializer::from(base).add_subclass(Self { make, dofs }))
     }
 
-    /// A row of the structure ``member`` (0: the leftmost) in the unknowns of the group.
-    fn row(&self, #[pyo3(from_py_with = whole)] member: usize, row: RowLike) -> PyResult<PyRow> {
+    /// A row of the structure ``member`` (0: the leftmost) in the degrees of freedom of the group.
+    fn row(
+        &self,
+        #[pyo3(from_py_with = whole)] member: usize,
+        row: RowLike,
+    ) -> PyResult<PyDofCombination> {
         let RowLike(row, order) = row;
-        if let Some(unknowns) = self.unknowns.get(member) {
-            order.check("the row", *unknowns)?;
+        if let Some(dofs) = self.dofs.get(member) {
+            order.check("the row", *dofs)?;
         }
         Ok((self.make)().or_raise()?.row(member, row).or_raise()?.into())
     }

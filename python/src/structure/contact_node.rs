@@ -4,7 +4,7 @@ use basemat::structure::ContactNode;
 use pyo3::prelude::*;
 
 use crate::array::whole;
-use crate::row::{Order, PyRow, RowLike};
+use crate::row::{Order, PyDofCombination, RowLike};
 
 /// A point of the base: its coordinate x (m), and rows for its displacement to the right and up.
 #[pyclass(name = "ContactNode", module = "basemat", frozen)]
@@ -25,21 +25,21 @@ impl PyContactNode {
         Ok(Self(ContactNode { x, horizontal: horizontal.0, vertical: vertical.0 }, order))
     }
 
-    /// A point of a rigid flat base with ``unknowns`` (horizontal, vertical, rotation) at ``center`` (m).
+    /// A point of a rigid flat base with ``degrees of freedom`` (horizontal, vertical, rotation) at ``center`` (m).
     #[staticmethod]
-    fn rigid(x: f64, center: f64, #[pyo3(from_py_with = whole)] unknowns: [usize; 3]) -> Self {
-        ContactNode::rigid(x, center, unknowns).into()
+    fn rigid(x: f64, center: f64, #[pyo3(from_py_with = whole)] dofs: [usize; 3]) -> Self {
+        ContactNode::rigid(x, center, dofs).into()
     }
 
-    /// The two ends of a rigid flat base from ``left`` to ``right`` (m), with ``unknowns``
+    /// The two ends of a rigid flat base from ``left`` to ``right`` (m), with ``degrees of freedom``
     /// (horizontal, vertical, rotation) at its middle.
     #[staticmethod]
     fn rigid_base(
         left: f64,
         right: f64,
-        #[pyo3(from_py_with = whole)] unknowns: [usize; 3],
+        #[pyo3(from_py_with = whole)] dofs: [usize; 3],
     ) -> Vec<Self> {
-        ContactNode::rigid_base(left, right, unknowns).into_iter().map(Self::from).collect()
+        ContactNode::rigid_base(left, right, dofs).into_iter().map(Self::from).collect()
     }
 
     /// Coordinate, m.
@@ -50,14 +50,14 @@ impl PyContactNode {
 
     /// Displacement to the right.
     #[getter]
-    fn horizontal(&self) -> PyRow {
-        PyRow(self.0.horizontal.clone(), self.1)
+    fn horizontal(&self) -> PyDofCombination {
+        PyDofCombination(self.0.horizontal.clone(), self.1)
     }
 
     /// Displacement up.
     #[getter]
-    fn vertical(&self) -> PyRow {
-        PyRow(self.0.vertical.clone(), self.1)
+    fn vertical(&self) -> PyDofCombination {
+        PyDofCombination(self.0.vertical.clone(), self.1)
     }
 
     fn __repr__(&self) -> String {
@@ -69,19 +69,16 @@ impl PyContactNode {
         )
     }
 
-    fn __getnewargs__(&self) -> (f64, PyRow, PyRow) {
+    fn __getnewargs__(&self) -> (f64, PyDofCombination, PyDofCombination) {
         (self.x(), self.horizontal(), self.vertical())
     }
 }
 
-/// Contact nodes as Python gives them, of a structure of so many unknowns.
-pub(crate) fn nodes(
-    list: &[Bound<'_, PyContactNode>],
-    unknowns: usize,
-) -> PyResult<Vec<ContactNode>> {
+/// Contact nodes as Python gives them, of a structure of so many degrees of freedom.
+pub(crate) fn nodes(list: &[Bound<'_, PyContactNode>], dofs: usize) -> PyResult<Vec<ContactNode>> {
     let own = |node: &Bound<'_, PyContactNode>| {
         let PyContactNode(node, order) = node.get();
-        order.check(&format!("the contact node at {} m", node.x), unknowns)?;
+        order.check(&format!("the contact node at {} m", node.x), dofs)?;
         Ok(node.clone())
     };
     list.iter().map(own).collect()

@@ -15,7 +15,7 @@ use super::mesh::{PyMaterial, PyMesh, direction, formulation};
 use crate::array::whole;
 use crate::error::OrRaise;
 use crate::recipe::Shared;
-use crate::row::{PyRow, PySectionRows};
+use crate::row::{PyDofCombination, PySectionRows};
 
 /// A finite-element structure.
 ///
@@ -70,8 +70,12 @@ impl PyFemModel {
         Ok(PyClassInitializer::from(base).add_subclass(Self(model)))
     }
 
-    /// Motion of a node in a direction ("x", "y" or "rotation") as a weighted sum of unknowns.
-    fn row(&self, #[pyo3(from_py_with = whole)] node: usize, direction: &str) -> PyResult<PyRow> {
+    /// Motion of a node in a direction ("x", "y" or "rotation") as a weighted sum of degrees of freedom.
+    fn row(
+        &self,
+        #[pyo3(from_py_with = whole)] node: usize,
+        direction: &str,
+    ) -> PyResult<PyDofCombination> {
         Ok(self.0.row(node, self::direction(direction)?).or_raise()?.into())
     }
 
@@ -103,8 +107,11 @@ impl PyFemModel {
         Ok((shear, compression, moment))
     }
 
-    /// Row of a uniform pressure (Pa) on a line of nodes.
-    fn pressure_row(&self, #[pyo3(from_py_with = whole)] nodes: Vec<usize>) -> PyResult<PyRow> {
+    /// DofCombination of a uniform pressure (Pa) on a line of nodes.
+    fn pressure_row(
+        &self,
+        #[pyo3(from_py_with = whole)] nodes: Vec<usize>,
+    ) -> PyResult<PyDofCombination> {
         Ok(self.0.pressure_row(&nodes).or_raise()?.into())
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use basemat::structure::{Hysteresis, Row, WithSprings};
+use basemat::structure::{DofCombination, Hysteresis, WithSprings};
 use pyo3::prelude::*;
 
 use super::hysteresis::PyHysteresis;
@@ -24,11 +24,11 @@ impl PyWithSprings {
         springs: Vec<(RowLike, Bound<'_, PyHysteresis>)>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let structure = recipe(&structure)?;
-        let unknowns = structure().or_raise()?.unknowns();
-        let springs: Vec<(Row, Recipe<dyn Hysteresis>)> = springs
+        let dofs = structure().or_raise()?.dofs();
+        let springs: Vec<(DofCombination, Recipe<dyn Hysteresis>)> = springs
             .into_iter()
             .map(|(RowLike(row, order), law)| {
-                order.check("the row of a spring", unknowns)?;
+                order.check("the row of a spring", dofs)?;
                 Ok((row, law.get().make.clone()))
             })
             .collect::<PyResult<_>>()?;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use basemat::Result;
 use basemat::interface::{
-    Condition, ContactScene, ContactState, InterfaceLaw, Mode, StepStart, Tolerance,
+    Condition, ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance,
 };
 use pyo3::prelude::*;
 
-use super::PyStepStart;
+use super::PyPreviousContact;
 use crate::array::Numbers;
 use crate::error::{has_raised, keep, kept, returned};
 use crate::names::{mode, mode_name};
@@ -117,7 +117,7 @@ impl PyTolerance {
 
 /// A Python object with `modes`, `conditions(mode, start)` and
 /// `next_mode(mode, start, trial, tolerance)`, and as it may be `compliance(mode, start)`,
-/// `memory`, `initial_memory(start)`, `commit(start, end, mode)`, `friction_coefficient`,
+/// `memory`, `initial_state_variables(start)`, `commit(start, end, mode)`, `friction_coefficient`,
 /// `check(gravity, time_step)`.
 ///
 /// After an exception every number that the core asks for is NaN, which ends the step.
@@ -159,7 +159,7 @@ impl UserLaw {
                 .map(|value| returned("friction_coefficient of the interface law", &value))
                 .transpose()?,
             has_compliance: object.hasattr("compliance")?,
-            has_initial_memory: object.hasattr("initial_memory")?,
+            has_initial_memory: object.hasattr("initial_state_variables")?,
             has_commit: object.hasattr("commit")?,
             has_check: object.hasattr("check")?,
             object: Arc::new(object.clone().unbind()),
@@ -208,10 +208,10 @@ impl InterfaceLaw for UserLaw {
         &self.modes
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart<'_>) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact<'_>) -> [Condition; 2] {
         self.ask([NOTHING; 2], |_, object| {
-            let found =
-                object.call_method1("conditions", (mode_name(mode)?, PyStepStart::of(start)))?;
+            let found = object
+                .call_method1("conditions", (mode_name(mode)?, PyPreviousContact::of(start)))?;
             let [first, second]: [Bound<'_, PyCondition>; 2] =
                 returned("conditions of the interface law", &found)?;
             Ok([first.get().0, second.get().0])
@@ -221,7 +221,7 @@ impl InterfaceLaw for UserLaw {
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart<'_>,
+        start: &PreviousContact<'_>,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
@@ -229,7 +229,7 @@ impl InterfaceLaw for UserLaw {
             let Tolerance { length, traction, .. } = tolerance;
             let arguments = (
                 mode_name(mode)?,
-                PyStepStart::of(start),
+                PyPreviousContact::of(start),
                 PyContactState::of(trial),
                 PyTolerance { length, traction },
             );
@@ -242,34 +242,40 @@ impl InterfaceLaw for UserLaw {
     }
 
     /// Asked before a step is accepted, so that an exception of `next_mode` ends it.
-    fn compliance(&self, mode: Mode, start: &StepStart<'_>) -> [f64; 2] {
+    fn compliance(&self, mode: Mode, start: &PreviousContact<'_>) -> [f64; 2] {
         if !self.has_compliance {
             return if has_raised() { [f64::NAN; 2] } else { [0.0; 2] };
         }
         self.ask([f64::NAN; 2], |_, object| {
-            let found =
-                object.call_method1("compliance", (mode_name(mode)?, PyStepStart::of(start)))?;
+            let found = object
+                .call_method1("compliance", (mode_name(mode)?, PyPreviousContact::of(start)))?;
             returned("compliance of the interface law", &found)
         })
     }
 
-    fn memory(&self) -> usize {
+    fn state_variables(&self) -> usize {
         self.memory
     }
 
-    fn initial_memory(&self, start: &StepStart<'_>, memory: &mut [f64]) {
+    fn initial_state_variables(&self, start: &PreviousContact<'_>, memory: &mut [f64]) {
         if self.has_initial_memory {
             self.remember(memory, |object| {
-                object.call_method1("initial_memory", (PyStepStart::of(start),))
+                object.call_method1("initial_state_variables", (PyPreviousContact::of(start),))
             });
         }
     }
 
-    fn commit(&self, start: &StepStart<'_>, end: &ContactState, mode: Mode, memory: &mut [f64]) {
+    fn commit(
+        &self,
+        start: &PreviousContact<'_>,
+        end: &ContactState,
+        mode: Mode,
+        memory: &mut [f64],
+    ) {
         if self.has_commit {
             self.remember(memory, |object| {
                 let end = PyContactState::of(end);
-                object.call_method1("commit", (PyStepStart::of(start), end, mode_name(mode)?))
+                object.call_method1("commit", (PyPreviousContact::of(start), end, mode_name(mode)?))
             });
         }
     }

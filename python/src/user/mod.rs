@@ -6,5 +6,5 @@ mod step_start;
 mod structure;
 
 pub(crate) use law::{PyCondition, PyContactState, PyTolerance, UserLaw};
-pub(crate) use step_start::PyStepStart;
+pub(crate) use step_start::PyPreviousContact;
 pub(crate) use structure::UserStructure;

@@ -12,16 +12,16 @@ use crate::error::{keep, kept, returned};
 /// `force(u)` and `tangent(u)`, and as it may be `energy(u)`, `commit(u)`, `save()`, `restore(values)`.
 pub(super) struct UserForce {
     object: Py<PyAny>,
-    unknowns: usize,
+    dofs: usize,
     has_energy: bool,
     has_commit: bool,
     has_save: bool,
 }
 
 impl UserForce {
-    pub(super) fn new(object: &Bound<'_, PyAny>, unknowns: usize) -> PyResult<Self> {
+    pub(super) fn new(object: &Bound<'_, PyAny>, dofs: usize) -> PyResult<Self> {
         Ok(Self {
-            unknowns,
+            dofs,
             has_energy: object.hasattr("energy")?,
             has_commit: object.hasattr("commit")?,
             has_save: object.hasattr("save")?,
@@ -52,7 +52,7 @@ impl NonlinearForce for UserForce {
 
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
         let found = Python::attach(|py| -> PyResult<Triplets> {
-            matrix_of("tangent", &self.call(py, "tangent", displacement)?, self.unknowns)
+            matrix_of("tangent", &self.call(py, "tangent", displacement)?, self.dofs)
         });
         add_matrix(&found.map_err(|error| kept(PART, error))?, matrix);
         Ok(())

@@ -1,6 +1,6 @@
 //! The start of a step, as laws written in Python see it.
 
-use basemat::interface::{ContactState, Mode, StepStart};
+use basemat::interface::{ContactState, Mode, PreviousContact};
 use pyo3::prelude::*;
 
 use super::PyContactState;
@@ -8,8 +8,8 @@ use crate::array::Numbers;
 use crate::names::mode_name;
 
 /// An element at the start of a step.
-#[pyclass(name = "StepStart", module = "basemat", frozen)]
-pub(crate) struct PyStepStart {
+#[pyclass(name = "PreviousContact", module = "basemat", frozen)]
+pub(crate) struct PyPreviousContact {
     state: ContactState,
     mode: Mode,
     has_opened: bool,
@@ -19,17 +19,18 @@ pub(crate) struct PyStepStart {
     memory: Vec<f64>,
 }
 
-impl PyStepStart {
-    pub(crate) fn of(start: &StepStart<'_>) -> Self {
-        let StepStart { state, mode, has_opened, slip_rate, static_pressure, time_step, .. } =
-            *start;
+impl PyPreviousContact {
+    pub(crate) fn of(start: &PreviousContact<'_>) -> Self {
+        let PreviousContact {
+            state, mode, has_opened, slip_rate, static_pressure, time_step, ..
+        } = *start;
         let memory = start.memory.to_vec();
         Self { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
     }
 
     /// The same for a law of the core.
-    pub(crate) fn core(&self) -> StepStart<'_> {
-        let mut start = StepStart::new(self.state, self.mode, self.time_step);
+    pub(crate) fn core(&self) -> PreviousContact<'_> {
+        let mut start = PreviousContact::new(self.state, self.mode, self.time_step);
         start.has_opened = self.has_opened;
         start.slip_rate = self.slip_rate;
         start.static_pressure = self.static_pressure;
@@ -39,7 +40,7 @@ impl PyStepStart {
 }
 
 #[pymethods]
-impl PyStepStart {
+impl PyPreviousContact {
     /// A start by which a law can be tried without a simulation.
     #[new]
     #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, memory=None))]
@@ -51,7 +52,7 @@ impl PyStepStart {
         memory: Option<Numbers>,
     ) -> PyResult<Self> {
         let memory = memory.map_or_else(Vec::new, |numbers| numbers.0);
-        let start = StepStart::new(state.core(), crate::names::mode(mode)?, time_step);
+        let start = PreviousContact::new(state.core(), crate::names::mode(mode)?, time_step);
         Ok(Self { slip_rate, memory, ..Self::of(&start) })
     }
 

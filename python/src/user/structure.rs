@@ -12,11 +12,11 @@ use crate::structure::PyContactNode;
 /// Its name in errors.
 pub(super) const PART: &str = "structure";
 
-/// A Python object with `unknowns`, `contact_nodes()`, `mass()` and `stiffness()`; a structure that
+/// A Python object with `dofs`, `contact_nodes()`, `mass()` and `stiffness()`; a structure that
 /// is nonlinear also has `force(u)` and `tangent(u)`.
 pub(crate) struct UserStructure {
     object: Py<PyAny>,
-    unknowns: usize,
+    dofs: usize,
     contact: Vec<ContactNode>,
     ends: Vec<usize>,
     active_damping: bool,
@@ -35,9 +35,9 @@ impl UserStructure {
         } else {
             object.clone()
         };
-        let unknowns = object.getattr("unknowns")?;
-        let unknowns = if unknowns.is_callable() { unknowns.call0()? } else { unknowns };
-        let unknowns: usize = returned("unknowns of the structure", &unknowns)?;
+        let dofs = object.getattr("dofs")?;
+        let dofs = if dofs.is_callable() { dofs.call0()? } else { dofs };
+        let dofs: usize = returned("degrees of freedom of the structure", &dofs)?;
         let nodes: Vec<Bound<'_, PyContactNode>> =
             returned("contact_nodes of the structure", &object.call_method0("contact_nodes")?)?;
         let ends = if object.hasattr("foundation_ends")? {
@@ -50,13 +50,13 @@ impl UserStructure {
             None => false,
         };
         Ok(Self {
-            unknowns,
-            contact: crate::structure::nodes(&nodes, unknowns)?,
+            dofs,
+            contact: crate::structure::nodes(&nodes, dofs)?,
             ends,
             active_damping,
             has_damping: object.hasattr("damping")?,
             has_load: object.hasattr("load")?,
-            force: nonlinear.then(|| UserForce::new(&object, unknowns)).transpose()?,
+            force: nonlinear.then(|| UserForce::new(&object, dofs)).transpose()?,
             object: object.unbind(),
         })
     }
@@ -64,7 +64,7 @@ impl UserStructure {
     /// Adds the matrix that a method returns.
     fn add(&self, method: &str, matrix: &mut Triplets) -> Result<()> {
         let found = Python::attach(|py| -> PyResult<Triplets> {
-            matrix_of(method, &self.object.bind(py).call_method0(method)?, self.unknowns)
+            matrix_of(method, &self.object.bind(py).call_method0(method)?, self.dofs)
         });
         add_matrix(&found.map_err(|error| kept(PART, error))?, matrix);
         Ok(())
@@ -119,8 +119,8 @@ pub(super) fn add_numbers(own: &[f64], sum: &mut [f64]) {
 }
 
 impl Structure for UserStructure {
-    fn unknowns(&self) -> usize {
-        self.unknowns
+    fn dofs(&self) -> usize {
+        self.dofs
     }
 
     fn contact_nodes(&self) -> Vec<ContactNode> {

@@ -45,7 +45,7 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 /// ground.prepare(1.0e-3)?;
 /// assert!(ground.stability().is_some_and(|found| !found.is_bounded()));
 /// let mut matrix = vec![0.0; 20 * 20];
-/// ground.instantaneous(&mut matrix)?;
+/// ground.step_compliance(&mut matrix)?;
 /// // Waves have not reached the edges of the element: p·t/(ρ c₁).
 /// let plane_wave = 1.0e-3 / (2000.0 * soil.pressure_wave_speed());
 /// assert!((matrix[0] / plane_wave - 1.0).abs() < 1e-12);
@@ -274,7 +274,7 @@ impl Ground for FullPlaneGround {
     }
 
     /// Not symmetric.
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
         let contact = self.boundary.contact();
         let layout = ContactLayout::new(self.boundary.segments().len());

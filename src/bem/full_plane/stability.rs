@@ -1,6 +1,6 @@
 //! Whether a boundary equation can march: growth factors and passivity, before the run.
 //!
-//! With unknowns x (displacements of traction-free elements, tractions of those with prescribed
+//! With degrees of freedom x (displacements of traction-free elements, tractions of those with prescribed
 //! displacement), the march Σ F^{N−m} xᵐ = known has the symbol F(ζ) = Σ Fⁿ ζⁿ, columns of H and −G.
 //! Perturbations grow if and only if det F has a zero in |ζ| < 1, by the factor 1/|ζ| per step for
 //! the smallest one. Zeros are counted by the argument principle on circles (F has no poles

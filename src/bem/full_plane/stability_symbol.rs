@@ -267,7 +267,7 @@ impl<'a> Symbol<'a> {
         Ok(None)
     }
 
-    /// The operator F from the symbols of G and H, columns as the unknowns.
+    /// The operator F from the symbols of G and H, columns as the degrees of freedom.
     pub(super) fn operator(&self, sum: &[Complex64], operator: &mut Vec<Complex64>) {
         let order = self.order();
         let (g, h) = sum.split_at(order * order);

@@ -9,7 +9,7 @@ use std::fmt;
 use std::ops::Range;
 
 use super::coefficients::{Block, Circle, Quadrature};
-use super::form_factors::{DEGREES, LANES, POINTS, Row};
+use super::form_factors::{DEGREES, DofCombination, LANES, POINTS};
 use super::passivity;
 use super::runge_kutta::on_circle;
 use super::wavenumber::{Counts, Workspace};
@@ -137,7 +137,7 @@ impl Quadrature {
     }
 
     fn priced(&self, Total { sum, most }: &Total, missing: Range<usize>) -> Cost {
-        const ROW: f64 = size_of::<Row>() as f64;
+        const ROW: f64 = size_of::<DofCombination>() as f64;
         let forms = &self.integrals.forms;
         let (classes, blocks) = (self.classes as f64, forms.blocks() as f64);
         let (points, degrees) = (POINTS as f64, DEGREES as f64);

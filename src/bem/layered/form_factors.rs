@@ -25,7 +25,7 @@ const MEMORY: usize = 256 << 20;
 /// zz, xx, zx: real and imaginary part of each, for [`LANES`] pairs.
 pub(crate) type Sums = [[f64; LANES]; 6];
 /// Even and odd form factors of [`LANES`] pairs.
-pub(crate) type Row = [[f64; LANES]; 2];
+pub(crate) type DofCombination = [[f64; LANES]; 2];
 
 /// A pair of elements as the wavenumber domain sees it.
 #[derive(Debug, Clone, Copy)]
@@ -68,9 +68,9 @@ pub(crate) struct FormFactors {
     pub(crate) rule: Rule,
     fine: Rule,
     /// Per panel: blocks of pairs, rows of Gauss points.
-    values: Vec<OnceLock<Box<[Row]>>>,
+    values: Vec<OnceLock<Box<[DofCombination]>>>,
     /// Per panel: blocks of pairs, rows of Legendre coefficients.
-    legendre: Vec<OnceLock<Box<[Row]>>>,
+    legendre: Vec<OnceLock<Box<[DofCombination]>>>,
 }
 
 impl FormFactors {
@@ -80,7 +80,7 @@ impl FormFactors {
             .map(|[source, receiver]| PairShape::new(source, receiver))
             .collect();
         let blocks = shapes.len().div_ceil(LANES);
-        let panels = MEMORY / (blocks * POINTS * size_of::<Row>()).max(1);
+        let panels = MEMORY / (blocks * POINTS * size_of::<DofCombination>()).max(1);
         let empty = |count: usize| (0..count).map(|_| OnceLock::new()).collect::<Vec<_>>();
         Self {
             width: TURN / classes.span(),
@@ -108,21 +108,21 @@ impl FormFactors {
     }
 
     /// Calls `apply` with the rows of `panel` at its Gauss points.
-    pub(crate) fn with_values(&self, panel: usize, apply: impl FnOnce(&[Row])) {
+    pub(crate) fn with_values(&self, panel: usize, apply: impl FnOnce(&[DofCombination])) {
         Self::with(&self.values, panel, || self.table(panel, &self.rule), apply);
     }
 
     /// Calls `apply` with the rows of `panel` for Legendre polynomials of degree 0, 1, …: weights of
     /// ∫ C Pₙ dk.
-    pub(crate) fn with_legendre(&self, panel: usize, apply: impl FnOnce(&[Row])) {
+    pub(crate) fn with_legendre(&self, panel: usize, apply: impl FnOnce(&[DofCombination])) {
         Self::with(&self.legendre, panel, || self.projected(panel), apply);
     }
 
     fn with(
-        tables: &[OnceLock<Box<[Row]>>],
+        tables: &[OnceLock<Box<[DofCombination]>>],
         panel: usize,
-        make: impl FnOnce() -> Box<[Row]>,
-        apply: impl FnOnce(&[Row]),
+        make: impl FnOnce() -> Box<[DofCombination]>,
+        apply: impl FnOnce(&[DofCombination]),
     ) {
         match tables.get(panel) {
             Some(table) => apply(table.get_or_init(make)),
@@ -130,9 +130,9 @@ impl FormFactors {
         }
     }
 
-    fn table(&self, panel: usize, rule: &Rule) -> Box<[Row]> {
+    fn table(&self, panel: usize, rule: &Rule) -> Box<[DofCombination]> {
         let points = rule.nodes.len();
-        let mut rows = vec![Row::default(); self.blocks() * points];
+        let mut rows = vec![DofCombination::default(); self.blocks() * points];
         for (class, shape) in self.shapes.iter().enumerate() {
             for (i, node) in rule.nodes.iter().enumerate() {
                 let k = self.width * (panel as f64 + 0.5 * (1.0 + node));
@@ -144,10 +144,10 @@ impl FormFactors {
         rows.into_boxed_slice()
     }
 
-    fn projected(&self, panel: usize) -> Box<[Row]> {
+    fn projected(&self, panel: usize) -> Box<[DofCombination]> {
         let points = self.fine.nodes.len();
         let values = self.table(panel, &self.fine);
-        let mut rows = vec![Row::default(); self.blocks() * DEGREES];
+        let mut rows = vec![DofCombination::default(); self.blocks() * DEGREES];
         for (i, (node, weight)) in self.fine.nodes.iter().zip(&self.fine.weights).enumerate() {
             let polynomials = legendre(*node);
             for block in 0..self.blocks() {
@@ -190,7 +190,7 @@ const RECURRENCE: [[f64; 2]; DEGREES] = {
 };
 
 /// Adds Σ coefficient × row to the sums of all pairs: the whole cost of many pairs.
-pub(crate) fn accumulate(rows: &[Row], coefficients: &[[f64; 6]], sums: &mut [Sums]) {
+pub(crate) fn accumulate(rows: &[DofCombination], coefficients: &[[f64; 6]], sums: &mut [Sums]) {
     for (rows, sums) in rows.chunks_exact(coefficients.len()).zip(sums) {
         let mut local = *sums;
         for (row, c) in rows.iter().zip(coefficients) {

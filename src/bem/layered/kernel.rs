@@ -11,16 +11,16 @@ use super::wavenumber::Wavenumbers;
 use super::{file, passivity};
 use crate::error::{Error, Result, positive, same_length};
 use crate::geometry::ContactElement;
-use crate::history::{KINDS, LagKernel, PairClasses, SharedSpectra};
+use crate::history::{ConvolutionWeights, KINDS, PairClasses, SharedSpectra};
 use crate::soil::SoilProfile;
 
-/// The [`LagKernel`] of a layered ground: coefficients Gⁿ by Runge–Kutta convolution quadrature,
+/// The [`ConvolutionWeights`] of a layered ground: coefficients Gⁿ by Runge–Kutta convolution quadrature,
 /// in blocks of lags that are computed when they are needed first.
 ///
 /// ```
 /// use basemat::bem::layered::LayeredKernel;
 /// use basemat::bem::Strip;
-/// use basemat::history::LagKernel;
+/// use basemat::history::ConvolutionWeights;
 /// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 /// use basemat::Soil;
 /// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
@@ -108,7 +108,7 @@ impl LayeredKernel {
     }
 
     /// With coefficients from the file `path`, and those that it lacks written to it by
-    /// [`prepare`](LagKernel::prepare).
+    /// [`prepare`](ConvolutionWeights::prepare).
     ///
     /// They are the same to the last bit. A file of another profile, mesh, step, accuracy, machine or
     /// format is made anew; one that is damaged, or no such file at all, is refused and left as it is.
@@ -116,7 +116,7 @@ impl LayeredKernel {
     /// ```
     /// use basemat::bem::layered::LayeredKernel;
     /// use basemat::bem::Strip;
-    /// use basemat::history::LagKernel;
+    /// use basemat::history::ConvolutionWeights;
     /// use basemat::soil::SoilProfile;
     /// use basemat::Soil;
     /// let path = std::env::temp_dir().join("basemat-doctest.kernel");
@@ -130,7 +130,7 @@ impl LayeredKernel {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
-    /// `prepare` and [`coefficients`](LagKernel::coefficients) then also return
+    /// `prepare` and [`coefficients`](ConvolutionWeights::coefficients) then also return
     /// [`LayeredError::File`](crate::LayeredError::File) and [`Error::Write`].
     #[must_use]
     pub fn with_file(self, path: impl Into<PathBuf>) -> Self {
@@ -141,7 +141,7 @@ impl LayeredKernel {
     /// the clock, so that what is refused is the same everywhere; 600 unless called, and no limit if it is
     /// infinite.
     ///
-    /// `prepare` and [`coefficients`](LagKernel::coefficients) refuse more
+    /// `prepare` and [`coefficients`](ConvolutionWeights::coefficients) refuse more
     /// ([`LayeredError::TooCostly`](crate::LayeredError::TooCostly)) before anything of it is computed.
     ///
     /// # Errors
@@ -156,7 +156,7 @@ impl LayeredKernel {
     /// # Errors
     /// [`LayeredError::TooFine`](crate::LayeredError::TooFine) and
     /// [`LayeredError::Unresolved`](crate::LayeredError::Unresolved) where they could not be computed at
-    /// all; for bad damping laws as [`prepare`](LagKernel::prepare).
+    /// all; for bad damping laws as [`prepare`](ConvolutionWeights::prepare).
     pub fn cost(&self, lags: usize) -> Result<Cost> {
         self.quadrature.cost(0..last_block(lags.max(1))? + 1, true)
     }
@@ -207,7 +207,7 @@ impl LayeredKernel {
     }
 }
 
-impl LagKernel for LayeredKernel {
+impl ConvolutionWeights for LayeredKernel {
     fn classes(&self) -> &PairClasses {
         &self.classes
     }

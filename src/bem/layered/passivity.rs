@@ -15,7 +15,7 @@ pub(crate) const RADIUS: f64 = 0.99;
 pub(crate) const POINTS: usize = 40;
 
 /// Fingerprint of the coefficients, after a check of Herm[(1−z) Ĝ(z)] ≥ 0 at 40 points of |z| = 0.99, up to the tolerance of the quadrature
-/// times the number of unknowns, every pair relative to its elements' own mobilities.
+/// times the number of degrees of freedom, every pair relative to its elements' own mobilities.
 ///
 /// The theorem needs no check; errors of the quadrature and damping laws that are not passive show here. The fingerprint is that of all values at these points, of the
 /// elements and of what else a coefficient depends on.

@@ -15,7 +15,7 @@
 
 use std::sync::OnceLock;
 
-use super::form_factors::{FormFactors, LANES, PairShape, Row};
+use super::form_factors::{DofCombination, FormFactors, LANES, PairShape};
 use crate::linalg::Complex;
 
 /// Terms kept: for |x| ≤ 1/16 the last is below rounding.
@@ -56,7 +56,7 @@ pub(crate) fn surface_series(a2: f64) -> [[f64; TERMS]; 3] {
 /// Integrals beyond K for the pairs of a patch, made when a K is met first.
 #[derive(Debug)]
 pub(crate) struct Tails {
-    tables: Vec<OnceLock<Box<[Row]>>>,
+    tables: Vec<OnceLock<Box<[DofCombination]>>>,
 }
 
 impl Default for Tails {
@@ -79,7 +79,7 @@ fn grid(panels: usize) -> usize {
 impl Tails {
     /// Rows j = 0, 1, … of K^(2j) ∫_K^∞ k^(−1−2j) `S_p` `S_q` (cos, sin) kX dk, block by block, for K
     /// at the end of a [grid](on_grid) number of panels.
-    pub(crate) fn rows(&self, forms: &FormFactors, panels: usize) -> &[Row] {
+    pub(crate) fn rows(&self, forms: &FormFactors, panels: usize) -> &[DofCombination] {
         let step = grid(panels);
         let index = 8 * step.ilog2() as usize + panels / step;
         let limit = panels as f64 * forms.width;
@@ -87,8 +87,8 @@ impl Tails {
     }
 }
 
-fn table(forms: &FormFactors, limit: f64) -> Box<[Row]> {
-    let mut rows = vec![Row::default(); forms.blocks() * TERMS];
+fn table(forms: &FormFactors, limit: f64) -> Box<[DofCombination]> {
+    let mut rows = vec![DofCombination::default(); forms.blocks() * TERMS];
     for (class, shape) in forms.shapes.iter().enumerate() {
         let PairShape { lengths: [q, p], offset } = *shape;
         let (sum, difference) = (0.5 * (p + q), 0.5 * (p - q));

@@ -12,7 +12,9 @@ use crate::coupled::scene::model::Model;
 use crate::coupled::scene::operators::{Factor, Operators};
 use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
-use crate::interface::{Activation, ContactState, Coulomb, InterfaceLaw, StepStart, StepStarts};
+use crate::interface::{
+    ContactState, Coulomb, InterfaceLaw, PreviousContact, PreviousContacts, UnilateralCondition,
+};
 use crate::linalg::dense_multiply_add;
 use crate::linalg::matrix::{SparseMatrix, Thinned};
 use crate::soil::Soil;
@@ -26,7 +28,7 @@ const FRICTION: [f64; 6] = [0.0, 0.2, 0.4, 1.0, 3.0, f64::INFINITY];
 struct Parameters {
     friction: f64,
     strength: f64,
-    activation: Activation,
+    activation: UnilateralCondition,
 }
 
 impl Parameters {
@@ -42,7 +44,7 @@ struct Problem {
     delassus: Delassus,
     free_jump: Vec<f64>,
     static_traction: Vec<f64>,
-    start: StepStarts,
+    start: PreviousContacts,
     modes: Vec<Mode>,
 }
 
@@ -75,11 +77,13 @@ impl Problem {
             let (start, pressure, shear) = (self.start.of(e), total[e], total[count + e]);
             let free = pressure.abs().max(shear.abs()) / force;
             let closed_gap = match activation {
-                Activation::Gap => 0.0,
-                Activation::Rate { closed_below } if start.state.gap <= closed_below => {
+                UnilateralCondition::Position => 0.0,
+                UnilateralCondition::Velocity { closed_below }
+                    if start.state.gap <= closed_below =>
+                {
                     start.state.gap
                 }
-                Activation::Rate { .. } => return free,
+                UnilateralCondition::Velocity { .. } => return free,
             };
             let gap = (jump[e] - closed_gap) / length;
             let advance = (-jump[count + e] - start.state.slip) / length;
@@ -112,7 +116,7 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     let time_step = beta * 4.0 / count as f64 / soil.pressure_wave_speed();
     ground.prepare(time_step).unwrap();
     let mut operator = vec![0.0; 4 * count * count];
-    ground.instantaneous(&mut operator).unwrap();
+    ground.step_compliance(&mut operator).unwrap();
     let structure: Box<dyn Structure> = if random.chance(0.5) {
         Box::new(RigidBlock::new(4.0, 8.0, 2000.0).unwrap())
     } else {
@@ -155,9 +159,9 @@ fn begin(delassus: Vec<f64>, count: usize, random: &mut Random) -> Problem {
     let length = delassus[0] * pressure;
     let friction = random.pick(&FRICTION);
     let activation = if random.chance(0.25) {
-        Activation::Rate { closed_below: 1e-6 * length }
+        UnilateralCondition::Velocity { closed_below: 1e-6 * length }
     } else {
-        Activation::Gap
+        UnilateralCondition::Position
     };
     let strength = if random.chance(0.2) { 0.5 * pressure } else { 0.0 };
     let parameters = Parameters { friction, strength, activation };
@@ -179,14 +183,14 @@ fn begin(delassus: Vec<f64>, count: usize, random: &mut Random) -> Problem {
                 pressure: if open { 0.0 } else { static_traction[e] },
                 shear: 0.0,
             };
-            let mut start = StepStart::new(state, mode, 1e-3);
+            let mut start = PreviousContact::new(state, mode, 1e-3);
             start.has_opened = open || random.chance(0.5);
             start.static_pressure = 0.0;
             start
         })
         .collect::<Vec<_>>();
     let modes = start.iter().map(|s| s.mode).collect();
-    let start = StepStarts::new(&laws, &start).unwrap();
+    let start = PreviousContacts::new(&laws, &start).unwrap();
     let free_jump = vec![0.0; size];
     let delassus = delassus.into();
     Problem { parameters, laws, delassus, free_jump, static_traction, start, modes }

@@ -1,8 +1,8 @@
-//! A structure's matrices, base and influence vectors, assembled once, in its own unknowns.
+//! A structure's matrices, base and influence vectors, assembled once, in its own degrees of freedom.
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | R | influence vectors: the unknowns when a connected part translates rigidly by 1 m |
+//! | R | influence vectors: the degrees of freedom when a connected part translates rigidly by 1 m |
 //! | N | displacements of the contact nodes |
 //! | B | element means of the base displacement |
 
@@ -40,12 +40,16 @@ impl Assembled {
     /// beside the ground, and mechanisms that cannot be factored.
     pub(crate) fn new(structure: &dyn Structure, elements: &[ContactElement]) -> Result<Self> {
         let base = Base::of(structure, elements)?;
-        let (unknowns, linear) = (structure.unknowns(), structure.nonlinear().is_none());
-        if unknowns == 0 {
-            return Err(Error::Size { quantity: "list of unknowns", found: 0, needed: 1 });
+        let (dofs, linear) = (structure.dofs(), structure.nonlinear().is_none());
+        if dofs == 0 {
+            return Err(Error::Size {
+                quantity: "list of degrees of freedom",
+                found: 0,
+                needed: 1,
+            });
         }
         let assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
-            SparseMatrix::assembled(name, unknowns, fill)
+            SparseMatrix::assembled(name, dofs, fill)
         };
         let mass = assemble("mass matrix", &|m| structure.mass(m))?;
         check_mass(&mass)?;
@@ -54,14 +58,14 @@ impl Assembled {
             check_damping(&damping)?;
         }
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
-        let tangent = Tangent::at(structure, &vec![0.0; unknowns])?;
+        let tangent = Tangent::at(structure, &vec![0.0; dofs])?;
         let terms = [(1.0, &stiffness), (1.0, &tangent.matrix)];
         let sum =
-            || SparseMatrix::new("stiffness matrix", &SparseMatrix::weighted_sum(unknowns, &terms));
+            || SparseMatrix::new("stiffness matrix", &SparseMatrix::weighted_sum(dofs, &terms));
         let at_rest = if linear { None } else { Some(sum()?) };
         let influence = Arc::default();
         let own = Self { linear, mass, damping, stiffness, at_rest, base, influence };
-        check_attached(structure, own.stiffness_at_rest(), &own.mass, &own.base.unknowns())?;
+        check_attached(structure, own.stiffness_at_rest(), &own.mass, &own.base.dofs())?;
         // A mechanism fails in one way or another, as rounding has it, but never by its sign.
         let influence = own.find_influence().map_err(|error| match error {
             Error::Indefinite { .. } => error,
@@ -70,8 +74,8 @@ impl Assembled {
         Ok(Self { influence: Arc::new(influence), ..own })
     }
 
-    /// Number of unknowns.
-    pub(crate) fn unknowns(&self) -> usize {
+    /// Number of degrees of freedom.
+    pub(crate) fn dofs(&self) -> usize {
         self.mass.order()
     }
 
@@ -85,7 +89,7 @@ impl Assembled {
         self.at_rest.as_ref().unwrap_or(&self.stiffness)
     }
 
-    /// What a search for mechanisms looks at; `structure` knows the names of its unknowns.
+    /// What a search for mechanisms looks at; `structure` knows the names of its degrees of freedom.
     pub(crate) fn at_rest<'a>(&'a self, structure: &'a dyn Structure) -> AtRest<'a> {
         let stiffness = self.stiffness_at_rest();
         AtRest { structure, stiffness, mass: &self.mass, base: &self.base }
@@ -94,11 +98,11 @@ impl Assembled {
     /// The influence vectors.
     ///
     /// A rigid translation leaves K u = 0 and moves the contact nodes by one, so that
-    /// (K + γ NᵀN) r = γ Nᵀ 1 has it as its solution for every γ, whatever the unknowns mean.
+    /// (K + γ NᵀN) r = γ Nᵀ 1 has it as its solution for every γ, whatever the degrees of freedom mean.
     /// Displacements are stepped relative to rigid translations, so R has to be exact where the ground
     /// sees it: N R is 1 or 0 to rounding, and then so is B R.
     fn find_influence(&self) -> Result<Influence> {
-        let (stiffness, n) = (self.stiffness_at_rest(), self.unknowns());
+        let (stiffness, n) = (self.stiffness_at_rest(), self.dofs());
         let held = HeldBase::new(self.base.nodes(), stiffness, stiffest(stiffness));
         let mut factor = held.factor()?;
         if self.linear && !factor.is_positive_definite() {
@@ -125,9 +129,9 @@ impl Assembled {
             parts.couple(matrix);
         }
         for (nodes, _) in self.base.foundations() {
-            let mut unknowns = nodes.iter().flat_map(ContactNode::unknowns);
-            if let Some(first) = unknowns.next() {
-                unknowns.for_each(|unknown| parts.join(first, unknown));
+            let mut dofs = nodes.iter().flat_map(ContactNode::dofs);
+            if let Some(first) = dofs.next() {
+                dofs.for_each(|unknown| parts.join(first, unknown));
             }
         }
         let roots: Vec<usize> = (0..n).map(|unknown| parts.root(unknown)).collect();

@@ -9,17 +9,17 @@
 pub enum Coordinates {
     /// Whichever is expected to take less time, with the modes' own computation counted against
     /// them; see [`SimulationBuilder::expected_steps`](crate::coupled::SimulationBuilder::expected_steps). Nonlinear structures, and those that
-    /// modes do not decouple, keep their unknowns.
+    /// modes do not decouple, keep their degrees of freedom.
     #[default]
     Auto,
     /// The structure's unknowns: sparse matrices, one back-substitution per step.
-    Unknowns,
+    Physical,
     /// The modes of the structure without ground and damping. Needs a linear structure with
     /// symmetric matrices, a positive definite mass and damping that the modes decouple.
     Modes,
     /// Ritz modes, two to four hundred for thousands of unknowns: a rational block Krylov basis of the
     /// answers to contact tractions, loads, probes and an initial motion, projected (Galerkin), so that
-    /// it stays passive and the ledger closes. The settlement under weight is that of all unknowns.
+    /// it stays passive and the energy balance closes. The settlement under weight is that of all degrees of freedom.
     ///
     /// The tolerance is for the error of responses, as the time scheme steps them, each relative to its
     /// largest: to a unit traction that begins to grow suddenly, displacements of the base, and displacements,
@@ -31,7 +31,7 @@ pub enum Coordinates {
     /// makes it; it is not checked.
     ///
     /// A bonded run is a sum of such responses. Contact amplifies their errors, which nothing
-    /// bounds; on towers of 1 092 to 13 122 unknowns with 2 and 5 % of damping that slide and uplift, errors of
+    /// bounds; on towers of 1 092 to 13 122 degrees of freedom with 2 and 5 % of damping that slide and uplift, errors of
     /// base, roof and base shear stayed thirty times below the tolerance, and those of the roof's
     /// acceleration below it. Undamped structures are refused: no few vectors have what rings on above
     /// the frequency 2/Δt, and their accelerations would be lost first.
@@ -57,11 +57,11 @@ words_with_numbers! {
     /// assert_eq!("reduced(1e-6)".parse(), Ok(reduced));
     /// assert_eq!(reduced.to_string(), "reduced(1e-6)");
     /// let refused = "ritz".parse::<Coordinates>().unwrap_err();
-    /// let known = "auto, unknowns, modes, reduced(tolerance)";
+    /// let known = "auto, degrees of freedom, modes, reduced(tolerance)";
     /// assert_eq!(refused.to_string(), format!("there is no kind of coordinates 'ritz', only {known}"));
     /// ```
     Coordinates, "kind of coordinates", {
-        Auto = "auto", Unknowns = "unknowns", Modes = "modes";
+        Auto = "auto", Physical = "dofs", Modes = "modes";
         Reduced { tolerance } = "reduced",
     }
 }

@@ -6,7 +6,7 @@ use crate::coupled::scene::base::Base;
 use crate::coupled::scene::operators::condense;
 use crate::error::{Error, Result, StepError};
 use crate::geometry::ContactLayout;
-use crate::interface::{ContactState, InterfaceLaw, Mode, StepStarts, law_of};
+use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::{
     SparseFactor, SparseMatrix, dot, largest, sparse_condition, transposed_multiply_add,
 };
@@ -55,13 +55,13 @@ pub(crate) struct StaticState {
 
 impl StaticState {
     /// No weight: everything touches, nothing presses.
-    pub(crate) fn weightless(elements: usize, unknowns: usize) -> Self {
+    pub(crate) fn weightless(elements: usize, dofs: usize) -> Self {
         Self {
             traction: vec![0.0; ContactLayout::new(elements).len()],
             gap: vec![0.0; elements],
-            displacement: vec![0.0; unknowns],
+            displacement: vec![0.0; dofs],
             modes: vec![Mode::Stick; elements],
-            load: vec![0.0; unknowns],
+            load: vec![0.0; dofs],
             memory: Vec::new(),
             force: Vec::new(),
             energy: None,
@@ -81,7 +81,7 @@ impl StaticState {
     fn close_gaps(
         &mut self,
         laws: &[Box<dyn InterfaceLaw>],
-        start: &StepStarts,
+        start: &PreviousContacts,
         states: &[ContactState],
     ) {
         for (e, gap) in self.gap.iter_mut().enumerate() {
@@ -111,13 +111,13 @@ impl Standing<'_> {
     pub(super) fn equilibrium(
         &self,
         laws: &[Box<dyn InterfaceLaw>],
-        start: &StepStarts,
+        start: &PreviousContacts,
         mut state: StaticState,
         load: &[f64],
     ) -> Result<(StaticState, Vec<ContactState>)> {
         let Self { assembled, structure, soil } = *self;
         let base = &assembled.base;
-        let (n, count) = (assembled.unknowns(), base.lengths().len());
+        let (n, count) = (assembled.dofs(), base.lengths().len());
         let size = base.layout().len();
         let mut epsilon = PROXIMAL_SHARE * vertical_stiffness(soil, base) / total_mass(assembled);
         if !epsilon.is_finite() {
@@ -277,7 +277,7 @@ impl Measure {
         if scale > 0.0 && scale.is_finite() {
             return Self { weights, scale };
         }
-        // Nothing but massless unknowns is loaded.
+        // Nothing but massless degrees of freedom is loaded.
         let weights = vec![1.0; load.len()];
         Self { scale: largest(load).max(f64::MIN_POSITIVE), weights }
     }
@@ -306,11 +306,11 @@ impl Compliance {
         epsilon: f64,
     ) -> Result<Self> {
         let terms = [(1.0, &assembled.stiffness), (1.0, tangent), (epsilon, &assembled.mass)];
-        let matrix = SparseMatrix::weighted_sum(assembled.unknowns(), &terms);
+        let matrix = SparseMatrix::weighted_sum(assembled.dofs(), &terms);
         let factor = SparseFactor::new(NAME, &matrix)?;
         let matrix = SparseMatrix::new(NAME, &matrix)?;
         let solve = |rhs: &mut [f64]| factor.solve_many(rhs);
-        let (columns, delassus) = condense(solve, &assembled.base, soil, assembled.unknowns());
+        let (columns, delassus) = condense(solve, &assembled.base, soil, assembled.dofs());
         Ok(Self { matrix, factor, columns, delassus: delassus.into() })
     }
 
@@ -321,7 +321,7 @@ impl Compliance {
 
 /// Mass that a vertical translation moves.
 fn total_mass(assembled: &Assembled) -> f64 {
-    let [_, up] = assembled.influence.of_all(assembled.unknowns());
+    let [_, up] = assembled.influence.of_all(assembled.dofs());
     assembled.mass.form(&up, &up)
 }
 

@@ -4,7 +4,7 @@ use super::parts::Given;
 use crate::coupled::scene::Scene;
 use crate::coupled::state::State;
 use crate::error::{Error, Result};
-use crate::interface::{Mode, StepStart, StepStarts};
+use crate::interface::{Mode, PreviousContact, PreviousContacts};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 use crate::structure::{Structure, nonlinear_state};
@@ -13,7 +13,7 @@ use crate::structure::{Structure, nonlinear_state};
 const CLOSED: f64 = 1e-12;
 
 /// Sets `state`, which is at rest, and the structure's internal variables in motion; `mass` is that of
-/// the unknowns.
+/// the degrees of freedom.
 pub(super) fn set_in_motion(
     given: &Given,
     mass: &SparseMatrix,
@@ -61,7 +61,7 @@ fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
                 quantity: "initial displacement of the base, m",
                 value,
                 needed: "zero where weight holds it on the ground (begin with \
-                         `Placement::Unloaded`, or with a load that is released)",
+                         `GravityStage::Unloaded`, or with a load that is released)",
             });
         }
     } else {
@@ -87,9 +87,9 @@ fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
                 }
                 *mode = Mode::Open;
             }
-            starts.push(StepStart::new(*contact, *mode, scene.time_step));
+            starts.push(PreviousContact::new(*contact, *mode, scene.time_step));
         }
-        state.start = StepStarts::new(&scene.laws, &starts)?;
+        state.start = PreviousContacts::new(&scene.laws, &starts)?;
     }
     let [_, rate] = layout.split(&rate);
     state.start.slip_rates_mut().zip(rate).for_each(|(own, rate)| *own = *rate);
@@ -100,7 +100,7 @@ fn set_contact(given: &Given, scene: &Scene, state: &mut State) -> Result<()> {
 fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Result<Vec<f64>> {
     let (model, at_rest) = (&scene.model, &scene.static_state);
     let mut force = vec![0.0; model.coordinates];
-    let mut scratch = vec![0.0; model.unknowns];
+    let mut scratch = vec![0.0; model.dofs];
     model.load(structure, 0.0, &at_rest.load, &mut scratch, &mut force)?;
     scene.add_loads(0.0, &mut force);
     let mut displacement = state.motion.displacement.clone();
@@ -114,7 +114,7 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
         }
     }
     if let Matrix::Sparse(mass) = &model.mass {
-        let mass = SparseMatrix::weighted_sum(model.unknowns, &[(1.0, mass)]);
+        let mass = SparseMatrix::weighted_sum(model.dofs, &[(1.0, mass)]);
         SparseFactor::new("mass matrix, for the acceleration at t = 0", &mass)?.solve(&mut force);
     }
     Ok(force)

@@ -2,7 +2,7 @@
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | F | rows of unknowns where forces act or something is looked at |
+//! | F | rows of degrees of freedom where forces act or something is looked at |
 //! | σ | shifts, beginning with that of the scheme, √(a/k): 2/Δt for the midpoint rule |
 //! | Z | K_eff for the scheme's shift, K + σ² M for others |
 //!
@@ -42,7 +42,7 @@ const LONGEST: usize = 10_000;
 /// Times at which the structure's own load is looked at.
 const SAMPLES: u32 = 16;
 
-/// All that a reduction looks at. Rows have an entry for every unknown.
+/// All that a reduction looks at. Rows have an entry for every degree of freedom.
 pub(super) struct Reduction<'a> {
     assembled: &'a Assembled,
     coefficients: &'a SchemeCoefficients,
@@ -65,7 +65,7 @@ impl<'a> Reduction<'a> {
         steps: usize,
     ) -> Result<Self> {
         let (given, base) = (&parts.given, &assembled.base);
-        let (n, size) = (assembled.unknowns(), 2 * base.lengths().len());
+        let (n, size) = (assembled.dofs(), 2 * base.lengths().len());
         let mut rows = Rows { all: Vec::new(), counts: [0; 3], probes: Vec::new() };
         for load in &given.loads {
             keep(&mut rows.all, spread(load.row().terms(), n));
@@ -127,7 +127,7 @@ impl<'a> Reduction<'a> {
             return Err(Error::Input { quantity: NAME, value: tolerance, needed });
         }
         let matrices = self.matrices()?;
-        let translations = self.assembled.influence.translations(self.assembled.unknowns());
+        let translations = self.assembled.influence.translations(self.assembled.dofs());
         let (rotations, lowest) = self.held(&translations, matrices)?;
         let mut space = Subspace::new(matrices, translations);
         space.extend(rotations, LEAST_NEW);
@@ -170,7 +170,7 @@ impl<'a> Reduction<'a> {
                 // Estimated change by the next round, at the rate of this one.
                 (change, reached) = (by, by * rate);
             }
-            if reached <= tolerance || space.count() == self.assembled.unknowns() {
+            if reached <= tolerance || space.count() == self.assembled.dofs() {
                 return Ok(space.basis(&modes));
             }
             let left = i32::try_from(ROUNDS - round).unwrap_or(0);
@@ -228,7 +228,7 @@ impl<'a> Reduction<'a> {
         translations: &[f64],
         [mass, _, stiffness]: [&SparseMatrix; 3],
     ) -> Result<(Vec<f64>, f64)> {
-        let n = self.assembled.unknowns();
+        let n = self.assembled.dofs();
         let held = HeldBase::new(self.assembled.base.nodes(), stiffness, stiffest(stiffness));
         let factor = held.factor()?;
         let mut rotations = Vec::new();

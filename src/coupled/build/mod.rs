@@ -1,7 +1,7 @@
 //! Putting a simulation together, in the order of [`SimulationBuilder::build`].
 //!
 //! 1. `parts.rs`: what was given, each part checked by itself;
-//! 2. `assembled.rs`: matrices, base and influence vectors of the structure, in its own unknowns;
+//! 2. `assembled.rs`: matrices, base and influence vectors of the structure, in its own degrees of freedom;
 //! 3. `statics.rs`: weight first, then the loads at t = 0, by the search of `equilibrium.rs`;
 //! 4. `stepped.rs`: coordinates, chosen once; matrices, base and operators in these. `modes.rs` finds
 //!    vibration modes, `krylov.rs` fewer Ritz modes;
@@ -19,9 +19,9 @@ mod step_response;
 mod stepped;
 mod subspace;
 
-use super::books::Books;
 use super::diagnosis::{conditioning, supports};
-use super::ledger::Ledger;
+use super::energy_accumulator::EnergyAccumulator;
+use super::energy_balance::EnergyBalance;
 use super::load::Load;
 use super::scene::Scene;
 use super::scheme::TimeScheme;
@@ -40,7 +40,7 @@ use crate::structure::Structure;
 use crate::structure::probe::Probe;
 use assembled::Assembled;
 use coordinates::Coordinates;
-use parts::{Given, Parts, Placement};
+use parts::{Given, GravityStage, Parts};
 use stepped::Stepped;
 
 /// Parts of a [`Simulation`]: a structure, a ground and an interface law are needed, the rest has
@@ -79,7 +79,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// The ground. Contact is where its elements are: a part of the base beyond them hangs free, and
+    /// The ground. Contact is where its elements are: a part of the base beyond them is not in contact, and
     /// elements beyond the base are refused. Neither happens with
     /// [`ElasticGround::under`](crate::bem::ElasticGround::under).
     #[must_use]
@@ -140,15 +140,15 @@ impl SimulationBuilder {
         self
     }
 
-    /// Displacement of the unknowns at t = 0 against the static state. It may move the base only with
-    /// [`Placement::Unloaded`], which shows one, and not into the ground.
+    /// Displacement of the degrees of freedom at t = 0 against the static state. It may move the base only with
+    /// [`GravityStage::Unloaded`], which shows one, and not into the ground.
     #[must_use]
     pub fn initial_displacement(mut self, displacement: impl Into<Vec<f64>>) -> Self {
         self.given.displacement = displacement.into();
         self
     }
 
-    /// Velocity of the unknowns at t = 0.
+    /// Velocity of the degrees of freedom at t = 0.
     #[must_use]
     pub fn initial_velocity(mut self, velocity: impl Into<Vec<f64>>) -> Self {
         self.given.velocity = velocity.into();
@@ -157,7 +157,7 @@ impl SimulationBuilder {
 
     /// Friction while the weight comes on.
     #[must_use]
-    pub fn placement(mut self, placement: Placement) -> Self {
+    pub fn placement(mut self, placement: GravityStage) -> Self {
         self.given.placement = placement;
         self
     }
@@ -199,10 +199,10 @@ impl SimulationBuilder {
         self
     }
 
-    /// Keeps no energy ledger: its terms and its residual are then NaN, and a step takes less time.
+    /// Keeps no energy balance: its terms and its residual are then NaN, and a step takes less time.
     #[must_use]
-    pub fn without_ledger(mut self) -> Self {
-        self.given.ledger = false;
+    pub fn without_energy_balance(mut self) -> Self {
+        self.given.energy_balance = false;
         self
     }
 
@@ -234,12 +234,12 @@ impl SimulationBuilder {
     ///
     /// # Errors
     /// [`crate::Error::Scene`] for a missing part, the typed error of whatever is wrong with a given one.
-    /// [`crate::Error::Supported`] for a structure that is held by more than the ground,
+    /// [`crate::Error::Restrained`] for a structure that is held by more than the ground,
     /// [`crate::Error::Detached`] for one with a part that is not joined to its base,
     /// [`crate::Error::Indefinite`] for a negative mass or damping, or a stiffness that is negative with
     /// the base held.
-    /// [`crate::Error::Probe`] and [`crate::Error::DuplicateName`] for a probe of an unknown that is not
-    /// there or a name that comes twice. [`crate::Error::Standing`] if the structure cannot stand under
+    /// [`crate::Error::Probe`] and [`crate::Error::DuplicateName`] for a probe of a degree of freedom that is not
+    /// there or a name that comes twice. [`crate::Error::Stability`] if the structure cannot stand under
     /// weight and the loads at t = 0, [`crate::Error::Preload`] if no equilibrium was found for another
     /// reason, [`crate::Error::IllConditioned`] if double precision cannot carry the scene,
     /// [`crate::Error::Law`] for an interface law that returns numbers which are not finite.
@@ -263,9 +263,10 @@ impl SimulationBuilder {
         let compliant = scene.is_compliant(&state.start)?;
         let mass = &assembled.mass;
         initial::set_in_motion(&given, mass, &scene, structure.as_mut(), &mut state)?;
-        let books = || Books::new(&scene, structure.as_ref(), &state, compliant);
-        let books = given.ledger.then(books).transpose()?;
-        state.ledger = books.as_ref().map_or(Ledger::LEFT_OUT, |books| books.ledger);
+        let books = || EnergyAccumulator::new(&scene, structure.as_ref(), &state, compliant);
+        let books = given.energy_balance.then(books).transpose()?;
+        state.energy_balance =
+            books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
         let conditioning = conditioning::assess(&scene, &mut solver, &state.start)?;
         if scene.model.linear {
             // Last: stiffnesses too far apart for double precision look like a mechanism.
@@ -273,7 +274,7 @@ impl SimulationBuilder {
         }
         Ok(Simulation {
             forcing: Forcing::new(&scene),
-            increment: Increment::new(&scene, &state, compliant && given.ledger),
+            increment: Increment::new(&scene, &state, compliant && given.energy_balance),
             books,
             motion: given.motion,
             structure,

@@ -83,7 +83,7 @@ fn rigid_basis(
     assembled: &Assembled,
     still: &mut [Vec<f64>],
 ) -> Option<(Vec<[Vec<f64>; 2]>, usize)> {
-    let n = assembled.unknowns();
+    let n = assembled.dofs();
     let momentum = |vector: &[f64]| {
         let mut momentum = vec![0.0; n];
         assembled.mass.multiply_add(1.0, vector, &mut momentum);

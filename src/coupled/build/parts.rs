@@ -27,7 +27,7 @@ const ROUNDING: f64 = 1e-9;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
-pub enum Placement {
+pub enum GravityStage {
     /// The base is placed without friction and without adhesion, and sticks from then on. What
     /// does not touch under weight alone starts open. Where no element's law ever opens, the base
     /// is bonded from the start.
@@ -41,7 +41,7 @@ pub enum Placement {
     /// ```
     /// use basemat::Simulation;
     /// use basemat::bem::SpringGround;
-    /// use basemat::coupled::Placement;
+    /// use basemat::coupled::GravityStage;
     /// use basemat::interface::Coulomb;
     /// use basemat::structure::RigidBlock;
     ///
@@ -51,7 +51,7 @@ pub enum Placement {
     ///     .structure(RigidBlock::new(1.0, 4.0, 2400.0)?.with_p_delta(9.81)?)
     ///     .ground(SpringGround::new(-0.5..0.5, 8, 5e9, 2e9)?.with_dashpots(1e6, 1e6)?)
     ///     .interface(Coulomb::new(0.8)?)
-    ///     .placement(Placement::Unloaded)
+    ///     .placement(GravityStage::Unloaded)
     ///     .initial_displacement([0.0, 0.5 * tilt, tilt])
     ///     .build()?;
     /// assert_eq!(simulation.state().uplifted_fraction, 1.0);
@@ -64,7 +64,7 @@ pub enum Placement {
     Unloaded,
 }
 
-words! { Placement, "placement", {
+words! { GravityStage, "placement", {
     Frictionless = "frictionless",
     WithInterfaceLaw = "with_interface_law",
     Unloaded = "unloaded",
@@ -78,9 +78,9 @@ pub(crate) struct Given {
     pub(crate) scheme: Box<dyn TimeScheme>,
     pub(crate) search: ContactSearch,
     pub(crate) gravity: f64,
-    pub(crate) placement: Placement,
+    pub(crate) placement: GravityStage,
     pub(crate) loads: Vec<Load>,
-    /// Displacement and velocity of the unknowns at t = 0; empty for none.
+    /// Displacement and velocity of the degrees of freedom at t = 0; empty for none.
     pub(crate) displacement: Vec<f64>,
     pub(crate) velocity: Vec<f64>,
     pub(crate) probes: Vec<Probe>,
@@ -88,7 +88,7 @@ pub(crate) struct Given {
     /// Steps expected, 0 if unknown.
     pub(crate) steps: usize,
     pub(crate) coordinates: Coordinates,
-    pub(crate) ledger: bool,
+    pub(crate) energy_balance: bool,
     pub(crate) safety_friction: Vec<f64>,
     pub(crate) serviceability: Serviceability,
 }
@@ -103,7 +103,7 @@ impl Given {
             scheme: Box::new(Midpoint),
             search: ContactSearch::default(),
             gravity: STANDARD_GRAVITY,
-            placement: Placement::default(),
+            placement: GravityStage::default(),
             loads: Vec::new(),
             displacement: Vec::new(),
             velocity: Vec::new(),
@@ -111,7 +111,7 @@ impl Given {
             moment_center: None,
             steps: 0,
             coordinates: Coordinates::default(),
-            ledger: true,
+            energy_balance: true,
             safety_friction: Vec::new(),
             serviceability: Serviceability::new(),
         }
@@ -119,7 +119,7 @@ impl Given {
 
     /// Whether weight and loads are there before the run begins.
     pub(crate) fn is_static(&self) -> bool {
-        self.gravity > 0.0 && self.placement != Placement::Unloaded
+        self.gravity > 0.0 && self.placement != GravityStage::Unloaded
     }
 
     /// Gravity as the laws may count on it at the start: zero where nothing presses.
@@ -129,7 +129,7 @@ impl Given {
 
     /// Whether weight acts as a load from t = 0 on.
     pub(crate) fn falls(&self) -> bool {
-        self.gravity > 0.0 && self.placement == Placement::Unloaded
+        self.gravity > 0.0 && self.placement == GravityStage::Unloaded
     }
 }
 
@@ -171,10 +171,10 @@ impl Parts {
         let gravity = given.static_gravity();
         check_laws(&given.laws, given.search, &ContactScene { gravity, time_step }, count)?;
         given.safety_friction = safety_friction(&given.laws, given.safety_friction, count)?;
-        let unknowns = structure.unknowns();
-        check_unknowns(unknowns, count)?;
-        probe::check(&given.probes, unknowns)?;
-        check_motion(&given, unknowns)?;
+        let dofs = structure.dofs();
+        check_unknowns(dofs, count)?;
+        probe::check(&given.probes, dofs)?;
+        check_motion(&given, dofs)?;
         let coefficients = given.scheme.coefficients(time_step);
         coefficients.check()?;
         let middle = 0.5 * (elements[0].left + elements[count - 1].right);
@@ -203,30 +203,30 @@ impl Parts {
     }
 }
 
-/// Refuses loads and motions of other unknowns than the structure's, and numbers that are not finite.
-fn check_motion(given: &Given, unknowns: usize) -> Result<()> {
+/// Refuses loads and motions of other degrees of freedom than the structure's, and numbers that are not finite.
+fn check_motion(given: &Given, dofs: usize) -> Result<()> {
     let mut loads = given.loads.iter().enumerate();
-    loads.try_for_each(|(index, load)| load.check(index, unknowns))?;
+    loads.try_for_each(|(index, load)| load.check(index, dofs))?;
     for (values, quantity) in
         [(&given.displacement, "initial displacement"), (&given.velocity, "initial velocity")]
     {
         if !values.is_empty() {
-            same_length(quantity, values.len(), unknowns)?;
+            same_length(quantity, values.len(), dofs)?;
             all_finite(quantity, values)?;
         }
     }
     Ok(())
 }
 
-/// Refuses more unknowns than fit into memory, by themselves or with a response to the traction of
+/// Refuses more degrees of freedom than fit into memory, by themselves or with a response to the traction of
 /// each of `elements` contact elements.
-fn check_unknowns(unknowns: usize, elements: usize) -> Result<()> {
-    matrix::check_order("unknowns of the structure", unknowns)?;
+fn check_unknowns(dofs: usize, elements: usize) -> Result<()> {
+    matrix::check_order("degrees of freedom of the structure", dofs)?;
     // Two components of traction, and the responses twice while they are computed.
-    let responses = 32.0 * unknowns as f64 * elements as f64;
+    let responses = 32.0 * dofs as f64 * elements as f64;
     Ok(memory::check(
-        "unknowns of the structure on its contact elements",
-        unknowns as f64,
+        "degrees of freedom of the structure on its contact elements",
+        dofs as f64,
         responses,
     )?)
 }
@@ -238,7 +238,7 @@ fn instantaneous_operator(ground: &dyn Ground, elements: &[ContactElement]) -> R
     let layout = ContactLayout::new(elements.len());
     let size = layout.len();
     let mut operator = vec![0.0; layout.square()];
-    ground.instantaneous(&mut operator)?;
+    ground.step_compliance(&mut operator)?;
     all_finite(NAME, &operator)?;
     let length = |i: usize| elements[layout.origin(i)[1]].length();
     let scale: Vec<f64> = (0..size)

@@ -2,10 +2,12 @@
 
 use super::assembled::Assembled;
 use super::equilibrium::{Standing, StaticState};
-use super::parts::{Parts, Placement};
+use super::parts::{GravityStage, Parts};
 use crate::coupled::diagnosis::stability;
 use crate::error::{Result, all_finite, finite};
-use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, StepStarts, law_of};
+use crate::interface::{
+    ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, law_of,
+};
 use crate::structure::nonlinear_state;
 
 /// Increments of a load under which elements slide: friction makes their path matter.
@@ -21,7 +23,7 @@ const TIME_STEP: f64 = 1.0;
 /// trivial without gravity.
 pub(super) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticState> {
     let Parts { structure, ground, given, elements, .. } = parts;
-    let (count, n) = (elements.len(), assembled.unknowns());
+    let (count, n) = (elements.len(), assembled.dofs());
     let mut state = StaticState::weightless(count, n);
     if given.is_static() {
         let mut own = vec![0.0; n];
@@ -59,17 +61,17 @@ pub(super) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticSt
 fn in_stages(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
-    placement: Placement,
+    placement: GravityStage,
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {
     let count = stage.assembled.base.lengths().len();
-    let smooth: Vec<_> = laws.iter().map(InterfaceLaw::smooth).collect();
+    let smooth: Vec<_> = laws.iter().map(InterfaceLaw::frictionless).collect();
     let can_open = laws.iter().any(|law| law.modes().contains(&Mode::Open));
     // A base that never opens is bonded from the start.
-    let is_smooth = placement == Placement::Frictionless && can_open;
+    let is_smooth = placement == GravityStage::Frictionless && can_open;
     let placing = if is_smooth { &smooth } else { laws };
-    let at_rest = StepStart::new(ContactState::default(), Mode::Stick, TIME_STEP);
-    let start = StepStarts::new(placing, &vec![at_rest; count])?;
+    let at_rest = PreviousContact::new(ContactState::default(), Mode::Stick, TIME_STEP);
+    let start = PreviousContacts::new(placing, &vec![at_rest; count])?;
     let mut state = StaticState::weightless(count, weight.len());
     for (e, mode) in state.modes.iter_mut().enumerate() {
         *mode = law_of(placing, e).modes()[0];
@@ -80,7 +82,7 @@ fn in_stages(
     state.memory = (0..count)
         .map(|e| {
             let own = start.memory_of(e);
-            if own.len() == law_of(laws, e).memory() { own.to_vec() } else { Vec::new() }
+            if own.len() == law_of(laws, e).state_variables() { own.to_vec() } else { Vec::new() }
         })
         .collect();
     if load.iter().all(|force| *force == 0.0) {
@@ -90,11 +92,11 @@ fn in_stages(
     state.modes = state.modes_with(laws);
     let placed: Vec<_> = (0..count)
         .map(|e| {
-            let start = StepStart::new(*start.state(e), state.modes[e], TIME_STEP);
+            let start = PreviousContact::new(*start.state(e), state.modes[e], TIME_STEP);
             start.with_memory(&state.memory[e])
         })
         .collect();
-    let begin = StepStarts::new(laws, &placed)?;
+    let begin = PreviousContacts::new(laws, &placed)?;
     let total =
         |share: f64| -> Vec<f64> { weight.iter().zip(load).map(|(w, f)| w + share * f).collect() };
     let path = |increments: usize| -> Result<StaticState> {
@@ -122,10 +124,10 @@ fn in_stages(
 fn settle(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
-    mut start: StepStarts,
+    mut start: PreviousContacts,
     mut state: StaticState,
     load: &[f64],
-) -> Result<(StaticState, StepStarts)> {
+) -> Result<(StaticState, PreviousContacts)> {
     let mut memory = start.memory().to_vec();
     for _ in 0..PASSES {
         let contact;

@@ -17,9 +17,9 @@ use crate::linalg::{largest, row_products};
 /// Rounding of a response, relative to the largest of all.
 const ROUNDING: f64 = 1e-13;
 
-/// Rows of unknowns that forces act on and that are looked at.
+/// Rows of degrees of freedom that forces act on and that are looked at.
 pub(crate) struct Rows {
-    /// Loads, other forces, displacements and velocities, accelerations: an entry for every unknown.
+    /// Loads, other forces, displacements and velocities, accelerations: an entry for every degree of freedom.
     pub(crate) all: Vec<f64>,
     /// Loads, all forces, and all but accelerations.
     pub(crate) counts: [usize; 3],

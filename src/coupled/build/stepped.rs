@@ -1,4 +1,4 @@
-//! The structure in the coordinates that are stepped: the choice between unknowns, modes and Ritz modes.
+//! The structure in the coordinates that are stepped: the choice between degrees of freedom, modes and Ritz modes.
 
 use super::assembled::Assembled;
 use super::coordinates::Coordinates;
@@ -26,9 +26,9 @@ const NEEDED: &str = "a linear structure with symmetric matrices, a positive def
 mod cost {
     /// Per entry of a sparse factor or matrix and use.
     pub(super) const SPARSE_ENTRY: f64 = 1.0;
-    /// Per mode and step, more than an unknown costs.
+    /// Per mode and step, more than a degree of freedom costs.
     pub(super) const MODE: f64 = 1.0;
-    /// Per mode, contact component and step, more than unknowns cost.
+    /// Per mode, contact component and step, more than degrees of freedom cost.
     pub(super) const MODE_AND_CONTACT: f64 = 0.2;
     /// Per cubed number of modes, once.
     pub(super) const MODES: f64 = 3.0;
@@ -42,7 +42,7 @@ pub(crate) struct Stepped {
 }
 
 impl Stepped {
-    /// Chooses the coordinates, and factors the effective stiffness in them. That of the unknowns is
+    /// Chooses the coordinates, and factors the effective stiffness in them. That of the degrees of freedom is
     /// factored only where it is stepped or the choice needs it.
     pub(super) fn choose(
         parts: &Parts,
@@ -59,7 +59,7 @@ impl Stepped {
             factor.map_err(|error| cause(assembled, structure, &tangent, error))
         };
         let chosen = match given.coordinates {
-            Coordinates::Unknowns => Chosen::Unknowns(factored()?),
+            Coordinates::Physical => Chosen::Unknowns(factored()?),
             Coordinates::Auto => {
                 let factor = factored()?;
                 let modes = cheaper_modes(assembled, factor.stored(), steps);
@@ -108,16 +108,16 @@ fn cause(
 ) -> Error {
     let Assembled { mass, damping, stiffness, .. } = assembled;
     let terms = [(1.0, stiffness), (1.0, tangent)];
-    let sum = SparseMatrix::weighted_sum(assembled.unknowns(), &terms);
+    let sum = SparseMatrix::weighted_sum(assembled.dofs(), &terms);
     let sum = SparseMatrix::new("stiffness matrix", &sum).ok();
     let found = sum.and_then(|sum| unresisted(structure, &sum, [damping, mass]));
-    found.map_or(error, |cause| Error::Standing(Box::new(cause)))
+    found.map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 
 /// The modes, if stepping in them takes less time, their computation included; `factor` is the number
 /// of entries of the sparse factor.
 fn cheaper_modes(assembled: &Assembled, factor: usize, steps: usize) -> Option<ModalBasis> {
-    let (n, steps) = (assembled.unknowns() as f64, steps as f64);
+    let (n, steps) = (assembled.dofs() as f64, steps as f64);
     let contact = assembled.base.layout().len();
     let stored: usize = assembled.matrices().into_iter().map(SparseMatrix::stored).sum();
     let sparse = cost::SPARSE_ENTRY * (2 * factor + 2 * stored) as f64;

@@ -194,7 +194,7 @@ impl<'a> Subspace<'a> {
         shares
     }
 
-    /// The modes in unknowns.
+    /// The modes in degrees of freedom.
     pub(super) fn basis(&self, modes: &Ritz) -> ModalBasis {
         let mut vectors = vec![0.0; self.vectors.len()];
         let count = modes.stiffness.len();

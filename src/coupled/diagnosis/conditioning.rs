@@ -6,7 +6,7 @@ use crate::coupled::scene::Scene;
 use crate::coupled::scene::operators::{self, Operators};
 use crate::coupled::step::solver::Solver;
 use crate::error::{Error, Result};
-use crate::interface::StepStarts;
+use crate::interface::PreviousContacts;
 use crate::linalg::dense_condition;
 
 /// Conditions up to which the effective stiffness and the Delassus operator are accepted, by the
@@ -78,7 +78,7 @@ impl fmt::Display for Conditioning {
 pub(crate) fn assess(
     scene: &Scene,
     solver: &mut Solver,
-    start: &StepStarts,
+    start: &PreviousContacts,
 ) -> Result<Conditioning> {
     let (operators, contact) = solver.parts_mut();
     let size = scene.layout().len();

@@ -2,7 +2,7 @@
 //! all.
 
 use crate::coupled::scene::base::Base;
-use crate::error::{Error, Result, StandingError};
+use crate::error::{Error, Result, StabilityError};
 use crate::linalg::{SparseFactor, SparseMatrix, largest, weighted_dot};
 use crate::structure::{HeldBase, Structure, Triplets, unknown_numbers};
 
@@ -13,7 +13,7 @@ const FREE: f64 = 1e-12;
 /// The same where no failure speaks for one. Elements added up leave 3e-17; a column of a thousand
 /// beams one above the other has 1e-12.
 const SURELY_FREE: f64 = f64::EPSILON;
-/// Share of the largest displacement from which on an unknown takes part in a mechanism.
+/// Share of the largest displacement from which on a degree of freedom takes part in a mechanism.
 const TAKES_PART: f64 = 0.1;
 /// Independent mechanisms that are told, at most.
 const MOST_MOTIONS: usize = 32;
@@ -32,27 +32,27 @@ pub(crate) struct AtRest<'a> {
 impl AtRest<'_> {
     /// Refuses a mechanism, also where the loads do not set it in motion.
     pub(crate) fn check(&self) -> Result<()> {
-        self.motion(SURELY_FREE).map_or(Ok(()), |cause| Err(Error::Standing(Box::new(cause))))
+        self.motion(SURELY_FREE).map_or(Ok(()), |cause| Err(Error::Stability(Box::new(cause))))
     }
 
     /// The mechanism behind a failure, if there is one.
-    pub(super) fn mechanism(&self) -> Option<StandingError> {
+    pub(super) fn mechanism(&self) -> Option<StabilityError> {
         self.motion(FREE)
     }
 
     /// What to say of `error`, that the structure has no equilibrium or no factors.
     pub(crate) fn behind(&self, error: Error) -> Error {
-        self.mechanism().map_or(error, |cause| Error::Standing(Box::new(cause)))
+        self.mechanism().map_or(error, |cause| Error::Stability(Box::new(cause)))
     }
 
     /// Displacements with the base at rest that do work of at most `free` on the stiffness.
-    fn motion(&self, free: f64) -> Option<StandingError> {
-        if self.base.unknowns().is_empty() {
+    fn motion(&self, free: f64) -> Option<StabilityError> {
+        if self.base.dofs().is_empty() {
             return None;
         }
-        let unknowns = Regular::held(self)?.1.free_unknowns(free)?;
-        let place = place(self.structure, &unknowns);
-        Some(StandingError::Mechanism { unknowns, place })
+        let dofs = Regular::held(self)?.1.free_unknowns(free)?;
+        let place = place(self.structure, &dofs);
+        Some(StabilityError::Mechanism { dofs, place })
     }
 }
 
@@ -61,21 +61,21 @@ pub(crate) fn unresisted(
     structure: &dyn Structure,
     stiffness: &SparseMatrix,
     others: [&SparseMatrix; 2],
-) -> Option<StandingError> {
+) -> Option<StabilityError> {
     let scaled = |matrix: &SparseMatrix| {
         let largest = largest(&matrix.diagonal());
         if largest > 0.0 { largest.recip() } else { 0.0 }
     };
     let terms = [stiffness, others[0], others[1]].map(|matrix| (scaled(matrix), matrix));
     let sum = SparseMatrix::weighted_sum(stiffness.order(), &terms);
-    let unknowns = Regular::new(sum, 1.0, &[])?.free_unknowns(FREE)?;
-    let place = place(structure, &unknowns);
-    Some(StandingError::Massless { unknowns, place })
+    let dofs = Regular::new(sum, 1.0, &[])?.free_unknowns(FREE)?;
+    let place = place(structure, &dofs);
+    Some(StabilityError::Massless { dofs, place })
 }
 
-/// The structure's own names of unknowns, or their numbers.
-fn place(structure: &dyn Structure, unknowns: &[usize]) -> String {
-    structure.describe(unknowns).unwrap_or_else(|| unknown_numbers(unknowns))
+/// The structure's own names of degrees of freedom, or their numbers.
+fn place(structure: &dyn Structure, dofs: &[usize]) -> String {
+    structure.describe(dofs).unwrap_or_else(|| unknown_numbers(dofs))
 }
 
 /// A stiffness and, factored, the same kept regular.
@@ -85,7 +85,7 @@ pub(super) struct Regular {
     pub(super) factor: SparseFactor,
     /// What keeps mechanisms regular, on the diagonal.
     added: Vec<f64>,
-    /// Unknowns without any entry.
+    /// Degrees of freedom without any entry.
     absent: Vec<usize>,
 }
 
@@ -131,10 +131,10 @@ impl Regular {
         Some(Self { matrix, spring, factor, added, absent })
     }
 
-    /// The unknowns that take part in displacements which do work of at most `free`, ascending.
+    /// The degrees of freedom that take part in displacements which do work of at most `free`, ascending.
     ///
     /// All such displacements together: by the length of their rows in a basis that the regular part
-    /// makes orthonormal, so that neither its choice nor the numbering of unknowns matters.
+    /// makes orthonormal, so that neither its choice nor the numbering of degrees of freedom matters.
     fn free_unknowns(&mut self, free: f64) -> Option<Vec<usize>> {
         let n = self.added.len();
         let mut basis: Vec<Vec<f64>> = Vec::new();

@@ -29,7 +29,7 @@ pub(crate) fn check(base: &Base, [mass, damping, stiffness]: [&SparseMatrix; 3])
     }
 }
 
-/// Which unknowns are Lagrange multipliers: forces that enter others' equations and whose own
+/// Which degrees of freedom are Lagrange multipliers: forces that enter others' equations and whose own
 /// equation is a constraint. Zeros are exact: a multiplier with the least mass m, on a coupling
 /// c with a mass M, grows at the rate √(c / √(m M)).
 fn multipliers(stiffness: &SparseMatrix, others: [&SparseMatrix; 2]) -> Vec<bool> {
@@ -43,7 +43,7 @@ fn multipliers(stiffness: &SparseMatrix, others: [&SparseMatrix; 2]) -> Vec<bool
 }
 
 /// A symmetric matrix with a spring of stiffness `penalty` in place of each Lagrange multiplier, on
-/// the sum of unknowns that this keeps at zero.
+/// the sum of degrees of freedom that this keeps at zero.
 fn constrain(matrix: &SparseMatrix, multipliers: &[bool], penalty: f64) -> Result<SparseMatrix> {
     let mut constrained = Triplets::new(matrix.order());
     let mut constraints = vec![Vec::new(); matrix.order()];

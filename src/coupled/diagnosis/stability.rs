@@ -8,8 +8,8 @@
 
 use super::mechanism::{Regular, unresisted};
 use crate::coupled::build::equilibrium::Standing;
-use crate::error::{Error, StandingError};
-use crate::interface::{ContactState, InterfaceLaw, Mode, StepStart, Tolerance, law_of};
+use crate::error::{Error, StabilityError};
+use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance, law_of};
 use crate::linalg::dot;
 
 /// The reason behind `error`, that no equilibrium was found under `load`, if it can be told.
@@ -32,7 +32,7 @@ pub(crate) fn cause(
         .mechanism()
         .or_else(|| if is_singular { massless() } else { None })
         .or_else(|| resultants(stage, laws, load))
-        .map_or(error, |cause| Error::Standing(Box::new(cause)))
+        .map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 
 /// Whether the resultants of the load on each part lift it, overturn it, push it off or press it in.
@@ -40,7 +40,7 @@ fn resultants(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     load: &[f64],
-) -> Option<StandingError> {
+) -> Option<StabilityError> {
     let (assembled, base) = (stage.assembled, &stage.assembled.base);
     let (held, mut regular) = Regular::held(&assembled.at_rest(stage.structure))?;
     assembled.influence.parts().iter().find_map(|part| {
@@ -55,13 +55,13 @@ fn resultants(
         // With a bond something must have broken it: without one the state would have been found.
         let pulls = glued(ContactState { pressure: -little, ..ContactState::default() });
         let coheres = glued(ContactState { shear: little, ..ContactState::default() });
-        let broken = |bonded: bool, then: StandingError| {
+        let broken = |bonded: bool, then: StabilityError| {
             let then = Box::new(then);
-            Some(if bonded { StandingError::BondBreaks { then } } else { *then })
+            Some(if bonded { StabilityError::BondBreaks { then } } else { *then })
         };
         let opens = laws().any(|law| law.modes().contains(&Mode::Open));
         if normal <= 0.0 {
-            let lifted = StandingError::Lifted { ends, upward };
+            let lifted = StabilityError::Uplift { ends, upward };
             return if opens { broken(pulls, lifted) } else { None };
         }
         let lengths = || part.elements().iter().map(|&e| base.lengths()[e]);
@@ -70,7 +70,7 @@ fn resultants(
         let resistance = friction * normal;
         let slides = || {
             let ratio = horizontal.abs() / resistance;
-            let error = StandingError::Slides { ends, horizontal, normal, resistance, ratio };
+            let error = StabilityError::Sliding { ends, horizontal, normal, resistance, ratio };
             if ratio > 1.0 { broken(coheres, error) } else { None }
         };
         if !coheres && let Some(slides) = slides() {
@@ -84,7 +84,7 @@ fn resultants(
         let eccentricity = -moment / normal;
         let ratio = eccentricity.abs() / half_width;
         if ratio >= 1.0 && opens {
-            let error = StandingError::Overturns { ends, moment, normal, eccentricity, ratio };
+            let error = StabilityError::Overturning { ends, moment, normal, eccentricity, ratio };
             return broken(pulls, error);
         }
         let elements = part.elements().len();
@@ -96,7 +96,7 @@ fn resultants(
         let resultant = middle + eccentricity;
         let slack = 1e-9 * half_width;
         if opens && (resultant < reach[0] - slack || resultant > reach[1] + slack) {
-            return broken(pulls, StandingError::Beyond { ends, elements, resultant, reach });
+            return broken(pulls, StabilityError::Beyond { ends, elements, resultant, reach });
         }
         if let Some(slides) = slides() {
             return Some(slides);
@@ -107,7 +107,13 @@ fn resultants(
         let width = 2.0 * half_width * (1.0 - ratio);
         let capacity = all.min(largest * width);
         let ratio = normal / capacity;
-        (ratio > 1.0).then_some(StandingError::Sinks { ends, normal, width, capacity, ratio })
+        (ratio > 1.0).then_some(StabilityError::BearingFailure {
+            ends,
+            normal,
+            width,
+            capacity,
+            ratio,
+        })
     })
 }
 
@@ -138,11 +144,11 @@ fn friction(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
 /// Whether a law holds an element that nobody has moved so far at these tractions, without sliding
 /// or opening.
 fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
-    let mut memory = vec![0.0; law.memory()];
+    let mut memory = vec![0.0; law.state_variables()];
     let pressed = ContactState { pressure: trial.pressure.max(0.0), ..ContactState::default() };
-    let start = StepStart::new(pressed, Mode::Stick, 1.0);
+    let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
     if !memory.is_empty() {
-        law.initial_memory(&start, &mut memory);
+        law.initial_state_variables(&start, &mut memory);
     }
     let start = start.with_memory(&memory);
     let tolerance = Tolerance::new(0.0, 0.0);
@@ -152,7 +158,7 @@ fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
 
 /// The largest pressure that a law carries; infinite if it has no mode of yielding.
 fn bearing_pressure(law: &dyn InterfaceLaw) -> f64 {
-    let start = StepStart::new(ContactState::default(), Mode::Stick, 1.0);
+    let start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
     let yielding = law.modes().iter().filter(|mode| mode.is_yield());
     let conditions = yielding.flat_map(|&mode| law.conditions(mode, &start));
     let pressures = conditions.filter_map(|c| c.pressure_alone());

@@ -66,7 +66,7 @@ pub(crate) fn check(
         let resistance = Resistance::new(stiffness, translation);
         if resistance.holds(lag) {
             let Resistance { force, unknown, share, .. } = resistance;
-            return Err(Error::Supported { direction, force, unknown, share });
+            return Err(Error::Restrained { direction, force, unknown, share });
         }
         if resistance.is_free {
             for r in translation.iter_mut() {
@@ -93,13 +93,13 @@ pub(crate) fn check(
 }
 
 /// Refuses a part whose base does not translate as a whole: B R must be 1 where it moves.
-pub(crate) fn check_parts(influence: &Influence, base: &Base, unknowns: usize) -> Result<()> {
+pub(crate) fn check_parts(influence: &Influence, base: &Base, dofs: usize) -> Result<()> {
     let mut means = vec![0.0; base.layout().len()];
     // A mean is a sum over the nodes above an element, each of which may be rounded.
     let exact = 10.0 * EXACT + base.nodes().len() as f64 * f64::EPSILON;
     for part in influence.parts() {
         for (direction, vector) in part.vectors.iter().enumerate() {
-            base.means(&spread(vector, unknowns), &mut means);
+            base.means(&spread(vector, dofs), &mut means);
             for &e in part.elements().iter().filter(|_| !vector.is_empty()) {
                 let [down, along] = base.layout().places(e);
                 let moved = [means[along], -means[down]][direction];
@@ -153,7 +153,7 @@ pub(crate) fn joined_by_force(
     };
     for (translation, direction) in influence.of_all(n).iter().zip(DIRECTIONS) {
         if let Some((force, unknown, share)) = resistance(translation)? {
-            return Err(Error::Supported { direction, force, unknown, share });
+            return Err(Error::Restrained { direction, force, unknown, share });
         }
     }
     if parts.len() > 1 {
@@ -215,7 +215,7 @@ impl Resistance {
     }
 }
 
-/// The largest stiffness between two unknowns, to which a support adds nothing; of any where there is
+/// The largest stiffness between two degrees of freedom, to which a support adds nothing; of any where there is
 /// none.
 fn stiffest(stiffness: &SparseMatrix, diagonal: &[f64]) -> f64 {
     let between = stiffness.entries().filter(|(row, column, _)| row != column);

@@ -21,7 +21,7 @@ pub use uplift::Uplift;
 
 use crate::bem::{ContactElement, Ground};
 use crate::contact::SearchMethod;
-use crate::coupled::{Ledger, Probe, Resolution, State, Warning, probe_index};
+use crate::coupled::{EnergyBalance, Probe, Resolution, State, Warning, probe_index};
 use crate::error::Result;
 use crate::motion::FreeField;
 use sequence::Sequence;
@@ -81,11 +81,11 @@ pub struct Run {
     pub debondings: usize,
     /// Those by which one closed again.
     pub rebondings: usize,
-    /// The ledger at the end.
-    pub ledger: Ledger,
-    /// Largest ledger residual of the run; NaN if no ledger is kept.
+    /// The energy balance at the end.
+    pub energy_balance: EnergyBalance,
+    /// Largest energy error of the run; NaN if no energy balance is kept.
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
-    pub ledger_residual: f64,
+    pub energy_error: f64,
     /// Linear solves of the mode search, in all.
     pub trials: usize,
     /// Steps that the first search for contact modes did not solve.
@@ -101,9 +101,9 @@ pub struct Run {
     sequence: Sequence,
     #[cfg_attr(feature = "serde", serde(skip))]
     resolution: Resolution,
-    /// Least algorithmic energy of the ledger at any time.
+    /// Least algorithmic energy of the energy balance at any time.
     #[cfg_attr(feature = "serde", serde(skip))]
-    least_numerical: f64,
+    least_algorithmic: f64,
     #[cfg_attr(feature = "serde", serde(skip))]
     begin: Option<Instant>,
 }
@@ -132,8 +132,8 @@ impl Run {
             mode_changes: 0,
             debondings: 0,
             rebondings: 0,
-            ledger: state.ledger,
-            ledger_residual: state.ledger.residual(),
+            energy_balance: state.energy_balance,
+            energy_error: state.energy_balance.residual(),
             trials: 0,
             fallbacks: Fallbacks::default(),
             warnings: Vec::new(),
@@ -141,7 +141,7 @@ impl Run {
             elements: elements.clone(),
             sequence: Sequence::new(state),
             resolution,
-            least_numerical: state.ledger.numerical,
+            least_algorithmic: state.energy_balance.algorithmic,
             // There is no clock in bare WebAssembly.
             begin: (!cfg!(target_family = "wasm")).then(Instant::now),
         }
@@ -175,11 +175,11 @@ impl Run {
         self.mode_changes += state.transitions.len();
         self.debondings += state.transitions.iter().filter(|t| t.is_debonding()).count();
         self.rebondings += state.transitions.iter().filter(|t| t.is_rebonding()).count();
-        self.ledger = state.ledger;
-        self.least_numerical = self.least_numerical.min(state.ledger.numerical);
-        let residual = state.ledger.residual();
-        if residual.is_nan() || residual > self.ledger_residual {
-            self.ledger_residual = residual;
+        self.energy_balance = state.energy_balance;
+        self.least_algorithmic = self.least_algorithmic.min(state.energy_balance.algorithmic);
+        let residual = state.energy_balance.residual();
+        if residual.is_nan() || residual > self.energy_error {
+            self.energy_error = residual;
         }
         self.trials += state.trials;
         match state.method {
@@ -202,8 +202,8 @@ impl Run {
             self.whole.largest_slip.highest.value,
             lengths / self.elements.len() as f64,
             self.whole.base_rotation.largest().value,
-            &self.ledger,
-            self.least_numerical,
+            &self.energy_balance,
+            self.least_algorithmic,
         );
         self.warnings.extend(Warning::of_soils(&ground.soils()));
         self.resolution.warn(&mut self.warnings);
@@ -253,9 +253,9 @@ impl Run {
         gaps.max_by(|a, b| a.value.total_cmp(&b.value)).unwrap_or_default()
     }
 
-    /// Error bound of the ledger's `soil` by an approximate history, J/m since the start; zero for
-    /// exact histories, NaN if no ledger is kept. See [`Ledger::soil_error_bound`].
+    /// Error bound of the energy balance's `soil` by an approximate history, J/m since the start; zero for
+    /// exact histories, NaN if no energy balance is kept. See [`EnergyBalance::soil_error_bound`].
     pub fn history_error_bound(&self) -> f64 {
-        self.ledger.soil_error_bound
+        self.energy_balance.soil_error_bound
     }
 }

@@ -190,12 +190,16 @@ impl Run {
     }
 
     fn energies(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.ledger.is_left_out() {
-            return write!(f, "\n{}", self.ledger);
+        if self.energy_balance.is_left_out() {
+            return write!(f, "\n{}", self.energy_balance);
         }
-        match self.ledger.shares() {
+        match self.energy_balance.shares() {
             Some(shares) => {
-                writeln!(f, "\nEnergy: input {:.4} kJ/m, of which", 1e-3 * self.ledger.input)?;
+                writeln!(
+                    f,
+                    "\nEnergy: input {:.4} kJ/m, of which",
+                    1e-3 * self.energy_balance.input
+                )?;
                 for (name, share) in shares {
                     // Not those that would print as nothing.
                     if share.abs() >= 5e-5 {
@@ -203,9 +207,13 @@ impl Run {
                     }
                 }
             }
-            None => writeln!(f, "\nEnergy: input {:.4} kJ/m", 1e-3 * self.ledger.input)?,
+            None => writeln!(f, "\nEnergy: input {:.4} kJ/m", 1e-3 * self.energy_balance.input)?,
         }
-        write!(f, "  ledger open by at most {:.1e} of the largest energy", self.ledger_residual)?;
+        write!(
+            f,
+            "  energy balance open by at most {:.1e} of the largest energy",
+            self.energy_error
+        )?;
         if self.history_error_bound() > 0.0 {
             let bound = number(1e-3 * self.history_error_bound());
             write!(f, "\n  soil within {bound} kJ/m (approximate history)")?;

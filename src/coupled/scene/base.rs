@@ -7,10 +7,12 @@ use crate::bem::ContactElement;
 use crate::error::{Error, Result};
 use crate::geometry::ContactLayout;
 use crate::linalg::dot;
-use crate::structure::{ContactNode, Row, Structure, check_contact_nodes, foundation_nodes};
+use crate::structure::{
+    ContactNode, DofCombination, Structure, check_contact_nodes, foundation_nodes,
+};
 
 /// B, which takes coordinates to element means of the base displacement (normal components down),
-/// and BᵀA, which takes tractions to forces on the coordinates: the structure's unknowns, or those
+/// and BᵀA, which takes tractions to forces on the coordinates: the structure's degrees of freedom, or those
 /// that are [stepped](Base::stepped).
 ///
 /// For elements between neighbouring nodes the means are the T matrix of halves of Patel &
@@ -37,7 +39,7 @@ impl Base {
     /// The base of `structure`.
     pub(crate) fn of(structure: &dyn Structure, elements: &[ContactElement]) -> Result<Self> {
         let ends = structure.foundation_ends();
-        Self::new(structure.contact_nodes(), &ends, elements, structure.unknowns())
+        Self::new(structure.contact_nodes(), &ends, elements, structure.dofs())
     }
 
     /// Averages the piecewise straight base over each element. A foundation ends at each of `ends`,
@@ -46,9 +48,9 @@ impl Base {
         nodes: Vec<ContactNode>,
         ends: &[usize],
         elements: &[ContactElement],
-        unknowns: usize,
+        dofs: usize,
     ) -> Result<Self> {
-        check_nodes(&nodes, unknowns)?;
+        check_nodes(&nodes, dofs)?;
         let mut foundations = Vec::with_capacity(ends.len() + 1);
         let mut element = 0;
         for own in foundation_nodes(nodes.len(), ends)? {
@@ -97,9 +99,9 @@ impl Base {
         Self { rows: transformation.rows(&self.rows), foundations, ..self.clone() }
     }
 
-    /// The unknowns that move a contact node, some more than once.
-    pub(crate) fn unknowns(&self) -> Vec<usize> {
-        self.nodes.iter().flat_map(ContactNode::unknowns).collect()
+    /// The degrees of freedom that move a contact node, some more than once.
+    pub(crate) fn dofs(&self) -> Vec<usize> {
+        self.nodes.iter().flat_map(ContactNode::dofs).collect()
     }
 
     /// The contact nodes and the elements of each foundation.
@@ -179,7 +181,7 @@ impl Base {
     }
 
     /// Rows of the contact nodes, and their values under a translation of 1 m.
-    fn node_components(&self, direction: usize) -> impl Iterator<Item = (&Row, f64)> {
+    fn node_components(&self, direction: usize) -> impl Iterator<Item = (&DofCombination, f64)> {
         let components = self.nodes.iter().flat_map(|node| [&node.horizontal, &node.vertical]);
         let moved = move |(k, row)| (row, if k % 2 == direction { 1.0 } else { 0.0 });
         components.enumerate().map(moved).filter(|(row, _)| !row.is_empty())
@@ -191,9 +193,9 @@ impl Base {
     }
 }
 
-/// Refuses nodes that are none of these unknowns', and nodes out of order.
-fn check_nodes(nodes: &[ContactNode], unknowns: usize) -> Result<()> {
-    check_contact_nodes(nodes, unknowns)?;
+/// Refuses nodes that are none of these degrees of freedom', and nodes out of order.
+fn check_nodes(nodes: &[ContactNode], dofs: usize) -> Result<()> {
+    check_contact_nodes(nodes, dofs)?;
     match nodes.windows(2).find(|pair| pair[1].x <= pair[0].x) {
         None => Ok(()),
         Some(pair) => Err(Error::Input {
@@ -229,7 +231,7 @@ fn chord_rotation(nodes: &[ContactNode]) -> Terms {
     terms
 }
 
-fn accumulate(row: &mut Terms, terms: &Row, factor: f64) {
+fn accumulate(row: &mut Terms, terms: &DofCombination, factor: f64) {
     for &(index, weight) in terms {
         match row.iter_mut().find(|(j, _)| *j == index) {
             Some((_, sum)) => *sum += factor * weight,
@@ -267,7 +269,7 @@ mod tests {
             .map(|k| ContactElement { left: f64::from(k), right: f64::from(k + 1) })
             .collect();
         let base = Base::new(nodes, &[], &elements, 8).unwrap();
-        let Rows::Sparse(rows) = base.rows else { panic!("rows of unknowns") };
+        let Rows::Sparse(rows) = base.rows else { panic!("rows of degrees of freedom") };
         assert_eq!(rows[1], vec![(3, -0.5), (5, -0.5)]);
         assert_eq!(rows[3 + 2], vec![(4, 0.5), (6, 0.5)]);
     }

@@ -1,4 +1,4 @@
-//! Influence vectors: the unknowns when a connected part of the structure translates rigidly by 1 m.
+//! Influence vectors: the degrees of freedom when a connected part of the structure translates rigidly by 1 m.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -27,11 +27,11 @@ pub(crate) struct Part {
 
 impl Influence {
     /// Splits the rigid translations of the whole structure into those of its parts; `roots` has the
-    /// same number for the unknowns of one part.
+    /// same number for the degrees of freedom of one part.
     pub(crate) fn split(base: &Base, translations: &[Vec<f64>; 2], roots: &[usize]) -> Self {
         let mut parts: Vec<(usize, Part)> = Vec::new();
         for (nodes, elements) in base.foundations() {
-            let Some(unknown) = nodes.iter().find_map(|node| node.unknowns().next()) else {
+            let Some(unknown) = nodes.iter().find_map(|node| node.dofs().next()) else {
                 continue;
             };
             let root = roots[unknown];
@@ -81,17 +81,17 @@ impl Influence {
         }
     }
 
-    /// The vectors of all parts, one after the other, each over `unknowns` entries.
-    pub(crate) fn translations(&self, unknowns: usize) -> Vec<f64> {
+    /// The vectors of all parts, one after the other, each over `dofs` entries.
+    pub(crate) fn translations(&self, dofs: usize) -> Vec<f64> {
         let vectors = self.parts.iter().flat_map(|part| &part.vectors);
         let moving = vectors.filter(|vector| !vector.is_empty());
-        moving.flat_map(|vector| spread(vector, unknowns)).collect()
+        moving.flat_map(|vector| spread(vector, dofs)).collect()
     }
 
-    /// Both vectors of the whole structure, all parts together, over `unknowns` entries.
-    pub(crate) fn of_all(&self, unknowns: usize) -> [Vec<f64>; 2] {
+    /// Both vectors of the whole structure, all parts together, over `dofs` entries.
+    pub(crate) fn of_all(&self, dofs: usize) -> [Vec<f64>; 2] {
         [[1.0, 0.0], [0.0, 1.0]].map(|direction| {
-            let mut vector = vec![0.0; unknowns];
+            let mut vector = vec![0.0; dofs];
             self.translate(1.0, std::iter::repeat(direction), &mut vector);
             vector
         })

@@ -18,7 +18,7 @@ use crate::bem::ContactElement;
 use crate::coupled::run::Serviceability;
 use crate::error::LawError;
 use crate::geometry::ContactLayout;
-use crate::interface::{InterfaceLaw, Mode, StepStarts, law_of};
+use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::{Thinned, spread};
 use crate::structure::probe::Probe;
 use base::Base;
@@ -137,7 +137,7 @@ impl Scene {
 
     /// Subtracts the mean translation of each part's base from a displacement, before K acts on it.
     ///
-    /// A translation strains nothing, but in unknowns K would only find that out by cancellation,
+    /// A translation strains nothing, but in degrees of freedom K would only find that out by cancellation,
     /// with an error that grows with the stiffness times the displacement. In modes it has no
     /// stiffness to begin with.
     pub(crate) fn subtract_base(&self, displacement: &mut [f64], means: &mut [f64]) {
@@ -198,7 +198,7 @@ impl Scene {
 
     /// Whether any law stores energy in its elements, or may do so once it has something to
     /// remember.
-    pub(crate) fn is_compliant(&self, start: &StepStarts) -> Result<bool, LawError> {
+    pub(crate) fn is_compliant(&self, start: &PreviousContacts) -> Result<bool, LawError> {
         let mut compliant = false;
         for element in 0..self.count() {
             for &mode in self.law(element).modes() {
@@ -213,7 +213,7 @@ impl Scene {
         &self,
         element: usize,
         mode: Mode,
-        start: &StepStarts,
+        start: &PreviousContacts,
     ) -> Result<[f64; 2], LawError> {
         let compliance = self.law(element).compliance(mode, &start.of(element));
         let named = [("normal compliance", compliance[0]), ("shear compliance", compliance[1])];

@@ -31,7 +31,7 @@ impl ModalBasis {
         Self { stiffness, damping, vectors }
     }
 
-    /// Weights by mode of a weighted sum of unknowns.
+    /// Weights by mode of a weighted sum of degrees of freedom.
     pub(crate) fn row(&self, terms: &[(usize, f64)]) -> Vec<f64> {
         let n = self.count();
         let mut weights = vec![0.0; n];
@@ -47,7 +47,7 @@ impl ModalBasis {
         self.stiffness.len()
     }
 
-    /// Adds Φᵀ f to `modal`; unknowns without force cost nothing.
+    /// Adds Φᵀ f to `modal`; degrees of freedom without force cost nothing.
     pub(crate) fn project(&self, force: &[f64], modal: &mut [f64]) {
         for (row, force) in self.vectors.chunks_exact(self.count()).zip(force) {
             if *force != 0.0 {
@@ -57,9 +57,9 @@ impl ModalBasis {
     }
 
     /// Φᵀ M u: the coordinates of u, since Φᵀ M Φ = 1.
-    pub(crate) fn coordinates(&self, unknowns: &[f64], mass: &SparseMatrix) -> Vec<f64> {
-        let (mut momentum, mut modal) = (vec![0.0; unknowns.len()], vec![0.0; self.count()]);
-        mass.multiply_add(1.0, unknowns, &mut momentum);
+    pub(crate) fn coordinates(&self, dofs: &[f64], mass: &SparseMatrix) -> Vec<f64> {
+        let (mut momentum, mut modal) = (vec![0.0; dofs.len()], vec![0.0; self.count()]);
+        mass.multiply_add(1.0, dofs, &mut momentum);
         self.project(&momentum, &mut modal);
         modal
     }
@@ -80,7 +80,7 @@ impl ModalBasis {
     }
 
     /// Φ q.
-    pub(crate) fn unknowns(&self, modal: &[f64]) -> Vec<f64> {
+    pub(crate) fn dofs(&self, modal: &[f64]) -> Vec<f64> {
         self.vectors.chunks_exact(self.count()).map(|row| dot(row, modal)).collect()
     }
 }

@@ -12,8 +12,8 @@ use crate::structure::Structure;
 
 /// Matrices, influence vectors and coordinates of a structure.
 pub(crate) struct Model {
-    /// Unknowns of the structure, and the number of coordinates that are stepped.
-    pub(crate) unknowns: usize,
+    /// Degrees of freedom of the structure, and the number of coordinates that are stepped.
+    pub(crate) dofs: usize,
     pub(crate) coordinates: usize,
     pub(crate) mass: Matrix,
     pub(crate) damping: Matrix,
@@ -27,13 +27,13 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    /// Steps the unknowns.
+    /// Steps the degrees of freedom.
     pub(crate) fn new(assembled: &Assembled) -> Self {
         let [mass, damping, stiffness] =
             assembled.matrices().map(|matrix| Matrix::Sparse(matrix.clone()));
         Self {
-            unknowns: assembled.unknowns(),
-            coordinates: assembled.unknowns(),
+            dofs: assembled.dofs(),
+            coordinates: assembled.dofs(),
             mass,
             damped: !damping.is_empty(),
             damping,
@@ -73,7 +73,7 @@ impl Model {
     }
 
     /// Adds the external load at `time`, weight excepted, minus `at_start`, to `load`, and returns
-    /// whether there is any; `scratch` has an entry for every unknown. An error is the structure's.
+    /// whether there is any; `scratch` has an entry for every degree of freedom. An error is the structure's.
     pub(crate) fn load(
         &self,
         structure: &dyn Structure,

@@ -47,7 +47,7 @@ impl Operators {
         Self { tangent, factor, columns, delassus }
     }
 
-    /// Reciprocals of K_eff in modes; empty in unknowns.
+    /// Reciprocals of K_eff in modes; empty in degrees of freedom.
     pub(crate) fn reciprocals(&self) -> &[f64] {
         match &self.factor {
             Factor::Diagonal(values) => values,
@@ -98,7 +98,7 @@ fn effective_stiffness(model: &Model, c: &SchemeCoefficients, tangent: &SparseMa
 }
 
 impl Factor {
-    /// Factors K_eff of unknowns.
+    /// Factors K_eff of degrees of freedom.
     pub(crate) fn of_unknowns(
         model: &Model,
         coefficients: &SchemeCoefficients,
@@ -140,20 +140,20 @@ pub(crate) fn condense(
     solve: impl FnOnce(&mut [f64]),
     base: &Base,
     soil: &[f64],
-    unknowns: usize,
+    dofs: usize,
 ) -> (Vec<f64>, Vec<f64>) {
     let size = base.layout().len();
-    let mut columns = vec![0.0; size * unknowns];
+    let mut columns = vec![0.0; size * dofs];
     let mut delassus = soil.to_vec();
     let mut unit = vec![0.0; size];
     let mut means = vec![0.0; size];
-    for (i, column) in columns.chunks_exact_mut(unknowns.max(1)).enumerate() {
+    for (i, column) in columns.chunks_exact_mut(dofs.max(1)).enumerate() {
         unit[i] = 1.0;
         base.add_forces(1.0, &unit, column);
         unit[i] = 0.0;
     }
     solve(&mut columns);
-    for (i, column) in columns.chunks_exact(unknowns.max(1)).enumerate() {
+    for (i, column) in columns.chunks_exact(dofs.max(1)).enumerate() {
         base.means(column, &mut means);
         for (row, mean) in means.iter().enumerate() {
             delassus[row * size + i] += mean;

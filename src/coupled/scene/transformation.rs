@@ -1,8 +1,8 @@
-//! From a structure's unknowns to the coordinates that are stepped, and back.
+//! From a structure's degrees of freedom to the coordinates that are stepped, and back.
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | Φ | modes: unknowns u = Φ q at modal coordinates q |
+//! | Φ | modes: degrees of freedom u = Φ q at modal coordinates q |
 
 use std::sync::Arc;
 
@@ -16,14 +16,14 @@ pub(crate) type Terms = Vec<(usize, f64)>;
 /// Which coordinates are stepped: chosen once, while building.
 #[derive(Debug, Clone)]
 pub(crate) enum Transformation {
-    /// The unknowns themselves.
+    /// The degrees of freedom themselves.
     Identity,
     /// Coordinates of modes.
     Modes(Arc<ModalBasis>),
 }
 
 impl Transformation {
-    /// A weighted sum of unknowns.
+    /// A weighted sum of degrees of freedom.
     pub(crate) fn row(&self, terms: &[(usize, f64)]) -> Weights {
         match self {
             Self::Modes(modes) if !terms.is_empty() => Weights::Dense(modes.row(terms)),
@@ -31,7 +31,7 @@ impl Transformation {
         }
     }
 
-    /// Several weighted sums of unknowns.
+    /// Several weighted sums of degrees of freedom.
     pub(crate) fn rows(&self, rows: &Rows) -> Rows {
         match (self, rows) {
             (Self::Modes(modes), Rows::Sparse(rows)) => {
@@ -41,7 +41,7 @@ impl Transformation {
         }
     }
 
-    /// Adds forces on the unknowns to `force`.
+    /// Adds forces on the degrees of freedom to `force`.
     pub(crate) fn add_forces(&self, on_unknowns: &[f64], force: &mut [f64]) {
         match self {
             Self::Identity => force.iter_mut().zip(on_unknowns).for_each(|(f, own)| *f += own),
@@ -49,19 +49,19 @@ impl Transformation {
         }
     }
 
-    /// Coordinates of a motion of the unknowns, which have this mass: q = Φᵀ M u.
-    pub(crate) fn coordinates(&self, unknowns: &[f64], mass: &SparseMatrix) -> Vec<f64> {
+    /// Coordinates of a motion of the degrees of freedom, which have this mass: q = Φᵀ M u.
+    pub(crate) fn coordinates(&self, dofs: &[f64], mass: &SparseMatrix) -> Vec<f64> {
         match self {
-            Self::Identity => unknowns.to_vec(),
-            Self::Modes(modes) => modes.coordinates(unknowns, mass),
+            Self::Identity => dofs.to_vec(),
+            Self::Modes(modes) => modes.coordinates(dofs, mass),
         }
     }
 
-    /// The unknowns at these coordinates.
-    pub(crate) fn unknowns(&self, coordinates: Vec<f64>) -> Vec<f64> {
+    /// The degrees of freedom at these coordinates.
+    pub(crate) fn dofs(&self, coordinates: Vec<f64>) -> Vec<f64> {
         match self {
             Self::Identity => coordinates,
-            Self::Modes(modes) => modes.unknowns(&coordinates),
+            Self::Modes(modes) => modes.dofs(&coordinates),
         }
     }
 }
@@ -102,7 +102,7 @@ impl Weights {
 #[derive(Debug, Clone)]
 pub(crate) enum Rows {
     Sparse(Vec<Terms>),
-    /// Row-major.
+    /// DofCombination-major.
     Dense(Vec<f64>),
 }
 

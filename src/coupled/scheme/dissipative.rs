@@ -17,7 +17,7 @@ use crate::error::{Error, Result};
 /// This is the generalised-α method (Chung & Hulbert 1993) with α_f = ½ and α_m = 1 − γ. Tractions do
 /// the work on the structure that they take from the soil, whatever the step; the scheme itself only
 /// takes energy, Δt² (β − γ/2)(γ − ½) Δa·M Δa in a step, and holds ½ Δt² (β − γ/2) a·M a, which with
-/// the energy taken is [`Ledger::numerical`](crate::coupled::Ledger) (proof in `docs/theory.md`,
+/// the energy taken is [`EnergyBalance::numerical`](crate::coupled::EnergyBalance) (proof in `docs/theory.md`,
 /// section 8). γ = ½ is [`Midpoint`].
 ///
 /// Spectral radius, the factor per step of a free vibration of circular frequency ω:

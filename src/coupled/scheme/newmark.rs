@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 /// linear structure by itself, but with soil it does. Radiation does not always outweigh it; base shears of
 /// buildings on the half-plane come out larger by 8 % at 10 ms and 20 % at 20 ms, and light blocks that
 /// land fly higher every time. What it makes is the negative of
-/// [`Ledger::numerical`](crate::coupled::Ledger), and beyond 2 % of the largest energy a run ends with
+/// [`EnergyBalance::numerical`](crate::coupled::EnergyBalance), and beyond 2 % of the largest energy a run ends with
 /// [`Warning::AlgorithmicEnergy`](crate::coupled::Warning). On springs without dashpots it grows for ever
 /// unless they act at the end of the step, too
 /// ([`SpringGround::with_theta`](crate::bem::SpringGround::with_theta) of 1). Loads present at t = 0

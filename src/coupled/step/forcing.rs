@@ -33,7 +33,7 @@ pub(crate) struct Forcing {
     pub(crate) carried: Vec<f64>,
     /// R ẏ at v*, likewise; zero without damping.
     pub(crate) dragged: Vec<f64>,
-    unknowns: Vec<f64>,
+    dofs: Vec<f64>,
 }
 
 impl Forcing {
@@ -49,7 +49,7 @@ impl Forcing {
             translations: vec![Translation::default(); scene.model.influence.parts().len()],
             carried: structure(),
             dragged: structure(),
-            unknowns: vec![0.0; scene.model.unknowns],
+            dofs: vec![0.0; scene.model.dofs],
         }
     }
 
@@ -97,10 +97,10 @@ impl Forcing {
         let at_start = &scene.static_state.load;
         let own = scene
             .model
-            .load(structure, within, at_start, &mut self.unknowns, &mut self.load)
+            .load(structure, within, at_start, &mut self.dofs, &mut self.load)
             .map_err(StepError::structure("load of the structure"))?;
         if own {
-            StepError::check_finite("load of the structure", &self.unknowns)?;
+            StepError::check_finite("load of the structure", &self.dofs)?;
         }
         self.loaded = own || scene.has_loads();
         match scene.add_loads(within, &mut self.load) {

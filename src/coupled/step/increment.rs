@@ -26,7 +26,7 @@ pub(crate) struct Increment {
     pub(crate) contact: Vec<ContactState>,
     /// Mode of each element.
     pub(crate) modes: Vec<Mode>,
-    /// Compliance of each element at the end; empty if all laws are hard or no ledger is kept.
+    /// Compliance of each element at the end; empty if all laws are hard or no energy balance is kept.
     pub(crate) compliance: Vec<[f64; 2]>,
     /// Memory of the laws at the end.
     pub(crate) memory: Vec<f64>,

@@ -66,7 +66,7 @@ impl WithSimd for Free<'_> {
     }
 }
 
-/// Right-hand side of the equation of motion, as `LinearStep::predict` has it in unknowns.
+/// Right-hand side of the equation of motion, as `LinearStep::predict` has it in degrees of freedom.
 #[inline(always)]
 fn balance(
     scheme: &SchemeCoefficients,

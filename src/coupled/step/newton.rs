@@ -56,10 +56,10 @@ pub(super) struct Newton {
 }
 
 impl Newton {
-    pub(super) fn new(unknowns: usize) -> Self {
-        let zero = || vec![0.0; unknowns];
+    pub(super) fn new(dofs: usize) -> Self {
+        let zero = || vec![0.0; dofs];
         Self {
-            tangent: Tangent::new(unknowns),
+            tangent: Tangent::new(dofs),
             guess: zero(),
             linearised: zero(),
             seen: zero(),

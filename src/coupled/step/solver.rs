@@ -1,4 +1,4 @@
-//! Solving a step: the increment of the structure's unknowns and the contact tractions.
+//! Solving a step: the increment of the structure's degrees of freedom and the contact tractions.
 
 use super::forcing::Forcing;
 use super::increment::Increment;
@@ -12,7 +12,7 @@ use crate::error::StepError;
 use crate::linalg::{largest, magnitude};
 use crate::structure::Structure;
 
-/// Change of an unknown in a step beyond which a run counts as lost, whatever the units.
+/// Change of a degree of freedom in a step beyond which a run counts as lost, whatever the units.
 const RUNAWAY: f64 = 1e15;
 
 /// The linear step, and Newton's method around it for a nonlinear structure.

@@ -2,7 +2,7 @@
 
 use super::tail::{Measured, Tail};
 use crate::error::Result;
-use crate::history::lag_kernel::LagKernel;
+use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::KINDS;
 
 /// Lags looked at per octave: about two per period of the trapezoidal rule's error, which goes up
@@ -22,7 +22,7 @@ struct Sample {
 impl Measured {
     /// Lags from `window` + 1 to `horizon`.
     pub(super) fn over(
-        kernel: &dyn LagKernel,
+        kernel: &dyn ConvolutionWeights,
         tail: &Tail,
         window: usize,
         horizon: usize,

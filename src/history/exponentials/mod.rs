@@ -8,12 +8,12 @@ mod window;
 use std::sync::Arc;
 
 use self::passivity::Margin;
-pub use self::tail::{ExponentialTail, TailProduct};
+pub use self::tail::{ExponentialSum, TailProduct};
 use self::tail::{Fit, Measured, Request, Tail};
 use self::window::{Cut, Lags};
 use super::convolution::ConvolutionHistory;
+use super::convolution_weights::{ConvolutionWeights, LateLags};
 use super::cost::{Estimate, LONGEST_WINDOW};
-use super::lag_kernel::{LagKernel, LateLags};
 use super::relaxed_fft::spectra::Windowed;
 use super::relaxed_fft::{Blocks, LEAF, SharedSpectra, bounded};
 use crate::error::{CheckpointError, Error, MemoryError, Result, same_length};
@@ -39,7 +39,7 @@ const ATTEMPTS: usize = 10;
 /// exponentials with a common set of poles, carried by a few functions over the patch. What is
 /// kept of all tractions before the last 2W are a few hundred numbers, however many steps there were.
 ///
-/// The kernel has to know its [late lags](LagKernel::late_lags). On the half-plane they begin when
+/// The kernel has to know its [late lags](ConvolutionWeights::late_lags). On the half-plane they begin when
 /// the Rayleigh wave has crossed the patch three times: only normal and tangential components are
 /// left, and these are integrals of decaying exponentials, which the trapezoidal rule in the
 /// logarithm of the rate turns into sums. In space Legendre polynomials over the patch carry them.
@@ -51,8 +51,8 @@ const ATTEMPTS: usize = 10;
 /// need not be known; beyond the horizon the relative error grows in proportion to the lag, as the
 /// slowest pole stays what it is. The error is measured against the exact coefficients when the
 /// history is made ([`ExponentialHistory::error_bound`]), poles are put closer together until it is small enough, and
-/// what it can do to a run's energies is bounded in the ledger
-/// ([`Ledger::soil_error_bound`](crate::coupled::Ledger::soil_error_bound)).
+/// what it can do to a run's energies is bounded in the energy balance
+/// ([`EnergyBalance::soil_error_bound`](crate::coupled::EnergyBalance::soil_error_bound)).
 ///
 /// # Passivity
 ///
@@ -64,7 +64,7 @@ const ATTEMPTS: usize = 10;
 /// so of what comes at once. Only coarse tolerances with windows of thousands of steps (nearly
 /// incompressible soil, very short steps) need the additional poles.
 pub struct ExponentialHistory {
-    kernel: Arc<dyn LagKernel>,
+    kernel: Arc<dyn ConvolutionWeights>,
     fit: Arc<Fit>,
     window: Blocks,
     tail: Tail,
@@ -101,7 +101,7 @@ impl ExponentialHistory {
     /// before them; [`Error::Input`] for a tolerance not between 1e-12 and 1e-2; [`Error::Memory`] for a
     /// time step so short that the window would take more than 1 GiB; [`Error::Accuracy`] if the tolerance was
     /// not reached; [`Error::NotPassive`] if the fit gives energy away.
-    pub fn new(kernel: Arc<dyn LagKernel>, tolerance: f64) -> Result<Self> {
+    pub fn new(kernel: Arc<dyn ConvolutionWeights>, tolerance: f64) -> Result<Self> {
         Self::with_horizon(kernel, tolerance, Self::HORIZON)
     }
 
@@ -110,7 +110,7 @@ impl ExponentialHistory {
     /// # Errors
     /// As for [`ExponentialHistory::new`].
     pub fn with_horizon(
-        kernel: Arc<dyn LagKernel>,
+        kernel: Arc<dyn ConvolutionWeights>,
         tolerance: f64,
         horizon: usize,
     ) -> Result<Self> {
@@ -119,7 +119,7 @@ impl ExponentialHistory {
 
     /// The same in at most `memory` bytes, what its making takes included.
     pub(crate) fn within(
-        kernel: Arc<dyn LagKernel>,
+        kernel: Arc<dyn ConvolutionWeights>,
         tolerance: f64,
         horizon: usize,
         memory: usize,
@@ -290,7 +290,7 @@ fn window(late: &dyn LateLags) -> Result<usize> {
 
 impl Fit {
     /// The fewest exponentials that fit and are passive.
-    fn new(kernel: &dyn LagKernel, late: &dyn LateLags, request: Request) -> Result<Self> {
+    fn new(kernel: &dyn ConvolutionWeights, late: &dyn LateLags, request: Request) -> Result<Self> {
         let Request { lags, horizon, tolerance } = request;
         let exact = Lags::new(kernel, lags)?;
         let (mut aim, mut refusal) = (tolerance, None);

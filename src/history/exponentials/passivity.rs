@@ -9,7 +9,7 @@
 
 use super::tail::Tail;
 use super::window::Lags;
-use crate::history::lag_kernel::LagKernel;
+use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::KINDS;
 
 /// Frequencies per decade below one radian per step.
@@ -29,7 +29,12 @@ pub(super) struct Margin {
 }
 
 /// Least eigenvalue of H/(1−cos ω), scaled by the diagonal of L G¹, over all frequencies tried.
-pub(super) fn margin(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, horizon: f64) -> Margin {
+pub(super) fn margin(
+    kernel: &dyn ConvolutionWeights,
+    lags: &Lags,
+    tail: &Tail,
+    horizon: f64,
+) -> Margin {
     let order = kernel.classes().layout().len();
     let thin = if order > LARGE { 3.0 } else { 1.0 };
     let mut frequencies = Vec::new();
@@ -58,7 +63,7 @@ pub(super) fn margin(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, horizon: 
 }
 
 /// The same at one frequency.
-fn least_at(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
+fn least_at(kernel: &dyn ConvolutionWeights, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
     let classes = kernel.classes();
     let window = lags.length();
     // Re (1−ζ) ζ^d = cos dω − cos (d+1)ω over 1 − cos ω = 2 sin² ω/2.
@@ -83,7 +88,7 @@ fn least_at(kernel: &dyn LagKernel, lags: &Lags, tail: &Tail, omega: f64) -> f64
 
 #[cfg(test)]
 mod tests {
-    use super::super::tail::{ExponentialTail, Tail};
+    use super::super::tail::{ExponentialSum, Tail};
     use super::*;
     use crate::bem::{PatchKernel, Strip};
     use crate::history::LateLags;
@@ -103,7 +108,7 @@ mod tests {
             *weight *= factor;
         }
         let (rates, functions) = (tail.rates().to_vec(), tail.functions().to_vec());
-        let tail = ExponentialTail::new(rates, functions, products).unwrap();
+        let tail = ExponentialSum::new(rates, functions, products).unwrap();
         Tail::new(tail, kernel.classes().elements()).unwrap()
     }
 

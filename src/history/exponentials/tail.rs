@@ -17,7 +17,7 @@ use crate::linalg::{Dot, Simd, WithSimd, dot, vectorized};
 /// with `φ_i(p)` the mean of function i over element p, one sum for the normal components and one for the
 /// tangential ones. There is no coupling between them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ExponentialTail {
+pub struct ExponentialSum {
     rates: Vec<f64>,
     functions: Vec<Vec<f64>>,
     products: Vec<TailProduct>,
@@ -27,7 +27,7 @@ pub struct ExponentialTail {
 /// round.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TailProduct {
-    /// i and j of [`ExponentialTail`]; a product of different functions stands for both orders.
+    /// i and j of [`ExponentialSum`]; a product of different functions stands for both orders.
     pub functions: [usize; 2],
     /// Weights of the normal components, 1/(m Pa), for the first few rates.
     pub normal: Vec<f64>,
@@ -35,7 +35,7 @@ pub struct TailProduct {
     pub tangential: Vec<f64>,
 }
 
-impl ExponentialTail {
+impl ExponentialSum {
     /// A tail of `rates` (per step, not negative), `functions` (their means over all elements) and
     /// `products`.
     ///
@@ -120,12 +120,12 @@ pub(crate) struct Measured {
     pub(super) last: f64,
 }
 
-/// An [`ExponentialTail`] and the state that it carries.
+/// An [`ExponentialSum`] and the state that it carries.
 #[derive(Debug, Clone)]
 pub(super) struct Tail {
     /// Lengths of the elements, m.
     lengths: Vec<f64>,
-    data: ExponentialTail,
+    data: ExponentialSum,
     /// e^(−rate), pole by pole.
     decay: Vec<f64>,
     /// Of normal and tangential components, per function: Σ decay^age · moment, for the poles that
@@ -137,7 +137,7 @@ pub(super) struct Tail {
 
 impl Tail {
     /// Empty.
-    pub(super) fn new(data: ExponentialTail, elements: &[ContactElement]) -> Result<Self> {
+    pub(super) fn new(data: ExponentialSum, elements: &[ContactElement]) -> Result<Self> {
         for means in data.functions() {
             same_length("means of a function", means.len(), elements.len())?;
         }

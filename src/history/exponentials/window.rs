@@ -1,7 +1,7 @@
 //! The window: lags that are used as they are.
 
 use crate::error::{Error, Result};
-use crate::history::lag_kernel::LagKernel;
+use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::{KINDS, PairClasses};
 use crate::history::relaxed_fft::SharedSpectra;
 
@@ -10,13 +10,13 @@ const COUPLING_LASTS: Error =
 
 /// A kernel without the lags behind its window.
 pub(super) struct Cut<'a> {
-    pub(super) kernel: &'a dyn LagKernel,
+    pub(super) kernel: &'a dyn ConvolutionWeights,
     /// The last lag that is left.
     pub(super) lags: usize,
     pub(super) spectra: &'a SharedSpectra,
 }
 
-impl LagKernel for Cut<'_> {
+impl ConvolutionWeights for Cut<'_> {
     fn classes(&self) -> &PairClasses {
         self.kernel.classes()
     }
@@ -59,7 +59,7 @@ pub(super) struct Lags {
 
 impl Lags {
     /// Lags 1 to `window`.
-    pub(super) fn new(kernel: &dyn LagKernel, window: usize) -> Result<Self> {
+    pub(super) fn new(kernel: &dyn ConvolutionWeights, window: usize) -> Result<Self> {
         kernel.prepare(window)?;
         let mut kinds = [(); KINDS].map(|()| Vec::with_capacity(kernel.classes().count()));
         for class in 0..kernel.classes().count() {

@@ -7,7 +7,7 @@ use super::level::Rows;
 use super::level::{Level, Near, Part, Work};
 use super::spectra::SharedSpectra;
 use crate::error::Result;
-use crate::history::lag_kernel::LagKernel;
+use crate::history::convolution_weights::ConvolutionWeights;
 
 /// Steps that are summed directly before the smallest block is transformed. Measured with 10 and
 /// 14 elements: 16 takes as long, 64 a fifth longer by pairs; by wavenumbers it hardly matters.
@@ -23,7 +23,12 @@ pub(super) trait Space: Send {
 
     /// Fills the spectra of `levels`, and returns the coefficients of a leaf if they are `wanted`: all of
     /// one evaluation of the kernel.
-    fn fill(&mut self, kernel: &dyn LagKernel, levels: &mut [Level], wanted: bool) -> Result<Near>;
+    fn fill(
+        &mut self,
+        kernel: &dyn ConvolutionWeights,
+        levels: &mut [Level],
+        wanted: bool,
+    ) -> Result<Near>;
 
     /// Overwrites the numbers in which an input is kept; missing tractions count as zero.
     fn input(&mut self, traction: &[f64], input: &mut [f64]);
@@ -110,7 +115,7 @@ impl Blocks {
 
     /// Makes ready for at least `steps` steps, and returns whether outputs are missing thereafter. All
     /// stays as it was on an error.
-    pub(super) fn grow(&mut self, kernel: &dyn LagKernel, steps: usize) -> Result<bool> {
+    pub(super) fn grow(&mut self, kernel: &dyn ConvolutionWeights, steps: usize) -> Result<bool> {
         if steps <= self.capacity && self.capacity > 0 {
             return Ok(false);
         }
@@ -127,7 +132,7 @@ impl Blocks {
 
     /// The `wanted` smallest levels and the coefficients of a leaf, from the kernel's store as far as
     /// they are there, with scratch for their blocks.
-    fn take_levels(&mut self, kernel: &dyn LagKernel, wanted: u32) -> Result<()> {
+    fn take_levels(&mut self, kernel: &dyn ConvolutionWeights, wanted: u32) -> Result<()> {
         let Self { space, extent, leaf, own, work, .. } = self;
         // Before the spectra are locked: a kernel may work on several threads, which must not wait.
         kernel.prepare(extent.lags.max(*leaf << wanted))?;

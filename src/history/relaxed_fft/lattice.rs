@@ -14,7 +14,7 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use super::level::{forward, inverse};
 use crate::error::Result;
-use crate::history::lag_kernel::LagKernel;
+use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::PairClasses;
 
 /// Lags that are evaluated together.
@@ -106,7 +106,7 @@ impl Lattice {
     }
 
     /// Last lag at which any coupling is not zero; the largest number if it never ends.
-    pub(super) fn last_coupling_lag(&self, kernel: &dyn LagKernel) -> Result<usize> {
+    pub(super) fn last_coupling_lag(&self, kernel: &dyn ConvolutionWeights) -> Result<usize> {
         let mut last = 0;
         for class in self.classes.iter().flatten() {
             last = last.max(kernel.last_coupling_lag(*class)?.unwrap_or(usize::MAX));
@@ -153,7 +153,7 @@ impl Lattice {
     /// `coupled` on.
     pub(super) fn coefficients(
         &mut self,
-        kernel: &dyn LagKernel,
+        kernel: &dyn ConvolutionWeights,
         count: usize,
         coupled: usize,
         mut accept: impl FnMut(usize, usize, &[f64]),

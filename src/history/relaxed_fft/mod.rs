@@ -16,7 +16,7 @@ use self::pairs::Pairs;
 pub use self::spectra::SharedSpectra;
 use self::waves::Waves;
 use super::convolution::{ConvolutionHistory, ExactHistory, check_inputs};
-use super::lag_kernel::LagKernel;
+use super::convolution_weights::ConvolutionWeights;
 use crate::error::{Error, Result, same_length};
 
 /// Elements from which on the transform along the surface is taken. Measured, µs per step by pairs
@@ -62,14 +62,14 @@ const LONGEST_HINT: usize = 1 << 22;
 /// Steps are of unequal cost: the one that completes a block of b pays for all of it, 4Q
 /// transforms of length 2b.
 ///
-/// Histories of one kernel share its [spectra](LagKernel::spectra), where it keeps them: the first
+/// TimeSeries of one kernel share its [spectra](ConvolutionWeights::spectra), where it keeps them: the first
 /// that needs them makes them, on whatever thread.
 ///
 /// Memory grows by doubling when steps go on past [`reserve`](ConvolutionHistory::reserve); within
 /// it nothing is allocated. Results may differ in the last digits between processors, as the
 /// transforms use the widest instructions found at run time.
 pub struct RelaxedFftHistory {
-    kernel: Arc<dyn LagKernel>,
+    kernel: Arc<dyn ConvolutionWeights>,
     /// Made when it is first needed.
     blocks: Option<Blocks>,
     /// Whether to transform along the surface: `None` where it pays.
@@ -86,12 +86,12 @@ short_debug! {
 
 impl RelaxedFftHistory {
     /// Whether it transforms along the surface, unless told otherwise.
-    pub(super) fn takes_wavenumbers(kernel: &dyn LagKernel) -> bool {
+    pub(super) fn takes_wavenumbers(kernel: &dyn ConvolutionWeights) -> bool {
         lattice(kernel, None).is_some()
     }
 
     /// History of `kernel`, empty.
-    pub fn new(kernel: Arc<dyn LagKernel>) -> Self {
+    pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
         Self { kernel, blocks: None, along_surface: None, leaf: None, steps: 0, failed: None }
     }
 
@@ -201,7 +201,7 @@ impl ExactHistory for RelaxedFftHistory {
 }
 
 /// The lattice of the elements, if blocks go over its wavenumbers: as told, or where it pays.
-fn lattice(kernel: &dyn LagKernel, along_surface: Option<bool>) -> Option<Lattice> {
+fn lattice(kernel: &dyn ConvolutionWeights, along_surface: Option<bool>) -> Option<Lattice> {
     let classes = kernel.classes();
     let wanted = along_surface.unwrap_or(classes.elements().len() >= WAVES_FROM);
     wanted.then(|| Lattice::of(classes)).flatten()
@@ -209,7 +209,7 @@ fn lattice(kernel: &dyn LagKernel, along_surface: Option<bool>) -> Option<Lattic
 
 /// What blocks go over.
 fn space(
-    kernel: &dyn LagKernel,
+    kernel: &dyn ConvolutionWeights,
     leaf: usize,
     along_surface: Option<bool>,
     bounded: bool,
@@ -222,7 +222,7 @@ fn space(
 
 /// Empty blocks for any number of steps, of a kernel with no coefficient beyond lag `reach`, a leaf
 /// times a power of two.
-pub(super) fn bounded(kernel: &dyn LagKernel, reach: usize) -> Result<Blocks> {
+pub(super) fn bounded(kernel: &dyn ConvolutionWeights, reach: usize) -> Result<Blocks> {
     let mut blocks = Blocks::new(space(kernel, LEAF, None, true)?, LEAF, 2 * reach);
     blocks.grow(kernel, 2 * reach)?;
     Ok(blocks)

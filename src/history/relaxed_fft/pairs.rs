@@ -12,7 +12,7 @@ use super::blocks::{Extent, Space};
 use super::level::Rows;
 use super::level::{Convolution, KINDS, Level, Near, Part, Work, fill, forward, inverse, reserve};
 use crate::error::Result;
-use crate::history::lag_kernel::LagKernel;
+use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::{Pair, PairClasses};
 use crate::linalg::{Simd, WithSimd, add_row, add_rows, vectorized};
 
@@ -39,7 +39,7 @@ pub(super) struct Pairs {
 
 impl Pairs {
     /// Pairs of `kernel`. Beyond a leaf nothing may be summed directly where rows are `bounded`.
-    pub(super) fn new(kernel: &dyn LagKernel, leaf: usize, bounded: bool) -> Result<Self> {
+    pub(super) fn new(kernel: &dyn ConvolutionWeights, leaf: usize, bounded: bool) -> Result<Self> {
         let classes = Arc::new(kernel.classes().clone());
         let reach = |last: Option<usize>| last.map_or(usize::MAX, |lag| lag.saturating_sub(1));
         let reaches = (0..classes.count())
@@ -73,7 +73,12 @@ impl Space for Pairs {
         Level::new(size, self.classes.count(), couples, Box::new(convolution))
     }
 
-    fn fill(&mut self, kernel: &dyn LagKernel, levels: &mut [Level], wanted: bool) -> Result<Near> {
+    fn fill(
+        &mut self,
+        kernel: &dyn ConvolutionWeights,
+        levels: &mut [Level],
+        wanted: bool,
+    ) -> Result<Near> {
         let far = levels.last().map_or(0, |level| 2 * level.size);
         let length = far.max(if wanted { self.extent().lags } else { 0 });
         let (mut near, mut work) = (Near::default(), Work::default());

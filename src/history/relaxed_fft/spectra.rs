@@ -19,8 +19,8 @@ pub(super) struct Levels {
 /// Spectra of a kernel's coefficients, and exponentials for its late lags, for all histories of this
 /// kernel and of its clones.
 ///
-/// Clones are one and the same store. A [`LagKernel`](crate::history::LagKernel) keeps one beside
-/// its coefficients and shows it in [`spectra`](crate::history::LagKernel::spectra).
+/// Clones are one and the same store. A [`ConvolutionWeights`](crate::history::ConvolutionWeights) keeps one beside
+/// its coefficients and shows it in [`spectra`](crate::history::ConvolutionWeights::spectra).
 #[derive(Clone, Default)]
 pub struct SharedSpectra {
     stores: Arc<Stores>,

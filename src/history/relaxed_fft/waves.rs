@@ -14,7 +14,7 @@ use super::lattice::Lattice;
 use super::level::Rows;
 use super::level::{Convolution, KINDS, Level, Near, Part, Work, fill, reserve};
 use crate::error::Result;
-use crate::history::lag_kernel::LagKernel;
+use crate::history::convolution_weights::ConvolutionWeights;
 use crate::linalg::{Simd, WithSimd, vectorized};
 
 /// Wavenumbers of a lattice, B of them: their spectra are series of d by wavenumber, and the
@@ -36,7 +36,11 @@ pub(super) struct Waves {
 
 impl Waves {
     /// Wavenumbers of elements on `lattice`.
-    pub(super) fn new(lattice: Lattice, kernel: &dyn LagKernel, leaf: usize) -> Result<Self> {
+    pub(super) fn new(
+        lattice: Lattice,
+        kernel: &dyn ConvolutionWeights,
+        leaf: usize,
+    ) -> Result<Self> {
         let width = 4 * lattice.waves();
         Ok(Self {
             reach: lattice.last_coupling_lag(kernel)?.saturating_sub(1),
@@ -64,7 +68,12 @@ impl Space for Waves {
         Level::new(size, self.lattice.waves(), couples, Box::new(transforms))
     }
 
-    fn fill(&mut self, kernel: &dyn LagKernel, levels: &mut [Level], wanted: bool) -> Result<Near> {
+    fn fill(
+        &mut self,
+        kernel: &dyn ConvolutionWeights,
+        levels: &mut [Level],
+        wanted: bool,
+    ) -> Result<Near> {
         let (waves, leaf) = (self.lattice.waves(), if wanted { self.leaf } else { 0 });
         let mut near = [(); KINDS].map(|()| vec![0.0; leaf * waves]);
         // Coefficients wait in the place of the largest spectra that are made of them.

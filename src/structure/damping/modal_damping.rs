@@ -44,7 +44,7 @@ pub struct WithModalDamping {
 }
 
 short_debug! {
-    WithModalDamping; self; unknowns: self.structure.unknowns(), frequencies: self.frequencies
+    WithModalDamping; self; dofs: self.structure.dofs(), frequencies: self.frequencies
 }
 
 /// Most unknowns: C is a full matrix.
@@ -73,15 +73,15 @@ impl ModalDamping {
     /// Gives this damping to a structure. A nonlinear one is taken with its first tangent.
     ///
     /// # Errors
-    /// [`Error::Input`] for more than 3000 unknowns, of which a
+    /// [`Error::Input`] for more than 3000 degrees of freedom, of which a
     /// [`CraigBampton`](crate::structure::CraigBampton) reduction leaves fewer; [`Error::Scene`] when the matrices
     /// are not symmetric, the mass is not positive definite or a motion that is not rigid meets no
     /// stiffness or a negative one; [`Error::Singular`] when contact nodes at rest do not hold the
     /// structure; and what is wrong with the entries.
     pub fn on(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
-        let n = structure.unknowns();
+        let n = structure.dofs();
         if n > MOST {
-            let (quantity, value) = ("number of unknowns with modal damping", n as f64);
+            let (quantity, value) = ("number of degrees of freedom with modal damping", n as f64);
             return Err(Error::Input { quantity, value, needed: "3000 or fewer: reduce it first" });
         }
         let mass = SparseMatrix::assembled("mass matrix", n, &|matrix| structure.mass(matrix))?;
@@ -137,13 +137,13 @@ impl WithModalDamping {
 impl Structure for WithModalDamping {
     forward! {
         self.structure;
-        fn unknowns(&self) -> usize;
+        fn dofs(&self) -> usize;
         fn contact_nodes(&self) -> Vec<ContactNode>;
         fn foundation_ends(&self) -> Vec<usize>;
         fn mass(&self, matrix: &mut Triplets) -> Result<()>;
         fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
         fn has_active_damping(&self) -> bool;
-        fn describe(&self, unknowns: &[usize]) -> Option<String>;
+        fn describe(&self, dofs: &[usize]) -> Option<String>;
         fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
         fn nonlinear(&self) -> Option<&dyn NonlinearForce>;
         fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce>;
@@ -151,7 +151,7 @@ impl Structure for WithModalDamping {
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
         self.structure.damping(matrix)?;
-        let n = self.structure.unknowns().max(1);
+        let n = self.structure.dofs().max(1);
         for (place, &value) in self.damping.iter().enumerate() {
             // a b and b a round alike: the matrix stays symmetric to the last bit.
             matrix.add(

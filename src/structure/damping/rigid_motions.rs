@@ -12,7 +12,7 @@ const DEPENDENT: f64 = 1e-6;
 /// Momenta M r of the rigid motions r, with r·M r = 1 and all others zero: to the right, upwards and
 /// turning, of every part of the structure that its stiffness connects.
 ///
-/// A motion that strains nothing follows from that of the contact nodes, whatever the unknowns
+/// A motion that strains nothing follows from that of the contact nodes, whatever the degrees of freedom
 /// mean: K r + γ Nᵀ(N r − t) = 0, where N gives the nodes' displacements and t their prescribed values.
 pub(super) fn rigid_momenta(
     contact: &[ContactNode],

@@ -1,13 +1,13 @@
-//! Hysteretic springs on the unknowns of a structure.
+//! Hysteretic springs on the degrees of freedom of a structure.
 
 use super::{Hysteresis, InternalEnergy};
 use crate::error::{CheckpointError, Result};
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
-use crate::structure::{ContactNode, NonlinearForce, Row, Structure, Triplets};
+use crate::structure::{ContactNode, DofCombination, NonlinearForce, Structure, Triplets};
 
 /// A spring and the deformation l·u that it sees.
 struct Spring {
-    row: Row,
+    row: DofCombination,
     law: Box<dyn Hysteresis>,
 }
 
@@ -22,14 +22,14 @@ impl Spring {
 pub(crate) struct Springs(Vec<Spring>);
 
 impl Springs {
-    /// Adds a spring to a structure of so many unknowns.
+    /// Adds a spring to a structure of so many degrees of freedom.
     pub(crate) fn add(
         &mut self,
-        row: Row,
+        row: DofCombination,
         law: Box<dyn Hysteresis>,
-        unknowns: usize,
+        dofs: usize,
     ) -> Result<()> {
-        row.check("unknown of a spring", unknowns)?;
+        row.check("unknown of a spring", dofs)?;
         self.0.push(Spring { row, law });
         Ok(())
     }
@@ -121,17 +121,17 @@ impl NonlinearForce for Springs {
     }
 }
 
-/// Any structure with hysteretic springs between its unknowns.
+/// Any structure with hysteretic springs between its degrees of freedom.
 ///
-/// Each spring sees a deformation, a weighted sum of unknowns, and answers with the force of its
+/// Each spring sees a deformation, a weighted sum of degrees of freedom, and answers with the force of its
 /// [`Hysteresis`] law. It comes on top of what the structure has: a storey or a bearing that shall
 /// have the spring alone must have no stiffness of its own there. Damping is that of the structure by
 /// itself: what is proportional to its stiffness knows nothing of the springs. For storeys of a shear
 /// building there is [`ShearBuilding::with_law`](crate::structure::ShearBuilding::with_law).
 ///
-/// Unknowns are absolute: a spring on one alone would hold the structure to a point in space, not
+/// Degrees of freedom are absolute: a spring on one alone would hold the structure to a point in space, not
 /// to the ground that moves, and no simulation takes it. A deformation must be zero when all
-/// unknowns translate together.
+/// degrees of freedom translate together.
 ///
 /// ```
 /// use basemat::structure::{Bilinear, NonlinearForce, ShearBuilding, Storey, WithSprings};
@@ -153,7 +153,7 @@ pub struct WithSprings {
 }
 
 short_debug! {
-    WithSprings; self; unknowns: self.structure.unknowns(), springs: self.springs.len()
+    WithSprings; self; dofs: self.structure.dofs(), springs: self.springs.len()
 }
 
 impl WithSprings {
@@ -165,10 +165,14 @@ impl WithSprings {
     /// The same with one more spring, which sees the deformation `row`.
     ///
     /// # Errors
-    /// [`Error::Index`](crate::Error::Index) for an unknown that the structure does not have, [`Error::Input`](crate::Error::Input) for a
+    /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the structure does not have, [`Error::Input`](crate::Error::Input) for a
     /// weight that is not finite.
-    pub fn spring(mut self, row: impl Into<Row>, law: impl Hysteresis + 'static) -> Result<Self> {
-        self.springs.add(row.into(), Box::new(law), self.structure.unknowns())?;
+    pub fn spring(
+        mut self,
+        row: impl Into<DofCombination>,
+        law: impl Hysteresis + 'static,
+    ) -> Result<Self> {
+        self.springs.add(row.into(), Box::new(law), self.structure.dofs())?;
         Ok(self)
     }
 }
@@ -176,14 +180,14 @@ impl WithSprings {
 impl Structure for WithSprings {
     forward! {
         self.structure;
-        fn unknowns(&self) -> usize;
+        fn dofs(&self) -> usize;
         fn contact_nodes(&self) -> Vec<ContactNode>;
         fn foundation_ends(&self) -> Vec<usize>;
         fn mass(&self, matrix: &mut Triplets) -> Result<()>;
         fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
         fn damping(&self, matrix: &mut Triplets) -> Result<()>;
         fn has_active_damping(&self) -> bool;
-        fn describe(&self, unknowns: &[usize]) -> Option<String>;
+        fn describe(&self, dofs: &[usize]) -> Option<String>;
         fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
     }
 

@@ -7,11 +7,11 @@ use crate::fem::{
     Direction, MassKind, Mesh, Numbering, assemble_damping, assemble_geometric_stiffness,
     assemble_mass, assemble_stiffness,
 };
-use crate::structure::{ContactNode, RayleighDamping, Row, Structure, Triplets};
+use crate::structure::{ContactNode, DofCombination, RayleighDamping, Structure, Triplets};
 
 /// Finite-element structure on a flat base.
 ///
-/// Unknowns run node by node, within a node x, y, rotation, as far as some element there has them; ask
+/// Degrees of freedom run node by node, within a node x, y, rotation, as far as some element there has them; ask
 /// [`row`](FemModel::row) for one. Mass consistent, no Rayleigh damping, unless set otherwise.
 ///
 /// Elements act on each other through common nodes. A part that has none in common with what stands
@@ -26,7 +26,7 @@ use crate::structure::{ContactNode, RayleighDamping, Row, Structure, Triplets};
 /// let concrete = Material::new(30.0e9, 0.2, 2400.0)?;
 /// let mesh = Mesh::layered_block(-5.0..5.0, 8, &[Layer::new(20.0, 16, concrete)])?;
 /// let model = FemModel::on_base(mesh)?;
-/// assert_eq!(model.unknowns(), 2 * 9 * 17);
+/// assert_eq!(model.dofs(), 2 * 9 * 17);
 /// assert_eq!(model.contact_nodes().len(), 9);
 /// let roof = model.node_at(0.0, 20.0)?;
 /// assert_eq!(model.row(roof, Direction::X)?.terms(), [(2 * (16 * 9 + 4), 1.0)]);
@@ -83,7 +83,7 @@ impl FemModel {
             let unknown = |direction| {
                 numbering.unknown(index, direction).ok_or(Error::Scene {
                     quantity: "contact node",
-                    needed: "must have horizontal and vertical unknowns from some element",
+                    needed: "must have horizontal and vertical degrees of freedom from some element",
                 })
             };
             nodes.push(ContactNode::free(x, unknown(Direction::X)?, unknown(Direction::Y)?));
@@ -180,7 +180,7 @@ impl FemModel {
     /// The same structure in which the nodes `followers` move with `leader` as one rigid body: stiff
     /// joints, offsets of beams, a rigid slab or basemat.
     ///
-    /// P–Δ by [`with_p_delta`](FemModel::with_p_delta) is found anew. Followers lose their unknowns,
+    /// P–Δ by [`with_p_delta`](FemModel::with_p_delta) is found anew. Followers lose their degrees of freedom,
     /// and the structure's are numbered anew, node by node:
     /// [`unknown`](FemModel::unknown) gives `None` for them and [`row`](FemModel::row) what
     /// they do. Their masses and stiffnesses stay where they are. Contact nodes may follow.
@@ -198,7 +198,7 @@ impl FemModel {
     ///     mesh.add(Beam::new(ends, 30.0e9, 0.5, 0.01, 2400.0)?)?;
     /// }
     /// let model = FemModel::on_base(mesh)?.with_rigid_link(foot, &[left, right])?;
-    /// assert_eq!(model.unknowns(), 6);
+    /// assert_eq!(model.dofs(), 6);
     /// assert_eq!(model.unknown(top, Direction::X), Some(3));
     /// // The right end rises with the foot and by 2 m times its rotation.
     /// assert_eq!(model.row(right, Direction::Y)?.terms(), [(1, 1.0), (2, 2.0)]);
@@ -207,7 +207,7 @@ impl FemModel {
     ///
     /// # Errors
     /// [`Error::Index`] for a node that does not exist, [`Error::Scene`] when the leader lacks one of
-    /// the three unknowns or follows another node, or a follower leads or follows one already; those
+    /// the three degrees of freedom or follows another node, or a follower leads or follows one already; those
     /// of [`with_p_delta`](FemModel::with_p_delta) after it.
     pub fn with_rigid_link(mut self, leader: usize, followers: &[usize]) -> Result<Self> {
         let links = self.links.take();
@@ -231,20 +231,20 @@ impl FemModel {
         &self.mesh
     }
 
-    /// Index of the unknown of `node` in `direction`, if it has one of its own: a follower of a rigid
+    /// Index of the degree of freedom of `node` in `direction`, if it has one of its own: a follower of a rigid
     /// link has none. What a probe or a spring needs is its [`row`](FemModel::row).
     pub fn unknown(&self, node: usize, direction: Direction) -> Option<usize> {
         let unknown = self.numbering.unknown(node, direction)?;
         self.links.as_ref().map_or(Some(unknown), |links| links.remaining(node, unknown))
     }
 
-    /// Motion of `node` in `direction` as a weighted sum of unknowns: the unknown itself, or what
+    /// Motion of `node` in `direction` as a weighted sum of unknowns: the degree of freedom itself, or what
     /// the rigid link of a follower makes of its leader's.
     ///
     /// # Errors
     /// [`Error::Index`] for a node that does not exist, [`Error::NoUnknown`] for one that no element
     /// moves in this direction.
-    pub fn row(&self, node: usize, direction: Direction) -> Result<Row> {
+    pub fn row(&self, node: usize, direction: Direction) -> Result<DofCombination> {
         let bound = self.mesh.nodes().len();
         if node >= bound {
             return Err(Error::Index { quantity: "node", index: node, bound });
@@ -270,9 +270,9 @@ impl FemModel {
         self.mesh.nearest_node(x, y).unwrap_or(0)
     }
 
-    /// Unknowns of a unit rigid motion: 1 m in x or y, or a small rotation of 1 rad about `point`.
+    /// Degrees of freedom of a unit rigid motion: 1 m in x or y, or a small rotation of 1 rad about `point`.
     pub fn rigid_motion(&self, direction: Direction, point: [f64; 2]) -> Vec<f64> {
-        let mut motion = vec![0.0; self.unknowns()];
+        let mut motion = vec![0.0; self.dofs()];
         self.fill_rigid_motion(direction, point, &mut motion, |node, own| self.unknown(node, own));
         motion
     }
@@ -299,12 +299,12 @@ impl FemModel {
         }
     }
 
-    /// Adds what `fill` adds in the mesh's unknowns, in those that remain.
+    /// Adds what `fill` adds in the mesh's degrees of freedom, in those that remain.
     pub(super) fn condensed(&self, matrix: &mut Triplets, fill: impl Fn(&mut Triplets)) {
         match &self.links {
             None => fill(matrix),
             Some(links) => {
-                let mut own = Triplets::new(self.numbering.unknowns());
+                let mut own = Triplets::new(self.numbering.dofs());
                 fill(&mut own);
                 links.add_condensed(&own, matrix);
             }
@@ -313,8 +313,8 @@ impl FemModel {
 }
 
 impl Structure for FemModel {
-    fn unknowns(&self) -> usize {
-        self.links.as_ref().map_or(self.numbering.unknowns(), RigidLinks::unknowns)
+    fn dofs(&self) -> usize {
+        self.links.as_ref().map_or(self.numbering.dofs(), RigidLinks::dofs)
     }
 
     fn contact_nodes(&self) -> Vec<ContactNode> {
@@ -341,12 +341,8 @@ impl Structure for FemModel {
     }
 
     /// Nodes with their places, and whether one of the rest lies where one of them does.
-    fn describe(&self, unknowns: &[usize]) -> Option<String> {
-        node_names::describe(
-            self.mesh(),
-            &|node, direction| self.unknown(node, direction),
-            unknowns,
-        )
+    fn describe(&self, dofs: &[usize]) -> Option<String> {
+        node_names::describe(self.mesh(), &|node, direction| self.unknown(node, direction), dofs)
     }
 
     fn has_active_damping(&self) -> bool {

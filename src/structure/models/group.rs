@@ -4,7 +4,9 @@ use crate::error::{CheckpointError, Error, Result, finite};
 use crate::structure::detached::numbers;
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
 use crate::structure::probe::Probe;
-use crate::structure::{ContactNode, InternalEnergy, NonlinearForce, Row, Structure, Triplets};
+use crate::structure::{
+    ContactNode, DofCombination, InternalEnergy, NonlinearForce, Structure, Triplets,
+};
 
 /// A structure of the group and where it stands.
 struct Member {
@@ -12,7 +14,7 @@ struct Member {
     /// Added to the coordinates of its contact nodes, m.
     shift: f64,
     first_unknown: usize,
-    unknowns: usize,
+    dofs: usize,
     /// Coordinates of its contact nodes in the group, left and right, and their number.
     span: [f64; 2],
     nodes: usize,
@@ -47,7 +49,7 @@ struct Member {
 /// let run = simulation.run(400, |_| {})?;
 /// let [high, low] = &simulation.state().foundations[..] else { unreachable!() };
 /// assert_eq!((high.elements.clone(), low.elements.clone()), (0..6, 6..12));
-/// assert!(run.ledger_residual < 1e-9 && high.base_rotation != low.base_rotation);
+/// assert!(run.energy_error < 1e-9 && high.base_rotation != low.base_rotation);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Default)]
@@ -55,7 +57,7 @@ pub struct StructureGroup {
     members: Vec<Member>,
 }
 
-short_debug! { StructureGroup; self; structures: self.len(), unknowns: self.unknowns() }
+short_debug! { StructureGroup; self; structures: self.len(), dofs: self.dofs() }
 
 impl StructureGroup {
     /// Group without members.
@@ -86,8 +88,8 @@ impl StructureGroup {
         }
         self.members.push(Member {
             shift,
-            first_unknown: self.unknowns(),
-            unknowns: structure.unknowns(),
+            first_unknown: self.dofs(),
+            dofs: structure.dofs(),
             span,
             nodes: nodes.len(),
             structure: Box::new(structure),
@@ -105,17 +107,17 @@ impl StructureGroup {
         self.members.is_empty()
     }
 
-    /// A weighted sum of the unknowns of structure `member` (0: the leftmost) in those of the group.
+    /// A weighted sum of the degrees of freedom of structure `member` (0: the leftmost) in those of the group.
     ///
     /// # Errors
-    /// [`Error::Index`] for a structure that is not there, or an unknown that it does not have;
+    /// [`Error::Index`] for a structure that is not there, or a degree of freedom that it does not have;
     /// [`Error::Input`] for a weight that is not finite.
-    pub fn row(&self, member: usize, row: impl Into<Row>) -> Result<Row> {
+    pub fn row(&self, member: usize, row: impl Into<DofCombination>) -> Result<DofCombination> {
         let (bound, row) = (self.members.len(), row.into());
         let quantity = "structure of the group";
         let own = self.members.get(member);
         let own = own.ok_or(Error::Index { quantity, index: member, bound })?;
-        row.check("unknown of a structure of the group", own.unknowns)?;
+        row.check("unknown of a structure of the group", own.dofs)?;
         Ok(row.map_unknowns(|index| own.first_unknown.saturating_add(index)))
     }
 
@@ -134,7 +136,7 @@ impl StructureGroup {
         write: impl Fn(&dyn Structure, &mut Triplets) -> Result<()>,
     ) -> Result<()> {
         self.members.iter().try_for_each(|member| {
-            matrix.block(member.first_unknown, member.unknowns, |block| {
+            matrix.block(member.first_unknown, member.dofs, |block| {
                 write(member.structure.as_ref(), block)
             })
         })
@@ -148,12 +150,12 @@ impl StructureGroup {
 
 impl Member {
     fn range(&self) -> std::ops::Range<usize> {
-        self.first_unknown..self.first_unknown.saturating_add(self.unknowns)
+        self.first_unknown..self.first_unknown.saturating_add(self.dofs)
     }
 }
 
 impl Structure for StructureGroup {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         self.members.last().map_or(0, |last| last.range().end)
     }
 
@@ -162,9 +164,9 @@ impl Structure for StructureGroup {
         for member in &self.members {
             for mut node in member.structure.contact_nodes() {
                 node.x += member.shift;
-                // An index that is no unknown of the member must not be one of the group.
+                // An index that is no degree of freedom of the member must not be one of the group.
                 let place = |index: usize| {
-                    let own = index < member.unknowns;
+                    let own = index < member.dofs;
                     if own { index.saturating_add(member.first_unknown) } else { usize::MAX }
                 };
                 node.horizontal = node.horizontal.map_unknowns(place);
@@ -200,11 +202,11 @@ impl Structure for StructureGroup {
     }
 
     /// Those that none of the members describes by numbers of the group.
-    fn describe(&self, unknowns: &[usize]) -> Option<String> {
+    fn describe(&self, dofs: &[usize]) -> Option<String> {
         let mut texts = Vec::new();
         for (k, member) in self.members.iter().enumerate() {
             let range = member.range();
-            let all: Vec<usize> = unknowns.iter().copied().filter(|u| range.contains(u)).collect();
+            let all: Vec<usize> = dofs.iter().copied().filter(|u| range.contains(u)).collect();
             if !all.is_empty() {
                 let own: Vec<usize> = all.iter().map(|u| u - range.start).collect();
                 let text = member.structure.describe(&own).unwrap_or_else(|| numbers(&all));
@@ -255,8 +257,7 @@ impl NonlinearForce for StructureGroup {
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
         for (member, own) in self.forces() {
             if let Some(u) = displacement.get(member.range()) {
-                matrix
-                    .block(member.first_unknown, member.unknowns, |block| own.tangent(u, block))?;
+                matrix.block(member.first_unknown, member.dofs, |block| own.tangent(u, block))?;
             }
         }
         Ok(())

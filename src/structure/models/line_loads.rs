@@ -3,7 +3,7 @@
 use super::fem_model::FemModel;
 use crate::error::{Error, Result, positive};
 use crate::fem::Direction;
-use crate::structure::Row;
+use crate::structure::DofCombination;
 
 impl FemModel {
     /// A pressure of 1 Pa along the line through `nodes`, for a [`Load`](crate::coupled::Load) in Pa: it
@@ -38,8 +38,8 @@ impl FemModel {
     /// [`Error::Size`] for fewer than two nodes, [`Error::Index`] for one that does not exist,
     /// [`Error::Input`] for two in a row at one place, [`Error::NoUnknown`] for one that no element
     /// moves in a direction that is pushed.
-    pub fn pressure_row(&self, nodes: &[usize]) -> Result<Row> {
-        let mut row = Row::default();
+    pub fn pressure_row(&self, nodes: &[usize]) -> Result<DofCombination> {
+        let mut row = DofCombination::default();
         for (node, [x, y]) in self.line_weights(nodes)? {
             // The normal to the left, times the length.
             for (direction, force) in [(Direction::X, -y), (Direction::Y, x)] {
@@ -56,7 +56,7 @@ impl FemModel {
     ///
     /// # Errors
     /// As for [`FemModel::pressure_row`]; [`Error::Scene`] for [`Direction::Rotation`].
-    pub fn resultant_row(&self, nodes: &[usize], direction: Direction) -> Result<Row> {
+    pub fn resultant_row(&self, nodes: &[usize], direction: Direction) -> Result<DofCombination> {
         if direction == Direction::Rotation {
             let needed = "a direction along x or y";
             return Err(Error::Scene { quantity: "resultant along a line", needed });
@@ -64,7 +64,7 @@ impl FemModel {
         let weights = self.line_weights(nodes)?;
         let lengths = || weights.iter().map(|(_, [x, y])| x.hypot(*y));
         let whole: f64 = lengths().sum();
-        let mut row = Row::default();
+        let mut row = DofCombination::default();
         for ((node, _), length) in weights.iter().zip(lengths()) {
             row += (length / whole) * self.row(*node, direction)?;
         }

@@ -9,7 +9,7 @@ const DAMPING: &str = "damping matrix";
 
 /// A structure given by mass, damping and stiffness matrices, from another program for example.
 ///
-/// The unknowns are absolute displacements in m and rotations in rad, in any order; the structure
+/// The degrees of freedom are absolute displacements in m and rotations in rad, in any order; the structure
 /// is **free**, without supports: the ground holds it up, so a rigid translation must give no elastic
 /// force beyond rounding (entries of ten digits may leave too much, those of twelve do not).
 /// Matrices are per metre of thickness. They may come from Matrix Market files
@@ -31,7 +31,7 @@ const DAMPING: &str = "damping matrix";
 /// stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
 /// let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
 /// let model = MatrixModel::new(mass, stiffness, contact)?;
-/// assert_eq!(model.unknowns(), 4);
+/// assert_eq!(model.dofs(), 4);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -78,7 +78,7 @@ impl MatrixModel {
 
     /// The same with a matrix that need be neither symmetric nor positive semi-definite: that of
     /// gyroscopes, or of dampers that feed energy in. What it feeds in shows as negative
-    /// [`damping`](crate::coupled::Ledger::damping) in the ledger.
+    /// [`damping`](crate::coupled::EnergyBalance::damping) in the energy balance.
     ///
     /// # Errors
     /// [`Error::Size`], [`Error::Index`] and [`Error::Input`] as for
@@ -117,7 +117,7 @@ fn add(matrix: &Triplets, factor: f64, sum: &mut Triplets) {
 }
 
 impl Structure for MatrixModel {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         self.mass.order()
     }
 

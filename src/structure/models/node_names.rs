@@ -1,20 +1,20 @@
-//! Names of a finite-element model's unknowns in errors: its nodes.
+//! Names of a finite-element model's degrees of freedom in errors: its nodes.
 
 use std::fmt::Write;
 
 use crate::fem::{Direction, Mesh};
 use crate::structure::detached::{NAMED, listed};
 
-/// Nodes of these unknowns with their places, and whether one of the rest lies where one of them
-/// does; `number` numbers the unknowns. `None` without unknowns of nodes.
+/// Nodes of these degrees of freedom with their places, and whether one of the rest lies where one of them
+/// does; `number` numbers the degrees of freedom. `None` without degrees of freedom of nodes.
 pub(super) fn describe(
     mesh: &Mesh,
     number: &dyn Fn(usize, Direction) -> Option<usize>,
-    unknowns: &[usize],
+    dofs: &[usize],
 ) -> Option<String> {
-    let limit = unknowns.iter().copied().max()?;
+    let limit = dofs.iter().copied().max()?;
     let mut is_meant = vec![false; limit.saturating_add(1).min(3 * mesh.nodes().len())];
-    for &unknown in unknowns {
+    for &unknown in dofs {
         *is_meant.get_mut(unknown)? = true;
     }
     let meant = |unknown: usize| is_meant.get(unknown).copied().unwrap_or(false);

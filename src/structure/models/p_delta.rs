@@ -20,7 +20,7 @@ impl FemModel {
     /// The forces are those of first-order statics under `gravity` (m/s², downwards) with the
     /// contact nodes held, and do not change in the shaking. In a beam the force grows with its own
     /// weight on the way down, in a truss the mean counts.
-    /// Held is every unknown that moves a contact node: a rigid basemat is clamped, a column that
+    /// Held is every degree of freedom that moves a contact node: a rigid basemat is clamped, a column that
     /// ends on a contact node is hinged there, as on the ground. A force given by
     /// [`Beam::with_compression`](crate::fem::Beam::with_compression) stays;
     /// [`Element::compression`](crate::fem::Element::compression) tells what was found. Solids have no
@@ -97,7 +97,7 @@ impl FemModel {
 
     /// Displacements under the structure's weight.
     fn under_weight(&self, gravity: f64) -> Result<Vec<f64>> {
-        let n = self.unknowns();
+        let n = self.dofs();
         let mut mass = Triplets::new(n);
         self.mass(&mut mass)?;
         let mass = SparseMatrix::new("mass matrix", &mass)?;
@@ -115,7 +115,7 @@ impl FemModel {
 
 /// A structure whose contact nodes are held.
 struct HeldStructure {
-    /// The unknowns that are left.
+    /// The degrees of freedom that are left.
     free: Vec<usize>,
     /// Stiffness without and of the axial forces, in these.
     elastic: SparseMatrix,
@@ -125,7 +125,7 @@ struct HeldStructure {
 impl HeldStructure {
     /// An error if its base does not hold it.
     fn new(model: &FemModel) -> Result<Self> {
-        let n = model.unknowns();
+        let n = model.dofs();
         let mut is_held = vec![false; n];
         for node in model.contact_nodes() {
             for (index, _) in node.horizontal.into_iter().chain(node.vertical) {

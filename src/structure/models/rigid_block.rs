@@ -1,9 +1,9 @@
 //! Rigid block on its flat base.
 
 use crate::error::{Result, finite, not_negative, positive};
-use crate::structure::{ContactNode, Row, Structure, Triplets};
+use crate::structure::{ContactNode, DofCombination, Structure, Triplets};
 
-/// Rigid body with a flat base: unknowns `[u_x, u_y, θ]` at the middle of the base.
+/// Rigid body with a flat base: degrees of freedom `[u_x, u_y, θ]` at the middle of the base.
 ///
 /// A point at height z above the base and x beside its middle moves by `u_x − z θ` and `u_y + x θ`
 /// (small rotations). The centre of gravity lies above the middle of the base.
@@ -98,19 +98,19 @@ impl RigidBlock {
         self.rotary_inertia + self.mass * self.center_height.powi(2)
     }
 
-    /// Horizontal displacement at `height` (m) above the base, as a weighted sum of unknowns.
-    pub fn horizontal_at(&self, height: f64) -> Row {
+    /// Horizontal displacement at `height` (m) above the base, as a weighted sum of degrees of freedom.
+    pub fn horizontal_at(&self, height: f64) -> DofCombination {
         [(Self::HORIZONTAL, 1.0), (Self::ROTATION, -height)].into()
     }
 
-    /// Vertical displacement at coordinate `x` (m) of the surface, as a weighted sum of unknowns.
-    pub fn vertical_at(&self, x: f64) -> Row {
+    /// Vertical displacement at coordinate `x` (m) of the surface, as a weighted sum of degrees of freedom.
+    pub fn vertical_at(&self, x: f64) -> DofCombination {
         [(Self::VERTICAL, 1.0), (Self::ROTATION, x - self.center)].into()
     }
 }
 
 impl Structure for RigidBlock {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         3
     }
 

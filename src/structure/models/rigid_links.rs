@@ -10,9 +10,9 @@ pub(super) struct RigidLinks {
     /// Leader of each follower.
     leader: Vec<Option<usize>>,
     is_leader: Vec<bool>,
-    /// For each unknown of the mesh: (remaining unknown, weight) pairs.
+    /// For each degree of freedom of the mesh: (remaining unknown, weight) pairs.
     rows: Vec<Vec<(usize, f64)>>,
-    unknowns: usize,
+    dofs: usize,
 }
 
 const DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Rotation];
@@ -20,9 +20,9 @@ const DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Rotat
 impl RigidLinks {
     /// Nothing linked yet.
     pub(super) fn new(mesh: &Mesh, numbering: &Numbering) -> Self {
-        let (nodes, unknowns) = (mesh.nodes().len(), numbering.unknowns());
-        let rows = (0..unknowns).map(|unknown| vec![(unknown, 1.0)]).collect();
-        Self { leader: vec![None; nodes], is_leader: vec![false; nodes], rows, unknowns }
+        let (nodes, dofs) = (mesh.nodes().len(), numbering.dofs());
+        let rows = (0..dofs).map(|unknown| vec![(unknown, 1.0)]).collect();
+        Self { leader: vec![None; nodes], is_leader: vec![false; nodes], rows, dofs }
     }
 
     /// Ties `followers` to `leader`.
@@ -41,7 +41,9 @@ impl RigidLinks {
             }
         }
         if DIRECTIONS.iter().any(|&direction| numbering.unknown(leader, direction).is_none()) {
-            return Err(fault("its leader must have all three unknowns, from a beam for example"));
+            return Err(fault(
+                "its leader must have all three degrees of freedom, from a beam for example",
+            ));
         }
         if self.leader[leader].is_some() {
             return Err(fault("its leader must not follow another node"));
@@ -64,14 +66,14 @@ impl RigidLinks {
     fn renumber(&mut self, mesh: &Mesh, numbering: &Numbering) {
         let nodes = mesh.nodes();
         let mut next = 0;
-        let mut remaining = vec![None; numbering.unknowns()];
+        let mut remaining = vec![None; numbering.dofs()];
         for node in (0..nodes.len()).filter(|&node| self.leader[node].is_none()) {
             for unknown in DIRECTIONS.iter().filter_map(|&d| numbering.unknown(node, d)) {
                 remaining[unknown] = Some(next);
                 next += 1;
             }
         }
-        self.unknowns = next;
+        self.dofs = next;
         let number = |node, direction| remaining[numbering.unknown(node, direction)?];
         for node in 0..nodes.len() {
             for direction in DIRECTIONS {
@@ -91,9 +93,9 @@ impl RigidLinks {
         }
     }
 
-    /// Number of unknowns that remain.
-    pub(super) fn unknowns(&self) -> usize {
-        self.unknowns
+    /// Number of degrees of freedom that remain.
+    pub(super) fn dofs(&self) -> usize {
+        self.dofs
     }
 
     /// The number of a mesh's unknown that remains as it is.
@@ -102,7 +104,7 @@ impl RigidLinks {
         self.rows.get(unknown)?.first().filter(|_| free).map(|&(index, _)| index)
     }
 
-    /// A weighted sum of the mesh's unknowns by those that remain.
+    /// A weighted sum of the mesh's degrees of freedom by those that remain.
     pub(super) fn row(&self, terms: &[(usize, f64)]) -> Vec<(usize, f64)> {
         let mut sums: Vec<(usize, f64)> = Vec::new();
         for &(unknown, weight) in terms {
@@ -116,7 +118,7 @@ impl RigidLinks {
         sums
     }
 
-    /// The mesh's unknowns from those that remain.
+    /// The mesh's degrees of freedom from those that remain.
     pub(super) fn all(&self, remaining: &[f64]) -> Vec<f64> {
         let sum = |row: &Vec<(usize, f64)>| row.iter().map(|&(j, w)| w * remaining[j]).sum();
         self.rows.iter().map(sum).collect()

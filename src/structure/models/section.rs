@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result, finite};
 use crate::fem::{Direction, Quantity, assemble};
-use crate::structure::{FemModel, Row, Triplets};
+use crate::structure::{DofCombination, FemModel, Triplets};
 
 /// Linear function of displacement, velocity and acceleration, as sparse rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,11 +10,11 @@ pub struct SectionRows {
     /// Unit of the resultant: "N/m" for a force, "N·m/m" for a moment.
     pub unit: &'static str,
     /// Weights of the displacements.
-    pub displacement: Row,
+    pub displacement: DofCombination,
     /// Weights of the velocities: dashpots and stiffness-proportional damping.
-    pub velocity: Row,
+    pub velocity: DofCombination,
     /// Weights of the accelerations: the share of the mass above that sits on the cut's nodes.
-    pub acceleration: Row,
+    pub acceleration: DofCombination,
 }
 
 impl Default for SectionRows {
@@ -22,15 +22,15 @@ impl Default for SectionRows {
     fn default() -> Self {
         Self {
             unit: "N/m",
-            displacement: Row::default(),
-            velocity: Row::default(),
-            acceleration: Row::default(),
+            displacement: DofCombination::default(),
+            velocity: DofCombination::default(),
+            acceleration: DofCombination::default(),
         }
     }
 }
 
 impl SectionRows {
-    /// The resultant's value; slices of all unknowns, indices beyond their ends count as zero.
+    /// The resultant's value; slices of all degrees of freedom, indices beyond their ends count as zero.
     pub fn value(&self, displacement: &[f64], velocity: &[f64], acceleration: &[f64]) -> f64 {
         self.displacement.value(displacement)
             + self.velocity.value(velocity)
@@ -88,7 +88,7 @@ impl FemModel {
             return Err(fault("the height of a row of nodes with elements above it"));
         }
         let sum = |quantity, factor: f64| {
-            let mut matrix = Triplets::new(self.numbering.unknowns());
+            let mut matrix = Triplets::new(self.numbering.dofs());
             assemble(&self.mesh, &self.numbering, quantity, -factor, is_above, &mut matrix);
             matrix
         };
@@ -100,7 +100,7 @@ impl FemModel {
         // The work of the cut's forces on a rigid motion is their resultant.
         let rows = |direction: Direction, sign: f64| {
             let number = |node, own| self.numbering.unknown(node, own);
-            let mut motion = vec![0.0; self.numbering.unknowns()];
+            let mut motion = vec![0.0; self.numbering.dofs()];
             self.fill_rigid_motion(direction, [reference, height], &mut motion, number);
             let mut weights = vec![0.0; motion.len()];
             for &node in &cut {

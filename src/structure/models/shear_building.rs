@@ -3,7 +3,7 @@
 use super::section::SectionRows;
 use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive};
 use crate::structure::hysteresis::Springs;
-use crate::structure::{ContactNode, NonlinearForce, Row, Structure, Triplets};
+use crate::structure::{ContactNode, DofCombination, NonlinearForce, Structure, Triplets};
 use std::f64::consts::{PI, TAU};
 
 /// Storey of a [`ShearBuilding`]: the columns and the floor they carry, per metre of thickness.
@@ -34,7 +34,7 @@ impl Storey {
 
 /// Floors on sway columns on a rigid base.
 ///
-/// Unknowns: `[u_x, u_y, θ]` of the base, then the **absolute** horizontal displacement of each
+/// Degrees of freedom: `[u_x, u_y, θ]` of the base, then the **absolute** horizontal displacement of each
 /// floor, from below. The columns neither shorten nor bend out of the building's frame: all floors
 /// move up and turn with the base, and a storey's drift is what remains of the floors' relative
 /// displacement after the turn, `d_j = u_j − u_(j−1) + h_j θ`.
@@ -48,7 +48,7 @@ impl Storey {
 ///
 /// let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
 /// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.05)?;
-/// assert_eq!(building.unknowns(), 8);
+/// assert_eq!(building.dofs(), 8);
 /// // 2 √(k/m) sin(π/22) rad/s on a fixed base
 /// assert!((building.fixed_base_frequency() - 2.02589).abs() < 1e-5);
 /// # Ok::<(), basemat::Error>(())
@@ -192,11 +192,11 @@ impl ShearBuilding {
         self.storeys.len() + 2
     }
 
-    /// Drift of `storey` (0: the lowest), `u_j − u_(j−1) + h_j θ`, as a weighted sum of unknowns.
+    /// Drift of `storey` (0: the lowest), `u_j − u_(j−1) + h_j θ`, as a weighted sum of degrees of freedom.
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey.
-    pub fn drift(&self, storey: usize) -> Result<Row> {
+    pub fn drift(&self, storey: usize) -> Result<DofCombination> {
         self.floor(storey)?;
         Ok(self.drift_terms(storey).into())
     }
@@ -206,7 +206,7 @@ impl ShearBuilding {
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey.
-    pub fn sway(&self, storey: usize) -> Result<Row> {
+    pub fn total_drift(&self, storey: usize) -> Result<DofCombination> {
         let floor = self.floor(storey)?;
         let height = self.storeys[..=storey].iter().map(|storey| storey.height).sum();
         Ok([(floor, 1.0), (Self::HORIZONTAL, -1.0), (Self::ROTATION, height)].into())
@@ -356,7 +356,7 @@ impl ShearBuilding {
 }
 
 impl Structure for ShearBuilding {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         3 + self.storeys.len()
     }
 

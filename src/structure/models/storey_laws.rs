@@ -52,8 +52,8 @@ impl ShearBuilding {
             return Err(Error::Scene { quantity: "law of a storey", needed: "one law at most" });
         }
         self.carries_its_weight(storey)?;
-        let unknowns = self.unknowns();
-        self.springs.add(drift, Box::new(law), unknowns)?;
+        let dofs = self.dofs();
+        self.springs.add(drift, Box::new(law), dofs)?;
         Ok(self)
     }
 

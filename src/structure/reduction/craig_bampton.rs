@@ -2,9 +2,9 @@
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | b, i | kept (boundary) and interior unknowns |
-//! | Ψ | static answers of the interior to unit kept unknowns, −K_ii⁻¹ K_ib |
-//! | Φ | modes of the interior with the kept unknowns held, Φᵀ M_ii Φ = 1 |
+//! | b, i | kept (boundary) and interior degrees of freedom |
+//! | Ψ | static answers of the interior to unit kept degrees of freedom, −K_ii⁻¹ K_ib |
+//! | Φ | modes of the interior with the kept degrees of freedom held, Φᵀ M_ii Φ = 1 |
 //! | T | u = T q, q = (u_b, modal coordinates) |
 
 use std::sync::{Arc, Mutex, PoisonError};
@@ -16,12 +16,12 @@ use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
 use crate::structure::detached::{check_attached, numbers};
 use crate::structure::matrix_checks::SYMMETRIC;
 use crate::structure::nonlinear::is_nonlinear;
-use crate::structure::{ContactNode, Row, Structure, Triplets};
+use crate::structure::{ContactNode, DofCombination, Structure, Triplets};
 
-/// Craig & Bampton's reduction (1968): the contact nodes and any unknowns that are to be kept, and a
+/// Craig & Bampton's reduction (1968): the contact nodes and any degrees of freedom that are to be kept, and a
 /// number of modes of the rest with these held.
 ///
-/// Rigid motions, weight and slow loads at the kept unknowns pass exactly; what moves faster than the
+/// Rigid motions, weight and slow loads at the kept degrees of freedom pass exactly; what moves faster than the
 /// highest mode kept ([`ReducedModel::frequencies`]) is cut off. A usual choice is modes up to twice
 /// the highest frequency of interest.
 ///
@@ -33,10 +33,10 @@ use crate::structure::{ContactNode, Row, Structure, Triplets};
 /// let mesh = Mesh::layered_block(-5.0..5.0, 8, &[Layer::new(20.0, 16, material)])?;
 /// let model = FemModel::on_base(mesh)?;
 /// let roof = model.row(model.node_at(0.0, 20.0)?, Direction::X)?;
-/// assert_eq!(model.unknowns(), 306);
+/// assert_eq!(model.dofs(), 306);
 ///
 /// let reduced = CraigBampton::new(12).reduce(model)?;
-/// assert_eq!(reduced.unknowns(), 2 * 9 + 12);
+/// assert_eq!(reduced.dofs(), 2 * 9 + 12);
 /// // A probe on an unknown that is no longer there:
 /// let row = reduced.recovery().row(roof)?;
 /// assert_eq!(row.terms().len(), 30);
@@ -50,13 +50,13 @@ pub struct CraigBampton {
 
 /// A structure after [`CraigBampton::reduce`].
 ///
-/// Its unknowns are the kept ones, in ascending order, then the coordinates of the modes.
+/// Its degrees of freedom are the kept ones, in ascending order, then the coordinates of the modes.
 /// [`recovery`](ReducedModel::recovery) leads back to those of the full model.
 pub struct ReducedModel {
     basis: Arc<Basis>,
     contact: Vec<ContactNode>,
     foundation_ends: Vec<usize>,
-    /// Row-major, of the order of the reduced model.
+    /// DofCombination-major, of the order of the reduced model.
     mass: Vec<f64>,
     damping: Vec<f64>,
     stiffness: Vec<f64>,
@@ -74,7 +74,7 @@ struct FullLoad {
 }
 
 short_debug! {
-    ReducedModel; self; unknowns: self.basis.order(), frequencies: self.frequencies()
+    ReducedModel; self; dofs: self.basis.order(), frequencies: self.frequencies()
 }
 
 impl CraigBampton {
@@ -83,11 +83,11 @@ impl CraigBampton {
         Self { modes, kept: Vec::new() }
     }
 
-    /// The same reduction that also keeps these `unknowns` as they are, for springs on them for
+    /// The same reduction that also keeps these `dofs` as they are, for springs on them for
     /// example ([`WithSprings`](crate::structure::WithSprings)).
     #[must_use]
-    pub fn keep(mut self, unknowns: &[usize]) -> Self {
-        self.kept.extend_from_slice(unknowns);
+    pub fn keep(mut self, dofs: &[usize]) -> Self {
+        self.kept.extend_from_slice(dofs);
         self
     }
 
@@ -95,16 +95,16 @@ impl CraigBampton {
     ///
     /// Damping is reduced as it is; see [`ReducedModel::with_damping_ratio`] for another. Takes one
     /// sparse factorisation and about two solves for each kept unknown and mode, and keeps a number
-    /// for each of them and each unknown of the full model.
+    /// for each of them and each degree of freedom of the full model.
     ///
     /// # Errors
     /// [`Error::Scene`] for a nonlinear structure or matrices that are not symmetric,
     /// [`Error::Detached`] for a part that no stiffness joins to a kept unknown, [`Error::Index`] for a
     /// kept unknown that does not exist, [`Error::Size`] for more modes than
-    /// unknowns are left, [`Error::Singular`] when the kept unknowns do not hold the rest or its
+    /// degrees of freedom are left, [`Error::Singular`] when the kept degrees of freedom do not hold the rest or its
     /// stiffness is not positive.
     pub fn reduce(&self, mut structure: impl Structure + 'static) -> Result<ReducedModel> {
-        let n = structure.unknowns();
+        let n = structure.dofs();
         if is_nonlinear(&mut structure)? {
             let needed = "must be linear: put springs on the reduced model";
             return Err(Error::Scene { quantity: "structure to be reduced", needed });
@@ -160,7 +160,7 @@ impl CraigBampton {
 struct Parts {
     kept: Vec<usize>,
     interior: Vec<usize>,
-    /// Place of each unknown in its list.
+    /// Place of each degree of freedom in its list.
     place: Vec<usize>,
     is_kept: Vec<bool>,
 }
@@ -187,13 +187,17 @@ impl Parts {
             })
             .collect();
         if kept.is_empty() {
-            return Err(Error::Size { quantity: "list of kept unknowns", found: 0, needed: 1 });
+            return Err(Error::Size {
+                quantity: "list of kept degrees of freedom",
+                found: 0,
+                needed: 1,
+            });
         }
         Ok(Self { kept, interior, place, is_kept })
     }
 
     fn renumbered(&self, node: &ContactNode) -> ContactNode {
-        let row = |row: &Row| row.map_unknowns(|index| self.place[index]);
+        let row = |row: &DofCombination| row.map_unknowns(|index| self.place[index]);
         ContactNode { x: node.x, horizontal: row(&node.horizontal), vertical: row(&node.vertical) }
     }
 
@@ -215,10 +219,14 @@ impl Parts {
         mass: &SparseMatrix,
         modes: usize,
     ) -> Result<(Vec<f64>, Vec<f64>)> {
-        const NAME: &str = "stiffness matrix with the kept unknowns held";
+        const NAME: &str = "stiffness matrix with the kept degrees of freedom held";
         let (n, ni, nb) = (self.place.len(), self.interior.len(), self.kept.len());
         let kept = (nb + modes.min(ni)) as f64;
-        memory::check("unknowns and modes of the reduction", kept, 24.0 * kept * n as f64)?;
+        memory::check(
+            "degrees of freedom and modes of the reduction",
+            kept,
+            24.0 * kept * n as f64,
+        )?;
         let mut rows = vec![0.0; nb * n];
         for (k, &unknown) in self.kept.iter().enumerate() {
             rows[k * n + unknown] = 1.0;
@@ -234,7 +242,7 @@ impl Parts {
             }
         }
         factor.solve_many(&mut answers);
-        let held = self.inner("mass matrix with the kept unknowns held", mass)?;
+        let held = self.inner("mass matrix with the kept degrees of freedom held", mass)?;
         let (squares, shapes) = lowest_modes(&factor, &held, modes)
             .ok_or(Error::Singular { matrix: NAME, order: ni })?;
         rows.resize((nb + squares.len()) * n, 0.0);
@@ -253,20 +261,20 @@ impl Parts {
 }
 
 impl ReducedModel {
-    /// Frequencies of the modes with the kept unknowns held, Hz, ascending. There are fewer than
-    /// asked for only where fewer unknowns have mass.
+    /// Frequencies of the modes with the kept degrees of freedom held, Hz, ascending. There are fewer than
+    /// asked for only where fewer degrees of freedom have mass.
     pub fn frequencies(&self) -> Vec<f64> {
         self.frequencies.iter().map(|frequency| frequency / std::f64::consts::TAU).collect()
     }
 
-    /// The way back to the unknowns of the full model. It can be cloned, and kept when the model
+    /// The way back to the degrees of freedom of the full model. It can be cloned, and kept when the model
     /// has gone into a simulation.
     pub fn recovery(&self) -> Recovery {
         Recovery::new(Arc::clone(&self.basis))
     }
 
-    /// The same model with this damping ratio in every mode with the kept unknowns held, in place
-    /// of the damping it had. Motions of the kept unknowns alone are not damped.
+    /// The same model with this damping ratio in every mode with the kept degrees of freedom held, in place
+    /// of the damping it had. Motions of the kept degrees of freedom alone are not damped.
     ///
     /// # Errors
     /// [`Error::Input`] unless it is from 0 to below 1.
@@ -293,7 +301,7 @@ fn add(values: &[f64], order: usize, matrix: &mut Triplets) {
 }
 
 impl Structure for ReducedModel {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         self.basis.order()
     }
 
@@ -306,17 +314,17 @@ impl Structure for ReducedModel {
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        add(&self.mass, self.unknowns(), matrix);
+        add(&self.mass, self.dofs(), matrix);
         Ok(())
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        add(&self.stiffness, self.unknowns(), matrix);
+        add(&self.stiffness, self.dofs(), matrix);
         Ok(())
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
-        add(&self.damping, self.unknowns(), matrix);
+        add(&self.damping, self.dofs(), matrix);
         Ok(())
     }
 
@@ -324,12 +332,12 @@ impl Structure for ReducedModel {
         self.active
     }
 
-    /// Kept unknowns as the full model describes them, and modes.
-    fn describe(&self, unknowns: &[usize]) -> Option<String> {
+    /// Kept degrees of freedom as the full model describes them, and modes.
+    fn describe(&self, dofs: &[usize]) -> Option<String> {
         let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
         let kept = self.basis.kept();
         let (own, modes): (Vec<usize>, Vec<usize>) =
-            unknowns.iter().partition(|&&unknown| unknown < kept.len());
+            dofs.iter().partition(|&&unknown| unknown < kept.len());
         let own: Vec<usize> = own.into_iter().map(|unknown| kept[unknown]).collect();
         let mut texts = Vec::new();
         if !own.is_empty() {
@@ -340,7 +348,7 @@ impl Structure for ReducedModel {
         (!texts.is_empty()).then(|| texts.join("; "))
     }
 
-    /// The load of the full model, as it works on the reduced unknowns.
+    /// The load of the full model, as it works on the reduced degrees of freedom.
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
         let mut full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
         let FullLoad { structure, values } = &mut *full;

@@ -1,10 +1,10 @@
-//! From a reduced model back to the unknowns of the full one.
+//! From a reduced model back to the degrees of freedom of the full one.
 
 use std::sync::Arc;
 
 use crate::error::{Result, same_length};
 use crate::linalg::{SparseMatrix, row_products, transposed_multiply_add};
-use crate::structure::Row;
+use crate::structure::DofCombination;
 use crate::structure::probe::Probe;
 
 /// Columns of A T held at a time.
@@ -13,9 +13,9 @@ const BLOCK: usize = 16;
 /// The basis T of a reduction, u = T q.
 #[derive(Debug)]
 pub(super) struct Basis {
-    /// Unknowns of the full model that are among q.
+    /// Degrees of freedom of the full model that are among q.
     kept: Vec<usize>,
-    /// Tᵀ, row-major: a row of the full model's unknowns for each reduced one.
+    /// Tᵀ, row-major: a row of the full model's degrees of freedom for each reduced one.
     transposed: Vec<f64>,
     full: usize,
 }
@@ -25,12 +25,12 @@ impl Basis {
         Self { kept, transposed, full }
     }
 
-    /// Unknowns of the full model that are among those of the reduced one.
+    /// Degrees of freedom of the full model that are among those of the reduced one.
     pub(super) fn kept(&self) -> &[usize] {
         &self.kept
     }
 
-    /// Number of reduced unknowns.
+    /// Number of reduced degrees of freedom.
     pub(super) fn order(&self) -> usize {
         self.transposed.len() / self.full.max(1)
     }
@@ -67,7 +67,7 @@ impl Basis {
     }
 }
 
-/// The way from a [`ReducedModel`](super::ReducedModel) back to the unknowns of the full model.
+/// The way from a [`ReducedModel`](super::ReducedModel) back to the degrees of freedom of the full model.
 #[derive(Debug, Clone)]
 pub struct Recovery {
     basis: Arc<Basis>,
@@ -78,23 +78,23 @@ impl Recovery {
         Self { basis }
     }
 
-    /// Number of unknowns of the full model.
+    /// Number of degrees of freedom of the full model.
     pub fn full_unknowns(&self) -> usize {
         self.basis.full
     }
 
-    /// Unknowns of the full model that the reduced one kept: its first ones, in this order.
+    /// Degrees of freedom of the full model that the reduced one kept: its first ones, in this order.
     pub fn kept(&self) -> &[usize] {
         &self.basis.kept
     }
 
-    /// A weighted sum of the full model's unknowns as one of the reduced model's, for a spring or a
+    /// A weighted sum of the full model's degrees of freedom as one of the reduced model's, for a spring or a
     /// wireframe.
     ///
     /// # Errors
-    /// [`Error::Index`](crate::Error::Index) for an unknown that the full model does not have, [`Error::Input`](crate::Error::Input) for a
+    /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the full model does not have, [`Error::Input`](crate::Error::Input) for a
     /// weight that is not finite.
-    pub fn row(&self, row: impl Into<Row>) -> Result<Row> {
+    pub fn row(&self, row: impl Into<DofCombination>) -> Result<DofCombination> {
         let full = row.into();
         full.check("unknown of the full model", self.basis.full)?;
         if full.is_empty() {
@@ -112,13 +112,13 @@ impl Recovery {
         probe.try_map_rows(|row| self.row(row))
     }
 
-    /// The full model's unknowns, from the reduced model's: displacements, velocities or
+    /// The full model's degrees of freedom, from the reduced model's: displacements, velocities or
     /// accelerations.
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) unless there is a value for each reduced unknown.
     pub fn full(&self, reduced: &[f64]) -> Result<Vec<f64>> {
-        same_length("list of reduced unknowns", reduced.len(), self.basis.order())?;
+        same_length("list of reduced degrees of freedom", reduced.len(), self.basis.order())?;
         let mut full = vec![0.0; self.basis.full];
         transposed_multiply_add(&self.basis.transposed, 1.0, reduced, &mut full);
         Ok(full)

@@ -1,10 +1,10 @@
 //! GOAL: every ground marches with every law, scheme and search, or is refused with a reason.
 //! SCENE: a tower on springs and on the half-plane; seven laws, five schemes, two searches.
-//! REFERENCE: the energy ledger. Only the flow chart may give up, with an error that says so.
+//! REFERENCE: the energy balance. Only the flow chart may give up, with an error that says so.
 
 use basemat::bem::{ContactElement, Grading, SpringGround};
 use basemat::coupled::{ContactSearch, HhtAlpha, Midpoint, Newmark, SimulationBuilder, Theta};
-use basemat::interface::{Activation, Bonded, FrictionLimit, InterfaceLaw, ThinLayer};
+use basemat::interface::{Bonded, FrictionLimit, InterfaceLaw, ThinLayer, UnilateralCondition};
 use basemat::{Error, Simulation, StepError};
 use basemat_problems::scenes::{GRAVITY, SI, friction, ground, shake, soil, tower};
 
@@ -27,11 +27,13 @@ fn with_law(builder: SimulationBuilder, law: usize) -> SimulationBuilder {
         0 => builder.interface(Bonded),
         1 => builder.interface(friction(0.3)),
         2 => builder.interface(
-            friction(0.3).with_activation(Activation::Rate { closed_below: 1e-9 }).unwrap(),
+            friction(0.3)
+                .with_activation(UnilateralCondition::Velocity { closed_below: 1e-9 })
+                .unwrap(),
         ),
         3 => builder.interface(layer()),
         4 => builder.interface(layer().with_friction_limit(FrictionLimit::Lagged)),
-        5 => builder.interface(layer().with_slip_stiffness_share(1e-3).unwrap()),
+        5 => builder.interface(layer().with_slip_stiffness_ratio(1e-3).unwrap()),
         _ => {
             // Side by side: glued, layered, hard.
             let laws: Vec<Box<dyn InterfaceLaw>> = vec![
@@ -61,7 +63,7 @@ fn with_scheme(builder: SimulationBuilder, scheme: usize) -> SimulationBuilder {
 
 const SCHEMES: usize = 5;
 
-/// Each keeps its ledger closed; only the flow chart may give up, and says so.
+/// Each keeps its energy balance closed; only the flow chart may give up, and says so.
 #[test]
 fn every_combination_marches() {
     let (mut marched, mut gave_up) = (0, 0);
@@ -75,7 +77,7 @@ fn every_combination_marches() {
                     let mut simulation = builder.build().unwrap();
                     match simulation.run(250, |_| {}) {
                         Ok(run) => {
-                            assert!(run.ledger_residual < 1e-9, "{name}: {run}");
+                            assert!(run.energy_error < 1e-9, "{name}: {run}");
                             assert!(run.whole.base_shear.magnitude() > 1e3, "{name}: {run}");
                             marched += 1;
                         }
@@ -99,7 +101,7 @@ fn every_combination_marches() {
 fn layer_stores_energy() {
     let mut simulation =
         with_law(start(true), 3).gravity(GRAVITY).scheme(Midpoint).build().unwrap();
-    assert_eq!(simulation.state().ledger.layer, 0.0);
+    assert_eq!(simulation.state().energy_balance.interface, 0.0);
     let mut largest = 0.0_f64;
     let [normal, shear] = layer().stiffness();
     let energy = |contact: &[basemat::interface::ContactState], lengths: &[f64]| -> f64 {
@@ -117,11 +119,11 @@ fn layer_stores_energy() {
     let run = simulation
         .run(250, |state| {
             let wanted = energy(&state.contact, &lengths) - at_rest;
-            assert!((state.ledger.layer - wanted).abs() < 1e-9 * at_rest, "{wanted}");
+            assert!((state.energy_balance.interface - wanted).abs() < 1e-9 * at_rest, "{wanted}");
             largest = largest.max(wanted.abs());
         })
         .unwrap();
-    assert!(largest > 0.1 * at_rest && run.ledger.contact > 0.0, "{run}");
+    assert!(largest > 0.1 * at_rest && run.energy_balance.contact > 0.0, "{run}");
 }
 
 #[test]
@@ -140,8 +142,8 @@ fn combinations_without_sense_are_refused() {
         assert!(ThinLayer::from_stiffness(1.0, value, 0.3).is_err());
     }
     for value in [-0.1, 1.1, f64::NAN] {
-        assert!(layer().with_debonded_share(value).is_err());
-        assert!(layer().with_slip_stiffness_share(value).is_err());
+        assert!(layer().with_debonded_ratio(value).is_err());
+        assert!(layer().with_slip_stiffness_ratio(value).is_err());
     }
     for friction in [-0.1, f64::NAN, f64::NEG_INFINITY] {
         assert!(ThinLayer::new(soil(SI), 1.0, friction).is_err());
@@ -154,7 +156,7 @@ fn combinations_without_sense_are_refused() {
 fn slip_stiffness_without_slip_changes_nothing() {
     let run = |share| {
         let layer = ThinLayer::new(soil(SI), 1.0, f64::INFINITY).unwrap();
-        let layer = layer.with_slip_stiffness_share(share).unwrap();
+        let layer = layer.with_slip_stiffness_ratio(share).unwrap();
         let mut simulation = start(true).interface(layer).gravity(GRAVITY).build().unwrap();
         let run = simulation.run(300, |_| {}).unwrap();
         assert!(run.whole.uplifted_fraction.largest().value > 0.1);

@@ -6,7 +6,8 @@ use basemat::bem::{Grading, Ground};
 use basemat::coupled::{Run, State};
 use basemat::fem::{Element, Material, Quad4, QuadFormulation};
 use basemat::interface::{
-    ContactState, FrictionLimit, InterfaceLaw, Mode, SlipSense, StepStart, ThinLayer, Tolerance,
+    ContactState, FrictionLimit, InterfaceLaw, Mode, PreviousContact, SlipSense, ThinLayer,
+    Tolerance,
 };
 use basemat_problems::scenes::{GRAVITY, SI, block, friction, ground, scene, soil, tower};
 
@@ -34,7 +35,7 @@ fn law_forces(law: &ThinLayer, u: &[f64; 8]) -> [f64; 8] {
     let mean = |k: usize| 0.5 * (u[4 + k] + u[6 + k] - u[k] - u[2 + k]);
     let (slip, gap) = (mean(0), mean(1));
     // Conditions are linear: pressure and shear follow from gap and slip.
-    let start = StepStart::new(ContactState::default(), Mode::Stick, 1.0);
+    let start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
     let [normal, along] = law.conditions(Mode::Stick, &start);
     let pressure = (normal.value - normal.gap * gap) / normal.pressure;
     let shear = (along.value - along.slip * slip) / along.shear;
@@ -126,10 +127,10 @@ fn stiff_layers_tend_to_hard_contact() {
     );
     let errors: Vec<_> = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6]
         .map(|ratio| {
-            let (soft, run) = states(layer(ratio).with_debonded_share(0.0).unwrap());
+            let (soft, run) = states(layer(ratio).with_debonded_ratio(0.0).unwrap());
             let error = history_error(&soft, &hard);
-            println!("{ratio:e}: {error:.3e}, ledger {:.1e}", run.ledger_residual);
-            assert!(run.ledger_residual < 1e-9);
+            println!("{ratio:e}: {error:.3e}, energy balance {:.1e}", run.energy_error);
+            assert!(run.energy_error < 1e-9);
             error
         })
         .into();
@@ -159,7 +160,7 @@ fn conditioning_of_the_contact_operator() {
     soil_ground.prepare(2.5e-3).unwrap();
     let size = 20;
     let mut soil = vec![0.0; size * size];
-    soil_ground.instantaneous(&mut soil).unwrap();
+    soil_ground.step_compliance(&mut soil).unwrap();
     let condition = |compliance: [f64; 2]| {
         let multiply = |x: &[f64], shift: f64| -> Vec<f64> {
             (0..size)
@@ -174,7 +175,7 @@ fn conditioning_of_the_contact_operator() {
         (top / bottom, bottom)
     };
     let (hard, bottom) = condition([0.0; 2]);
-    let start = StepStart::new(ContactState::default(), Mode::Stick, 1.0);
+    let start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
     println!("none: {hard:.4}");
     assert!(bottom > 0.0);
     for ratio in [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
@@ -217,7 +218,7 @@ fn admissible_states_stay_and_others_change() {
     let law = layer(0.1);
     let [normal, shear] = law.stiffness();
     let tolerance = Tolerance::new(1e-13, 1e-6);
-    let mut start = StepStart::new(ContactState::default(), Mode::Stick, 1e-3);
+    let mut start = PreviousContact::new(ContactState::default(), Mode::Stick, 1e-3);
     start.static_pressure = 500.0;
     let at = |pressure: f64, traction: f64, slip: f64| ContactState {
         gap: -pressure / normal,
@@ -225,7 +226,7 @@ fn admissible_states_stay_and_others_change() {
         pressure,
         shear: traction,
     };
-    let next = |law: &ThinLayer, mode, start: &StepStart, state: ContactState| {
+    let next = |law: &ThinLayer, mode, start: &PreviousContact, state: ContactState| {
         law.next_mode(mode, start, &state, tolerance)
     };
     assert_eq!(next(&law, Mode::Stick, &start, at(1e3, 299.0, 299.0 / shear)), Mode::Stick);

@@ -167,7 +167,7 @@ fn traction_enters_at_the_end_of_the_step() {
         let weight = before.normal_force;
         for _ in 0..200 {
             let state = simulation.step().unwrap().clone();
-            // The block's first unknown shifts it to the right: its row is the horizontal balance.
+            // The block's first degree of freedom shifts it to the right: its row is the horizontal balance.
             let row = mass.entries().iter().filter(|entry| entry.0 == 0);
             let inertia: f64 = row.map(|&(_, j, m)| m * state.acceleration()[j]).sum();
             assert!((inertia + state.base_shear).abs() < 1e-10 * weight);

@@ -4,7 +4,7 @@
 //! REFERENCE: the checkpoint as it was saved; the check sum worked out from its form.
 
 use basemat::coupled::{Checkpoint, Probe};
-use basemat::interface::Adhesive;
+use basemat::interface::Cohesive;
 use basemat::structure::RigidBlock;
 use basemat::{CheckpointError, Error, Simulation};
 use serde_json::Value;
@@ -12,7 +12,7 @@ use serde_json::Value;
 use super::sum::sum;
 use basemat_problems::scenes::{SI, scene};
 
-/// Three unknowns on two springs.
+/// Three degrees of freedom on two springs.
 fn simulation() -> Simulation {
     let block = RigidBlock::new(4.0, 3.0, 2000.0).unwrap();
     let ground = basemat::bem::SpringGround::new(-2.0..2.0, 2, 5e7, 4e7).unwrap();
@@ -20,7 +20,7 @@ fn simulation() -> Simulation {
         .probe(Probe::displacement("top", block.horizontal_at(3.0)))
         .structure(block)
         .ground(ground.with_dashpots(4e5, 3e5).unwrap())
-        .interface(Adhesive::new(1e3, 1e3, 0.3).unwrap())
+        .interface(Cohesive::new(1e3, 1e3, 0.3).unwrap())
         .build()
         .unwrap()
 }

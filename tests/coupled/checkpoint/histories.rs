@@ -1,15 +1,15 @@
 //! GOAL: a checkpoint carries the choice of the convolution history; an approximate history books
 //! its error.
 //! SCENE: grounds that choose, with much memory and little; corrupt counts of steps.
-//! REFERENCE: the saved run to the last bit; typed errors for another choice; the ledger.
+//! REFERENCE: the saved run to the last bit; typed errors for another choice; the energy balance.
 
 use std::sync::Arc;
 
 use basemat::bem::{ElasticGround, Ground, PatchKernel, Strip};
 use basemat::coupled::{Coordinates, SimulationBuilder};
 use basemat::history::{
-    ChoiceReason, ConvolutionHistory, DirectHistory, ExponentialHistory, History, LagKernel,
-    RelaxedFftHistory,
+    ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
+    History, RelaxedFftHistory,
 };
 use basemat::soil::SoilProfile;
 use basemat::{CheckpointError, Error, MemoryError, StepError};
@@ -94,7 +94,7 @@ fn the_history_of_a_long_run_differs_by_rounding() {
             assert!((short - long).abs() < 1e-9 * weight, "{elements}: {short} {long}");
         }
         assert!((short.mean_slip - long.mean_slip).abs() < 1e-9 * short.mean_slip.abs());
-        assert!(long.ledger.soil_error_bound > 0.0);
+        assert!(long.energy_balance.soil_error_bound > 0.0);
     }
 }
 
@@ -200,13 +200,13 @@ fn beyond_the_memory_exponentials_take_over() {
             (History::Exponentials, ChoiceReason::MemoryLimit)
         );
         assert!(choice.error_bound > 0.0 && choice.error_bound <= ExponentialHistory::TOLERANCE);
-        assert!(found[400].ledger.soil_error_bound > 0.0);
+        assert!(found[400].energy_balance.soil_error_bound > 0.0);
         let scale = exact.iter().map(|s| s.base_shear.abs()).fold(0.0, f64::max);
         for (found, exact) in found.iter().zip(&exact) {
             assert_eq!(found.modes, exact.modes, "{elements}, step {}", exact.step);
             let apart = (found.base_shear - exact.base_shear).abs();
             assert!(apart < 1e-7 * scale, "{elements}, step {}: {apart:e}", exact.step);
-            assert!(found.ledger.residual() < 1e-9);
+            assert!(found.energy_balance.residual() < 1e-9);
         }
         let last = &found[400];
         for cuts in [&[50, 350][..], &[most, 400 - most], &[most - 1, 2, 399 - most], &[1; 400]] {
@@ -244,7 +244,7 @@ fn beyond_the_memory_exact_histories_stop() {
     // Modes would be taken for some numbers of steps and not for others.
     let over = |ground: Box<dyn Ground>| {
         let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
-        base.ground(ground).coordinates(Coordinates::Unknowns)
+        base.ground(ground).coordinates(Coordinates::Physical)
     };
     let layers = |memory| {
         let profile = SoilProfile::on_rigid_base().with_layer(soil(SI), 6.0).unwrap();
@@ -311,7 +311,7 @@ fn a_step_count_without_tractions_takes_no_memory() {
     // By pairs, and by wavenumbers.
     for count in [4, 10] {
         let elements = Strip::uniform(-2.0..2.0, count).unwrap().elements();
-        let kernel: Arc<dyn LagKernel> =
+        let kernel: Arc<dyn ConvolutionWeights> =
             Arc::new(PatchKernel::new(soil(SI), elements, 0.01).unwrap());
         let corrupt = |history: &mut dyn ConvolutionHistory| {
             for steps in [1 << 40, 1 << 47, usize::MAX] {
@@ -338,10 +338,10 @@ fn an_approximate_history_is_in_the_ledger() {
     for tolerance in [1e-3, 1e-6, 1e-9] {
         let run = run(History::Exponentials, tolerance);
         let bound = run.history_error_bound();
-        println!("{tolerance:e}: soil {:e} within {bound:e}", run.ledger.soil);
-        assert!(bound > 0.0 && bound < 100.0 * tolerance * run.ledger.soil);
+        println!("{tolerance:e}: soil {:e} within {bound:e}", run.energy_balance.soil);
+        assert!(bound > 0.0 && bound < 100.0 * tolerance * run.energy_balance.soil);
         assert!(bound < 0.1 * last);
-        assert!(run.ledger_residual < 1e-10, "{:e}", run.ledger_residual);
+        assert!(run.energy_error < 1e-10, "{:e}", run.energy_error);
         assert!(run.to_string().contains("soil within"));
         last = bound;
     }

@@ -5,9 +5,9 @@
 #[cfg(feature = "serde")]
 mod damaged;
 mod histories;
-mod law_memory;
 mod refused;
 mod resumed;
+mod state_variables;
 #[cfg(feature = "serde")]
 mod sum;
 #[cfg(feature = "serde")]

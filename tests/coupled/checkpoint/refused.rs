@@ -23,7 +23,10 @@ fn other_scenes_are_refused() {
     let heavier = || RigidBlock::new(4.0, 6.0, 1600.0).unwrap();
     let probe = basemat::coupled::Probe::displacement("top", vec![(0, 1.0)]);
     for (quantity, other) in [
-        ("number of unknowns", base().structure(Rider { block: block(SI) }).ground(spring_bed())),
+        (
+            "number of degrees of freedom",
+            base().structure(Rider { block: block(SI) }).ground(spring_bed()),
+        ),
         ("list of contact elements", base().structure(block(SI)).ground(bed(6, 5e7))),
         ("list of probes", plain().probe(probe)),
         ("structure", base().structure(heavier()).ground(spring_bed())),
@@ -54,8 +57,8 @@ impl Ground for Silent {
         self.0.prepare(time_step)
     }
 
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
-        self.0.instantaneous(matrix)
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        self.0.step_compliance(matrix)
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {

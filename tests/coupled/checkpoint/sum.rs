@@ -10,15 +10,15 @@ use basemat_problems::check_sum::{check_sum, text_words};
 const FIELDS: [&str; 8] =
     ["format", "identity", "steps", "modes", "memory", "state", "ground", "structure"];
 const IDENTITY: [&str; 9] = [
-    "unknowns",
-    "ledger",
+    "dofs",
+    "energy balance",
     "probes",
     "memory",
     "steps",
     "elements",
     "structure",
     "ground",
-    "preload",
+    "static_contact",
 ];
 
 fn words(value: &Value, all: &mut Vec<u64>) {

@@ -2,7 +2,7 @@
 
 use basemat::bem::{ElasticGround, Grading, SpringGround, Strip};
 use basemat::coupled::{
-    Coordinates, DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, Placement, SimulationBuilder,
+    Coordinates, DissipativeMidpoint, GravityStage, HhtAlpha, Midpoint, Newmark, SimulationBuilder,
     State, Theta,
 };
 use basemat::fem::{Layer, Material, Mesh, Quad8, Quad8Integration};
@@ -115,7 +115,7 @@ pub(crate) struct Recipe {
     pub(crate) law: Law,
     pub(crate) scheme: Scheme,
     pub(crate) coordinates: Coordinates,
-    pub(crate) placement: Placement,
+    pub(crate) placement: GravityStage,
     pub(crate) kind: Kind,
     /// Accelerations of the ground, about: of gravity.
     pub(crate) strength: f64,
@@ -220,7 +220,7 @@ impl Recipe {
             Law::Bonded => builder.interface(Bonded),
             Law::ThinLayer(friction, share) => {
                 let layer = ThinLayer::new(self.soil(frame), frame.length, friction)?;
-                builder.interface(layer.with_debonded_share(share)?)
+                builder.interface(layer.with_debonded_ratio(share)?)
             }
         };
         let builder = match self.scheme {
@@ -378,9 +378,9 @@ fn scheme() -> impl Strategy<Value = Scheme> {
 /// Scenes with friction of `most_friction` or less (and unbounded where nothing slides).
 pub(crate) fn recipes(most_friction: f64) -> impl Strategy<Value = Recipe> {
     let coordinates =
-        prop::sample::select(vec![Coordinates::Auto, Coordinates::Unknowns, Coordinates::Modes]);
+        prop::sample::select(vec![Coordinates::Auto, Coordinates::Physical, Coordinates::Modes]);
     let placement =
-        prop::sample::select(vec![Placement::Frictionless, Placement::WithInterfaceLaw]);
+        prop::sample::select(vec![GravityStage::Frictionless, GravityStage::WithInterfaceLaw]);
     let parts = (building(), bed(), 1_usize..8, law(most_friction), scheme());
     let rest = (
         coordinates,

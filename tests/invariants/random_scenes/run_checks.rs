@@ -1,6 +1,6 @@
 //! Checks of every step of any run.
 
-use basemat::coupled::{Ledger, State};
+use basemat::coupled::{EnergyBalance, State};
 use basemat::interface::Mode;
 use proptest::prelude::*;
 
@@ -13,18 +13,18 @@ pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// The left-hand side's terms and the input.
-pub(crate) fn terms(ledger: &Ledger) -> [f64; 10] {
+pub(crate) fn terms(energy_balance: &EnergyBalance) -> [f64; 10] {
     [
-        ledger.kinetic,
-        ledger.strain,
-        ledger.hysteresis,
-        ledger.damping,
-        ledger.numerical,
-        ledger.soil,
-        ledger.contact,
-        ledger.layer,
-        ledger.preload,
-        ledger.input,
+        energy_balance.kinetic,
+        energy_balance.strain,
+        energy_balance.hysteresis,
+        energy_balance.damping,
+        energy_balance.algorithmic,
+        energy_balance.soil,
+        energy_balance.contact,
+        energy_balance.interface,
+        energy_balance.static_contact,
+        energy_balance.input,
     ]
 }
 
@@ -42,7 +42,7 @@ impl Scales {
         let contact = || states.iter().flat_map(|state| &state.contact);
         let or_one = |value: f64| if value > 0.0 { value } else { 1.0 };
         Self {
-            energy: or_one(states.last().map_or(0.0, |state| state.ledger.largest)),
+            energy: or_one(states.last().map_or(0.0, |state| state.energy_balance.largest)),
             traction: or_one(largest(contact().flat_map(|c| [c.pressure, c.shear]))),
             length: or_one(
                 largest(contact().flat_map(|c| [c.gap, c.slip]))
@@ -74,14 +74,14 @@ pub(crate) fn numbers_are_finite(states: &[State]) -> Result<(), TestCaseError> 
             .copied()
             .chain(contact)
             .chain(rest)
-            .chain(terms(&state.ledger));
+            .chain(terms(&state.energy_balance));
         prop_assert!({ all }.all(f64::is_finite), "step {}: not finite", state.step);
     }
     Ok(())
 }
 
-/// Roundings times the condition of the effective stiffness by which a step of a flight, in unknowns, may
-/// open the ledger. The factor's rounding is the same in every step and acts as a spring on the rigid
+/// Roundings times the condition of the effective stiffness by which a step of a flight, in degrees of freedom, may
+/// open the energy balance. The factor's rounding is the same in every step and acts as a spring on the rigid
 /// motion, so that steps add up. In modes the condition is one: see `tests/coupled/conditioning.rs`.
 const ROUNDINGS: f64 = 10.0;
 
@@ -102,12 +102,12 @@ pub(crate) fn energy_is_kept(
     // K Δu of a flight is rounded likewise.
     let flight = if recipe.weightless { ROUNDINGS * condition * f64::EPSILON } else { 0.0 };
     for pair in states.windows(2) {
-        let (before, now) = (&pair[0].ledger, &pair[1].ledger);
+        let (before, now) = (&pair[0].energy_balance, &pair[1].energy_balance);
         let (open, rounding) = (now.residual(), pair[1].step as f64 * condition * f64::EPSILON);
         let limit = if recipe.weightless { (1e-9_f64).max(ROUNDINGS * rounding) } else { 1e-9 };
-        tally.within("ledger open, of the largest energy so far", open, limit)?;
+        tally.within("energy balance open, of the largest energy so far", open, limit)?;
         if open > 1e-9 {
-            tally.count("steps with the ledger open by more than 1e-9", 1);
+            tally.count("steps with the energy balance open by more than 1e-9", 1);
             tally.within(
                 "the same, in roundings times condition and steps",
                 open / rounding,
@@ -120,7 +120,7 @@ pub(crate) fn energy_is_kept(
             let gained = (before.damping - now.damping) / scale;
             tally.within("gained from dashpots in a step", gained, 1e-12)?;
             if !matches!(recipe.law, Law::ThinLayer(..)) {
-                let gained = (before.numerical - now.numerical) / scale;
+                let gained = (before.algorithmic - now.algorithmic) / scale;
                 let limit = flight.max(1e-12);
                 tally.within("gained from the θ scheme in a step", gained, limit)?;
             }

@@ -43,7 +43,7 @@ impl Tally {
         self.counts.get(what).copied().unwrap_or(0)
     }
 
-    /// Books what happened in a run.
+    /// EnergyAccumulator what happened in a run.
     pub(crate) fn see(&mut self, states: &[State]) {
         self.count("scenes", 1);
         let modes = || states.iter().flat_map(|state| &state.modes);

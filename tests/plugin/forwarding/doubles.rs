@@ -6,7 +6,7 @@ use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
 use basemat::fem::{Direction, Element, MassKind};
 use basemat::history::{ConvolutionHistory, HistoryChoice};
 use basemat::interface::{
-    Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+    Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
 };
 use basemat::motion::{FreeField, Record, RecordFormat};
 use basemat::structure::{Hysteresis, InternalEnergy, SpringResponse};
@@ -26,8 +26,8 @@ pub(crate) fn soil() -> Soil {
     Soil::new(CORRECT, CORRECT / 2.0, CORRECT).unwrap()
 }
 
-pub(crate) fn start() -> StepStart<'static> {
-    StepStart::new(ContactState::default(), Mode::Stick, 0.01)
+pub(crate) fn start() -> PreviousContact<'static> {
+    PreviousContact::new(ContactState::default(), Mode::Stick, 0.01)
 }
 
 pub(crate) fn tolerance() -> Tolerance {
@@ -74,32 +74,32 @@ impl InterfaceLaw for Double {
         &[Mode::SlipLeft]
     }
 
-    fn conditions(&self, _: Mode, _: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, _: Mode, _: &PreviousContact) -> [Condition; 2] {
         self.0.asked("conditions");
         [Condition::gap_is(0.0), Condition::slip_is(CORRECT)]
     }
 
-    fn next_mode(&self, _: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+    fn next_mode(&self, _: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
         self.0.asked("next_mode");
         Mode::SlipRight
     }
 
-    fn compliance(&self, _: Mode, _: &StepStart) -> [f64; 2] {
+    fn compliance(&self, _: Mode, _: &PreviousContact) -> [f64; 2] {
         self.0.asked("compliance");
         [CORRECT; 2]
     }
 
-    fn memory(&self) -> usize {
+    fn state_variables(&self) -> usize {
         self.0.asked("memory");
         3
     }
 
-    fn initial_memory(&self, _: &StepStart, memory: &mut [f64]) {
-        self.0.asked("initial_memory");
+    fn initial_state_variables(&self, _: &PreviousContact, memory: &mut [f64]) {
+        self.0.asked("initial_state_variables");
         memory.fill(CORRECT);
     }
 
-    fn commit(&self, _: &StepStart, _: &ContactState, _: Mode, memory: &mut [f64]) {
+    fn commit(&self, _: &PreviousContact, _: &ContactState, _: Mode, memory: &mut [f64]) {
         self.0.asked("commit");
         memory.fill(2.0 * CORRECT);
     }
@@ -109,27 +109,33 @@ impl InterfaceLaw for Double {
         Some(CORRECT)
     }
 
-    fn bond_overload(&self, _: &StepStart, _: &ContactState) -> Option<f64> {
+    fn bond_overload(&self, _: &PreviousContact, _: &ContactState) -> Option<f64> {
         self.0.asked("bond_overload");
         Some(CORRECT)
     }
 
-    fn check_start(&self, _: &StepStart) -> Result<()> {
+    fn check_start(&self, _: &PreviousContact) -> Result<()> {
         self.0.asked("check_start");
         Err(refusal())
     }
 
     /// Smooth contact whose only closed mode is another one than the default's first.
-    fn smooth(&self) -> Box<dyn InterfaceLaw> {
+    fn frictionless(&self) -> Box<dyn InterfaceLaw> {
         struct Smooth(Coulomb);
         impl InterfaceLaw for Smooth {
             fn modes(&self) -> &[Mode] {
                 &[Mode::SlipRight]
             }
-            fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+            fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
                 self.0.conditions(mode, start)
             }
-            fn next_mode(&self, _: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+            fn next_mode(
+                &self,
+                _: Mode,
+                _: &PreviousContact,
+                _: &ContactState,
+                _: Tolerance,
+            ) -> Mode {
                 Mode::SlipRight
             }
         }
@@ -154,7 +160,7 @@ impl Ground for Double {
         Err(refusal())
     }
 
-    fn announce(&mut self, _: usize) -> Result<()> {
+    fn expect_steps(&mut self, _: usize) -> Result<()> {
         self.0.asked("announce");
         Err(refusal())
     }
@@ -164,7 +170,7 @@ impl Ground for Double {
         Err(refusal())
     }
 
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         self.0.asked("instantaneous");
         matrix.fill(CORRECT);
         Ok(())

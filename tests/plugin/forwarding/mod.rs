@@ -84,15 +84,15 @@ fn boxed_laws() {
         assert_eq!(next, Mode::SlipRight);
         assert_eq!(part.compliance(Mode::Open, &start), [CORRECT; 2]);
         let mut memory = [0.0; 3];
-        assert_eq!(part.memory(), memory.len());
-        part.initial_memory(&start, &mut memory);
+        assert_eq!(part.state_variables(), memory.len());
+        part.initial_state_variables(&start, &mut memory);
         assert_eq!(memory, [CORRECT; 3]);
         part.commit(&start, &ContactState::default(), Mode::Open, &mut memory);
         assert_eq!(memory, [2.0 * CORRECT; 3]);
         assert_eq!(part.friction_coefficient(), Some(CORRECT));
         assert_eq!(part.bond_overload(&start, &ContactState::default()), Some(CORRECT));
         assert_eq!(part.check_start(&start), Err(doubles::refusal()));
-        assert_eq!(part.smooth().modes(), [Mode::SlipRight]);
+        assert_eq!(part.frictionless().modes(), [Mode::SlipRight]);
     }
     let log = Log::default();
     let part = || -> Box<dyn InterfaceLaw> { Box::new(Double::new(&log)) };
@@ -114,9 +114,9 @@ fn boxed_grounds() {
         let mut matrix = [0.0; 4];
         assert_eq!(part.elements().len(), 1);
         assert_eq!(part.prepare(CORRECT), Err(doubles::refusal()));
-        assert_eq!(part.announce(3), Err(doubles::refusal()));
+        assert_eq!(part.expect_steps(3), Err(doubles::refusal()));
         assert_eq!(part.reserve(3), Err(doubles::refusal()));
-        part.instantaneous(&mut matrix).unwrap();
+        part.step_compliance(&mut matrix).unwrap();
         assert_eq!(matrix, [CORRECT; 4]);
         part.history(&mut matrix[..2]).unwrap();
         part.commit(&[1.0, 2.0]);

@@ -13,7 +13,7 @@ use basemat::{Error, Result};
 use super::doubles::CORRECT;
 use super::{Log, methods, source};
 
-/// Four unknowns, two of them those of the base.
+/// Four degrees of freedom, two of them those of the base.
 struct Double {
     log: Log,
     linear: bool,
@@ -28,8 +28,8 @@ fn add_diagonal(matrix: &mut Triplets, value: f64) {
 }
 
 impl Structure for Double {
-    fn unknowns(&self) -> usize {
-        self.log.asked("unknowns");
+    fn dofs(&self) -> usize {
+        self.log.asked("dofs");
         4
     }
 
@@ -70,9 +70,9 @@ impl Structure for Double {
         true
     }
 
-    fn describe(&self, unknowns: &[usize]) -> Option<String> {
+    fn describe(&self, dofs: &[usize]) -> Option<String> {
         self.log.asked("describe");
-        Some(format!("places {unknowns:?}"))
+        Some(format!("places {dofs:?}"))
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
@@ -125,10 +125,10 @@ impl NonlinearForce for Double {
     }
 }
 
-/// Asks all there is to ask; `damping` as it should come out on the diagonal at the unknown `place`.
+/// Asks all there is to ask; `damping` as it should come out on the diagonal at the degree of freedom `place`.
 fn ask(mut part: impl Structure, place: usize, damping: f64) {
     let ends = part.foundation_ends();
-    assert_eq!((part.unknowns(), part.contact_nodes().len(), ends), (4, 4, vec![1]));
+    assert_eq!((part.dofs(), part.contact_nodes().len(), ends), (4, 4, vec![1]));
     let diagonal = |fill: &dyn Fn(&mut Triplets) -> Result<()>| {
         let mut matrix = Triplets::new(4);
         fill(&mut matrix).unwrap();
@@ -196,7 +196,7 @@ fn structures_with_something_around_them() {
 
     let damped = ModalDamping::new(&[0.5]).unwrap().on(double(&log)).unwrap();
     log.take();
-    // 2 ζ ω m more, with ω² = 6, stiffness and first tangent over mass; at an unknown that is none
+    // 2 ζ ω m more, with ω² = 6, stiffness and first tangent over mass; at a degree of freedom that is none
     // of the base's, for a motion of the base alone counts as rigid.
     ask(damped, 2, CORRECT * (3.0 + 6.0_f64.sqrt()));
     assert_eq!(log.take(), all());

@@ -3,7 +3,7 @@
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{DissipativeMidpoint, Midpoint, Probe, Theta};
 use basemat::fem::{Direction, Layer, Material, Mesh};
-use basemat::interface::{Activation, Coulomb};
+use basemat::interface::{Coulomb, UnilateralCondition};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{FemModel, RigidBlock};
 use basemat::{Result, Simulation, Soil};
@@ -25,7 +25,7 @@ pub enum Scheme {
 pub struct Scene {
     pub friction: f64,
     pub scheme: Scheme,
-    pub activation: Activation,
+    pub activation: UnilateralCondition,
     pub shear_speed: f64,
     pub elements: usize,
     pub time_step: f64,
@@ -52,10 +52,10 @@ pub struct Outcome {
     pub uplift: f64,
     pub rotation: f64,
     pub contact: f64,
-    pub numerical: f64,
+    pub algorithmic: f64,
     /// Deepest penetration of a closed element, m.
     pub penetration: f64,
-    pub ledger_residual: f64,
+    pub energy_error: f64,
     pub changes: usize,
 }
 
@@ -99,7 +99,7 @@ impl Scene {
         let run = simulation.run(steps, |state| {
             force.push(state.normal_force / weight);
             acceleration.push(state.probes[0] / STANDARD_GRAVITY);
-            input = input.max(state.ledger.input.abs());
+            input = input.max(state.energy_balance.input.abs());
             for contact in &state.contact {
                 penetration = penetration.max(-contact.gap);
             }
@@ -116,10 +116,10 @@ impl Scene {
             residual_slip: run.whole.residual_slip,
             uplift: run.whole.uplifted_fraction.largest().value,
             rotation: run.whole.base_rotation.magnitude(),
-            contact: run.ledger.contact / input,
-            numerical: run.ledger.numerical / input,
+            contact: run.energy_balance.contact / input,
+            algorithmic: run.energy_balance.algorithmic / input,
             penetration,
-            ledger_residual: run.ledger_residual,
+            energy_error: run.energy_error,
             changes: run.mode_changes,
         })
     }

@@ -35,7 +35,7 @@ impl Ground for Prescribed {
         Ok(())
     }
 
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         matrix.copy_from_slice(&self.matrix);
         Ok(())
     }
@@ -48,7 +48,7 @@ impl Ground for Prescribed {
     fn commit(&mut self, _: &[f64]) {}
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.instantaneous(matrix)
+        self.step_compliance(matrix)
     }
 }
 
@@ -63,7 +63,7 @@ fn of_a_scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<ContactElemen
     ground.prepare(time_step).unwrap();
     let size = 2 * count;
     let mut matrix = vec![0.0; size * size];
-    ground.instantaneous(&mut matrix).unwrap();
+    ground.step_compliance(&mut matrix).unwrap();
     // B (2M/Δt²)⁻¹ Bᵀ A of a block with mass m, inertia I and centre of gravity at h.
     let (mass, height) = (random.log_within(1e3, 1e6), random.within(0.1, 8.0));
     let inertia = mass * (16.0 + 4.0 * height * height) / 12.0;

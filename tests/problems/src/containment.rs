@@ -9,10 +9,10 @@ use basemat::Soil;
 use basemat::coupled::Probe;
 use basemat::fem::{Direction, Layer, Material, Mesh, QuadFormulation};
 use basemat::interface::{
-    Condition, ContactState, InterfaceLaw, Mode, StepStart, ThinLayer, Tolerance,
+    Condition, ContactState, InterfaceLaw, Mode, PreviousContact, ThinLayer, Tolerance,
 };
 use basemat::motion::STANDARD_GRAVITY;
-use basemat::structure::{FemModel, RayleighDamping, Row, Structure};
+use basemat::structure::{DofCombination, FemModel, RayleighDamping, Structure};
 
 pub const FOOT: f64 = 0.3048;
 pub const POUND_FORCE_PER_FOOT: f64 = 14.593_902_937_206_364;
@@ -173,7 +173,7 @@ impl Containment {
             .collect();
         let share = 1.0 / feet.len() as f64;
         let feet = feet.into_iter().map(|(unknown, weight)| (unknown, -share * weight));
-        let sway: Row = x.terms().iter().copied().chain(feet).collect();
+        let sway: DofCombination = x.terms().iter().copied().chain(feet).collect();
         Ok([
             Probe::absolute_displacement("roof x", x),
             Probe::absolute_displacement("roof y", y),
@@ -202,15 +202,15 @@ impl InterfaceLaw for Glue {
         &[Mode::Stick]
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         self.0.conditions(mode, start)
     }
 
-    fn next_mode(&self, _: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+    fn next_mode(&self, _: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
         Mode::Stick
     }
 
-    fn compliance(&self, mode: Mode, start: &StepStart) -> [f64; 2] {
+    fn compliance(&self, mode: Mode, start: &PreviousContact) -> [f64; 2] {
         self.0.compliance(mode, start)
     }
 }

@@ -1,6 +1,6 @@
 //! Small dense linear algebra, plain enough to be right at sight.
 
-use basemat::structure::{Row, Structure, Triplets};
+use basemat::structure::{DofCombination, Structure, Triplets};
 
 use super::random::Random;
 
@@ -28,7 +28,7 @@ pub fn collect(
     structure: &dyn Structure,
     fill: impl FnOnce(&mut Triplets) -> basemat::Result<()>,
 ) -> Matrix {
-    let mut triplets = Triplets::new(structure.unknowns());
+    let mut triplets = Triplets::new(structure.dofs());
     fill(&mut triplets).unwrap();
     dense(&triplets)
 }
@@ -61,7 +61,7 @@ pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |peak, value| value.abs().max(peak))
 }
 
-pub fn row_value(row: &Row, values: &[f64]) -> f64 {
+pub fn row_value(row: &DofCombination, values: &[f64]) -> f64 {
     row.iter().map(|&(index, weight)| weight * values[index]).sum()
 }
 
@@ -105,7 +105,7 @@ pub fn solve(matrix: &Matrix, load: &[f64]) -> Vec<f64> {
     x
 }
 
-/// Displacements under `load` with some unknowns prescribed.
+/// Displacements under `load` with some degrees of freedom prescribed.
 pub fn solve_held(matrix: &Matrix, load: &[f64], held: &[(usize, f64)]) -> Vec<f64> {
     let mut x = vec![0.0; load.len()];
     for &(index, value) in held {

@@ -88,9 +88,9 @@ pub const ROWS: [Row; 12] = [
         observe: nothing,
     },
     Row {
-        name: "bonded, without ledger",
-        left_out: "the mode search, the energy ledger",
-        make: |builder| Ok(builder.interface(Bonded).without_ledger()),
+        name: "bonded, without energy balance",
+        left_out: "the mode search, the energy balance",
+        make: |builder| Ok(builder.interface(Bonded).without_energy_balance()),
         observe: nothing,
     },
     Row {
@@ -113,7 +113,7 @@ pub const ROWS: [Row; 12] = [
     },
     Row {
         name: "uplift only",
-        left_out: "elements that are open: no unknowns",
+        left_out: "elements that are open: no degrees of freedom",
         make: |builder| Ok(builder.interface(Coulomb::uplift_only())),
         observe: nothing,
     },
@@ -124,14 +124,14 @@ pub const ROWS: [Row; 12] = [
         observe: nothing,
     },
     Row {
-        name: "the same, without ledger",
-        left_out: "the energy ledger",
-        make: |builder| friction(builder.without_ledger(), 0.4),
+        name: "the same, without energy balance",
+        left_out: "the energy balance",
+        make: |builder| friction(builder.without_energy_balance(), 0.4),
         observe: nothing,
     },
     Row {
         name: "the same, three probes",
-        left_out: "unknowns that no probe asks for",
+        left_out: "degrees of freedom that no probe asks for",
         make: |builder| {
             let probe = |name, row| Probe::displacement(name, vec![(row, 1.0)]);
             let builder = builder.probe(probe("a", 0)).probe(probe("b", 1)).probe(probe("c", 2));
@@ -146,14 +146,14 @@ pub const ROWS: [Row; 12] = [
         observe: |state| state.absolute_displacement().iter().sum(),
     },
     Row {
-        name: "the same, in unknowns instead of modes",
+        name: "the same, in degrees of freedom instead of modes",
         left_out: "the modes: back-substitution with sparse factors",
-        make: |builder| friction(builder.coordinates(Coordinates::Unknowns), 0.4),
+        make: |builder| friction(builder.coordinates(Coordinates::Physical), 0.4),
         observe: nothing,
     },
     Row {
         name: "rigid block, friction 0.4",
-        left_out: "all but three unknowns of the structure",
+        left_out: "all but three degrees of freedom of the structure",
         make: |builder| {
             let width = ELEMENT * COUNT as f64;
             friction(builder.structure(RigidBlock::new(width, 35.0 * 0.3048, 400.0)?), 0.4)

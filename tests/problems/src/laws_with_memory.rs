@@ -1,7 +1,7 @@
 //! Laws that remember something of each element.
 
 use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+    Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
 };
 
 /// Friction that falls with the distance slid: residual + (first − residual) e^(−slid/distance).
@@ -18,7 +18,7 @@ impl SlipWeakening {
         self.residual + (self.first - self.residual) * (-slid / self.distance).exp()
     }
 
-    fn now(&self, start: &StepStart) -> Coulomb {
+    fn now(&self, start: &PreviousContact) -> Coulomb {
         Coulomb::new(self.friction(start.memory[0])).unwrap()
     }
 }
@@ -28,25 +28,25 @@ impl InterfaceLaw for SlipWeakening {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         self.now(start).conditions(mode, start)
     }
 
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
         self.now(start).next_mode(mode, start, trial, tolerance)
     }
 
-    fn memory(&self) -> usize {
+    fn state_variables(&self) -> usize {
         1
     }
 
-    fn commit(&self, start: &StepStart, end: &ContactState, mode: Mode, memory: &mut [f64]) {
+    fn commit(&self, start: &PreviousContact, end: &ContactState, mode: Mode, memory: &mut [f64]) {
         assert_eq!(memory, start.memory, "a commit begins with the memory of the step's start");
         if mode.is_slip() {
             memory[0] += (end.slip - start.state.slip).abs();
@@ -65,13 +65,13 @@ pub struct Adhesion {
 }
 
 impl Adhesion {
-    fn now(&self, start: &StepStart) -> Coulomb {
+    fn now(&self, start: &PreviousContact) -> Coulomb {
         let law = Coulomb::new(self.friction).unwrap();
         law.with_tensile_strength(start.memory[0]).unwrap()
     }
 
     /// Coulomb's law keeps no strength for what has once opened: here that is the memory's to say.
-    fn seen<'a>(start: &StepStart<'a>) -> StepStart<'a> {
+    fn seen<'a>(start: &PreviousContact<'a>) -> PreviousContact<'a> {
         let mut start = *start;
         start.has_opened = false;
         start
@@ -83,30 +83,30 @@ impl InterfaceLaw for Adhesion {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         self.now(start).conditions(mode, &Self::seen(start))
     }
 
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
         self.now(start).next_mode(mode, &Self::seen(start), trial, tolerance)
     }
 
-    fn memory(&self) -> usize {
+    fn state_variables(&self) -> usize {
         2
     }
 
-    fn initial_memory(&self, start: &StepStart, memory: &mut [f64]) {
+    fn initial_state_variables(&self, start: &PreviousContact, memory: &mut [f64]) {
         let strength = if start.has_opened { 0.0 } else { self.strength };
         memory.copy_from_slice(&[strength, start.static_pressure]);
     }
 
-    fn commit(&self, _: &StepStart, _: &ContactState, mode: Mode, memory: &mut [f64]) {
+    fn commit(&self, _: &PreviousContact, _: &ContactState, mode: Mode, memory: &mut [f64]) {
         if mode == Mode::Open || (self.breaks_by_sliding && mode.is_slip()) {
             memory[0] = 0.0;
         }
@@ -133,7 +133,7 @@ impl InterfaceLaw for SofteningPads {
         &[Mode::Stick]
     }
 
-    fn conditions(&self, _: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, _: Mode, start: &PreviousContact) -> [Condition; 2] {
         let [normal, shear] = self.compliance_after(start.memory[0]);
         [
             Condition { gap: 1.0 / normal, ..Condition::pressure_is(0.0) },
@@ -141,19 +141,19 @@ impl InterfaceLaw for SofteningPads {
         ]
     }
 
-    fn next_mode(&self, _: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+    fn next_mode(&self, _: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
         Mode::Stick
     }
 
-    fn compliance(&self, _: Mode, start: &StepStart) -> [f64; 2] {
+    fn compliance(&self, _: Mode, start: &PreviousContact) -> [f64; 2] {
         self.compliance_after(start.memory[0])
     }
 
-    fn memory(&self) -> usize {
+    fn state_variables(&self) -> usize {
         1
     }
 
-    fn commit(&self, _: &StepStart, end: &ContactState, _: Mode, memory: &mut [f64]) {
+    fn commit(&self, _: &PreviousContact, end: &ContactState, _: Mode, memory: &mut [f64]) {
         memory[0] = memory[0].max(end.pressure);
     }
 }

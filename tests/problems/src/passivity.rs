@@ -46,7 +46,7 @@ impl Scene {
         let mut ground = self.ground();
         let size = 2 * self.elements;
         let mut operator = vec![0.0; size * size];
-        ground.instantaneous(&mut operator).unwrap();
+        ground.step_compliance(&mut operator).unwrap();
         let inverse = inverse(&operator, size);
         let lengths: Vec<f64> = ground.elements().iter().map(|e| e.right - e.left).collect();
         let mut random = Random(self.seed);
@@ -91,7 +91,7 @@ impl Scene {
         let mut ground = self.ground();
         let size = 2 * self.elements;
         let mut operator = vec![0.0; size * size];
-        ground.instantaneous(&mut operator).unwrap();
+        ground.step_compliance(&mut operator).unwrap();
         let inverse = inverse(&operator, size);
         let mut random = Random(self.seed);
         let (mut history, mut open) = (vec![0.0; size], vec![0.0; size]);

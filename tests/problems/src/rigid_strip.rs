@@ -52,7 +52,7 @@ impl RigidStrip {
         let elements = ground.elements().len();
         let size = 2 * elements;
         let mut matrix = vec![0.0; size * size];
-        ground.instantaneous(&mut matrix).unwrap();
+        ground.step_compliance(&mut matrix).unwrap();
         let active = |i: usize| match contact {
             Contact::Bonded => true,
             Contact::Normal => i < elements,

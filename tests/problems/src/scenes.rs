@@ -118,7 +118,7 @@ pub struct Rider {
 }
 
 impl Structure for Rider {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         4
     }
 

@@ -46,14 +46,14 @@ impl Cantilever {
         for (k, beam) in self.beams.iter().enumerate() {
             let mut block = [0.0; 36];
             fill(beam, &self.heights[k..k + 2], &mut block);
-            let unknowns: Vec<usize> = (3 * k..3 * k + 6).collect();
-            matrix.add_block(&unknowns, &block.map(|x| factor * x));
+            let dofs: Vec<usize> = (3 * k..3 * k + 6).collect();
+            matrix.add_block(&dofs, &block.map(|x| factor * x));
         }
     }
 }
 
 impl Structure for Cantilever {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         3 * self.heights.len()
     }
 

@@ -1,4 +1,4 @@
-//! A tower of 51 102 unknowns on soil: the large model of `from_matrices` and of
+//! A tower of 51 102 degrees of freedom on soil: the large model of `from_matrices` and of
 //! `benches/reduced.rs`.
 
 use basemat::bem::{ElasticGround, Strip};
@@ -7,7 +7,7 @@ use basemat::fem::{Direction, Layer, MassKind, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
-    ContactNode, FemModel, MatrixModel, RayleighDamping, Row, Structure, Triplets,
+    ContactNode, DofCombination, FemModel, MatrixModel, RayleighDamping, Structure, Triplets,
 };
 use basemat::{Result, Simulation, Soil};
 
@@ -19,7 +19,7 @@ pub struct Tower {
     pub stiffness: Triplets,
     pub contact: Vec<ContactNode>,
     /// The sway of its top.
-    pub top: Row,
+    pub top: DofCombination,
 }
 
 impl Tower {
@@ -28,7 +28,7 @@ impl Tower {
         let material = Material::new(5.0e9, 0.2, 600.0)?;
         let mesh = Mesh::layered_block(-5.0..5.0, 50, &[Layer::new(100.0, 500, material)])?;
         let model = FemModel::on_base(mesh)?.with_mass(MassKind::Lumped);
-        let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(model.unknowns()));
+        let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(model.dofs()));
         model.mass(&mut mass)?;
         model.stiffness(&mut stiffness)?;
         let top = model.row(model.node_at(0.0, 100.0)?, Direction::X)?;
@@ -49,7 +49,7 @@ pub fn damped(
 /// The structure on soil, with the displacement of its top as a probe, ready to march.
 pub fn scene(
     structure: impl Structure + 'static,
-    top: Row,
+    top: DofCombination,
     coordinates: Coordinates,
 ) -> Result<Simulation> {
     let soil = Soil::new(200.0e6, 0.33, 1900.0)?;

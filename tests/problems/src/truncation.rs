@@ -128,7 +128,7 @@ pub fn rocking(elements: usize, free: usize, beta: f64) -> [(Vec<f64>, f64); 2] 
                 }
             })
             .unwrap();
-        assert!(run.ledger_residual < 1e-9, "ledger open by {:.1e}", run.ledger_residual);
+        assert!(run.energy_error < 1e-9, "energy balance open by {:.1e}", run.energy_error);
         (slip, run.whole.uplifted_fraction.largest().value)
     };
     [

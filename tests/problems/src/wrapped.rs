@@ -1,13 +1,13 @@
 //! Wrappers of a structure: one that forwards the least, one that pulls it.
 
-use basemat::structure::{Row, Structure, Triplets};
+use basemat::structure::{DofCombination, Structure, Triplets};
 
 /// What every structure must say, as a field says it.
 #[macro_export]
 macro_rules! needed_from {
     ($field:tt) => {
-        fn unknowns(&self) -> usize {
-            self.$field.unknowns()
+        fn dofs(&self) -> usize {
+            self.$field.dofs()
         }
 
         fn contact_nodes(&self) -> Vec<basemat::structure::ContactNode> {
@@ -35,7 +35,7 @@ impl<S: Structure> Structure for Bare<S> {
 pub struct Pulled<S, F> {
     pub structure: S,
     /// Displacement in the direction of the force of the point it acts on.
-    pub along: Row,
+    pub along: DofCombination,
     /// The force at a time, N/m.
     pub force: F,
 }

@@ -32,9 +32,9 @@ fn cantilever(length: f64, angle: f64, elements: usize, shear: Option<f64>) -> F
     FemModel::new(mesh, &[other, 0]).unwrap()
 }
 
-/// Unknowns other than those of the clamped foot and the bar's far end.
+/// Degrees of freedom other than those of the clamped foot and the bar's far end.
 fn free_unknowns(model: &FemModel) -> Vec<usize> {
-    (3..model.unknowns() - 2).collect()
+    (3..model.dofs() - 2).collect()
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn tip_deflection_is_that_of_euler_bernoulli_and_timoshenko() {
     for angle in [0.0_f64, 0.5, 2.0] {
         for shear in [None, Some(2.0e9)] {
             let model = cantilever(length, angle, 3, shear);
-            let n = model.unknowns();
+            let n = model.dofs();
             let held: Vec<(usize, f64)> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
             let mut force = vec![0.0; n];
             let [x, y, turn] = [Direction::X, Direction::Y, Direction::Rotation]
@@ -103,7 +103,7 @@ fn consistent_mass_carries_constant_curvature_exactly() {
     let length = 3.0_f64;
     for shear in [None, Some(1.0e8)] {
         let model = cantilever(length, 0.0, 1, shear);
-        let mut field = vec![0.0; model.unknowns()];
+        let mut field = vec![0.0; model.dofs()];
         field[4] = length.powi(2);
         field[5] = 2.0 * length;
         let found = form(&field, &mass(&model), &field);

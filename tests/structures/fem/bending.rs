@@ -26,7 +26,7 @@ fn fixed_base(model: &FemModel) -> Vec<(usize, f64)> {
 fn tip_ratio(mesh: [usize; 2], nu: f64, kind: QuadFormulation) -> f64 {
     let length = 10.0;
     let model = column(length, mesh, nu, kind);
-    let mut load = vec![0.0; model.unknowns()];
+    let mut load = vec![0.0; model.dofs()];
     let top = model.mesh().nodes_at_height(length, 1e-9).unwrap();
     for (place, &node) in top.iter().enumerate() {
         let share = if place == 0 || place + 1 == top.len() { 0.5 } else { 1.0 };
@@ -75,7 +75,7 @@ fn pure_bending_of_rectangles_is_exact() {
     for (rows, nu) in [(1, 0.3), (3, 0.0), (7, 0.45)] {
         let length = 6.0;
         let model = column(length, [1, rows], nu, QuadFormulation::IncompatibleModes);
-        let mut load = vec![0.0; model.unknowns()];
+        let mut load = vec![0.0; model.dofs()];
         for (x, sign) in [(-0.5, -1.0), (0.5, 1.0)] {
             let node = model.node_at(x, length).unwrap();
             load[model.unknown(node, Direction::Y).unwrap()] = sign;

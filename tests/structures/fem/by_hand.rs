@@ -13,7 +13,7 @@ struct FiveStoreys {
 }
 
 impl Structure for FiveStoreys {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         8
     }
 

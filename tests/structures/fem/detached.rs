@@ -7,10 +7,10 @@ use basemat::fem::{
 use basemat::interface::Bonded;
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{
-    Bilinear, ContactNode, CraigBampton, FemModel, MatrixModel, RigidBlock, Row, Structure,
-    StructureGroup, Triplets, WithSprings,
+    Bilinear, ContactNode, CraigBampton, DofCombination, FemModel, MatrixModel, RigidBlock,
+    Structure, StructureGroup, Triplets, WithSprings,
 };
-use basemat::{Error, Result, Simulation, StandingError};
+use basemat::{Error, Result, Simulation, StabilityError};
 
 fn build(structure: impl Structure + 'static) -> Result<Simulation> {
     let nodes = structure.contact_nodes();
@@ -19,11 +19,11 @@ fn build(structure: impl Structure + 'static) -> Result<Simulation> {
     Simulation::builder(0.01).structure(structure).ground(ground).interface(Bonded).build()
 }
 
-/// Unknowns and place of the refusal.
+/// Degrees of freedom and place of the refusal.
 #[track_caller]
 fn refused(structure: impl Structure + 'static) -> (Vec<usize>, String) {
     match build(structure) {
-        Err(Error::Detached { unknowns, place }) => (unknowns, place),
+        Err(Error::Detached { dofs, place }) => (dofs, place),
         Err(other) => panic!("{other}"),
         Ok(_) => panic!("accepted"),
     }
@@ -67,8 +67,8 @@ fn a_seam_that_is_not_merged_is_named() {
     for rows in [2, 5, 20] {
         let full = 2.0 * rows as f64 * 2400.0 * STANDARD_GRAVITY;
         assert!((weight(stack(rows, true)).unwrap() / full - 1.0).abs() < 1e-8);
-        let (unknowns, place) = refused(FemModel::on_base(stack(rows, false)).unwrap());
-        assert_eq!(unknowns, (12..6 * (rows + 2)).collect::<Vec<_>>());
+        let (dofs, place) = refused(FemModel::on_base(stack(rows, false)).unwrap());
+        assert_eq!(dofs, (12..6 * (rows + 2)).collect::<Vec<_>>());
         assert!(place.starts_with("node 6 at (-1, 1), node 7 at (0, 1), "), "{place}");
         assert!(place.ends_with("; node 6 lies where node 3 is, but is not merged with it"));
         assert!(rows == 2 || place.contains(&format!(" and {} more;", 3 * rows - 8)), "{place}");
@@ -107,14 +107,14 @@ fn links_and_springs_tie_parts() {
         mesh.add(Beam::new(ends, 30.0e9, 0.1, 1e-3, 2400.0).unwrap()).unwrap();
     }
     let model = FemModel::on_base(mesh).unwrap();
-    let (unknowns, place) = refused(model.clone());
-    assert_eq!(unknowns, [12, 13, 14, 15, 16, 17]);
+    let (dofs, place) = refused(model.clone());
+    assert_eq!(dofs, [12, 13, 14, 15, 16, 17]);
     let seam = "node 4 at (0, 3), node 5 at (0, 6); node 4 lies where node 3 is, but is not merged";
     assert!(place.starts_with(seam), "{place}");
     assert!(build(model.with_rigid_link(head, &[above]).unwrap()).is_ok());
 }
 
-/// GOAL: single unknowns are named with their direction: a rotation that nothing holds, a mass that
+/// GOAL: single degrees of freedom are named with their direction: a rotation that nothing holds, a mass that
 /// hangs on nothing, on a bar across its way, on a dashpot.
 #[test]
 fn single_unknowns_are_named() {
@@ -125,30 +125,30 @@ fn single_unknowns_are_named() {
         refused(FemModel::on_base(mesh).unwrap())
     };
     let mass = |node| LumpedMass::new(node, 100.0).unwrap();
-    let (unknowns, place) = with(&|mesh, corner, _| {
+    let (dofs, place) = with(&|mesh, corner, _| {
         mesh.add(mass(corner).with_rotary_inertia(10.0).unwrap()).unwrap();
     });
-    assert_eq!((unknowns, place.as_str()), (vec![10], "node 4 at (0, 1) in Rotation"));
-    let (unknowns, place) = with(&|mesh, _, node| {
+    assert_eq!((dofs, place.as_str()), (vec![10], "node 4 at (0, 1) in Rotation"));
+    let (dofs, place) = with(&|mesh, _, node| {
         mesh.add(mass(node)).unwrap();
     });
-    assert_eq!((unknowns, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
-    let (unknowns, place) = with(&|mesh, corner, node| {
+    assert_eq!((dofs, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
+    let (dofs, place) = with(&|mesh, corner, node| {
         mesh.add(mass(node)).unwrap();
         mesh.add(Truss::new([corner, node], 1e9, 0.1, 0.0).unwrap()).unwrap();
     });
-    assert_eq!((unknowns, place.as_str()), (vec![12], "node 6 at (0, 5) in X"));
-    let (unknowns, _) = with(&|mesh, corner, node| {
+    assert_eq!((dofs, place.as_str()), (vec![12], "node 6 at (0, 5) in X"));
+    let (dofs, _) = with(&|mesh, corner, node| {
         mesh.add(mass(node)).unwrap();
         mesh.add(Dashpot::axial([corner, node], 1e6).unwrap()).unwrap();
     });
-    assert_eq!(unknowns, [12, 13]);
+    assert_eq!(dofs, [12, 13]);
     // Two nodes and a spring between them: stiffness without mass, and none to the base.
-    let (unknowns, _) = with(&|mesh, _, node| {
+    let (dofs, _) = with(&|mesh, _, node| {
         let other = mesh.add_node(0.0, 6.0).unwrap();
         mesh.add(Spring::new([node, other], Direction::Y, 0.1).unwrap()).unwrap();
     });
-    assert_eq!(unknowns, [12, 13]);
+    assert_eq!(dofs, [12, 13]);
 }
 
 /// GOAL: what has neither mass nor stiffness is named, though it weighs nothing.
@@ -158,9 +158,9 @@ fn a_node_on_a_dashpot_alone_is_a_mechanism() {
     let node = mesh.add_node(0.0, 5.0).unwrap();
     mesh.add(Dashpot::axial([4, node], 1e6).unwrap()).unwrap();
     let built = build(FemModel::on_base(mesh).unwrap());
-    let Err(Error::Standing(cause)) = built else { panic!("{:?}", built.err()) };
-    let StandingError::Mechanism { unknowns, place } = *cause else { panic!("{cause}") };
-    assert_eq!((unknowns, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
+    let Err(Error::Stability(cause)) = built else { panic!("{:?}", built.err()) };
+    let StabilityError::Mechanism { dofs, place } = *cause else { panic!("{cause}") };
+    assert_eq!((dofs, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
 }
 
 /// Groups and reductions say whose nodes they are.
@@ -175,23 +175,23 @@ fn wrappers_lead_to_the_nodes() {
         .ground(SpringGround::on_strips(&strips, 4.0e7, 2.0e7).unwrap())
         .interface(Bonded)
         .build();
-    let Err(Error::Detached { unknowns, place }) = built else { panic!("{:?}", built.err()) };
-    assert_eq!(unknowns, (15..27).collect::<Vec<_>>());
+    let Err(Error::Detached { dofs, place }) = built else { panic!("{:?}", built.err()) };
+    assert_eq!(dofs, (15..27).collect::<Vec<_>>());
     assert!(place.starts_with("structure 1: node 6 at (-1, 1), "), "{place}");
 
     let reduced = CraigBampton::new(3).reduce(model());
-    let Err(Error::Detached { unknowns, place }) = reduced else { panic!("reduced") };
-    assert_eq!(unknowns, (12..24).collect::<Vec<_>>());
+    let Err(Error::Detached { dofs, place }) = reduced else { panic!("reduced") };
+    assert_eq!(dofs, (12..24).collect::<Vec<_>>());
     assert!(place.starts_with("node 6 at (-1, 1)"), "{place}");
-    // Kept unknowns may be tied later.
+    // Kept degrees of freedom may be tied later.
     let kept: Vec<usize> = (6..18).collect();
     let reduced = || CraigBampton::new(3).keep(&kept).reduce(model()).unwrap();
-    let (unknowns, place) = refused(reduced());
-    assert_eq!(unknowns, [12, 13, 14, 15, 16, 17]);
+    let (dofs, place) = refused(reduced());
+    assert_eq!(dofs, [12, 13, 14, 15, 16, 17]);
     assert!(place.starts_with("node 6 at (-1, 1), "), "{place}");
     let mut tied = WithSprings::new(reduced());
     for k in 6..12 {
-        let row = Row::from(k + 6) - Row::from(k);
+        let row = DofCombination::from(k + 6) - DofCombination::from(k);
         tied = tied.spring(row, Bilinear::new(1e9, 1e8, 0.1).unwrap()).unwrap();
     }
     assert!(build(tied).is_ok());
@@ -262,10 +262,10 @@ fn relative_coordinates_are_no_part() {
         assert_eq!(refused(floating).0, [3, 4]);
     }
     // A mass on a spring to a point in space, and one without any.
-    let (unknowns, place) = refused(appended(&[50.0], &[], |matrix| matrix.add(3, 3, 1e5)));
-    assert_eq!((unknowns, place.as_str()), (vec![3], "unknown 3"));
+    let (dofs, place) = refused(appended(&[50.0], &[], |matrix| matrix.add(3, 3, 1e5)));
+    assert_eq!((dofs, place.as_str()), (vec![3], "unknown 3"));
     assert_eq!(refused(appended(&[50.0, 0.0], &[], |matrix| matrix.add(4, 4, 1e5))).0, [3]);
-    // A mode that the base does not excite, and an unknown without mass that its own spring holds.
+    // A mode that the base does not excite, and a degree of freedom without mass that its own spring holds.
     assert!(build(appended(&[1.0], &[], |matrix| matrix.add(3, 3, 1e5))).is_ok());
     assert!(build(appended(&[0.0], &[], |matrix| matrix.add(3, 3, 1e5))).is_ok());
 }

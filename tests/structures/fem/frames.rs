@@ -4,7 +4,7 @@
 
 use basemat::Error;
 use basemat::fem::{Beam, Direction, Layer, LumpedMass, MassKind, Material, Mesh};
-use basemat::structure::{ContactNode, FemModel, RigidBlock, Row, Structure};
+use basemat::structure::{ContactNode, DofCombination, FemModel, RigidBlock, Structure};
 use basemat_problems::dense::{
     dot, eigenvalues, form, largest, mass, multiply, part, solve_held, stiffness,
 };
@@ -31,9 +31,9 @@ fn column(elements: usize, change: impl Fn(Beam) -> Beam) -> FemModel {
     FemModel::new(mesh, &[0, other]).unwrap()
 }
 
-/// Unknowns above the clamped foot.
+/// Degrees of freedom above the clamped foot.
 fn above(model: &FemModel) -> Vec<usize> {
-    (3..model.unknowns() - 2).collect()
+    (3..model.dofs() - 2).collect()
 }
 
 /// Euler's load of a cantilever, by Engesser with shear: P_E/(1 + P_E/(G A_s)).
@@ -64,7 +64,7 @@ fn beam_columns_sway_by_their_closed_form() {
     let load = 1000.0;
     for compression in [2.0e7, -2.0e7_f64] {
         let model = column(20, |beam| beam.with_compression(compression).unwrap());
-        let n = model.unknowns();
+        let n = model.dofs();
         let mut force = vec![0.0; n];
         let tip = model.unknown(20, Direction::X).unwrap();
         force[tip] = load;
@@ -106,7 +106,7 @@ fn rotary_inertia_and_shear_lower_the_frequencies_as_they_should() {
             let held = [(0, Direction::X), (0, Direction::Y), (elements, Direction::X)]
                 .map(|(node, direction)| model.unknown(node, direction).unwrap());
             let free: Vec<usize> =
-                (0..model.unknowns() - 2).filter(|unknown| !held.contains(unknown)).collect();
+                (0..model.dofs() - 2).filter(|unknown| !held.contains(unknown)).collect();
             let found = eigenvalues(&part(&stiffness(&model), &free), &part(&mass(&model), &free));
             [1.0, 2.0, 3.0].map(|n| {
                 let k = n * std::f64::consts::PI / LENGTH;
@@ -138,7 +138,7 @@ fn rotary_inertia_and_shear_lower_the_frequencies_as_they_should() {
 fn lumped_rotary_inertia_is_that_of_the_sections() {
     let with = column(2, Beam::with_rotary_inertia).with_mass(MassKind::Lumped);
     let without = column(2, |beam| beam).with_mass(MassKind::Lumped);
-    let sum = |model: &FemModel| (0..model.unknowns()).map(|i| mass(model)[i][i]).sum::<f64>();
+    let sum = |model: &FemModel| (0..model.dofs()).map(|i| mass(model)[i][i]).sum::<f64>();
     let more = sum(&with) - sum(&without);
     assert!((more / (DENSITY * INERTIA * LENGTH) - 1.0).abs() < 1e-9, "{more}");
 }
@@ -153,7 +153,7 @@ fn a_block_of_followers_is_a_rigid_block() {
     mesh.add(mark).unwrap();
     let all: Vec<usize> = (0..mesh.nodes().len()).filter(|node| *node != leader).collect();
     let linked = FemModel::on_base(mesh).unwrap().with_rigid_link(leader, &all).unwrap();
-    assert_eq!(linked.unknowns(), 3);
+    assert_eq!(linked.dofs(), 3);
     let block = RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
     let (found, expected) = (mass(&linked), mass(&block));
     for i in 0..3 {
@@ -165,7 +165,7 @@ fn a_block_of_followers_is_a_rigid_block() {
     let feet = linked.contact_nodes();
     assert_eq!(feet.len(), 5);
     assert_eq!(feet[0], ContactNode::rigid(-2.0, 0.0, [0, 1, 2]));
-    assert_eq!(feet[2].vertical, Row::from(1));
+    assert_eq!(feet[2].vertical, DofCombination::from(1));
     // The section at the base sees the same resultants in either numbering.
     let section = linked.section(0.0, 0.0).unwrap();
     let up = [0.0, 1.0, 0.0];
@@ -189,7 +189,7 @@ fn arms_lengthen_a_cantilever() {
     mesh.add(Beam::new([2, 3], E, AREA, INERTIA, DENSITY).unwrap()).unwrap();
     let model = FemModel::new(mesh, &[0, other]).unwrap().with_rigid_link(1, &[nodes[2]]).unwrap();
     assert_eq!(model.unknown(2, Direction::X), None);
-    let n = model.unknowns();
+    let n = model.dofs();
     let row = model.row(2, Direction::X).unwrap();
     // The leader's motion and its turn times the arm.
     let [lead, turn] = [Direction::X, Direction::Rotation].map(|d| model.row(1, d).unwrap());
@@ -200,7 +200,7 @@ fn arms_lengthen_a_cantilever() {
     }
     let held: Vec<_> = [0, 1, 2, n - 2, n - 1].map(|k| (k, 0.0)).to_vec();
     let found = solve_held(&stiffness(&model), &force, &held);
-    let at = |row: &Row| row.iter().map(|&(i, w)| w * found[i]).sum::<f64>();
+    let at = |row: &DofCombination| row.iter().map(|&(i, w)| w * found[i]).sum::<f64>();
     let (l, a) = (LENGTH, arm);
     let exact = 1000.0 * (l.powi(3) / 3.0 + l * l * a + l * a * a) / (E * INERTIA);
     assert!((at(&row) / exact - 1.0).abs() < 1e-10);

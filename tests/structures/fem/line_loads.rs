@@ -37,7 +37,7 @@ fn pressure_does_the_work_of_quadratic_displacements() {
     // Down the left side, u_x = y²: ∫ y² dy = 9.
     let side = [3, 7, 0];
     let row = model.pressure_row(&side).unwrap();
-    let mut displacement = vec![0.0; model.unknowns()];
+    let mut displacement = vec![0.0; model.dofs()];
     for (node, [_, y]) in model.mesh().nodes().iter().enumerate() {
         displacement[model.unknown(node, Direction::X).unwrap()] = y * y;
     }

@@ -4,7 +4,7 @@
 
 use basemat::Error;
 use basemat::fem::{Direction, Layer, LumpedMass, Material, Mesh, Quad4, QuadFormulation, Truss};
-use basemat::structure::{FemModel, Row, Structure};
+use basemat::structure::{DofCombination, FemModel, Structure};
 
 fn soft() -> Material {
     Material::new(1.0e7, 0.2, 1500.0).unwrap()
@@ -38,7 +38,7 @@ fn layered_block_runs_from_the_base_upwards() {
     assert_eq!(last.nodes(), [3, 20, 21, 7]);
     assert_eq!((mesh.nodes().len(), larger.nodes().len()), (20, 22));
     let model = FemModel::on_base(mesh).unwrap();
-    assert_eq!(model.clone().unknowns(), model.unknowns());
+    assert_eq!(model.clone().dofs(), model.dofs());
 }
 
 /// A point without a node is refused, however near the next one: nobody shall read the wrong one.
@@ -75,7 +75,7 @@ fn a_node_is_where_it_is_looked_for_or_nowhere() {
 fn rows_that_no_node_has_are_refused() {
     let mesh = Mesh::layered_block(-2.0..2.0, 2, &[Layer::new(2.0, 1, soft())]).unwrap();
     let model = FemModel::on_base(mesh).unwrap();
-    assert_eq!(model.row(5, Direction::Y), Ok(Row::from(11)));
+    assert_eq!(model.row(5, Direction::Y), Ok(DofCombination::from(11)));
     let none = Error::NoUnknown { node: 5, direction: "rotation" };
     assert_eq!(model.row(5, Direction::Rotation), Err(none));
     let none = Error::Index { quantity: "node", index: 6, bound: 6 };
@@ -100,5 +100,5 @@ fn only_used_directions_are_numbered() {
     mesh.add(Truss::new([0, 1], 1.0, 1.0, 0.0).unwrap()).unwrap();
     mesh.add(LumpedMass::new(3, 2.0).unwrap().with_rotary_inertia(1.0).unwrap()).unwrap();
     // node 2 has no element, node 3 a rotation
-    assert_eq!(FemModel::new(mesh, &[0, 1]).unwrap().unknowns(), 7);
+    assert_eq!(FemModel::new(mesh, &[0, 1]).unwrap().dofs(), 7);
 }

@@ -1,6 +1,6 @@
 //! GOAL: modal damping gives each mode its ratio and rigid-body modes none.
 //! SCENE: towers, shear buildings, a free bar of 400 beams, structures with two footings.
-//! REFERENCE: eigenvalues of C, closed-form bending modes, the march in unknowns.
+//! REFERENCE: eigenvalues of C, closed-form bending modes, the march in degrees of freedom.
 
 use basemat::bem::SpringGround;
 use basemat::coupled::Coordinates;
@@ -77,12 +77,12 @@ fn modes_and_unknowns_march_alike() {
             .build()
             .unwrap();
         let run = simulation.run(600, |_| {}).unwrap();
-        assert!(run.ledger_residual < 1e-9 && run.ledger.damping > 0.0);
-        (run.whole.base_shear.largest().value, run.ledger.damping)
+        assert!(run.energy_error < 1e-9 && run.energy_balance.damping > 0.0);
+        (run.whole.base_shear.largest().value, run.energy_balance.damping)
     };
-    let (modes, unknowns) = (march(Coordinates::Modes), march(Coordinates::Unknowns));
-    assert!((modes.0 / unknowns.0 - 1.0).abs() < 1e-8, "{modes:?} {unknowns:?}");
-    assert!((modes.1 / unknowns.1 - 1.0).abs() < 1e-8, "{modes:?} {unknowns:?}");
+    let (modes, dofs) = (march(Coordinates::Modes), march(Coordinates::Physical));
+    assert!((modes.0 / dofs.0 - 1.0).abs() < 1e-8, "{modes:?} {dofs:?}");
+    assert!((modes.1 / dofs.1 - 1.0).abs() < 1e-8, "{modes:?} {dofs:?}");
 }
 
 /// Bending modes of a free bar are φ = cosh βx + cos βx − κ (sinh βx + sin βx) with cos βL cosh βL = 1
@@ -128,7 +128,7 @@ fn the_lowest_modes_of_a_fine_mesh_are_damped() {
 fn rigid_motions_are_counted_by_what_they_are() {
     use basemat::structure::StructureGroup;
     let one = ModalDamping::new(&[0.05]).unwrap().on(tower()).unwrap().frequencies().len();
-    assert_eq!(one, tower().unknowns() - 3);
+    assert_eq!(one, tower().dofs() - 3);
     let block = RigidBlock::new(2.0, 2.0, 2000.0).unwrap();
     let group = StructureGroup::new().with(tower(), 0.0).unwrap().with(block, 9.0).unwrap();
     let two = ModalDamping::new(&[0.05]).unwrap().on(group).unwrap();
@@ -143,7 +143,7 @@ fn rigid_motions_are_counted_by_what_they_are() {
 struct Massless(RigidBlock);
 
 impl Structure for Massless {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         4
     }
     fn contact_nodes(&self) -> Vec<basemat::structure::ContactNode> {
@@ -174,11 +174,11 @@ fn bad_ratios_and_structures_are_refused() {
     assert!(matches!(large, Err(Error::Input { value: 3362.0, .. })));
 }
 
-/// A structure whose base is not made of its unknowns.
+/// A structure whose base is not made of its degrees of freedom.
 struct Astray;
 
 impl Structure for Astray {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         2
     }
     fn contact_nodes(&self) -> Vec<ContactNode> {

@@ -22,7 +22,7 @@ const BENDING: f64 = E * INERTIA;
 const GREENHILL: f64 = 7.837_347_438_943_484;
 
 /// Cantilever of so many beams on a rigid basemat 2 m wide, with a mass at its tip or none, and the
-/// unknowns above the basemat.
+/// degrees of freedom above the basemat.
 fn cantilever(elements: usize, density: f64, tip: f64) -> (FemModel, Vec<usize>) {
     let mut mesh = Mesh::new();
     for k in 0..=elements {
@@ -40,7 +40,7 @@ fn cantilever(elements: usize, density: f64, tip: f64) -> (FemModel, Vec<usize>)
         end
     });
     let model = FemModel::new(mesh, &ends).unwrap().with_rigid_link(0, &ends).unwrap();
-    let above = (3..model.unknowns()).collect();
+    let above = (3..model.dofs()).collect();
     (model, above)
 }
 
@@ -48,7 +48,7 @@ fn compressions(model: &FemModel) -> Vec<f64> {
     model.mesh().elements().filter_map(basemat::fem::Element::compression).collect()
 }
 
-/// Lowest circular frequency squared with the unknowns below `free` held.
+/// Lowest circular frequency squared with the degrees of freedom below `free` held.
 fn lowest(model: &FemModel, free: &[usize]) -> f64 {
     eigenvalues(&part(&stiffness(model), free), &part(&mass(model), free))[0]
 }

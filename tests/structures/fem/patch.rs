@@ -32,9 +32,9 @@ fn patch(formulation: QuadFormulation, poisson: f64) -> FemModel {
     FemModel::on_base(mesh).unwrap()
 }
 
-/// u = 1e-3 (x + y/2), v = 1e-3 (y + x/2) at every unknown.
+/// u = 1e-3 (x + y/2), v = 1e-3 (y + x/2) at every degree of freedom.
 fn exact(model: &FemModel) -> Vec<f64> {
-    let mut field = vec![0.0; model.unknowns()];
+    let mut field = vec![0.0; model.dofs()];
     for (node, [x, y]) in POINTS.into_iter().enumerate() {
         field[model.unknown(node, Direction::X).unwrap()] = 1e-3 * (x + 0.5 * y);
         field[model.unknown(node, Direction::Y).unwrap()] = 1e-3 * (y + 0.5 * x);

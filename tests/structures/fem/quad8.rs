@@ -54,7 +54,7 @@ fn constant_strain_is_reproduced_on_distorted_and_curved_quads() {
         let mesh = refined(&POINTS, &QUADS, material, integration, bulge);
         let nodes = mesh.nodes().to_vec();
         let model = FemModel::new(mesh, &[0, 1]).unwrap();
-        let mut field = vec![0.0; model.unknowns()];
+        let mut field = vec![0.0; model.dofs()];
         for (node, [x, y]) in nodes.iter().enumerate() {
             field[model.unknown(node, Direction::X).unwrap()] = 1e-3 * (x + 0.5 * y);
             field[model.unknown(node, Direction::Y).unwrap()] = 1e-3 * (y + 0.5 * x);
@@ -126,7 +126,7 @@ fn tip_ratio(elements: usize, nu: f64, integration: Quad8Integration) -> f64 {
         .flat_map(|node| [(node.horizontal.terms()[0].0, 0.0), (node.vertical.terms()[0].0, 0.0)])
         .collect();
     let top = model.mesh().nodes_at_height(length, 1e-9).unwrap();
-    let mut load = vec![0.0; model.unknowns()];
+    let mut load = vec![0.0; model.dofs()];
     for (&node, share) in top.iter().zip([1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]) {
         load[model.unknown(node, Direction::X).unwrap()] = share;
     }

@@ -37,16 +37,16 @@ fn mass_matrix_is_the_integral_over_the_block() {
 fn point_rows_follow_a_true_small_rotation() {
     let block = RigidBlock::new(2.0, 4.0, 1.0).unwrap().centered_at(5.0).unwrap();
     let angle = 1e-6_f64;
-    let unknowns = [0.0, 0.0, angle];
+    let dofs = [0.0, 0.0, angle];
     // The point (x, z) beside the middle goes to (x cos − z sin, x sin + z cos).
     let (x, z) = (0.8, 3.0);
     let exact = [x * angle.cos() - z * angle.sin() - x, x * angle.sin() + z * angle.cos() - z];
-    assert!((row_value(&block.horizontal_at(z), &unknowns) - exact[0]).abs() < 1e-11);
-    assert!((row_value(&block.vertical_at(5.0 + x), &unknowns) - exact[1]).abs() < 1e-11);
+    assert!((row_value(&block.horizontal_at(z), &dofs) - exact[0]).abs() < 1e-11);
+    assert!((row_value(&block.vertical_at(5.0 + x), &dofs) - exact[1]).abs() < 1e-11);
     let nodes = block.contact_nodes();
     assert_eq!([nodes[0].x, nodes[1].x], [4.0, 6.0]);
     for node in nodes {
-        assert!((row_value(&node.vertical, &unknowns) - angle * (node.x - 5.0)).abs() < 1e-20);
+        assert!((row_value(&node.vertical, &dofs) - angle * (node.x - 5.0)).abs() < 1e-20);
     }
 }
 

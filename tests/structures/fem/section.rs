@@ -49,7 +49,7 @@ fn frame_on_block() -> [FemModel; 2] {
 fn static_load_passes_through_every_section() {
     let [model, _] = frame_on_block();
     let top = model.node_at(3.5, 6.0).unwrap();
-    let mut load = vec![0.0; model.unknowns()];
+    let mut load = vec![0.0; model.dofs()];
     load[model.unknown(top, Direction::X).unwrap()] = 700.0;
     load[model.unknown(top, Direction::Y).unwrap()] = -300.0;
     load[model.unknown(top, Direction::Rotation).unwrap()] = 50.0;
@@ -70,9 +70,9 @@ fn static_load_passes_through_every_section() {
 #[test]
 fn moving_structure_keeps_the_balance_of_its_upper_part() {
     let [model, upper] = frame_on_block();
-    let n = model.unknowns();
+    let n = model.dofs();
     let first = model.node_at(-1.0, CUT).unwrap();
-    assert_eq!(model.unknowns() - upper.unknowns(), 2 * first);
+    assert_eq!(model.dofs() - upper.dofs(), 2 * first);
     let [u, v, a] = [1, 2, 3].map(|seed| noise(n, seed));
     let force: Vec<f64> = multiply(&stiffness(&model), &u)
         .iter()

@@ -5,7 +5,7 @@
 use crate::curvature;
 use basemat::Error;
 use basemat::fem::{Direction, Layer, Material, Mesh};
-use basemat::structure::{FemModel, Row, ShearBuilding, Storey, Structure};
+use basemat::structure::{DofCombination, FemModel, ShearBuilding, Storey, Structure};
 use basemat_problems::dense::{
     assert_symmetric, damping, eigenvalues, form, largest, mass, multiply, noise, part, row_value,
     stiffness,
@@ -152,17 +152,17 @@ fn sway_is_the_sum_of_the_drifts_below() {
     let mut drifts = 0.0;
     for (storey, height) in [4.0, 7.0, 10.5].into_iter().enumerate() {
         drifts += building.drift(storey).unwrap().value(&moved);
-        let sway = building.sway(storey).unwrap();
+        let sway = building.total_drift(storey).unwrap();
         assert!((sway.value(&moved) - drifts).abs() < 1e-14, "{storey}");
         assert!(sway.value(&TURN).abs() < 1e-14);
-        let floor = Row::from(building.floor(storey).unwrap());
-        let by_base = floor.sway(&building, height).unwrap();
+        let floor = DofCombination::from(building.floor(storey).unwrap());
+        let by_base = floor.total_drift(&building, height).unwrap();
         assert!((by_base.value(&moved) - drifts).abs() < 1e-14, "{storey}");
         let apart = floor.relative_to_base(&building).unwrap().value(&moved);
         assert!((apart - (moved[3 + storey] - 0.3)).abs() < 1e-14);
     }
     assert_eq!(building.roof(), building.floor(2).unwrap());
-    assert!(building.sway(3).is_err());
+    assert!(building.total_drift(3).is_err());
 }
 
 /// A frame of finite elements that only moves as a whole does not sway.
@@ -172,7 +172,7 @@ fn rigid_motions_are_no_sway() {
     let mesh = Mesh::layered_block(1.0..5.0, 4, &[Layer::new(6.0, 5, material)]).unwrap();
     let model = FemModel::on_base(mesh).unwrap();
     let corner = model.row(model.node_at(1.0, 6.0).unwrap(), Direction::X).unwrap();
-    let sway = corner.sway(&model, 6.0).unwrap();
+    let sway = corner.total_drift(&model, 6.0).unwrap();
     for direction in [Direction::X, Direction::Y, Direction::Rotation] {
         let motion = model.rigid_motion(direction, [0.7, -0.3]);
         assert!(sway.value(&motion).abs() < 1e-14, "{direction:?}");
@@ -182,6 +182,6 @@ fn rigid_motions_are_no_sway() {
     let apart = corner.relative_to_base(&model).unwrap().value(&turn);
     assert!((apart + 6.0).abs() < 1e-14);
     for bad in [f64::NAN, f64::INFINITY] {
-        assert!(matches!(corner.sway(&model, bad), Err(Error::Input { .. })));
+        assert!(matches!(corner.total_drift(&model, bad), Err(Error::Input { .. })));
     }
 }

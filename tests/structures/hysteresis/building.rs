@@ -1,6 +1,6 @@
 //! GOAL: yielding and base-isolated buildings in the coupled integrator.
 //! SCENE: five storeys on the half-plane under El Centro; one storey on rock.
-//! REFERENCE: tangents by differences, the ledger, Runge–Kutta integration.
+//! REFERENCE: tangents by differences, the energy balance, Runge–Kutta integration.
 
 use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::{Newmark, Probe, Run, SimulationBuilder, Theta};
@@ -77,7 +77,7 @@ fn tangents_are_consistent() {
     }
 }
 
-/// All laws in the coupled integrator with uplift and friction: Newton converges, the ledger closes,
+/// All laws in the coupled integrator with uplift and friction: Newton converges, the energy balance closes,
 /// and the laws take energy and give none back.
 #[test]
 fn runs_converge_and_every_joule_is_booked() {
@@ -106,17 +106,17 @@ fn runs_converge_and_every_joule_is_booked() {
             let mut lost = 0.0;
             let run = simulation
                 .run(1500, |state| {
-                    assert!(state.ledger.hysteresis >= lost, "{name} gives energy back");
-                    lost = state.ledger.hysteresis;
+                    assert!(state.energy_balance.hysteresis >= lost, "{name} gives energy back");
+                    lost = state.energy_balance.hysteresis;
                 })
                 .unwrap();
-            let ledger = run.ledger;
+            let energy_balance = run.energy_balance;
             println!("{name}, {time_step} s: {run}");
-            assert!(run.ledger_residual < 1e-9, "{name}: {:e}", run.ledger_residual);
-            assert!(lost > 0.05 * ledger.input, "{name} takes next to nothing");
-            assert!(ledger.strain >= -1e-9 * ledger.input, "{name}");
+            assert!(run.energy_error < 1e-9, "{name}: {:e}", run.energy_error);
+            assert!(lost > 0.05 * energy_balance.input, "{name} takes next to nothing");
+            assert!(energy_balance.strain >= -1e-9 * energy_balance.input, "{name}");
             // One point in a step: what the midpoint misses shrinks with the step.
-            let missed = ledger.numerical.abs() / ledger.input;
+            let missed = energy_balance.algorithmic.abs() / energy_balance.input;
             assert!(missed < if time_step > 0.005 { 0.05 } else { 0.01 }, "{name}: {missed}");
         }
     }
@@ -133,8 +133,8 @@ fn other_time_schemes_march_too() {
         run(on_soil(structure(), 0.005).scheme(Theta::new(0.55).unwrap())),
     ];
     for run in &schemes {
-        assert!(run.ledger_residual < 1e-9);
-        let ratio = run.ledger.hysteresis / schemes[0].ledger.hysteresis;
+        assert!(run.energy_error < 1e-9);
+        let ratio = run.energy_balance.hysteresis / schemes[0].energy_balance.hysteresis;
         assert!((ratio - 1.0).abs() < 0.25, "{ratio}");
     }
 }
@@ -244,7 +244,7 @@ fn checkpoints_carry_the_laws() {
     let mut whole = scene();
     whole.run(250, |_| {}).unwrap();
     let saved = whole.checkpoint().unwrap();
-    assert!(whole.state().ledger.hysteresis > 0.0);
+    assert!(whole.state().energy_balance.hysteresis > 0.0);
     whole.run(100, |_| {}).unwrap();
     let mut resumed = scene();
     resumed.resume(&saved).unwrap();

@@ -52,7 +52,7 @@ fn isolators_drift_as_they_do_without_p_delta() {
     ];
     for pair in pairs {
         let [without, with] = pair.map(|run| {
-            assert!(run.ledger_residual < 1e-9);
+            assert!(run.energy_error < 1e-9);
             run.probe("drift").unwrap().magnitude()
         });
         println!("{:.1} mm, with P–Δ {:.1} mm", 1e3 * without, 1e3 * with);
@@ -118,7 +118,7 @@ fn columns_that_would_buckle_are_refused() {
 }
 
 /// Columns that yield and do not harden buckle under what they carry: the end of the building, and of
-/// the run, not a drift of 10⁸⁰ m with a closed ledger.
+/// the run, not a drift of 10⁸⁰ m with a closed energy balance.
 #[test]
 fn a_collapse_ends_the_run() {
     let storeys = [Storey::new(3.0, 20.0e3, 4.0e6)];

@@ -86,7 +86,7 @@ fn laws_have_one_storey_each() {
     let level_too_late = building().with_law(0, law()).unwrap().isolated(level, law());
     assert!(matches!(level_too_late, Err(Error::Scene { .. })));
     let isolated = building().isolated(level, law()).unwrap();
-    assert_eq!(isolated.unknowns(), 6);
+    assert_eq!(isolated.dofs(), 6);
     assert_eq!(isolated.storeys().len(), 3);
 }
 

@@ -1,6 +1,6 @@
 //! GOAL: Newton's method on laws that stick and slide in turn.
 //! SCENE: random nonlinear buildings with long steps; friction pendulums that slide after 0.1 mm.
-//! REFERENCE: every run ends, and its ledger closes.
+//! REFERENCE: every run ends, and its energy balance closes.
 //!
 //! `NONLINEAR_SCENES=300 cargo test --test structures stiff_sliders` asks for more scenes.
 
@@ -51,7 +51,7 @@ fn shake(
         .build()?;
     let steps = simulation.steps_for(duration);
     let run = simulation.run(steps, |_| {})?;
-    Ok(run.ledger_residual)
+    Ok(run.energy_error)
 }
 
 /// A law that carries `weight`, yields at a displacement from 0.1 to 20 mm and never below 1 % of

@@ -37,8 +37,8 @@ fn dashpot(coefficient: f64) -> Triplets {
 struct Damped(MatrixModel, Triplets);
 
 impl Structure for Damped {
-    fn unknowns(&self) -> usize {
-        self.0.unknowns()
+    fn dofs(&self) -> usize {
+        self.0.dofs()
     }
     fn contact_nodes(&self) -> Vec<ContactNode> {
         self.0.contact_nodes()
@@ -107,14 +107,14 @@ fn active_damping_goes_with_its_matrix() {
     assert!(!reduced.has_active_damping());
 }
 
-/// GOAL: what active damping feeds in is in the ledger, which closes.
+/// GOAL: what active damping feeds in is in the energy balance, which closes.
 #[test]
 fn active_damping_is_booked() {
     let run = |model: MatrixModel| {
         let mut simulation = on_soil(model).gravity(0.0).interface(Bonded).build().unwrap();
         let run = simulation.run(500, |_| {}).unwrap();
-        assert!(run.ledger_residual < 1e-9, "{}", run.ledger_residual);
-        simulation.state().ledger.damping
+        assert!(run.energy_error < 1e-9, "{}", run.energy_error);
+        simulation.state().energy_balance.damping
     };
     let fed = run(floor().with_active_damping(dashpot(-4.0e3)).unwrap());
     let taken = run(floor().with_damping(dashpot(4.0e3)).unwrap());
@@ -149,13 +149,13 @@ fn damping_in_use_passes() {
     let rayleigh = RayleighDamping::from_ratios([1.0, 8.0], [0.05; 2]).unwrap();
     for beta in [rayleigh, RayleighDamping::new(0.0, 0.05).unwrap()] {
         let model = tower(6, 40).with_rayleigh(beta);
-        let mut digits = Triplets::new(model.unknowns());
-        let mut full = Triplets::new(model.unknowns());
+        let mut digits = Triplets::new(model.dofs());
+        let mut full = Triplets::new(model.dofs());
         model.damping(&mut full).unwrap();
         for &(i, j, value) in full.entries() {
             digits.add(i, j, format!("{value:.7e}").parse().unwrap());
         }
-        let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(model.unknowns()));
+        let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(model.dofs()));
         model.mass(&mut mass).unwrap();
         model.stiffness(&mut stiffness).unwrap();
         let given = MatrixModel::new(mass, stiffness, model.contact_nodes()).unwrap();

@@ -35,7 +35,7 @@ fn matrices_march_as_the_model_they_came_from() {
     let damping = RayleighDamping::from_ratios([1.0, 8.0], [0.05; 2]).unwrap();
     let model = tower(6, 10).with_rayleigh(damping);
     let filled = |fill: &dyn Fn(&mut Triplets) -> basemat::Result<()>| {
-        let mut matrix = Triplets::new(model.unknowns());
+        let mut matrix = Triplets::new(model.dofs());
         fill(&mut matrix).unwrap();
         matrix
     };
@@ -50,7 +50,7 @@ fn matrices_march_as_the_model_they_came_from() {
     let run = |builder: SimulationBuilder| {
         let mut simulation = builder.build().unwrap();
         let run = simulation.run(400, |_| {}).unwrap();
-        assert!(run.ledger_residual < 1e-9);
+        assert!(run.energy_error < 1e-9);
         run.whole.base_moment.largest().value
     };
     let expected = run(on_soil(model));
@@ -94,7 +94,7 @@ fn bad_matrices_are_refused() {
 #[track_caller]
 fn refused(structure: impl Structure + 'static) {
     let built = on_soil(structure).build();
-    assert!(matches!(built, Err(Error::Supported { .. })), "{:?}", built.err());
+    assert!(matches!(built, Err(Error::Restrained { .. })), "{:?}", built.err());
 }
 
 /// An elastic support would carry part of the weight and distort the ride that weighs the structure.
@@ -110,7 +110,7 @@ fn stiffness_to_a_fixed_point_is_refused() {
         let held = WithSprings::new(block()).spring(vec![(unknown, 1.0)], law).unwrap();
         refused(held);
     }
-    let roof = tower(4, 6).unknowns() - 1;
+    let roof = tower(4, 6).dofs() - 1;
     let law = Bilinear::new(1e8, 1e5, 0.1).unwrap();
     refused(WithSprings::new(tower(4, 6)).spring(vec![(roof, 1.0)], law).unwrap());
 }
@@ -123,7 +123,7 @@ fn stiff_structures_ride_freely() {
         let mesh = Mesh::layered_block(-3.0..3.0, 6, &[Layer::new(120.0, 60, material)]).unwrap();
         let model = FemModel::on_base(mesh).unwrap();
         let built = on_soil(model).gravity(0.0).build();
-        let fixed = matches!(built, Err(Error::Supported { .. }));
+        let fixed = matches!(built, Err(Error::Restrained { .. }));
         assert!(!fixed, "{modulus:e}: {:?}", built.err());
     }
 }
@@ -131,7 +131,7 @@ fn stiff_structures_ride_freely() {
 /// A rigid block with a negative mass on a spring.
 struct Light(RigidBlock);
 impl Structure for Light {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         4
     }
     fn contact_nodes(&self) -> Vec<ContactNode> {
@@ -148,7 +148,7 @@ impl Structure for Light {
     }
 }
 
-/// A mass below zero would let energy grow without end beside a closed ledger.
+/// A mass below zero would let energy grow without end beside a closed energy balance.
 #[test]
 fn negative_masses_are_refused() {
     let of = |entries: &[(usize, usize, f64)]| {
@@ -167,7 +167,7 @@ fn negative_masses_are_refused() {
     // Positive on the diagonal, and negative for u_0 and u_3 in opposite ways.
     let skew = of(&[(3, 3, 1.0e4), (0, 3, 1.5e4), (3, 0, 1.5e4)]);
     assert_eq!(skew.unwrap_err(), named(3, 1.0e4));
-    // A mass on a weighted sum of unknowns, and none at all, are singular, not negative.
+    // A mass on a weighted sum of degrees of freedom, and none at all, are singular, not negative.
     for legal in [&[(3, 3, 2.0e4), (0, 3, 2.0e4), (3, 0, 2.0e4)][..], &[]] {
         assert!(on_soil(of(legal).unwrap()).build().is_ok());
     }

@@ -1,5 +1,5 @@
 //! GOAL: Craig–Bampton reduction.
-//! SCENE: a damped tower reduced to a few modes, with springs on kept unknowns.
+//! SCENE: a damped tower reduced to a few modes, with springs on kept degrees of freedom.
 //! REFERENCE: the full model, closed-form cantilever modes, the ratios on a fixed base.
 
 use basemat::Error;
@@ -28,12 +28,12 @@ fn product(
     fill: fn(&dyn Structure, &mut Triplets) -> basemat::Result<()>,
     x: &[f64],
 ) -> Vec<f64> {
-    let mut matrix = Triplets::new(structure.unknowns());
+    let mut matrix = Triplets::new(structure.dofs());
     fill(structure, &mut matrix).unwrap();
     dense::product(&matrix, x)
 }
 
-/// Reduced unknowns of a motion of the full model that static answers alone can make.
+/// Reduced degrees of freedom of a motion of the full model that static answers alone can make.
 fn static_motion(recovery: &Recovery, order: usize, full: &[f64]) -> Vec<f64> {
     let mut reduced: Vec<f64> = recovery.kept().iter().map(|&unknown| full[unknown]).collect();
     reduced.resize(order, 0.0);
@@ -49,7 +49,7 @@ fn rigid_motions_weight_and_inertia_pass_exactly() {
         rides.iter().map(|ride| product(&model, Structure::mass, ride)).collect();
     let reduced = CraigBampton::new(5).reduce(model).unwrap();
     let recovery = reduced.recovery();
-    let order = reduced.unknowns();
+    let order = reduced.dofs();
     for (ride, momentum) in rides.iter().zip(&inertia) {
         let q = static_motion(&recovery, order, ride);
         let back = recovery.full(&q).unwrap();
@@ -78,7 +78,7 @@ fn marches_like_the_full_model() {
         let row = top(&model);
         let mut simulation = on_soil(model)
             .probe(Probe::displacement("top", row))
-            .coordinates(Coordinates::Unknowns)
+            .coordinates(Coordinates::Physical)
             .build()
             .unwrap();
         let mut history = Vec::new();
@@ -86,13 +86,13 @@ fn marches_like_the_full_model() {
         (history, simulation.state().displacement().to_vec())
     };
     let peak = |k: usize| full.0.iter().fold(0.0_f64, |m, pair| m.max(pair[k].abs()));
-    let interior = damped().unknowns() - 14;
+    let interior = damped().dofs() - 14;
     let mut last = f64::INFINITY;
     for (modes, limit) in [(1, 0.2), (4, 0.04), (16, 0.004), (interior, 1e-7)] {
         let model = damped();
         let unknown = top(&model);
         let reduced = CraigBampton::new(modes).reduce(model).unwrap();
-        assert_eq!(reduced.unknowns(), 14 + modes);
+        assert_eq!(reduced.dofs(), 14 + modes);
         let recovery = reduced.recovery();
         let probe = recovery.probe(Probe::displacement("top", unknown)).unwrap();
         assert!(probe.velocity.is_empty() && probe.acceleration.is_empty());
@@ -107,7 +107,7 @@ fn marches_like_the_full_model() {
             })
             .unwrap();
         println!("{modes} modes: sway off by {:.1e}, moment by {:.1e}", apart[0], apart[1]);
-        assert!(run.ledger_residual < 1e-9, "{:e}", run.ledger_residual);
+        assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
         assert!(apart[0] < limit && apart[0] < last, "{modes} modes: {apart:?}");
         last = apart[0];
         let back = recovery.full(simulation.state().displacement()).unwrap();
@@ -119,7 +119,7 @@ fn marches_like_the_full_model() {
     }
 }
 
-/// Kept unknowns stay themselves, and springs on them work as on the full model.
+/// Kept degrees of freedom stay themselves, and springs on them work as on the full model.
 #[test]
 fn springs_on_kept_unknowns_are_those_of_the_full_model() {
     let law = || Bilinear::new(3.0e7, 2.0e4, 0.05).unwrap();
@@ -129,7 +129,7 @@ fn springs_on_kept_unknowns_are_those_of_the_full_model() {
     let march = |structure: WithSprings| {
         let mut simulation = on_soil(structure).build().unwrap();
         let run = simulation.run(300, |_| {}).unwrap();
-        (run.ledger.hysteresis, run.whole.base_shear.largest().value)
+        (run.energy_balance.hysteresis, run.whole.base_shear.largest().value)
     };
     let expected = march(WithSprings::new(damped()).spring(brace.clone(), law()).unwrap());
     let reduced = CraigBampton::new(60).keep(&[unknown]).reduce(model).unwrap();
@@ -151,7 +151,7 @@ fn springs_on_kept_unknowns_are_those_of_the_full_model() {
 fn damping_ratios_are_those_of_the_modes_on_a_fixed_base() {
     let reduced =
         CraigBampton::new(3).reduce(tower(6, 12)).unwrap().with_damping_ratio(0.04).unwrap();
-    let order = reduced.unknowns();
+    let order = reduced.dofs();
     for (k, frequency) in reduced.frequencies().iter().enumerate() {
         let mut q = vec![0.0; order];
         q[order - 3 + k] = 1.0;
@@ -198,8 +198,8 @@ fn what_cannot_be_reduced_is_refused() {
     let loose = mesh.add_node(0.0, 5.0).unwrap();
     mesh.add(basemat::fem::LumpedMass::new(loose, 10.0).unwrap()).unwrap();
     let hanging = CraigBampton::new(1).reduce(FemModel::on_base(mesh).unwrap());
-    let Error::Detached { unknowns, place } = refuse(hanging) else { panic!() };
-    assert_eq!((unknowns, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
+    let Error::Detached { dofs, place } = refuse(hanging) else { panic!() };
+    assert_eq!((dofs, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
     let reduced = || CraigBampton::new(2).reduce(tower(2, 2)).unwrap();
     for bad in [-0.1, f64::NAN, f64::INFINITY] {
         assert!(matches!(refuse(reduced().with_damping_ratio(bad)), Error::Input { .. }));
@@ -216,7 +216,7 @@ fn what_cannot_be_reduced_is_refused() {
     // Nothing left to reduce: the same structure.
     let all: Vec<usize> = (0..18).collect();
     let same = CraigBampton::new(0).keep(&all).reduce(tower(2, 2)).unwrap();
-    assert_eq!(same.unknowns(), 18);
+    assert_eq!(same.dofs(), 18);
 }
 
 /// The sums over a large stiffness matrix are not zero to the last bit; a frictionless base that is
@@ -231,7 +231,7 @@ fn tall_meshes_stand() {
     };
     let weight = 6.0 * 100.0 * 600.0 * basemat::motion::STANDARD_GRAVITY;
     let reduced = on_soil(CraigBampton::new(4).reduce(model()).unwrap()).build().unwrap();
-    let full = on_soil(model()).coordinates(Coordinates::Unknowns).build().unwrap();
+    let full = on_soil(model()).coordinates(Coordinates::Physical).build().unwrap();
     for simulation in [&full, &reduced] {
         assert!((simulation.state().normal_force / weight - 1.0).abs() < 1e-7);
     }
@@ -253,7 +253,7 @@ fn without_mass_or_unknowns_there_are_no_modes() {
     };
     for modes in [0, 1] {
         let reduced = CraigBampton::new(modes).reduce(mast()).unwrap();
-        assert_eq!(reduced.unknowns(), 3);
+        assert_eq!(reduced.dofs(), 3);
         assert!(reduced.frequencies().is_empty());
     }
     let nothing = ModalDamping::new(&[0.05]).unwrap().on(StructureGroup::new()).unwrap();

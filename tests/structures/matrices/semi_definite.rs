@@ -92,7 +92,7 @@ fn multipliers_hide_no_negative_stiffness() {
     refused(on_base(mass, stiffness).unwrap());
 }
 
-/// A floor of mass 1e4 on the base, and on it an unknown 4 with these masses.
+/// A floor of mass 1e4 on the base, and on it a degree of freedom 4 with these masses.
 fn appended(entries: &[(usize, usize, f64)]) -> Result<MatrixModel> {
     let mut mass = base_masses(5);
     mass.add(3, 3, 1.0e4);
@@ -125,7 +125,7 @@ fn masses_of_rounding_are_none() {
     }
 }
 
-/// Refused by name of the unknown that is at fault.
+/// Refused by name of the degree of freedom that is at fault.
 #[test]
 fn masses_beyond_rounding_are_refused() {
     for (entries, diagonal) in [

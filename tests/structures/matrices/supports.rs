@@ -18,7 +18,7 @@ fn by_matrices(
     change: impl Fn(f64) -> f64,
     support: Option<(usize, f64)>,
 ) -> MatrixModel {
-    let n = model.unknowns();
+    let n = model.dofs();
     let [mut mass, mut all, mut stiffness] = [(); 3].map(|()| Triplets::new(n));
     model.mass(&mut mass).unwrap();
     model.stiffness(&mut all).unwrap();
@@ -70,13 +70,13 @@ fn weak_supports_are_refused_and_named() {
     {
         let unknown = block.unknown(block.nearest_node(place[0], place[1]), direction).unwrap();
         let stiffest = by_matrices(&block, |value| value, None);
-        let mut entries = Triplets::new(block.unknowns());
+        let mut entries = Triplets::new(block.dofs());
         stiffest.stiffness(&mut entries).unwrap();
         let largest = entries.entries().iter().fold(0.0_f64, |a, entry| a.max(entry.2));
         for share in [1e-9, 1e-7, 1e-5] {
             let held = by_matrices(&block, |value| value, Some((unknown, share)));
             match on_soil(held).build().err() {
-                Some(Error::Supported { direction, force, unknown: found, share: beside }) => {
+                Some(Error::Restrained { direction, force, unknown: found, share: beside }) => {
                     assert_eq!((direction, found), (name, unknown), "{share:e}");
                     assert!((force / (share * largest) - 1.0).abs() < 1e-3, "{share:e}: {force}");
                     assert!(beside > 0.2 * share && beside < 5.0 * share, "{share:e}: {beside:e}");
@@ -90,7 +90,7 @@ fn weak_supports_are_refused_and_named() {
         let held = by_matrices(&wall(), |value| value, Some((top, share)));
         let reduced = CraigBampton::new(5).reduce(held.clone()).unwrap();
         for built in [wall_on_soil(held), wall_on_soil(reduced)] {
-            assert!(matches!(built, Err(Error::Supported { .. })), "{share:e}: {:?}", built.err());
+            assert!(matches!(built, Err(Error::Restrained { .. })), "{share:e}: {:?}", built.err());
         }
     }
 }
@@ -115,7 +115,7 @@ fn rounding_is_no_support() {
 fn matrices_of_few_digits_are_refused() {
     for (count, size) in [(6, 1e-5), (7, 1e-6), (8, 1e-7)] {
         match on_soil(by_matrices(&tower(6, 20), digits(count), None)).build().err() {
-            Some(Error::Supported { share, .. }) => {
+            Some(Error::Restrained { share, .. }) => {
                 assert!(share < size && share > 1e-3 * size, "{count}: {share:e}");
             }
             other => panic!("{count}: {other:?}"),

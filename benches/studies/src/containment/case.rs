@@ -5,7 +5,7 @@ use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Probe, Run};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::el_centro_1940;
-use basemat::results::{Histories, Recorder, Serviceability};
+use basemat::results::{Recorder, Serviceability, TimeSeries};
 use basemat_problems::containment::{Containment, PAPER_SHEARS, ROWS};
 
 /// A name and a friction coefficient; `None` is bonded, infinity uplift only.
@@ -20,7 +20,7 @@ pub(crate) struct Outcome {
     pub(crate) case: Case,
     pub(crate) run: Run,
     /// With the probes of [`Containment::probes`], and "foundation", the acceleration of the foundation's top.
-    pub(crate) histories: Histories,
+    pub(crate) histories: TimeSeries,
     /// Of the superstructure, kg/m.
     pub(crate) superstructure_mass: f64,
     /// Largest base shear at the foundation–superstructure interface, N/m.

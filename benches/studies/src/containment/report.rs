@@ -37,7 +37,7 @@ pub(crate) fn print(results: &[Outcome], weights: [f64; 2]) {
     let [bonded, uplift, ..] = results else { return };
     println!(
         "| case | Table 1, lb/ft | here | over bonded | uplift | slip of the base, mm | A to a side, mm | A up, mm \
-         | A against the base, mm | ledger |\n|---|---|---|---|---|---|---|---|---|---|"
+         | A against the base, mm | energy balance |\n|---|---|---|---|---|---|---|---|---|---|"
     );
     for outcome in results {
         let printed =
@@ -56,7 +56,7 @@ pub(crate) fn print(results: &[Outcome], weights: [f64; 2]) {
             change(outcome.peak_lift, uplift.peak_lift),
             1e3 * outcome.peak_sway,
             change(outcome.peak_sway, uplift.peak_sway),
-            outcome.run.ledger_residual,
+            outcome.run.energy_error,
         );
     }
     let [all, superstructure] = weights.map(pounds_per_foot);
@@ -98,7 +98,7 @@ pub(crate) fn write(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> 
             run.whole.largest_slip.magnitude(),
             run.whole.residual_slip,
             outcome.peak_roof,
-            run.ledger_residual,
+            run.energy_error,
             outcome.peak_lift,
             run.whole.mean_slip.magnitude(),
             outcome.peak_sway,
@@ -120,7 +120,7 @@ pub(crate) fn write(folder: &Path, results: &[Outcome]) -> Result<(), AnyError> 
             "max_slip_m",
             "residual_slip_m",
             "peak_roof_displacement_m",
-            "ledger_residual",
+            "energy_error",
             "peak_roof_rise_m",
             "peak_mean_slip_m",
             "peak_roof_over_base_m",

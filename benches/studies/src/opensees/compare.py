@@ -127,8 +127,8 @@ def digits(value, sign=""):
     return f"{value:{sign}.0f}" if abs(value) >= 10.0 else f"{value:{sign}.2g}"
 
 
-def row(label, unknowns, step, run, reference, case):
-    cells = [label, unknowns, f"{1e3 * step:g}" if step else "",
+def row(label, dofs, step, run, reference, case):
+    cells = [label, dofs, f"{1e3 * step:g}" if step else "",
              digits(distance(run, reference, "roof")), digits(peak(run, reference, "roof"), "+"),
              digits(distance(run, reference, "rotation")),
              digits(peak(run, reference, "rotation"), "+"),
@@ -143,17 +143,17 @@ def row(label, unknowns, step, run, reference, case):
 
 
 def table(case, boxes, meshes, extra, reference, finer):
-    heads = ["", "unknowns", "Δt, ms", "roof, %", "its peak, %", "rotation, %", "its peak, %",
+    heads = ["", "dofs", "Δt, ms", "roof, %", "its peak, %", "rotation, %", "its peak, %",
              "acceleration, %"]
     if case == "friction":
         heads += ["largest gap, mm", "slip left, mm"]
     heads += ["processor, s", "MB"]
     text = "| " + " | ".join(heads) + " |\n|" + "---|" * len(heads) + "\n"
     for (size, step), run in zip(BOXES[case], boxes):
-        text += row(f"OpenSees, {size:g} m", str(run["unknowns"]), step, run, reference, case)
+        text += row(f"OpenSees, {size:g} m", str(run["dofs"]), step, run, reference, case)
     if case == "friction":
         size, step = SHORT_STEP
-        text += row(f"OpenSees, {size:g} m, short steps", str(extra["unknowns"]), step, extra,
+        text += row(f"OpenSees, {size:g} m, short steps", str(extra["dofs"]), step, extra,
                     reference, case)
     else:
         limit, ratios = extrapolated(boxes)

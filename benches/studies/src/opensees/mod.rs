@@ -11,7 +11,7 @@
 
 use std::io::{BufWriter, Write};
 
-use basemat::coupled::Placement;
+use basemat::coupled::GravityStage;
 use basemat::interface::ContactState;
 use basemat::motion::RickerDisplacement;
 use basemat::prelude::*;
@@ -60,7 +60,7 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
         .interface(law)
         .gravity(number("gravity")?)
         // As in the finite elements: friction acts while the weight comes on.
-        .placement(Placement::WithInterfaceLaw)
+        .placement(GravityStage::WithInterfaceLaw)
         .motion(pulse)
         .probe(Probe::displacement("roof", roof.clone()))
         .probe(Probe::acceleration("acceleration", roof))

@@ -269,7 +269,7 @@ def main():
             print(",".join(f"{value:.9e}" for value in [time, *row]))
     status = Path("/proc/self/status").read_text()
     kilobytes = next(int(line.split()[1]) for line in status.splitlines() if "VmHWM" in line)
-    report = {"megabytes": 1.024e-3 * kilobytes, "unknowns": 2 * columns * rows, "steps": steps,
+    report = {"megabytes": 1.024e-3 * kilobytes, "dofs": 2 * columns * rows, "steps": steps,
               "solves": iterations}
     print(json.dumps(report), file=sys.stderr)
 

@@ -7,21 +7,21 @@ use basemat::structure::{ContactNode, FemModel, Structure, Triplets};
 pub(crate) struct PrintedForcing {
     model: FemModel,
     record: Record,
-    /// Sum of K's columns of the horizontal unknowns of the contact nodes, N/m per metre.
+    /// Sum of K's columns of the horizontal degrees of freedom of the contact nodes, N/m per metre.
     column: Vec<f64>,
 }
 
 impl PrintedForcing {
     pub(crate) fn new(model: FemModel, record: Record) -> basemat::Result<Self> {
-        let mut stiffness = Triplets::new(model.unknowns());
+        let mut stiffness = Triplets::new(model.dofs());
         model.stiffness(&mut stiffness)?;
-        let mut contact = vec![0.0; model.unknowns()];
+        let mut contact = vec![0.0; model.dofs()];
         for node in model.contact_nodes() {
             for &(unknown, weight) in node.horizontal.terms() {
                 contact[unknown] += weight;
             }
         }
-        let mut column = vec![0.0; model.unknowns()];
+        let mut column = vec![0.0; model.dofs()];
         for &(row, unknown, value) in stiffness.entries() {
             column[row] += value * contact[unknown];
         }
@@ -30,8 +30,8 @@ impl PrintedForcing {
 }
 
 impl Structure for PrintedForcing {
-    fn unknowns(&self) -> usize {
-        self.model.unknowns()
+    fn dofs(&self) -> usize {
+        self.model.dofs()
     }
 
     fn contact_nodes(&self) -> Vec<ContactNode> {

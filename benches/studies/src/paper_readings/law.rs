@@ -2,8 +2,8 @@
 
 use basemat::Soil;
 use basemat::interface::{
-    Condition, ContactState, Coulomb, FrictionLimit, InterfaceLaw, Mode, SlipSense, StepStart,
-    ThinLayer, Tolerance,
+    Condition, ContactState, Coulomb, FrictionLimit, InterfaceLaw, Mode, PreviousContact,
+    SlipSense, ThinLayer, Tolerance,
 };
 
 use super::options::{Law, Limit, Reading, Sense};
@@ -40,10 +40,10 @@ impl Reading {
         };
         let layer = ThinLayer::new(*soil, self.neighbour_height(), friction)?
             .with_thickness_ratio(self.ratio)?
-            .with_debonded_share(self.debonded)?
+            .with_debonded_ratio(self.debonded)?
             .with_friction_limit(limit)
             .with_slip_sense(sense)
-            .with_slip_stiffness_share(self.slip_shear)?;
+            .with_slip_stiffness_ratio(self.slip_shear)?;
         Ok(Box::new(Read {
             layer,
             limit: self.limit,
@@ -72,7 +72,7 @@ impl InterfaceLaw for Kinetic {
         self.still.modes()
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         if mode.is_slip() {
             return self.moving.conditions(mode, start);
         }
@@ -82,7 +82,7 @@ impl InterfaceLaw for Kinetic {
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
@@ -103,7 +103,7 @@ struct Read {
 }
 
 impl Read {
-    fn seen<'a>(&self, start: &StepStart<'a>) -> StepStart<'a> {
+    fn seen<'a>(&self, start: &PreviousContact<'a>) -> PreviousContact<'a> {
         let mut start = *start;
         match self.limit {
             Limit::Compression => start.state.pressure -= start.static_pressure,
@@ -117,7 +117,7 @@ impl Read {
     }
 
     /// The mode that the end of the step before asks for.
-    fn lagged_mode(&self, start: &StepStart) -> Mode {
+    fn lagged_mode(&self, start: &PreviousContact) -> Mode {
         let mut before = self.seen(start);
         before.state.slip -= start.slip_rate * start.time_step;
         let tolerance = Tolerance::new(1e-12, 1e-6);
@@ -130,7 +130,7 @@ impl InterfaceLaw for Read {
         self.layer.modes()
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let mode = if self.lag_modes { self.lagged_mode(start) } else { mode };
         let mut conditions = self.layer.conditions(mode, &self.seen(start));
         if mode.is_slip() {
@@ -142,7 +142,7 @@ impl InterfaceLaw for Read {
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
@@ -152,12 +152,12 @@ impl InterfaceLaw for Read {
         self.layer.next_mode(mode, &self.seen(start), trial, tolerance)
     }
 
-    fn compliance(&self, mode: Mode, start: &StepStart) -> [f64; 2] {
+    fn compliance(&self, mode: Mode, start: &PreviousContact) -> [f64; 2] {
         let [normal, shear] = self.layer.compliance(mode, start);
         [if mode.is_slip() { normal / self.slip_normal } else { normal }, shear]
     }
 
-    fn smooth(&self) -> Box<dyn InterfaceLaw> {
-        self.layer.smooth()
+    fn frictionless(&self) -> Box<dyn InterfaceLaw> {
+        self.layer.frictionless()
     }
 }

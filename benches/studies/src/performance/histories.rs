@@ -1,4 +1,4 @@
-//! Histories and coefficients by themselves.
+//! TimeSeries and coefficients by themselves.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -6,13 +6,13 @@ use std::time::Instant;
 use basemat::Result;
 use basemat::bem::PatchKernel;
 use basemat::history::{
-    ConvolutionHistory, DirectHistory, ExponentialHistory, LagKernel, RelaxedFftHistory,
+    ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory, RelaxedFftHistory,
 };
 
 use super::timed;
 use basemat_problems::headline::{soil, strip, time_step};
 
-fn patch(count: usize) -> Result<Arc<dyn LagKernel>> {
+fn patch(count: usize) -> Result<Arc<dyn ConvolutionWeights>> {
     Ok(Arc::new(PatchKernel::new(soil()?, strip(count)?.elements(), time_step())?))
 }
 
@@ -43,7 +43,7 @@ pub(crate) fn direct(count: usize, steps: usize) -> Result<f64> {
 
 /// Transforms of all past steps.
 pub(crate) fn relaxed(
-    kernel: Arc<dyn LagKernel>,
+    kernel: Arc<dyn ConvolutionWeights>,
     steps: usize,
 ) -> Result<Box<dyn ConvolutionHistory>> {
     let mut history = RelaxedFftHistory::new(kernel);
@@ -53,14 +53,15 @@ pub(crate) fn relaxed(
 
 /// A window and exponentials with an error at rounding.
 pub(crate) fn bounded(
-    kernel: Arc<dyn LagKernel>,
+    kernel: Arc<dyn ConvolutionWeights>,
     _steps: usize,
 ) -> Result<Box<dyn ConvolutionHistory>> {
     Ok(Box::new(ExponentialHistory::new(kernel, 1e-12)?))
 }
 
 /// Makes a history for so many steps.
-pub(crate) type Make = fn(Arc<dyn LagKernel>, usize) -> Result<Box<dyn ConvolutionHistory>>;
+pub(crate) type Make =
+    fn(Arc<dyn ConvolutionWeights>, usize) -> Result<Box<dyn ConvolutionHistory>>;
 
 /// Setup, march and slowest step of a history, s: the least of `repeats`.
 pub(crate) fn alone(make: Make, count: usize, steps: usize, repeats: usize) -> Result<[f64; 3]> {

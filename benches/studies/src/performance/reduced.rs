@@ -1,4 +1,4 @@
-//! Towers in reduced coordinates beside their unknowns.
+//! Towers in reduced coordinates beside their degrees of freedom.
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Coordinates, Probe};
@@ -134,12 +134,12 @@ pub(crate) fn table(report: &mut Report, short: bool) -> std::result::Result<(),
     }
     let mut rows = Vec::new();
     for tower in towers {
-        let unknowns = tower.model()?.unknowns();
-        let repeats = if short || unknowns > 10_000 { 1 } else { 3 };
-        let full = tower.run(Coordinates::Unknowns, repeats)?;
+        let dofs = tower.model()?.dofs();
+        let repeats = if short || dofs > 10_000 { 1 } else { 3 };
+        let full = tower.run(Coordinates::Physical, repeats)?;
         for tolerance in [1e-4, 1e-6] {
             let mut row = vec![
-                unknowns.to_string(),
+                dofs.to_string(),
                 format!("{:.0} %", 100.0 * tower.damping),
                 if tower.bonded { "bonded" } else { "friction 0.4" }.into(),
                 format!("{tolerance:.0e}"),
@@ -169,11 +169,11 @@ pub(crate) fn table(report: &mut Report, short: bool) -> std::result::Result<(),
     report.table(
         "Reduced coordinates: towers on ten elements under El Centro, 1 000 steps of 5 ms",
         &[
-            "unknowns",
+            "dofs",
             "damping",
             "interface",
             "tolerance",
-            "build, s: unknowns / reduced",
+            "build, s: degrees of freedom / reduced",
             "step, µs",
             "ratio of steps",
             "of 4 000 steps with build",

@@ -95,7 +95,7 @@ pub(crate) fn runs(report: &mut Report, short: bool) -> Result<(), AnyError> {
     Ok(())
 }
 
-/// Histories and coefficients by themselves.
+/// TimeSeries and coefficients by themselves.
 pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError> {
     // The direct sum costs its N² multiply–adds at a rate that is constant from here on.
     let steps: usize = if short { 3_000 } else { 8_000 };
@@ -147,7 +147,7 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
         .collect();
     report.table(
         &format!(
-            "Histories alone, 10 elements: transforms (exponent {:.3}), exponentials at 1e-12 ({:.3})",
+            "TimeSeries alone, 10 elements: transforms (exponent {:.3}), exponentials at 1e-12 ({:.3})",
             growths[0].exponent, growths[1].exponent
         ),
         &[
@@ -161,7 +161,7 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
     );
     let head = ["steps", "µs per step", "slowest step, ms"];
     let mut points = Vec::new();
-    // Fewer steps would be made in unknowns, not in modes.
+    // Fewer steps would be made in degrees of freedom, not in modes.
     for steps in [10_000, 100_000, 1_000_000, 10_000_000].into_iter().filter(|n| *n <= 10 * longest)
     {
         let taken = best(Scene::Long, steps, 1, if steps > 10_000 { 1 } else { 3 })?;
@@ -196,7 +196,7 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
         "exponentials: setup, s",
         "µs per step",
     ];
-    report.table("Histories alone, uniform strips, 10 000 steps", &head, &rows);
+    report.table("TimeSeries alone, uniform strips, 10 000 steps", &head, &rows);
     Ok(())
 }
 

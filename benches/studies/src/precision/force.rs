@@ -1,4 +1,4 @@
-//! Histories of the base shear, and how far one is from another.
+//! TimeSeries of the base shear, and how far one is from another.
 
 use basemat_problems::series::{Series, whole};
 use basemat_problems::table;

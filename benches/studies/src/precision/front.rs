@@ -83,16 +83,16 @@ fn families(short: bool) -> Vec<Family> {
     };
     if short {
         return vec![
-            line("300 unknowns", SMALL, Coordinates::Unknowns, 2),
+            line("300 degrees of freedom", SMALL, Coordinates::Physical, 2),
             line("300, reduced 1e-4", SMALL, few(1e-4), 2),
         ];
     }
     let uniform = line("3 000, reduced 1e-4, uniform", MEDIUM, few(1e-4), 4);
     vec![
-        line("300 unknowns", SMALL, Coordinates::Unknowns, 4),
+        line("300 degrees of freedom", SMALL, Coordinates::Physical, 4),
         line("300, modes", SMALL, Coordinates::Modes, 4),
         line("300, reduced 1e-4", SMALL, few(1e-4), 4),
-        line("3 000 unknowns", MEDIUM, Coordinates::Unknowns, 4),
+        line("3 000 degrees of freedom", MEDIUM, Coordinates::Physical, 4),
         line("3 000, reduced 1e-2", MEDIUM, few(1e-2), 4),
         line("3 000, reduced 1e-4", MEDIUM, few(1e-4), 4),
         line("3 000, reduced 1e-6", MEDIUM, few(1e-6), 4),
@@ -100,7 +100,7 @@ fn families(short: bool) -> Vec<Family> {
         line("3 000, near-fault pulse", Case { near_fault: true, ..MEDIUM }, few(1e-4), 4),
         line("3 000, friction 0.4", Case { friction: Some(0.4), ..MEDIUM }, few(1e-4), 4),
         line("3 000, layer on rock", Case { layered: true, ..MEDIUM }, few(1e-4), 3),
-        line("30 000 unknowns", LARGE, Coordinates::Unknowns, 3),
+        line("30 000 degrees of freedom", LARGE, Coordinates::Physical, 3),
         line("30 000, reduced 1e-4", LARGE, few(1e-4), 4),
     ]
 }
@@ -111,9 +111,9 @@ impl Case {
             (_, true, _, _) => "3 000, near-fault pulse",
             (_, _, true, _) => "3 000, layer on rock",
             (_, _, _, Some(_)) => "3 000, friction 0.4",
-            (10, ..) => "300 unknowns",
-            (36, ..) => "3 000 unknowns",
-            _ => "30 000 unknowns",
+            (10, ..) => "300 degrees of freedom",
+            (36, ..) => "3 000 degrees of freedom",
+            _ => "30 000 degrees of freedom",
         }
     }
 

@@ -106,7 +106,7 @@ fn cell(family: &Family, point: &Point) -> String {
         _ => "",
     };
     let coordinates = match family.coordinates {
-        Coordinates::Unknowns => "unknowns".to_owned(),
+        Coordinates::Physical => "dofs".to_owned(),
         Coordinates::Modes => "modes".to_owned(),
         Coordinates::Reduced { tolerance } => format!("reduced {tolerance:.0e}"),
         _ => "automatic".to_owned(),

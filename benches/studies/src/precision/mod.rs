@@ -1,5 +1,5 @@
 //! Error of the base shear against processor time: a rigid block with a reference table, the
-//! containment of the example of that name cut to five seconds, and towers of 300 to 30 000 unknowns.
+//! containment of the example of that name cut to five seconds, and towers of 300 to 30 000 degrees of freedom.
 //!
 //! Swept are elements, grading, time step, history and time scheme, and coordinates of the towers. What is in
 //! `benches/studies/tables/precision.md` comes from
@@ -41,7 +41,7 @@ pub(crate) struct Options {
     /// Small sweeps, in seconds: to see that all works, not to be quoted.
     #[arg(long)]
     pub(crate) short: bool,
-    /// Only the lines of error against time of structures of 300 to 30 000 unknowns.
+    /// Only the lines of error against time of structures of 300 to 30 000 degrees of freedom.
     #[arg(long)]
     pub(crate) front: bool,
     /// Runs of each setting, of which the fastest counts; one only where a run takes over a second.
@@ -69,7 +69,7 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
         bar.set_prefix(sweep.scene.name);
         outcomes.push(sweep.run(options.repeats, &bar)?);
     }
-    bar.set_prefix("300 to 30 000 unknowns");
+    bar.set_prefix("300 to 30 000 degrees of freedom");
     let lines = front::run(options.short, options.repeats, &bar)?;
     bar.finish_and_clear();
 

@@ -50,8 +50,10 @@ impl Scene {
         let run = simulation.run(steps, |state| means.push(state.base_shear))?;
         let seconds = begin.try_elapsed()?.as_secs_f64();
         // A run whose energies do not add up is not worth a place in a table.
-        if run.ledger_residual > 1e-6 {
-            return Err(format!("{}: ledger open by {:.1e}", self.name, run.ledger_residual).into());
+        if run.energy_error > 1e-6 {
+            return Err(
+                format!("{}: energy balance open by {:.1e}", self.name, run.energy_error).into()
+            );
         }
         Ok(Outcome { force: Force::new(settings.time_step, means), seconds })
     }

@@ -1,4 +1,4 @@
-//! Maps of stability: where marches stay bounded, close their energy ledger and find their
+//! Maps of stability: where marches stay bounded, close their energy balance and find their
 //! contact modes, over pairs of parameters from one extreme to the other. The crate's own scheme,
 //! the paper's, and the one by convolution quadrature; and the time schemes on the crate's soil.
 //!
@@ -38,7 +38,7 @@ pub(crate) struct Cell {
     pub(crate) outcome: Outcome,
 }
 
-/// Where the crate stays bounded, closes its energy ledger and finds its contact modes, and where
+/// Where the crate stays bounded, closes its energy balance and finds its contact modes, and where
 /// it refuses.
 ///
 /// Prints tables, and writes cells.csv, tables.md and one SVG of heat maps per sweep. Ends with an

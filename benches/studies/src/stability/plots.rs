@@ -44,7 +44,7 @@ pub(crate) fn draw(path: &Path, map: &Map, cells: &[&Cell]) -> Result<(), AnyErr
         let corner = place(k);
         let caption = match scheme {
             Scheme::Own if compared => "midpoint rule",
-            Scheme::Own => "basemat: log₁₀ of ledger residual",
+            Scheme::Own => "basemat: log₁₀ of energy error",
             Scheme::Dissipative => "dissipative midpoint rule, γ = 0.8",
             Scheme::Newmark => "Newmark, average acceleration",
             Scheme::Hht => "HHT-α, α = −0.1",
@@ -153,7 +153,7 @@ fn verdict(cell: &Cell) -> (RGBColor, String) {
     let out = &cell.outcome;
     let (color, word) = match out.verdict {
         Verdict::Bounded => {
-            let exponent = out.ledger[0].max(1e-17).log10();
+            let exponent = out.energy_balance[0].max(1e-17).log10();
             (ledger_color(exponent), format!("{exponent:.0}"))
         }
         Verdict::Active => {
@@ -220,7 +220,7 @@ fn legend(root: &Area, top: i32, compared: bool) -> Result<(), AnyError> {
         entry(growth_color(0.05), "more than 2 %: the run warns", 220)?;
         return entry(ERROR, "error", 80);
     }
-    entry(ledger_color(-16.0), "bounded: log₁₀ of the ledger residual", 268)?;
+    entry(ledger_color(-16.0), "bounded: log₁₀ of the energy error", 268)?;
     entry(ACTIVE, "not growing, but the soil gives energy: log₁₀ of its share", 370)?;
     entry(growth_color(0.03), "grows: growth per step", 180)?;
     entry(ERROR, "error", 80)?;

@@ -23,8 +23,8 @@ pub(crate) fn write_cells(path: &Path, maps: &[Map], cells: &[Cell]) -> Result<(
             map.y.name.to_owned(),
             map.y.labels[cell.place[1]].clone(),
             out.verdict.name().to_owned(),
-            short(out.ledger[0]),
-            short(out.ledger[1]),
+            short(out.energy_balance[0]),
+            short(out.energy_balance[1]),
             short(out.growth),
             short(out.growth_per_step),
             out.assessed.map(|growth| short(growth[0])).unwrap_or_default(),
@@ -50,7 +50,7 @@ pub(crate) fn write_cells(path: &Path, maps: &[Map], cells: &[Cell]) -> Result<(
         "y_name",
         "y",
         "verdict",
-        "ledger_residual",
+        "energy_error",
         "largest_ledger_residual",
         "energy_growth",
         "growth_per_step",
@@ -75,7 +75,7 @@ pub(crate) fn write_cells(path: &Path, maps: &[Map], cells: &[Cell]) -> Result<(
 pub(crate) fn tables(maps: &[Map], cells: &[Cell]) -> String {
     let mut text = String::from(
         "| sweep | scheme | cells | steps | bounded | active | grows | refused | failed | \
-         ledger residual, end | on the way | rise of energy | solves per step: mean | most | \
+         energy_balance residual, end | on the way | rise of energy | solves per step: mean | most | \
          steps by Gauss–Seidel | by path |\n\
          |---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
@@ -117,8 +117,8 @@ fn summary(text: &mut String, name: &str, scheme: Scheme, cells: &[&Cell]) {
     let _ = writeln!(
         text,
         "| {:.1e} | {:.1e} | {rise} | {:.2} | {:.0} | {} | {} |",
-        most(&|c| c.outcome.ledger[0]),
-        most(&|c| c.outcome.ledger[1]),
+        most(&|c| c.outcome.energy_balance[0]),
+        most(&|c| c.outcome.energy_balance[1]),
         solves / steps.max(1) as f64,
         most(&|c| c.outcome.trials[1]),
         fallbacks(0),
@@ -130,7 +130,7 @@ fn summary(text: &mut String, name: &str, scheme: Scheme, cells: &[&Cell]) {
 /// crate's own, and the long runs.
 pub(crate) fn document(maps: &[Map], cells: &[Cell]) -> String {
     let mut text = String::from(
-        "| sweep | basemat | ledger residual: end | on the way | rise of energy | most solves in a \
+        "| sweep | basemat | energy error: end | on the way | rise of energy | most solves in a \
          step | paper | quadrature |\n|---|---|---|---|---|---|---|---|\n",
     );
     let of = |scheme: Scheme, map: Option<usize>| -> Vec<&Cell> {
@@ -147,8 +147,8 @@ pub(crate) fn document(maps: &[Map], cells: &[Cell]) -> String {
             text,
             "| {name} | {} | {:.1e} | {:.1e} | {:.1e} | {:.0} ",
             verdicts(&own),
-            most(&|c| c.outcome.ledger[0]),
-            most(&|c| c.outcome.ledger[1]),
+            most(&|c| c.outcome.energy_balance[0]),
+            most(&|c| c.outcome.energy_balance[1]),
             most(&|c| c.outcome.rise),
             most(&|c| c.outcome.trials[1]),
         );
@@ -169,7 +169,7 @@ fn long_runs(maps: &[Map], cells: &[Cell]) -> String {
         let _ = write!(
             text,
             "\n{}, and then as many of rest (at most 100 000):\n\n\
-             | case | steps | verdict | ledger residual | rise of energy | solves per step: mean | \
+             | case | steps | verdict | energy_balance residual | rise of energy | solves per step: mean | \
              most | mode changes |\n|---|---|---|---|---|---|---|---|\n",
             map.title
         );
@@ -181,7 +181,7 @@ fn long_runs(maps: &[Map], cells: &[Cell]) -> String {
                 map.y.labels[cell.place[1]],
                 out.steps,
                 out.verdict.name(),
-                out.ledger[0],
+                out.energy_balance[0],
                 out.rise,
                 out.trials[0],
                 out.trials[1],
@@ -196,7 +196,7 @@ fn long_runs(maps: &[Map], cells: &[Cell]) -> String {
 pub(crate) fn schemes(maps: &[Map], cells: &[Cell]) -> String {
     let mut text = String::from(
         "| time scheme | cells | most energy made by the scheme | cells beyond 2 % | beyond 50 % | \
-         ledger residual |\n|---|---|---|---|---|---|\n",
+         energy error |\n|---|---|---|---|---|---|\n",
     );
     for (index, map) in maps.iter().enumerate().filter(|(_, map)| map.name == SCHEME_MAP) {
         for (&scheme, name) in map.schemes.iter().zip([
@@ -217,7 +217,7 @@ pub(crate) fn schemes(maps: &[Map], cells: &[Cell]) -> String {
                 most(&|cell| cell.outcome.made),
                 beyond(0.02),
                 beyond(0.5),
-                most(&|cell| cell.outcome.ledger[1]),
+                most(&|cell| cell.outcome.energy_balance[1]),
             );
         }
     }
@@ -242,13 +242,13 @@ pub(crate) fn broken(maps: &[Map], cells: &[Cell]) -> String {
         let (map, out) = (&maps[cell.map], &cell.outcome);
         let _ = write!(
             text,
-            "\n--map {} --x {} --y {}: {} (ledger {:.1e} of {ROUNDING:.0e}, rise {:.1e}, least work \
+            "\n--map {} --x {} --y {}: {} (energy balance {:.1e} of {ROUNDING:.0e}, rise {:.1e}, least work \
              on the soil {:.1e})",
             map.name,
             map.x.labels[cell.place[0]],
             map.y.labels[cell.place[1]],
             out.verdict.name(),
-            out.ledger[0],
+            out.energy_balance[0],
             out.rise,
             out.least_soil
         );

@@ -7,17 +7,17 @@
 //! H = kinetic + strain + layer + preload + soil
 //! ```
 //!
-//! cannot rise, the same for the dissipative midpoint rule with `numerical` in it, but for the work of a weight that acts as a load, which is taken off: dashpots, friction and
+//! cannot rise, the same for the dissipative midpoint rule with `algorithmic` in it, but for the work of a weight that acts as a load, which is taken off: dashpots, friction and
 //! impacts only take. `rise` says by how much it does all the
 //! same, relative to the largest energy of the run. `least_soil` is the least work done on the soil,
 //! relative in the same way: below zero, the soil gave more than it had got.
 
-use basemat::coupled::{Ledger, SearchMethod, State};
+use basemat::coupled::{EnergyBalance, SearchMethod, State};
 use basemat::{Error, StepError};
 
 use super::scene::{Foretold, Law, Scene, Scheme};
 
-/// Rise of energy, energy out of the soil, and ledger residual that pass for rounding.
+/// Rise of energy, energy out of the soil, and energy error that pass for rounding.
 pub(crate) const ROUNDING: f64 = 1e-9;
 /// Growth of energy from the first to the last quarter of the rest that counts as growth.
 const GROWTH: f64 = 1.1;
@@ -57,8 +57,8 @@ impl Verdict {
 #[derive(Debug, Clone)]
 pub(crate) struct Outcome {
     pub(crate) verdict: Verdict,
-    /// Ledger residual at the end, and the largest of the run.
-    pub(crate) ledger: [f64; 2],
+    /// EnergyBalance residual at the end, and the largest of the run.
+    pub(crate) energy_balance: [f64; 2],
     /// Largest energy of the structure in the last quarter of the rest, over that in the first.
     pub(crate) growth: f64,
     /// Growth of amplitudes per step in growing cells; else 0.
@@ -84,7 +84,7 @@ impl Outcome {
     fn new() -> Self {
         Self {
             verdict: Verdict::Bounded,
-            ledger: [0.0; 2],
+            energy_balance: [0.0; 2],
             growth: 0.0,
             growth_per_step: 0.0,
             rise: 0.0,
@@ -103,7 +103,7 @@ impl Outcome {
     /// Whether the cell is as it must be in the crate's own scheme.
     pub(crate) fn is_as_guaranteed(&self, allowed: &[Verdict]) -> bool {
         (self.verdict == Verdict::Bounded || allowed.contains(&self.verdict))
-            && self.ledger[0] < ROUNDING
+            && self.energy_balance[0] < ROUNDING
     }
 
     /// Whether the crate's default refuses this boundary equation: [`Error::Unstable`].
@@ -144,35 +144,39 @@ struct Watch {
     least_total: f64,
     rise: f64,
     least_soil: f64,
-    least_numerical: f64,
+    least_algorithmic: f64,
     scale: f64,
 }
 
 impl Watch {
-    fn see(&mut self, step: usize, ledger: &Ledger) {
-        let own = ledger.kinetic + ledger.strain + ledger.layer + ledger.preload;
+    fn see(&mut self, step: usize, energy_balance: &EnergyBalance) {
+        let own = energy_balance.kinetic
+            + energy_balance.strain
+            + energy_balance.interface
+            + energy_balance.static_contact;
         let terms = [
-            ledger.kinetic,
-            ledger.strain,
-            ledger.layer,
-            ledger.preload,
-            ledger.soil,
-            ledger.contact,
+            energy_balance.kinetic,
+            energy_balance.strain,
+            energy_balance.interface,
+            energy_balance.static_contact,
+            energy_balance.soil,
+            energy_balance.contact,
         ];
         self.scale = terms.iter().fold(self.scale, |m, x| m.max(x.abs()));
-        self.least_soil = self.least_soil.min(ledger.soil);
-        self.least_numerical = self.least_numerical.min(ledger.numerical);
+        self.least_soil = self.least_soil.min(energy_balance.soil);
+        self.least_algorithmic = self.least_algorithmic.min(energy_balance.algorithmic);
         let [shaking, rest] = self.phases;
         if step <= shaking {
             let half = usize::from(2 * step > shaking);
             self.halves[half] = self.halves[half].max(own.abs());
-            self.stored = own + ledger.soil;
-            self.fed = ledger.input;
+            self.stored = own + energy_balance.soil;
+            self.fed = energy_balance.input;
             return;
         }
         let window = (WINDOWS * (step - shaking - 1) / rest).min(WINDOWS - 1);
         self.windows[window] = self.windows[window].max(own.abs());
-        let total = own + ledger.soil + ledger.numerical.max(0.0) - (ledger.input - self.fed);
+        let total = own + energy_balance.soil + energy_balance.algorithmic.max(0.0)
+            - (energy_balance.input - self.fed);
         self.rise = self.rise.max(total - self.least_total);
         self.least_total = self.least_total.min(total);
     }
@@ -200,7 +204,7 @@ pub(crate) fn march(scene: &Scene, foretold: &Foretold, progress: &dyn Fn(f64)) 
         least_total: f64::INFINITY,
         rise: 0.0,
         least_soil: 0.0,
-        least_numerical: 0.0,
+        least_algorithmic: 0.0,
         scale: 0.0,
     };
     let mut trials = 0;
@@ -209,7 +213,7 @@ pub(crate) fn march(scene: &Scene, foretold: &Foretold, progress: &dyn Fn(f64)) 
             Ok(state) => {
                 trials += state.trials;
                 out.count(state);
-                watch.see(step, &state.ledger);
+                watch.see(step, &state.energy_balance);
             }
             Err(error) => {
                 out.error = Some(error);
@@ -222,7 +226,7 @@ pub(crate) fn march(scene: &Scene, foretold: &Foretold, progress: &dyn Fn(f64)) 
         }
     }
     out.trials[0] = trials as f64 / out.steps.max(1) as f64;
-    out.ledger[0] = simulation.state().ledger.residual();
+    out.energy_balance[0] = simulation.state().energy_balance.residual();
     out.judge(scene.scheme, &watch);
     out
 }
@@ -237,13 +241,13 @@ impl Outcome {
         }
         self.mode_changes += state.transitions.len();
         self.largest_uplift = self.largest_uplift.max(state.uplifted_fraction);
-        self.ledger[1] = self.ledger[1].max(state.ledger.residual());
+        self.energy_balance[1] = self.energy_balance[1].max(state.energy_balance.residual());
     }
 
     fn judge(&mut self, scheme: Scheme, watch: &Watch) {
         let relative = |x: f64| if watch.scale > 0.0 { x / watch.scale } else { 0.0 };
         (self.rise, self.least_soil) = (relative(watch.rise), relative(watch.least_soil));
-        self.made = relative(watch.least_numerical.abs());
+        self.made = relative(watch.least_algorithmic.abs());
         let [first, .., last] = watch.windows;
         // What is below the rounding of the largest energy is no motion.
         let floor = 1e-12 * watch.scale;

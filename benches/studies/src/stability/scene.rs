@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use basemat::bem::full_plane::{ConvolutionQuadrature, CqMethod, FullPlaneGround};
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{
-    ContactSearch, DissipativeMidpoint, HhtAlpha, Load, Newmark, Placement, SimulationBuilder,
+    ContactSearch, DissipativeMidpoint, GravityStage, HhtAlpha, Load, Newmark, SimulationBuilder,
 };
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::history::History;
@@ -199,7 +199,7 @@ impl Scene {
             Law::Layer(ratio, debonded) => {
                 let layer = ThinLayer::new(*soil, 1.0, 0.4)?
                     .with_thickness_ratio(ratio)?
-                    .with_debonded_share(debonded)?;
+                    .with_debonded_ratio(debonded)?;
                 let builder = builder.interface(layer);
                 if self.scheme == Scheme::Paper {
                     builder.contact_search(ContactSearch::FlowChart { iterations: 60 })
@@ -236,7 +236,7 @@ impl Scene {
             let tilt = self.tilt / self.slenderness;
             let edge = 0.5 * WIDTH * tilt;
             builder =
-                builder.placement(Placement::Unloaded).initial_displacement([0.0, edge, tilt]);
+                builder.placement(GravityStage::Unloaded).initial_displacement([0.0, edge, tilt]);
         }
         Ok(builder)
     }

@@ -60,8 +60,8 @@ fn history(
     let every = whole(SAMPLE / time_step);
     let steps = whole(scene.duration / time_step);
     let (history, run) = sample(&mut simulation, steps, every)?;
-    if run.ledger_residual > 1e-9 {
-        return Err(format!("ledger open by {:.1e}", run.ledger_residual).into());
+    if run.energy_error > 1e-9 {
+        return Err(format!("energy balance open by {:.1e}", run.energy_error).into());
     }
     Ok(history)
 }

@@ -67,8 +67,8 @@ fn slide(speed: f64, friction: f64, time_step: f64, duration: f64) -> Result<Vec
             slips.push(state.mean_slip);
         }
     })?;
-    if run.ledger_residual > 1e-9 {
-        return Err(format!("ledger open by {:.1e}", run.ledger_residual).into());
+    if run.energy_error > 1e-9 {
+        return Err(format!("energy balance open by {:.1e}", run.energy_error).into());
     }
     Ok(slips)
 }

@@ -64,8 +64,8 @@ impl Pushed {
 }
 
 impl Structure for Pushed {
-    fn unknowns(&self) -> usize {
-        self.0.unknowns()
+    fn dofs(&self) -> usize {
+        self.0.dofs()
     }
 
     fn contact_nodes(&self) -> Vec<ContactNode> {
@@ -101,8 +101,8 @@ fn tilts(
     let mut tilts = vec![0.0];
     let steps = whole(duration / time_step);
     let run = simulation.run(steps, |state| tilts.push(state.absolute_displacement()[2]))?;
-    if run.ledger_residual > 1e-9 {
-        return Err(format!("ledger open by {:.1e}", run.ledger_residual).into());
+    if run.energy_error > 1e-9 {
+        return Err(format!("energy balance open by {:.1e}", run.energy_error).into());
     }
     Ok(tilts)
 }

@@ -39,7 +39,7 @@ impl<'a> Quantity<'a> {
     }
 }
 
-/// Histories of one quantity.
+/// TimeSeries of one quantity.
 struct History {
     name: String,
     error: f64,
@@ -49,7 +49,7 @@ struct History {
     wanted: Vec<f64>,
 }
 
-/// Runs a structure with unknowns `[u_x, u_y, θ, …]` under the S wave of the tables: a Ricker pulse
+/// Runs a structure with degrees of freedom `[u_x, u_y, θ, …]` under the S wave of the tables: a Ricker pulse
 /// of the free field with amplitude 1 and σ = 1 about t = 5, in units of b, c_S, μ.
 fn histories(
     file: &str,
@@ -98,16 +98,16 @@ fn histories(
         history.found.iter().zip(&history.wanted).for_each(|(a, b)| error.add(*a, *b));
         history.error = error.relative();
     }
-    Ok((histories, run.ledger_residual))
+    Ok((histories, run.energy_error))
 }
 
-/// Checks of the histories, and of the ledger.
-fn checks(histories: &[History], ledger: f64) -> Vec<Check> {
+/// Checks of the histories, and of the energy balance.
+fn checks(histories: &[History], energy_balance: f64) -> Vec<Check> {
     let mut checks: Vec<_> = histories
         .iter()
         .map(|h| Check::below(format!("{}, relative L2", h.name), h.error, h.limit))
         .collect();
-    checks.push(Check::below("energy ledger, residual", ledger, 1e-10));
+    checks.push(Check::below("energy balance, residual", energy_balance, 1e-10));
     checks
 }
 
@@ -188,8 +188,8 @@ fn blocks(short: bool) -> Result<Outcome, AnyError> {
     let mut worst_ledger = 0.0_f64;
     let mut shown = Vec::new();
     for (name, poisson, height, density) in list {
-        let (found, ledger) = block(name, *poisson, *height, *density)?;
-        worst_ledger = worse(worst_ledger, ledger);
+        let (found, energy_balance) = block(name, *poisson, *height, *density)?;
+        worst_ledger = worse(worst_ledger, energy_balance);
         for (k, history) in found.iter().enumerate() {
             match checks.get_mut(k) {
                 Some(check) => check.value = worse(check.value, history.error),
@@ -204,7 +204,7 @@ fn blocks(short: bool) -> Result<Outcome, AnyError> {
             shown = found;
         }
     }
-    checks.push(Check::below("energy ledger, residual", worst_ledger, 1e-10));
+    checks.push(Check::below("energy balance, residual", worst_ledger, 1e-10));
     let units = [" / A", " b / A", " / A", " / (μ A)", " / (μ A b)"];
     let panels = [0, 1, 3, 4].map(|k| panel(&shown[k], units[k]));
     let title = "Block of height 2b and the soil's density, ν = 1/3; the free field is a Ricker pulse of amplitude A";
@@ -225,7 +225,7 @@ fn cantilever(_short: bool) -> Result<Outcome, AnyError> {
     let tip = move |state: &State| state.absolute_displacement()[top];
     // What the base of mass 1 does not take itself.
     let beam_shear = |state: &State| -state.base_shear - state.acceleration()[0];
-    let (found, ledger) = histories(
+    let (found, energy_balance) = histories(
         "td_EBcantilever_SV_nu0333.csv",
         cantilever,
         1.0 / 3.0,
@@ -242,7 +242,7 @@ fn cantilever(_short: bool) -> Result<Outcome, AnyError> {
     let panels = [0, 2, 3, 5].map(|k| panel(&found[k], units[k]));
     let title = "Euler–Bernoulli cantilever of height 4b on a massive rigid base, ν = 1/3";
     let figure = Figure::new(title, 2, panels.into());
-    Ok(Outcome { checks: checks(&found, ledger), figure })
+    Ok(Outcome { checks: checks(&found, energy_balance), figure })
 }
 
 pub(crate) const THREE_STOREYS: Case = Case {
@@ -266,7 +266,7 @@ fn storeys(_short: bool) -> Result<Outcome, AnyError> {
         }
     };
     let (first, third) = (relative(1), relative(3));
-    let (found, ledger) = histories(
+    let (found, energy_balance) = histories(
         "td_shearbuilding3_SV_nu0333_sig1.csv",
         building,
         1.0 / 3.0,
@@ -285,5 +285,5 @@ fn storeys(_short: bool) -> Result<Outcome, AnyError> {
     let title =
         "Three storeys of height b on a massive rigid base, 5 % damping in the first mode, ν = 1/3";
     let figure = Figure::new(title, 2, panels.into());
-    Ok(Outcome { checks: checks(&found, ledger), figure })
+    Ok(Outcome { checks: checks(&found, energy_balance), figure })
 }

@@ -66,9 +66,9 @@ impl Model {
     }
 }
 
-/// Unknowns `[u_x, u_y, θ, u_top]`.
+/// Degrees of freedom `[u_x, u_y, θ, u_top]`.
 impl Structure for Model {
-    fn unknowns(&self) -> usize {
+    fn dofs(&self) -> usize {
         4
     }
 
@@ -207,7 +207,7 @@ fn computed(
             history.iter_mut().zip(values).for_each(|(list, value)| list.push(value));
         }
     })?;
-    Ok((history, run.ledger_residual))
+    Ok((history, run.energy_error))
 }
 
 fn errors(found: &History, wanted: &History) -> [f64; 4] {
@@ -228,7 +228,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     let (strips, step) = if short { (200, 5e-5) } else { (400, 2e-5) };
     let wanted = reference(&model, &record, strips, step, duration);
     let coarser = reference(&model, &record, strips / 2, 2.0 * step, duration);
-    let (found, ledger) = computed(model, 40, 1e-3, duration, true)?;
+    let (found, energy_balance) = computed(model, 40, 1e-3, duration, true)?;
     let (bonded, _) = computed(model, 40, 1e-3, duration, false)?;
     let names = [
         "deformation of the column, relative L2",
@@ -241,7 +241,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     checks.push(Check::below("peak deformation, relative", (ratio - 1.0).abs(), 2e-3));
     let own = errors(&coarser, &wanted)[..3].iter().fold(0.0_f64, |m, e| worse(m, *e));
     checks.push(Check::below("reference against half its strips and steps", own, 1e-3));
-    checks.push(Check::below("energy ledger, residual", ledger, 1e-9));
+    checks.push(Check::below("energy balance, residual", energy_balance, 1e-9));
     let reduced = peak(&found[0]) / peak(&bonded[0]);
     checks.push(Check::within("peak deformation over that without uplift", reduced, 0.2..=0.6));
     // The weight holds the column's foot by a moment of (m+m₀) g b at most.

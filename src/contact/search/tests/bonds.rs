@@ -1,21 +1,21 @@
 //! Bonds that break within a step, against brute force.
 
 use super::*;
-use crate::interface::Adhesive;
+use crate::interface::Cohesive;
 
 /// The same problem with glue of random strength under every closed element.
 fn glue(problem: &mut Problem, random: &mut Random) {
     let pressure = problem.static_traction[0];
     let [tension, cohesion] = [(); 2].map(|()| pressure * random.log_within(0.03, 3.0));
-    let law = Adhesive::new(tension, cohesion, problem.parameters.friction).unwrap();
+    let law = Cohesive::new(tension, cohesion, problem.parameters.friction).unwrap();
     problem.laws = vec![Box::new(law)];
     let starts = problem.start.iter().map(|start| {
         let mode = if start.mode.is_closed() { Mode::Stick } else { Mode::Open };
-        StepStart::new(start.state, mode, 1e-3)
+        PreviousContact::new(start.state, mode, 1e-3)
     });
-    problem.start = StepStarts::new(&problem.laws, &starts.collect::<Vec<_>>()).unwrap();
+    problem.start = PreviousContacts::new(&problem.laws, &starts.collect::<Vec<_>>()).unwrap();
     problem.modes = problem.start.iter().map(|start| start.mode).collect();
-    problem.parameters.activation = Activation::Gap;
+    problem.parameters.activation = UnilateralCondition::Position;
 }
 
 #[test]

@@ -4,27 +4,27 @@ use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
 use super::{Quantity, Recorder};
 use crate::bem::ContactElement;
 use crate::coupled::run::sequence::Sequence;
-use crate::coupled::{Ledger, Probe, Simulation, State, probe_index};
+use crate::coupled::{EnergyBalance, Probe, Simulation, State, probe_index};
 use crate::error::{Error, Result};
 
-/// Time series of a run and snapshots: made by [`Recorder::start`], fed by [`Histories::record`], the
+/// Time series of a run and snapshots: made by [`Recorder::start`], fed by [`TimeSeries::record`], the
 /// observer of [`Simulation::run`].
 ///
 /// The first entry of every history is the state it started from. See the [module](super) for an
 /// example.
 #[derive(Debug, Clone)]
-pub struct Histories {
+pub struct TimeSeries {
     pub(super) recorder: Recorder,
     pub(super) elements: Vec<ContactElement>,
     pub(super) probes: Vec<Probe>,
     pub(super) time_step: f64,
     pub(super) sequence: Sequence,
     steps: usize,
-    unknowns: usize,
+    dofs: usize,
     times: Vec<f64>,
     scalars: Vec<Vec<f64>>,
     pub(super) probe_values: Vec<Vec<f64>>,
-    ledgers: Vec<Ledger>,
+    energy_balances: Vec<EnergyBalance>,
     contact: Option<ContactFrames>,
     motion: Option<MotionFrames>,
 }
@@ -37,17 +37,17 @@ impl Recorder {
     ///
     /// # Errors
     /// [`Error::Input`] for an interval of zero steps.
-    pub fn start(self, simulation: &Simulation) -> Result<Histories> {
+    pub fn start(self, simulation: &Simulation) -> Result<TimeSeries> {
         let intervals = [Some(self.every), self.contact, self.motion];
         if intervals.contains(&Some(0)) {
             let (quantity, needed) = ("steps between what is kept", "one or more");
             return Err(Error::Input { quantity, value: 0.0, needed });
         }
-        Ok(Histories::new(self, simulation))
+        Ok(TimeSeries::new(self, simulation))
     }
 }
 
-impl Histories {
+impl TimeSeries {
     fn new(recorder: Recorder, simulation: &Simulation) -> Self {
         let state = simulation.state();
         let mut histories = Self {
@@ -56,11 +56,11 @@ impl Histories {
             time_step: simulation.time_step(),
             sequence: Sequence::new(state),
             steps: 0,
-            unknowns: recorder.motion.map_or(0, |_| state.displacement().len()),
+            dofs: recorder.motion.map_or(0, |_| state.displacement().len()),
             times: Vec::new(),
             scalars: vec![Vec::new(); Quantity::ALL.len()],
             probe_values: vec![Vec::new(); state.probes.len()],
-            ledgers: Vec::new(),
+            energy_balances: Vec::new(),
             contact: recorder.contact.map(ContactFrames::new),
             motion: recorder.motion.map(MotionFrames::new),
             recorder,
@@ -71,19 +71,19 @@ impl Histories {
     }
 
     /// Reserves memory for so many more steps, at most a million: recording them allocates nothing then
-    /// (but for frames of motion of a structure that is stepped in its modes, whose unknowns the
+    /// (but for frames of motion of a structure that is stepped in its modes, whose degrees of freedom the
     /// state then makes).
     pub fn reserve(&mut self, steps: usize) {
         let steps = steps.min(MOST_RESERVED);
         let count = steps / self.recorder.every + 1;
         let lists = self.scalars.iter_mut().chain(&mut self.probe_values);
         lists.chain([&mut self.times]).for_each(|list| list.reserve(count));
-        self.ledgers.reserve(count);
+        self.energy_balances.reserve(count);
         if let Some(frames) = &mut self.contact {
             frames.reserve(steps, self.elements.len());
         }
         if let Some(frames) = &mut self.motion {
-            frames.reserve(steps, self.unknowns);
+            frames.reserve(steps, self.dofs);
         }
     }
 
@@ -102,7 +102,7 @@ impl Histories {
         let due = |every: usize| self.steps.is_multiple_of(every);
         if due(self.recorder.every) {
             self.times.push(state.time);
-            self.ledgers.push(state.ledger);
+            self.energy_balances.push(state.energy_balance);
             self.scalars.iter_mut().zip(values).for_each(|(list, &value)| list.push(value));
             let probes = self.probe_values.iter_mut().zip(&state.probes);
             probes.for_each(|(list, &value)| list.push(value));
@@ -120,7 +120,7 @@ impl Histories {
         &self.times
     }
 
-    /// History of a scalar at [`Histories::times`].
+    /// History of a scalar at [`TimeSeries::times`].
     pub fn series(&self, quantity: Quantity) -> &[f64] {
         &self.scalars[quantity as usize]
     }
@@ -142,9 +142,9 @@ impl Histories {
         probe_index(&self.probes, name, |probe| &probe.name)
     }
 
-    /// The energy ledger at [`Histories::times`].
-    pub fn ledgers(&self) -> &[Ledger] {
-        &self.ledgers
+    /// The energy balance at [`TimeSeries::times`].
+    pub fn energy_balances(&self) -> &[EnergyBalance] {
+        &self.energy_balances
     }
 
     /// The contact elements.
@@ -159,7 +159,7 @@ impl Histories {
 
     /// Snapshots of the structure; none unless asked for with [`Recorder::motion`].
     pub fn motion_frames(&self) -> impl Iterator<Item = MotionFrame<'_>> {
-        self.motion.iter().flat_map(|frames| frames.frames(self.unknowns))
+        self.motion.iter().flat_map(|frames| frames.frames(self.dofs))
     }
 
     /// Memory that histories and frames take up now.
@@ -168,7 +168,7 @@ impl Histories {
             self.scalars.iter().chain(&self.probe_values).map(Vec::len).sum::<usize>()
                 + self.times.len();
         8 * numbers
-            + size_of_val(&self.ledgers[..])
+            + size_of_val(&self.energy_balances[..])
             + self.contact.as_ref().map_or(0, ContactFrames::bytes)
             + self.motion.as_ref().map_or(0, MotionFrames::bytes)
     }

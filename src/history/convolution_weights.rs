@@ -1,7 +1,7 @@
 //! The kernel of a convolution history: a ground's coefficients, lag by lag, and late ones as
 //! exponentials.
 
-use super::exponentials::ExponentialTail;
+use super::exponentials::ExponentialSum;
 use super::pair_classes::{KINDS, PairClasses};
 use super::relaxed_fft::spectra::SharedSpectra;
 use crate::error::{Result, same_length};
@@ -22,13 +22,13 @@ use crate::error::{Result, same_length};
 /// | down | shear | sign · scale · coupling |
 /// | to the right | pressure | −sign · scale · coupling |
 ///
-/// All histories keep tables of their own, made of what [`LagKernel::coefficients`] gives, so that
+/// All histories keep tables of their own, made of what [`ConvolutionWeights::coefficients`] gives, so that
 /// nothing here is called in a step unless memory has to grow. The same lag must always have the same bits,
 /// whatever else was asked for, in whatever order and on whatever thread: how a run is cut then
 /// changes nothing.
 ///
-/// The example of [`KernelGround`](crate::bem::KernelGround) is a kernel in twenty lines.
-pub trait LagKernel: Send + Sync {
+/// The example of [`WeightsGround`](crate::bem::WeightsGround) is a kernel in twenty lines.
+pub trait ConvolutionWeights: Send + Sync {
     /// The elements, and the classes of their pairs.
     fn classes(&self) -> &PairClasses;
 
@@ -37,7 +37,7 @@ pub trait LagKernel: Send + Sync {
     ///
     /// Called often, so it must be cheap where all is ready. The bits of a lag must not depend on
     /// `lags`: a kernel that computes blocks of lags takes blocks that do not, such as
-    /// N + 1 … 2N for powers of two. Histories ask for powers of two where the number of steps leaves
+    /// N + 1 … 2N for powers of two. TimeSeries ask for powers of two where the number of steps leaves
     /// it open.
     ///
     /// # Errors
@@ -50,7 +50,7 @@ pub trait LagKernel: Send + Sync {
     /// coupling) with the coefficients of `class` for the lags from `first_lag` (≥ 1) on, integrals
     /// over the receiver in m²/Pa: down due to pressure, to the right due to shear, and down due to
     /// shear with the receiver to the right of the source. Lags that
-    /// were not [prepared](LagKernel::prepare) are computed now.
+    /// were not [prepared](ConvolutionWeights::prepare) are computed now.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a class that does not exist,
@@ -89,8 +89,8 @@ pub trait LagKernel: Send + Sync {
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for a slice of the wrong length; as for
-    /// [`LagKernel::coefficients`].
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+    /// [`ConvolutionWeights::coefficients`].
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let classes = self.classes();
         same_length("instantaneous operator", matrix.len(), classes.layout().square())?;
         self.prepare(1)?;
@@ -110,7 +110,7 @@ pub trait LagKernel: Send + Sync {
 ///
 /// [`ExponentialHistory`](super::ExponentialHistory) compares what [`LateLags::exponentials`] gives
 /// with the coefficients themselves, at single lags up to the horizon, and looks whether window and
-/// exponentials together are passive. So [`LagKernel::coefficients`] should be quick at any lag here.
+/// exponentials together are passive. So [`ConvolutionWeights::coefficients`] should be quick at any lag here.
 pub trait LateLags: Send + Sync {
     /// The last lag that no exponentials can stand for. The coupling must have ended by then.
     fn window(&self) -> usize;
@@ -121,10 +121,6 @@ pub trait LateLags: Send + Sync {
     ///
     /// # Errors
     /// If there are none.
-    fn exponentials(
-        &self,
-        window: usize,
-        horizon: usize,
-        tolerance: f64,
-    ) -> Result<ExponentialTail>;
+    fn exponentials(&self, window: usize, horizon: usize, tolerance: f64)
+    -> Result<ExponentialSum>;
 }

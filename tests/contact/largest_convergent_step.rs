@@ -3,9 +3,9 @@
 //! REFERENCE: the limit.
 
 use basemat::bem::SpringGround;
-use basemat::coupled::workable_step;
+use basemat::coupled::largest_convergent_step;
 use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance,
+    Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
 };
 use basemat::motion::el_centro_1940;
 use basemat::structure::RigidBlock;
@@ -23,14 +23,14 @@ impl InterfaceLaw for ContentUpTo {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         coulomb().conditions(mode, start)
     }
 
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
@@ -54,10 +54,10 @@ fn scene(step: f64, limit: f64) -> Result<Simulation> {
 fn the_longest_step_that_gets_through_is_found() {
     let error = scene(0.02, 0.003).unwrap().run(10, |_| {}).map(|_| ()).unwrap_err();
     assert!(matches!(error, Error::Step { source: StepError::Contact { .. }, .. }), "{error}");
-    assert!(error.to_string().contains("`coupled::workable_step`"), "{error}");
+    assert!(error.to_string().contains("`coupled::largest_convergent_step`"), "{error}");
     for (limit, wanted) in [(0.02, Some(0.02)), (0.003, Some(0.0025)), (1e-6, None)] {
         let mut tried = 0;
-        let found = workable_step(0.02, 0.1, |step| {
+        let found = largest_convergent_step(0.02, 0.1, |step| {
             tried += 1;
             scene(step, limit)
         });
@@ -78,8 +78,8 @@ fn the_longest_step_that_gets_through_is_found() {
 #[test]
 fn other_failures_are_handed_on() {
     for (step, duration) in [(f64::NAN, 1.0), (0.0, 1.0), (0.01, -1.0), (0.01, f64::INFINITY)] {
-        assert!(workable_step(step, duration, |step| scene(step, 1.0)).is_err());
+        assert!(largest_convergent_step(step, duration, |step| scene(step, 1.0)).is_err());
     }
     let reason = || Error::part("my scene", "no");
-    assert_eq!(workable_step(0.01, 1.0, |_| Err(reason())), Err(reason()));
+    assert_eq!(largest_convergent_step(0.01, 1.0, |_| Err(reason())), Err(reason()));
 }

@@ -1,4 +1,4 @@
-//! Weighted sums of unknowns.
+//! Weighted sums of degrees of freedom.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
@@ -7,27 +7,27 @@ use crate::error::{Error, Result, finite, positive};
 
 /// A weighted sum of a structure's unknowns: a displacement of a point, a drift, a rotation.
 ///
-/// It is kept as (unknown, weight) terms, in the order they were given; an unknown that comes more
+/// It is kept as (unknown, weight) terms, in the order they were given; a degree of freedom that comes more
 /// than once counts with the sum of its weights. Whatever takes a row takes a bare unknown (with
 /// weight one), a term, or a list of terms too.
 ///
 /// ```
-/// use basemat::structure::Row;
+/// use basemat::structure::DofCombination;
 ///
-/// let roof = Row::from(7);
+/// let roof = DofCombination::from(7);
 /// assert_eq!(roof.terms(), [(7, 1.0)]);
-/// let mut drift = Row::from(7) - Row::from(6);
-/// drift += 3.0 * Row::from(2);
-/// assert_eq!(drift, Row::from([(7, 1.0), (6, -1.0), (2, 3.0)]));
-/// let unknowns = [0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.1, 0.2];
-/// assert!((drift.value(&unknowns) - 0.13).abs() < 1e-15);
+/// let mut drift = DofCombination::from(7) - DofCombination::from(6);
+/// drift += 3.0 * DofCombination::from(2);
+/// assert_eq!(drift, DofCombination::from([(7, 1.0), (6, -1.0), (2, 3.0)]));
+/// let dofs = [0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.1, 0.2];
+/// assert!((drift.value(&dofs) - 0.13).abs() < 1e-15);
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(transparent))]
-pub struct Row(Vec<(usize, f64)>);
+pub struct DofCombination(Vec<(usize, f64)>);
 
-impl Row {
+impl DofCombination {
     /// The (unknown, weight) terms.
     pub fn terms(&self) -> &[(usize, f64)] {
         &self.0
@@ -43,10 +43,10 @@ impl Row {
         self.0.is_empty()
     }
 
-    /// The sum for these values of all unknowns (displacements, velocities or accelerations);
-    /// unknowns beyond their end count as zero.
-    pub fn value(&self, unknowns: &[f64]) -> f64 {
-        let at = |index: usize| unknowns.get(index).copied().unwrap_or(0.0);
+    /// The sum for these values of all degrees of freedom (displacements, velocities or accelerations);
+    /// degrees of freedom beyond their end count as zero.
+    pub fn value(&self, dofs: &[f64]) -> f64 {
+        let at = |index: usize| dofs.get(index).copied().unwrap_or(0.0);
         self.0.iter().map(|&(index, weight)| weight * at(index)).sum()
     }
 
@@ -54,7 +54,7 @@ impl Row {
     /// sees, its rotation left in. The base's slip on the ground is taken out, too.
     ///
     /// The base is that of `structure`, from its first contact node to its last; the row must be one
-    /// of its unknowns. In a group that is a member, before
+    /// of its degrees of freedom. In a group that is a member, before
     /// [`StructureGroup::row`](super::StructureGroup::row) moves the row.
     ///
     /// # Errors
@@ -69,42 +69,42 @@ impl Row {
     /// the base there, translation and rotation: how far the structure has bent.
     ///
     /// ```
-    /// use basemat::structure::{RigidBlock, Row, ShearBuilding, Storey};
+    /// use basemat::structure::{RigidBlock, DofCombination, ShearBuilding, Storey};
     ///
     /// // Nothing bends in a rigid block.
     /// let block = RigidBlock::new(4.0, 10.0, 2000.0)?;
-    /// let sway = block.horizontal_at(10.0).sway(&block, 10.0)?;
+    /// let sway = block.horizontal_at(10.0).total_drift(&block, 10.0)?;
     /// assert!(sway.value(&[0.3, 0.1, 0.02]).abs() < 1e-15);
     ///
     /// // A roof at 6 m that has moved by 0.1 m, on a base that has moved by 0.02 m and turned by
     /// // 0.01 to the left.
     /// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &[Storey::new(3.0, 20.0e3, 40.0e6); 2])?;
-    /// let roof = Row::from(building.roof());
+    /// let roof = DofCombination::from(building.roof());
     /// let moved = [0.02, 0.0, 0.01, 0.0, 0.1];
     /// assert!((roof.relative_to_base(&building)?.value(&moved) - 0.08).abs() < 1e-15);
-    /// assert!((roof.sway(&building, 6.0)?.value(&moved) - 0.14).abs() < 1e-15);
+    /// assert!((roof.total_drift(&building, 6.0)?.value(&moved) - 0.14).abs() < 1e-15);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
     /// # Errors
     /// [`Error::Size`] for a structure with fewer than two contact nodes, [`Error::Input`] for a
     /// height that is not finite or contact nodes at one place.
-    pub fn sway(&self, structure: &dyn Structure, height: f64) -> Result<Self> {
+    pub fn total_drift(&self, structure: &dyn Structure, height: f64) -> Result<Self> {
         finite("height above the base", height)?;
         let [translation, rotation] = base_motion(structure)?;
         Ok(self.clone() - translation + height * rotation)
     }
 
-    /// The same sum of unknowns with other numbers.
+    /// The same sum of degrees of freedom with other numbers.
     pub(super) fn map_unknowns(&self, number: impl Fn(usize) -> usize) -> Self {
         self.0.iter().map(|&(index, weight)| (number(index), weight)).collect()
     }
 
-    /// Error for a weight that is not finite, or an unknown at `bound` or beyond, which the error
+    /// Error for a weight that is not finite, or a degree of freedom at `bound` or beyond, which the error
     /// calls `quantity`.
     pub(crate) fn check(&self, quantity: &'static str, bound: usize) -> Result<()> {
         for &(index, weight) in &self.0 {
-            finite("weight of an unknown", weight)?;
+            finite("weight of a degree of freedom", weight)?;
             if index >= bound {
                 return Err(Error::Index { quantity, index, bound });
             }
@@ -114,7 +114,7 @@ impl Row {
 }
 
 /// Displacement to the right of the base's middle, and rotation of its chord.
-fn base_motion(structure: &dyn Structure) -> Result<[Row; 2]> {
+fn base_motion(structure: &dyn Structure) -> Result<[DofCombination; 2]> {
     let nodes = structure.contact_nodes();
     let [left, .., right] = &nodes[..] else {
         let (found, needed) = (nodes.len(), 2);
@@ -126,62 +126,62 @@ fn base_motion(structure: &dyn Structure) -> Result<[Row; 2]> {
     Ok([translation, rotation])
 }
 
-impl From<usize> for Row {
+impl From<usize> for DofCombination {
     /// One unknown, with weight one.
     fn from(unknown: usize) -> Self {
         Self(vec![(unknown, 1.0)])
     }
 }
 
-impl From<(usize, f64)> for Row {
+impl From<(usize, f64)> for DofCombination {
     fn from(term: (usize, f64)) -> Self {
         Self(vec![term])
     }
 }
 
-impl From<Vec<(usize, f64)>> for Row {
+impl From<Vec<(usize, f64)>> for DofCombination {
     fn from(terms: Vec<(usize, f64)>) -> Self {
         Self(terms)
     }
 }
 
-impl From<&[(usize, f64)]> for Row {
+impl From<&[(usize, f64)]> for DofCombination {
     fn from(terms: &[(usize, f64)]) -> Self {
         Self(terms.to_vec())
     }
 }
 
-impl<const N: usize> From<[(usize, f64); N]> for Row {
+impl<const N: usize> From<[(usize, f64); N]> for DofCombination {
     fn from(terms: [(usize, f64); N]) -> Self {
         Self(terms.to_vec())
     }
 }
 
-impl<const N: usize> From<&[(usize, f64); N]> for Row {
+impl<const N: usize> From<&[(usize, f64); N]> for DofCombination {
     fn from(terms: &[(usize, f64); N]) -> Self {
         Self(terms.to_vec())
     }
 }
 
-impl From<&Row> for Row {
-    fn from(row: &Row) -> Self {
+impl From<&DofCombination> for DofCombination {
+    fn from(row: &DofCombination) -> Self {
         row.clone()
     }
 }
 
-impl FromIterator<(usize, f64)> for Row {
+impl FromIterator<(usize, f64)> for DofCombination {
     fn from_iter<I: IntoIterator<Item = (usize, f64)>>(terms: I) -> Self {
         Self(terms.into_iter().collect())
     }
 }
 
-impl AsRef<[(usize, f64)]> for Row {
+impl AsRef<[(usize, f64)]> for DofCombination {
     fn as_ref(&self) -> &[(usize, f64)] {
         &self.0
     }
 }
 
-impl AddAssign for Row {
+impl AddAssign for DofCombination {
     fn add_assign(&mut self, other: Self) {
         for (index, weight) in other.0 {
             match self.0.iter_mut().find(|term| term.0 == index) {
@@ -192,13 +192,13 @@ impl AddAssign for Row {
     }
 }
 
-impl SubAssign for Row {
+impl SubAssign for DofCombination {
     fn sub_assign(&mut self, other: Self) {
         *self += -other;
     }
 }
 
-impl Add for Row {
+impl Add for DofCombination {
     type Output = Self;
 
     fn add(mut self, other: Self) -> Self {
@@ -207,7 +207,7 @@ impl Add for Row {
     }
 }
 
-impl Neg for Row {
+impl Neg for DofCombination {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -215,7 +215,7 @@ impl Neg for Row {
     }
 }
 
-impl Sub for Row {
+impl Sub for DofCombination {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -223,16 +223,16 @@ impl Sub for Row {
     }
 }
 
-impl Mul<Row> for f64 {
-    type Output = Row;
+impl Mul<DofCombination> for f64 {
+    type Output = DofCombination;
 
-    fn mul(self, mut row: Row) -> Row {
+    fn mul(self, mut row: DofCombination) -> DofCombination {
         row.0.iter_mut().for_each(|term| term.1 *= self);
         row
     }
 }
 
-impl IntoIterator for Row {
+impl IntoIterator for DofCombination {
     type Item = (usize, f64);
     type IntoIter = std::vec::IntoIter<(usize, f64)>;
 
@@ -241,7 +241,7 @@ impl IntoIterator for Row {
     }
 }
 
-impl<'a> IntoIterator for &'a Row {
+impl<'a> IntoIterator for &'a DofCombination {
     type Item = &'a (usize, f64);
     type IntoIter = std::slice::Iter<'a, (usize, f64)>;
 

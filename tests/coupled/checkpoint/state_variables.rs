@@ -27,12 +27,15 @@ fn memories_resume_to_the_last_bit() {
         ("weakening", Box::new(|| base().interface(WEAKENING).build().unwrap())),
         ("glue", Box::new(move || on_half_plane().interface(GLUE).build().unwrap())),
         ("pads", Box::new(|| base().interface(PADS).build().unwrap())),
-        ("no ledger", Box::new(|| base().interface(PADS).without_ledger().build().unwrap())),
+        (
+            "no energy balance",
+            Box::new(|| base().interface(PADS).without_energy_balance().build().unwrap()),
+        ),
     ];
     for (name, build) in kinds {
         let memory = |simulation: &Simulation| -> Vec<f64> {
             let count = simulation.elements().len();
-            (0..count).flat_map(|e| simulation.state().law_memory(e).to_vec()).collect()
+            (0..count).flat_map(|e| simulation.state().state_variables(e).to_vec()).collect()
         };
         let mut whole = build();
         let mut saved = vec![whole.checkpoint().unwrap()];

@@ -16,7 +16,7 @@ const HALVINGS: usize = 10;
 ///
 /// ```
 /// use basemat::bem::{ElasticGround, Grading, Strip};
-/// use basemat::coupled::workable_step;
+/// use basemat::coupled::largest_convergent_step;
 /// use basemat::interface::ThinLayer;
 /// use basemat::motion::el_centro_1940;
 /// use basemat::structure::RigidBlock;
@@ -34,7 +34,7 @@ const HALVINGS: usize = 10;
 ///         .motion(el_centro_1940().scaled(3.0)?)
 ///         .build()
 /// };
-/// let step = workable_step(0.0125, 5.0, make)?;
+/// let step = largest_convergent_step(0.0125, 5.0, make)?;
 /// assert!(step.is_some_and(|step| step <= 0.0125));
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -42,7 +42,7 @@ const HALVINGS: usize = 10;
 /// # Errors
 /// Those of `make`, and of steps that fail for another reason; [`Error::Input`] unless `time_step` is
 /// finite and above zero and `duration` finite and not negative.
-pub fn workable_step(
+pub fn largest_convergent_step(
     time_step: f64,
     duration: f64,
     mut make: impl FnMut(f64) -> Result<Simulation>,

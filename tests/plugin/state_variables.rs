@@ -65,7 +65,7 @@ fn by_simulation(law: impl InterfaceLaw + 'static, step: f64) -> Simulation {
         .build()
         .unwrap();
     let run = simulation.run(simulation.steps_for(DURATION), |_| {}).unwrap();
-    assert!(run.ledger_residual < 1e-9, "{run}");
+    assert!(run.energy_error < 1e-9, "{run}");
     assert_eq!(run.debondings, 0);
     simulation
 }
@@ -82,13 +82,13 @@ fn friction_that_falls_with_the_distance_slid() {
     for step in [2e-3, 2.5e-4] {
         let simulation = by_simulation(LAW, step);
         let state = simulation.state();
-        let found = [state.mean_slip, state.law_memory(1)[0]];
+        let found = [state.mean_slip, state.state_variables(1)[0]];
         println!("step {step}: slip and distance {found:?}, wanted {wanted:?}");
         errors.push((found[1] - wanted[1]).abs().max((found[0] - wanted[0]).abs()) / wanted[1]);
         for e in 0..4 {
-            assert!((state.law_memory(e)[0] / found[1] - 1.0).abs() < 1e-3, "a rigid base");
+            assert!((state.state_variables(e)[0] / found[1] - 1.0).abs() < 1e-3, "a rigid base");
         }
-        assert!(state.law_memory(4).is_empty());
+        assert!(state.state_variables(4).is_empty());
     }
     println!("errors {errors:?}");
     assert!(errors[1] < 5e-4 && errors[1] < 0.25 * errors[0], "{errors:?}");
@@ -107,17 +107,17 @@ fn broken_glue(friction: f64, strength: f64) -> [usize; 2] {
     for _ in 0..600 {
         let (own, reference) = (own.step().unwrap(), reference.step().unwrap());
         assert_eq!((&own.contact, &own.modes), (&reference.contact, &reference.modes));
-        assert_eq!(own.ledger, reference.ledger);
+        assert_eq!(own.energy_balance, reference.energy_balance);
         for (e, opened) in opened.iter_mut().enumerate() {
             *opened |= !own.modes[e].is_closed();
             let left = if *opened { 0.0 } else { strength };
-            assert_eq!(own.law_memory(e), [left, pressure[e]]);
+            assert_eq!(own.state_variables(e), [left, pressure[e]]);
         }
         let broken = opened.iter().filter(|opened| **opened).count();
         steps[0] += usize::from((1..6).contains(&broken));
         steps[1] += usize::from((0..6).any(|e| opened[e] && own.modes[e].is_closed()));
     }
-    assert!(own.state().ledger.residual() < 1e-9);
+    assert!(own.state().energy_balance.residual() < 1e-9);
     steps
 }
 
@@ -142,10 +142,10 @@ fn laws_with_and_without_memory_stand_side_by_side() {
     let laws = (0..4).map(law).collect();
     let (_, simulation) = run(shaken().structure(block()).ground(bed(4)).interfaces(laws));
     let state = simulation.state();
-    let memories: Vec<_> = (0..5).map(|e| state.law_memory(e).len()).collect();
+    let memories: Vec<_> = (0..5).map(|e| state.state_variables(e).len()).collect();
     assert_eq!(memories, [1, 0, 2, 0, 0]);
-    assert!(state.law_memory(0)[0] > 0.0);
-    assert!((state.law_memory(2)[1] / (3.0 * 2000.0 * GRAVITY) - 1.0).abs() < 1e-6);
+    assert!(state.state_variables(0)[0] > 0.0);
+    assert!((state.state_variables(2)[1] / (3.0 * 2000.0 * GRAVITY) - 1.0).abs() < 1e-6);
 }
 
 #[test]
@@ -164,19 +164,27 @@ fn pads_that_soften_store_half_c_t_squared() {
         (0..4).map(pad).sum()
     };
     // They have borne the weight before the run begins.
-    let mut borne: [f64; 4] = std::array::from_fn(|e| simulation.state().law_memory(e)[0]);
+    let mut borne: [f64; 4] = std::array::from_fn(|e| simulation.state().state_variables(e)[0]);
     assert!(borne.iter().all(|borne| (borne / (3.0 * 2000.0 * GRAVITY) - 1.0).abs() < 1e-6));
     let at_rest = stored(simulation.state(), &borne);
     let mut lost = 0.0;
     for _ in 0..600 {
         let state = simulation.step().unwrap();
         let wanted = stored(state, &borne) - at_rest;
-        assert!((state.ledger.layer - wanted).abs() < 1e-9 * at_rest, "step {}", state.step);
+        assert!(
+            (state.energy_balance.interface - wanted).abs() < 1e-9 * at_rest,
+            "step {}",
+            state.step
+        );
         // Before the push there is nothing but rounding.
-        assert!(state.time < 0.2 || state.ledger.residual() < 1e-9, "{}", state.ledger);
-        assert!(state.ledger.contact >= lost - 1e-9 * at_rest, "damage gives nothing back");
-        lost = state.ledger.contact;
-        borne = std::array::from_fn(|e| state.law_memory(e)[0]);
+        assert!(
+            state.time < 0.2 || state.energy_balance.residual() < 1e-9,
+            "{}",
+            state.energy_balance
+        );
+        assert!(state.energy_balance.contact >= lost - 1e-9 * at_rest, "damage gives nothing back");
+        lost = state.energy_balance.contact;
+        borne = std::array::from_fn(|e| state.state_variables(e)[0]);
     }
     println!(
         "pads stored {at_rest:.0} J/m at first; damage took {lost:.0} J/m; borne {borne:?} Pa"

@@ -1,4 +1,4 @@
-//! The energy ledger: where every joule of a run went.
+//! The energy balance: where every joule of a run went.
 
 use std::fmt;
 
@@ -18,10 +18,10 @@ enum Side {
     Beside,
 }
 
-/// From rows in the order of columns: the terms as an enum, and the ledger that holds them.
+/// From rows in the order of columns: the terms as an enum, and the energy balance that holds them.
 macro_rules! energies {
     ($($(#[$doc:meta])* $variant:ident $field:ident, $side:ident, $name:literal;)+) => {
-        /// A term of the [`Ledger`].
+        /// A term of the [`EnergyBalance`].
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         #[non_exhaustive]
         pub enum EnergyTerm {
@@ -42,14 +42,14 @@ macro_rules! energies {
         /// ```
         ///
         /// holds exactly for the discrete equations. Every term is computed from its own definition and
-        /// none as the remainder, so that [`Ledger::residual`] checks the whole step. One thing it does not
+        /// none as the remainder, so that [`EnergyBalance::residual`] checks the whole step. One thing it does not
         /// check: energies that a nonlinear structure says it stores and dissipates. The difference between
-        /// them and the work of its force is in `numerical`, and falls with the square of the step.
+        /// them and the work of its force is in `algorithmic`, and falls with the square of the step.
         #[derive(Debug, Clone, Copy, Default)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
         #[non_exhaustive]
-        pub struct Ledger {
+        pub struct EnergyBalance {
             $(
                 $(#[$doc])*
                 #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
@@ -57,8 +57,8 @@ macro_rules! energies {
             )+
         }
 
-        impl Ledger {
-            /// The ledger of a simulation that keeps none: every term is NaN.
+        impl EnergyBalance {
+            /// The energy balance of a simulation that keeps none: every term is NaN.
             pub(crate) const LEFT_OUT: Self = Self { $($field: f64::NAN),+ };
 
             /// All terms, in the order of [`EnergyTerm::ALL`].
@@ -90,7 +90,7 @@ energies! {
     /// interfaces, whose traction is that of the end of the step all through it. With a nonlinear
     /// force of known energies, also its work in the discrete equation beyond them: the error of
     /// one point in a step, of either sign.
-    Numerical numerical, Balance, "time scheme";
+    Algorithmic algorithmic, Balance, "time scheme";
     /// Work done on the soil by the changes of traction: radiated and stored.
     Soil soil, Lost, "soil (radiated, stored)";
     /// Loss by friction and impact, and with the springs of a compliant interface
@@ -99,9 +99,9 @@ energies! {
     Contact contact, Lost, "friction and impact";
     /// Elastic energy stored in compliant interfaces ([`crate::interface::InterfaceLaw::compliance`]),
     /// as a change against the static state; zero for hard contact.
-    Layer layer, Balance, "interface layer";
+    Interface interface, Balance, "interface layer";
     /// Potential of the static tractions against the change of the jump.
-    Preload preload, Balance, "static pressures";
+    StaticContact static_contact, Balance, "static pressures";
     /// Work of external loads and of the free field, and the energy of an initial motion.
     Input input, Input, "input";
     /// Relative input energy (Uang & Bertero 1990): work of the loads, and of the inertia forces
@@ -150,7 +150,7 @@ impl fmt::Display for EnergyTerm {
     }
 }
 
-impl Ledger {
+impl EnergyBalance {
     /// Value of a term, J/m.
     pub fn term(&self, term: EnergyTerm) -> f64 {
         self.terms()[term as usize]
@@ -191,13 +191,13 @@ impl Ledger {
         terms.fold(self.largest, |m, term| m.max(term.abs()))
     }
 
-    /// Whether no ledger is kept: every term is then NaN.
+    /// Whether no energy balance is kept: every term is then NaN.
     pub fn is_left_out(&self) -> bool {
         self.input.is_nan()
     }
 
-    /// Left-hand side minus input, relative to the [largest energy](Ledger::largest) so far; NaN if no
-    /// ledger is kept.
+    /// Left-hand side minus input, relative to the [largest energy](EnergyBalance::largest) so far; NaN if no
+    /// energy balance is kept.
     pub fn residual(&self) -> f64 {
         if self.is_left_out() {
             return f64::NAN;
@@ -209,7 +209,7 @@ impl Ledger {
 }
 
 /// Terms that are NaN in both are equal.
-impl PartialEq for Ledger {
+impl PartialEq for EnergyBalance {
     fn eq(&self, other: &Self) -> bool {
         let same = |(a, b): (f64, f64)| a == b || (a.is_nan() && b.is_nan());
         self.terms().into_iter().zip(other.terms()).all(same)
@@ -217,10 +217,10 @@ impl PartialEq for Ledger {
 }
 
 /// Energies in kJ/m.
-impl fmt::Display for Ledger {
+impl fmt::Display for EnergyBalance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_left_out() {
-            return write!(f, "energy ledger left out");
+            return write!(f, "energy balance left out");
         }
         let shown = |energy: f64| number(1e-3 * energy);
         writeln!(f, "energy, kJ/m: input {}", shown(self.input))?;
@@ -243,29 +243,29 @@ mod tests {
 
     #[test]
     fn shares_add_up_as_the_ledger_does() {
-        let ledger = Ledger {
+        let energy_balance = EnergyBalance {
             kinetic: 1.0,
             strain: 2.0,
             hysteresis: 256.0,
             damping: 4.0,
-            numerical: 8.0,
+            algorithmic: 8.0,
             soil: 16.0,
             contact: 32.0,
-            layer: 64.0,
-            preload: -7.0,
+            interface: 64.0,
+            static_contact: -7.0,
             input: 376.0,
             relative_input: 300.0,
             soil_error_bound: 0.0,
             largest: 376.0,
         };
-        assert_eq!(ledger.residual(), 0.0);
-        let shares = ledger.shares().unwrap();
+        assert_eq!(energy_balance.residual(), 0.0);
+        let shares = energy_balance.shares().unwrap();
         assert!((shares.iter().map(|(_, share)| share).sum::<f64>() - 1.0).abs() < 1e-15);
         assert_eq!(shares.len(), 8);
         assert!(shares.contains(&("kinetic and strain", 3.0 / 376.0)));
-        assert_eq!(ledger.share(EnergyTerm::Soil), Some(16.0 / 376.0));
+        assert_eq!(energy_balance.share(EnergyTerm::Soil), Some(16.0 / 376.0));
         for input in [0.0, -1.0, f64::NAN] {
-            assert_eq!(Ledger { input, ..ledger }.shares(), None);
+            assert_eq!(EnergyBalance { input, ..energy_balance }.shares(), None);
         }
     }
 

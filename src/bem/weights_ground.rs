@@ -2,18 +2,18 @@
 
 use std::sync::Arc;
 
-use super::{Ground, KernelSource, SharedKernels};
+use super::{Ground, SharedKernels, WeightsSource};
 use crate::error::{CheckpointError, Error, Result};
 use crate::geometry::{ContactElement, check_order};
 use crate::history::{
-    ChosenHistory, ConvolutionHistory, ExponentialHistory, History, HistoryChoice, HistoryOptions,
-    LagKernel, SavedChoice,
+    ChosenHistory, ConvolutionHistory, ConvolutionWeights, ExponentialHistory, History,
+    HistoryChoice, HistoryOptions, SavedChoice,
 };
 
 /// Any soil that knows its step coefficients and its static compliance, as a ground.
 ///
 /// [`ElasticGround`](super::ElasticGround) is made of it, and so can be a soil of your own: a
-/// [`KernelSource`] and its [`LagKernel`]. All kinds of histories, their choice, shared kernels
+/// [`WeightsSource`] and its [`ConvolutionWeights`]. All kinds of histories, their choice, shared kernels
 /// and checkpoints come with it.
 ///
 /// A bed of independent Kelvin–Voigt springs, exactly integrated: under a pressure held for one step
@@ -23,8 +23,8 @@ use crate::history::{
 /// ```
 /// use std::sync::Arc;
 ///
-/// use basemat::bem::{ContactElement, KernelGround, KernelSource, Strip};
-/// use basemat::history::{LagKernel, PairClasses};
+/// use basemat::bem::{ContactElement, WeightsGround, WeightsSource, Strip};
+/// use basemat::history::{ConvolutionWeights, PairClasses};
 /// use basemat::interface::Coulomb;
 /// use basemat::motion::el_centro_1940;
 /// use basemat::structure::RigidBlock;
@@ -43,7 +43,7 @@ use crate::history::{
 ///     classes: PairClasses,
 /// }
 ///
-/// impl LagKernel for BedKernel {
+/// impl ConvolutionWeights for BedKernel {
 ///     fn classes(&self) -> &PairClasses {
 ///         &self.classes
 ///     }
@@ -77,8 +77,8 @@ use crate::history::{
 ///     }
 /// }
 ///
-/// impl KernelSource for Bed {
-///     fn kernel(&self, elements: &[ContactElement], time_step: f64) -> Result<Arc<dyn LagKernel>> {
+/// impl WeightsSource for Bed {
+///     fn kernel(&self, elements: &[ContactElement], time_step: f64) -> Result<Arc<dyn ConvolutionWeights>> {
 ///         let classes = PairClasses::new(elements.to_vec())?;
 ///         Ok(Arc::new(BedKernel { bed: *self, time_step, classes }))
 ///     }
@@ -95,16 +95,16 @@ use crate::history::{
 /// let bed = Bed { stiffness: 40.0e6, dashpots: 4.0e5 };
 /// let run = Simulation::builder(0.005)
 ///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
-///     .ground(KernelGround::new(bed, Strip::uniform(-2.0..2.0, 8)?.elements())?)
+///     .ground(WeightsGround::new(bed, Strip::uniform(-2.0..2.0, 8)?.elements())?)
 ///     .interface(Coulomb::new(0.4)?)
 ///     .motion(el_centro_1940())
 ///     .build()?
 ///     .run(400, |_| {})?;
-/// assert!(run.ledger_residual < 1e-9);
+/// assert!(run.energy_error < 1e-9);
 /// # Ok::<(), basemat::Error>(())
 /// ```
-pub struct KernelGround {
-    source: Box<dyn KernelSource>,
+pub struct WeightsGround {
+    source: Box<dyn WeightsSource>,
     elements: Vec<ContactElement>,
     options: HistoryOptions,
     own_history: Option<Box<MakeHistory>>,
@@ -113,7 +113,7 @@ pub struct KernelGround {
 }
 
 short_debug! {
-    KernelGround;
+    WeightsGround;
     self;
     elements: self.elements.len(),
     history: self.options,
@@ -121,11 +121,11 @@ short_debug! {
 }
 
 /// Makes the history of a kernel.
-type MakeHistory = dyn Fn(Arc<dyn LagKernel>) -> Box<dyn ConvolutionHistory> + Send;
+type MakeHistory = dyn Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory> + Send;
 
 /// Kernel and history for one time step.
 struct Prepared {
-    kernel: Arc<dyn LagKernel>,
+    kernel: Arc<dyn ConvolutionWeights>,
     /// Left open until the number of steps is known or the first step is made.
     history: Option<Kept>,
 }
@@ -164,7 +164,7 @@ impl Prepared {
         };
         let history = self.history.insert(history);
         if let (Kept::Chosen(history), Some(steps)) = (&mut *history, steps) {
-            history.announce(steps);
+            history.expect_steps(steps);
         }
         Ok(history.any_mut())
     }
@@ -178,13 +178,13 @@ impl Prepared {
     }
 }
 
-impl KernelGround {
+impl WeightsGround {
     /// The ground of `source` under `elements`, from left to right.
     ///
     /// # Errors
     /// [`Error::Size`] for no elements, [`Error::Input`] for elements that overlap, are out of order
     /// or have no length.
-    pub fn new(source: impl KernelSource, elements: Vec<ContactElement>) -> Result<Self> {
+    pub fn new(source: impl WeightsSource, elements: Vec<ContactElement>) -> Result<Self> {
         check_order(&elements)?;
         let (options, shared) = (HistoryOptions::default(), SharedKernels::default());
         let source = Box::new(source);
@@ -211,7 +211,7 @@ impl KernelGround {
 
     /// With a limit (bytes) on the memory of the history; 1 GiB unless called.
     ///
-    /// [`History::Auto`] goes by it and by the steps announced ([`Ground::announce`] or
+    /// [`History::Auto`] goes by it and by the steps announced ([`Ground::expect_steps`] or
     /// [`Ground::reserve`]: of a simulation,
     /// [`expected_steps`](crate::coupled::SimulationBuilder::expected_steps) or the steps of the
     /// first run). Beyond those steps, or where none are known, it holds for every history: that which
@@ -228,7 +228,7 @@ impl KernelGround {
     #[must_use]
     pub fn with_history(
         mut self,
-        make: impl Fn(Arc<dyn LagKernel>) -> Box<dyn ConvolutionHistory> + Send + 'static,
+        make: impl Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory> + Send + 'static,
     ) -> Self {
         self.own_history = Some(Box::new(make));
         self
@@ -243,12 +243,12 @@ impl KernelGround {
     }
 
     /// With other coefficients.
-    pub(super) fn with_source(self, source: impl KernelSource) -> Self {
+    pub(super) fn with_source(self, source: impl WeightsSource) -> Self {
         Self { source: Box::new(source), prepared: None, ..self }
     }
 
     /// Before the first step, with a history where none is to be chosen.
-    fn begin(&self, kernel: Arc<dyn LagKernel>) -> Result<Prepared> {
+    fn begin(&self, kernel: Arc<dyn ConvolutionWeights>) -> Result<Prepared> {
         let history = self.own_history.as_ref().map(|make| Kept::Own(make(Arc::clone(&kernel))));
         let mut prepared = Prepared { kernel, history };
         if self.options.kind != History::Auto {
@@ -258,7 +258,7 @@ impl KernelGround {
     }
 }
 
-impl Ground for KernelGround {
+impl Ground for WeightsGround {
     fn elements(&self) -> &[ContactElement] {
         &self.elements
     }
@@ -269,7 +269,7 @@ impl Ground for KernelGround {
         Ok(())
     }
 
-    fn announce(&mut self, steps: usize) -> Result<()> {
+    fn expect_steps(&mut self, steps: usize) -> Result<()> {
         match &mut self.prepared {
             Some(prepared) => prepared.history(self.options, Some(steps)).map(|_| ()),
             None => Err(NOT_PREPARED),
@@ -283,9 +283,9 @@ impl Ground for KernelGround {
         }
     }
 
-    fn instantaneous(&self, matrix: &mut [f64]) -> Result<()> {
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         match &self.prepared {
-            Some(prepared) => prepared.kernel.instantaneous(matrix),
+            Some(prepared) => prepared.kernel.step_compliance(matrix),
             None => Err(NOT_PREPARED),
         }
     }

@@ -1,6 +1,6 @@
 //! Contact that is glued until it breaks.
 
-use super::{Condition, ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance};
+use super::{Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance};
 use crate::error::{Result, not_negative};
 
 /// Adhesion that breaks once: an element sticks up to a tensile strength and a cohesion, and is one of
@@ -15,26 +15,26 @@ use crate::error::{Result, not_negative};
 /// ```
 /// use basemat::Simulation;
 /// use basemat::bem::SpringGround;
-/// use basemat::interface::Adhesive;
+/// use basemat::interface::Cohesive;
 /// use basemat::motion::el_centro_1940;
 /// use basemat::structure::RigidBlock;
 ///
 /// let mut simulation = Simulation::builder(0.002)
 ///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
 ///     .ground(SpringGround::new(-2.0..2.0, 16, 8e7, 4e7)?.with_dashpots(7e5, 4e5)?)
-///     .interface(Adhesive::new(120.0e3, 80.0e3, 0.6)?)
+///     .interface(Cohesive::new(120.0e3, 80.0e3, 0.6)?)
 ///     .motion(el_centro_1940())
 ///     .build()?;
 /// let run = simulation.run(2500, |_| {})?;
-/// let glued = (0..16).filter(|&e| simulation.state().law_memory(e) == [1.0]).count();
+/// let glued = (0..16).filter(|&e| simulation.state().state_variables(e) == [1.0]).count();
 /// assert!(glued > 0 && glued < 16, "{glued}");
-/// assert!(run.ledger_residual < 1e-9);
+/// assert!(run.energy_error < 1e-9);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "AdhesiveForm"))]
-pub struct Adhesive {
+pub struct Cohesive {
     tension: f64,
     cohesion: f64,
     #[cfg_attr(
@@ -45,16 +45,16 @@ pub struct Adhesive {
 }
 
 validated! {
-    Adhesive as AdhesiveForm {
+    Cohesive as AdhesiveForm {
         tension: f64,
         cohesion: f64,
         #[serde(with = "crate::text::forms::number")]
         friction: f64,
     }
-    => Adhesive::new(tension, cohesion, friction)
+    => Cohesive::new(tension, cohesion, friction)
 }
 
-impl Adhesive {
+impl Cohesive {
     /// Law with a tensile strength and a cohesion (Pa), and the friction coefficient of zero or more
     /// that stays; infinity means that nothing ever slides.
     ///
@@ -90,23 +90,23 @@ impl Adhesive {
 }
 
 /// Whether the element was glued at the start of the step, and is so far in it.
-fn is_glued(start: &StepStart) -> bool {
+fn is_glued(start: &PreviousContact) -> bool {
     !start.has_opened && start.memory.first().is_some_and(|glued| *glued > 0.0)
 }
 
-impl InterfaceLaw for Adhesive {
+impl InterfaceLaw for Cohesive {
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
 
-    fn conditions(&self, mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         self.broken.conditions(mode, start)
     }
 
     fn next_mode(
         &self,
         mode: Mode,
-        start: &StepStart,
+        start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
@@ -117,19 +117,25 @@ impl InterfaceLaw for Adhesive {
         self.broken.next_mode(mode, start, trial, tolerance)
     }
 
-    fn bond_overload(&self, start: &StepStart, trial: &ContactState) -> Option<f64> {
+    fn bond_overload(&self, start: &PreviousContact, trial: &ContactState) -> Option<f64> {
         is_glued(start).then(|| self.overload(trial))
     }
 
-    fn memory(&self) -> usize {
+    fn state_variables(&self) -> usize {
         1
     }
 
-    fn initial_memory(&self, start: &StepStart, memory: &mut [f64]) {
+    fn initial_state_variables(&self, start: &PreviousContact, memory: &mut [f64]) {
         memory[0] = if start.mode.is_closed() { 1.0 } else { 0.0 };
     }
 
-    fn commit(&self, _start: &StepStart, _end: &ContactState, mode: Mode, memory: &mut [f64]) {
+    fn commit(
+        &self,
+        _start: &PreviousContact,
+        _end: &ContactState,
+        mode: Mode,
+        memory: &mut [f64],
+    ) {
         if mode != Mode::Stick {
             memory[0] = 0.0;
         }
@@ -151,11 +157,11 @@ impl InterfaceLaw for Bonded {
         &[Mode::Stick]
     }
 
-    fn conditions(&self, _mode: Mode, start: &StepStart) -> [Condition; 2] {
+    fn conditions(&self, _mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         [Condition::gap_is(start.state.gap), Condition::slip_is(start.state.slip)]
     }
 
-    fn next_mode(&self, _: Mode, _: &StepStart, _: &ContactState, _: Tolerance) -> Mode {
+    fn next_mode(&self, _: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
         Mode::Stick
     }
 }

@@ -1,16 +1,16 @@
-//! The energy ledger.
+//! The energy balance.
 
-use basemat::coupled::{EnergyTerm, Ledger};
+use basemat::coupled::{EnergyBalance, EnergyTerm};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 /// Energies since the start, J per metre of thickness:
 /// ``kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input``.
-#[pyclass(name = "Ledger", module = "basemat", frozen)]
-pub(crate) struct PyLedger(pub(crate) Ledger);
+#[pyclass(name = "EnergyBalance", module = "basemat", frozen)]
+pub(crate) struct PyEnergyBalance(pub(crate) EnergyBalance);
 
 #[pymethods]
-impl PyLedger {
+impl PyEnergyBalance {
     /// ½ v·M v.
     #[getter]
     fn kinetic(&self) -> f64 {
@@ -37,8 +37,8 @@ impl PyLedger {
 
     /// Loss by the time scheme.
     #[getter]
-    fn numerical(&self) -> f64 {
-        self.0.numerical
+    fn algorithmic(&self) -> f64 {
+        self.0.algorithmic
     }
 
     /// Work done on the soil: radiated and stored.
@@ -55,14 +55,14 @@ impl PyLedger {
 
     /// Elastic energy of compliant interfaces.
     #[getter]
-    fn layer(&self) -> f64 {
-        self.0.layer
+    fn interface(&self) -> f64 {
+        self.0.interface
     }
 
     /// Potential of the static tractions against the change of the jump.
     #[getter]
-    fn preload(&self) -> f64 {
-        self.0.preload
+    fn static_contact(&self) -> f64 {
+        self.0.static_contact
     }
 
     /// Work of loads and free field, and the energy of an initial motion.
@@ -105,6 +105,6 @@ impl PyLedger {
     }
 
     fn __repr__(&self) -> String {
-        format!("Ledger(input {:.6e} J/m, residual {:.1e})", self.0.input, self.0.residual())
+        format!("EnergyBalance(input {:.6e} J/m, residual {:.1e})", self.0.input, self.0.residual())
     }
 }

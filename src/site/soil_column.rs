@@ -45,25 +45,25 @@ pub enum ControlPoint {
 ///
 /// ```
 /// use basemat::Soil;
-/// use basemat::site::{Column, ControlPoint, VerticalWave};
+/// use basemat::site::{SoilColumn, ControlPoint, VerticalWave};
 /// use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 /// let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0)?;
 /// let profile = SoilProfile::on_rigid_base()
 ///     .with_layer(soil, 10.0)?
 ///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.5, 50.0], 5.0)?);
-/// let column = Column::new(profile, VerticalWave::Shear)?;
+/// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
 /// // At the first frequency, 5 Hz, about 2/(πξ).
 /// let found = column.amplification(ControlPoint::Within, 5.0)?;
 /// assert!((found - 12.7).abs() < 0.2);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct Column {
+pub struct SoilColumn {
     profile: SoilProfile,
     wave: VerticalWave,
 }
 
-impl Column {
+impl SoilColumn {
     /// Column of `profile` for one kind of wave.
     ///
     /// # Errors
@@ -87,10 +87,10 @@ impl Column {
         Ok(value.inverse() * (-decay).exp())
     }
 
-    /// Absolute value of [`transfer`](Column::transfer).
+    /// Absolute value of [`transfer`](SoilColumn::transfer).
     ///
     /// # Errors
-    /// As for [`transfer`](Column::transfer).
+    /// As for [`transfer`](SoilColumn::transfer).
     pub fn amplification(&self, control: ControlPoint, frequency: f64) -> Result<f64> {
         Ok(self.transfer(control, frequency)?.abs())
     }
@@ -119,13 +119,13 @@ impl Column {
     /// ```
     /// # use basemat::Soil;
     /// # use basemat::motion::el_centro_1940;
-    /// # use basemat::site::{Column, ControlPoint, VerticalWave};
+    /// # use basemat::site::{SoilColumn, ControlPoint, VerticalWave};
     /// # use basemat::soil::{GeneralizedMaxwell, SoilProfile};
     /// let rock = Soil::from_shear_wave_speed(1000.0, 0.25, 2200.0)?;
     /// let profile = SoilProfile::on_half_plane(rock)
     ///     .with_layer(Soil::from_shear_wave_speed(200.0, 0.3, 1900.0)?, 15.0)?
     ///     .with_damping(GeneralizedMaxwell::constant_q(0.05, [0.1, 30.0], 1.0)?);
-    /// let column = Column::new(profile, VerticalWave::Shear)?;
+    /// let column = SoilColumn::new(profile, VerticalWave::Shear)?;
     /// // Room for what comes before and after.
     /// let record = el_centro_1940().padded(30.0, 30.0)?;
     /// let surface = column.to_surface(ControlPoint::Outcrop, 0.02, record.accelerations())?;
@@ -138,7 +138,7 @@ impl Column {
     /// ```
     ///
     /// # Errors
-    /// As for [`to_surface`](Column::to_surface).
+    /// As for [`to_surface`](SoilColumn::to_surface).
     pub fn from_surface(
         &self,
         control: ControlPoint,

@@ -6,10 +6,10 @@ use crate::error::{LawError, Result, finite, positive, same_length};
 
 /// State of an element at the beginning of a step, as its law sees it.
 ///
-/// In the signatures of a law of one's own it is `&StepStart`; the lifetime is that of `memory`.
+/// In the signatures of a law of one's own it is `&PreviousContact`; the lifetime is that of `memory`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct StepStart<'a> {
+pub struct PreviousContact<'a> {
     /// Opening and traction at the end of the step before.
     pub state: ContactState,
     /// Mode of the step before.
@@ -23,21 +23,21 @@ pub struct StepStart<'a> {
     pub static_pressure: f64,
     /// Time step, s.
     pub time_step: f64,
-    /// The numbers that the law remembers of this element ([`InterfaceLaw::memory`]); empty for a
+    /// The numbers that the law remembers of this element ([`InterfaceLaw::state_variables`]); empty for a
     /// law without memory.
     pub memory: &'a [f64],
 }
 
-impl StepStart<'_> {
+impl PreviousContact<'_> {
     /// Start of a step of `time_step` seconds from `state`, by which a law can be tried without a
     /// simulation: it has opened if it is open, its slip rate is zero, its static pressure that
     /// of `state`, and its memory empty. All fields can then be set.
     ///
     /// ```
-    /// use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, StepStart, Tolerance};
+    /// use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance};
     /// let law = Coulomb::new(0.5)?;
     /// let pressed = ContactState { pressure: 10.0e3, ..ContactState::default() };
-    /// let mut start = StepStart::new(pressed, Mode::Stick, 0.01);
+    /// let mut start = PreviousContact::new(pressed, Mode::Stick, 0.01);
     /// start.slip_rate = 0.2;
     /// let trial = ContactState { shear: 6.0e3, ..pressed };
     /// let next = law.next_mode(Mode::Stick, &start, &trial, Tolerance::new(1e-9, 1.0));
@@ -58,9 +58,9 @@ impl StepStart<'_> {
 
     /// The same with another memory: for a law made of others, each of which owns a part of it.
     #[must_use]
-    pub fn with_memory(self, memory: &[f64]) -> StepStart<'_> {
+    pub fn with_memory(self, memory: &[f64]) -> PreviousContact<'_> {
         let Self { state, mode, has_opened, slip_rate, static_pressure, time_step, .. } = self;
-        StepStart { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
+        PreviousContact { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
     }
 }
 
@@ -72,7 +72,7 @@ impl StepStart<'_> {
 /// to come back to it later; [`ContactSolution::commit`](crate::contact::ContactSolution::commit)
 /// moves it on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct StepStarts {
+pub struct PreviousContacts {
     time_step: f64,
     past: Vec<Past>,
     /// The memories of all elements, one after the other.
@@ -81,7 +81,7 @@ pub struct StepStarts {
     ends: Vec<usize>,
 }
 
-/// A [`StepStart`] without the fields that elements share or seldom have.
+/// A [`PreviousContact`] without the fields that elements share or seldom have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Past {
     state: ContactState,
@@ -93,13 +93,13 @@ struct Past {
 
 /// Where the memory of each element ends; empty if no law has any.
 pub(crate) fn memory_ends(laws: &[Box<dyn InterfaceLaw>], count: usize) -> Result<Vec<usize>> {
-    if laws.iter().all(|law| law.memory() == 0) {
+    if laws.iter().all(|law| law.state_variables() == 0) {
         return Ok(Vec::new());
     }
     let mut end = 0_usize;
     let mut ends = Vec::with_capacity(count);
     for element in 0..count {
-        end = end.saturating_add(law_of(laws, element).memory());
+        end = end.saturating_add(law_of(laws, element).state_variables());
         ends.push(end);
     }
     // In the state, the increment and its copies.
@@ -107,13 +107,17 @@ pub(crate) fn memory_ends(laws: &[Box<dyn InterfaceLaw>], count: usize) -> Resul
     Ok(ends)
 }
 
-impl StepStarts {
+impl PreviousContacts {
     /// From the start of each element. Where that has no memory, the law says what it begins with.
-    pub(crate) fn new(laws: &[Box<dyn InterfaceLaw>], elements: &[StepStart<'_>]) -> Result<Self> {
+    pub(crate) fn new(
+        laws: &[Box<dyn InterfaceLaw>],
+        elements: &[PreviousContact<'_>],
+    ) -> Result<Self> {
         let ends = memory_ends(laws, elements.len())?;
         let time_step = elements.first().map_or(1.0, |start| start.time_step);
-        let past = |start: &StepStart<'_>| {
-            let StepStart { state, mode, has_opened, slip_rate, static_pressure, .. } = *start;
+        let past = |start: &PreviousContact<'_>| {
+            let PreviousContact { state, mode, has_opened, slip_rate, static_pressure, .. } =
+                *start;
             Past { state, mode, has_opened, slip_rate, static_pressure }
         };
         let past = elements.iter().map(past).collect();
@@ -123,7 +127,7 @@ impl StepStarts {
             let range = starts.memory_range(e);
             if start.memory.is_empty() && !range.is_empty() {
                 let mut memory = vec![0.0; range.len()];
-                law_of(laws, e).initial_memory(&starts.of(e), &mut memory);
+                law_of(laws, e).initial_state_variables(&starts.of(e), &mut memory);
                 check_memory(e, start.mode, &memory)?;
                 starts.memory[range].copy_from_slice(&memory);
             } else {
@@ -147,13 +151,13 @@ impl StepStarts {
     }
 
     /// The start as the law of `element` sees it; `None` beyond the last one.
-    pub fn get(&self, element: usize) -> Option<StepStart<'_>> {
+    pub fn get(&self, element: usize) -> Option<PreviousContact<'_>> {
         (element < self.len()).then(|| self.of(element))
     }
 
     /// All of them. Collected, they are what
     /// [`ContactProblem::start`](crate::contact::ContactProblem::start) takes.
-    pub fn iter(&self) -> impl Iterator<Item = StepStart<'_>> {
+    pub fn iter(&self) -> impl Iterator<Item = PreviousContact<'_>> {
         (0..self.len()).map(|e| self.of(e))
     }
 
@@ -173,11 +177,11 @@ impl StepStarts {
 
     /// The start of an element that is there.
     #[inline]
-    pub(crate) fn of(&self, element: usize) -> StepStart<'_> {
+    pub(crate) fn of(&self, element: usize) -> PreviousContact<'_> {
         let Past { state, mode, has_opened, slip_rate, static_pressure } = self.past[element];
         let memory = self.memory_of(element);
         let time_step = self.time_step;
-        StepStart { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
+        PreviousContact { state, mode, has_opened, slip_rate, static_pressure, time_step, memory }
     }
 
     /// Opening and traction of an element at the end of the step before.
@@ -225,7 +229,7 @@ impl StepStarts {
     }
 
     /// Has the laws commit the step that ends in `states` and `modes` to `memory`, which has the
-    /// length of [`StepStarts::memory`]; nothing here changes.
+    /// length of [`PreviousContacts::memory`]; nothing here changes.
     pub(crate) fn remember(
         &self,
         laws: &[Box<dyn InterfaceLaw>],

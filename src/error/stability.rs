@@ -3,10 +3,10 @@
 /// The reason for which weight and loads at t = 0 have no equilibrium.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum StandingError {
+pub enum StabilityError {
     /// The loads lift the structure off.
     #[error("weight and loads at t = 0 lift it by {upward:.4e} N/m{}", on(ends))]
-    Lifted {
+    Uplift {
         /// Left and right end of the base of the part that is lifted, m.
         ends: [f64; 2],
         /// Resultant upwards, N/m; zero if nothing presses.
@@ -18,7 +18,7 @@ pub enum StandingError {
          friction {resistance:.4e} N/m under a normal force of {normal:.4e} N/m{}",
         on(ends)
     )]
-    Slides {
+    Sliding {
         /// Left and right end of the base of the part that slides, m.
         ends: [f64; 2],
         /// Horizontal resultant, positive to the right, N/m.
@@ -37,7 +37,7 @@ pub enum StandingError {
          {ratio:.3} times half the width{}",
         on(ends)
     )]
-    Overturns {
+    Overturning {
         /// Left and right end of the base of the part that overturns, m.
         ends: [f64; 2],
         /// Moment of weight and loads about the middle of the base, counter-clockwise, N·m/m.
@@ -56,7 +56,7 @@ pub enum StandingError {
          is under the resultant{}",
         on(ends)
     )]
-    Sinks {
+    BearingFailure {
         /// Left and right end of the base of the part that sinks in, m.
         ends: [f64; 2],
         /// Normal force, N/m.
@@ -89,13 +89,13 @@ pub enum StandingError {
     #[error("the bond of the interface breaks, and without it: {then}")]
     BondBreaks {
         /// What follows.
-        then: Box<StandingError>,
+        then: Box<StabilityError>,
     },
     /// Part of the structure has neither stiffness nor damping nor mass against a motion.
     #[error("nothing resists a motion of {place}: neither stiffness nor damping nor mass")]
     Massless {
-        /// The unknowns that take part in it, ascending.
-        unknowns: Vec<usize>,
+        /// The degrees of freedom that take part in it, ascending.
+        dofs: Vec<usize>,
         /// The structure's own names of them.
         place: String,
     },
@@ -104,14 +104,14 @@ pub enum StandingError {
         "the structure is a mechanism: with its base at rest nothing resists a motion of {place}"
     )]
     Mechanism {
-        /// The unknowns that take part in it, ascending.
-        unknowns: Vec<usize>,
+        /// The degrees of freedom that take part in it, ascending.
+        dofs: Vec<usize>,
         /// The structure's own names of them.
         place: String,
     },
 }
 
-/// The end of the message of [`StandingError::Beyond`].
+/// The end of the message of [`StabilityError::Beyond`].
 fn grip(elements: usize, reach: [f64; 2]) -> String {
     if elements == 1 {
         "a base of one element resists no moment".to_owned()

@@ -1,4 +1,4 @@
-//! Booking an accepted step in the energy ledger, each term from its own definition.
+//! Booking an accepted step in the energy balance, each term from its own definition.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -7,7 +7,7 @@
 //! | s, `s_ff` | soil displacement by tractions; free field |
 //! | y, R | translation of the free field under a part; influence vectors |
 
-use super::ledger::Ledger;
+use super::energy_balance::EnergyBalance;
 use super::motion::Motion;
 use super::scene::Scene;
 use super::scene::transformation::Terms;
@@ -22,10 +22,10 @@ use crate::linalg::dot;
 use crate::linalg::matrix::spread;
 use crate::structure::Structure;
 
-/// The ledger so far, and what booking a step needs of the one before.
+/// The energy balance so far, and what booking a step needs of the one before.
 #[derive(Clone)]
-pub(crate) struct Books {
-    pub(crate) ledger: Ledger,
+pub(crate) struct EnergyAccumulator {
+    pub(crate) energy_balance: EnergyBalance,
     /// Free field, soil displacement by tractions, and jump at the end of the last step, 2Q each.
     pub(crate) free_field: Vec<f64>,
     pub(crate) soil_displacement: Vec<f64>,
@@ -51,7 +51,7 @@ struct Scratch {
     means: Vec<f64>,
 }
 
-impl Books {
+impl EnergyAccumulator {
     /// At the beginning of a run; the energy of an initial motion counts as input. `compliant` says
     /// whether any law stores energy in its elements.
     pub(crate) fn new(
@@ -84,7 +84,7 @@ impl Books {
             }));
         }
         let mut books = Self {
-            ledger: Ledger::default(),
+            energy_balance: EnergyBalance::default(),
             free_field: vec![0.0; size],
             soil_displacement: vec![0.0; size],
             jump,
@@ -104,23 +104,24 @@ impl Books {
     fn begin(&mut self, scene: &Scene, structure: &dyn Structure, state: &State) {
         let Motion { displacement, velocity, .. } = &state.motion;
         let at_rest = self.static_energy(scene);
-        let (model, ledger) = (&scene.model, &mut self.ledger);
-        ledger.kinetic = 0.5 * model.mass.form(velocity, velocity);
+        let (model, energy_balance) = (&scene.model, &mut self.energy_balance);
+        energy_balance.kinetic = 0.5 * model.mass.form(velocity, velocity);
         if !model.linear {
             let seen = scene.seen_at(&state.motion);
             if let Some((stored, dissipated)) = energies(scene, structure, &seen) {
-                (self.nonlinear_work, ledger.hysteresis) = (stored, dissipated);
+                (self.nonlinear_work, energy_balance.hysteresis) = (stored, dissipated);
             }
         }
         let Scratch { vector, means, .. } = &mut self.scratch;
         vector.copy_from_slice(displacement);
         scene.subtract_base(vector, means);
-        ledger.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_work;
-        ledger.input = ledger.kinetic + ledger.strain + ledger.hysteresis;
-        ledger.largest = ledger.scale().max(at_rest);
+        energy_balance.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_work;
+        energy_balance.input =
+            energy_balance.kinetic + energy_balance.strain + energy_balance.hysteresis;
+        energy_balance.largest = energy_balance.scale().max(at_rest);
     }
 
-    /// Energy at rest in what the ledger books against the static state: compliant interfaces, and
+    /// Energy at rest in what the energy balance books against the static state: compliant interfaces, and
     /// the nonlinear force where its energy is known. Changes are rounded in proportion to it.
     fn static_energy(&self, scene: &Scene) -> f64 {
         let at_rest = &scene.static_state;
@@ -137,7 +138,7 @@ impl Books {
     /// Every number that a step leaves to the next, always in this order.
     pub(crate) fn numbers(&mut self) -> Vec<&mut f64> {
         let mut all = vec![&mut self.nonlinear_work];
-        all.extend(self.ledger.terms_mut());
+        all.extend(self.energy_balance.terms_mut());
         let contact = [&mut self.free_field, &mut self.soil_displacement, &mut self.jump];
         all.extend(contact.into_iter().flatten());
         all.extend(self.compliance.iter_mut().flatten());
@@ -145,7 +146,7 @@ impl Books {
         all
     }
 
-    /// Books the step that leads from `state` to its end.
+    /// EnergyAccumulator the step that leads from `state` to its end.
     pub(crate) fn book(
         &mut self,
         scene: &Scene,
@@ -156,8 +157,8 @@ impl Books {
         increment: &Increment,
     ) {
         if forcing.loaded {
-            self.ledger.input += dot(&forcing.load, &increment.total);
-            self.ledger.relative_input += dot(&forcing.load, &increment.displacement);
+            self.energy_balance.input += dot(&forcing.load, &increment.total);
+            self.energy_balance.relative_input += dot(&forcing.load, &increment.displacement);
         }
         if !scene.model.linear {
             self.book_nonlinear_force(scene, structure, increment);
@@ -175,7 +176,7 @@ impl Books {
             let energy = |k: usize| 0.5 * mass[k] * (increment[k] / time_step).powi(2);
             energy(0) + energy(1)
         });
-        self.ledger.largest = self.ledger.scale().max(carried.sum());
+        self.energy_balance.largest = self.energy_balance.scale().max(carried.sum());
     }
 
     /// The nonlinear force: stored, dissipated, or just done.
@@ -190,10 +191,10 @@ impl Books {
             self.nonlinear_work += done;
             return;
         };
-        let ledger = &mut self.ledger;
-        ledger.numerical +=
-            done - (stored - self.nonlinear_work) - (dissipated - ledger.hysteresis);
-        (self.nonlinear_work, ledger.hysteresis) = (stored, dissipated);
+        let energy_balance = &mut self.energy_balance;
+        energy_balance.algorithmic +=
+            done - (stored - self.nonlinear_work) - (dissipated - energy_balance.hysteresis);
+        (self.nonlinear_work, energy_balance.hysteresis) = (stored, dissipated);
     }
 
     /// Kinetic and strain energy, damping, and what the time scheme takes.
@@ -206,10 +207,10 @@ impl Books {
     ) {
         let (c, model, dt) = (&scene.coefficients, &scene.model, scene.time_step);
         let Motion { velocity: v0, acceleration: a0, .. } = &state.motion;
-        let (v1, ledger) = (&increment.velocity, &mut self.ledger);
+        let (v1, energy_balance) = (&increment.velocity, &mut self.energy_balance);
         let Scratch { vector, product, means } = &mut self.scratch;
         let du = &increment.total;
-        ledger.kinetic = 0.5 * model.mass.form(v1, v1);
+        energy_balance.kinetic = 0.5 * model.mass.form(v1, v1);
         if model.damped {
             SchemeCoefficients::combine(c.velocity, du, v0, a0, vector);
             vector.iter_mut().zip(&forcing.dragged).for_each(|(v, dragged)| *v -= dragged);
@@ -222,8 +223,8 @@ impl Books {
                     y.increment[0] * right + y.increment[1] * up
                 })
                 .sum();
-            ledger.damping += dot(product, du) - dragged;
-            ledger.input -= dragged;
+            energy_balance.damping += dot(product, du) - dragged;
+            energy_balance.input -= dragged;
         }
         if !scene.conserves_energy {
             // Δu = Δt (v₀+v₁)/2 + r_d, a* = (v₁−v₀)/Δt + r_a, u* = (u₀+u₁)/2 + r_u
@@ -232,22 +233,22 @@ impl Books {
                 change[i] = (v1[i] - v0[i]) / dt;
                 rest[i] = du[i] - 0.5 * dt * (v0[i] + v1[i]);
             }
-            ledger.numerical += model.mass.form(rest, change);
+            energy_balance.algorithmic += model.mass.form(rest, change);
             for i in 0..du.len() {
                 rest[i] =
                     SchemeCoefficients::apply(c.acceleration, du[i], v0[i], a0[i]) - change[i];
             }
-            ledger.numerical += model.mass.form(du, rest);
+            energy_balance.algorithmic += model.mass.form(du, rest);
             let du = &increment.displacement;
             for i in 0..du.len() {
                 let there = SchemeCoefficients::apply(c.displacement, du[i], v0[i], a0[i]);
                 rest[i] = there - 0.5 * du[i];
             }
-            ledger.numerical += model.stiffness.form(du, rest);
+            energy_balance.algorithmic += model.stiffness.form(du, rest);
         }
         vector.copy_from_slice(&increment.end);
         scene.subtract_base(vector, means);
-        ledger.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_work;
+        energy_balance.strain = 0.5 * model.stiffness.form(vector, vector) + self.nonlinear_work;
     }
 
     /// Work of −M R ÿ between the middles of the last two steps, with ÿ = (Δy₁ − Δy₀)/Δt² at the
@@ -261,7 +262,7 @@ impl Books {
                 let momentum: f64 = terms.map(|&(i, m)| m * increment.displacement[i]).sum();
                 let acceleration = (next[direction] - self.translation[k][direction]) / square;
                 let mean = 0.5 * (momentum + self.momentum[k][direction]);
-                self.ledger.relative_input -= acceleration * mean;
+                self.energy_balance.relative_input -= acceleration * mean;
                 self.momentum[k][direction] = momentum;
             }
             self.translation[k] = next;
@@ -279,7 +280,7 @@ impl Books {
         increment: &Increment,
     ) {
         let soil = &mut self.scratch.means;
-        let ledger = &mut self.ledger;
+        let energy_balance = &mut self.energy_balance;
         soil.copy_from_slice(&forcing.history);
         scene.soil.multiply_add(&increment.traction, soil);
         let layout = scene.layout();
@@ -293,8 +294,8 @@ impl Books {
             let jump = [end.gap, -end.slip][k];
             let opening = jump - self.jump[i];
             self.jump[i] = jump;
-            ledger.soil += area * change * (soil[i] - self.soil_displacement[i]);
-            ledger.soil_error_bound += area * change.abs() * doubt;
+            energy_balance.soil += area * change * (soil[i] - self.soil_displacement[i]);
+            energy_balance.soil_error_bound += area * change.abs() * doubt;
             let mut elastic = 0.0;
             if !self.compliance.is_empty() {
                 let (c0, c1) = (self.compliance[e][k], increment.compliance[e][k]);
@@ -302,19 +303,19 @@ impl Books {
                 let t0 = [start.pressure, start.shear][k];
                 let t1 = at_rest + change;
                 elastic = c0 * t0 - c1 * t1;
-                ledger.layer += 0.5 * area * (c1 * t1 * t1 - c0 * t0 * t0);
+                energy_balance.interface += 0.5 * area * (c1 * t1 * t1 - c0 * t0 * t0);
                 // The work −t₁ Δ(elastic jump) is Δ(½ c t²) and this much more: what the step takes
                 // of a spring that stays, what is lost with one that goes.
                 let lag = 0.5 * area * (c0 * (t1 - t0).powi(2) + (c1 - c0) * t1 * t1);
                 if c0 == c1 {
-                    ledger.numerical += lag;
+                    energy_balance.algorithmic += lag;
                 } else {
-                    ledger.contact += lag;
+                    energy_balance.contact += lag;
                 }
             }
-            ledger.contact -= area * (at_rest + change) * (opening - elastic);
-            ledger.preload += area * at_rest * opening;
-            ledger.input -= area * change * (forcing.free_field[i] - self.free_field[i]);
+            energy_balance.contact -= area * (at_rest + change) * (opening - elastic);
+            energy_balance.static_contact += area * at_rest * opening;
+            energy_balance.input -= area * change * (forcing.free_field[i] - self.free_field[i]);
         }
         self.free_field.copy_from_slice(&forcing.free_field);
         self.compliance.copy_from_slice(&increment.compliance);

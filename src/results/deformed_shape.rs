@@ -1,28 +1,28 @@
-//! The visible shape of a structure: points that its unknowns move, and cells between them.
+//! The visible shape of a structure: points that its degrees of freedom move, and cells between them.
 
 use crate::error::{Error, Result, finite, positive};
 use crate::fem::Direction;
-use crate::structure::{FemModel, RigidBlock, Row, ShearBuilding, Structure};
+use crate::structure::{DofCombination, FemModel, RigidBlock, ShearBuilding, Structure};
 
-/// A point of a [`Wireframe`]: its place, and its displacement as weighted sums of unknowns.
+/// A point of a [`DeformedShape`]: its place, and its displacement as weighted sums of degrees of freedom.
 #[derive(Debug, Clone, PartialEq)]
-pub struct WirePoint {
+pub struct ShapePoint {
     /// Coordinates [x, y] at rest, m.
     pub position: [f64; 2],
     /// Horizontal displacement (to the right).
-    pub horizontal: Row,
+    pub horizontal: DofCombination,
     /// Vertical displacement (up).
-    pub vertical: Row,
+    pub vertical: DofCombination,
 }
 
 /// Points and cells of a structure, for pictures and for ParaView.
 ///
 /// Made before the structure goes into the builder:
 /// ```
-/// use basemat::results::Wireframe;
+/// use basemat::results::DeformedShape;
 /// use basemat::structure::RigidBlock;
 /// let block = RigidBlock::new(4.0, 10.0, 2000.0)?;
-/// let shape = Wireframe::of_block(&block, 10.0)?;
+/// let shape = DeformedShape::of_block(&block, 10.0)?;
 /// assert_eq!(shape.points()[2].position, [2.0, 10.0]);
 /// // A turn by 0.01 to the left moves the upper right corner by (−0.1, 0.02).
 /// let moved = shape.displacements(&[0.0, 0.0, 0.01])?;
@@ -30,12 +30,12 @@ pub struct WirePoint {
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Wireframe {
-    points: Vec<WirePoint>,
+pub struct DeformedShape {
+    points: Vec<ShapePoint>,
     cells: Vec<Vec<usize>>,
 }
 
-impl Wireframe {
+impl DeformedShape {
     /// Points, and cells as indices of points: 1 a point, 2 a line, 3 a triangle, 4 a quadrilateral
     /// (all the way round); 6 a triangle, 8 or 9 a quadrilateral with its corners first; other
     /// numbers a polygon.
@@ -43,7 +43,7 @@ impl Wireframe {
     /// # Errors
     /// [`Error::Size`] without points or for an empty cell, [`Error::Index`] for a cell with a point
     /// that does not exist, [`Error::Input`] for a number that is not finite.
-    pub fn new(points: Vec<WirePoint>, cells: Vec<Vec<usize>>) -> Result<Self> {
+    pub fn new(points: Vec<ShapePoint>, cells: Vec<Vec<usize>>) -> Result<Self> {
         if points.is_empty() {
             return Err(Error::Size { quantity: "points of a wireframe", found: 0, needed: 1 });
         }
@@ -69,9 +69,9 @@ impl Wireframe {
 
     /// Nodes and elements of a finite-element model.
     pub fn of_model(model: &FemModel) -> Self {
-        // Of a follower of a rigid link, what it follows; a node without unknowns stays.
+        // Of a follower of a rigid link, what it follows; a node without degrees of freedom stays.
         let row = |node, direction| model.row(node, direction).unwrap_or_default();
-        let point = |(node, position): (usize, &[f64; 2])| WirePoint {
+        let point = |(node, position): (usize, &[f64; 2])| ShapePoint {
             position: *position,
             horizontal: row(node, Direction::X),
             vertical: row(node, Direction::Y),
@@ -90,7 +90,7 @@ impl Wireframe {
     pub fn of_block(block: &RigidBlock, height: f64) -> Result<Self> {
         positive("height of the rectangle", height)?;
         let base = block.contact_nodes();
-        let corner = |x: f64, y: f64| WirePoint {
+        let corner = |x: f64, y: f64| ShapePoint {
             position: [x, y],
             horizontal: block.horizontal_at(y),
             vertical: block.vertical_at(x),
@@ -121,7 +121,7 @@ impl Wireframe {
                     Some(storey) => building.floor(storey)?.into(),
                 };
                 let vertical = end.vertical.clone();
-                points.push(WirePoint { position: [end.x, height], horizontal, vertical });
+                points.push(ShapePoint { position: [end.x, height], horizontal, vertical });
             }
             let first = 2 * level;
             cells.push(vec![first, first + 1]);
@@ -135,7 +135,7 @@ impl Wireframe {
     }
 
     /// The points.
-    pub fn points(&self) -> &[WirePoint] {
+    pub fn points(&self) -> &[ShapePoint] {
         &self.points
     }
 
@@ -144,17 +144,17 @@ impl Wireframe {
         &self.cells
     }
 
-    /// [horizontal, up] of every point (m, or m/s) for these unknowns (or their rates).
+    /// [horizontal, up] of every point (m, or m/s) for these degrees of freedom (or their rates).
     ///
     /// # Errors
-    /// [`Error::Index`] if a point is moved by an unknown that is not there.
-    pub fn displacements(&self, unknowns: &[f64]) -> Result<Vec<[f64; 2]>> {
-        let sum = |row: &Row| {
+    /// [`Error::Index`] if a point is moved by a degree of freedom that is not there.
+    pub fn displacements(&self, dofs: &[f64]) -> Result<Vec<[f64; 2]>> {
+        let sum = |row: &DofCombination| {
             row.iter().try_fold(0.0, |sum, &(index, weight)| {
-                let value = unknowns.get(index).ok_or(Error::Index {
+                let value = dofs.get(index).ok_or(Error::Index {
                     quantity: "unknown of a wireframe",
                     index,
-                    bound: unknowns.len(),
+                    bound: dofs.len(),
                 })?;
                 Ok::<f64, Error>(sum + weight * value)
             })
