@@ -158,7 +158,7 @@ const SCENES: [(&str, Make); 32] = [
     ("block, tilted and loaded", || {
         let block = block()?;
         let load = Load::new(block.horizontal_at(5.0), |t| 4.0e4 * (9.0 * t).sin());
-        Ok(block_under(Coulomb::new(0.4)?)?.load(load).placement(GravityStage::WithInterfaceLaw))
+        Ok(block_under(Coulomb::new(0.4)?)?.load(load).gravity_stage(GravityStage::Frictional))
     }),
     ("block, without weight", || Ok(block_under(Bonded)?.gravity(0.0))),
     ("tower, physical", || tower_in(Coordinates::Physical)),

@@ -27,7 +27,7 @@ fn main() -> Result<()> {
             .structure(block)
             .interface(Coulomb::new(1.0)?)
             // Nothing presses at first; the block stands on its left edge.
-            .placement(GravityStage::Unloaded)
+            .gravity_stage(GravityStage::Unloaded)
             .initial_displacement([0.0, 0.5 * width * tilt, tilt])
             .build()?;
         let mut upright = None;

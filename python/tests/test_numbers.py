@@ -80,7 +80,7 @@ def test_what_holds_real_numbers_will_do() -> None:
     assert (model(mass=scipy.sparse.coo_array(np.eye(3, dtype=int))).mass() == np.eye(3)).all()
 
 
-def test_rows_of_all_weights_belong_to_a_structure_of_as_many_unknowns(soil: bm.Soil) -> None:
+def test_rows_of_all_weights_belong_to_a_structure_of_as_many_dofs(soil: bm.Soil) -> None:
     ground = bm.ElasticGround.under(soil, BUILDING, 4)
 
     def simulation(**parts: object) -> bm.Simulation:
@@ -151,7 +151,7 @@ MATRICES = np.ones((2, 3))
         ("count: 2.5, but only whole", lambda: bm.Strip(-1.0, 1.0, 2.5)),
         ("order: -4, but only whole", lambda: bm.el_centro_1940().high_pass(0.2, order=-4)),
         ("degree: -1, but only", lambda: bm.el_centro_1940().with_baseline("none", degree=-1)),
-        ("unknowns: .*-1.*, but only", lambda: bm.ContactNode.rigid_base(-1.0, 1.0, [0, 1, -1])),
+        ("dofs: .*-1.*, but only", lambda: bm.ContactNode.rigid_base(-1.0, 1.0, [0, 1, -1])),
         ("row: -1, but only whole", lambda: bm.Load.constant(-1, 1.0)),
         ("storey: -1, but only whole", lambda: BUILDING.drift(-1)),
         ("keep: .*, but only whole", lambda: bm.ReducedModel(BUILDING, 1, keep=[-3])),

@@ -38,7 +38,7 @@ def test_initial_velocity_and_dashpots() -> None:
 
 def test_initial_displacement_unloaded_and_gravity() -> None:
     """Dropped, it swings about its settlement; let go from a height, it falls freely first."""
-    fallen = bouncing(gravity=10.0, placement="unloaded").run(2000)
+    fallen = bouncing(gravity=10.0, gravity_stage="unloaded").run(2000)
     settlement = MASS * 10.0 / (4.0 * STIFFNESS)
     expected = -settlement * (1.0 - np.cos(OMEGA * fallen.time))
     np.testing.assert_allclose(fallen["up"], expected, rtol=0.0, atol=5e-3 * settlement)
@@ -48,7 +48,7 @@ def test_initial_displacement_unloaded_and_gravity() -> None:
         bm.SpringGround.under(BLOCK, 4, STIFFNESS, STIFFNESS),
         bm.Coulomb(0.5),
         gravity=10.0,
-        placement="unloaded",
+        gravity_stage="unloaded",
         initial_displacement=[0.0, 0.02, 0.0],
         probes=[bm.Probe.displacement("up", UP)],
     ).run(60)
@@ -216,8 +216,8 @@ def test_refinement_finds_the_order_and_the_error(soil: bm.Soil) -> None:
 
 
 def test_words_are_those_of_the_crate_and_those_of_the_docstrings(rocking, soil, block) -> None:
-    for word in ("with interface law", "with_interface_law", "With-interface-law"):
-        rocking(placement=word)
+    for word in ("frictional", "Frictional", " FRICTIONAL"):
+        rocking(gravity_stage=word)
     for word in ("relaxed fft", "relaxed_fft"):
         bm.ElasticGround.under(soil, block, 8, history=word)
     record = bm.el_centro_1940()
@@ -230,8 +230,8 @@ def test_words_are_those_of_the_crate_and_those_of_the_docstrings(rocking, soil,
     with pytest.raises(bm.InputError, match="no baseline treatment 'rest', only none"):
         record.with_baseline("rest")
     bm.ThinLayer(soil, 1.0, 0.4, friction_limit="Lagged", slip_sense="last_velocity")
-    with pytest.raises(bm.InputError, match="no placement 'hung', only frictionless"):
-        rocking(placement="hung")
+    with pytest.raises(bm.InputError, match="no gravity stage 'hung', only frictionless"):
+        rocking(gravity_stage="hung")
 
 
 def test_all_modes_of_the_crate_have_a_number(rocking) -> None:

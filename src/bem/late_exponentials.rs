@@ -25,7 +25,7 @@ use super::influence::LateSeries;
 use crate::error::Result;
 use crate::fundamental::rayleigh::TERMS;
 use crate::geometry::ContactElement;
-use crate::history::{ConvolutionWeights, ExponentialSum, LateLags, TailProduct};
+use crate::history::{ConvolutionWeights, ExponentialSum, LateWeights, TailProduct};
 use crate::linalg::gauss;
 
 /// Times that the Rayleigh wave has crossed the patch when exponentials take over. Behind three,
@@ -39,7 +39,7 @@ const DROPPED: f64 = 0.05;
 /// radiates at once: far below what passivity has to spare.
 const DROPPED_ENERGY: f64 = 1e-4;
 
-impl LateLags for PatchKernel {
+impl LateWeights for PatchKernel {
     /// Until the Rayleigh wave has crossed the patch three times.
     fn window(&self) -> usize {
         let series = self.late_series();

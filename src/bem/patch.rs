@@ -4,7 +4,7 @@ use super::InfluenceKernel;
 use super::influence::LateSeries;
 use crate::error::Result;
 use crate::geometry::ContactElement;
-use crate::history::{ConvolutionWeights, KINDS, LateLags, PairClasses, SharedSpectra};
+use crate::history::{ConvolutionWeights, KINDS, LateWeights, PairClasses, SharedSpectra};
 use crate::soil::Soil;
 
 /// The [`ConvolutionWeights`] of the half-plane: coefficients Gⁿ of a patch of surface elements, closed form.
@@ -60,7 +60,7 @@ impl ConvolutionWeights for PatchKernel {
         Ok(Some(self.kernel.pair(receiver, source)?.coupling_ends() - 1))
     }
 
-    fn late_lags(&self) -> Option<&dyn LateLags> {
+    fn late_weights(&self) -> Option<&dyn LateWeights> {
         Some(self)
     }
 

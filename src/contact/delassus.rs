@@ -16,7 +16,7 @@ pub(crate) struct Delassus {
     split: Option<Split>,
 }
 
-/// G¹, mostly zeros, and a structure with few unknowns: W = G¹ + B C.
+/// G¹, mostly zeros, and a structure with few degrees of freedom: W = G¹ + B C.
 #[derive(Debug, Clone)]
 struct Split {
     soil: Arc<Thinned>,

@@ -121,7 +121,7 @@ pub(crate) fn set_static_state(
     })
 }
 
-/// Numbers of the unknowns: node by node, only the directions that some element uses.
+/// Numbers of the degrees of freedom: node by node, only the directions that some element uses.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Numbering {
     numbers: Vec<[Option<usize>; 3]>,

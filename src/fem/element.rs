@@ -111,7 +111,7 @@ pub trait Element: Send + Sync {
         Ok(())
     }
 
-    /// Number of its unknowns: nodes × directions.
+    /// Number of its degrees of freedom: nodes × directions.
     fn order(&self) -> usize {
         self.nodes().len() * self.directions().len()
     }

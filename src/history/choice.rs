@@ -34,7 +34,7 @@ pub enum History {
     RelaxedFft,
     /// A window of exact lags and a sum of exponentials,
     /// [`ExponentialHistory`](super::ExponentialHistory): memory that does not grow, small
-    /// checkpoints. The kernel has to know its [late lags](super::ConvolutionWeights::late_lags).
+    /// checkpoints. The kernel has to know its [late lags](super::ConvolutionWeights::late_weights).
     Exponentials,
     /// One of the above, chosen when the number of steps is known or the first step is made:
     ///

@@ -74,7 +74,7 @@ pub trait ConvolutionWeights: Send + Sync {
 
     /// Late lags as sums of exponentials, which [`ExponentialHistory`](super::ExponentialHistory)
     /// needs; `None` (the default) if there are none.
-    fn late_lags(&self) -> Option<&dyn LateLags> {
+    fn late_weights(&self) -> Option<&dyn LateWeights> {
         None
     }
 
@@ -108,15 +108,15 @@ pub trait ConvolutionWeights: Send + Sync {
 
 /// A kernel whose late lags are sums of decaying exponentials.
 ///
-/// [`ExponentialHistory`](super::ExponentialHistory) compares what [`LateLags::exponentials`] gives
+/// [`ExponentialHistory`](super::ExponentialHistory) compares what [`LateWeights::exponentials`] gives
 /// with the coefficients themselves, at single lags up to the horizon, and looks whether window and
 /// exponentials together are passive. So [`ConvolutionWeights::coefficients`] should be quick at any lag here.
-pub trait LateLags: Send + Sync {
+pub trait LateWeights: Send + Sync {
     /// The last lag that no exponentials can stand for. The coupling must have ended by then.
     fn window(&self) -> usize;
 
     /// Exponentials for the lags from `window` + 1 to `horizon`, `window` at least
-    /// [`LateLags::window`], each within about `tolerance` of the largest of its lag. What they
+    /// [`LateWeights::window`], each within about `tolerance` of the largest of its lag. What they
     /// reach is measured, and a smaller tolerance asked for where it is not enough.
     ///
     /// # Errors

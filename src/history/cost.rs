@@ -1,7 +1,7 @@
 //! Cost model of the histories: the table of [`History`].
 
 use super::choice::History;
-use super::convolution_weights::{ConvolutionWeights, LateLags};
+use super::convolution_weights::{ConvolutionWeights, LateWeights};
 use super::relaxed_fft::{LEAF, RelaxedFftHistory};
 use crate::error::Result;
 
@@ -48,7 +48,7 @@ impl Estimate {
             }
             History::RelaxedFft | History::Auto => Ok(Self::transforms(kernel, steps, lasts)),
             History::Exponentials => {
-                let late = kernel.late_lags().map(LateLags::window);
+                let late = kernel.late_weights().map(LateWeights::window);
                 let Some(late) = late.filter(|late| *late <= LONGEST_WINDOW && lasts == 0.0) else {
                     return Ok(Self::of(f64::INFINITY, f64::INFINITY, f64::INFINITY));
                 };

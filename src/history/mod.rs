@@ -19,7 +19,7 @@ pub(crate) use choice::SavedChoice;
 pub use choice::{ChoiceReason, History, HistoryChoice};
 pub(crate) use chosen::ChosenHistory;
 pub use convolution::ConvolutionHistory;
-pub use convolution_weights::{ConvolutionWeights, LateLags};
+pub use convolution_weights::{ConvolutionWeights, LateWeights};
 pub use direct::DirectHistory;
 pub use exponentials::{ExponentialHistory, ExponentialSum, TailProduct};
 pub(crate) use options::HistoryOptions;

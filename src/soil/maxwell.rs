@@ -290,7 +290,7 @@ mod nonnegative_tests {
     use super::*;
 
     #[test]
-    fn unknowns_that_would_be_negative_are_zero() {
+    fn dofs_that_would_be_negative_are_zero() {
         // [[1, 1], [1, −1]]: free solutions (2, 1), (2, −1) and (−2, 1).
         let matrix = [1.0, 1.0, 1.0, -1.0];
         for (right, wanted) in

@@ -5,7 +5,7 @@ use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 use super::Structure;
 use crate::error::{Error, Result, finite, positive};
 
-/// A weighted sum of a structure's unknowns: a displacement of a point, a drift, a rotation.
+/// A weighted sum of a structure's degrees of freedom: a displacement of a point, a drift, a rotation.
 ///
 /// It is kept as (unknown, weight) terms, in the order they were given; a degree of freedom that comes more
 /// than once counts with the sum of its weights. Whatever takes a row takes a bare unknown (with
@@ -96,7 +96,7 @@ impl DofCombination {
     }
 
     /// The same sum of degrees of freedom with other numbers.
-    pub(super) fn map_unknowns(&self, number: impl Fn(usize) -> usize) -> Self {
+    pub(super) fn map_dofs(&self, number: impl Fn(usize) -> usize) -> Self {
         self.0.iter().map(|&(index, weight)| (number(index), weight)).collect()
     }
 

@@ -126,7 +126,7 @@ pub trait Structure: Any + Send {
 
     /// Name of these degrees of freedom in errors, for a person who knows the structure by its nodes or storeys.
     /// Default: `None`, and errors give their numbers.
-    fn describe(&self, _unknowns: &[usize]) -> Option<String> {
+    fn describe(&self, _dofs: &[usize]) -> Option<String> {
         None
     }
 

@@ -205,7 +205,7 @@ fn stiffness_within_a_structure_is_named() {
 fn stiff_structures_stand_or_say_why_not() {
     let weighed = |young: f64| {
         let builder = scene(SI, 0.5).structure(tower(young)).interface(friction(0.4));
-        builder.placement(GravityStage::Frictionless).build()
+        builder.gravity_stage(GravityStage::Frictionless).build()
     };
     let weight = 4.0 * 6.0 * 1500.0 * scenes::GRAVITY;
     for young in [1e13, 1e14, 1e15] {

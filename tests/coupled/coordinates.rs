@@ -47,7 +47,7 @@ fn pulled(tower: FemModel) -> impl Structure {
 }
 
 #[test]
-fn modes_and_unknowns_agree() {
+fn modes_and_dofs_agree() {
     let damped = || tower(SI, Some(RayleighDamping::from_ratios([2.0, 20.0], [0.05; 2]).unwrap()));
     let building = || {
         let storeys = [Storey::new(1.5, 3.0e3, 2.0e6); 4];

@@ -246,7 +246,7 @@ fn choices_are_their_words() {
     words(&[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight]);
     words(&[History::Direct, History::RelaxedFft, History::Exponentials, History::Auto]);
     words(&[Grading::Uniform, Grading::Cosine]);
-    words(&[GravityStage::Frictionless, GravityStage::WithInterfaceLaw, GravityStage::Unloaded]);
+    words(&[GravityStage::Frictionless, GravityStage::Frictional, GravityStage::Unloaded]);
     words(&[Criterion::Slip, Criterion::Gap, Criterion::UpliftedFraction, Criterion::Rotation]);
     words(&[FrictionLimit::Total, FrictionLimit::Lagged, FrictionLimit::Static]);
     words(&[SlipSense::Inelastic, SlipSense::Velocity, SlipSense::LastVelocity]);

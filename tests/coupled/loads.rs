@@ -352,7 +352,7 @@ fn a_dropped_block_falls_freely_and_lands() {
     let height = 0.05;
     let mut simulation = on_half_plane(block())
         .interface(Coulomb::new(0.5).unwrap())
-        .placement(GravityStage::Unloaded)
+        .gravity_stage(GravityStage::Unloaded)
         .initial_displacement([0.0, height, 0.0])
         .build()
         .unwrap();
@@ -375,7 +375,7 @@ fn a_dropped_block_falls_freely_and_lands() {
 #[test]
 fn initial_motions_and_loads_that_make_no_sense_are_refused() {
     let scene = || on_half_plane(block()).interface(Coulomb::new(0.5).unwrap());
-    let unloaded = || scene().placement(GravityStage::Unloaded);
+    let unloaded = || scene().gravity_stage(GravityStage::Unloaded);
     let text = |builder: SimulationBuilder| builder.build().map(|_| ()).unwrap_err().to_string();
     let own = [
         text(scene().initial_displacement([0.0, 0.0])),
@@ -432,7 +432,7 @@ fn rocked(shear_wave_speed: f64, elements: usize, step: f64) -> [f64; 2] {
         .ground(ElasticGround::under(soil, &block, elements).unwrap())
         .structure(block)
         .interface(Coulomb::new(2.0).unwrap())
-        .placement(GravityStage::Unloaded)
+        .gravity_stage(GravityStage::Unloaded)
         .initial_displacement([0.0, 0.5 * tilt, tilt])
         .build()
         .unwrap();
@@ -514,7 +514,7 @@ fn runs_with_loads_and_starts_resume() {
             .interface(Coulomb::new(0.5).unwrap())
             .gravity(gravity)
             .load(Load::new(block().horizontal_at(9.0), |t| 1.0e5 * (9.0 * t).sin()))
-            .placement(GravityStage::Unloaded)
+            .gravity_stage(GravityStage::Unloaded)
             .initial_displacement([0.0, 0.03, 0.01])
             .build()
             .unwrap()
@@ -537,7 +537,7 @@ fn a_weight_that_acts_from_the_start_accelerates_at_once() {
     let scene = || {
         on_half_plane(block())
             .interface(Coulomb::new(0.5).unwrap())
-            .placement(GravityStage::Unloaded)
+            .gravity_stage(GravityStage::Unloaded)
             .scheme(basemat::coupled::Newmark::default())
     };
     let alone = scene().build().unwrap();

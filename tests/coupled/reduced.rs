@@ -153,7 +153,7 @@ fn loads_motions_and_probes_are_in_the_basis() {
     for (x, given) in few.state().displacement().iter().zip(small(1e-4)) {
         assert!((x - given).abs() < 1e-12);
     }
-    let drop = || make().placement(GravityStage::Unloaded);
+    let drop = || make().gravity_stage(GravityStage::Unloaded);
     within(&errors(&drop, 1e-6), 1e-6);
 }
 

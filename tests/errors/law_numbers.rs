@@ -179,7 +179,7 @@ fn numbers_that_are_broken_from_the_start_are_named_by_build() {
     let spoilt = Spoilt { place: Some(Place::Condition(0)), value: f64::NAN, slid: 0.0 };
     let ground = SpringGround::new(-2.0..2.0, 1, 5e7, 4e7).unwrap();
     let built = scene(SI, 0.6).structure(block(SI)).ground(ground).interface(spoilt);
-    let Err(Error::Law(error)) = built.placement(GravityStage::WithInterfaceLaw).build() else {
+    let Err(Error::Law(error)) = built.gravity_stage(GravityStage::Frictional).build() else {
         panic!("accepted");
     };
     assert!(matches!(error, LawError::NotFinite { element: 0, mode: "stick", .. }));

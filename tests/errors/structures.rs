@@ -102,8 +102,8 @@ fn a_structure_that_slides_away_under_its_static_load_is_refused() {
     let pushed = |push| Spoilt { push, ..Spoilt::sound() }.scene();
     let law = Coulomb::new(0.3).unwrap();
     // It is set down without friction; friction of 0.3 then holds it.
-    for placement in [GravityStage::Frictionless, GravityStage::WithInterfaceLaw] {
-        let placed = pushed(1e4).interface(law).placement(placement);
+    for gravity_stage in [GravityStage::Frictionless, GravityStage::Frictional] {
+        let placed = pushed(1e4).interface(law).gravity_stage(gravity_stage);
         let shear = placed.build().unwrap().state().base_shear;
         assert!((shear - 1e4).abs() < 1e-4, "{shear}");
     }

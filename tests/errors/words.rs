@@ -52,7 +52,7 @@ fn choices_are_read_as_they_are_shown() {
     };
     use Criterion::{Gap, Rotation, Slip, UpliftedFraction};
     use FrictionLimit::{Dynamic, Lagged, Static, Total};
-    use GravityStage::{Frictionless, Unloaded, WithInterfaceLaw};
+    use GravityStage::{Frictionless, Unloaded, Frictional};
     use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight};
     use SearchMethod::{ActiveSet, GaussSeidel, Path};
     use SlipSense::{Inelastic, LastVelocity, Velocity};
@@ -62,7 +62,7 @@ fn choices_are_read_as_they_are_shown() {
         [History::Direct, History::RelaxedFft, History::Exponentials, History::default()];
     check("history", &histories);
     check("grading", &[Grading::Uniform, Grading::Cosine]);
-    check("placement", &[Frictionless, WithInterfaceLaw, Unloaded]);
+    check("gravity_stage", &[Frictionless, Frictional, Unloaded]);
     check("search method", &[ActiveSet, GaussSeidel, Path]);
     check("criterion", &[Slip, Gap, UpliftedFraction, Rotation]);
     check("friction limit", &[Total, Lagged, Static, Dynamic]);

@@ -130,11 +130,11 @@ fn contact_conditions_hold_at_every_step() {
 #[test]
 fn preload_is_in_equilibrium() {
     let weight = block(SI).total_mass() * GRAVITY;
-    for placement in [GravityStage::Frictionless, GravityStage::WithInterfaceLaw] {
+    for gravity_stage in [GravityStage::Frictionless, GravityStage::Frictional] {
         for mu in [0.0, 0.4, f64::INFINITY] {
             let simulations =
                 [scene(SI, 0.0).structure(block(SI)), scene(SI, 0.0).structure(tower(SI, None))]
-                    .map(|b| b.interface(friction(mu)).placement(placement).build().unwrap());
+                    .map(|b| b.interface(friction(mu)).gravity_stage(gravity_stage).build().unwrap());
             for simulation in simulations {
                 let state = simulation.state();
                 assert!(

@@ -9,7 +9,7 @@ use basemat::bem::{
 use basemat::coupled::Run;
 use basemat::history::{
     ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
-    ExponentialSum, History, LateLags, PairClasses, RelaxedFftHistory, SharedSpectra, TailProduct,
+    ExponentialSum, History, LateWeights, PairClasses, RelaxedFftHistory, SharedSpectra, TailProduct,
 };
 use basemat::interface::Coulomb;
 use basemat::{Error, Result, Simulation};
@@ -256,12 +256,12 @@ impl ConvolutionWeights for VoigtKernel {
         Ok(Some(0))
     }
 
-    fn late_lags(&self) -> Option<&dyn LateLags> {
+    fn late_weights(&self) -> Option<&dyn LateWeights> {
         self.soil.late.then_some(self)
     }
 }
 
-impl LateLags for VoigtKernel {
+impl LateWeights for VoigtKernel {
     fn window(&self) -> usize {
         1
     }
@@ -419,7 +419,7 @@ impl ConvolutionWeights for Coupled {
     fn coefficients(&self, class: usize, first: usize, values: [&mut [f64]; 3]) -> Result<()> {
         self.0.coefficients(class, first, values)
     }
-    fn late_lags(&self) -> Option<&dyn LateLags> {
+    fn late_weights(&self) -> Option<&dyn LateWeights> {
         Some(&self.0)
     }
 }

@@ -31,12 +31,12 @@ fn all_parts_can_be_shown() {
     assert!(matches!(builder().build().unwrap_err(), Error::Scene { quantity: "ground", .. }));
     let mut simulation = builder().ground(bed(4)).build().unwrap();
     simulation.step().unwrap();
-    shown(&simulation, &["unknowns: 3", "elements: 4", "step: 1"]);
+    shown(&simulation, &["dofs: 3", "elements: 4", "step: 1"]);
     let ground = || ElasticGround::new(soil(), Strip::uniform(-2.0..2.0, 6).unwrap()).unwrap();
     shown(&ground(), &["Soil", "elements: 6"]);
     let kernel = Arc::new(PatchKernel::new(soil(), ground().elements().to_vec(), STEP).unwrap());
     shown(&DirectHistory::new(kernel), &["elements: 6", "steps: 0"]);
-    shown(&WithSprings::new(block()), &["unknowns: 3", "springs: 0"]);
+    shown(&WithSprings::new(block()), &["dofs: 3", "springs: 0"]);
     shown(&StructureGroup::new(), &["structures: 0"]);
     shown(&TravellingWave::new(push(), 500.0, 1.0).unwrap(), &["500.0", "origin: 1.0"]);
     shown(&Sweep::new(3), &["count: 3"]);

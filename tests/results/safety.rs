@@ -32,7 +32,7 @@ fn statics_of_a_pushed_block() {
             .ground(SpringGround::new(-2.0..2.0, 40, 4e7, 2e7).unwrap())
             .motion(AtRest)
             .gravity(STANDARD_GRAVITY)
-            .placement(GravityStage::WithInterfaceLaw);
+            .gravity_stage(GravityStage::Frictional);
         let builder = if bonded {
             builder.interface(Bonded)
         } else {

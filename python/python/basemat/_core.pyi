@@ -601,7 +601,7 @@ class Simulation:
         probes: Sequence[Probe] | None = None,
         loads: Sequence[Load] | None = None,
         gravity: float | None = None,
-        placement: str = "frictionless",
+        gravity_stage: str = "frictionless",
         initial_displacement: ArrayLike | None = None,
         initial_velocity: ArrayLike | None = None,
         scheme: TimeScheme | None = None,

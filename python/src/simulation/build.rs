@@ -8,8 +8,8 @@ use pyo3::prelude::*;
 use crate::error::{OrRaise, refuse};
 use crate::probe::PyProbe;
 
-/// A placement by its name.
-pub(super) fn placement(name: &str) -> PyResult<GravityStage> {
+/// A gravity stage by its name.
+pub(super) fn gravity_stage(name: &str) -> PyResult<GravityStage> {
     name.parse().or_raise()
 }
 

@@ -86,7 +86,7 @@ impl PySimulation {
     #[new]
     #[pyo3(signature = (
         time_step, structure, ground, interface, *,
-        motion=None, probes=None, loads=None, gravity=None, placement="frictionless",
+        motion=None, probes=None, loads=None, gravity=None, gravity_stage="frictionless",
         initial_displacement=None, initial_velocity=None, scheme=None, coordinates=None,
         expected_steps=None, moment_center=None, energy_balance=true, safety_friction=None,
         allowable_slip=None, allowable_gap=None, allowable_uplifted_fraction=None,
@@ -102,7 +102,7 @@ impl PySimulation {
         probes: Option<Vec<Bound<'_, PyProbe>>>,
         loads: Option<Vec<Bound<'_, PyLoad>>>,
         gravity: Option<f64>,
-        placement: &str,
+        gravity_stage: &str,
         initial_displacement: Option<Numbers>,
         initial_velocity: Option<Numbers>,
         scheme: Option<Bound<'_, PyTimeScheme>>,
@@ -126,7 +126,7 @@ impl PySimulation {
             .structure(structure)
             .ground((ground.get().make)().or_raise()?)
             .interfaces(laws)
-            .placement(build::placement(placement)?)
+            .gravity_stage(build::gravity_stage(gravity_stage)?)
             .contact_search(build::search(flow_chart_iterations))
             .serviceability(build::limits(
                 allowable_slip,
@@ -286,7 +286,7 @@ impl PySimulation {
         Ok(self.lock()?.elements().iter().map(|e| (e.left, e.right)).collect())
     }
 
-    /// Static displacement of the unknowns: array of shape (n,), m and rad.
+    /// Static displacement of the degrees of freedom: array of shape (n,), m and rad.
     #[getter]
     fn static_displacement<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         Ok(PyArray1::from_slice(py, self.lock()?.static_displacement()))

@@ -193,13 +193,13 @@ impl PyState {
         PyArray1::from_slice(py, self.0.absolute_displacement())
     }
 
-    /// Total velocity of the unknowns: array of shape (n,), m/s and rad/s.
+    /// Total velocity of the degrees of freedom: array of shape (n,), m/s and rad/s.
     #[getter]
     fn velocity<'py>(&self, py: Python<'py>) -> Array<'py> {
         PyArray1::from_slice(py, self.0.velocity())
     }
 
-    /// Total acceleration of the unknowns: array of shape (n,), m/s² and rad/s².
+    /// Total acceleration of the degrees of freedom: array of shape (n,), m/s² and rad/s².
     #[getter]
     fn acceleration<'py>(&self, py: Python<'py>) -> Array<'py> {
         PyArray1::from_slice(py, self.0.acceleration())

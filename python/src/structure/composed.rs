@@ -88,7 +88,7 @@ impl PyReducedModel {
 
     /// A row of the full structure in the degrees of freedom of the reduced one, for a probe or a load.
     fn row(&self, row: RowLike) -> PyResult<PyDofCombination> {
-        row.1.check("the row", self.0.recovery().full_unknowns())?;
+        row.1.check("the row", self.0.recovery().full_dofs())?;
         Ok(self.0.recovery().row(row.0).or_raise()?.into())
     }
 

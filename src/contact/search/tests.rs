@@ -128,7 +128,7 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     let assembled = Assembled::new(structure.as_ref(), ground.elements()).unwrap();
     let (model, tangent) = (Model::new(&assembled), SparseMatrix::default());
     let coefficients = Midpoint.coefficients(time_step);
-    let factor = Factor::of_unknowns(&model, &coefficients, &tangent).unwrap();
+    let factor = Factor::of_dofs(&model, &coefficients, &tangent).unwrap();
     let operator = Arc::new(Thinned::new(operator, 2 * count));
     let operators =
         Operators::new(&model, &assembled.base, &operator, Factor::Sparse(factor), tangent);

@@ -12,12 +12,12 @@ pub enum Coordinates {
     /// modes do not decouple, keep their degrees of freedom.
     #[default]
     Auto,
-    /// The structure's unknowns: sparse matrices, one back-substitution per step.
+    /// The structure's degrees of freedom: sparse matrices, one back-substitution per step.
     Physical,
     /// The modes of the structure without ground and damping. Needs a linear structure with
     /// symmetric matrices, a positive definite mass and damping that the modes decouple.
     Modes,
-    /// Ritz modes, two to four hundred for thousands of unknowns: a rational block Krylov basis of the
+    /// Ritz modes, two to four hundred for thousands of degrees of freedom: a rational block Krylov basis of the
     /// answers to contact tractions, loads, probes and an initial motion, projected (Galerkin), so that
     /// it stays passive and the energy balance closes. The settlement under weight is that of all degrees of freedom.
     ///

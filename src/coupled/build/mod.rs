@@ -59,7 +59,7 @@ short_debug! {
     ground: self.ground.is_some(),
     laws: self.given.laws.len(),
     gravity: self.given.gravity,
-    placement: self.given.placement,
+    gravity_stage: self.given.gravity_stage,
     search: self.given.search,
     coordinates: self.given.coordinates,
 }
@@ -157,8 +157,8 @@ impl SimulationBuilder {
 
     /// Friction while the weight comes on.
     #[must_use]
-    pub fn placement(mut self, placement: GravityStage) -> Self {
-        self.given.placement = placement;
+    pub fn gravity_stage(mut self, gravity_stage: GravityStage) -> Self {
+        self.given.gravity_stage = gravity_stage;
         self
     }
 

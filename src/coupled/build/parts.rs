@@ -34,7 +34,7 @@ pub enum GravityStage {
     #[default]
     Frictionless,
     /// The interface law acts while the weight comes on, in one step.
-    WithInterfaceLaw,
+    Frictional,
     /// There is no static state: the base begins unpressed, and weight and loads act from t = 0 on.
     /// For a structure that is dropped, or tilted and let go.
     ///
@@ -51,7 +51,7 @@ pub enum GravityStage {
     ///     .structure(RigidBlock::new(1.0, 4.0, 2400.0)?.with_p_delta(9.81)?)
     ///     .ground(SpringGround::new(-0.5..0.5, 8, 5e9, 2e9)?.with_dashpots(1e6, 1e6)?)
     ///     .interface(Coulomb::new(0.8)?)
-    ///     .placement(GravityStage::Unloaded)
+    ///     .gravity_stage(GravityStage::Unloaded)
     ///     .initial_displacement([0.0, 0.5 * tilt, tilt])
     ///     .build()?;
     /// assert_eq!(simulation.state().uplifted_fraction, 1.0);
@@ -64,9 +64,9 @@ pub enum GravityStage {
     Unloaded,
 }
 
-words! { GravityStage, "placement", {
+words! { GravityStage, "gravity stage", {
     Frictionless = "frictionless",
-    WithInterfaceLaw = "with_interface_law",
+    Frictional = "frictional",
     Unloaded = "unloaded",
 } }
 
@@ -78,7 +78,7 @@ pub(crate) struct Given {
     pub(crate) scheme: Box<dyn TimeScheme>,
     pub(crate) search: ContactSearch,
     pub(crate) gravity: f64,
-    pub(crate) placement: GravityStage,
+    pub(crate) gravity_stage: GravityStage,
     pub(crate) loads: Vec<Load>,
     /// Displacement and velocity of the degrees of freedom at t = 0; empty for none.
     pub(crate) displacement: Vec<f64>,
@@ -103,7 +103,7 @@ impl Given {
             scheme: Box::new(Midpoint),
             search: ContactSearch::default(),
             gravity: STANDARD_GRAVITY,
-            placement: GravityStage::default(),
+            gravity_stage: GravityStage::default(),
             loads: Vec::new(),
             displacement: Vec::new(),
             velocity: Vec::new(),
@@ -119,7 +119,7 @@ impl Given {
 
     /// Whether weight and loads are there before the run begins.
     pub(crate) fn is_static(&self) -> bool {
-        self.gravity > 0.0 && self.placement != GravityStage::Unloaded
+        self.gravity > 0.0 && self.gravity_stage != GravityStage::Unloaded
     }
 
     /// Gravity as the laws may count on it at the start: zero where nothing presses.
@@ -129,7 +129,7 @@ impl Given {
 
     /// Whether weight acts as a load from t = 0 on.
     pub(crate) fn falls(&self) -> bool {
-        self.gravity > 0.0 && self.placement == GravityStage::Unloaded
+        self.gravity > 0.0 && self.gravity_stage == GravityStage::Unloaded
     }
 }
 
@@ -172,7 +172,7 @@ impl Parts {
         check_laws(&given.laws, given.search, &ContactScene { gravity, time_step }, count)?;
         given.safety_friction = safety_friction(&given.laws, given.safety_friction, count)?;
         let dofs = structure.dofs();
-        check_unknowns(dofs, count)?;
+        check_dofs(dofs, count)?;
         probe::check(&given.probes, dofs)?;
         check_motion(&given, dofs)?;
         let coefficients = given.scheme.coefficients(time_step);
@@ -220,7 +220,7 @@ fn check_motion(given: &Given, dofs: usize) -> Result<()> {
 
 /// Refuses more degrees of freedom than fit into memory, by themselves or with a response to the traction of
 /// each of `elements` contact elements.
-fn check_unknowns(dofs: usize, elements: usize) -> Result<()> {
+fn check_dofs(dofs: usize, elements: usize) -> Result<()> {
     matrix::check_order("degrees of freedom of the structure", dofs)?;
     // Two components of traction, and the responses twice while they are computed.
     let responses = 32.0 * dofs as f64 * elements as f64;

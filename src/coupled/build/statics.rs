@@ -42,7 +42,7 @@ pub(super) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticSt
         let mut soil = vec![0.0; assembled.base.layout().square()];
         ground.static_compliance(&mut soil)?;
         let stage = Standing { assembled, structure: structure.as_ref(), soil: &soil };
-        state = in_stages(&stage, &given.laws, given.placement, [&weight, &load])?;
+        state = in_stages(&stage, &given.laws, given.gravity_stage, [&weight, &load])?;
         state.load = own;
         if let Some(force) = structure.nonlinear_mut() {
             force.commit(&state.displacement);
@@ -61,14 +61,14 @@ pub(super) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticSt
 fn in_stages(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
-    placement: GravityStage,
+    gravity_stage: GravityStage,
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {
     let count = stage.assembled.base.lengths().len();
     let smooth: Vec<_> = laws.iter().map(InterfaceLaw::frictionless).collect();
     let can_open = laws.iter().any(|law| law.modes().contains(&Mode::Open));
     // A base that never opens is bonded from the start.
-    let is_smooth = placement == GravityStage::Frictionless && can_open;
+    let is_smooth = gravity_stage == GravityStage::Frictionless && can_open;
     let placing = if is_smooth { &smooth } else { laws };
     let at_rest = PreviousContact::new(ContactState::default(), Mode::Stick, TIME_STEP);
     let start = PreviousContacts::new(placing, &vec![at_rest; count])?;

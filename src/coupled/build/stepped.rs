@@ -55,15 +55,15 @@ impl Stepped {
         let steps = if given.steps > 0 { given.steps } else { STEPS };
         let physical = Model::new(assembled);
         let factored = || {
-            let factor = Factor::of_unknowns(&physical, coefficients, &tangent);
+            let factor = Factor::of_dofs(&physical, coefficients, &tangent);
             factor.map_err(|error| cause(assembled, structure, &tangent, error))
         };
         let chosen = match given.coordinates {
-            Coordinates::Physical => Chosen::Unknowns(factored()?),
+            Coordinates::Physical => Chosen::Physical(factored()?),
             Coordinates::Auto => {
                 let factor = factored()?;
                 let modes = cheaper_modes(assembled, factor.stored(), steps);
-                modes.map_or(Chosen::Unknowns(factor), Chosen::Modes)
+                modes.map_or(Chosen::Physical(factor), Chosen::Modes)
             }
             Coordinates::Modes => {
                 let Some(modes) = vibration_modes(assembled) else {
@@ -80,7 +80,7 @@ impl Stepped {
             }
         };
         let (model, factor) = match chosen {
-            Chosen::Unknowns(factor) => (physical, Factor::Sparse(factor)),
+            Chosen::Physical(factor) => (physical, Factor::Sparse(factor)),
             Chosen::Modes(modes) => {
                 let model = physical.in_modes(assembled, modes);
                 let factor = Factor::of_modes(&model, coefficients)?;
@@ -95,7 +95,7 @@ impl Stepped {
 
 /// Coordinates, with what choosing them has left.
 enum Chosen {
-    Unknowns(Box<SparseFactor>),
+    Physical(Box<SparseFactor>),
     Modes(ModalBasis),
 }
 

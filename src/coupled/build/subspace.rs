@@ -3,7 +3,7 @@
 //! | symbol | meaning |
 //! |---|---|
 //! | V | vectors, V M Vᵀ = 1 |
-//! | F | rows of unknowns: where forces act and displacements are looked at |
+//! | F | rows of degrees of freedom: where forces act and displacements are looked at |
 //!
 //! All are rows. The first vectors are rigid translations, of which K knows nothing: their products
 //! with K are zero, not rounding.

@@ -50,7 +50,7 @@ impl AtRest<'_> {
         if self.base.dofs().is_empty() {
             return None;
         }
-        let dofs = Regular::held(self)?.1.free_unknowns(free)?;
+        let dofs = Regular::held(self)?.1.free_dofs(free)?;
         let place = place(self.structure, &dofs);
         Some(StabilityError::Mechanism { dofs, place })
     }
@@ -68,7 +68,7 @@ pub(crate) fn unresisted(
     };
     let terms = [stiffness, others[0], others[1]].map(|matrix| (scaled(matrix), matrix));
     let sum = SparseMatrix::weighted_sum(stiffness.order(), &terms);
-    let dofs = Regular::new(sum, 1.0, &[])?.free_unknowns(FREE)?;
+    let dofs = Regular::new(sum, 1.0, &[])?.free_dofs(FREE)?;
     let place = place(structure, &dofs);
     Some(StabilityError::Massless { dofs, place })
 }
@@ -135,7 +135,7 @@ impl Regular {
     ///
     /// All such displacements together: by the length of their rows in a basis that the regular part
     /// makes orthonormal, so that neither its choice nor the numbering of degrees of freedom matters.
-    fn free_unknowns(&mut self, free: f64) -> Option<Vec<usize>> {
+    fn free_dofs(&mut self, free: f64) -> Option<Vec<usize>> {
         let n = self.added.len();
         let mut basis: Vec<Vec<f64>> = Vec::new();
         while basis.len() < MOST_MOTIONS.min(n) {

@@ -99,7 +99,7 @@ fn effective_stiffness(model: &Model, c: &SchemeCoefficients, tangent: &SparseMa
 
 impl Factor {
     /// Factors K_eff of degrees of freedom.
-    pub(crate) fn of_unknowns(
+    pub(crate) fn of_dofs(
         model: &Model,
         coefficients: &SchemeCoefficients,
         tangent: &SparseMatrix,

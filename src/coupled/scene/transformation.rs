@@ -42,10 +42,10 @@ impl Transformation {
     }
 
     /// Adds forces on the degrees of freedom to `force`.
-    pub(crate) fn add_forces(&self, on_unknowns: &[f64], force: &mut [f64]) {
+    pub(crate) fn add_forces(&self, on_dofs: &[f64], force: &mut [f64]) {
         match self {
-            Self::Identity => force.iter_mut().zip(on_unknowns).for_each(|(f, own)| *f += own),
-            Self::Modes(modes) => modes.project(on_unknowns, force),
+            Self::Identity => force.iter_mut().zip(on_dofs).for_each(|(f, own)| *f += own),
+            Self::Modes(modes) => modes.project(on_dofs, force),
         }
     }
 

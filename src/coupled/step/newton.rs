@@ -178,7 +178,7 @@ impl Newton {
         let tangent = &self.tangent.matrix;
         if !tangent.entries().eq(linear.operators.tangent.entries()) {
             let (model, base) = (&scene.model, &scene.base);
-            let factor = Factor::of_unknowns(model, &scene.coefficients, tangent)
+            let factor = Factor::of_dofs(model, &scene.coefficients, tangent)
                 .map_err(|_| StepError::Singular { matrix: "effective stiffness matrix" })?;
             let tangent = tangent.clone();
             linear.operators =

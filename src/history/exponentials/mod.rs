@@ -12,7 +12,7 @@ pub use self::tail::{ExponentialSum, TailProduct};
 use self::tail::{Fit, Measured, Request, Tail};
 use self::window::{Cut, Lags};
 use super::convolution::ConvolutionHistory;
-use super::convolution_weights::{ConvolutionWeights, LateLags};
+use super::convolution_weights::{ConvolutionWeights, LateWeights};
 use super::cost::{Estimate, LONGEST_WINDOW};
 use super::relaxed_fft::spectra::Windowed;
 use super::relaxed_fft::{Blocks, LEAF, SharedSpectra, bounded};
@@ -39,7 +39,7 @@ const ATTEMPTS: usize = 10;
 /// exponentials with a common set of poles, carried by a few functions over the patch. What is
 /// kept of all tractions before the last 2W are a few hundred numbers, however many steps there were.
 ///
-/// The kernel has to know its [late lags](ConvolutionWeights::late_lags). On the half-plane they begin when
+/// The kernel has to know its [late lags](ConvolutionWeights::late_weights). On the half-plane they begin when
 /// the Rayleigh wave has crossed the patch three times: only normal and tangential components are
 /// left, and these are integrals of decaying exponentials, which the trapezoidal rule in the
 /// logarithm of the rate turns into sums. In space Legendre polynomials over the patch carry them.
@@ -125,7 +125,7 @@ impl ExponentialHistory {
         memory: usize,
     ) -> Result<Self> {
         Self::check_tolerance(tolerance)?;
-        let Some(late) = kernel.late_lags() else { return Err(NO_LATE_LAGS) };
+        let Some(late) = kernel.late_weights() else { return Err(NO_LATE_LAGS) };
         let elements = kernel.classes().elements();
         let lags = window(late)?;
         let needed = Estimate::window(&*kernel, lags)?;
@@ -276,7 +276,7 @@ impl ExponentialHistory {
 }
 
 /// Lags of the window: a block of the transforms, since these take the time of all of it.
-fn window(late: &dyn LateLags) -> Result<usize> {
+fn window(late: &dyn LateWeights) -> Result<usize> {
     let lags = late.window();
     if lags > LONGEST_WINDOW {
         return Err(Error::Input {
@@ -290,7 +290,7 @@ fn window(late: &dyn LateLags) -> Result<usize> {
 
 impl Fit {
     /// The fewest exponentials that fit and are passive.
-    fn new(kernel: &dyn ConvolutionWeights, late: &dyn LateLags, request: Request) -> Result<Self> {
+    fn new(kernel: &dyn ConvolutionWeights, late: &dyn LateWeights, request: Request) -> Result<Self> {
         let Request { lags, horizon, tolerance } = request;
         let exact = Lags::new(kernel, lags)?;
         let (mut aim, mut refusal) = (tolerance, None);

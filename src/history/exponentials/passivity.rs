@@ -91,7 +91,7 @@ mod tests {
     use super::super::tail::{ExponentialSum, Tail};
     use super::*;
     use crate::bem::{PatchKernel, Strip};
-    use crate::history::LateLags;
+    use crate::history::LateWeights;
     use crate::soil::Soil;
 
     fn patch() -> PatchKernel {

@@ -47,7 +47,7 @@ short_debug! {
     WithModalDamping; self; dofs: self.structure.dofs(), frequencies: self.frequencies
 }
 
-/// Most unknowns: C is a full matrix.
+/// Most degrees of freedom: C is a full matrix.
 const MOST: usize = 3000;
 /// A mode with more of its momentum in rigid motions is one. Their eigenvalues do not tell: rounding
 /// leaves them anything small, and in fine meshes the lowest modes that are not rigid are 10⁻¹² of

@@ -238,7 +238,7 @@ impl FemModel {
         self.links.as_ref().map_or(Some(unknown), |links| links.remaining(node, unknown))
     }
 
-    /// Motion of `node` in `direction` as a weighted sum of unknowns: the degree of freedom itself, or what
+    /// Motion of `node` in `direction` as a weighted sum of degrees of freedom: the degree of freedom itself, or what
     /// the rigid link of a follower makes of its leader's.
     ///
     /// # Errors

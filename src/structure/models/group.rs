@@ -13,7 +13,7 @@ struct Member {
     structure: Box<dyn Structure>,
     /// Added to the coordinates of its contact nodes, m.
     shift: f64,
-    first_unknown: usize,
+    first_dof: usize,
     dofs: usize,
     /// Coordinates of its contact nodes in the group, left and right, and their number.
     span: [f64; 2],
@@ -88,7 +88,7 @@ impl StructureGroup {
         }
         self.members.push(Member {
             shift,
-            first_unknown: self.dofs(),
+            first_dof: self.dofs(),
             dofs: structure.dofs(),
             span,
             nodes: nodes.len(),
@@ -118,7 +118,7 @@ impl StructureGroup {
         let own = self.members.get(member);
         let own = own.ok_or(Error::Index { quantity, index: member, bound })?;
         row.check("unknown of a structure of the group", own.dofs)?;
-        Ok(row.map_unknowns(|index| own.first_unknown.saturating_add(index)))
+        Ok(row.map_dofs(|index| own.first_dof.saturating_add(index)))
     }
 
     /// A probe of structure `member` as one of the group, with its name and unit; section resultants
@@ -136,7 +136,7 @@ impl StructureGroup {
         write: impl Fn(&dyn Structure, &mut Triplets) -> Result<()>,
     ) -> Result<()> {
         self.members.iter().try_for_each(|member| {
-            matrix.block(member.first_unknown, member.dofs, |block| {
+            matrix.block(member.first_dof, member.dofs, |block| {
                 write(member.structure.as_ref(), block)
             })
         })
@@ -150,7 +150,7 @@ impl StructureGroup {
 
 impl Member {
     fn range(&self) -> std::ops::Range<usize> {
-        self.first_unknown..self.first_unknown.saturating_add(self.dofs)
+        self.first_dof..self.first_dof.saturating_add(self.dofs)
     }
 }
 
@@ -167,10 +167,10 @@ impl Structure for StructureGroup {
                 // An index that is no degree of freedom of the member must not be one of the group.
                 let place = |index: usize| {
                     let own = index < member.dofs;
-                    if own { index.saturating_add(member.first_unknown) } else { usize::MAX }
+                    if own { index.saturating_add(member.first_dof) } else { usize::MAX }
                 };
-                node.horizontal = node.horizontal.map_unknowns(place);
-                node.vertical = node.vertical.map_unknowns(place);
+                node.horizontal = node.horizontal.map_dofs(place);
+                node.vertical = node.vertical.map_dofs(place);
                 all.push(node);
             }
         }
@@ -257,7 +257,7 @@ impl NonlinearForce for StructureGroup {
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
         for (member, own) in self.forces() {
             if let Some(u) = displacement.get(member.range()) {
-                matrix.block(member.first_unknown, member.dofs, |block| own.tangent(u, block))?;
+                matrix.block(member.first_dof, member.dofs, |block| own.tangent(u, block))?;
             }
         }
         Ok(())

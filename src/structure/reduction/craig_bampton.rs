@@ -197,7 +197,7 @@ impl Parts {
     }
 
     fn renumbered(&self, node: &ContactNode) -> ContactNode {
-        let row = |row: &DofCombination| row.map_unknowns(|index| self.place[index]);
+        let row = |row: &DofCombination| row.map_dofs(|index| self.place[index]);
         ContactNode { x: node.x, horizontal: row(&node.horizontal), vertical: row(&node.vertical) }
     }
 

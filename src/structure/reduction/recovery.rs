@@ -79,7 +79,7 @@ impl Recovery {
     }
 
     /// Number of degrees of freedom of the full model.
-    pub fn full_unknowns(&self) -> usize {
+    pub fn full_dofs(&self) -> usize {
         self.basis.full
     }
 

@@ -68,7 +68,7 @@ fn static_state_is_found_in_any_unit_of_length() {
         let builder = scenes::scene(frame, 0.0).structure(scenes::block(frame));
         let simulation = builder
             .interface(scenes::friction(0.05))
-            .placement(basemat::coupled::GravityStage::WithInterfaceLaw)
+            .gravity_stage(basemat::coupled::GravityStage::Frictional)
             .build();
         let state = simulation.unwrap().state().clone();
         let weight = 4.0 * 6.0 * 1500.0 * scenes::GRAVITY;

@@ -115,7 +115,7 @@ pub(crate) struct Recipe {
     pub(crate) law: Law,
     pub(crate) scheme: Scheme,
     pub(crate) coordinates: Coordinates,
-    pub(crate) placement: GravityStage,
+    pub(crate) gravity_stage: GravityStage,
     pub(crate) kind: Kind,
     /// Accelerations of the ground, about: of gravity.
     pub(crate) strength: f64,
@@ -210,7 +210,7 @@ impl Recipe {
         let builder = Simulation::builder(step)
             .motion(motion)
             .gravity(gravity)
-            .placement(self.placement)
+            .gravity_stage(self.gravity_stage)
             .coordinates(self.coordinates);
         let builder = self.with_ground(builder, frame)?;
         let builder = self.with_structure(builder, frame)?;
@@ -379,19 +379,19 @@ fn scheme() -> impl Strategy<Value = Scheme> {
 pub(crate) fn recipes(most_friction: f64) -> impl Strategy<Value = Recipe> {
     let coordinates =
         prop::sample::select(vec![Coordinates::Auto, Coordinates::Physical, Coordinates::Modes]);
-    let placement =
-        prop::sample::select(vec![GravityStage::Frictionless, GravityStage::WithInterfaceLaw]);
+    let gravity_stage =
+        prop::sample::select(vec![GravityStage::Frictionless, GravityStage::Frictional]);
     let parts = (building(), bed(), 1_usize..8, law(most_friction), scheme());
     let rest = (
         coordinates,
-        placement,
+        gravity_stage,
         super::shaking::kinds(),
         decades(0.2, 10.0),
         decades(0.2, 5.0),
         decades(1e6, 1e9),
     );
     (parts, rest).prop_map(|((building, bed, elements, law, scheme), rest)| {
-        let (coordinates, placement, kind, strength, courant, modulus) = rest;
+        let (coordinates, gravity_stage, kind, strength, courant, modulus) = rest;
         let mut recipe = Recipe {
             building,
             bed,
@@ -399,7 +399,7 @@ pub(crate) fn recipes(most_friction: f64) -> impl Strategy<Value = Recipe> {
             law,
             scheme,
             coordinates,
-            placement,
+            gravity_stage,
             kind,
             strength,
             courant,

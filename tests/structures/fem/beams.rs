@@ -33,7 +33,7 @@ fn cantilever(length: f64, angle: f64, elements: usize, shear: Option<f64>) -> F
 }
 
 /// Degrees of freedom other than those of the clamped foot and the bar's far end.
-fn free_unknowns(model: &FemModel) -> Vec<usize> {
+fn free_dofs(model: &FemModel) -> Vec<usize> {
     (3..model.dofs() - 2).collect()
 }
 
@@ -73,7 +73,7 @@ fn cantilever_frequency_converges_with_its_order() {
         (1.875_104_068_711_961_f64.powi(4)) * E * INERTIA / (DENSITY * AREA * f64::powi(length, 4));
     let error = |elements, kind| {
         let model = cantilever(length, 0.7, elements, None).with_mass(kind);
-        let free = free_unknowns(&model);
+        let free = free_dofs(&model);
         let found = eigenvalues(&part(&stiffness(&model), &free), &part(&mass(&model), &free))[0];
         found / exact - 1.0
     };

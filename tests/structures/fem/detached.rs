@@ -117,7 +117,7 @@ fn links_and_springs_tie_parts() {
 /// GOAL: single degrees of freedom are named with their direction: a rotation that nothing holds, a mass that
 /// hangs on nothing, on a bar across its way, on a dashpot.
 #[test]
-fn single_unknowns_are_named() {
+fn single_dofs_are_named() {
     let with = |add: &dyn Fn(&mut Mesh, usize, usize)| {
         let mut mesh = stack(1, true);
         let node = mesh.add_node(0.0, 5.0).unwrap();
@@ -197,7 +197,7 @@ fn wrappers_lead_to_the_nodes() {
     assert!(build(tied).is_ok());
 }
 
-/// A block on [u_x, u_y, θ] and more unknowns: masses on the diagonal, further entries of M and K.
+/// A block on [u_x, u_y, θ] and more degrees of freedom: masses on the diagonal, further entries of M and K.
 fn appended(
     masses: &[f64],
     coupling: &[(usize, usize, f64)],

@@ -155,7 +155,7 @@ impl Element for Nothing {
 }
 
 #[test]
-fn element_without_unknowns_is_refused() {
+fn element_without_dofs_is_refused() {
     assert!(matches!(two_nodes().add(Nothing), Err(Error::Size { .. })));
 }
 

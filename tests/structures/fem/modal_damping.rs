@@ -65,7 +65,7 @@ fn ratios_go_from_the_lowest_mode_and_the_last_one_stays() {
 }
 
 #[test]
-fn modes_and_unknowns_march_alike() {
+fn modes_and_dofs_march_alike() {
     let march = |coordinates| {
         let structure = ModalDamping::new(&[0.05, 0.03]).unwrap().on(tower()).unwrap();
         let mut simulation = Simulation::builder(0.005)
@@ -195,7 +195,7 @@ impl Structure for Astray {
 }
 
 #[test]
-fn a_base_of_unknowns_that_are_not_there_is_refused() {
+fn a_base_of_dofs_that_are_not_there_is_refused() {
     let fault = ModalDamping::new(&[0.05]).unwrap().on(Astray).unwrap_err();
     assert!(matches!(fault, Error::Index { index: usize::MAX, bound: 2, .. }), "{fault}");
 }

@@ -91,7 +91,7 @@ fn laws_have_one_storey_each() {
 }
 
 #[test]
-fn springs_need_unknowns_that_exist() {
+fn springs_need_dofs_that_exist() {
     let block = || WithSprings::new(RigidBlock::new(2.0, 4.0, 2000.0).unwrap());
     assert!(block().nonlinear().is_none());
     assert!(matches!(block().spring(vec![(3, 1.0)], law()), Err(Error::Index { .. })));

@@ -121,7 +121,7 @@ fn marches_like_the_full_model() {
 
 /// Kept degrees of freedom stay themselves, and springs on them work as on the full model.
 #[test]
-fn springs_on_kept_unknowns_are_those_of_the_full_model() {
+fn springs_on_kept_dofs_are_those_of_the_full_model() {
     let law = || Bilinear::new(3.0e7, 2.0e4, 0.05).unwrap();
     let model = damped();
     let (unknown, left) = (top(&model), model.unknown(0, Direction::X).unwrap());
@@ -205,7 +205,7 @@ fn what_cannot_be_reduced_is_refused() {
         assert!(matches!(refuse(reduced().with_damping_ratio(bad)), Error::Input { .. }));
     }
     let recovery = reduced().recovery();
-    assert_eq!(recovery.full_unknowns(), 18);
+    assert_eq!(recovery.full_dofs(), 18);
     assert!(matches!(recovery.row(18), Err(Error::Index { .. })));
     let probe = Probe::displacement("far", 18);
     assert!(matches!(recovery.probe(probe), Err(Error::Probe { name, .. }) if name == "far"));
@@ -243,7 +243,7 @@ fn tall_meshes_stand() {
 
 /// A weightless mast on a rigid base has no modes of its own.
 #[test]
-fn without_mass_or_unknowns_there_are_no_modes() {
+fn without_mass_or_dofs_there_are_no_modes() {
     let mast = || {
         let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(4));
         (0..3).for_each(|unknown| mass.add(unknown, unknown, 1e4));

@@ -60,7 +60,7 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
         .interface(law)
         .gravity(number("gravity")?)
         // As in the finite elements: friction acts while the weight comes on.
-        .placement(GravityStage::WithInterfaceLaw)
+        .gravity_stage(GravityStage::Frictional)
         .motion(pulse)
         .probe(Probe::displacement("roof", roof.clone()))
         .probe(Probe::acceleration("acceleration", roof))

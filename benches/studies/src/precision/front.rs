@@ -1,4 +1,4 @@
-//! Structures of 300 to 30 000 unknowns: which settings give which error, in which time.
+//! Structures of 300 to 30 000 degrees of freedom: which settings give which error, in which time.
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;

@@ -236,7 +236,7 @@ impl Scene {
             let tilt = self.tilt / self.slenderness;
             let edge = 0.5 * WIDTH * tilt;
             builder =
-                builder.placement(GravityStage::Unloaded).initial_displacement([0.0, edge, tilt]);
+                builder.gravity_stage(GravityStage::Unloaded).initial_displacement([0.0, edge, tilt]);
         }
         Ok(builder)
     }
