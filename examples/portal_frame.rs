@@ -4,9 +4,8 @@
 //! cargo run --release --example portal_frame
 //! ```
 //!
-//! Each column stands on a rigid footing of its own. El Centro shakes the frame bonded to the soil, then held by
-//! friction alone: footings turn on their edges, step towards each other, and are held there. A [`Sweep`] over
-//! widths and friction coefficients shows how far.
+//! Each column has a rigid footing of its own. Held by friction alone, footings turn on their edges, step towards
+//! each other, and stay there; a [`Sweep`] over widths and friction coefficients shows how far.
 
 use basemat::fem::{Beam, Direction, LumpedMass, Mesh};
 use basemat::prelude::*;
@@ -100,7 +99,6 @@ fn main() -> Result<()> {
             );
         }
     }
-    // Nothing ties the footings together.
     let (widths, frictions) = ([1.6, 2.0, 2.4, 3.0], [0.2, 0.3, 0.4, 0.5, 0.6]);
     let [width, friction] = [("width_m", &widths[..]), ("friction", &frictions[..])]
         .map(|(name, values)| Parameter::numbers(name, values.iter().copied()));
