@@ -101,7 +101,7 @@ def test_schemes_differ_as_they_should() -> None:
     assert 1e-4 * energy < losses["dissipative"] < losses["hht"], losses
 
 
-def test_moment_center_ledger_and_safety(rocking) -> None:
+def test_moment_center_energy_balance_and_safety(rocking) -> None:
     middle, left = rocking().run(200), rocking(moment_center=-3.0).run(200)
     lever = left["base_moment"] - middle["base_moment"]
     np.testing.assert_allclose(np.abs(lever), 3.0 * middle["normal_force"], rtol=1e-9)
@@ -142,7 +142,7 @@ def test_coordinates_change_rounding_only(soil: bm.Soil) -> None:
         law, motion = bm.Coulomb(0.4), bm.el_centro_1940()
         return bm.Simulation(0.005, building, ground, law, motion=motion, **options).run(400)
 
-    dofs, modes = run(coordinates="dofs"), run(coordinates="modes")
+    dofs, modes = run(coordinates="physical"), run(coordinates="modes")
     scale = dofs.base_shear.magnitude
     np.testing.assert_allclose(modes["base_shear"], dofs["base_shear"], atol=1e-7 * scale)
     assert not same_bits(modes["base_shear"], dofs["base_shear"])

@@ -59,7 +59,7 @@ class Tuned:
 PROBE = bm.Probe.displacement("stretch", {3: 1.0, 0: -1.0, 2: 9.0})
 
 
-def test_a_nonlinear_structure_is_called_and_the_ledger_closes(rocking, block) -> None:
+def test_a_nonlinear_structure_is_called_and_the_energy_balance_closes(rocking, block) -> None:
     own = Tuned(block)
     run = rocking(structure=own, probes=[PROBE]).run(300)
     assert run.energy_error < 1e-9

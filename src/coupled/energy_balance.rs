@@ -242,7 +242,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shares_add_up_as_the_ledger_does() {
+    fn shares_add_up_as_the_energy_balance_does() {
         let energy_balance = EnergyBalance {
             kinetic: 1.0,
             strain: 2.0,

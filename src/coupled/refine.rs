@@ -72,7 +72,7 @@ pub struct Refinement {
 /// ```
 /// use basemat::bem::SpringGround;
 /// use basemat::interface::Bonded;
-/// use basemat::motion::Ricker;
+/// use basemat::motion::RickerDisplacement;
 /// use basemat::structure::RigidBlock;
 /// use basemat::{Simulation, coupled};
 ///
@@ -81,7 +81,7 @@ pub struct Refinement {
 ///         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
 ///         .ground(SpringGround::new(-2.0..2.0, elements, 2e7, 1e7)?)
 ///         .interface(Bonded)
-///         .motion(Ricker::new(0.5, 0.4, 1.5)?)
+///         .motion(RickerDisplacement::new(0.5, 0.4, 1.5)?)
 ///         .build()?;
 ///     let run = simulation.run(simulation.steps_for(3.0), |_| {})?;
 ///     Ok(vec![run.whole.base_shear.magnitude()])

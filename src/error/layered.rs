@@ -108,7 +108,7 @@ pub enum LayeredError {
     /// Inclined waves over a rigid base, which sends none.
     #[error(
         "waves at an angle come from a half-plane below the layers, not from a rigid base \
-         (site::Column takes the motion of a rigid base to the surface)"
+         (site::SoilColumn takes the motion of a rigid base to the surface)"
     )]
     InclinedOverRigidBase,
     /// An inclined wave without a beginning in time.

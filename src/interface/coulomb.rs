@@ -41,7 +41,7 @@ pub struct Coulomb {
     #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     friction: f64,
     tensile_strength: f64,
-    activation: UnilateralCondition,
+    condition: UnilateralCondition,
 }
 
 validated! {
@@ -51,9 +51,9 @@ validated! {
         #[serde(default)]
         tensile_strength: f64,
         #[serde(default)]
-        activation: UnilateralCondition,
+        condition: UnilateralCondition,
     }
-    => Coulomb::new(friction)?.with_tensile_strength(tensile_strength)?.with_activation(activation)
+    => Coulomb::new(friction)?.with_tensile_strength(tensile_strength)?.with_unilateral_condition(condition)
 }
 
 impl Coulomb {
@@ -63,7 +63,7 @@ impl Coulomb {
     /// [`Error::Input`] for NaN or a negative coefficient.
     pub fn new(friction: f64) -> Result<Self> {
         if friction >= 0.0 {
-            Ok(Self { friction, tensile_strength: 0.0, activation: UnilateralCondition::Position })
+            Ok(Self { friction, tensile_strength: 0.0, condition: UnilateralCondition::Position })
         } else {
             Err(Error::Input {
                 quantity: "friction coefficient",
@@ -78,13 +78,13 @@ impl Coulomb {
         Self {
             friction: f64::INFINITY,
             tensile_strength: 0.0,
-            activation: UnilateralCondition::Position,
+            condition: UnilateralCondition::Position,
         }
     }
 
     /// Law without friction.
     pub(super) fn frictionless() -> Self {
-        Self { friction: 0.0, tensile_strength: 0.0, activation: UnilateralCondition::Position }
+        Self { friction: 0.0, tensile_strength: 0.0, condition: UnilateralCondition::Position }
     }
 
     /// The same with another coefficient, unchecked.
@@ -106,11 +106,11 @@ impl Coulomb {
     ///
     /// # Errors
     /// [`Error::Input`] unless `closed_below` is finite and not below zero.
-    pub fn with_activation(mut self, activation: UnilateralCondition) -> Result<Self> {
-        if let UnilateralCondition::Velocity { closed_below } = activation {
+    pub fn with_unilateral_condition(mut self, condition: UnilateralCondition) -> Result<Self> {
+        if let UnilateralCondition::Velocity { closed_below } = condition {
             not_negative("gap below which contact is closed", closed_below)?;
         }
-        self.activation = activation;
+        self.condition = condition;
         Ok(self)
     }
 
@@ -144,7 +144,7 @@ impl Coulomb {
 
     /// Gap that a closed element must have at the end of the step; `None` if it cannot close.
     fn closed_gap(&self, start: &PreviousContact) -> Option<f64> {
-        match self.activation {
+        match self.condition {
             UnilateralCondition::Position => Some(0.0),
             UnilateralCondition::Velocity { closed_below } => {
                 (start.state.gap <= closed_below).then_some(start.state.gap)
@@ -258,6 +258,9 @@ mod tests {
         start.has_opened = true;
         assert_eq!(law.next_mode(Mode::Stick, &start, &state, TOLERANCE), Mode::Open);
         assert!(law.with_tensile_strength(f64::NAN).is_err());
-        assert!(law.with_activation(UnilateralCondition::Velocity { closed_below: -1.0 }).is_err());
+        assert!(
+            law.with_unilateral_condition(UnilateralCondition::Velocity { closed_below: -1.0 })
+                .is_err()
+        );
     }
 }

@@ -62,12 +62,12 @@ impl VariableFriction {
         Ok(self)
     }
 
-    /// As [`Coulomb::with_activation`].
+    /// As [`Coulomb::with_unilateral_condition`].
     ///
     /// # Errors
     /// The same.
-    pub fn with_activation(mut self, activation: UnilateralCondition) -> Result<Self> {
-        self.contact = self.contact.with_activation(activation)?;
+    pub fn with_unilateral_condition(mut self, activation: UnilateralCondition) -> Result<Self> {
+        self.contact = self.contact.with_unilateral_condition(activation)?;
         Ok(self)
     }
 

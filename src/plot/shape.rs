@@ -46,7 +46,7 @@ pub(super) fn bounds(places: &[[f64; 2]]) -> [[f64; 2]; 2] {
     bounds
 }
 
-/// Outlines of a wireframe's cells at these places, end to end, broken by NaN.
+/// Outlines of a deformed shape's cells at these places, end to end, broken by NaN.
 fn outlines(shape: &DeformedShape, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
     let mut points = Vec::new();
     for cell in shape.cells() {

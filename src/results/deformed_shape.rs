@@ -45,22 +45,30 @@ impl DeformedShape {
     /// that does not exist, [`Error::Input`] for a number that is not finite.
     pub fn new(points: Vec<ShapePoint>, cells: Vec<Vec<usize>>) -> Result<Self> {
         if points.is_empty() {
-            return Err(Error::Size { quantity: "points of a wireframe", found: 0, needed: 1 });
+            return Err(Error::Size {
+                quantity: "points of a deformed shape",
+                found: 0,
+                needed: 1,
+            });
         }
         for point in &points {
             for value in point.position {
-                finite("coordinate of a wireframe", value)?;
+                finite("coordinate of a deformed shape", value)?;
             }
             for &(_, weight) in point.horizontal.iter().chain(point.vertical.terms()) {
-                finite("weight of a wireframe", weight)?;
+                finite("weight of a deformed shape", weight)?;
             }
         }
         for cell in &cells {
             if cell.is_empty() {
-                return Err(Error::Size { quantity: "cell of a wireframe", found: 0, needed: 1 });
+                return Err(Error::Size {
+                    quantity: "cell of a deformed shape",
+                    found: 0,
+                    needed: 1,
+                });
             }
             if let Some(&index) = cell.iter().find(|&&index| index >= points.len()) {
-                let quantity = "point of a wireframe's cell";
+                let quantity = "point of a deformed shape's cell";
                 return Err(Error::Index { quantity, index, bound: points.len() });
             }
         }
@@ -152,7 +160,7 @@ impl DeformedShape {
         let sum = |row: &DofCombination| {
             row.iter().try_fold(0.0, |sum, &(index, weight)| {
                 let value = dofs.get(index).ok_or(Error::Index {
-                    quantity: "unknown of a wireframe",
+                    quantity: "unknown of a deformed shape",
                     index,
                     bound: dofs.len(),
                 })?;

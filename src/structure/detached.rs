@@ -33,7 +33,7 @@ pub(crate) fn check_attached(
 /// Degrees of freedom by their numbers.
 pub(crate) fn numbers(dofs: &[usize]) -> String {
     let texts: Vec<String> = dofs.iter().take(NAMED).map(ToString::to_string).collect();
-    let noun = if dofs.len() == 1 { "unknown" } else { "dofs" };
+    let noun = if dofs.len() == 1 { "degree of freedom" } else { "degrees of freedom" };
     format!("{noun} {}", listed(&texts, dofs.len()))
 }
 

@@ -29,8 +29,8 @@ fn a_constant_is_coulomb() {
         assert_eq!(stuck, run(variable().with_tensile_strength(2e4).unwrap()), "{coefficient}");
     }
     let rate = UnilateralCondition::Velocity { closed_below: 1e-6 };
-    let jumping = run(friction(0.3).with_activation(rate).unwrap());
-    let variable = VariableFriction::new(|_| 0.3).with_activation(rate).unwrap();
+    let jumping = run(friction(0.3).with_unilateral_condition(rate).unwrap());
+    let variable = VariableFriction::new(|_| 0.3).with_unilateral_condition(rate).unwrap();
     assert_eq!(jumping, run(variable));
     // Without friction the two have other lists of modes, and one solution.
     let (smooth, variable) = (run(friction(0.0)), run(VariableFriction::new(|_| 0.0)));
@@ -41,7 +41,7 @@ fn a_constant_is_coulomb() {
     }
     assert!(VariableFriction::new(|_| 0.3).with_tensile_strength(f64::NAN).is_err());
     let refused = UnilateralCondition::Velocity { closed_below: -1.0 };
-    assert!(VariableFriction::new(|_| 0.3).with_activation(refused).is_err());
+    assert!(VariableFriction::new(|_| 0.3).with_unilateral_condition(refused).is_err());
     assert_eq!(VariableFriction::new(|_| 0.3).friction_coefficient(), None);
     assert_eq!(friction(0.3).friction_coefficient(), Some(0.3));
     assert_eq!(Coulomb::uplift_only().friction_coefficient(), Some(f64::INFINITY));

@@ -225,7 +225,7 @@ fn stiff_structures_stand_or_say_why_not() {
 /// incompressibility as elsewhere. A reduced one keeps the rounding of the whole one's stiffness
 /// under rigid motions, whatever its own condition. In modes, where a flight meets no stiffness, both close.
 #[test]
-fn flights_of_stiff_structures_open_the_ledger_by_rounding_only() {
+fn flights_of_stiff_structures_open_the_energy_balance_by_rounding_only() {
     for (young, poisson) in [(3e9, 0.2), (3e10, 0.499), (1e12, 0.499), (1e13, 0.4995)] {
         let fly = |reduced: bool, coordinates| {
             let material = Material::new(young, poisson, 1500.0).unwrap();

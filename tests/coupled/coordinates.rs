@@ -101,7 +101,7 @@ fn modes_and_dofs_agree() {
 /// K u of a ride over decimetres cancels to rounding of K times the ride, which in a stiff structure
 /// is no longer small. K does not see the ride, and in modes no rigid motion at all.
 #[test]
-fn stiffness_does_not_open_the_ledger() {
+fn stiffness_does_not_open_the_energy_balance() {
     for coordinates in [Coordinates::Modes, Coordinates::Physical] {
         for (modulus, strength) in [(2e8, 1.0), (1e13, 1.0), (1e13, 10.0)] {
             let material = Material::new(modulus, 0.2, 1500.0).unwrap();

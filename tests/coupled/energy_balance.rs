@@ -25,7 +25,7 @@ fn run(builder: SimulationBuilder, steps: usize) -> Run {
 fn kinds() -> Vec<(&'static str, Run)> {
     let damped = || tower(SI, Some(RayleighDamping::from_ratios([2.0, 20.0], [0.05; 2]).unwrap()));
     let rate = friction(0.4)
-        .with_activation(UnilateralCondition::Velocity { closed_below: 1e-9 })
+        .with_unilateral_condition(UnilateralCondition::Velocity { closed_below: 1e-9 })
         .unwrap();
     let theta = Theta::new(0.6).unwrap();
     let base = || scene(SI, 0.6);
@@ -112,7 +112,7 @@ fn terms(energy_balance: &mut EnergyBalance) -> [(&'static str, &mut f64); 10] {
 }
 
 #[test]
-fn ledger_closes_and_every_term_counts() {
+fn energy_balance_closes_and_every_term_counts() {
     let mut seen = [false; 10];
     for (name, run) in kinds() {
         let residual = run.energy_balance.residual();
@@ -140,7 +140,7 @@ fn ledger_closes_and_every_term_counts() {
 /// micrometres on a displacement of decimetres. Rounding of the ride opens the energy balance in proportion
 /// to the stiffness, most while the motion is still weak, and no more than that.
 #[test]
-fn long_rides_open_the_ledger_by_rounding_only() {
+fn long_rides_open_the_energy_balance_by_rounding_only() {
     for (modulus, strength) in [(2e8, 1.0), (2e10, 1.0), (2e10, 10.0), (2e12, 10.0)] {
         let material = Material::new(modulus, 0.2, 1500.0).unwrap();
         let mesh = Mesh::layered_block(-2.0..2.0, 6, &[Layer::new(6.0, 6, material)]).unwrap();
@@ -156,7 +156,7 @@ fn long_rides_open_the_ledger_by_rounding_only() {
 
 /// What is at rest has nothing to book but rounding, and an interface that yields holds its weight.
 #[test]
-fn rest_closes_the_ledger() {
+fn rest_closes_the_energy_balance() {
     let layer = ThinLayer::new(soil(SI), 1.0, 0.3).unwrap();
     let builder = scene(SI, 0.0).motion(AtRest).structure(block(SI)).interface(layer);
     let run = run(builder, 400);
@@ -202,7 +202,7 @@ fn residuals_are_relative_to_the_largest_energy_so_far() {
 
 /// Without its energy balance a run goes the same way, and claims nothing of its energies.
 #[test]
-fn a_ledger_that_is_left_out_changes_nothing_else() {
+fn a_energy_balance_that_is_left_out_changes_nothing_else() {
     let builder = || scene(SI, 0.6).structure(tower(SI, None)).interface(friction(0.3));
     let mut with = builder().build().unwrap();
     let mut without = builder().without_energy_balance().build().unwrap();

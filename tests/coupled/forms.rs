@@ -171,17 +171,17 @@ fn profiles_with_every_law_of_the_crate() {
 fn interface_laws() {
     kept(&Bonded);
     let law = Coulomb::new(0.4).unwrap();
-    let form = json!({"friction": 0.4, "tensile_strength": 0.0, "activation": "gap"});
+    let form = json!({"friction": 0.4, "tensile_strength": 0.0, "condition": "position"});
     written(&law, form);
     let rate = UnilateralCondition::Velocity { closed_below: 1e-3 };
-    kept(&law.with_activation(rate).unwrap().with_tensile_strength(1e3).unwrap());
+    kept(&law.with_unilateral_condition(rate).unwrap().with_tensile_strength(1e3).unwrap());
     assert_eq!(kept(&Coulomb::uplift_only())["friction"], "inf");
     assert_eq!(serde_json::from_value::<Coulomb>(json!({"friction": 1})).unwrap().friction(), 1.0);
     refused::<Coulomb>(json!({"friction": -0.1}), "friction coefficient is -0.1");
     refused::<Coulomb>(json!({"friction": null}), "friction coefficient is NaN");
     refused::<Coulomb>(json!({"friction": "much"}), "expected a number, null");
     refused::<Coulomb>(json!({"friction": 0.1, "tensile_strength": -1.0}), "tensile strength");
-    let bad = json!({"friction": 0.1, "activation": {"rate": {"closed_below": -1.0}}});
+    let bad = json!({"friction": 0.1, "condition": {"velocity": {"closed_below": -1.0}}});
     refused::<Coulomb>(bad, "gap below which");
     let form = json!({"tension": 1e5, "cohesion": 8e4, "friction": 0.6});
     written(&Cohesive::new(1e5, 8e4, 0.6).unwrap(), form);
@@ -425,7 +425,7 @@ fn numbers_that_are_not_finite() {
     assert!(peak.value.is_nan() && peak.time == 3.0);
     assert_eq!(serde_json::to_value(peak).unwrap(), json!({"value": null, "time": 3.0}));
     let warning: Vec<Warning> =
-        serde_json::from_value(json!([{"energy balance": {"residual": "inf"}}])).unwrap();
+        serde_json::from_value(json!([{"energy_balance": {"residual": "inf"}}])).unwrap();
     assert_eq!(warning, [Warning::EnergyBalance { residual: f64::INFINITY }]);
 
     let block = RigidBlock::new(4.0, 6.0, 2000.0).unwrap();

@@ -83,7 +83,7 @@ fn run(seed: u64) -> Result<(f64, bool, bool)> {
 }
 
 #[test]
-fn ledgers_close_over_all_scales() {
+fn energy_balance_close_over_all_scales() {
     let (mut worst, mut opened, mut slid) = (0.0_f64, 0, 0);
     for seed in 0..SCENES {
         let (residual, open, slide) = run(seed).unwrap_or_else(|e| panic!("scene {seed}: {e}"));

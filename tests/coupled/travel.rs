@@ -71,7 +71,7 @@ fn largest(simulation: &Simulation) -> f64 {
 }
 
 #[test]
-fn ledger_closes_while_a_sticking_structure_travels() {
+fn energy_balance_closes_while_a_sticking_structure_travels() {
     let (travel, period) = (1e6, 6e4);
     for (structure_name, _) in structures() {
         for (scheme_name, _) in schemes() {
@@ -105,7 +105,7 @@ fn ledger_closes_while_a_sticking_structure_travels() {
 }
 
 #[test]
-fn ledger_closes_while_a_sliding_structure_is_left_behind() {
+fn energy_balance_closes_while_a_sliding_structure_is_left_behind() {
     for (name, structure) in structures() {
         let at = total_drift(400.0, 40.0);
         let mut simulation = Simulation::builder(5e-3)

@@ -15,7 +15,7 @@ fn laws_and_schemes() {
     let law = Coulomb::uplift_only();
     refused("tensile strength", &NEGATIVE, |x| law.with_tensile_strength(x));
     refused("gap below", &NEGATIVE, |closed_below| {
-        law.with_activation(UnilateralCondition::Velocity { closed_below })
+        law.with_unilateral_condition(UnilateralCondition::Velocity { closed_below })
     });
     refused("theta", &[0.0, 0.49, 1.01, f64::NAN], Theta::new);
 }

@@ -52,7 +52,7 @@ fn choices_are_read_as_they_are_shown() {
     };
     use Criterion::{Gap, Rotation, Slip, UpliftedFraction};
     use FrictionLimit::{Dynamic, Lagged, Static, Total};
-    use GravityStage::{Frictionless, Unloaded, Frictional};
+    use GravityStage::{Frictional, Frictionless, Unloaded};
     use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight};
     use SearchMethod::{ActiveSet, GaussSeidel, Path};
     use SlipSense::{Inelastic, LastVelocity, Velocity};

@@ -134,7 +134,9 @@ fn preload_is_in_equilibrium() {
         for mu in [0.0, 0.4, f64::INFINITY] {
             let simulations =
                 [scene(SI, 0.0).structure(block(SI)), scene(SI, 0.0).structure(tower(SI, None))]
-                    .map(|b| b.interface(friction(mu)).gravity_stage(gravity_stage).build().unwrap());
+                    .map(|b| {
+                        b.interface(friction(mu)).gravity_stage(gravity_stage).build().unwrap()
+                    });
             for simulation in simulations {
                 let state = simulation.state();
                 assert!(

@@ -1,5 +1,5 @@
 //! GOAL: files for ParaView hold the states they were written from.
-//! SCENE: a tower and wireframes that move, written as series.
+//! SCENE: a tower and deformed shapes that move, written as series.
 //! REFERENCE: the XML, parsed here, and the recorded states.
 
 use std::collections::BTreeMap;
@@ -108,7 +108,7 @@ fn a_series_holds_the_states() {
 }
 
 #[test]
-fn wireframes_move_as_their_structures() {
+fn deformed_shapes_move_as_their_structures() {
     // A building turns about the middle of its base; its floors keep their own sway.
     let storeys = [Storey::new(3.0, 1e4, 1e7), Storey::new(4.0, 1e4, 1e7)];
     let building = ShearBuilding::new(10.0, 1e4, 1e5, &storeys).unwrap();

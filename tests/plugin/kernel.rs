@@ -9,7 +9,8 @@ use basemat::bem::{
 use basemat::coupled::Run;
 use basemat::history::{
     ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
-    ExponentialSum, History, LateWeights, PairClasses, RelaxedFftHistory, SharedSpectra, TailProduct,
+    ExponentialSum, History, LateWeights, PairClasses, RelaxedFftHistory, SharedSpectra,
+    TailProduct,
 };
 use basemat::interface::Coulomb;
 use basemat::{Error, Result, Simulation};
@@ -425,7 +426,7 @@ impl ConvolutionWeights for Coupled {
 }
 
 #[test]
-fn without_late_lags_exponentials_are_refused() {
+fn without_late_weights_exponentials_are_refused() {
     let none = Voigt { late: false, ..VOIGT };
     let ground = || WeightsGround::new(none, strips(Grading::Uniform)).unwrap();
     let refused = ground().with_history_kind(History::Exponentials).prepare(1e-3);

@@ -129,7 +129,7 @@ pub(crate) struct UserLaw {
     memory: usize,
     friction_coefficient: Option<f64>,
     has_compliance: bool,
-    has_initial_memory: bool,
+    has_initial_state: bool,
     has_commit: bool,
     has_check: bool,
 }
@@ -159,7 +159,7 @@ impl UserLaw {
                 .map(|value| returned("friction_coefficient of the interface law", &value))
                 .transpose()?,
             has_compliance: object.hasattr("compliance")?,
-            has_initial_memory: object.hasattr("initial_state_variables")?,
+            has_initial_state: object.hasattr("initial_state_variables")?,
             has_commit: object.hasattr("commit")?,
             has_check: object.hasattr("check")?,
             object: Arc::new(object.clone().unbind()),
@@ -258,7 +258,7 @@ impl InterfaceLaw for UserLaw {
     }
 
     fn initial_state_variables(&self, start: &PreviousContact<'_>, memory: &mut [f64]) {
-        if self.has_initial_memory {
+        if self.has_initial_state {
             self.remember(memory, |object| {
                 object.call_method1("initial_state_variables", (PyPreviousContact::of(start),))
             });

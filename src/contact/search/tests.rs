@@ -33,7 +33,10 @@ struct Parameters {
 
 impl Parameters {
     fn law(self) -> Vec<Box<dyn InterfaceLaw>> {
-        let law = Coulomb::new(self.friction).unwrap().with_activation(self.activation).unwrap();
+        let law = Coulomb::new(self.friction)
+            .unwrap()
+            .with_unilateral_condition(self.activation)
+            .unwrap();
         vec![Box::new(law.with_tensile_strength(self.strength).unwrap())]
     }
 }

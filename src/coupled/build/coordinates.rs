@@ -57,11 +57,11 @@ words_with_numbers! {
     /// assert_eq!("reduced(1e-6)".parse(), Ok(reduced));
     /// assert_eq!(reduced.to_string(), "reduced(1e-6)");
     /// let refused = "ritz".parse::<Coordinates>().unwrap_err();
-    /// let known = "auto, degrees of freedom, modes, reduced(tolerance)";
+    /// let known = "auto, physical, modes, reduced(tolerance)";
     /// assert_eq!(refused.to_string(), format!("there is no kind of coordinates 'ritz', only {known}"));
     /// ```
     Coordinates, "kind of coordinates", {
-        Auto = "auto", Physical = "dofs", Modes = "modes";
+        Auto = "auto", Physical = "physical", Modes = "modes";
         Reduced { tolerance } = "reduced",
     }
 }

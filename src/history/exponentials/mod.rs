@@ -290,7 +290,11 @@ fn window(late: &dyn LateWeights) -> Result<usize> {
 
 impl Fit {
     /// The fewest exponentials that fit and are passive.
-    fn new(kernel: &dyn ConvolutionWeights, late: &dyn LateWeights, request: Request) -> Result<Self> {
+    fn new(
+        kernel: &dyn ConvolutionWeights,
+        late: &dyn LateWeights,
+        request: Request,
+    ) -> Result<Self> {
         let Request { lags, horizon, tolerance } = request;
         let exact = Lags::new(kernel, lags)?;
         let (mut aim, mut refusal) = (tolerance, None);

@@ -89,7 +89,7 @@ impl Recovery {
     }
 
     /// A weighted sum of the full model's degrees of freedom as one of the reduced model's, for a spring or a
-    /// wireframe.
+    /// deformed shape.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the full model does not have, [`Error::Input`](crate::Error::Input) for a

@@ -28,7 +28,7 @@ fn with_law(builder: SimulationBuilder, law: usize) -> SimulationBuilder {
         1 => builder.interface(friction(0.3)),
         2 => builder.interface(
             friction(0.3)
-                .with_activation(UnilateralCondition::Velocity { closed_below: 1e-9 })
+                .with_unilateral_condition(UnilateralCondition::Velocity { closed_below: 1e-9 })
                 .unwrap(),
         ),
         3 => builder.interface(layer()),

@@ -326,7 +326,7 @@ fn a_step_count_without_tractions_takes_no_memory() {
 }
 
 #[test]
-fn an_approximate_history_is_in_the_ledger() {
+fn an_approximate_history_is_in_the_energy_balance() {
     let run = |history, tolerance| {
         let ground = half_plane(history).with_history_tolerance(tolerance).unwrap();
         let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));

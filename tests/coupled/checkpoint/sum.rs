@@ -11,7 +11,7 @@ const FIELDS: [&str; 8] =
     ["format", "identity", "steps", "modes", "memory", "state", "ground", "structure"];
 const IDENTITY: [&str; 9] = [
     "dofs",
-    "energy balance",
+    "energy_balance",
     "probes",
     "memory",
     "steps",

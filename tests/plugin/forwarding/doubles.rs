@@ -90,7 +90,7 @@ impl InterfaceLaw for Double {
     }
 
     fn state_variables(&self) -> usize {
-        self.0.asked("memory");
+        self.0.asked("state_variables");
         3
     }
 
@@ -139,7 +139,7 @@ impl InterfaceLaw for Double {
                 Mode::SlipRight
             }
         }
-        self.0.asked("smooth");
+        self.0.asked("frictionless");
         Box::new(Smooth(Coulomb::uplift_only()))
     }
 
@@ -161,7 +161,7 @@ impl Ground for Double {
     }
 
     fn expect_steps(&mut self, _: usize) -> Result<()> {
-        self.0.asked("announce");
+        self.0.asked("expect_steps");
         Err(refusal())
     }
 
@@ -171,7 +171,7 @@ impl Ground for Double {
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.0.asked("instantaneous");
+        self.0.asked("step_compliance");
         matrix.fill(CORRECT);
         Ok(())
     }

@@ -146,7 +146,7 @@ fn boxed_motions() {
     let log = Log::default();
     let part: Box<dyn FreeField> = Box::new(Double::new(&log));
     ask(part);
-    assert_eq!(log.take(), methods(source!("motion/mod.rs"), "FreeField"));
+    assert_eq!(log.take(), methods(source!("motion/free_field.rs"), "FreeField"));
 }
 
 #[test]

@@ -63,7 +63,7 @@ impl Scene {
     pub fn run(&self) -> Result<Outcome> {
         let soil = Soil::new(1900.0 * self.shear_speed.powi(2), 0.33, 1900.0)?;
         let half = 0.5 * WIDTH;
-        let law = Coulomb::new(self.friction)?.with_activation(self.activation)?;
+        let law = Coulomb::new(self.friction)?.with_unilateral_condition(self.activation)?;
         let builder = Simulation::builder(self.time_step)
             .ground(ElasticGround::new(soil, Strip::uniform(-half..half, self.elements)?)?)
             .interface(law)

@@ -263,7 +263,7 @@ fn relative_coordinates_are_no_part() {
     }
     // A mass on a spring to a point in space, and one without any.
     let (dofs, place) = refused(appended(&[50.0], &[], |matrix| matrix.add(3, 3, 1e5)));
-    assert_eq!((dofs, place.as_str()), (vec![3], "unknown 3"));
+    assert_eq!((dofs, place.as_str()), (vec![3], "degree of freedom 3"));
     assert_eq!(refused(appended(&[50.0, 0.0], &[], |matrix| matrix.add(4, 4, 1e5))).0, [3]);
     // A mode that the base does not excite, and a degree of freedom without mass that its own spring holds.
     assert!(build(appended(&[1.0], &[], |matrix| matrix.add(3, 3, 1e5))).is_ok());

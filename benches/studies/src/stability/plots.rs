@@ -154,7 +154,7 @@ fn verdict(cell: &Cell) -> (RGBColor, String) {
     let (color, word) = match out.verdict {
         Verdict::Bounded => {
             let exponent = out.energy_balance[0].max(1e-17).log10();
-            (ledger_color(exponent), format!("{exponent:.0}"))
+            (balance_color(exponent), format!("{exponent:.0}"))
         }
         Verdict::Active => {
             // From 1e-9 up; adding 0 to −0 gives 0.
@@ -175,7 +175,7 @@ fn made(cell: &Cell) -> (RGBColor, String) {
     match out.verdict {
         Verdict::Refused | Verdict::Failed => (ERROR, out.letter().to_owned()),
         _ if out.made > LIMIT => (growth_color(0.1 * out.made), percent(out.made)),
-        _ => (ledger_color(-17.0 + 400.0 * out.made), percent(out.made)),
+        _ => (balance_color(-17.0 + 400.0 * out.made), percent(out.made)),
     }
 }
 
@@ -187,7 +187,7 @@ fn percent(share: f64) -> String {
 }
 
 /// From blue (10⁻¹⁷) to pale green (10⁻⁹).
-fn ledger_color(exponent: f64) -> RGBColor {
+fn balance_color(exponent: f64) -> RGBColor {
     blend(RGBColor(49, 84, 160), RGBColor(196, 226, 168), (exponent + 17.0) / 8.0)
 }
 
@@ -216,11 +216,11 @@ fn legend(root: &Area, top: i32, compared: bool) -> Result<(), AnyError> {
         Ok(())
     };
     if compared {
-        entry(ledger_color(-16.0), "made by the time scheme, % of the run's largest energy", 350)?;
+        entry(balance_color(-16.0), "made by the time scheme, % of the run's largest energy", 350)?;
         entry(growth_color(0.05), "more than 2 %: the run warns", 220)?;
         return entry(ERROR, "error", 80);
     }
-    entry(ledger_color(-16.0), "bounded: log₁₀ of the energy error", 268)?;
+    entry(balance_color(-16.0), "bounded: log₁₀ of the energy error", 268)?;
     entry(ACTIVE, "not growing, but the soil gives energy: log₁₀ of its share", 370)?;
     entry(growth_color(0.03), "grows: growth per step", 180)?;
     entry(ERROR, "error", 80)?;

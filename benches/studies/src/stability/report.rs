@@ -51,7 +51,7 @@ pub(crate) fn write_cells(path: &Path, maps: &[Map], cells: &[Cell]) -> Result<(
         "y",
         "verdict",
         "energy_error",
-        "largest_ledger_residual",
+        "largest_energy_error",
         "energy_growth",
         "growth_per_step",
         "assessed_growth_uplifted",

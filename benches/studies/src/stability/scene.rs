@@ -235,8 +235,9 @@ impl Scene {
         if self.tilt != 0.0 {
             let tilt = self.tilt / self.slenderness;
             let edge = 0.5 * WIDTH * tilt;
-            builder =
-                builder.gravity_stage(GravityStage::Unloaded).initial_displacement([0.0, edge, tilt]);
+            builder = builder
+                .gravity_stage(GravityStage::Unloaded)
+                .initial_displacement([0.0, edge, tilt]);
         }
         Ok(builder)
     }

@@ -185,11 +185,11 @@ fn blocks(short: bool) -> Result<Outcome, AnyError> {
     ];
     let list = if short { &list[..2] } else { &list[..] };
     let mut checks: Vec<Check> = Vec::new();
-    let mut worst_ledger = 0.0_f64;
+    let mut worst_balance = 0.0_f64;
     let mut shown = Vec::new();
     for (name, poisson, height, density) in list {
         let (found, energy_balance) = block(name, *poisson, *height, *density)?;
-        worst_ledger = worse(worst_ledger, energy_balance);
+        worst_balance = worse(worst_balance, energy_balance);
         for (k, history) in found.iter().enumerate() {
             match checks.get_mut(k) {
                 Some(check) => check.value = worse(check.value, history.error),
@@ -204,7 +204,7 @@ fn blocks(short: bool) -> Result<Outcome, AnyError> {
             shown = found;
         }
     }
-    checks.push(Check::below("energy balance, residual", worst_ledger, 1e-10));
+    checks.push(Check::below("energy balance, residual", worst_balance, 1e-10));
     let units = [" / A", " b / A", " / A", " / (μ A)", " / (μ A b)"];
     let panels = [0, 1, 3, 4].map(|k| panel(&shown[k], units[k]));
     let title = "Block of height 2b and the soil's density, ν = 1/3; the free field is a Ricker pulse of amplitude A";
