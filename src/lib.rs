@@ -82,7 +82,7 @@
 //! exactly and for every time step, mesh and Poisson's ratio:
 //!
 //! ```text
-//! kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input
+//! kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input
 //! ```
 //!
 //! The soil's term is the energy that the tractions put into a real ground, so it is never

@@ -77,7 +77,7 @@ struct Identity {
     ground: Vec<f64>,
     /// Sum over the static tractions.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
-    preload: Vec<f64>,
+    static_contact: Vec<f64>,
 }
 
 impl Checkpoint {
@@ -117,7 +117,7 @@ impl Identity {
             elements,
             structure,
             ground,
-            preload,
+            static_contact,
         } = self;
         sum.add(*dofs as u64);
         sum.add(u64::from(*energy_balance));
@@ -126,7 +126,7 @@ impl Identity {
             sum.add_text(name);
         }
         sum.add_list(memory.iter().map(|end| *end as u64));
-        for list in [steps, elements, structure, ground, preload] {
+        for list in [steps, elements, structure, ground, static_contact] {
             sum.add_numbers(list);
         }
     }
@@ -147,7 +147,7 @@ impl Identity {
             (self.memory == own.memory, "memory of the interface laws"),
             (close(&self.structure, &own.structure, 0.0), "structure"),
             (close(&self.ground, &own.ground, 0.0), "ground"),
-            (close(&self.preload, &own.preload, 0.0), "static state"),
+            (close(&self.static_contact, &own.static_contact, 0.0), "static state"),
         ] {
             if !same {
                 return Err(CheckpointError::OtherScene { quantity });
@@ -295,7 +295,9 @@ fn identity(scene: &Scene, operators: &Operators, state: &State, energy_balance:
         ],
         ground: vec![sum(&scene.soil)],
         // The weight is none of the static state where it acts as a load.
-        preload: [&scene.static_state.traction, &scene.weight].map(|values| sum(values)).to_vec(),
+        static_contact: [&scene.static_state.traction, &scene.weight]
+            .map(|values| sum(values))
+            .to_vec(),
     }
 }
 

@@ -38,7 +38,7 @@ macro_rules! energies {
         /// Energies since the start, J per metre of thickness.
         ///
         /// ```text
-        /// kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input
+        /// kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input
         /// ```
         ///
         /// holds exactly for the discrete equations. Every term is computed from its own definition and

@@ -62,7 +62,7 @@
 //! # EnergyBalance
 //!
 //! ```text
-//! kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input
+//! kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input
 //! ```
 //!
 //! holds exactly for the discrete equations; see [`EnergyBalance`] for the terms. [`Run::energy_error`]

@@ -81,9 +81,9 @@ pub struct Refinement {
 ///         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
 ///         .ground(SpringGround::new(-2.0..2.0, elements, 2e7, 1e7)?)
 ///         .interface(Bonded)
-///         .motion(RickerDisplacement::new(0.5, 0.4, 1.5)?)
+///         .motion(RickerDisplacement::new(0.5, 0.4, 2.0)?)
 ///         .build()?;
-///     let run = simulation.run(simulation.steps_for(3.0), |_| {})?;
+///     let run = simulation.run(simulation.steps_for(4.0), |_| {})?;
 ///     Ok(vec![run.whole.base_shear.magnitude()])
 /// })?;
 /// println!("{refinement}");

@@ -62,7 +62,7 @@ fn choices_are_read_as_they_are_shown() {
         [History::Direct, History::RelaxedFft, History::Exponentials, History::default()];
     check("history", &histories);
     check("grading", &[Grading::Uniform, Grading::Cosine]);
-    check("gravity_stage", &[Frictionless, Frictional, Unloaded]);
+    check("gravity stage", &[Frictionless, Frictional, Unloaded]);
     check("search method", &[ActiveSet, GaussSeidel, Path]);
     check("criterion", &[Slip, Gap, UpliftedFraction, Rotation]);
     check("friction limit", &[Total, Lagged, Static, Dynamic]);

@@ -27,8 +27,7 @@ fn histories_and_peaks_are_those_of_the_states() {
     let found = run.whole.base_shear.highest;
     assert_eq!((found.value, found.time), (shear[peak], times[peak]));
     let lowest = shear.iter().copied().fold(f64::INFINITY, f64::min);
-    assert_eq!(run.whole.base_shear.lowest.value, lowest);
-    assert!(lowest < 0.0);
+    assert_eq!((run.whole.base_shear.lowest.value, lowest < 0.0), (lowest, true));
     let top_peak = top.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     assert_eq!(run.probe("top").unwrap().largest().magnitude(), top_peak);
 
@@ -58,8 +57,7 @@ fn histories_and_peaks_are_those_of_the_states() {
     let letters: String =
         states[1..].iter().map(|s| if s.uplifted_fraction > 0.0 { 'u' } else { ' ' }).collect();
     let stretches: Vec<usize> = letters.split_whitespace().map(str::len).collect();
-    let uplift = run.whole.uplift;
-    let dt = simulation.time_step();
+    let (uplift, dt) = (run.whole.uplift, simulation.time_step());
     assert!(stretches.len() > 2, "{letters}");
     assert_eq!(uplift.count, stretches.len());
     assert!((uplift.duration - dt * stretches.iter().sum::<usize>() as f64).abs() < 1e-9);

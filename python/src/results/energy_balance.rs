@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 /// Energies since the start, J per metre of thickness:
-/// ``kinetic + strain + hysteresis + damping + numerical + soil + contact + layer + preload = input``.
+/// ``kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input``.
 #[pyclass(name = "EnergyBalance", module = "basemat", frozen)]
 pub(crate) struct PyEnergyBalance(pub(crate) EnergyBalance);
 
