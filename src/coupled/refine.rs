@@ -83,12 +83,19 @@ pub struct Refinement {
 ///         .interface(Bonded)
 ///         .motion(RickerDisplacement::new(0.5, 0.4, 2.0)?)
 ///         .build()?;
-///     let run = simulation.run(simulation.steps_for(4.0), |_| {})?;
-///     Ok(vec![run.whole.base_shear.magnitude()])
+///     // The rotation of the base every 0.02 s.
+///     let mut rotation = Vec::new();
+///     simulation.run(simulation.steps_for(4.0), |state| {
+///         let place = state.time / 0.02;
+///         if (place - place.round()).abs() < 1e-6 {
+///             rotation.push(state.base_rotation);
+///         }
+///     })?;
+///     Ok(rotation)
 /// })?;
 /// println!("{refinement}");
-/// assert!(refinement.step_order > 1.5);
-/// assert!(refinement.settings[2].error < refinement.settings[0].error / 8.0);
+/// assert!((refinement.mesh_order - 2.0).abs() < 0.2 && (refinement.step_order - 2.0).abs() < 0.2);
+/// assert!(refinement.is_regular() && refinement.settings[5].error < refinement.settings[0].error / 4.0);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 ///

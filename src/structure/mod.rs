@@ -51,7 +51,7 @@ use crate::error::Result;
 ///
 /// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping
 /// does not act on the translation with the ground) and f the optional [`NonlinearForce`]. Four methods
-/// are needed: [`dofs`](Structure::degrees of freedom), [`contact_nodes`](Structure::contact_nodes),
+/// are needed: [`dofs`](Structure::dofs), [`contact_nodes`](Structure::contact_nodes),
 /// [`mass`](Structure::mass) and [`stiffness`](Structure::stiffness).
 ///
 /// No support is fixed, the ground holds the structure up: neither K nor the tangent of f at rest

@@ -109,7 +109,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// The structure's time scheme; [`Midpoint`] unless given.
+    /// The structure's time scheme; [`Midpoint`](crate::coupled::Midpoint) unless given.
     #[must_use]
     pub fn scheme(mut self, scheme: impl TimeScheme + 'static) -> Self {
         self.given.scheme = Box::new(scheme);
