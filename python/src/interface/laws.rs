@@ -46,7 +46,9 @@ impl PyCoulomb {
             .and_then(|law| law.with_tensile_strength(tensile_strength))
             .or_raise()?;
         if let Some(closed_below) = closed_below {
-            law = law.with_unilateral_condition(UnilateralCondition::Velocity { closed_below }).or_raise()?;
+            law = law
+                .with_unilateral_condition(UnilateralCondition::Velocity { closed_below })
+                .or_raise()?;
         }
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
     }
