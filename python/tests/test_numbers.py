@@ -88,7 +88,7 @@ def test_rows_of_all_weights_belong_to_a_structure_of_as_many_dofs(soil: bm.Soil
 
     three, eight = np.array([1.0, 0.0, 0.0]), np.eye(8)[7]
     simulation(probes=[bm.Probe.displacement("roof", eight)], loads=[bm.Load.constant(eight, 1.0)])
-    with pytest.raises(bm.InputError, match="probe 'roof' has an array of 3 weights, but .* 8 unk"):
+    with pytest.raises(bm.InputError, match="probe 'roof' has an array of 3 weights, but .* 8 degrees"):
         simulation(probes=[bm.Probe.displacement("roof", three)])
     section = bm.SectionRows(bm.DofCombination(three), {0: 1.0}, 0)
     for probe in (

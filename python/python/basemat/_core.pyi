@@ -285,7 +285,7 @@ class PlaneWave:
     def field_from_vertical(self, record: Record, origin: float) -> FreeField: ...
 
 @final
-class Column:
+class SoilColumn:
     def __new__(cls, profile: SoilProfile, wave: str = "shear") -> Self: ...
     def transfer(
         self, frequencies: ArrayLike, *, control: str = "outcrop"

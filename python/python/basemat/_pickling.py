@@ -33,7 +33,7 @@ _DESCRIBED = (
     _core.ThinLayer,
     _core.VariableFriction,
     _core.PlaneWave,
-    _core.Column,
+    _core.SoilColumn,
     _core.InclinedWave,
     _core.Probe,
     _core.Load,

@@ -123,7 +123,7 @@ impl PyPlaneWave {
 }
 
 /// A soil profile as a column that waves travel up and down; ``wave``: "shear" or "pressure".
-#[pyclass(name = "Column", module = "basemat", frozen, dict)]
+#[pyclass(name = "SoilColumn", module = "basemat", frozen, dict)]
 pub(crate) struct PyColumn(SoilColumn);
 
 fn control(name: &str) -> PyResult<ControlPoint> {

@@ -66,7 +66,7 @@ const ATTEMPTS: usize = 10;
 pub struct ExponentialHistory {
     kernel: Arc<dyn ConvolutionWeights>,
     fit: Arc<Fit>,
-    window: Blocks,
+    window: Box<dyn Blocks>,
     tail: Tail,
     /// The last 2W inputs, input m in slot m mod 2W.
     recent: Vec<f64>,

@@ -9,10 +9,9 @@
 
 use std::sync::Arc;
 
-use realfft::num_complex::Complex64;
+use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-use super::level::{forward, inverse};
 use crate::error::Result;
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::PairClasses;
@@ -36,8 +35,8 @@ pub(super) struct Lattice {
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
     real: Vec<f64>,
-    spectrum: Vec<Complex64>,
-    scratch: Vec<Complex64>,
+    spectrum: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
 }
 
 impl Lattice {
@@ -83,16 +82,11 @@ impl Lattice {
             scale,
             length,
             real: vec![0.0; length],
-            spectrum: vec![Complex64::default(); length / 2 + 1],
-            scratch: vec![Complex64::default(); scratch],
+            spectrum: vec![Complex::default(); length / 2 + 1],
+            scratch: vec![Complex::default(); scratch],
             forward,
             inverse,
         })
-    }
-
-    /// Number of elements.
-    pub(super) fn elements(&self) -> usize {
-        self.cells.len()
     }
 
     /// Number of wavenumbers.
@@ -115,7 +109,11 @@ impl Lattice {
     }
 
     fn transform(&mut self) {
-        forward(&*self.forward, &mut self.real, &mut self.spectrum, &mut self.scratch);
+        let Self { forward, real, spectrum, scratch, .. } = self;
+        let scratch = &mut scratch[..forward.get_scratch_len()];
+        // All lengths are the plan's own, so there is nothing that could fail.
+        let done = forward.process_with_scratch(real, spectrum, scratch);
+        debug_assert!(done.is_ok());
     }
 
     /// 𝓕 of one value per element (missing ones count as zero) into real and imaginary parts.
@@ -139,9 +137,15 @@ impl Lattice {
     /// factor.
     pub(super) fn back(&mut self, [re, im]: [&[f64]; 2], factor: f64, values: &mut [f64]) {
         for (value, (re, im)) in self.spectrum.iter_mut().zip(re.iter().zip(im)) {
-            *value = Complex64::new(*re, *im);
+            *value = Complex::new(*re, *im);
         }
-        inverse(&*self.inverse, &mut self.spectrum, &mut self.real, &mut self.scratch);
+        // Real up to rounding, and the inverse transform insists on it; S is even.
+        let last = self.length / 2;
+        (self.spectrum[0].im, self.spectrum[last].im) = (0.0, 0.0);
+        let Self { inverse, real, spectrum, scratch, .. } = self;
+        let scratch = &mut scratch[..inverse.get_scratch_len()];
+        let done = inverse.process_with_scratch(spectrum, real, scratch);
+        debug_assert!(done.is_ok());
         let scale = factor / self.length as f64;
         for (&cell, value) in self.cells.iter().zip(values) {
             *value = scale * self.real[cell];

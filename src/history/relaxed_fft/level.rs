@@ -1,249 +1,270 @@
-//! Blocks of one size: the spectra of the coefficients, and how they are multiplied.
+//! Blocks of one size: their transforms and the spectra of the coefficients.
 
-use realfft::num_complex::Complex64;
+use std::sync::Arc;
+
+use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
-/// Normal, tangential, coupling.
-pub(super) const KINDS: usize = 3;
+use super::ring::Ring;
+use crate::history::pair_classes::{Pair, PairClasses};
+use crate::linalg::{Simd, WithSimd, vectorized};
 
-/// Coefficients that are summed directly, per kind, as a [`Space`](super::blocks::Space) orders them.
-///
-/// Index d of a coefficient is the number of steps from the traction to the first step that sees
-/// it as history: lag d + 1 of the kernel. The first of all, d = 0, is zero.
-pub(super) type Near = [Vec<f64>; KINDS];
+/// Frequencies that are multiplied together, so that all inputs and outputs stay in cache.
+const TILE: usize = 64;
+
+/// Effect of b inputs on the next b outputs: convolutions of length 2b.
+pub(super) struct Level {
+    /// b.
+    pub(super) size: usize,
+    forward: Arc<dyn RealToComplex<f64>>,
+    inverse: Arc<dyn ComplexToReal<f64>>,
+    /// Spectra of all classes, over 2b: b + 1 real parts, then as many imaginary ones, each.
+    normal: Vec<f64>,
+    tangential: Vec<f64>,
+    /// Empty where the coupling has died out within smaller blocks.
+    coupling: Vec<f64>,
+}
+
+/// Scratch of the transforms of all levels.
+#[derive(Default)]
+pub(super) struct Work {
+    real: Vec<f64>,
+    spectra: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+    inputs: Vec<f64>,
+    outputs: Vec<f64>,
+}
+
+impl Work {
+    /// Real numbers held.
+    pub(super) fn numbers(&self) -> usize {
+        self.real.capacity()
+            + 2 * (self.spectra.capacity() + self.scratch.capacity())
+            + self.inputs.capacity()
+            + self.outputs.capacity()
+    }
+
+    /// Scratch for the blocks of `level` with `components` transformed together, and for smaller.
+    pub(super) fn grow(&mut self, level: &Level, components: usize) {
+        let scratch = level.forward.get_scratch_len().max(level.inverse.get_scratch_len());
+        let zero = Complex::default();
+        let longer = |length: usize, needed: usize| length.max(needed);
+        self.real.resize(longer(self.real.len(), 2 * level.size), 0.0);
+        self.spectra.resize(longer(self.spectra.len(), components * (level.size + 1)), zero);
+        self.scratch.resize(longer(self.scratch.len(), scratch), zero);
+        self.inputs.resize(longer(self.inputs.len(), components * 2 * TILE), 0.0);
+        self.outputs.resize(longer(self.outputs.len(), components * 2 * TILE), 0.0);
+    }
+}
 
 /// Which components of the tractions move which.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Part {
-    /// Pressure moves down, shear along.
-    Even,
+    /// Pressure moves down.
+    Normal,
+    /// Shear moves along.
+    Tangential,
     /// Each moves the other.
     Coupling,
     /// All of it.
     All,
 }
 
-/// Transforms of blocks of one size, and the products between them.
-pub(super) trait Convolution: Send + Sync {
-    /// Makes room in `work` for blocks of `level`.
-    fn reserve(&self, level: &Level, work: &mut Work);
-
-    /// Adds what the b inputs before `now` give to the b outputs from there on.
-    fn apply(&self, level: &Level, rows: &mut Rows, now: usize, part: Part, work: &mut Work);
-}
-
-/// Effect of b inputs on the next b outputs: convolutions of length 2b.
-pub(super) struct Level {
-    /// b.
-    pub(super) size: usize,
-    /// Per kind and series of coefficients, over 2b: b + 1 real parts, then as many imaginary ones.
-    /// The coupling's are empty where it has died out within smaller blocks.
-    spectra: [Vec<f64>; KINDS],
-    pub(super) convolution: Box<dyn Convolution>,
+/// Places of inputs and outputs, and the coupling between elements.
+pub(super) struct Block<'a> {
+    /// 2Q rows of inputs and outputs.
+    pub(super) rows: &'a mut [f64],
+    /// Length of a row.
+    pub(super) stride: usize,
+    pub(super) ring: Ring,
+    /// Inputs so far.
+    pub(super) now: usize,
+    pub(super) classes: &'a PairClasses,
 }
 
 impl Level {
-    /// Blocks of `size` for so many series of coefficients, all of them zero yet.
-    pub(super) fn new(
-        size: usize,
-        series: usize,
-        couples: bool,
-        convolution: Box<dyn Convolution>,
-    ) -> Self {
-        let length = 2 * (size + 1) * series;
-        let spectra = [length, length, if couples { length } else { 0 }];
-        Self { size, spectra: spectra.map(|length| vec![0.0; length]), convolution }
-    }
-
     /// Numbers held.
     pub(super) fn numbers(&self) -> usize {
-        self.spectra.iter().map(Vec::len).sum()
+        self.normal.capacity() + self.tangential.capacity() + self.coupling.capacity()
     }
 
-    /// Whether there are spectra of this kind.
-    pub(super) fn has(&self, kind: usize) -> bool {
-        !self.spectra[kind].is_empty()
+    /// Blocks of `size`, without spectra yet.
+    pub(super) fn new(size: usize, planner: &mut RealFftPlanner<f64>) -> Self {
+        Self {
+            size,
+            forward: planner.plan_fft_forward(2 * size),
+            inverse: planner.plan_fft_inverse(2 * size),
+            normal: Vec::new(),
+            tangential: Vec::new(),
+            coupling: Vec::new(),
+        }
     }
 
-    /// Real and imaginary parts of a spectrum, from its `begin`-th frequency on.
-    pub(super) fn spectrum(&self, kind: usize, series: usize, begin: usize) -> [&[f64]; 2] {
-        let (bins, spectra) = (self.size + 1, &self.spectra[kind]);
-        [2 * series, 2 * series + 1].map(|part| &spectra[part * bins + begin..])
+    /// Reserves memory for `classes` spectra of each kind, and the coupling if `couples`.
+    pub(super) fn reserve(&mut self, classes: usize, couples: bool) {
+        let length = classes * 2 * (self.size + 1);
+        self.normal.reserve_exact(length);
+        self.tangential.reserve_exact(length);
+        if couples {
+            self.coupling.reserve_exact(length);
+        }
     }
 
-    /// Where a spectrum will be, and until then its 2b coefficients may.
-    pub(super) fn place(&mut self, kind: usize, series: usize) -> &mut [f64] {
-        let length = 2 * (self.size + 1);
-        &mut self.spectra[kind][length * series..][..length]
+    /// Adds the spectra of the next class, whose coefficients reach as far as 2b or further.
+    pub(super) fn add_class(&mut self, values: [&[f64]; 3], couples: bool, work: &mut Work) {
+        let count = if couples { 3 } else { 2 };
+        let stored = [&mut self.normal, &mut self.tangential, &mut self.coupling];
+        for (values, stored) in values.into_iter().zip(stored).take(count) {
+            let real = &mut work.real[..2 * self.size];
+            let spectrum = &mut work.spectra[..=self.size];
+            real.copy_from_slice(&values[..2 * self.size]);
+            transform(&*self.forward, real, spectrum, &mut work.scratch);
+            stored.extend(spectrum.iter().map(|c| c.re));
+            stored.extend(spectrum.iter().map(|c| c.im));
+        }
     }
-}
 
-/// Scratch of blocks.
-#[derive(Default)]
-pub(super) struct Work {
-    pub(super) real: Vec<f64>,
-    pub(super) complex: Vec<Complex64>,
-    pub(super) scratch: Vec<Complex64>,
-    /// Of inputs and of outputs: a few frequencies of each, real parts before imaginary ones.
-    pub(super) tiles: [Vec<f64>; 2],
-}
-
-impl Work {
-    /// Real numbers held.
-    pub(super) fn numbers(&self) -> usize {
-        let tiles: usize = self.tiles.iter().map(Vec::len).sum();
-        self.real.len() + tiles + 2 * (self.complex.len() + self.scratch.len())
+    /// Adds what the last b inputs give to the next b outputs.
+    pub(super) fn apply(&self, block: &mut Block<'_>, part: Part, work: &mut Work) {
+        let count = block.classes.elements().len();
+        let (first, components) = match part {
+            Part::Normal => (0, count),
+            Part::Tangential => (count, count),
+            Part::Coupling | Part::All => (0, 2 * count),
+        };
+        let (size, bins) = (self.size, self.size + 1);
+        for component in 0..components {
+            let row = &block.rows[(first + component) * block.stride..][..block.stride];
+            let real = &mut work.real[..2 * size];
+            real[..size].copy_from_slice(&row[block.ring.before(block.now, size)]);
+            real[size..].fill(0.0);
+            let spectrum = &mut work.spectra[component * bins..][..bins];
+            transform(&*self.forward, real, spectrum, &mut work.scratch);
+        }
+        self.multiply(block.classes, part, components, work);
+        for component in 0..components {
+            let receiver = block.classes.pairs()[component % count * count];
+            let scale = receiver.scale / (2 * size) as f64;
+            let real = &mut work.real[..2 * size];
+            let spectrum = &mut work.spectra[component * bins..][..bins];
+            // Real up to rounding, and the inverse transform insists on it.
+            (spectrum[0].im, spectrum[size].im) = (0.0, 0.0);
+            let scratch = &mut work.scratch[..self.inverse.get_scratch_len()];
+            let done = self.inverse.process_with_scratch(spectrum, real, scratch);
+            debug_assert!(done.is_ok());
+            let begin = (first + component) * block.stride + block.ring.place(block.now);
+            let row = &mut block.rows[begin..begin + size];
+            for (output, value) in row.iter_mut().zip(&real[size..]) {
+                *output += scale * value;
+            }
+        }
     }
-}
 
-/// Makes room for at least `length` values.
-pub(super) fn reserve<T: Clone + Default>(values: &mut Vec<T>, length: usize) {
-    values.resize(values.len().max(length), T::default());
-}
-
-/// Puts the spectra of one series of coefficients into all `levels` that have its kind.
-pub(super) fn fill(
-    levels: &mut [Level],
-    [kind, series]: [usize; 2],
-    coefficients: &[f64],
-    planner: &mut RealFftPlanner<f64>,
-    work: &mut Work,
-) {
-    for level in levels.iter_mut().filter(|level| level.has(kind)) {
-        let (length, bins) = (2 * level.size, level.size + 1);
-        let plan = planner.plan_fft_forward(length);
-        reserve(&mut work.real, length);
-        reserve(&mut work.complex, bins);
-        reserve(&mut work.scratch, plan.get_scratch_len());
-        let (real, spectrum) = (&mut work.real[..length], &mut work.complex[..bins]);
-        real.copy_from_slice(&coefficients[..length]);
-        forward(&*plan, real, spectrum, &mut work.scratch);
-        let (re, im) = level.place(kind, series).split_at_mut(bins);
-        for (value, (re, im)) in spectrum.iter().zip(re.iter_mut().zip(im)) {
-            (*re, *im) = (value.re, value.im);
+    /// Replaces the spectra of inputs by those of outputs, tile by tile.
+    fn multiply(&self, classes: &PairClasses, part: Part, components: usize, work: &mut Work) {
+        let (bins, count) = (self.size + 1, classes.elements().len());
+        let tiles = bins.div_ceil(TILE);
+        let width = bins.div_ceil(tiles);
+        let Work { spectra, inputs, outputs, .. } = work;
+        for begin in (0..bins).step_by(width) {
+            let width = width.min(bins - begin);
+            let of = |component: usize| component * 2 * width..(component + 1) * 2 * width;
+            for component in 0..components {
+                let (re, im) = inputs[of(component)].split_at_mut(width);
+                let values = &spectra[component * bins + begin..][..width];
+                for (value, (re, im)) in values.iter().zip(re.iter_mut().zip(im)) {
+                    (*re, *im) = (value.re, value.im);
+                }
+            }
+            outputs[..components * 2 * width].fill(0.0);
+            let mut add = |sign: f64, stored: &[f64], class: usize, source, receiver| {
+                let re = &stored[class * 2 * bins + begin..][..width];
+                let im = &stored[(class * 2 + 1) * bins + begin..][..width];
+                let (output, input) = (&mut outputs[of(receiver)], &inputs[of(source)]);
+                if sign > 0.0 {
+                    multiply_add::<true>(output, [re, im], input);
+                } else {
+                    multiply_add::<false>(output, [re, im], input);
+                }
+            };
+            for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
+                for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
+                    match part {
+                        Part::Normal => add(1.0, &self.normal, class, q, p),
+                        Part::Tangential => add(1.0, &self.tangential, class, q, p),
+                        Part::Coupling => {}
+                        Part::All => {
+                            add(1.0, &self.normal, class, q, p);
+                            add(1.0, &self.tangential, class, count + q, count + p);
+                        }
+                    }
+                    let couples = matches!(part, Part::Coupling | Part::All);
+                    if couples && sign != 0.0 && !self.coupling.is_empty() {
+                        add(sign, &self.coupling, class, count + q, p);
+                        add(-sign, &self.coupling, class, q, count + p);
+                    }
+                }
+            }
+            for component in 0..components {
+                let (re, im) = outputs[of(component)].split_at(width);
+                let values = &mut spectra[component * bins + begin..][..width];
+                for (value, (re, im)) in values.iter_mut().zip(re.iter().zip(im)) {
+                    *value = Complex::new(*re, *im);
+                }
+            }
         }
     }
 }
 
 /// Transform of `real`, which is overwritten as well.
-pub(super) fn forward(
+fn transform(
     plan: &dyn RealToComplex<f64>,
     real: &mut [f64],
-    spectrum: &mut [Complex64],
-    scratch: &mut [Complex64],
+    spectrum: &mut [Complex<f64>],
+    scratch: &mut [Complex<f64>],
 ) {
     // All lengths are the plan's own, so there is nothing that could fail.
-    let done = plan.process_with_scratch(real, spectrum, scratch);
+    let done = plan.process_with_scratch(real, spectrum, &mut scratch[..plan.get_scratch_len()]);
     debug_assert!(done.is_ok());
 }
 
-/// Transform of a spectrum, which is overwritten as well, to an even number of values.
-pub(super) fn inverse(
-    plan: &dyn ComplexToReal<f64>,
-    spectrum: &mut [Complex64],
-    real: &mut [f64],
-    scratch: &mut [Complex64],
-) {
-    // Real up to rounding, and the transform insists on it.
-    let last = spectrum.len() - 1;
-    (spectrum[0].im, spectrum[last].im) = (0.0, 0.0);
-    let done = plan.process_with_scratch(spectrum, real, scratch);
-    debug_assert!(done.is_ok());
+/// Adds (or takes away) the product of two spectra, all as real parts before imaginary ones.
+fn multiply_add<const PLUS: bool>(output: &mut [f64], factor: [&[f64]; 2], input: &[f64]) {
+    vectorized(Product::<PLUS> { output, factor, input });
 }
 
-/// Numbers of a cache line.
-const LINE: usize = 8;
-
-/// A row for each normal component, then one for each tangential one: inputs before the present step,
-/// outputs as far as known from there on.
-///
-/// By itself, a step is an array of the same numbers: of each of the two kinds of components all real parts
-/// before all imaginary ones, if they have any.
-pub(super) struct Rows {
-    pub(super) values: Vec<f64>,
-    /// Length of a row.
-    pub(super) stride: usize,
-    /// Numbers of a step.
-    width: usize,
-    /// Numbers of a component: one, or a real and an imaginary part.
-    parts: usize,
-    /// Steps after which places are used again.
-    period: usize,
+struct Product<'a, const PLUS: bool> {
+    output: &'a mut [f64],
+    factor: [&'a [f64]; 2],
+    input: &'a [f64],
 }
 
-impl Rows {
-    /// For steps of `width` numbers, without room; places are used again after `period` steps.
-    pub(super) fn new([width, parts]: [usize; 2], period: usize) -> Self {
-        Self { values: Vec::new(), stride: 0, width, parts, period }
-    }
+impl<const PLUS: bool> WithSimd for Product<'_, PLUS> {
+    type Output = ();
 
-    /// Makes room for at least `steps` steps.
-    pub(super) fn lengthen(&mut self, steps: usize) {
-        // An odd number of lines: else equal places of all rows fall into few sets of the cache.
-        let stride = (steps * self.parts).next_multiple_of(2 * LINE) + LINE;
-        let mut values = vec![0.0; self.width / self.parts * stride];
-        let old = self.values.chunks_exact(self.stride.max(1));
-        for (new, old) in values.chunks_exact_mut(stride).zip(old) {
-            new[..self.stride].copy_from_slice(old);
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let width = self.output.len() / 2;
+        let (out_re, out_im) = self.output.split_at_mut(width);
+        let (in_re, in_im) = self.input.split_at(width);
+        let [re, im] = self.factor.map(|values| &values[..width]);
+        let (wide_re, tail_re) = S::as_mut_simd_f64s(out_re);
+        let (wide_im, tail_im) = S::as_mut_simd_f64s(out_im);
+        let [(a_re, a_re_tail), (a_im, a_im_tail)] = [re, im].map(S::as_simd_f64s);
+        let [(b_re, b_re_tail), (b_im, b_im_tail)] = [in_re, &in_im[..width]].map(S::as_simd_f64s);
+        let factors = a_re.iter().zip(a_im).zip(b_re.iter().zip(b_im));
+        for ((x, y), ((a, b), (c, d))) in wide_re.iter_mut().zip(wide_im).zip(factors) {
+            let minus = |value: S::f64s| simd.neg_f64s(value);
+            let (a, b) = if PLUS { (*a, *b) } else { (minus(*a), minus(*b)) };
+            *x = simd.mul_add_e_f64s(a, *c, simd.mul_add_e_f64s(minus(b), *d, *x));
+            *y = simd.mul_add_e_f64s(a, *d, simd.mul_add_e_f64s(b, *c, *y));
         }
-        (self.values, self.stride) = (values, stride);
-    }
-
-    /// Where in its row a step is.
-    pub(super) fn place(&self, step: usize) -> usize {
-        self.parts * if step < self.period { step } else { step % self.period }
-    }
-
-    /// Where the numbers of a step are, in the order of the step.
-    fn places(&self, step: usize) -> impl Iterator<Item = usize> + use<> {
-        let (begin, parts, stride) = (self.place(step), self.parts, self.stride);
-        let count = self.width / (2 * parts);
-        (0..2 * parts).flat_map(move |part| {
-            let begin = part / parts * count * stride + begin + part % parts;
-            (0..count).map(move |row| begin + row * stride)
-        })
-    }
-
-    /// Numbers of `step`.
-    pub(super) fn step(&self, step: usize) -> impl Iterator<Item = f64> {
-        self.places(step).map(|place| self.values[place])
-    }
-
-    /// Overwrites what stands from step `begin` on, the multiple of a leaf, by the `steps` of one.
-    pub(super) fn write(&mut self, begin: usize, steps: &[f64]) {
-        for (number, place) in self.places(begin).enumerate() {
-            let row = self.values[place..].iter_mut().step_by(self.parts);
-            row.zip(steps.chunks_exact(self.width)).for_each(|(own, step)| *own = step[number]);
-        }
-    }
-
-    /// Overwrites the `steps` of a leaf by what stands from step `begin` on.
-    pub(super) fn read(&self, begin: usize, steps: &mut [f64]) {
-        for (number, place) in self.places(begin).enumerate() {
-            let row = self.values[place..].iter().step_by(self.parts);
-            row.zip(steps.chunks_exact_mut(self.width)).for_each(|(own, step)| step[number] = *own);
-        }
-    }
-
-    /// The `size` inputs before `now`, a block of their size.
-    pub(super) fn inputs(&self, row: usize, now: usize, size: usize) -> &[f64] {
-        &self.values[row * self.stride + self.place(now - size)..][..size * self.parts]
-    }
-
-    /// The `size` outputs from `now` on, or as many as there are.
-    pub(super) fn outputs(&mut self, row: usize, now: usize, size: usize) -> &mut [f64] {
-        let begin = self.place(now);
-        let end = self.stride.min(begin + size * self.parts);
-        &mut self.values[row * self.stride..][begin..end]
-    }
-
-    /// Clears the places of old inputs that outputs from `now` on take.
-    pub(super) fn renew(&mut self, now: usize) {
-        let half = self.period / 2;
-        if now.is_multiple_of(half) {
-            for row in 0..self.width / self.parts {
-                self.outputs(row, now, half).fill(0.0);
-            }
+        let sign = if PLUS { 1.0 } else { -1.0 };
+        for k in 0..tail_re.len() {
+            let (a, b) = (sign * a_re_tail[k], sign * a_im_tail[k]);
+            tail_re[k] += a * b_re_tail[k] - b * b_im_tail[k];
+            tail_im[k] += a * b_im_tail[k] + b * b_re_tail[k];
         }
     }
 }

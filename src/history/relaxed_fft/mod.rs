@@ -1,15 +1,18 @@
 //! The history by transforms of blocks: exact to rounding, O(log² N) per step.
 
 mod blocks;
+mod coefficients;
 mod lattice;
 mod level;
 mod pairs;
+mod ring;
 pub(super) mod spectra;
+mod tables;
+mod wave_level;
 mod waves;
 
 use std::sync::Arc;
 
-use self::blocks::Space;
 pub(crate) use self::blocks::{Blocks, LEAF};
 use self::lattice::Lattice;
 use self::pairs::Pairs;
@@ -62,7 +65,7 @@ const LONGEST_HINT: usize = 1 << 22;
 /// Steps are of unequal cost: the one that completes a block of b pays for all of it, 4Q
 /// transforms of length 2b.
 ///
-/// TimeSeries of one kernel share its [spectra](ConvolutionWeights::spectra), where it keeps them: the first
+/// Convolutions of one kernel share its [spectra](ConvolutionWeights::spectra), where it keeps them: the first
 /// that needs them makes them, on whatever thread.
 ///
 /// Memory grows by doubling when steps go on past [`reserve`](ConvolutionHistory::reserve); within
@@ -71,11 +74,17 @@ const LONGEST_HINT: usize = 1 << 22;
 pub struct RelaxedFftHistory {
     kernel: Arc<dyn ConvolutionWeights>,
     /// Made when it is first needed.
-    blocks: Option<Blocks>,
+    blocks: Option<Box<dyn Blocks>>,
     /// Whether to transform along the surface: `None` where it pays.
     along_surface: Option<bool>,
     leaf: Option<usize>,
     steps: usize,
+    /// Whether the last input still has to be worked in.
+    pending: bool,
+    /// Tractions with missing entries.
+    padded: Vec<f64>,
+    /// What is kept of one input.
+    input: Vec<f64>,
     /// Why inputs could not be accepted.
     failed: Option<Error>,
 }
@@ -87,12 +96,24 @@ short_debug! {
 impl RelaxedFftHistory {
     /// Whether it transforms along the surface, unless told otherwise.
     pub(super) fn takes_wavenumbers(kernel: &dyn ConvolutionWeights) -> bool {
-        lattice(kernel, None).is_some()
+        let classes = kernel.classes();
+        classes.elements().len() >= WAVES_FROM && Lattice::of(classes).is_some()
     }
 
     /// History of `kernel`, empty.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
-        Self { kernel, blocks: None, along_surface: None, leaf: None, steps: 0, failed: None }
+        let padded = vec![0.0; 2 * kernel.classes().elements().len()];
+        Self {
+            kernel,
+            blocks: None,
+            along_surface: None,
+            leaf: None,
+            steps: 0,
+            pending: false,
+            padded,
+            input: Vec::new(),
+            failed: None,
+        }
     }
 
     /// With (or without) the transform along the surface wherever elements are equal and on a
@@ -113,32 +134,51 @@ impl RelaxedFftHistory {
 
     /// Bytes held in coefficients, tractions and scratch.
     pub fn memory(&self) -> usize {
-        self.blocks.as_ref().map_or(0, Blocks::numbers) * size_of::<f64>()
+        self.blocks.as_ref().map_or(0, |blocks| blocks.numbers()) * size_of::<f64>()
     }
 
     /// Makes ready for at least `steps` steps.
-    fn grow(&mut self, steps: usize) -> Result<&mut Blocks> {
+    fn grow(&mut self, steps: usize) -> Result<&mut dyn Blocks> {
         let kernel = &*self.kernel;
-        let blocks = match &mut self.blocks {
-            Some(blocks) => blocks,
-            none => {
-                let leaf = self.leaf.unwrap_or(LEAF);
-                let space = space(kernel, leaf, self.along_surface, false)?;
-                none.insert(Blocks::new(space, leaf, usize::MAX))
+        let blocks: Box<dyn Blocks> = if let Some(blocks) = self.blocks.take() {
+            blocks
+        } else {
+            let (leaf, classes) = (self.leaf.unwrap_or(LEAF), kernel.classes());
+            let wanted = self.along_surface.unwrap_or(classes.elements().len() >= WAVES_FROM);
+            match Lattice::of(classes).filter(|_| wanted) {
+                Some(lattice) => Box::new(Waves::new(lattice, kernel, leaf)?),
+                None => Box::new(Pairs::new(kernel, leaf)?),
             }
         };
-        if blocks.grow(kernel, steps)? {
-            let inputs = blocks.inputs(self.steps);
-            blocks.march(&inputs);
+        let blocks = self.blocks.insert(blocks);
+        let capacity = blocks.capacity();
+        if capacity < steps {
+            let mut inputs = Vec::new();
+            let worked_in = self.steps - usize::from(self.pending);
+            if !capacity.is_power_of_two() {
+                (0..self.steps).for_each(|step| blocks.input(step, worked_in, &mut inputs));
+            }
+            blocks.grow(kernel, steps)?;
+            if !inputs.is_empty() {
+                blocks.clear();
+                march(&mut **blocks, &inputs);
+                if !self.pending {
+                    blocks.work_in(self.steps);
+                }
+            }
         }
-        Ok(blocks)
+        Ok(&mut **blocks)
     }
 
-    /// Makes the next output complete.
-    fn settle(&mut self) -> Result<&mut Blocks> {
-        let now = self.steps;
-        let blocks = self.grow(now.saturating_add(1))?;
-        blocks.work_in(now);
+    /// Works the last input in, so that the next output is complete.
+    fn settle(&mut self) -> Result<&mut dyn Blocks> {
+        let (now, pending) = (self.steps, self.pending);
+        self.grow(now.saturating_add(1))?;
+        self.pending = false;
+        let blocks = self.grow(0)?;
+        if pending {
+            blocks.work_in(now);
+        }
         Ok(blocks)
     }
 }
@@ -153,8 +193,8 @@ impl ConvolutionHistory for RelaxedFftHistory {
     }
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let size = self.kernel.classes().layout().len();
-        same_length("displacement of the history", displacement.len(), size)?;
+        let count = self.kernel.classes().elements().len();
+        same_length("displacement of the history", displacement.len(), 2 * count)?;
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
@@ -166,10 +206,18 @@ impl ConvolutionHistory for RelaxedFftHistory {
     fn push(&mut self, traction: &[f64]) {
         if self.failed.is_none() {
             let now = self.steps;
+            let mut padded = std::mem::take(&mut self.padded);
+            let given = traction.len().min(padded.len());
+            padded[..given].copy_from_slice(&traction[..given]);
+            padded[given..].fill(0.0);
             match self.settle() {
-                Ok(blocks) => blocks.write(now, traction),
+                Ok(blocks) => {
+                    blocks.write(now, &padded);
+                    self.pending = true;
+                }
                 Err(error) => self.failed = Some(error),
             }
+            self.padded = padded;
         }
         self.steps += 1;
     }
@@ -179,51 +227,56 @@ impl ConvolutionHistory for RelaxedFftHistory {
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
-        Ok(self.blocks.as_ref().map_or_else(Vec::new, |blocks| blocks.inputs(self.steps)))
+        let mut values = Vec::new();
+        if let Some(blocks) = &self.blocks {
+            let worked_in = self.steps - usize::from(self.pending);
+            (0..self.steps).for_each(|step| blocks.input(step, worked_in, &mut values));
+        }
+        Ok(values)
     }
 
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         // Before there is room for them: a damaged number of steps may ask for any amount.
         let width = self.grow(1)?.width();
         check_inputs(steps, width, values)?;
-        self.grow(steps)?.march(values);
-        (self.steps, self.failed) = (steps, None);
+        let blocks = self.grow(steps)?;
+        blocks.clear();
+        march(blocks, values);
+        (self.steps, self.pending, self.failed) = (steps, steps > 0, None);
         Ok(())
     }
 }
 
 impl ExactHistory for RelaxedFftHistory {
     fn traction(&mut self, step: usize, traction: &mut [f64]) {
+        let worked_in = self.steps - usize::from(self.pending);
         if let Some(blocks) = &mut self.blocks {
-            blocks.traction(step, traction);
+            self.input.clear();
+            blocks.input(step, worked_in, &mut self.input);
+            blocks.traction(&self.input, traction);
         }
     }
 }
 
-/// The lattice of the elements, if blocks go over its wavenumbers: as told, or where it pays.
-fn lattice(kernel: &dyn ConvolutionWeights, along_surface: Option<bool>) -> Option<Lattice> {
-    let classes = kernel.classes();
-    let wanted = along_surface.unwrap_or(classes.elements().len() >= WAVES_FROM);
-    wanted.then(|| Lattice::of(classes)).flatten()
-}
-
-/// What blocks go over.
-fn space(
-    kernel: &dyn ConvolutionWeights,
-    leaf: usize,
-    along_surface: Option<bool>,
-    bounded: bool,
-) -> Result<Box<dyn Space>> {
-    Ok(match lattice(kernel, along_surface) {
-        Some(lattice) => Box::new(Waves::new(lattice, kernel, leaf)?),
-        None => Box::new(Pairs::new(kernel, leaf, bounded)?),
-    })
-}
-
 /// Empty blocks for any number of steps, of a kernel with no coefficient beyond lag `reach`, a leaf
 /// times a power of two.
-pub(super) fn bounded(kernel: &dyn ConvolutionWeights, reach: usize) -> Result<Blocks> {
-    let mut blocks = Blocks::new(space(kernel, LEAF, None, true)?, LEAF, 2 * reach);
-    blocks.grow(kernel, 2 * reach)?;
+pub(super) fn bounded(kernel: &dyn ConvolutionWeights, reach: usize) -> Result<Box<dyn Blocks>> {
+    let classes = kernel.classes();
+    let lattice = Lattice::of(classes).filter(|_| classes.elements().len() >= WAVES_FROM);
+    let mut blocks: Box<dyn Blocks> = match lattice {
+        Some(lattice) => Box::new(Waves::new(lattice, kernel, LEAF)?),
+        None => Box::new(Pairs::bounded(kernel, LEAF)?),
+    };
+    blocks.bound(kernel, reach)?;
     Ok(blocks)
+}
+
+/// Goes through all steps again, from nothing to where the last of `inputs` is still pending.
+fn march(blocks: &mut dyn Blocks, inputs: &[f64]) {
+    for (now, input) in inputs.chunks_exact(blocks.width()).enumerate() {
+        if now > 0 {
+            blocks.work_in(now);
+        }
+        blocks.write_input(now, input);
+    }
 }

@@ -4,16 +4,23 @@
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use super::level::{Level, Near};
+use super::level::Level;
+use super::tables::Tables;
+use super::wave_level::{Near, WaveLevel};
 use crate::geometry::ContactElement;
 use crate::history::exponentials::tail::Fit;
 
 /// Levels of blocks, from the smallest on, for leaves of one length.
-#[derive(Default)]
-pub(super) struct Levels {
-    pub(super) levels: Vec<Arc<Level>>,
+pub(crate) struct Levels<L, N> {
+    pub(super) levels: Vec<Arc<L>>,
     /// Coefficients of a leaf.
-    pub(super) near: Option<Arc<Near>>,
+    pub(super) near: Option<Arc<N>>,
+}
+
+impl<L, N> Default for Levels<L, N> {
+    fn default() -> Self {
+        Self { levels: Vec::new(), near: None }
+    }
 }
 
 /// Spectra of a kernel's coefficients, and exponentials for its late lags, for all histories of this
@@ -26,12 +33,13 @@ pub struct SharedSpectra {
     stores: Arc<Stores>,
 }
 
+/// Levels of the usual leaves, by pairs and by wavenumbers.
 #[derive(Default)]
 struct Stores {
     /// Whose they are: set by the first history.
     elements: OnceLock<Vec<ContactElement>>,
-    /// Levels of the usual leaves, by pairs and by wavenumbers.
-    levels: [Mutex<Levels>; 2],
+    pairs: Mutex<Levels<Level, Tables>>,
+    waves: Mutex<Levels<WaveLevel, Near>>,
     tails: Mutex<Vec<Windowed>>,
 }
 
@@ -53,9 +61,12 @@ impl SharedSpectra {
         self.stores.elements.get_or_init(|| elements.to_vec()) == elements
     }
 
-    /// Levels of wavenumbers, or of pairs.
-    pub(super) fn levels(&self, along_surface: bool) -> MutexGuard<'_, Levels> {
-        lock(&self.stores.levels[usize::from(along_surface)])
+    pub(super) fn pairs(&self) -> MutexGuard<'_, Levels<Level, Tables>> {
+        lock(&self.stores.pairs)
+    }
+
+    pub(super) fn waves(&self) -> MutexGuard<'_, Levels<WaveLevel, Near>> {
+        lock(&self.stores.waves)
     }
 
     /// The tails made so far.

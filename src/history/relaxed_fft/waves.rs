@@ -6,107 +6,270 @@
 use std::sync::Arc;
 
 use realfft::RealFftPlanner;
-use realfft::num_complex::Complex64;
-use rustfft::{Fft, FftPlanner};
+use realfft::num_complex::Complex;
+use rustfft::FftPlanner;
 
-use super::blocks::{Extent, Space};
+use super::blocks::{Blocks, LEAF};
 use super::lattice::Lattice;
-use super::level::Rows;
-use super::level::{Convolution, KINDS, Level, Near, Part, Work, fill, reserve};
+use super::ring::Ring;
+use super::wave_level::{KINDS, Near, Part, WaveLevel};
 use crate::error::Result;
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::linalg::{Simd, WithSimd, vectorized};
 
-/// Wavenumbers of a lattice, B of them: their spectra are series of d by wavenumber, and the
-/// coefficients of a leaf are B numbers for each d.
+/// Between the ends of rows, so that equal places of all rows do not fall into one cache set.
+const PADDING: usize = 4;
+
+/// Steps of a leaf over wavenumbers, all levels of blocks, and what has come in so far.
 ///
-/// A step is kept as four slices of B: real and imaginary parts of the normal components, then of
-/// the tangential ones.
+/// Within a leaf, a step's contact vector over B wavenumbers is held as four slices of B: real and
+/// imaginary parts of the normal components, then of the tangential ones.
 pub(super) struct Waves {
     lattice: Lattice,
-    /// Steps of a leaf.
+    /// Steps that are summed directly.
     leaf: usize,
     /// Last d at which any coupling is not zero; the largest number if it never ends.
     reach: usize,
+    near: Arc<Near>,
+    levels: Vec<Arc<WaveLevel>>,
     planner: FftPlanner<f64>,
-    /// What all earlier leaves give at the outputs of this one, step by step.
+    /// 2B rows of `stride`: inputs before the present leaf, outputs as far as known from there on.
+    rows: Vec<Complex<f64>>,
+    stride: usize,
+    ring: Ring,
+    capacity: usize,
+    /// Inputs of this leaf, and what all earlier leaves give at its outputs.
+    inputs: Vec<f64>,
     far: Vec<f64>,
     sum: Vec<f64>,
+    /// Blocks that are being transformed, and scratch of the transforms.
+    blocks: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
 }
 
 impl Waves {
-    /// Wavenumbers of elements on `lattice`.
+    /// Blocks of elements on `lattice`, empty.
     pub(super) fn new(
         lattice: Lattice,
         kernel: &dyn ConvolutionWeights,
         leaf: usize,
     ) -> Result<Self> {
-        let width = 4 * lattice.waves();
+        let size = 4 * lattice.waves();
         Ok(Self {
             reach: lattice.last_coupling_lag(kernel)?.saturating_sub(1),
             lattice,
             leaf,
+            near: Arc::default(),
+            levels: Vec::new(),
             planner: FftPlanner::new(),
-            far: vec![0.0; leaf * width],
-            sum: vec![0.0; width],
+            rows: Vec::new(),
+            stride: 0,
+            ring: Ring::ENDLESS,
+            capacity: 0,
+            inputs: vec![0.0; leaf * size],
+            far: vec![0.0; leaf * size],
+            sum: vec![0.0; size],
+            blocks: Vec::new(),
+            scratch: Vec::new(),
         })
     }
-}
 
-impl Space for Waves {
-    fn extent(&self) -> Extent {
-        let (width, reach) = (4 * self.lattice.waves(), self.reach);
-        Extent { along_surface: true, width, parts: 2, lags: self.leaf, ahead: 0, reach }
+    /// Whether blocks of `size` have spectra of the coupling: up to the first that covers its reach.
+    fn couples(&self, size: usize) -> bool {
+        self.reach > 0 && (size == self.leaf || size / 2 < self.reach)
     }
 
-    fn level(&mut self, size: usize, couples: bool) -> Level {
-        let transforms = Products {
-            waves: self.lattice.waves(),
-            forward: self.planner.plan_fft_forward(2 * size),
-            inverse: self.planner.plan_fft_inverse(2 * size),
-        };
-        Level::new(size, self.lattice.waves(), couples, Box::new(transforms))
+    /// The levels from the `first`-th to the one before `end`, and the coefficients of a leaf
+    /// unless they are there.
+    fn make(
+        &mut self,
+        kernel: &dyn ConvolutionWeights,
+        [first, end]: [usize; 2],
+        near: &mut Option<Arc<Near>>,
+    ) -> Result<Vec<Arc<WaveLevel>>> {
+        let waves = self.lattice.waves();
+        let mut levels: Vec<_> = (first..end)
+            .map(|number| {
+                let size = self.leaf << number;
+                WaveLevel::new(size, waves, self.couples(size), &mut self.planner)
+            })
+            .collect();
+        let own = self.fill(kernel, &mut levels, near.is_none())?;
+        near.get_or_insert(Arc::new(own));
+        Ok(levels.into_iter().map(Arc::new).collect())
     }
 
+    /// Fills the spectra of `levels`, and returns the coefficients of a leaf if they are `wanted`.
     fn fill(
         &mut self,
         kernel: &dyn ConvolutionWeights,
-        levels: &mut [Level],
+        levels: &mut [WaveLevel],
         wanted: bool,
     ) -> Result<Near> {
-        let (waves, leaf) = (self.lattice.waves(), if wanted { self.leaf } else { 0 });
-        let mut near = [(); KINDS].map(|()| vec![0.0; leaf * waves]);
+        let waves = self.lattice.waves();
+        let near = wanted.then_some(self.leaf);
+        let mut lags = [near.unwrap_or(0); KINDS];
         // Coefficients wait in the place of the largest spectra that are made of them.
-        let largest: [_; KINDS] =
-            std::array::from_fn(|kind| levels.iter().rposition(|level| level.has(kind)));
-        let lags = largest.map(|number| number.map_or(leaf, |number| 2 * levels[number].size));
-        let coupled = lags[2].min(self.reach.saturating_add(1));
-        self.lattice.coefficients(kernel, lags[0], coupled, |kind, d, values| {
-            if d < leaf {
-                near[kind][d * waves..(d + 1) * waves].copy_from_slice(values);
-            }
-            if let Some(level) = largest[kind].and_then(|number| levels.get_mut(number)) {
-                for (wave, value) in values.iter().enumerate() {
-                    level.place(kind, wave)[d] = *value;
-                }
-            }
-        })?;
-        let (mut planner, mut work) = (RealFftPlanner::new(), Work::default());
-        let mut series = vec![0.0; lags[0]];
-        for (kind, number) in largest.into_iter().enumerate() {
-            let Some(number) = number else { continue };
-            for wave in 0..waves {
-                let series = &mut series[..lags[kind]];
-                series.copy_from_slice(&levels[number].place(kind, wave)[..lags[kind]]);
-                fill(levels, [kind, wave], series, &mut planner, &mut work);
+        for (kind, lags) in lags.iter_mut().enumerate() {
+            if let Some(level) = levels.iter().rfind(|level| level.has(kind)) {
+                *lags = 2 * level.size;
             }
         }
-        Ok(near)
+        let mut table: [_; KINDS] = std::array::from_fn(|_| vec![0.0; near.unwrap_or(0) * waves]);
+        let largest: [_; KINDS] =
+            std::array::from_fn(|kind| levels.iter().rposition(|level| level.has(kind)));
+        let coupled = lags[2].min(self.reach + 1);
+        self.lattice.coefficients(kernel, lags[0], coupled, |kind, d, values| {
+            if near.is_some_and(|leaf| d < leaf) {
+                table[kind][d * waves..(d + 1) * waves].copy_from_slice(values);
+            }
+            if let Some(level) = largest[kind].and_then(|number| levels.get_mut(number)) {
+                level.keep(kind, d, values);
+            }
+        })?;
+        let mut planner = RealFftPlanner::new();
+        let (mut time, mut real) = (vec![0.0; lags[0]], vec![0.0; lags[0]]);
+        for kind in 0..KINDS {
+            let Some(from) = largest[kind] else { continue };
+            for wave in 0..waves {
+                levels[from].kept(kind, wave, &mut time);
+                for level in levels.iter_mut().filter(|level| level.has(kind)) {
+                    let real = &mut real[..2 * level.size];
+                    real.copy_from_slice(&time[..2 * level.size]);
+                    level.transform(kind, wave, real, &mut planner, &mut self.scratch);
+                }
+            }
+        }
+        Ok(table)
     }
 
-    fn input(&mut self, traction: &[f64], input: &mut [f64]) {
+    /// Moves the leaf that ends before `now` to the rows, works it in, and takes up the next one.
+    fn turn(&mut self, now: usize) {
+        let (waves, ring) = (self.lattice.waves(), self.ring);
+        let before = ring.before(now, self.leaf);
+        let stale = ring.stale(now);
+        for (row, values) in self.rows.chunks_exact_mut(self.stride).enumerate() {
+            if let Some(stale) = &stale {
+                values[stale.clone()].fill(Complex::default());
+            }
+            let re = 2 * waves * (row / waves) + row % waves;
+            let inputs = self.inputs.chunks_exact(4 * waves);
+            for (value, input) in values[before.clone()].iter_mut().zip(inputs) {
+                *value = Complex::new(input[re], input[re + waves]);
+            }
+        }
+        let number = ring.level(now, self.leaf, self.levels.len());
+        let part = if self.levels[number].has(2) { Part::All } else { Part::Even };
+        let Self { levels, rows, blocks, scratch, stride, .. } = self;
+        levels[number].apply(rows, *stride, (ring, now), part, blocks, scratch);
+        if part == Part::Even
+            && let Some(level) = levels.iter().rfind(|level| level.has(2))
+        {
+            level.apply(rows, *stride, (ring, now), Part::Coupling, blocks, scratch);
+        }
+        let begin = ring.place(now);
+        for (row, values) in self.rows.chunks_exact(self.stride).enumerate() {
+            let re = 2 * waves * (row / waves) + row % waves;
+            let far = self.far.chunks_exact_mut(4 * waves);
+            for (value, far) in values[begin..begin + self.leaf].iter().zip(far) {
+                (far[re], far[re + waves]) = (value.re, value.im);
+            }
+        }
+    }
+
+    /// The `wanted` smallest levels and the coefficients of a leaf, from the kernel's store as far as
+    /// they are there, with scratch for their blocks.
+    fn take_levels(&mut self, kernel: &dyn ConvolutionWeights, wanted: usize) -> Result<()> {
+        // Before the spectra are locked: a kernel may work on several threads, which must not wait.
+        kernel.prepare(self.leaf << wanted)?;
+        let spectra = kernel.spectra().filter(|_| self.leaf == LEAF);
+        let elements = kernel.classes().elements();
+        let (levels, near) = if let Some(spectra) = spectra.filter(|s| s.are_of(elements)) {
+            let mut shared = spectra.waves();
+            let mut near = shared.near.take();
+            let more = self.make(kernel, [shared.levels.len(), wanted], &mut near);
+            shared.near.clone_from(&near);
+            shared.levels.extend(more?);
+            (shared.levels[..wanted].to_vec(), near)
+        } else {
+            let mut near = (self.capacity > 0).then(|| Arc::clone(&self.near));
+            let mut levels = self.levels.clone();
+            levels.extend(self.make(kernel, [levels.len(), wanted], &mut near)?);
+            (levels, near)
+        };
+        let zero = Complex::default();
+        if let Some(level) = levels.last() {
+            // Where components couple, both are transformed before they are multiplied.
+            let coupled = levels.iter().rfind(|level| level.has(2)).map_or(0, |l| 4 * l.size);
+            let length = self.blocks.len().max(coupled).max(2 * level.size);
+            self.blocks.resize(length, zero);
+            self.scratch.resize(self.scratch.len().max(level.scratch()), zero);
+        }
+        self.levels = levels;
+        self.near = near.unwrap_or_default();
+        Ok(())
+    }
+}
+
+impl Blocks for Waves {
+    fn capacity(&self) -> usize {
+        self.capacity
+    }
+
+    fn numbers(&self) -> usize {
+        let near: usize = self.near.iter().map(Vec::len).sum();
+        near + self.levels.iter().map(|level| level.numbers()).sum::<usize>()
+            + 2 * (self.rows.len() + self.blocks.len() + self.scratch.len())
+            + self.inputs.len()
+            + self.far.len()
+            + self.sum.len()
+            + self.lattice.numbers()
+    }
+
+    fn grow(&mut self, kernel: &dyn ConvolutionWeights, steps: usize) -> Result<()> {
+        if steps <= self.capacity && self.capacity > 0 {
+            return Ok(());
+        }
+        let leaves = steps.div_ceil(self.leaf).max(1);
+        let largest = leaves.next_power_of_two();
+        // The first request is met exactly; later ones double the memory.
+        let capacity = self.leaf * if self.capacity == 0 { leaves } else { largest };
         let waves = self.lattice.waves();
-        let (normal, tangential) = traction.split_at(traction.len().min(self.lattice.elements()));
+        let wanted = largest.ilog2() as usize;
+        self.take_levels(kernel, wanted)?;
+        if capacity > self.leaf {
+            let stride = capacity + PADDING;
+            let mut rows = vec![Complex::default(); 2 * waves * stride];
+            if self.stride > 0 {
+                let old = self.rows.chunks_exact(self.stride);
+                for (new, old) in rows.chunks_exact_mut(stride).zip(old) {
+                    new[..self.capacity].copy_from_slice(&old[..self.capacity]);
+                }
+            }
+            (self.rows, self.stride) = (rows, stride);
+        }
+        self.capacity = capacity;
+        Ok(())
+    }
+
+    fn bound(&mut self, kernel: &dyn ConvolutionWeights, reach: usize) -> Result<()> {
+        self.take_levels(kernel, (reach / self.leaf).ilog2() as usize + 1)?;
+        (self.ring, self.stride) = (Ring(2 * reach), 2 * reach + PADDING);
+        self.rows = vec![Complex::default(); 2 * self.lattice.waves() * self.stride];
+        self.capacity = usize::MAX;
+        Ok(())
+    }
+
+    fn work_in(&mut self, now: usize) {
+        if now.is_multiple_of(self.leaf) {
+            self.turn(now);
+        }
+    }
+
+    fn write(&mut self, now: usize, traction: &[f64]) {
+        let waves = self.lattice.waves();
+        let (normal, tangential) = traction.split_at(traction.len() / 2);
+        let input = &mut self.inputs[now % self.leaf * 4 * waves..][..4 * waves];
         for (values, part) in
             [normal, tangential].into_iter().zip(input.chunks_exact_mut(2 * waves))
         {
@@ -114,132 +277,54 @@ impl Space for Waves {
         }
     }
 
+    fn width(&self) -> usize {
+        4 * self.lattice.waves()
+    }
+
+    fn input(&self, step: usize, worked_in: usize, values: &mut Vec<f64>) {
+        let waves = self.lattice.waves();
+        if step >= worked_in - worked_in % self.leaf {
+            let begin = step % self.leaf * 4 * waves;
+            values.extend_from_slice(&self.inputs[begin..begin + 4 * waves]);
+        } else {
+            let row = |row: usize| self.rows[row * self.stride + step];
+            for of in [0..waves, waves..2 * waves] {
+                values.extend(of.clone().map(|k| row(k).re));
+                values.extend(of.map(|k| row(k).im));
+            }
+        }
+    }
+
     fn traction(&mut self, input: &[f64], traction: &mut [f64]) {
-        let (waves, elements) = (self.lattice.waves(), self.lattice.elements());
-        let parts = traction.chunks_exact_mut(elements);
-        for (values, part) in parts.zip(input.chunks_exact(2 * waves)) {
+        let waves = self.lattice.waves();
+        let half = traction.len() / 2;
+        for (values, part) in traction.chunks_exact_mut(half).zip(input.chunks_exact(2 * waves)) {
             self.lattice.back(part.split_at(waves).into(), 1.0, values);
         }
     }
 
-    fn begin(&mut self, rows: &Rows, now: usize) {
-        rows.read(now, &mut self.far);
+    fn write_input(&mut self, now: usize, input: &[f64]) {
+        self.inputs[now % self.leaf * input.len()..][..input.len()].copy_from_slice(input);
     }
 
-    fn output(&mut self, near: &Near, _: &Rows, _: usize, inputs: &[f64], out: &mut [f64]) {
-        let (waves, reach, sum) = (self.lattice.waves(), self.reach, &mut self.sum[..]);
-        sum.copy_from_slice(&self.far[inputs.len()..][..sum.len()]);
-        vectorized(Leaf { sum, inputs, near, waves, reach });
-        let parts = out.chunks_exact_mut(self.lattice.elements());
-        for (values, sum) in parts.zip(self.sum.chunks_exact(2 * waves)) {
+    fn clear(&mut self) {
+        self.rows.fill(Complex::default());
+        self.inputs.fill(0.0);
+        self.far.fill(0.0);
+    }
+
+    fn read(&mut self, now: usize, displacement: &mut [f64]) {
+        let waves = self.lattice.waves();
+        let size = 4 * waves;
+        let place = now % self.leaf;
+        self.sum.copy_from_slice(&self.far[place * size..(place + 1) * size]);
+        let near = self.near.each_ref().map(Vec::as_slice);
+        let (sum, inputs) = (&mut self.sum[..], &self.inputs[..place * size]);
+        vectorized(Leaf { sum, inputs, near, waves, reach: self.reach });
+        let (down, along) = displacement.split_at_mut(displacement.len() / 2);
+        for (values, sum) in [down, along].into_iter().zip(self.sum.chunks_exact(2 * waves)) {
             self.lattice.inverse(sum.split_at(waves).into(), values);
         }
-    }
-
-    fn numbers(&self) -> usize {
-        self.far.len() + self.sum.len() + self.lattice.numbers()
-    }
-}
-
-/// Each wavenumber by itself: its blocks and spectra fit into cache.
-///
-/// Coefficients are real numbers in time, so that the upper frequencies are conjugates of those that
-/// are kept; the coupling's stand for i times them.
-struct Products {
-    waves: usize,
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
-}
-
-impl Convolution for Products {
-    fn reserve(&self, level: &Level, work: &mut Work) {
-        let (forward, inverse) = (&self.forward, &self.inverse);
-        let scratch = forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len());
-        reserve(&mut work.scratch, scratch);
-        reserve(&mut work.complex, 4 * level.size);
-    }
-
-    fn apply(&self, level: &Level, rows: &mut Rows, now: usize, part: Part, work: &mut Work) {
-        let length = 2 * level.size;
-        let Work { complex, scratch, .. } = work;
-        let (p, s) = complex[..2 * length].split_at_mut(length);
-        for wave in 0..self.waves {
-            let spectrum = |kind: usize| level.spectrum(kind, wave, 0);
-            self.take(rows, wave, now, p, scratch);
-            self.take(rows, self.waves + wave, now, s, scratch);
-            let turned = |c: Complex64| Complex64::new(-c.im, c.re);
-            match part {
-                Part::Even => each([p, s], [0, 1].map(spectrum), |p, s, [g, h]| {
-                    *p *= g;
-                    *s *= h;
-                }),
-                Part::Coupling => each([p, s], [spectrum(2)], |p, s, [c]| {
-                    (*p, *s) = (turned(c) * *s, -turned(c) * *p);
-                }),
-                Part::All => each([p, s], [0, 1, 2].map(spectrum), |p, s, [g, h, c]| {
-                    (*p, *s) = (g * *p + turned(c) * *s, h * *s - turned(c) * *p);
-                }),
-            }
-            self.give(rows, wave, now, p, scratch);
-            self.give(rows, self.waves + wave, now, s, scratch);
-        }
-    }
-}
-
-impl Products {
-    /// Transforms the inputs of a row, as many zeros behind them.
-    fn take(
-        &self,
-        rows: &Rows,
-        row: usize,
-        now: usize,
-        block: &mut [Complex64],
-        scratch: &mut [Complex64],
-    ) {
-        let (inputs, rest) = block.split_at_mut(block.len() / 2);
-        let row = rows.inputs(row, now, inputs.len());
-        for (value, parts) in inputs.iter_mut().zip(row.chunks_exact(2)) {
-            *value = Complex64::new(parts[0], parts[1]);
-        }
-        rest.fill(Complex64::default());
-        self.forward.process_with_scratch(block, scratch);
-    }
-
-    /// Transforms back, and adds the later half to the outputs of a row.
-    fn give(
-        &self,
-        rows: &mut Rows,
-        row: usize,
-        now: usize,
-        block: &mut [Complex64],
-        scratch: &mut [Complex64],
-    ) {
-        self.inverse.process_with_scratch(block, scratch);
-        let later = &block[block.len() / 2..];
-        let scale = 0.5 / later.len() as f64;
-        let outputs = rows.outputs(row, now, later.len());
-        for (output, value) in outputs.chunks_exact_mut(2).zip(later) {
-            output[0] += value.re * scale;
-            output[1] += value.im * scale;
-        }
-    }
-}
-
-/// Replaces all frequencies of two blocks by their products with some spectra.
-fn each<const N: usize>(
-    [one, two]: [&mut [Complex64]; 2],
-    spectra: [[&[f64]; 2]; N],
-    multiply: impl Fn(&mut Complex64, &mut Complex64, [Complex64; N]),
-) {
-    let bins = one.len() / 2 + 1;
-    let ((one, one_high), (two, two_high)) = (one.split_at_mut(bins), two.split_at_mut(bins));
-    let lower = spectra.map(|parts| parts.map(|values| &values[..bins]));
-    for (k, (p, s)) in one.iter_mut().zip(two).enumerate() {
-        multiply(p, s, lower.map(|[re, im]| Complex64::new(re[k], im[k])));
-    }
-    let upper = spectra.map(|parts| parts.map(|values| &values[1..bins - 1]));
-    for (k, (p, s)) in one_high.iter_mut().rev().zip(two_high.iter_mut().rev()).enumerate() {
-        multiply(p, s, upper.map(|[re, im]| Complex64::new(re[k], -im[k])));
     }
 }
 
@@ -247,7 +332,7 @@ fn each<const N: usize>(
 struct Leaf<'a> {
     sum: &'a mut [f64],
     inputs: &'a [f64],
-    near: &'a Near,
+    near: [&'a [f64]; KINDS],
     waves: usize,
     reach: usize,
 }
@@ -262,7 +347,7 @@ impl WithSimd for Leaf<'_> {
         for (m, input) in inputs.chunks_exact(sum.len()).enumerate() {
             let d = place - m;
             let [normal, tangential, coupling] =
-                near.each_ref().map(|values| &values[d * waves..(d + 1) * waves]);
+                near.map(|values| &values[d * waves..(d + 1) * waves]);
             if d <= reach {
                 add_coupled(sum, input, [normal, tangential, coupling]);
             } else {
@@ -271,6 +356,7 @@ impl WithSimd for Leaf<'_> {
         }
     }
 }
+
 /// sum ← sum + ĝ · input.
 #[inline(always)]
 fn add(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 2]) {

@@ -1,0 +1,146 @@
+//! Coupling coefficients between elements, and those of short lags.
+
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+
+use std::sync::Arc;
+
+use super::tables::Tables;
+use crate::error::Result;
+use crate::history::convolution_weights::ConvolutionWeights;
+use crate::history::pair_classes::{Pair, PairClasses};
+use crate::linalg::{Simd, WithSimd, add_row, add_rows, vectorized};
+
+/// Pairs of a patch and its coefficients over short delays.
+pub(super) struct Coefficients {
+    pub(super) classes: PairClasses,
+    /// Per class: last d at which the coupling is not zero; the largest number if it never ends.
+    reaches: Vec<usize>,
+    /// The largest of them.
+    pub(super) coupling_reach: usize,
+    /// Whether blocks have to look after the coupling.
+    pub(super) couples_far: bool,
+    /// Number of lags over which the coupling is summed directly.
+    pub(super) coupling_direct: usize,
+    /// Steps of a leaf.
+    leaf: usize,
+    /// Empty until they are needed.
+    pub(super) near: Arc<Tables>,
+}
+
+/// Coefficients d = 0 … of one class.
+pub(super) struct Class {
+    pub(super) normal: Vec<f64>,
+    pub(super) tangential: Vec<f64>,
+    pub(super) coupling: Vec<f64>,
+}
+
+impl Class {
+    /// Room for `length` values of d.
+    pub(super) fn new(length: usize) -> Self {
+        let [normal, tangential, coupling] = [(); 3].map(|()| vec![0.0; length]);
+        Self { normal, tangential, coupling }
+    }
+
+    /// Coefficients of `class`.
+    pub(super) fn fill(&mut self, kernel: &dyn ConvolutionWeights, class: usize) -> Result<()> {
+        let Self { normal, tangential, coupling } = self;
+        // The first is the instantaneous coefficient, no part of the history.
+        kernel.coefficients(class, 2, [&mut normal[1..], &mut tangential[1..], &mut coupling[1..]])
+    }
+}
+
+impl Coefficients {
+    /// For leaves of `leaf` steps; a coupling that reaches no further than `direct` is summed.
+    pub(super) fn new(kernel: &dyn ConvolutionWeights, leaf: usize, direct: usize) -> Result<Self> {
+        let classes = kernel.classes().clone();
+        let reach = |last: Option<usize>| last.map_or(usize::MAX, |lag| lag.saturating_sub(1));
+        let reaches = (0..classes.count())
+            .map(|class| Ok(reach(kernel.last_coupling_lag(class)?)))
+            .collect::<Result<Vec<_>>>()?;
+        let coupling_reach = reaches.iter().copied().max().unwrap_or(0);
+        let couples_far = coupling_reach > direct;
+        let coupling_direct = if couples_far { leaf - 1 } else { coupling_reach };
+        let near = Arc::default();
+        Ok(Self { classes, reaches, coupling_reach, couples_far, coupling_direct, leaf, near })
+    }
+
+    /// Values of d that the tables are made of.
+    pub(super) fn length(&self) -> usize {
+        self.leaf.max(self.coupling_direct + 1)
+    }
+
+    /// Adds the next class to `tables`; `values` may go on beyond [`Coefficients::length`].
+    pub(super) fn add_class(&self, values: &Class, tables: &mut Tables) {
+        let reach = self.reaches[tables.normal.len()].min(self.coupling_direct);
+        tables.normal.push(values.normal[..self.leaf].to_vec());
+        tables.tangential.push(values.tangential[..self.leaf].to_vec());
+        tables.coupling.push(values.coupling[..=reach].to_vec());
+    }
+
+    /// Adds what input `now` gives to the rest of its leaf, `ahead` outputs, and its coupling to
+    /// `coupled` of them.
+    pub(super) fn scatter(
+        &self,
+        rows: &mut [f64],
+        stride: usize,
+        now: usize,
+        ahead: usize,
+        coupled: usize,
+    ) {
+        vectorized(Scatter { coefficients: self, rows, stride, now, ahead, coupled });
+    }
+}
+
+/// [`Coefficients::scatter`].
+struct Scatter<'a> {
+    coefficients: &'a Coefficients,
+    rows: &'a mut [f64],
+    stride: usize,
+    now: usize,
+    ahead: usize,
+    coupled: usize,
+}
+
+impl WithSimd for Scatter<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { coefficients: Coefficients { classes, near, .. }, rows, stride, now, .. } = self;
+        let (ahead, count) = (self.ahead, classes.elements().len());
+        for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
+            let scale = pairs[p].scale;
+            for (row, table, other) in [(p, &near.normal, 0), (count + p, &near.tangential, count)]
+            {
+                let (mut q, mut four) = (0, pairs.chunks_exact(4));
+                for pairs in four.by_ref() {
+                    let values: [f64; 4] =
+                        std::array::from_fn(|k| scale * rows[(other + q + k) * stride + now]);
+                    let from: [&[f64]; 4] =
+                        std::array::from_fn(|k| &table[pairs[k].class][1..=ahead]);
+                    let output = &mut rows[row * stride + now + 1..][..ahead];
+                    add_rows(simd, values, from, output);
+                    q += 4;
+                }
+                for pair in four.remainder() {
+                    let value = scale * rows[(other + q) * stride + now];
+                    let output = &mut rows[row * stride + now + 1..][..ahead];
+                    add_row(simd, value, &table[pair.class][1..=ahead], output);
+                    q += 1;
+                }
+            }
+            for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
+                let coupling = &near.coupling[class];
+                let reach = self.coupled.min(coupling.len() - 1);
+                if sign == 0.0 || reach == 0 {
+                    continue;
+                }
+                for (row, source, sign) in [(p, count + q, sign), (count + p, q, -sign)] {
+                    let value = sign * scale * rows[source * stride + now];
+                    let output = &mut rows[row * stride + now + 1..][..reach];
+                    add_row(simd, value, &coupling[1..=reach], output);
+                }
+            }
+        }
+    }
+}
