@@ -185,7 +185,7 @@ impl SimulationBuilder {
 
     /// About how many steps will be made: kernels and memory are then ready before the first, and
     /// the ground's history and the structure's coordinates are chosen for this number (if not given,
-    /// for that of the first run and for 10 000).
+    /// for that of the first run and for 4 000).
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
         self.given.steps = steps;

@@ -16,7 +16,7 @@ use crate::linalg::{SparseFactor, SparseMatrix};
 use crate::structure::{Structure, Tangent};
 
 /// Steps that modes have to pay for themselves in, if not told otherwise.
-const STEPS: usize = 10_000;
+const STEPS: usize = 4_000;
 
 /// What [`Coordinates::Modes`] asks for.
 const NEEDED: &str = "a linear structure with symmetric matrices, a positive definite mass and a \
@@ -27,11 +27,11 @@ mod cost {
     /// Per entry of a sparse factor or matrix and use.
     pub(super) const SPARSE_ENTRY: f64 = 1.0;
     /// Per mode and step, more than a degree of freedom costs.
-    pub(super) const MODE: f64 = 1.0;
+    pub(super) const MODE: f64 = 4.0;
     /// Per mode, contact component and step, more than degrees of freedom cost.
-    pub(super) const MODE_AND_CONTACT: f64 = 0.2;
-    /// Per cubed number of modes, once.
-    pub(super) const MODES: f64 = 3.0;
+    pub(super) const MODE_AND_CONTACT: f64 = 0.15;
+    /// Per squared and per cubed number of modes, once.
+    pub(super) const MODES: [f64; 2] = [60.0, 0.45];
 }
 
 /// Matrices, base and operators of a structure, all in the coordinates that are stepped.
@@ -122,6 +122,8 @@ fn cheaper_modes(assembled: &Assembled, factor: usize, steps: usize) -> Option<M
     let stored: usize = assembled.matrices().into_iter().map(SparseMatrix::stored).sum();
     let sparse = cost::SPARSE_ENTRY * (2 * factor + 2 * stored) as f64;
     let modal = cost::MODE * n + cost::MODE_AND_CONTACT * n * contact as f64;
-    let saves_time = modal * steps + cost::MODES * n.powi(3) < sparse * steps;
+    let [squared, cubed] = cost::MODES;
+    let once = squared * n.powi(2) + cubed * n.powi(3);
+    let saves_time = modal * steps + once < sparse * steps;
     if saves_time { vibration_modes(assembled) } else { None }
 }

@@ -22,6 +22,8 @@ pub(crate) fn auto(elements: usize, memory: usize) -> SimulationBuilder {
     let ground =
         ElasticGround::new(soil(SI), Strip::uniform(-2.0..2.0, elements).unwrap()).unwrap();
     let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
+    // Not chosen by the number of steps.
+    let base = base.coordinates(Coordinates::Physical);
     base.ground(ground.with_history_memory(memory))
 }
 
