@@ -14,7 +14,7 @@ use crate::coupled::diagnosis::{sign, supports};
 use crate::coupled::scene::base::Base;
 use crate::coupled::scene::influence::Influence;
 use crate::error::{Error, Result};
-use crate::linalg::{Partition, SparseMatrix};
+use crate::linalg::{Partition, SparseFactor, SparseMatrix};
 use crate::structure::{
     ContactNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
     stiffest,
@@ -36,9 +36,12 @@ pub(crate) struct Assembled {
 }
 
 impl Assembled {
-    /// Assembles a structure over `elements`. Refuses wrong signs, parts that nothing holds, supports
+    /// Assembles a structure over `elements`, and factors its stiffness at rest with the base held. Refuses wrong signs, parts that nothing holds, supports
     /// beside the ground, and mechanisms that cannot be factored.
-    pub(crate) fn new(structure: &dyn Structure, elements: &[ContactElement]) -> Result<Self> {
+    pub(crate) fn new(
+        structure: &dyn Structure,
+        elements: &[ContactElement],
+    ) -> Result<(Self, SparseFactor)> {
         let base = Base::of(structure, elements)?;
         let (dofs, linear) = (structure.dofs(), structure.nonlinear().is_none());
         if dofs == 0 {
@@ -67,11 +70,11 @@ impl Assembled {
         let own = Self { linear, mass, damping, stiffness, at_rest, base, influence };
         check_attached(structure, own.stiffness_at_rest(), &own.mass, &own.base.dofs())?;
         // A mechanism fails in one way or another, as rounding has it, but never by its sign.
-        let influence = own.find_influence().map_err(|error| match error {
+        let (influence, held) = own.find_influence().map_err(|error| match error {
             Error::Indefinite { .. } => error,
             _ => own.at_rest(structure).behind(error),
         })?;
-        Ok(Self { influence: Arc::new(influence), ..own })
+        Ok((Self { influence: Arc::new(influence), ..own }, held))
     }
 
     /// Number of degrees of freedom.
@@ -95,13 +98,13 @@ impl Assembled {
         AtRest { structure, stiffness, mass: &self.mass, base: &self.base }
     }
 
-    /// The influence vectors.
+    /// The influence vectors, and the factored stiffness with its base held.
     ///
     /// A rigid translation leaves K u = 0 and moves the contact nodes by one, so that
     /// (K + γ NᵀN) r = γ Nᵀ 1 has it as its solution for every γ, whatever the degrees of freedom mean.
     /// Displacements are stepped relative to rigid translations, so R has to be exact where the ground
     /// sees it: N R is 1 or 0 to rounding, and then so is B R.
-    fn find_influence(&self) -> Result<Influence> {
+    fn find_influence(&self) -> Result<(Influence, SparseFactor)> {
         let (stiffness, n) = (self.stiffness_at_rest(), self.dofs());
         let held = HeldBase::new(self.base.nodes(), stiffness, stiffest(stiffness));
         let mut factor = held.factor()?;
@@ -137,6 +140,6 @@ impl Assembled {
         let roots: Vec<usize> = (0..n).map(|unknown| parts.root(unknown)).collect();
         let influence = Influence::split(&self.base, &translations, &roots);
         supports::check_parts(&influence, &self.base, n)?;
-        Ok(influence)
+        Ok((influence, factor))
     }
 }

@@ -48,6 +48,8 @@ pub(super) struct Reduction<'a> {
     coefficients: &'a SchemeCoefficients,
     /// K_eff, factored.
     factor: &'a SparseFactor,
+    /// K with its base held, factored.
+    held: &'a SparseFactor,
     /// Steps of the run.
     steps: usize,
     /// None of them zero.
@@ -57,11 +59,12 @@ pub(super) struct Reduction<'a> {
 }
 
 impl<'a> Reduction<'a> {
-    /// Gathers what acts on a structure, by the `factor` of its effective stiffness.
+    /// Gathers what acts on a structure, by the factors of its effective stiffness and of its stiffness with its base
+    /// held.
     pub(super) fn new(
         parts: &'a Parts,
         assembled: &'a Assembled,
-        factor: &'a SparseFactor,
+        [factor, held]: [&'a SparseFactor; 2],
         steps: usize,
     ) -> Result<Self> {
         let (given, base) = (&parts.given, &assembled.base);
@@ -116,7 +119,7 @@ impl<'a> Reduction<'a> {
             }
         }
         let coefficients = &parts.coefficients;
-        Ok(Self { assembled, coefficients, factor, steps, rows, motions })
+        Ok(Self { assembled, coefficients, factor, held, steps, rows, motions })
     }
 
     /// The Ritz modes with which the responses to suddenly applied forces err by less than `tolerance`.
@@ -128,7 +131,7 @@ impl<'a> Reduction<'a> {
         }
         let matrices = self.matrices()?;
         let translations = self.assembled.influence.translations(self.assembled.dofs());
-        let (rotations, lowest) = self.held(&translations, matrices)?;
+        let (rotations, lowest) = self.held(&translations, matrices);
         let mut space = Subspace::new(matrices, translations);
         space.extend(rotations, LEAST_NEW);
         space.extend(self.motions.clone(), LEAST_NEW);
@@ -227,26 +230,25 @@ impl<'a> Reduction<'a> {
         &self,
         translations: &[f64],
         [mass, _, stiffness]: [&SparseMatrix; 3],
-    ) -> Result<(Vec<f64>, f64)> {
+    ) -> (Vec<f64>, f64) {
         let n = self.assembled.dofs();
         let held = HeldBase::new(self.assembled.base.nodes(), stiffness, stiffest(stiffness));
-        let factor = held.factor()?;
         let mut rotations = Vec::new();
         for part in self.assembled.influence.parts() {
             let nodes = part.nodes(&self.assembled.base);
             let middle = nodes.iter().map(|node| node.x).sum::<f64>() / nodes.len().max(1) as f64;
             rotations.extend(held.turn(nodes, middle));
         }
-        factor.solve_many(&mut rotations);
+        self.held.solve_many(&mut rotations);
         let mut inertia = vec![0.0; translations.len()];
         for (row, force) in translations.chunks_exact(n).zip(inertia.chunks_exact_mut(n)) {
             mass.multiply_add(1.0, row, force);
         }
         let mut bent = inertia.clone();
-        factor.solve_many(&mut bent);
+        self.held.solve_many(&mut bent);
         let pairs = inertia.chunks_exact(n).zip(bent.chunks_exact(n));
         let squares = pairs.map(|(force, bent)| dot(force, bent) / mass.form(bent, bent));
-        Ok((rotations, squares.fold(f64::INFINITY, f64::min).max(0.0).sqrt()))
+        (rotations, squares.fold(f64::INFINITY, f64::min).max(0.0).sqrt())
     }
 }
 

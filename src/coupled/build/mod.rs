@@ -245,7 +245,7 @@ impl SimulationBuilder {
     /// [`crate::Error::Law`] for an interface law that returns numbers which are not finite.
     pub fn build(self) -> Result<Simulation> {
         let mut parts = Parts::new(self.structure, self.ground, self.given)?;
-        let assembled = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
+        let (assembled, mut held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
         let at_rest = statics::solve(&mut parts, &assembled)?;
         let joined = supports::joined_by_force(
             parts.structure.as_ref(),
@@ -253,7 +253,8 @@ impl SimulationBuilder {
             &assembled.influence,
             [&at_rest.displacement, &at_rest.force],
         )?;
-        let Stepped { model, base, operators } = Stepped::choose(&parts, &assembled, &at_rest)?;
+        let Stepped { model, base, operators } =
+            Stepped::choose(&parts, &assembled, &held, &at_rest)?;
         let scene = Scene::new(&mut parts, model, base, at_rest, joined);
 
         let Parts { mut structure, ground, given, .. } = parts;
@@ -270,7 +271,7 @@ impl SimulationBuilder {
         let conditioning = conditioning::assess(&scene, &mut solver, &state.start)?;
         if scene.model.linear {
             // Last: stiffnesses too far apart for double precision look like a mechanism.
-            assembled.at_rest(structure.as_ref()).check()?;
+            assembled.at_rest(structure.as_ref()).check(&mut held)?;
         }
         Ok(Simulation {
             forcing: Forcing::new(&scene),

@@ -43,10 +43,11 @@ pub(crate) struct Stepped {
 
 impl Stepped {
     /// Chooses the coordinates, and factors the effective stiffness in them. That of the degrees of freedom is
-    /// factored only where it is stepped or the choice needs it.
+    /// factored only where it is stepped or the choice needs it; `held` is the factored stiffness with its base held.
     pub(super) fn choose(
         parts: &Parts,
         assembled: &Assembled,
+        held: &SparseFactor,
         at_rest: &StaticState,
     ) -> Result<Self> {
         let Parts { given, coefficients, .. } = parts;
@@ -75,7 +76,7 @@ impl Stepped {
             }
             Coordinates::Reduced { tolerance } => {
                 let factor = factored()?;
-                let reduction = Reduction::new(parts, assembled, &factor, steps)?;
+                let reduction = Reduction::new(parts, assembled, [&factor, held], steps)?;
                 Chosen::Modes(reduction.modes(tolerance)?)
             }
         };

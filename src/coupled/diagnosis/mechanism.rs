@@ -13,6 +13,8 @@ const FREE: f64 = 1e-12;
 /// The same where no failure speaks for one. Elements added up leave 3e-17; a column of a thousand
 /// beams one above the other has 1e-12.
 const SURELY_FREE: f64 = f64::EPSILON;
+/// Work of the softest displacement from which on it is none, whatever rounding does.
+const FIRM: f64 = 1e-6;
 /// Share of the largest displacement from which on a degree of freedom takes part in a mechanism.
 const TAKES_PART: f64 = 0.1;
 /// Independent mechanisms that are told, at most.
@@ -30,8 +32,14 @@ pub(crate) struct AtRest<'a> {
 }
 
 impl AtRest<'_> {
-    /// Refuses a mechanism, also where the loads do not set it in motion.
-    pub(crate) fn check(&self) -> Result<()> {
+    /// Refuses a mechanism, also where the loads do not set it in motion. `held` is the factored stiffness with
+    /// its base held, by which most structures pass without another factor.
+    pub(crate) fn check(&self, held: &mut SparseFactor) -> Result<()> {
+        let regular = Regular::held(self).1;
+        let softest = regular.softest(held, &[]);
+        if softest.is_some_and(|motion| regular.share_of_work(&motion) > FIRM) {
+            return Ok(());
+        }
         self.motion(SURELY_FREE).map_or(Ok(()), |cause| Err(Error::Stability(Box::new(cause))))
     }
 
@@ -50,7 +58,7 @@ impl AtRest<'_> {
         if self.base.dofs().is_empty() {
             return None;
         }
-        let dofs = Regular::held(self)?.1.free_dofs(free)?;
+        let dofs = Regular::held(self).1.free_dofs(free)?;
         let place = place(self.structure, &dofs);
         Some(StabilityError::Mechanism { dofs, place })
     }
@@ -68,7 +76,7 @@ pub(crate) fn unresisted(
     };
     let terms = [stiffness, others[0], others[1]].map(|matrix| (scaled(matrix), matrix));
     let sum = SparseMatrix::weighted_sum(stiffness.order(), &terms);
-    let dofs = Regular::new(sum, 1.0, &[])?.free_dofs(FREE)?;
+    let dofs = Regular::new(sum, 1.0, &[]).free_dofs(FREE)?;
     let place = place(structure, &dofs);
     Some(StabilityError::Massless { dofs, place })
 }
@@ -78,11 +86,10 @@ fn place(structure: &dyn Structure, dofs: &[usize]) -> String {
     structure.describe(dofs).unwrap_or_else(|| unknown_numbers(dofs))
 }
 
-/// A stiffness and, factored, the same kept regular.
+/// A stiffness, and what keeps it regular.
 pub(super) struct Regular {
     matrix: Triplets,
     spring: f64,
-    pub(super) factor: SparseFactor,
     /// What keeps mechanisms regular, on the diagonal.
     added: Vec<f64>,
     /// Degrees of freedom without any entry.
@@ -91,18 +98,18 @@ pub(super) struct Regular {
 
 impl Regular {
     /// The stiffness at rest with springs under the contact nodes, as stiff as its largest entry.
-    pub(super) fn held<'a>(at_rest: &AtRest<'a>) -> Option<(HeldBase<'a>, Self)> {
+    pub(super) fn held<'a>(at_rest: &AtRest<'a>) -> (HeldBase<'a>, Self) {
         let AtRest { stiffness, mass, base, .. } = *at_rest;
         let stiffest = stiffness.entries().fold(0.0_f64, |m, (_, _, k)| m.max(k.abs()));
         let spring = if stiffest > 0.0 { stiffest } else { 1.0 };
         let held = HeldBase::new(base.nodes(), stiffness, spring);
-        let regular = Self::new(held.matrix.clone(), spring, &mass.diagonal())?;
-        Some((held, regular))
+        let regular = Self::new(held.matrix.clone(), spring, &mass.diagonal());
+        (held, regular)
     }
 
     /// A matrix whose largest entry is about `spring`, kept regular by `mass`, or by what stands on its
     /// diagonal where there is none; Lagrange multipliers have neither and stay as they are.
-    fn new(matrix: Triplets, spring: f64, mass: &[f64]) -> Option<Self> {
+    fn new(matrix: Triplets, spring: f64, mass: &[f64]) -> Self {
         let heaviest = largest(mass);
         let mut diagonal = vec![0.0; matrix.order()];
         for &(row, _, value) in matrix.entries().iter().filter(|entry| entry.0 == entry.1) {
@@ -124,22 +131,26 @@ impl Regular {
                 _ => 0.0,
             })
             .collect();
-        let mut sum = matrix.clone();
-        added.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
-        let factor = SparseFactor::new(HeldBase::NAME, &sum).ok()?;
         let absent = (0..is_absent.len()).filter(|&i| is_absent[i]).collect();
-        Some(Self { matrix, spring, factor, added, absent })
+        Self { matrix, spring, added, absent }
+    }
+
+    /// The factors of what is regular.
+    pub(super) fn factor(&self) -> Option<SparseFactor> {
+        let mut sum = self.matrix.clone();
+        self.added.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
+        SparseFactor::new(HeldBase::NAME, &sum).ok()
     }
 
     /// The degrees of freedom that take part in displacements which do work of at most `free`, ascending.
     ///
     /// All such displacements together: by the length of their rows in a basis that the regular part
     /// makes orthonormal, so that neither its choice nor the numbering of degrees of freedom matters.
-    fn free_dofs(&mut self, free: f64) -> Option<Vec<usize>> {
-        let n = self.added.len();
+    fn free_dofs(&self, free: f64) -> Option<Vec<usize>> {
+        let (n, mut factor) = (self.added.len(), self.factor()?);
         let mut basis: Vec<Vec<f64>> = Vec::new();
         while basis.len() < MOST_MOTIONS.min(n) {
-            match self.softest(&basis) {
+            match self.softest(&mut factor, &basis) {
                 Some(motion) if self.share_of_work(&motion) <= free => basis.push(motion),
                 _ => break,
             }
@@ -151,14 +162,14 @@ impl Regular {
         (!basis.is_empty()).then(|| (0..n).filter(|&i| parts[i] > TAKES_PART * most).collect())
     }
 
-    /// The softest displacement beside those of `basis`.
-    fn softest(&mut self, basis: &[Vec<f64>]) -> Option<Vec<f64>> {
+    /// The softest displacement beside those of `basis`, by a factored stiffness.
+    fn softest(&self, factor: &mut SparseFactor, basis: &[Vec<f64>]) -> Option<Vec<f64>> {
         // Inverse iteration from a vector of all signs and sizes.
         let mut motion: Vec<f64> =
             (0..self.added.len()).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
         for _ in 0..ITERATIONS {
             let mut force: Vec<f64> = motion.iter().zip(&self.added).map(|(u, r)| u * r).collect();
-            self.factor.solve(&mut force);
+            factor.solve(&mut force);
             motion = force;
             for known in basis.iter().chain(basis) {
                 let share = weighted_dot(&self.added, known, &motion);

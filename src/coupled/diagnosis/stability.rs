@@ -42,7 +42,8 @@ fn resultants(
     load: &[f64],
 ) -> Option<StabilityError> {
     let (assembled, base) = (stage.assembled, &stage.assembled.base);
-    let (held, mut regular) = Regular::held(&assembled.at_rest(stage.structure))?;
+    let (held, regular) = Regular::held(&assembled.at_rest(stage.structure));
+    let mut factor = regular.factor()?;
     assembled.influence.parts().iter().find_map(|part| {
         let [horizontal, upward] = part.resultants(load);
         let normal = -upward;
@@ -78,7 +79,7 @@ fn resultants(
         }
         let (middle, half_width) = (0.5 * (left + right), 0.5 * (right - left));
         let mut rotation = held.turn(nodes, middle);
-        regular.factor.solve(&mut rotation);
+        factor.solve(&mut rotation);
         let moment = dot(&rotation, load);
         // The soil's pressure stands at the distance e: M + N e = 0.
         let eccentricity = -moment / normal;
