@@ -59,7 +59,7 @@
 //! converges. An equilibrium need not be stable:
 //! a block that P–Δ would topple is found standing, and falls when the ground shakes.
 //!
-//! # EnergyBalance
+//! # Energy balance
 //!
 //! ```text
 //! kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input

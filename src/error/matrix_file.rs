@@ -63,7 +63,7 @@ pub enum MatrixFileError {
     /// A symmetric matrix is given by its lower triangle.
     #[error("entry ({row}, {column}) is above the diagonal of a symmetric matrix")]
     AboveDiagonal {
-        /// DofCombination, from 1.
+        /// Row, from 1.
         row: usize,
         /// Column, from 1.
         column: usize,

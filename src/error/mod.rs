@@ -270,7 +270,7 @@ pub enum Error {
     Indefinite {
         /// Name of the matrix.
         matrix: &'static str,
-        /// DofCombination, and unknown, at which it shows.
+        /// Row, and degree of freedom, at which it shows.
         row: usize,
         /// Entry on the diagonal there.
         diagonal: f64,

@@ -19,13 +19,8 @@ words! { Direction, "direction", {
     Rotation = "rotation",
 } }
 
-impl Direction {
-    /// All three.
-    pub(crate) const ALL: [Self; 3] = [Self::X, Self::Y, Self::Rotation];
-}
-
 /// Directions of elements without rotations.
 pub(crate) const TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
 
 /// Directions of beams and of masses with rotary inertia.
-pub(crate) const FRAME: &[Direction] = &[Direction::X, Direction::Y, Direction::Rotation];
+pub(crate) const FRAME: &[Direction] = &Direction::ALL;

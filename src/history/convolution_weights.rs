@@ -37,7 +37,7 @@ pub trait ConvolutionWeights: Send + Sync {
     ///
     /// Called often, so it must be cheap where all is ready. The bits of a lag must not depend on
     /// `lags`: a kernel that computes blocks of lags takes blocks that do not, such as
-    /// N + 1 … 2N for powers of two. TimeSeries ask for powers of two where the number of steps leaves
+    /// N + 1 … 2N for powers of two. Convolutions ask for powers of two where the number of steps leaves
     /// it open.
     ///
     /// # Errors

@@ -91,17 +91,6 @@ impl Mode {
         }
     }
 
-    /// All modes, in the order of their declaration.
-    pub(crate) const ALL: [Self; 7] = [
-        Self::Stick,
-        Self::SlipLeft,
-        Self::SlipRight,
-        Self::Open,
-        Self::Yield,
-        Self::YieldLeft,
-        Self::YieldRight,
-    ];
-
     /// The modes of contact with uplift and Coulomb friction.
     fn with_friction(friction: f64) -> &'static [Self] {
         if friction == 0.0 {

@@ -13,7 +13,7 @@ use faer::{Mat, MatRef, Par, Side, Spec};
 
 use crate::linalg::SparseMatrix;
 
-/// DofCombination at which a symmetric row-major matrix is found not to be positive definite, if it is not.
+/// Row at which a symmetric row-major matrix is found not to be positive definite, if it is not.
 pub(crate) fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {
     let matrix = MatRef::from_row_major_slice(matrix, order, order);
     match matrix.llt(Side::Lower) {

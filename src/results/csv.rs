@@ -1,4 +1,4 @@
-//! TimeSeries, envelopes and spectra as CSV.
+//! Time series, envelopes and spectra as CSV.
 
 use std::io::{self, Write};
 use std::path::Path;

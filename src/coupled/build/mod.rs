@@ -162,14 +162,14 @@ impl SimulationBuilder {
         self
     }
 
-    /// A quantity to read off at every step, see [`super::State::probes`]. Names must differ.
+    /// A quantity recorded at every step, see [`super::State::probes`]. Names must differ.
     #[must_use]
     pub fn probe(mut self, probe: Probe) -> Self {
         self.given.probes.push(probe);
         self
     }
 
-    /// Several of them, after those given before.
+    /// Adds probes.
     #[must_use]
     pub fn probes(mut self, probes: impl IntoIterator<Item = Probe>) -> Self {
         self.given.probes.extend(probes);
@@ -215,7 +215,8 @@ impl SimulationBuilder {
         self
     }
 
-    /// The same for each element, from left to right.
+    /// Friction coefficients for the factor of safety against sliding, one per element from left to right, see
+    /// [`safety_friction`](Self::safety_friction).
     #[must_use]
     pub fn safety_frictions(mut self, coefficients: Vec<f64>) -> Self {
         self.given.safety_friction = coefficients;

@@ -1,8 +1,8 @@
-//! What is wrong with a scene, and why: all that is refused while building beyond its parts themselves.
+//! Errors of a scene as a whole, found while it is built, and their causes.
 //!
-//! Each question is asked where it can first be answered: signs, supports and detached parts of the
-//! assembled structure; stability when weight and loads find no equilibrium; condition, and
-//! mechanisms that look like a bad one, in the coordinates that are stepped.
+//! Signs of matrices, supports and detached parts are checked on the assembled structure; static stability when
+//! weight and loads find no equilibrium; the condition, and mechanisms that look like a bad one, in the
+//! coordinates that are stepped.
 
 pub(crate) mod conditioning;
 pub(crate) mod mechanism;

@@ -108,6 +108,11 @@ pub struct Run {
     begin: Option<Instant>,
 }
 
+/// The present, where there is a clock: not in bare WebAssembly.
+pub(crate) fn clock() -> Option<Instant> {
+    (!cfg!(target_family = "wasm")).then(Instant::now)
+}
+
 impl Run {
     /// Before its first step, at `state`.
     pub(crate) fn start(probes: &[Probe], state: &State, resolution: Resolution) -> Self {
@@ -142,8 +147,7 @@ impl Run {
             sequence: Sequence::new(state),
             resolution,
             least_algorithmic: state.energy_balance.algorithmic,
-            // There is no clock in bare WebAssembly.
-            begin: (!cfg!(target_family = "wasm")).then(Instant::now),
+            begin: clock(),
         }
     }
 

@@ -102,7 +102,7 @@ impl Weights {
 #[derive(Debug, Clone)]
 pub(crate) enum Rows {
     Sparse(Vec<Terms>),
-    /// DofCombination-major.
+    /// Row-major.
     Dense(Vec<f64>),
 }
 

@@ -123,6 +123,10 @@ impl Hysteresis for BoucWen {
             _ => Err(corrupt()),
         }
     }
+
+    fn clone_box(&self) -> Box<dyn Hysteresis> {
+        Box::new(self.clone())
+    }
 }
 
 /// Exponent and shape, with the integrals up to ½.

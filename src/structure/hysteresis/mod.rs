@@ -79,6 +79,15 @@ pub trait Hysteresis: Send {
     /// # Errors
     /// [`CheckpointError::Corrupt`] for values that cannot be such.
     fn restore(&mut self, values: &[f64]) -> Result<()>;
+
+    /// A copy with its internal variables, as a rule `Box::new(self.clone())`.
+    fn clone_box(&self) -> Box<dyn Hysteresis>;
+}
+
+impl Clone for Box<dyn Hysteresis> {
+    fn clone(&self) -> Self {
+        self.as_ref().clone_box()
+    }
 }
 
 /// The error for internal variables that cannot be.

@@ -93,6 +93,10 @@ macro_rules! slider_law {
             fn restore(&mut self, values: &[f64]) -> crate::error::Result<()> {
                 self.slider.restore(values)
             }
+
+            fn clone_box(&self) -> Box<dyn crate::structure::Hysteresis> {
+                Box::new(self.clone())
+            }
         }
     };
 }

@@ -56,7 +56,7 @@ pub struct ReducedModel {
     basis: Arc<Basis>,
     contact: Vec<ContactNode>,
     foundation_ends: Vec<usize>,
-    /// DofCombination-major, of the order of the reduced model.
+    /// Row-major, of the order of the reduced model.
     mass: Vec<f64>,
     damping: Vec<f64>,
     stiffness: Vec<f64>,
