@@ -8,15 +8,14 @@ mod cohesive;
 mod coulomb;
 mod previous_contact;
 mod thin_layer;
-mod variable_friction;
 mod yielding;
 
 pub use cohesive::{Bonded, Cohesive};
+pub use coulomb::VariableFriction;
 pub use coulomb::{Coulomb, UnilateralCondition};
 pub(crate) use previous_contact::memory_ends;
 pub use previous_contact::{PreviousContact, PreviousContacts};
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
-pub use variable_friction::VariableFriction;
 pub use yielding::Yielding;
 
 use crate::error::Result;

@@ -11,7 +11,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::TimeSeries;
-use super::columns::{CONTACT, MOTION};
+use super::csv::{CONTACT, MOTION};
 use crate::coupled::EnergyTerm;
 use crate::error::{Error, Result, write_file};
 use crate::interface::{ContactState, Mode};

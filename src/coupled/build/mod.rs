@@ -8,11 +8,8 @@
 //! 5. the scene, and in `initial.rs` what moves at t = 0.
 
 pub(crate) mod assembled;
-pub(crate) mod coordinates;
 pub(crate) mod equilibrium;
-mod initial;
 mod krylov;
-mod modes;
 pub(crate) mod parts;
 mod statics;
 mod step_response;
@@ -27,9 +24,9 @@ use super::scene::Scene;
 use super::scheme::TimeScheme;
 use super::simulation::Simulation;
 use super::state::State;
-use super::step::forcing::Forcing;
-use super::step::increment::Increment;
-use super::step::solver::Solver;
+use super::step::Forcing;
+use super::step::Increment;
+use super::step::newton::Solver;
 use crate::bem::Ground;
 use crate::contact::{ContactSearch, ModeSearch};
 use crate::coupled::run::Serviceability;
@@ -39,7 +36,7 @@ use crate::motion::FreeField;
 use crate::structure::Structure;
 use crate::structure::probe::Probe;
 use assembled::Assembled;
-use coordinates::Coordinates;
+use parts::Coordinates;
 use parts::{Given, GravityStage, Parts};
 use stepped::Stepped;
 
@@ -263,7 +260,7 @@ impl SimulationBuilder {
         let mut state = State::at_rest(&scene)?;
         let compliant = scene.is_compliant(&state.start)?;
         let mass = &assembled.mass;
-        initial::set_in_motion(&given, mass, &scene, structure.as_mut(), &mut state)?;
+        statics::set_in_motion(&given, mass, &scene, structure.as_mut(), &mut state)?;
         let books = || EnergyAccumulator::new(&scene, structure.as_ref(), &state, compliant);
         let books = given.energy_balance.then(books).transpose()?;
         state.energy_balance =

@@ -13,8 +13,8 @@ use super::recovery::{Basis, Recovery};
 use crate::error::memory;
 use crate::error::{Error, Result, damping_ratio};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
+use crate::structure::detached::SYMMETRIC;
 use crate::structure::detached::{check_attached, numbers};
-use crate::structure::matrix_checks::SYMMETRIC;
 use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::{ContactNode, DofCombination, Structure, Triplets};
 
