@@ -291,7 +291,7 @@ impl ElasticGround {
         positive("time step", time_step)?;
         let Some(stages) = self.source.stages(time_step) else { return Ok(Cost::default()) };
         let kernel = self.source.layered(self.elements(), time_step, stages)?;
-        // TimeSeries take lags by powers of two.
+        // Convolutions take lags by powers of two.
         kernel.cost(steps.checked_next_power_of_two().unwrap_or(usize::MAX))
     }
 

@@ -18,7 +18,7 @@
 //! | `c_k` | f = Σ `c_k` τ^(−2k−1) for τ > `τ_R` |
 //! | `M_k` | (1/l) ∫ w x^(2k) dx |
 
-use super::overlap::Overlap;
+use super::strip::Overlap;
 use crate::error::{Error, Result, positive};
 use crate::fundamental::branch::{Branches, Part, Weight};
 use crate::fundamental::rayleigh::Rayleigh;

@@ -1,10 +1,11 @@
-//! Static influence coefficients of boundary elements on an elastic half-plane.
+//! Static influence coefficients of boundary elements, alone and in patches, on an elastic half-plane.
 
-use super::Influence;
-use super::overlap::Overlap;
+use super::influence::LateSeries;
+use super::strip::Overlap;
+use super::{Influence, InfluenceKernel};
 use crate::error::{Result, positive, same_length};
 use crate::geometry::ContactElement;
-use crate::history::PairClasses;
+use crate::history::{ConvolutionWeights, KINDS, LateWeights, PairClasses, SharedSpectra};
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
@@ -102,6 +103,70 @@ impl StaticKernel {
         };
         let (one, two) = (primitive(low), primitive(high));
         (w0 - slope * low) * (two[0] - one[0]) + slope * (two[1] - one[1])
+    }
+}
+
+// Step coefficients of the half-plane under a patch of elements, each kind of pair once.
+
+/// The [`ConvolutionWeights`] of the half-plane: coefficients Gⁿ of a patch of surface elements, closed form.
+///
+/// Its coupling ends when the Rayleigh wave has crossed a pair.
+#[derive(Debug, Clone)]
+pub struct PatchKernel {
+    kernel: InfluenceKernel,
+    classes: PairClasses,
+    spectra: SharedSpectra,
+}
+
+impl PatchKernel {
+    /// Kernel for `elements` (left to right, not overlapping) and steps of `time_step` seconds.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a bad time step; as for [`PairClasses::new`].
+    pub fn new(soil: Soil, elements: Vec<ContactElement>, time_step: f64) -> Result<Self> {
+        let classes = PairClasses::new(elements)?;
+        let kernel = InfluenceKernel::new(soil, time_step)?;
+        Ok(Self { kernel, classes, spectra: SharedSpectra::default() })
+    }
+
+    /// Series of all coefficients behind the Rayleigh wave.
+    pub(super) fn late_series(&self) -> LateSeries<'_> {
+        self.kernel.late_series()
+    }
+}
+
+impl ConvolutionWeights for PatchKernel {
+    fn classes(&self) -> &PairClasses {
+        &self.classes
+    }
+
+    fn coefficients(
+        &self,
+        class: usize,
+        first_lag: usize,
+        mut values: [&mut [f64]; KINDS],
+    ) -> Result<()> {
+        let [source, receiver] = self.classes.representative(class)?;
+        let pair = self.kernel.pair(receiver, source)?;
+        pair.fill(first_lag, values.each_mut().map(|kind| &mut **kind))?;
+        let length = receiver.length();
+        for value in values.into_iter().flatten() {
+            *value *= length;
+        }
+        Ok(())
+    }
+
+    fn last_coupling_lag(&self, class: usize) -> Result<Option<usize>> {
+        let [source, receiver] = self.classes.representative(class)?;
+        Ok(Some(self.kernel.pair(receiver, source)?.coupling_ends() - 1))
+    }
+
+    fn late_weights(&self) -> Option<&dyn LateWeights> {
+        Some(self)
+    }
+
+    fn spectra(&self) -> Option<&SharedSpectra> {
+        Some(&self.spectra)
     }
 }
 

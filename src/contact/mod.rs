@@ -5,16 +5,21 @@
 
 mod delassus;
 mod element;
-mod host;
 mod path;
 mod problem;
 mod search;
 
 pub(crate) use delassus::Delassus;
-pub use host::{ContactProblem, ContactSolution};
 pub(crate) use problem::{ContactInput, ContactSolver};
 pub(crate) use search::ModeSearch;
 pub use search::{ContactSearch, SearchMethod};
+
+use crate::error::{Error, Result, StepError, finite, positive, same_length};
+use crate::geometry::{COMPONENTS, ContactLayout};
+use crate::interface::{
+    ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, memory_ends,
+};
+use crate::linalg::largest;
 
 words_with_numbers! {
     /// One of its words, or an [`Error::Word`](crate::Error::Word).
@@ -25,4 +30,260 @@ words_with_numbers! {
     /// assert!("flow_chart(0.5)".parse::<ContactSearch>().is_err());
     /// ```
     ContactSearch, "contact search", { Robust = "robust"; FlowChart { iterations } = "flow_chart" }
+}
+
+// The contact problem for codes with a time integrator of their own.
+
+/// The contact problem of one step after another, condensed to the tractions of Q elements.
+///
+/// Jumps (soil minus structure, 2Q numbers as in [`crate::bem`]: Q normal components down, then Q
+/// tangential ones) at the end of a step answer to changes of traction τ against the static state by
+///
+/// ```text
+/// jump = j_free + W τ,        W = G¹ + B K_eff⁻¹ Bᵀ A
+/// ```
+///
+/// with W the Delassus operator: the ground's instantaneous operator
+/// ([`Ground::step_compliance`](crate::bem::Ground::step_compliance)) and what unit tractions on the
+/// structure move its base by, within the step of the host's scheme. `j_free` is the free field, plus
+/// the convolution history of the ground, less the base displacement without changes of traction.
+///
+/// The example `host_integrator` marches a structure by central differences with it.
+///
+/// ```
+/// use basemat::contact::ContactProblem;
+/// use basemat::interface::{ContactState, Coulomb, Mode, PreviousContact};
+///
+/// // One element, pressed by 10 kPa, on a ground that yields by 1 mm per 10 kPa both ways.
+/// let law = Coulomb::new(0.5)?;
+/// let mut problem = ContactProblem::new(vec![1e-7, 0.0, 0.0, 1e-7], vec![Box::new(law)])?
+///     .with_static_tractions(vec![10.0e3, 0.0])?;
+/// let pressed = ContactState { pressure: 10.0e3, ..ContactState::default() };
+/// let mut start = problem.start(&[PreviousContact::new(pressed, Mode::Stick, 0.01)])?;
+/// // The structure moves to the right by 2 mm: it sticks up to 5 kPa, and slips the rest.
+/// let solution = problem.solve(&[0.0, -2.0e-3], &start)?;
+/// assert_eq!(solution.modes, [Mode::SlipRight]);
+/// assert!((solution.states[0].shear - 5.0e3).abs() < 1e-6);
+/// assert!((solution.states[0].slip - 1.5e-3).abs() < 1e-12);
+/// solution.commit(&mut start)?;
+/// assert_eq!(start.get(0).map(|element| element.mode), Some(Mode::SlipRight));
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub struct ContactProblem {
+    delassus: Delassus,
+    laws: Vec<Box<dyn InterfaceLaw>>,
+    static_traction: Vec<f64>,
+    solver: ContactSolver,
+    search: ModeSearch,
+    modes: Vec<Mode>,
+    /// Where the memory of each element's law ends; empty if no law has any.
+    memory_ends: Vec<usize>,
+    /// Memories at the end of a step, until they are committed.
+    memory: Vec<f64>,
+    steps: usize,
+}
+
+short_debug! {
+    ContactProblem; self; elements: self.modes.len(), laws: self.laws.len(), steps: self.steps
+}
+
+/// Solution of the contact problem of a step.
+#[non_exhaustive]
+pub struct ContactSolution<'a> {
+    /// Change of traction against the static state, 2Q, Pa: what the ground is to be given.
+    pub traction: &'a [f64],
+    /// Opening and total traction of each element.
+    pub states: &'a [ContactState],
+    /// Mode of each element.
+    pub modes: &'a [Mode],
+    /// Linear solves of the mode search.
+    pub trials: usize,
+    /// Method that found the modes.
+    pub method: SearchMethod,
+    laws: &'a [Box<dyn InterfaceLaw>],
+    memory_ends: &'a [usize],
+    memory: &'a mut [f64],
+    step: usize,
+    time: f64,
+}
+
+short_debug! {
+    ContactSolution<'_>;
+    self;
+    traction: self.traction,
+    states: self.states,
+    modes: self.modes,
+    trials: self.trials,
+    method: self.method,
+}
+
+impl ContactSolution<'_> {
+    /// Accepts the step: moves `start`, from which it was solved, to the start of the next one, and
+    /// has the laws commit it to their memories. A step that is to be solved anew is not committed.
+    ///
+    /// # Errors
+    /// [`Error::Size`] or [`Error::Scene`] for the start of another problem, [`Error::Step`] if a law remembers a number
+    /// that is not finite; `start` is then as it was.
+    pub fn commit(self, start: &mut PreviousContacts) -> Result<()> {
+        check_start(start, self.states.len(), self.memory_ends)?;
+        let Self { laws, states, modes, memory, step, time, .. } = self;
+        let remembered = start.remember(laws, states, modes, memory);
+        remembered.map_err(|error| Error::Step { step, time, source: error.into() })?;
+        start.advance(states, modes, memory);
+        Ok(())
+    }
+}
+
+impl ContactProblem {
+    /// The problem with this Delassus operator (2Q × 2Q, row-major, m/Pa), and one law for all
+    /// elements or one each; unpressed at first. The laws' own
+    /// [`check`](InterfaceLaw::check) is not called.
+    ///
+    /// # Errors
+    /// [`Error::Size`] unless the operator is that of one element or more and the laws fit,
+    /// [`Error::Scene`] for a law without modes, [`Error::Input`] for entries that are not finite or
+    /// laws that remember more than ten million numbers.
+    pub fn new(delassus: Vec<f64>, laws: Vec<Box<dyn InterfaceLaw>>) -> Result<Self> {
+        let count = delassus.len().isqrt() / COMPONENTS;
+        let layout = ContactLayout::new(count);
+        if count == 0 || layout.square() != delassus.len() {
+            let (quantity, needed) =
+                ("Delassus operator", ContactLayout::new(count.max(1)).square());
+            return Err(Error::Size { quantity, found: delassus.len(), needed });
+        }
+        if laws.len() != 1 && laws.len() != count {
+            let quantity = "list of interface laws";
+            return Err(Error::Size { quantity, found: laws.len(), needed: count });
+        }
+        if laws.iter().any(|law| law.modes().is_empty()) {
+            let needed = "`modes` must name at least one mode";
+            return Err(Error::Scene { quantity: "interface law", needed });
+        }
+        check_finite("Delassus operator", &delassus)?;
+        let memory_ends = memory_ends(&laws, count)?;
+        Ok(Self {
+            memory: vec![0.0; memory_ends.last().copied().unwrap_or(0)],
+            memory_ends,
+            delassus: delassus.into(),
+            laws,
+            static_traction: vec![0.0; layout.len()],
+            solver: ContactSolver::new(count),
+            search: ModeSearch::new(count, ContactSearch::default()),
+            modes: vec![Mode::Stick; count],
+            steps: 0,
+        })
+    }
+
+    /// With tractions (2Q, Pa) in the static state, against which changes count.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a list of another length, [`Error::Input`] for values not finite.
+    pub fn with_static_tractions(mut self, traction: Vec<f64>) -> Result<Self> {
+        same_length("static tractions", traction.len(), self.static_traction.len())?;
+        check_finite("static traction", &traction)?;
+        self.static_traction = traction;
+        Ok(self)
+    }
+
+    /// Another Delassus operator from now on, for a structure whose tangent has changed.
+    ///
+    /// # Errors
+    /// As [`ContactProblem::new`]; the operator is then the one before.
+    pub fn set_delassus(&mut self, delassus: &[f64]) -> Result<()> {
+        same_length("Delassus operator", delassus.len(), self.delassus.len())?;
+        check_finite("Delassus operator", delassus)?;
+        self.delassus.set(delassus);
+        self.solver.invalidate();
+        Ok(())
+    }
+
+    /// The start of the first step, from that of each element ([`PreviousContact::new`]). An element whose
+    /// `memory` is empty gets what its law begins with.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a list or a memory of another length, [`Error::Input`] for time steps that
+    /// are not above zero or not all the same, and for numbers that are not finite;
+    /// [`Error::Law`] if these are a law's.
+    pub fn start(&self, elements: &[PreviousContact<'_>]) -> Result<PreviousContacts> {
+        same_length("starts of the step", elements.len(), self.modes.len())?;
+        for start in elements {
+            let value = positive("time step", start.time_step)?;
+            if value != elements[0].time_step {
+                let needed = "the same for all elements";
+                return Err(Error::Input { quantity: "time step", value, needed });
+            }
+            finite("static pressure", start.static_pressure)?;
+            check_element(start)?;
+        }
+        PreviousContacts::new(&self.laws, elements)
+    }
+
+    /// Solves the step whose jump without changes of traction is `free_jump` (2Q, m), for laws that
+    /// see `start`. Allocates nothing. The start moves on with [`ContactSolution::commit`]; until
+    /// then the same step can be solved again.
+    ///
+    /// # Errors
+    /// [`Error::Size`], [`Error::Scene`] and [`Error::Input`] for a jump or a start that does not fit
+    /// or is not finite;
+    /// [`Error::Step`] if no modes satisfy the laws or a law returns a number that is not finite,
+    /// numbered by the problems solved so far and with the time of as many steps.
+    pub fn solve(
+        &mut self,
+        free_jump: &[f64],
+        start: &PreviousContacts,
+    ) -> Result<ContactSolution<'_>> {
+        same_length("free jump", free_jump.len(), self.static_traction.len())?;
+        check_start(start, self.modes.len(), &self.memory_ends)?;
+        check_finite("free jump", free_jump)?;
+        for (mode, start) in self.modes.iter_mut().zip(start.iter()) {
+            check_element(&start)?;
+            *mode = start.mode;
+        }
+        let input = ContactInput {
+            delassus: &self.delassus,
+            free_jump,
+            static_traction: &self.static_traction,
+            start,
+            laws: &self.laws,
+            length_scale: largest(free_jump),
+            bonds: &[],
+        };
+        let step = self.steps + 1;
+        let time = step as f64 * start.time_step();
+        let failed = |source: StepError| Error::Step { step, time, source };
+        let found = self.search.solve(&mut self.solver, &input, &mut self.modes);
+        let (trials, method) = found.map_err(failed)?;
+        self.steps = step;
+        Ok(ContactSolution {
+            traction: &self.solver.traction,
+            states: &self.solver.states,
+            modes: &self.modes,
+            trials,
+            method,
+            laws: &self.laws,
+            memory_ends: &self.memory_ends,
+            memory: &mut self.memory,
+            step,
+            time,
+        })
+    }
+}
+
+/// Whether a start is that of `count` elements whose memories end where those of the laws do.
+fn check_start(start: &PreviousContacts, count: usize, memory_ends: &[usize]) -> Result<()> {
+    same_length("starts of the step", start.len(), count)?;
+    if start.memory_ends() == memory_ends {
+        return Ok(());
+    }
+    let needed = "one of a problem with the same laws: theirs remember other numbers";
+    Err(Error::Scene { quantity: "start of the step", needed })
+}
+
+fn check_element(start: &PreviousContact<'_>) -> Result<()> {
+    let ContactState { gap, slip, pressure, shear } = start.state;
+    check_finite("state of an element", &[gap, slip, pressure, shear, start.slip_rate])
+}
+
+fn check_finite(quantity: &'static str, values: &[f64]) -> Result<()> {
+    values.iter().try_for_each(|value| finite(quantity, *value).map(|_| ()))
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::text::column::column;
-use crate::text::unit::number;
+use crate::text::number::number;
 
 /// Where a term stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -59,7 +59,7 @@
 //! converges. An equilibrium need not be stable:
 //! a block that P–Δ would topple is found standing, and falls when the ground shakes.
 //!
-//! # EnergyBalance
+//! # Energy balance
 //!
 //! ```text
 //! kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input
@@ -76,9 +76,7 @@ mod energy_accumulator;
 mod energy_balance;
 mod load;
 mod motion;
-mod observed;
 
-mod largest_convergent_step;
 mod refine;
 mod resolution;
 pub(crate) mod run;
@@ -90,25 +88,25 @@ mod step;
 mod warning;
 
 pub use crate::contact::{ContactSearch, SearchMethod};
+pub use advance::Observed;
 pub use build::SimulationBuilder;
-pub use build::coordinates::Coordinates;
+pub use build::parts::Coordinates;
 pub use build::parts::GravityStage;
 pub use checkpoint::Checkpoint;
 pub use diagnosis::conditioning::Conditioning;
 pub use energy_balance::{EnergyBalance, EnergyTerm};
 pub use load::Load;
-pub use observed::Observed;
-pub(crate) use run::peak::probe_index;
+pub(crate) use run::safety::probe_index;
 pub use run::{Extremes, Fallbacks, Peak, ProbeExtremes, Run};
 
 pub use crate::structure::probe::Probe;
-pub use largest_convergent_step::largest_convergent_step;
 pub use refine::{Refinement, Setting, refine};
 pub(crate) use resolution::Resolution;
 pub use scheme::{
     DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme,
 };
 pub use simulation::Simulation;
+pub use simulation::largest_convergent_step;
 pub(crate) use state::Origin;
 pub use state::{Foundation, State, Transition};
 pub use warning::Warning;

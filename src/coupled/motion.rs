@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use super::scene::influence::Influence;
-use super::scene::model::Model;
+use super::scene::operators::Model;
 use super::scene::transformation::Transformation;
 use super::scheme::SchemeCoefficients;
 

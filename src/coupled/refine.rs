@@ -1,8 +1,9 @@
 //! Error against run time, for a scene of the user's own.
 
 use std::fmt;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use super::run::clock;
 use crate::error::{Error, Result, all_finite, positive, same_length};
 use crate::text::table::Table;
 
@@ -128,11 +129,6 @@ pub fn refine(
         settings.push(Setting { elements, time_step, error: f64::NAN, wall, results });
     }
     Ok(Refinement::of(settings))
-}
-
-/// The time, where there is a clock.
-fn clock() -> Option<Instant> {
-    (!cfg!(target_family = "wasm")).then(Instant::now)
 }
 
 /// Errors of three results, the length halved from each to the next, and their order.

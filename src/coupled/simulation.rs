@@ -1,20 +1,20 @@
-//! The simulation: the loop over steps.
+//! The simulation: the loop over steps, and the time step that gets a scene through.
 
 use std::ops::ControlFlow;
 
-use super::checkpoint::{self, Checkpoint};
+use super::advance::Observed;
+use super::checkpoint;
+use super::checkpoint::Checkpoint;
 use super::diagnosis::conditioning::Conditioning;
 use super::energy_accumulator::EnergyAccumulator;
-use super::observed::Observed;
 use super::resolution::Resolution;
 use super::scene::Scene;
 use super::state::State;
-use super::step::forcing::Forcing;
-use super::step::increment::Increment;
-use super::step::solver::Solver;
+use super::step::newton::Solver;
+use super::step::{Forcing, Increment};
 use crate::bem::{ContactElement, Ground};
 use crate::coupled::run::Run;
-use crate::error::{Error, Result, StepError};
+use crate::error::{Error, Result, StepError, not_negative, positive};
 use crate::history::HistoryChoice;
 use crate::motion::FreeField;
 use crate::structure::Structure;
@@ -320,4 +320,66 @@ impl Simulation {
         (self.state, self.books) = restored;
         Ok(())
     }
+}
+
+// Which time step gets a scene through, when a longer one has steps without solution.
+
+/// Halvings that are tried.
+const HALVINGS: usize = 10;
+
+/// The longest step, `time_step` (s) or that halved once or more, with which the simulation that
+/// `make` builds runs for `duration` (s) without [`StepError::Contact`] or [`StepError::Newton`];
+/// `None` if the tenth halving fails, too.
+///
+/// A simulation cannot change its step: the soil's coefficients and its memory belong to one. So
+/// this runs whole simulations, each twice as long as the one before. Give the time of the failed step
+/// as `duration`.
+///
+/// ```
+/// use basemat::bem::{ElasticGround, Grading, Strip};
+/// use basemat::coupled::largest_convergent_step;
+/// use basemat::interface::ThinLayer;
+/// use basemat::motion::el_centro_1940;
+/// use basemat::structure::RigidBlock;
+/// use basemat::{Simulation, Soil};
+///
+/// // An interface that keeps 1/1000 of its stiffness when open, as printed in the paper, in steps
+/// // in which waves cross five elements.
+/// let make = |step: f64| {
+///     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
+///     let block = RigidBlock::new(10.0, 15.0, 900.0)?;
+///     Simulation::builder(step)
+///         .ground(ElasticGround::new(soil, Strip::under(&block, 10, Grading::Uniform)?)?)
+///         .structure(block)
+///         .interface(ThinLayer::new(soil, 1.0, 0.4)?.with_thickness_ratio(1e-3)?)
+///         .motion(el_centro_1940().scaled(3.0)?)
+///         .build()
+/// };
+/// let step = largest_convergent_step(0.0125, 5.0, make)?;
+/// assert!(step.is_some_and(|step| step <= 0.0125));
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// Those of `make`, and of steps that fail for another reason; [`Error::Input`] unless `time_step` is
+/// finite and above zero and `duration` finite and not negative.
+pub fn largest_convergent_step(
+    time_step: f64,
+    duration: f64,
+    mut make: impl FnMut(f64) -> Result<Simulation>,
+) -> Result<Option<f64>> {
+    let mut step = positive("time step", time_step)?;
+    not_negative("duration", duration)?;
+    for _ in 0..=HALVINGS {
+        let mut simulation = make(step)?;
+        match simulation.run(simulation.steps_for(duration), |_| {}) {
+            Ok(_) => return Ok(Some(step)),
+            Err(Error::Step {
+                source: StepError::Contact { .. } | StepError::Newton { .. },
+                ..
+            }) => step *= 0.5,
+            Err(other) => return Err(other),
+        }
+    }
+    Ok(None)
 }

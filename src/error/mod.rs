@@ -5,36 +5,30 @@
 //! is therefore written `r#source`, which `thiserror` does not take for one.
 
 mod case;
-mod checkpoint;
-mod checks;
-mod law;
 mod layered;
-#[cfg(feature = "io")]
-mod matrix_file;
 pub(crate) mod memory;
 #[cfg(feature = "io")]
 mod mesh_file;
 mod part;
 mod record;
-mod reduced;
 mod stability;
 mod step;
 
 pub use case::{CaseError, CaseFileError, SweepError};
-pub use checkpoint::CheckpointError;
-pub(crate) use checks::{
+pub use layered::{KernelFileError, LayeredError};
+pub use memory::{MemoryError, memory_limit, set_memory_limit};
+pub(crate) use memory::{
     all_finite, damping_ratio, finite, not_finite, not_negative, positive, same_length, write_file,
 };
-pub use law::LawError;
-pub use layered::{KernelFileError, LayeredError};
 #[cfg(feature = "io")]
-pub use matrix_file::MatrixFileError;
-pub use memory::{MemoryError, memory_limit, set_memory_limit};
+pub use mesh_file::MatrixFileError;
 #[cfg(feature = "io")]
 pub use mesh_file::MeshFileError;
+pub use part::LawError;
+pub use part::ReducedError;
 pub use record::RecordError;
-pub use reduced::ReducedError;
 pub use stability::StabilityError;
+pub use step::CheckpointError;
 pub use step::StepError;
 
 /// Result of every fallible function of the crate.
@@ -270,7 +264,7 @@ pub enum Error {
     Indefinite {
         /// Name of the matrix.
         matrix: &'static str,
-        /// DofCombination, and unknown, at which it shows.
+        /// Row, and degree of freedom, at which it shows.
         row: usize,
         /// Entry on the diagonal there.
         diagonal: f64,

@@ -1,4 +1,4 @@
-//! Refusals of a user's own parts.
+//! Errors of parts: a user's own, interface laws, reduced structures.
 
 use super::Error;
 
@@ -47,4 +47,104 @@ impl Error {
     pub fn part(part: impl Into<String>, reason: impl Into<String>) -> Self {
         Self::Part { part: part.into(), reason: reason.into() }
     }
+}
+
+// Answers that an interface law must not give.
+
+/// An interface law answered what it must not.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LawError {
+    /// A number that is not finite.
+    #[error(
+        "interface law of element {element}, mode {mode}: {quantity} is {value}, but must be finite"
+    )]
+    NotFinite {
+        /// Element, from the left, from 0.
+        element: usize,
+        /// [Word](crate::interface::Mode::word) of the mode that the law was asked about; for its memory, the mode that the step ends in.
+        mode: &'static str,
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A number that is not finite, for a reason that the law knows
+    /// ([`InterfaceLaw::check_start`](crate::interface::InterfaceLaw::check_start)).
+    #[error("interface law of element {element}, mode {mode}: {reason}")]
+    Refused {
+        /// Element, from the left, from 0.
+        element: usize,
+        /// [Word](crate::interface::Mode::word) of the mode that the law was asked about.
+        mode: &'static str,
+        /// The law's reason.
+        reason: Box<Error>,
+    },
+    /// A next mode that is none of the law's modes.
+    #[error(
+        "interface law of element {element}, mode {mode}: the next mode is {next}, but must be one of \
+         the law's `modes`"
+    )]
+    UnknownMode {
+        /// Element, from the left, from 0.
+        element: usize,
+        /// Word of the mode that was tried.
+        mode: &'static str,
+        /// Word of the mode that the law asked for.
+        next: &'static str,
+    },
+}
+
+// Why a structure cannot be stepped in reduced coordinates.
+
+/// The reason for which [`Coordinates::Reduced`](crate::coupled::Coordinates::Reduced) is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReducedError {
+    /// The structure is nonlinear.
+    #[error("they need a linear structure")]
+    Nonlinear,
+    /// A matrix of the structure lacks a property.
+    #[error("the {matrix} must be {needed}")]
+    Matrix {
+        /// Name of the matrix.
+        matrix: &'static str,
+        /// Property that it lacks.
+        needed: &'static str,
+    },
+    /// Damping that couples the modes.
+    #[error(
+        "the damping couples the modes: {coupling:.1e} beside its largest modal coefficient, where \
+         proportional damping has rounding"
+    )]
+    Damping {
+        /// Largest coefficient between two modes over the largest of one.
+        coupling: f64,
+    },
+    /// Responses are not as accurate as was asked for: of structures with too little damping of the
+    /// frequencies that a step cannot follow, and where rounding gets in the way.
+    #[error(
+        "responses to sudden tractions still err by {reached:.1e} with {vectors} vectors, but \
+         {tolerance:.1e} was asked for (undamped structures cannot be reduced: damping in proportion \
+         to stiffness helps)"
+    )]
+    Accuracy {
+        /// Error that was asked for.
+        tolerance: f64,
+        /// Error that was reached.
+        reached: f64,
+        /// Number of vectors then.
+        vectors: usize,
+    },
+    /// The lowest modes are lost in the rounding of the highest.
+    #[error(
+        "the lowest eigenvalue besides zero is {ratio:.1e} of the highest, and double precision \
+         tells it from zero only above {least:.0e}"
+    )]
+    Spectrum {
+        /// Lowest over highest eigenvalue.
+        ratio: f64,
+        /// Least ratio that is accepted.
+        least: f64,
+    },
 }

@@ -1,4 +1,4 @@
-//! Steps that fail.
+//! Errors of a run: steps that fail, checkpoints that cannot be taken up.
 
 use super::{Error, LawError, not_finite};
 
@@ -103,5 +103,48 @@ impl StepError {
     /// The structure's own reason, for [`StepError::Structure`].
     pub(crate) fn structure(quantity: &'static str) -> impl FnOnce(Error) -> Self {
         move |source| Self::Structure { quantity, source: Box::new(source) }
+    }
+}
+
+// Checkpoints.
+
+/// Why a run could not be saved or resumed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CheckpointError {
+    /// A part of the scene cannot save its state.
+    #[error("the {part} cannot save or restore its state")]
+    Unsupported {
+        /// The part.
+        part: &'static str,
+    },
+    /// The checkpoint was made with another format than this version's.
+    #[error("format {found}, but this version reads {needed}")]
+    Format {
+        /// Format of the checkpoint.
+        found: u32,
+        /// Format of this version.
+        needed: u32,
+    },
+    /// The contents are not those that were saved: a file was damaged, or changed by hand.
+    #[error("damaged: the contents do not agree with their check sum")]
+    Damaged,
+    /// The checkpoint belongs to another scene.
+    #[error("made in another scene: the {quantity} differs")]
+    OtherScene {
+        /// Quantity that differs.
+        quantity: &'static str,
+    },
+    /// Numbers are missing, too many or not finite.
+    #[error("{quantity}: wrong number of values, or not finite")]
+    Corrupt {
+        /// Quantity that is impossible.
+        quantity: &'static str,
+    },
+}
+
+impl From<CheckpointError> for Error {
+    fn from(error: CheckpointError) -> Self {
+        Self::Checkpoint(error)
     }
 }

@@ -1,6 +1,6 @@
 //! Meshes of rectangular quadrilaterals: layers on a common grid of columns.
 
-use super::material::Material;
+use super::element::Material;
 use super::mesh::Mesh;
 use super::quad4::{Quad4, QuadFormulation};
 use crate::error::memory;

@@ -18,8 +18,6 @@ mod assembly;
 mod beam;
 mod element;
 mod layered_block;
-mod line;
-mod material;
 mod mesh;
 mod quad4;
 mod quad8;
@@ -32,9 +30,9 @@ pub(crate) use assembly::{
     assemble_stiffness, set_static_state,
 };
 pub use beam::Beam;
+pub use element::Material;
 pub use element::{Element, MassKind};
 pub use layered_block::Layer;
-pub use material::Material;
 pub use mesh::Mesh;
 pub use quad4::{Quad4, QuadFormulation};
 pub use quad8::{Quad8, Quad8Integration};

@@ -1,8 +1,7 @@
-//! Bar that carries axial force only.
+//! Straight elements of two nodes, and the bar that carries axial force only.
 
 use super::element::{Element, MassKind, add_square};
-use super::line::Line;
-use crate::error::{Result, not_negative, positive};
+use crate::error::{Result, not_negative, positive, same_length};
 use crate::geometry::{Direction, TRANSLATIONS};
 
 /// Straight bar between two nodes, hinged at both.
@@ -104,5 +103,74 @@ impl Element for Truss {
     /// [`Error::Input`](crate::Error::Input) when the two nodes coincide.
     fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
         Line::check("length of the truss", coordinates)
+    }
+}
+
+// Geometry shared by the two-node elements.
+
+/// Straight line from its first to its second node: length and direction.
+pub(super) struct Line {
+    pub(super) length: f64,
+    cosine: f64,
+    sine: f64,
+}
+
+impl Line {
+    /// Line between two points; `None` unless there are two.
+    pub(super) fn between(coordinates: &[[f64; 2]]) -> Option<Self> {
+        let &[[x0, y0], [x1, y1]] = coordinates else { return None };
+        let length = (x1 - x0).hypot(y1 - y0);
+        Some(Self { length, cosine: (x1 - x0) / length, sine: (y1 - y0) / length })
+    }
+
+    /// Error unless there are two points apart.
+    pub(super) fn check(quantity: &'static str, coordinates: &[[f64; 2]]) -> Result<()> {
+        same_length(quantity, coordinates.len(), 2)?;
+        positive(quantity, Self::between(coordinates).map_or(0.0, |line| line.length)).map(drop)
+    }
+
+    /// Adds `stiffness` against lengthening of the line; degrees of freedom x, y at both ends.
+    pub(super) fn add_axial(&self, stiffness: f64, matrix: &mut [f64]) {
+        let row = [-self.cosine, -self.sine, self.cosine, self.sine];
+        add_square(matrix, &row.map(|a| row.map(|b| stiffness * a * b)));
+    }
+
+    /// Adds the geometric stiffness −P/L of a bar with a compressive force P against swaying across
+    /// itself; degrees of freedom x, y at both ends.
+    pub(super) fn add_sway(&self, compression: f64, matrix: &mut [f64]) {
+        let row = [self.sine, -self.cosine, -self.sine, self.cosine];
+        let factor = -compression / self.length;
+        add_square(matrix, &row.map(|a| row.map(|b| factor * a * b)));
+    }
+
+    /// Lengthening, m, when its ends are displaced by [x, y].
+    pub(super) fn lengthening(&self, first: [f64; 2], second: [f64; 2]) -> f64 {
+        self.cosine * (second[0] - first[0]) + self.sine * (second[1] - first[1])
+    }
+
+    /// Adds a `local` matrix (along the line, across it to the left, rotation; both ends) in global
+    /// degrees of freedom x, y, rotation.
+    pub(super) fn add_rotated(&self, local: &[[f64; 6]; 6], matrix: &mut [f64]) {
+        let mut to_local = [[0.0; 6]; 6];
+        for end in [0, 3] {
+            to_local[end][end] = self.cosine;
+            to_local[end][end + 1] = self.sine;
+            to_local[end + 1][end] = -self.sine;
+            to_local[end + 1][end + 1] = self.cosine;
+            to_local[end + 2][end + 2] = 1.0;
+        }
+        let mut half = [[0.0; 6]; 6];
+        let mut global = [[0.0; 6]; 6];
+        for i in 0..6 {
+            for j in 0..6 {
+                half[i][j] = (0..6).map(|k| local[i][k] * to_local[k][j]).sum();
+            }
+        }
+        for i in 0..6 {
+            for j in 0..6 {
+                global[i][j] = (0..6).map(|k| to_local[k][i] * half[k][j]).sum();
+            }
+        }
+        add_square(matrix, &global);
     }
 }

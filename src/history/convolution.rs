@@ -1,6 +1,12 @@
-//! The trait of all histories.
+//! Convolutions: the traits of weights and of histories, and the direct sum.
 
-use crate::error::{CheckpointError, Result};
+use std::sync::Arc;
+
+use super::exponentials::ExponentialSum;
+use super::pair_classes::{ACTIONS, KINDS, PairClasses};
+use super::relaxed_fft::wave_level::SharedSpectra;
+use crate::error::{CheckpointError, Result, same_length};
+use crate::linalg::dot;
 
 /// Discrete convolution h^N = Σ_{m<N} G^{N−m+1} τ^m, with the inputs known only up to now.
 ///
@@ -64,5 +70,276 @@ pub(super) fn check_inputs(steps: usize, size: usize, values: &[f64]) -> Result<
         Ok(())
     } else {
         Err(CheckpointError::Corrupt { quantity: "tractions of the history" }.into())
+    }
+}
+
+// The kernel of a convolution history: a ground's coefficients, lag by lag, and late ones as
+// exponentials.
+
+/// Step coefficients Gⁿ of a laterally homogeneous ground under a patch of elements, for steps of
+/// one length.
+///
+/// A traction of 1 Pa on element q during one step moves element p by a mean Gⁿ at the end of the
+/// n-th step from there: n = 1 is the end of the step itself. What is under the patch may vary with depth,
+/// but not along the surface, and must be reciprocal: then only one pair of each of the
+/// [classes](PairClasses) has to be computed, and a pair's coefficients are those of its class times
+/// [`Pair::scale`](super::Pair::scale), the coupling also times [`Pair::sign`](super::Pair::sign):
+///
+/// | displacement | due to | coefficient |
+/// |---|---|---|
+/// | down | pressure | scale · normal |
+/// | to the right | shear | scale · tangential |
+/// | down | shear | sign · scale · coupling |
+/// | to the right | pressure | −sign · scale · coupling |
+///
+/// All histories keep tables of their own, made of what [`ConvolutionWeights::coefficients`] gives, so that
+/// nothing here is called in a step unless memory has to grow. The same lag must always have the same bits,
+/// whatever else was asked for, in whatever order and on whatever thread: how a run is cut then
+/// changes nothing.
+///
+/// The example of [`WeightsGround`](crate::bem::WeightsGround) is a kernel in twenty lines.
+pub trait ConvolutionWeights: Send + Sync {
+    /// The elements, and the classes of their pairs.
+    fn classes(&self) -> &PairClasses;
+
+    /// Announces that lags up to `lags` will be asked for, of all classes: for kernels that compute
+    /// many at once, and on several threads. A closed form has nothing to prepare (the default).
+    ///
+    /// Called often, so it must be cheap where all is ready. The bits of a lag must not depend on
+    /// `lags`: a kernel that computes blocks of lags takes blocks that do not, such as
+    /// N + 1 … 2N for powers of two. Convolutions ask for powers of two where the number of steps leaves
+    /// it open.
+    ///
+    /// # Errors
+    /// If coefficients cannot be computed.
+    fn prepare(&self, _lags: usize) -> Result<()> {
+        Ok(())
+    }
+
+    /// Overwrites the slices of `values` (of one length, one for each kind: normal, tangential,
+    /// coupling) with the coefficients of `class` for the lags from `first_lag` (≥ 1) on, integrals
+    /// over the receiver in m²/Pa: down due to pressure, to the right due to shear, and down due to
+    /// shear with the receiver to the right of the source. Lags that
+    /// were not [prepared](ConvolutionWeights::prepare) are computed now.
+    ///
+    /// # Errors
+    /// [`Error::Index`](crate::Error::Index) for a class that does not exist,
+    /// [`Error::Size`](crate::Error::Size) for slices of different lengths,
+    /// [`Error::Input`](crate::Error::Input) for lag 0.
+    fn coefficients(
+        &self,
+        class: usize,
+        first_lag: usize,
+        values: [&mut [f64]; KINDS],
+    ) -> Result<()>;
+
+    /// Last lag at which the coupling of `class` is not zero (0 if it always is); `None` (the
+    /// default) if it never ends. An end saves time and memory.
+    ///
+    /// # Errors
+    /// [`Error::Index`](crate::Error::Index) for a class that does not exist.
+    fn last_coupling_lag(&self, _class: usize) -> Result<Option<usize>> {
+        Ok(None)
+    }
+
+    /// Late lags as sums of exponentials, which [`ExponentialHistory`](super::ExponentialHistory)
+    /// needs; `None` (the default) if there are none.
+    fn late_weights(&self) -> Option<&dyn LateWeights> {
+        None
+    }
+
+    /// Where histories of this kernel leave the spectra of its coefficients for each other; `None`
+    /// (the default) if each makes its own. To be kept beside the coefficients, shared by clones,
+    /// and by nothing else.
+    fn spectra(&self) -> Option<&SharedSpectra> {
+        None
+    }
+
+    /// Overwrites `matrix` (2Q × 2Q, row-major, m/Pa) with the means of lag 1.
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size) for a slice of the wrong length; as for
+    /// [`ConvolutionWeights::coefficients`].
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        let classes = self.classes();
+        same_length("instantaneous operator", matrix.len(), classes.layout().square())?;
+        self.prepare(1)?;
+        let first = (0..classes.count())
+            .map(|class| {
+                let mut lag = [[0.0]; KINDS];
+                self.coefficients(class, 1, lag.each_mut().map(<[f64; 1]>::as_mut_slice))?;
+                Ok(lag.map(|[value]| value))
+            })
+            .collect::<Result<Vec<_>>>()?;
+        classes.scatter(matrix, |_, pair| first[pair.class].map(|value| value * pair.scale));
+        Ok(())
+    }
+}
+
+/// A kernel whose late lags are sums of decaying exponentials.
+///
+/// [`ExponentialHistory`](super::ExponentialHistory) compares what [`LateWeights::exponentials`] gives
+/// with the coefficients themselves, at single lags up to the horizon, and looks whether window and
+/// exponentials together are passive. So [`ConvolutionWeights::coefficients`] should be quick at any lag here.
+pub trait LateWeights: Send + Sync {
+    /// The last lag that no exponentials can stand for. The coupling must have ended by then.
+    fn window(&self) -> usize;
+
+    /// Exponentials for the lags from `window` + 1 to `horizon`, `window` at least
+    /// [`LateWeights::window`], each within about `tolerance` of the largest of its lag. What they
+    /// reach is measured, and a smaller tolerance asked for where it is not enough.
+    ///
+    /// # Errors
+    /// If there are none.
+    fn exponentials(&self, window: usize, horizon: usize, tolerance: f64)
+    -> Result<ExponentialSum>;
+}
+
+// The history as the sum that it is: exact, O(N) per step.
+
+/// Steps of the sum that are taken together, so that tractions and kernels stay in cache.
+const CHUNK: usize = 512;
+
+/// Steps ahead that a hint prepares for, at most; beyond, memory grows as it goes.
+const RESERVED_STEPS: usize = 100_000;
+
+/// Direct summation of the history: the oracle for all others.
+///
+/// Kernels are kept per pair *class* (on a uniform patch, per offset), reversed in time, so that
+/// each contribution is one contiguous dot product.
+pub struct DirectHistory {
+    kernel: Arc<dyn ConvolutionWeights>,
+    /// Lags for which coefficients are stored; grows by doubling.
+    capacity: usize,
+    /// Of each kind, class by class: the coefficient of lag n at the length less n. The coupling only
+    /// as long as it is not zero.
+    kinds: [Vec<Vec<f64>>; KINDS],
+    /// Per contact component: its value at every step.
+    traction: Vec<Vec<f64>>,
+    steps: usize,
+}
+
+short_debug! {
+    DirectHistory; self; elements: self.kernel.classes().elements().len(), steps: self.steps
+}
+
+impl DirectHistory {
+    /// History of `kernel`, empty.
+    pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
+        let classes = kernel.classes();
+        let kinds = [(); KINDS].map(|()| vec![Vec::new(); classes.count()]);
+        let traction = vec![Vec::new(); classes.layout().len()];
+        Self { kernel, capacity: 0, kinds, traction, steps: 0 }
+    }
+
+    /// Makes lags up to `lags` available.
+    fn grow(&mut self, lags: usize) -> Result<()> {
+        let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
+        let mut lags = [(); KINDS].map(|()| vec![0.0; new - old]);
+        self.kernel.prepare(new)?;
+        for class in 0..self.kernel.classes().count() {
+            let last = self.kernel.last_coupling_lag(class)?.unwrap_or(new).min(new);
+            let values = lags.each_mut().map(Vec::as_mut_slice);
+            self.kernel.coefficients(class, old + 1, values)?;
+            let [normal, tangential, coupling] = &mut self.kinds;
+            let [zz, xx, zx] = &lags;
+            prepend_reversed(&mut normal[class], zz);
+            prepend_reversed(&mut tangential[class], xx);
+            if last > coupling[class].len() {
+                let kept = last - old.min(last);
+                prepend_reversed(&mut coupling[class], &zx[..kept]);
+            }
+        }
+        self.capacity = new;
+        Ok(())
+    }
+}
+
+/// Puts `next` (lags following those stored) in front of `stored`, reversed.
+fn prepend_reversed(stored: &mut Vec<f64>, next: &[f64]) {
+    let mut grown = Vec::with_capacity(stored.len() + next.len());
+    grown.extend(next.iter().rev());
+    grown.extend_from_slice(stored);
+    *stored = grown;
+}
+
+impl ConvolutionHistory for DirectHistory {
+    fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// Prepares for 100 000 further steps at most: a larger hint may stand for a run without end.
+    fn reserve(&mut self, steps: usize) -> Result<()> {
+        let steps = steps.min(self.steps.saturating_add(RESERVED_STEPS));
+        if steps >= self.capacity {
+            self.grow(steps.saturating_add(1))?;
+        }
+        for component in &mut self.traction {
+            component.reserve(steps.saturating_sub(component.len()));
+        }
+        Ok(())
+    }
+
+    fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
+        let classes = self.kernel.classes();
+        let (layout, count) = (classes.layout(), classes.elements().len());
+        same_length("displacement of the history", displacement.len(), layout.len())?;
+        displacement.fill(0.0);
+        let past = self.steps;
+        if past == 0 {
+            return Ok(());
+        }
+        if past + 1 > self.capacity {
+            self.grow(past + 1)?;
+        }
+        // Input m (from 0) is seen with lag past + 1 − m.
+        for begin in (0..past).step_by(CHUNK) {
+            let end = (begin + CHUNK).min(past);
+            for (place, pair) in self.kernel.classes().pairs().iter().enumerate() {
+                for action in &ACTIONS {
+                    let factor = pair.factor(action) * pair.scale;
+                    let lags = &self.kinds[action.kind][pair.class];
+                    let first = (past + 1).saturating_sub(lags.len()).max(begin);
+                    if first < end && factor != 0.0 {
+                        let seen = lags.len() - (past + 1 - first)..lags.len() - (past + 1 - end);
+                        let traction = &self.traction[layout.place(action.traction, place % count)];
+                        displacement[layout.place(action.displacement, place / count)] +=
+                            factor * dot(&lags[seen], &traction[first..end]);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, traction: &[f64]) {
+        for (i, stored) in self.traction.iter_mut().enumerate() {
+            stored.push(traction.get(i).copied().unwrap_or(0.0));
+        }
+        self.steps += 1;
+    }
+
+    /// All tractions, step by step.
+    fn save(&self) -> Result<Vec<f64>> {
+        Ok((0..self.steps).flat_map(|m| self.traction.iter().map(move |row| row[m])).collect())
+    }
+
+    fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
+        let size = self.traction.len();
+        check_inputs(steps, size, values)?;
+        for row in &mut self.traction {
+            row.clear();
+        }
+        self.steps = 0;
+        values.chunks_exact(size).for_each(|traction| self.push(traction));
+        Ok(())
+    }
+}
+
+impl ExactHistory for DirectHistory {
+    fn traction(&mut self, step: usize, traction: &mut [f64]) {
+        for (value, component) in traction.iter_mut().zip(&self.traction) {
+            *value = component[step];
+        }
     }
 }

@@ -7,22 +7,18 @@
 mod choice;
 mod chosen;
 mod convolution;
-mod convolution_weights;
-mod cost;
-mod direct;
 mod exponentials;
-mod options;
 mod pair_classes;
 mod relaxed_fft;
 
 pub(crate) use choice::SavedChoice;
 pub use choice::{ChoiceReason, History, HistoryChoice};
 pub(crate) use chosen::ChosenHistory;
+pub(crate) use chosen::HistoryOptions;
 pub use convolution::ConvolutionHistory;
-pub use convolution_weights::{ConvolutionWeights, LateWeights};
-pub use direct::DirectHistory;
+pub use convolution::DirectHistory;
+pub use convolution::{ConvolutionWeights, LateWeights};
 pub use exponentials::{ExponentialHistory, ExponentialSum, TailProduct};
-pub(crate) use options::HistoryOptions;
 pub(crate) use pair_classes::KINDS;
 pub use pair_classes::{Pair, PairClasses};
 pub use relaxed_fft::{RelaxedFftHistory, SharedSpectra};

@@ -8,15 +8,14 @@ mod cohesive;
 mod coulomb;
 mod previous_contact;
 mod thin_layer;
-mod variable_friction;
 mod yielding;
 
 pub use cohesive::{Bonded, Cohesive};
+pub use coulomb::VariableFriction;
 pub use coulomb::{Coulomb, UnilateralCondition};
 pub(crate) use previous_contact::memory_ends;
 pub use previous_contact::{PreviousContact, PreviousContacts};
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
-pub use variable_friction::VariableFriction;
 pub use yielding::Yielding;
 
 use crate::error::Result;
@@ -90,17 +89,6 @@ impl Mode {
             mode => mode,
         }
     }
-
-    /// All modes, in the order of their declaration.
-    pub(crate) const ALL: [Self; 7] = [
-        Self::Stick,
-        Self::SlipLeft,
-        Self::SlipRight,
-        Self::Open,
-        Self::Yield,
-        Self::YieldLeft,
-        Self::YieldRight,
-    ];
 
     /// The modes of contact with uplift and Coulomb friction.
     fn with_friction(friction: f64) -> &'static [Self] {

@@ -12,7 +12,7 @@ pub(crate) struct DenseFactor<T = f64> {
     values: Vec<T>,
     forward: Vec<usize>,
     inverse: Vec<usize>,
-    /// DofCombination exchanges of the last factoring.
+    /// Row exchanges of the last factoring.
     pub(super) transpositions: usize,
     buffer: MemBuffer,
 }

@@ -3,24 +3,22 @@
 //! Everything runs sequentially, and solves use workspace made when the factor was made.
 
 mod complex;
-mod complex_number;
 mod condition;
 mod dense;
 mod eigen;
 pub(crate) mod gauss;
-mod lanczos;
 pub(crate) mod matrix;
 mod product;
 mod sparse;
 mod triplets;
 
+pub use complex::Complex;
 pub(crate) use complex::hermitian_range;
-pub use complex_number::Complex;
 pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
+pub(crate) use eigen::lowest_modes;
 pub(crate) use eigen::{generalised_modes, indefinite_pivot, symmetric_modes};
 pub(crate) use faer::traits::ComplexField;
-pub(crate) use lanczos::lowest_modes;
 pub(crate) use matrix::SparseMatrix;
 pub(crate) use product::{
     Dot, Simd, WithSimd, add_combined_rows, add_row, add_rows, dense_multiply_add, dot, largest,

@@ -148,7 +148,7 @@ pub(crate) fn add_row<S: Simd>(simd: S, factor: f64, row: &[f64], y: &mut [f64])
     y_tail.iter_mut().zip(row_tail).for_each(|(y, value)| *y += factor * value);
 }
 
-/// DofCombination-major A Bᵀ for row-major A and B with `columns` columns.
+/// Row-major A Bᵀ for row-major A and B with `columns` columns.
 pub(crate) fn row_products(a: &[f64], b: &[f64], columns: usize) -> Vec<f64> {
     let (m, n) = (a.len() / columns.max(1), b.len() / columns.max(1));
     let mut products = vec![0.0; m * n];

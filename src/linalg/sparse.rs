@@ -171,7 +171,7 @@ impl SparseFactor {
     }
 }
 
-/// DofCombination of a symmetric matrix at which it is found not to be positive semi-definite, if it is not.
+/// Row of a symmetric matrix at which it is found not to be positive semi-definite, if it is not.
 ///
 /// Entries on the diagonal smaller than `floor` are rounding, and count as `floor`, negative ones up
 /// to it too; eigenvalues count from −`tolerance` in the matrix scaled to a diagonal of one. So what

@@ -1,10 +1,12 @@
-//! Filters and tapers.
+//! Filters, tapers and the Hilbert transform.
 
-use realfft::RealFftPlanner;
-use realfft::num_complex::Complex;
+use std::f64::consts::PI;
 
 use super::Record;
+use super::record::check_samples;
 use crate::error::{Error, Result, not_negative, positive};
+use realfft::RealFftPlanner;
+use realfft::num_complex::Complex;
 
 /// Highest order of a filter.
 const HIGHEST_ORDER: u32 = 8;
@@ -124,4 +126,137 @@ pub(super) fn transformed(
     inverse.process(&mut spectrum, &mut signal).map_err(failed)?;
     let scale = 1.0 / length as f64;
     Ok(signal[..samples.len()].iter().map(|value| value * scale).collect())
+}
+
+// Hilbert transform of samples, over all time: neither periodic nor cut.
+//
+// (H f)(t) = 1/π ⨍ f(τ)/(t − τ) dτ takes cos to sin. For samples f_j with the step h, zero outside,
+// it is at the samples
+//
+// (H f)_k = Σ_j f_j (1 − cos π(k−j))/(π(k−j)),
+//
+// exact if f is the band-limited function through them (Kak, "The discrete Hilbert transform",
+// Proc. IEEE 58 (1970), 585–586). A linear convolution: by Fourier transforms of at least the
+// length at which nothing comes round the circle.
+
+impl Record {
+    /// Record with zero acceleration for at least `before` and `after` (s) around it.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless both are finite and not negative, [`Error::Memory`] if they give more
+    /// samples than would fit.
+    pub fn padded(&self, before: f64, after: f64) -> Result<Self> {
+        let samples = |quantity, time: f64| -> Result<usize> {
+            let count = (not_negative(quantity, time)? / self.time_step()).ceil();
+            check_samples(count + self.len() as f64)?;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
+            Ok(count as usize)
+        };
+        let before = samples("quiet time before the record", before)?;
+        let after = samples("quiet time after the record", after)?;
+        check_samples((before + self.len() + after) as f64)?;
+        let mut padded = vec![0.0; before];
+        padded.extend_from_slice(self.accelerations());
+        padded.resize(padded.len() + after, 0.0);
+        Self::new(self.time_step(), padded)
+    }
+
+    /// Every harmonic of the acceleration a quarter of a period later: cos becomes sin.
+    ///
+    /// Exact for the band-limited function through the samples, zero outside them. The transform
+    /// begins before the record and ends after it; what is outside is lost, so give the record
+    /// quiet time with [`Record::padded`]. As every record it is integrated from rest, so its
+    /// displacement lacks what came before: [`PlaneWave::field_from_horizontal`] makes displacements.
+    ///
+    /// [`PlaneWave::field_from_horizontal`]: super::PlaneWave::field_from_horizontal
+    ///
+    /// # Errors
+    /// [`Error::Input`] if a value is not finite.
+    pub fn hilbert_transform(&self) -> Result<Self> {
+        Self::new(self.time_step(), hilbert(self.accelerations(), 0)?)
+    }
+}
+
+/// The transform at the samples, and at `around` more times on either side.
+pub(super) fn hilbert(samples: &[f64], around: usize) -> Result<Vec<f64>> {
+    let count = samples.len() + 2 * around;
+    // The kernel is indexed by the distance of output and input, from the least on.
+    let least = around + samples.len() - 1;
+    let distances = count + samples.len() - 1;
+    let length = distances.next_power_of_two();
+    let mut planner = RealFftPlanner::<f64>::new();
+    let forward = planner.plan_fft_forward(length);
+    let inverse = planner.plan_fft_inverse(length);
+    let failed = |_| Error::Input {
+        quantity: "number of samples of a Hilbert transform",
+        value: samples.len() as f64,
+        needed: "one that can be transformed",
+    };
+    let transform = |fill: &dyn Fn(&mut [f64])| -> Result<Vec<Complex<f64>>> {
+        let (mut signal, mut spectrum) = (forward.make_input_vec(), forward.make_output_vec());
+        fill(&mut signal);
+        forward.process(&mut signal, &mut spectrum).map_err(failed)?;
+        Ok(spectrum)
+    };
+    let kernel = transform(&|signal| {
+        for (index, value) in signal[..distances].iter_mut().enumerate() {
+            if index.abs_diff(least) % 2 == 1 {
+                *value = 2.0 / (PI * (index as f64 - least as f64));
+            }
+        }
+    })?;
+    let mut spectrum = transform(&|signal| signal[..samples.len()].copy_from_slice(samples))?;
+    for (value, factor) in spectrum.iter_mut().zip(&kernel) {
+        *value *= factor / length as f64;
+    }
+    let mut signal = inverse.make_output_vec();
+    // Of a real signal.
+    spectrum[0].im = 0.0;
+    if let Some(last) = spectrum.last_mut() {
+        last.im = 0.0;
+    }
+    inverse.process(&mut spectrum, &mut signal).map_err(failed)?;
+    // The first outputs are those that come round.
+    Ok(signal[samples.len() - 1..][..count].to_vec())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// H[1/(1+t²)] = t/(1+t²), and its tails outside the samples.
+    #[test]
+    fn lorentzian_has_its_closed_form() {
+        let (half, step) = (16_000, 0.125);
+        let times: Vec<f64> = (-half..=half).map(|k| f64::from(k) * step).collect();
+        let samples: Vec<f64> = times.iter().map(|t| 1.0 / (1.0 + t * t)).collect();
+        let found = hilbert(&samples, 0).unwrap();
+        for (t, found) in times.iter().zip(&found).filter(|(t, _)| t.abs() < 200.0) {
+            // The tails beyond T = 2000 s that the samples lack: 2t/(3πT³) at most.
+            // The share above the highest frequency of the samples: exp(−π/step).
+            let slack = 2.0 * (-PI / step).exp() + 2.1 * t.abs() / (3.0 * PI * 2000.0_f64.powi(3));
+            assert!((found - t / (1.0 + t * t)).abs() < slack, "{t}: {found}");
+        }
+    }
+
+    /// Against the sum itself, inside and around.
+    #[test]
+    fn convolution_is_the_sum() {
+        let samples: Vec<f64> = (0..37).map(|k| f64::from(k * k % 17) - 7.0).collect();
+        for around in [0, 1, 50] {
+            let found = hilbert(&samples, around).unwrap();
+            assert_eq!(found.len(), 37 + 2 * around);
+            for (k, found) in found.iter().enumerate() {
+                let terms = samples.iter().enumerate().map(|(j, f)| {
+                    let distance = k as f64 - around as f64 - j as f64;
+                    if distance == 0.0 {
+                        0.0
+                    } else {
+                        f * (1.0 - (PI * distance).cos()) / (PI * distance)
+                    }
+                });
+                assert!((found - terms.sum::<f64>()).abs() < 1e-12, "{around} {k}");
+            }
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::fixed_columns::FixedColumns;
+use super::format::FixedColumns;
 use crate::error::{Error, RecordError, Result};
 use crate::text::bounded_line;
 use crate::text::number::{excerpt, finite, has_implied_point, in_field};

@@ -8,18 +8,13 @@
 mod baseline;
 mod cosmos;
 mod filter;
-mod fixed_columns;
 mod format;
 mod free_field;
-mod hilbert;
 mod integral;
-mod intensity;
-mod k_net;
 mod lines;
 mod out_of_phase;
 mod peer;
 mod plane_wave;
-mod quantity;
 mod reader;
 mod record;
 mod spectrum;
@@ -27,12 +22,12 @@ mod unit;
 
 pub use baseline::Baseline;
 pub use cosmos::CosmosFormat;
+pub use cosmos::KNetFormat;
 pub use format::RecordFormat;
 pub use free_field::{
     AtRest, FreeField, FreeFieldFn, RickerDisplacement, TravellingWave, VerticalIncidence,
 };
 pub(crate) use integral::quadratic_roots_within;
-pub use k_net::KNetFormat;
 pub use peer::PeerFormat;
 pub use plane_wave::PlaneWave;
 pub(crate) use plane_wave::check_prescribed;

@@ -10,7 +10,7 @@
 
 use std::f64::consts::PI;
 
-use super::hilbert::hilbert;
+use super::filter::hilbert;
 use super::{FreeField, Record};
 use crate::error::{Error, Result};
 use crate::linalg::Complex;

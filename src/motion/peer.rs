@@ -3,7 +3,7 @@
 use std::io::Read;
 
 use super::lines::{Lines, Reason, count, end_of_numbers, read_numbers, record, scaled};
-use super::quantity::{Quantity, clause_end, unclear};
+use super::unit::{Quantity, clause_end, unclear};
 use super::{AccelerationUnit, Record, RecordFormat, STANDARD_GRAVITY};
 use crate::error::{RecordError, Result};
 use crate::text::number::finite;

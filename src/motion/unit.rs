@@ -1,9 +1,10 @@
-//! Units of acceleration.
+//! Units of acceleration, and quantities with units in the titles of records.
 
 use std::fmt;
 use std::str::FromStr;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, RecordError, Result};
+use crate::text::number::{excerpt, finite};
 use crate::text::words::unknown;
 
 /// Standard gravity, 9.80665 m/s² (3rd CGPM, 1901).
@@ -107,5 +108,148 @@ impl FromStr for AccelerationUnit {
     fn from_str(text: &str) -> Result<Self> {
         let known = &["m/s²", "mm/s²", "g", "Gal", "cm/s²", "ft/s²", "in/s²"];
         Self::named(text).ok_or_else(|| unknown("unit of acceleration", text, known))
+    }
+}
+
+// Numbers with units in the headers of records: the one place that says what counts as one.
+
+/// Signs that may stand around a quantity and mean nothing.
+const PADDING: [char; 6] = [' ', '\t', ',', ';', '=', ':'];
+
+/// Names of units, in lower case, and how many of each make one of the SI.
+type Units = &'static [(&'static str, f64)];
+
+const TIME: Units = &[
+    ("s", 1.0),
+    ("", 1.0),
+    ("sec", 1.0),
+    ("secs", 1.0),
+    ("second", 1.0),
+    ("seconds", 1.0),
+    ("ms", 1e3),
+    ("msec", 1e3),
+    ("msecs", 1e3),
+    ("millisecond", 1e3),
+    ("milliseconds", 1e3),
+];
+const FREQUENCY: Units = &[("hz", 1.0), ("", 1.0)];
+const NUMBER: Units = &[("", 1.0)];
+
+/// Quantities in the header of a file, and their names in errors.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Quantity {
+    /// s.
+    TimeStep,
+    /// s.
+    Duration,
+    /// Hz.
+    Frequency,
+    Points,
+}
+
+impl Quantity {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::TimeStep => "time step",
+            Self::Duration => "duration",
+            Self::Frequency => "sampling frequency",
+            Self::Points => "number of points",
+        }
+    }
+
+    fn units(self) -> Units {
+        match self {
+            Self::TimeStep | Self::Duration => TIME,
+            Self::Frequency => FREQUENCY,
+            Self::Points => NUMBER,
+        }
+    }
+
+    /// The value that all of `text` is, in SI units: a number or a fraction, and a unit or none.
+    /// None if the text is empty.
+    pub(super) fn read(self, text: &str) -> std::result::Result<Option<f64>, RecordError> {
+        let text = text.trim_matches(PADDING);
+        if text.is_empty() {
+            return Ok(None);
+        }
+        let value = self.parse(text).ok_or_else(|| unclear(self.name(), text))?;
+        Ok(Some(value))
+    }
+
+    fn parse(self, text: &str) -> Option<f64> {
+        // An `E` may begin the exponent or the unit: where the unit begins shows when it is known.
+        let starts = text.char_indices().filter(|(_, sign)| sign.is_alphabetic() || *sign == '(');
+        starts.map(|(at, _)| at).chain([text.len()]).find_map(|at| {
+            let (number, unit) = text.split_at(at);
+            let number = number.trim_end();
+            let unit =
+                unit.strip_prefix('(').and_then(|unit| unit.strip_suffix(')')).unwrap_or(unit);
+            let unit = unit.strip_suffix('.').unwrap_or(unit).to_ascii_lowercase();
+            let per = self.units().iter().find(|(name, _)| *name == unit)?.1;
+            Some(number_or_fraction(number)? / per)
+        })
+    }
+}
+
+/// `0.01`, `1/100`.
+fn number_or_fraction(text: &str) -> Option<f64> {
+    let value = match text.split_once('/') {
+        Some((above, below)) => finite(above.trim_end())? / finite(below.trim_start())?,
+        None => finite(text)?,
+    };
+    value.is_finite().then_some(value)
+}
+
+/// The refusal of a quantity of the header.
+pub(super) fn unclear(quantity: &'static str, text: &str) -> RecordError {
+    RecordError::Unclear { quantity, text: excerpt(text) }
+}
+
+/// Place of the comma or semicolon that ends the first clause of a text, or the text's end; a digit
+/// behind it makes it part of a number.
+pub(super) fn clause_end(text: &str) -> usize {
+    let separators = text.match_indices([',', ';']).map(|(at, _)| at);
+    let mut ends =
+        separators.filter(|at| !text[at + 1..].starts_with(|sign: char| sign.is_ascii_digit()));
+    ends.next().unwrap_or(text.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantities_are_whole_texts() {
+        for (text, value) in [
+            (" .01", 0.01),
+            ("= .0100 SEC,", 0.01),
+            ("1.0E-02SEC", 0.01),
+            ("5.0D-03", 0.005),
+            ("1/100 s.", 0.01),
+            ("10 (msec)", 0.01),
+            ("1E1MS", 0.01),
+        ] {
+            assert_eq!(Quantity::TimeStep.read(text), Ok(Some(value)), "{text}");
+        }
+        assert_eq!(Quantity::TimeStep.read(" = "), Ok(None));
+        for text in ["x", ".01E", "1,5", "1 2", "1/0", "5 sec sec", "5 (sec", "5 hz", "s", "é"] {
+            assert!(Quantity::TimeStep.read(text).is_err(), "{text}");
+        }
+        assert_eq!(Quantity::Frequency.read("100Hz"), Ok(Some(100.0)));
+        assert!(Quantity::Frequency.read("100 s").is_err());
+        assert!(Quantity::Points.read("100 s").is_err());
+    }
+
+    #[test]
+    fn clauses_end_at_separators() {
+        for (text, clause) in [
+            (" .01, x", " .01"),
+            ("1,5 s; x", "1,5 s"),
+            ("4,DT", "4"),
+            ("4,000,", "4,000"),
+            ("", ""),
+        ] {
+            assert_eq!(&text[..clause_end(text)], clause, "{text}");
+        }
     }
 }

@@ -7,7 +7,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 use super::stroke::{Area, Drawing, Stroke};
-use super::text::{fitted, width};
+use super::stroke::{fitted, width};
 
 pub(super) const LABEL: (&str, u32) = ("sans-serif", 15);
 const DESCRIPTION: (&str, u32) = ("sans-serif", 17);

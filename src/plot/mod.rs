@@ -27,21 +27,16 @@
 
 mod animation;
 mod axes;
-mod base;
-mod key;
 mod lines;
 mod mode_map;
 #[cfg(feature = "png")]
 mod png;
-mod refinement;
-mod shape;
 mod stroke;
 mod svg;
-mod text;
 
 pub use animation::animation;
+pub use animation::deformed_shapes;
+pub use lines::refinement;
 pub use lines::{Curve, curves, energy, history, probe_history, spectra};
 pub use mode_map::{mode_map, pressure_envelope};
-pub use refinement::refinement;
-pub use shape::deformed_shapes;
 pub use svg::Svg;

@@ -1,6 +1,6 @@
-//! Where charts are drawn, and styles of curves: told apart by colour, and by markers where there are more
-//! curves than colours.
+//! Where charts are drawn: areas, strokes of curves, text and the key to the colours.
 
+use crate::text::table::wrapped;
 use plotters::prelude::*;
 
 /// Where charts are drawn.
@@ -65,5 +65,173 @@ impl Stroke {
             place.min(count.saturating_sub(1))
         };
         (0..SIGNS.min(count)).map(place)
+    }
+}
+
+// Width of text, and cuts where there is no room for it.
+//
+// Whoever shows the SVG chooses the font: widths are estimates for a wide one (DejaVu Sans, not
+// condensed), so that others fit as well.
+
+/// plotters divides sizes of fonts by this.
+const FONT_SCALE: f64 = 1.24;
+
+/// Width of a letter over the font's size.
+fn letter(c: char) -> f64 {
+    match c {
+        'i' | 'j' | 'l' | 'I' | '|' | '!' | '.' | ',' | ':' | ';' | '\'' | ' ' => 0.37,
+        'm' | 'w' | 'M' | 'W' | '%' | '@' | '—' | '…' | 'Æ' | 'Œ' | 'Ω' => 1.01,
+        '0'..='9' | 'a'..='z' => 0.64,
+        // Hangul, Kana, Chinese, signs and pictures are square.
+        '\u{1100}'..='\u{115f}' | '\u{2e80}'.. => 1.1,
+        _ => 0.82,
+    }
+}
+
+/// Width of a text, pixels, in a font of so many points of plotters.
+pub(super) fn width(text: &str, size: u32) -> f64 {
+    text.chars().map(letter).sum::<f64>() * f64::from(size) / FONT_SCALE
+}
+
+/// The text in lines of at most `room` pixels, as [`wrapped`].
+pub(super) fn lines(text: &str, size: u32, room: f64, most: usize) -> Vec<String> {
+    wrapped(text, room, most, |text| width(text, size))
+}
+
+/// The text, cut where it is wider than `room` pixels.
+pub(super) fn fitted(text: &str, size: u32, room: f64) -> String {
+    lines(text, size, room, 1).swap_remove(0)
+}
+
+/// A number in four digits.
+pub(super) fn short(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        format!("{value:.3e}").parse::<f64>().unwrap_or(value).to_string()
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+// The key to a chart's colours, in a strip of its own at the right: it hides nothing.
+
+const FONT: (&str, u32) = ("sans-serif", 15);
+/// Names wider than this go on in a second line, and are cut after a third.
+const WIDEST: f64 = 230.0;
+const LINES: usize = 3;
+/// Names beyond these are counted only.
+const ENTRIES: usize = 42;
+/// Pixels beside the names, for a line of text, and between two names.
+const SIDE: u32 = 52;
+const LINE: i32 = 18;
+const GAP: i32 = 6;
+
+/// Sample beside a name.
+#[derive(Clone, Copy)]
+pub(super) enum Sample {
+    Line(Stroke),
+    Area(RGBColor),
+    Nothing,
+}
+
+/// Names in lines, with their samples.
+pub(super) struct Key(Vec<(Vec<String>, Sample)>);
+
+impl Key {
+    pub(super) fn of<'n>(entries: impl IntoIterator<Item = (&'n str, Sample)>) -> Self {
+        let entries: Vec<_> = entries.into_iter().collect();
+        // One line of a text is no better than the text itself.
+        let shown = if entries.len() > ENTRIES + 1 { ENTRIES } else { entries.len() };
+        let split = |name: &str| lines(name, FONT.1, WIDEST, LINES);
+        let mut list: Vec<_> =
+            entries[..shown].iter().map(|(name, sample)| (split(name), *sample)).collect();
+        if shown < entries.len() {
+            let rest = format!("… and {} more", entries.len() - shown);
+            list.push((split(&rest), Sample::Nothing));
+        }
+        Self(list)
+    }
+
+    /// Curves in their order.
+    pub(super) fn of_curves<'n>(names: impl IntoIterator<Item = &'n str>) -> Self {
+        let names = names.into_iter().enumerate();
+        Self::of(names.map(|(k, name)| (name, Sample::Line(Stroke::nth(k)))))
+    }
+
+    /// Width of the strip, pixels.
+    pub(super) fn width(&self) -> u32 {
+        let widths = self.0.iter().flat_map(|(name, _)| name).map(|line| width(line, FONT.1));
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "to WIDEST")]
+        let widest = widths.fold(0.0, f64::max).ceil() as u32;
+        SIDE + widest
+    }
+
+    /// Height of the strip, pixels.
+    pub(super) fn height(&self) -> u32 {
+        let lines: usize = self.0.iter().map(|(name, _)| name.len()).sum();
+        let text = LINE.unsigned_abs() * u32::try_from(lines).unwrap_or(u32::MAX / 100);
+        text + GAP.unsigned_abs() * u32::try_from(self.0.len()).unwrap_or(0) + 24
+    }
+
+    /// Draws it from the top of the strip.
+    pub(super) fn draw(&self, strip: &Area<'_>) -> Drawing<()> {
+        let mut y = 18;
+        for (name, sample) in &self.0 {
+            match *sample {
+                Sample::Line(stroke) => {
+                    let style = stroke.color.stroke_width(3);
+                    strip.draw(&PathElement::new([(4, y), (32, y)], style))?;
+                    if let Some(marker) = stroke.marker {
+                        let corners =
+                            marker.iter().map(|(dx, dy)| (18 + dx, y + dy)).collect::<Vec<_>>();
+                        strip.draw(&Polygon::new(corners, stroke.color.filled()))?;
+                    }
+                }
+                Sample::Area(color) => {
+                    strip.draw(&Rectangle::new([(6, y - 7), (30, y + 7)], color.filled()))?;
+                }
+                Sample::Nothing => {}
+            }
+            for line in name {
+                strip.draw(&Text::new(line.clone(), (38, y - 6), FONT))?;
+                y += LINE;
+            }
+            y += GAP;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_break_between_words_and_end_in_a_sign_if_cut() {
+        assert_eq!(lines("", 15, 100.0, 2), [""]);
+        assert_eq!(lines("base shear", 15, 400.0, 2), ["base shear"]);
+        assert_eq!(lines("base shear", 15, 60.0, 2), ["base", "shear"]);
+        assert_eq!(fitted("base shear", 15, 60.0), "base s…");
+        let long = "x".repeat(1000);
+        let three = lines(&long, 15, 80.0, 3);
+        assert_eq!(three.len(), 3);
+        assert!(three[2].ends_with('…') && !three[1].ends_with('…'));
+        assert!(three.iter().all(|line| width(line, 15) <= 80.0));
+        // A word too long for a line is broken, and what follows is not lost.
+        let broken = lines(&format!("{} end", "x".repeat(15)), 15, 80.0, 9);
+        assert_eq!(broken.concat().replace(' ', ""), format!("{}end", "x".repeat(15)));
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (0.0, "0"),
+            (50.0, "50"),
+            (1.0 / 3.0, "0.3333"),
+            (123_456.0, "123500"),
+            (1.234e-7, "1.2e-7"),
+            (2e9, "2.0e9"),
+        ] {
+            assert_eq!(short(value), text);
+        }
     }
 }

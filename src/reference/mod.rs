@@ -3,22 +3,18 @@
 //! Each type is one published solution, with its source. Rotations and moments are positive
 //! counter-clockwise, x to the right, y up; loads are per metre of thickness, in SI units.
 
-mod elliptic;
 mod line_load;
 mod no_tension_strip;
-mod rigid_strip;
 mod rocking_block;
 mod sliding_block;
-mod sliding_history;
-mod winkler_strip;
 
 pub use line_load::{
     flamant_horizontal_displacement, flamant_radial_stress, flamant_relative_settlement,
     kelvin_relative_displacement,
 };
+pub use no_tension_strip::RigidStrip;
+pub use no_tension_strip::WinklerStrip;
 pub use no_tension_strip::{NoTensionStrip, StripContact};
-pub use rigid_strip::RigidStrip;
 pub use rocking_block::RockingBlock;
 pub use sliding_block::SlidingBlock;
-pub use sliding_history::{SlidingEvent, SlidingHistory};
-pub use winkler_strip::WinklerStrip;
+pub use sliding_block::{SlidingEvent, SlidingHistory};

@@ -1,4 +1,4 @@
-//! Rigid strip pressed on an elastic half-plane, with uplift.
+//! Rigid strips: bonded and without tension on a half-plane, and on a bed of springs.
 
 use std::f64::consts::PI;
 
@@ -169,5 +169,168 @@ impl NoTensionStrip {
             value: eccentricity,
             needed: "smaller than the half width of the strip",
         })
+    }
+}
+
+// Limits of the dynamic stiffness of a rigid strip on a half-plane.
+
+/// Massless rigid strip of width 2B on an elastic half-plane: limits of its dynamic stiffness.
+///
+/// Time factor e^(+iωt). Static: Muskhelishvili, *Some Basic Problems of the Mathematical Theory
+/// of Elasticity*, 1953, part VI (bonded punch), whose tractions oscillate with the exponent ε at
+/// the edges. High frequency: each point radiates a plane wave, force per area ρc times velocity.
+/// Low frequency: a 2-D half-plane has no static stiffness in translation, but its quadrature
+/// compliance has a limit. Dynamic tables: Luco & Westmann, "Dynamic response of a rigid footing
+/// bonded to an elastic half space", J. Appl. Mech. 39 (1972), 527–534.
+///
+/// ```
+/// use basemat::{Soil, reference::RigidStrip};
+/// let strip = RigidStrip::new(Soil::new(8.0e7, 0.25, 2000.0)?, 2.0)?;
+/// assert!((strip.horizontal_dashpot() - 2.0 * 2.0 * 2000.0 * 200.0).abs() < 1e-9);
+/// assert!((strip.smooth_rocking_stiffness() / 8.0e7 - 8.0 / 3.0 * std::f64::consts::PI).abs() < 1e-14);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidStrip {
+    soil: Soil,
+    half_width: f64,
+}
+
+impl RigidStrip {
+    /// Strip of half width B (m) on `soil`.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless B is finite and above zero.
+    pub fn new(soil: Soil, half_width: f64) -> Result<Self> {
+        positive("half width of the strip", half_width)?;
+        Ok(Self { soil, half_width })
+    }
+
+    /// `2Bρc_S`: high-frequency limit of the horizontal stiffness over iω, N s/m per metre.
+    pub fn horizontal_dashpot(&self) -> f64 {
+        2.0 * self.half_width * self.soil.density() * self.soil.shear_wave_speed()
+    }
+
+    /// `2Bρc_P`: high-frequency limit of the vertical stiffness over iω, N s/m per metre.
+    pub fn vertical_dashpot(&self) -> f64 {
+        2.0 * self.half_width * self.soil.density() * self.soil.pressure_wave_speed()
+    }
+
+    /// `(2/3)B³ρc_P`: high-frequency limit of the rocking stiffness over iω, N m s/rad per metre.
+    pub fn rocking_dashpot(&self) -> f64 {
+        self.vertical_dashpot() * self.half_width * self.half_width / 3.0
+    }
+
+    /// πμB²/(2(1−ν)): static rocking stiffness of the smooth strip, N m/rad per metre.
+    pub fn smooth_rocking_stiffness(&self) -> f64 {
+        let b = self.half_width;
+        PI * self.soil.shear_modulus() * b * b / (2.0 * (1.0 - self.soil.poisson()))
+    }
+
+    /// ε = ln(3−4ν)/(2π): exponent of the edge oscillation of the bonded strip.
+    pub fn oscillation_exponent(&self) -> f64 {
+        (3.0 - 4.0 * self.soil.poisson()).ln() / (2.0 * PI)
+    }
+
+    /// (1+4ε²) πμB²/(2(1−ν)): static rocking stiffness of the bonded strip that is free to move
+    /// horizontally (`K_rr − K_hr²/K_hh`, the inverse of the rocking compliance), N m/rad per
+    /// metre.
+    pub fn bonded_rocking_stiffness(&self) -> f64 {
+        self.smooth_rocking_stiffness() * (1.0 + 4.0 * self.oscillation_exponent().powi(2))
+    }
+
+    /// 2εB: static limit of `K_hr/K_hh` of the bonded strip, m, with the rotation positive
+    /// counter-clockwise.
+    ///
+    /// A moment without horizontal force moves the bonded strip horizontally by −2εB times its
+    /// rotation.
+    pub fn bonded_coupling_length(&self) -> f64 {
+        2.0 * self.oscillation_exponent() * self.half_width
+    }
+
+    /// −(1−ν)/(2μ): low-frequency limit of the imaginary part of the vertical and the horizontal
+    /// compliance, 1/Pa.
+    pub fn quadrature_compliance(&self) -> f64 {
+        -(1.0 - self.soil.poisson()) / (2.0 * self.soil.shear_modulus())
+    }
+
+    /// (1−ν)/(πμ): growth of the real part of the vertical and the horizontal compliance with
+    /// ln(1/ω) at low frequency, 1/Pa.
+    pub fn logarithmic_compliance(&self) -> f64 {
+        (1.0 - self.soil.poisson()) / (PI * self.soil.shear_modulus())
+    }
+}
+
+// Rigid strip on a bed of springs without tension.
+
+/// Rigid strip on a bed of independent springs that bear no tension.
+///
+/// Elementary statics of the eccentrically loaded footing, full contact up to e = B/3; as in
+/// Psycharis & Jennings, "Rocking of slender rigid bodies allowed to uplift", Earthquake Eng.
+/// Struct. Dyn. 11 (1983), 57–76, and Chopra & Yim, "Simplified earthquake analysis of structures
+/// with foundation uplift", J. Struct. Eng. ASCE 111 (1985), 906–930.
+///
+/// ```
+/// let strip = basemat::reference::WinklerStrip::new(3.0e6, 2.0)?;
+/// let uplift = strip.uplift_tilt(1.2e4)?;
+/// assert!((uplift - 5.0e-4).abs() < 1e-18);
+/// assert!((strip.moment(1.2e4, 4.0 * uplift)? - 1.2e4 * 2.0 * (2.0 / 3.0)).abs() < 1e-9);
+/// assert!((strip.contact_length(1.2e4, 4.0 * uplift)? - 2.0).abs() < 1e-14);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WinklerStrip {
+    stiffness: f64,
+    half_width: f64,
+}
+
+impl WinklerStrip {
+    /// Strip of half width B (m) on springs of `stiffness` k (Pa/m).
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless both are finite and above zero.
+    pub fn new(stiffness: f64, half_width: f64) -> Result<Self> {
+        positive("stiffness of the spring bed", stiffness)?;
+        positive("half width of the strip", half_width)?;
+        Ok(Self { stiffness, half_width })
+    }
+
+    /// N/(2kB²): tilt (rad, either sense) at which an edge lifts under `load` N (N/m, downwards).
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero.
+    pub fn uplift_tilt(&self, load: f64) -> Result<f64> {
+        positive("load on the strip", load)?;
+        Ok(load / (2.0 * self.stiffness * self.half_width * self.half_width))
+    }
+
+    /// Moment about the middle (N m/m) at `tilt` (rad) under `load` N, both positive
+    /// counter-clockwise.
+    ///
+    /// (2/3) k B³ θ in full contact, N B (1 − (2/3) √(θᵤ/θ)) beyond the uplift at θᵤ.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero and the tilt finite.
+    pub fn moment(&self, load: f64, tilt: f64) -> Result<f64> {
+        let share = self.contact_share(load, tilt)?;
+        let b = self.half_width;
+        if share == 1.0 {
+            return Ok(2.0 / 3.0 * self.stiffness * b.powi(3) * tilt);
+        }
+        Ok((load * b * (1.0 - 2.0 / 3.0 * share)).copysign(tilt))
+    }
+
+    /// Length of the contact (m) at `tilt` (rad) under `load` N: 2B, then 2B √(θᵤ/|θ|).
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero and the tilt finite.
+    pub fn contact_length(&self, load: f64, tilt: f64) -> Result<f64> {
+        Ok(2.0 * self.half_width * self.contact_share(load, tilt)?)
+    }
+
+    fn contact_share(&self, load: f64, tilt: f64) -> Result<f64> {
+        finite("tilt of the strip", tilt)?;
+        let uplift = self.uplift_tilt(load)?;
+        Ok(if tilt.abs() <= uplift { 1.0 } else { (uplift / tilt.abs()).sqrt() })
     }
 }

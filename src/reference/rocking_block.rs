@@ -1,6 +1,6 @@
 //! Free rocking of a rigid block on a rigid base.
 
-use super::elliptic::carlson_rf;
+use super::line_load::carlson_rf;
 use crate::error::{Error, Result, positive};
 
 /// Rigid rectangular block that rocks about its corners on a rigid base, without sliding.

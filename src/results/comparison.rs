@@ -9,8 +9,8 @@ use crate::coupled::run::page::factor;
 use crate::coupled::run::quantity::Place;
 use crate::error::{Result, write_file};
 use crate::text::column::{Cell, column, distinct};
+use crate::text::number::{number, printed};
 use crate::text::table::Table;
-use crate::text::unit::{number, printed};
 
 /// Runs side by side; prints as a table with a row per quantity and a column per case, in blocks of
 /// as many cases as lines below 100 characters hold.

@@ -63,16 +63,13 @@
 //! Forces act on the soil, per metre of thickness, as in [`crate::coupled::State`]. A value belongs
 //! to the end of its step. The base moment is the total one, static part included.
 
-mod columns;
 mod comparison;
 mod csv;
 #[cfg(any(feature = "io", feature = "plot"))]
 mod deformed_shape;
 mod floor;
-mod frames;
 #[cfg(feature = "npz")]
 mod npz;
-mod recorder;
 mod time_series;
 
 pub use crate::coupled::run::{
@@ -84,6 +81,6 @@ pub use csv::{save_spectrum_csv, write_spectrum_csv};
 #[cfg(any(feature = "io", feature = "plot"))]
 pub use deformed_shape::{DeformedShape, ShapePoint};
 pub use floor::{broadened, log_spaced};
-pub use frames::{ContactFrame, MotionFrame};
-pub use recorder::Recorder;
+pub use time_series::Recorder;
 pub use time_series::TimeSeries;
+pub use time_series::{ContactFrame, MotionFrame};

@@ -1,4 +1,4 @@
-//! TimeSeries as an archive of NumPy's arrays.
+//! Time series as an archive of NumPy's arrays.
 //!
 //! An NPZ file is a ZIP archive of files `name.npy`: a magic number, the length of the header, a Python
 //! dictionary of type, order and shape, blanks up to a multiple of 64 bytes, and the numbers (NumPy
@@ -11,7 +11,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::TimeSeries;
-use super::columns::{CONTACT, MOTION};
+use super::csv::{CONTACT, MOTION};
 use crate::coupled::EnergyTerm;
 use crate::error::{Error, Result, write_file};
 use crate::interface::{ContactState, Mode};

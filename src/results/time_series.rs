@@ -1,11 +1,11 @@
-//! The observer: histories of a run.
+//! The observer: time series of a run, and the frames of motion and contact that it keeps.
 
-use super::frames::{ContactFrame, ContactFrames, MotionFrame, MotionFrames};
-use super::{Quantity, Recorder};
+use super::Quantity;
 use crate::bem::ContactElement;
-use crate::coupled::run::sequence::Sequence;
+use crate::coupled::run::sliding::Sequence;
 use crate::coupled::{EnergyBalance, Probe, Simulation, State, probe_index};
 use crate::error::{Error, Result};
+use crate::interface::{ContactState, Mode};
 
 /// Time series of a run and snapshots: made by [`Recorder::start`], fed by [`TimeSeries::record`], the
 /// observer of [`Simulation::run`].
@@ -171,5 +171,168 @@ impl TimeSeries {
             + size_of_val(&self.energy_balances[..])
             + self.contact.as_ref().map_or(0, ContactFrames::bytes)
             + self.motion.as_ref().map_or(0, MotionFrames::bytes)
+    }
+}
+
+// Selection of results to keep of a run.
+
+/// Selection of results to keep of a run beyond its [`Run`](super::Run): the scalar histories and the probes at every step, unless told otherwise.
+///
+/// See the [module](super) for an example.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct Recorder {
+    pub(super) every: usize,
+    pub(super) contact: Option<usize>,
+    pub(super) motion: Option<usize>,
+}
+
+impl Default for Recorder {
+    fn default() -> Self {
+        Self { every: 1, contact: None, motion: None }
+    }
+}
+
+impl Recorder {
+    /// Scalars and probes at every step.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Keeps scalars and probes of every `steps`th step only; floor spectra can no longer be had.
+    #[must_use]
+    pub fn every(self, steps: usize) -> Self {
+        Self { every: steps, ..self }
+    }
+
+    /// Keeps the base at every `steps`th step: 33 bytes per element and frame.
+    #[must_use]
+    pub fn contact(self, steps: usize) -> Self {
+        Self { contact: Some(steps), ..self }
+    }
+
+    /// Keeps displacement and velocity of the structure at every `steps`th step: 16 bytes per
+    /// unknown and frame.
+    #[must_use]
+    pub fn motion(self, steps: usize) -> Self {
+        Self { motion: Some(steps), ..self }
+    }
+}
+
+// Snapshots of the base and of the structure, every so many steps.
+
+/// The base at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct ContactFrame<'a> {
+    /// Time, s.
+    pub time: f64,
+    /// Opening and total traction of each element.
+    pub states: &'a [ContactState],
+    /// Mode of each element.
+    pub modes: &'a [Mode],
+}
+
+/// The structure at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct MotionFrame<'a> {
+    /// Time, s.
+    pub time: f64,
+    /// Degrees of freedom as changes against the static state, relative to the free field's translation, m
+    /// and rad.
+    pub displacement: &'a [f64],
+    /// Their total rates.
+    pub velocity: &'a [f64],
+    /// Mean displacement [horizontal, up] of the free field under the base, m.
+    pub free_field: [f64; 2],
+}
+
+/// Frames of the base, end to end.
+#[derive(Debug, Clone, Default)]
+pub(super) struct ContactFrames {
+    pub(super) every: usize,
+    times: Vec<f64>,
+    states: Vec<ContactState>,
+    modes: Vec<Mode>,
+}
+
+impl ContactFrames {
+    pub(super) fn new(every: usize) -> Self {
+        Self { every, ..Self::default() }
+    }
+
+    pub(super) fn keep(&mut self, state: &State) {
+        self.times.push(state.time);
+        self.states.extend_from_slice(&state.contact);
+        self.modes.extend_from_slice(&state.modes);
+    }
+
+    /// For so many more steps of `count` elements each.
+    pub(super) fn reserve(&mut self, steps: usize, count: usize) {
+        let frames = steps / self.every + 1;
+        self.times.reserve(frames);
+        let _ = self.states.try_reserve(frames.saturating_mul(count));
+        let _ = self.modes.try_reserve(frames.saturating_mul(count));
+    }
+
+    /// Frames of `count` elements each.
+    pub(super) fn frames(&self, count: usize) -> impl ExactSizeIterator<Item = ContactFrame<'_>> {
+        self.times.iter().enumerate().map(move |(k, &time)| {
+            let range = k * count..(k + 1) * count;
+            ContactFrame { time, states: &self.states[range.clone()], modes: &self.modes[range] }
+        })
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&self.times[..]) + size_of_val(&self.states[..]) + size_of_val(&self.modes[..])
+    }
+}
+
+/// Frames of the structure, end to end.
+#[derive(Debug, Clone, Default)]
+pub(super) struct MotionFrames {
+    pub(super) every: usize,
+    times: Vec<f64>,
+    displacement: Vec<f64>,
+    velocity: Vec<f64>,
+    free_field: Vec<[f64; 2]>,
+}
+
+impl MotionFrames {
+    pub(super) fn new(every: usize) -> Self {
+        Self { every, ..Self::default() }
+    }
+
+    pub(super) fn keep(&mut self, state: &State) {
+        self.times.push(state.time);
+        self.displacement.extend_from_slice(state.displacement());
+        self.velocity.extend_from_slice(state.velocity());
+        self.free_field.push(state.free_field);
+    }
+
+    /// For so many more steps of `count` degrees of freedom each.
+    pub(super) fn reserve(&mut self, steps: usize, count: usize) {
+        let frames = steps / self.every + 1;
+        self.times.reserve(frames);
+        // What does not fit now may never be needed.
+        let _ = self.displacement.try_reserve(frames.saturating_mul(count));
+        let _ = self.velocity.try_reserve(frames.saturating_mul(count));
+        self.free_field.reserve(frames);
+    }
+
+    /// Frames of `count` degrees of freedom each.
+    pub(super) fn frames(&self, count: usize) -> impl ExactSizeIterator<Item = MotionFrame<'_>> {
+        self.times.iter().enumerate().map(move |(k, &time)| {
+            let range = k * count..(k + 1) * count;
+            let displacement = &self.displacement[range.clone()];
+            let (velocity, free_field) = (&self.velocity[range], self.free_field[k]);
+            MotionFrame { time, displacement, velocity, free_field }
+        })
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        8 * (3 * self.times.len() + self.displacement.len() + self.velocity.len())
     }
 }

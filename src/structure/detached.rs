@@ -1,9 +1,10 @@
-//! Parts of a structure that nothing holds on its base.
+//! A structure on its fixed base: the springs that hold it, and parts that nothing holds.
 
-use super::matrix_checks::MASSLESS;
-use super::{Structure, Triplets};
+use super::{ContactNode, DofCombination, Structure, Triplets};
 use crate::error::{Error, Result};
-use crate::linalg::{Partition, SparseFactor, SparseMatrix, largest, sparse_condition};
+use crate::linalg::{
+    Partition, SparseFactor, SparseMatrix, indefinite_row, largest, sparse_condition,
+};
 
 /// Condition of a part's stiffness from which on the part is taken to float: that of one that does is
 /// 10¹⁶ up to rounding, that of a tower 800 times as high as wide 10¹².
@@ -104,4 +105,103 @@ fn holds_itself(stiffness: &Triplets) -> Result<bool> {
     }
     Ok(SparseFactor::new(NAME, stiffness)
         .is_ok_and(|mut factor| sparse_condition(&matrix, &mut factor) < FLOATS))
+}
+
+// Structures on springs under their contact nodes.
+//
+// | symbol | meaning |
+// |---|---|
+// | N | displacements of the contact nodes |
+// | γ | stiffness of the springs |
+
+/// K + γ NᵀN, and the forces that move such a base.
+pub(crate) struct HeldBase<'a> {
+    nodes: &'a [ContactNode],
+    pub(crate) spring: f64,
+    pub(crate) matrix: Triplets,
+}
+
+impl<'a> HeldBase<'a> {
+    pub(crate) const NAME: &'static str = "stiffness matrix with its base held";
+
+    pub(crate) fn new(nodes: &'a [ContactNode], stiffness: &SparseMatrix, spring: f64) -> Self {
+        let mut matrix = SparseMatrix::weighted_sum(stiffness.order(), &[(1.0, stiffness)]);
+        for node in nodes {
+            matrix.add_outer(&node.horizontal, spring);
+            matrix.add_outer(&node.vertical, spring);
+        }
+        Self { nodes, spring, matrix }
+    }
+
+    /// The factored matrix.
+    pub(crate) fn factor(&self) -> Result<SparseFactor> {
+        SparseFactor::new(Self::NAME, &self.matrix)
+    }
+
+    /// γ Nᵀ1 for 1 m to the right and upwards.
+    pub(crate) fn pulls(&self) -> [Vec<f64>; 2] {
+        let nodes = || self.nodes.iter();
+        [
+            self.forces(nodes().map(|node| (&node.horizontal, 1.0))),
+            self.forces(nodes().map(|node| (&node.vertical, 1.0))),
+        ]
+    }
+
+    /// γ Nᵀn for a rotation of `nodes` by 1 rad about `middle`.
+    pub(crate) fn turn<'b>(
+        &self,
+        nodes: impl IntoIterator<Item = &'b ContactNode>,
+        middle: f64,
+    ) -> Vec<f64> {
+        self.forces(nodes.into_iter().map(|node| (&node.vertical, node.x - middle)))
+    }
+
+    /// Forces of springs that are pulled by these amounts.
+    fn forces<'b>(&self, pulled: impl Iterator<Item = (&'b DofCombination, f64)>) -> Vec<f64> {
+        let mut force = vec![0.0; self.matrix.order()];
+        for (row, amount) in pulled {
+            for &(i, weight) in row {
+                force[i] += self.spring * weight * amount;
+            }
+        }
+        force
+    }
+}
+
+/// The largest stiffness on the diagonal, or one.
+pub(crate) fn stiffest(stiffness: &SparseMatrix) -> f64 {
+    let stiffest = largest(&stiffness.diagonal());
+    if stiffest > 0.0 { stiffest } else { 1.0 }
+}
+
+// Whether the mass and damping matrices of a structure are symmetric and positive semi-definite.
+
+/// Relative difference of mirrored entries up to which a matrix counts as symmetric.
+pub(super) const SYMMETRIC: f64 = 1e-9;
+/// Negative masses and dampings up to this, relative to those on the diagonal, are rounding: a file
+/// with seven digits leaves as much of a singular matrix.
+const SEMI_DEFINITE: f64 = 1e-6;
+/// Masses and dampings up to this, relative to the largest entry, are rounding: reductions and sums
+/// leave as much of none. One bound for kg and kg m², which differ by far less.
+pub(super) const MASSLESS: f64 = 1e-12;
+
+/// Refuses a mass matrix that is not symmetric or not positive semi-definite.
+pub(crate) fn check_mass(mass: &SparseMatrix) -> Result<()> {
+    check_semi_definite("mass matrix", mass)
+}
+
+/// Refuses a damping matrix that is not symmetric or not positive semi-definite.
+pub(crate) fn check_damping(damping: &SparseMatrix) -> Result<()> {
+    check_semi_definite("damping matrix", damping)
+}
+
+fn check_semi_definite(name: &'static str, matrix: &SparseMatrix) -> Result<()> {
+    if matrix.asymmetry() > SYMMETRIC {
+        return Err(Error::Scene { quantity: name, needed: "must be symmetric" });
+    }
+    let largest = matrix.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
+    match indefinite_row(matrix, SEMI_DEFINITE, MASSLESS * largest) {
+        Some(row) => Err(Error::Indefinite { matrix: name, row, diagonal: matrix.diagonal()[row] }),
+        None => Ok(()),
+    }
 }

@@ -1,29 +1,26 @@
 //! Structures: the trait that users implement, implementations of it, and springs with a memory.
 
-mod contact_node;
 mod damping;
 mod detached;
 mod dof_combination;
-mod held_base;
 mod hysteresis;
-mod matrix_checks;
 mod models;
 mod nonlinear;
 pub(crate) mod probe;
 mod reduction;
 
 pub use crate::linalg::Triplets;
-pub use contact_node::ContactNode;
-pub(crate) use contact_node::{check_contact_nodes, foundation_nodes};
 pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
+pub(crate) use detached::{HeldBase, stiffest};
 pub(crate) use detached::{check_attached, numbers as unknown_numbers};
+pub(crate) use detached::{check_damping, check_mass};
+pub use dof_combination::ContactNode;
 pub use dof_combination::DofCombination;
-pub(crate) use held_base::{HeldBase, stiffest};
+pub(crate) use dof_combination::{check_contact_nodes, foundation_nodes};
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,
     WithSprings,
 };
-pub(crate) use matrix_checks::{check_damping, check_mass};
 pub use models::{
     FemModel, IsolationLevel, MatrixModel, RigidBlock, Section, SectionRows, ShearBuilding, Storey,
     StructureGroup,

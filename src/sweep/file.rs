@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::grid::{Grid, LAST_COLUMNS};
 use super::table::{Row, heading, name, parameter_cells};
+use super::{Grid, LAST_COLUMNS};
 use crate::error::{CaseFileError, Result, SweepError};
 use crate::text::number::excerpt;
 

@@ -35,11 +35,196 @@
 //! puts the files of all shards together. `docs/guide.md` has a complete job array.
 
 mod file;
-mod grid;
 mod run;
 mod table;
 mod tables;
 
-pub use grid::Parameter;
 pub use run::{Sweep, SweepCase};
 pub use table::{CaseRow, CaseTable};
+
+use std::collections::HashSet;
+use std::hash::Hash;
+
+use crate::error::{Error, Result, SweepError, memory};
+
+// Parameters and the grid of cases that they span.
+
+/// Bytes of a case in tables and while files are merged: its number, and its outcome without the
+/// results.
+const BYTES_PER_CASE: f64 = 40.0;
+
+/// Cases numbered by their place in the grid, the last parameter fastest.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Grid {
+    pub(super) parameters: Vec<Parameter>,
+    pub(super) count: usize,
+}
+
+impl Grid {
+    /// All combinations.
+    pub(super) fn new(parameters: Vec<Parameter>) -> Result<Self> {
+        check_names(parameters.iter().map(Parameter::name))?;
+        let mut count = 1_usize;
+        for parameter in &parameters {
+            parameter.check()?;
+            let product = count as f64 * parameter.len() as f64;
+            memory::check("cases of the sweep", product, BYTES_PER_CASE * product)?;
+            count = count.saturating_mul(parameter.len());
+        }
+        Ok(Self { parameters, count })
+    }
+
+    /// Index of the parameter called `name`.
+    fn index(&self, name: &str) -> Option<usize> {
+        self.parameters.iter().position(|parameter| parameter.name() == name)
+    }
+
+    /// Place of case `case` among the values of parameter `index`.
+    pub(super) fn place_of(&self, case: usize, index: usize) -> usize {
+        let faster = self.parameters[index + 1..].iter().map(Parameter::len).product::<usize>();
+        case / faster % self.parameters[index].len()
+    }
+
+    /// The parameter called `name`, and the place of case `case` among its values.
+    fn find(&self, case: usize, name: &str) -> Option<(&Parameter, usize)> {
+        let index = self.index(name)?;
+        Some((&self.parameters[index], self.place_of(case, index)))
+    }
+
+    pub(super) fn number(&self, case: usize, name: &str) -> Option<f64> {
+        self.find(case, name).and_then(|(parameter, place)| parameter.number(place))
+    }
+
+    pub(super) fn text(&self, case: usize, name: &str) -> Result<&str> {
+        self.find(case, name)
+            .and_then(|(parameter, place)| parameter.text(place))
+            .ok_or_else(|| no_name("parameter with texts", name))
+    }
+
+    pub(super) fn place(&self, case: usize, name: &str) -> Result<usize> {
+        self.find(case, name).map(|(_, place)| place).ok_or_else(|| no_name("parameter", name))
+    }
+}
+
+/// The error of a name that is not there.
+pub(super) fn no_name(quantity: &'static str, name: &str) -> Error {
+    Error::Name { quantity, name: name.to_owned() }
+}
+
+/// Columns of a table behind the results.
+pub(super) const LAST_COLUMNS: [&str; 2] = ["error", "check"];
+
+/// Refuses columns without a name, and two of one name, those of every table among them.
+pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()> {
+    let mut before = HashSet::from(LAST_COLUMNS);
+    before.insert("case");
+    for name in names {
+        if name.is_empty() {
+            return Err(SweepError::Unnamed { quantity: "column" }.into());
+        }
+        if !before.insert(name) {
+            return Err(Error::DuplicateName { quantity: "column", name: name.to_owned() });
+        }
+    }
+    Ok(())
+}
+
+/// A parameter of a [`Sweep`](Sweep): its name and the values that it takes, numbers or texts.
+///
+/// Values are checked by [`Sweep::grid`](Sweep::grid). A constant of the study is a parameter with one value: its column
+/// then tells the tables of different studies apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    name: String,
+    values: Values,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Values {
+    Numbers(Vec<f64>),
+    Texts(Vec<String>),
+}
+
+impl Parameter {
+    /// A parameter with numbers, in units that its name should tell: `width_m`.
+    pub fn numbers(name: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
+        Self { name: name.into(), values: Values::Numbers(values.into_iter().collect()) }
+    }
+
+    /// A parameter with texts: names of records, say.
+    pub fn texts(
+        name: impl Into<String>,
+        values: impl IntoIterator<Item = impl Into<String>>,
+    ) -> Self {
+        let values = values.into_iter().map(Into::into).collect();
+        Self { name: name.into(), values: Values::Texts(values) }
+    }
+
+    /// Name of the parameter and of its column.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Number of values.
+    pub fn len(&self) -> usize {
+        match &self.values {
+            Values::Numbers(numbers) => numbers.len(),
+            Values::Texts(texts) => texts.len(),
+        }
+    }
+
+    /// Whether it takes none: such a parameter is refused.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The number at `place`, if it takes numbers and so many of them.
+    pub(super) fn number(&self, place: usize) -> Option<f64> {
+        match &self.values {
+            Values::Numbers(numbers) => numbers.get(place).copied(),
+            Values::Texts(_) => None,
+        }
+    }
+
+    /// The text at `place`, if it takes texts and so many of them.
+    pub(super) fn text(&self, place: usize) -> Option<&str> {
+        match &self.values {
+            Values::Numbers(_) => None,
+            Values::Texts(texts) => texts.get(place).map(String::as_str),
+        }
+    }
+
+    /// Refuses no values, the same one twice, numbers that are not finite and empty texts.
+    pub(super) fn check(&self) -> Result<()> {
+        let parameter = || self.name.clone();
+        if self.is_empty() {
+            return Err(SweepError::NoValues { parameter: parameter() }.into());
+        }
+        let repeated = match &self.values {
+            Values::Numbers(numbers) => {
+                if let Some(&value) = numbers.iter().find(|value| !value.is_finite()) {
+                    return Err(SweepError::NotFinite { parameter: parameter(), value }.into());
+                }
+                // Both zeros are one value.
+                let bits = |value: &f64| (value + 0.0).to_bits();
+                first_repeated(numbers, bits).map(f64::to_string)
+            }
+            Values::Texts(texts) => {
+                if texts.iter().any(String::is_empty) {
+                    return Err(SweepError::Unnamed { quantity: "value of a parameter" }.into());
+                }
+                first_repeated(texts, String::as_str).cloned()
+            }
+        };
+        match repeated {
+            Some(value) => Err(SweepError::RepeatedValue { parameter: parameter(), value }.into()),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The first value whose key was there before.
+fn first_repeated<'a, T, K: Hash + Eq>(values: &'a [T], key: impl Fn(&'a T) -> K) -> Option<&'a T> {
+    let mut before = HashSet::new();
+    values.iter().find(|value| !before.insert(key(value)))
+}

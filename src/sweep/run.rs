@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::grid::Parameter;
-use super::grid::{Grid, no_name};
+use super::Parameter;
+use super::{Grid, no_name};
 use crate::error::{CaseError, Error, Result};
 
 /// A number of cases to run, each by the same closure.

@@ -8,9 +8,9 @@ use std::io::{ErrorKind, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
+use super::Parameter;
+use super::check_names;
 use super::file::{Content, Ending, read};
-use super::grid::Parameter;
-use super::grid::check_names;
 use super::run::{Sweep, SweepCase};
 use super::table::{CaseTable, Row, heading, name, replaced, unwritten};
 use crate::error::{CaseError, Error, Result, SweepError};

@@ -102,3 +102,48 @@ pub(crate) mod seconds {
         Duration::try_from_secs_f64(f64::deserialize(from)?).map_err(D::Error::custom)
     }
 }
+
+// Traits of parts that are made of another part of the same kind.
+
+/// Methods that a part answers by asking another one: `forward! { place; signatures }`, the place
+/// and the signatures as they would stand in the `impl` block.
+///
+/// `tests/plugin/forwarding` finds any method that a list of signatures has forgotten.
+macro_rules! forward {
+    ($to:expr;) => {};
+    (
+        $to:expr;
+        fn $name:ident(&mut $own:ident $(, $arg:ident: $type:ty)*) $(-> $out:ty)?;
+        $($rest:tt)*
+    ) => {
+        fn $name(&mut $own $(, $arg: $type)*) $(-> $out)? {
+            $to.$name($($arg),*)
+        }
+        forward! { $to; $($rest)* }
+    };
+    (
+        $to:expr;
+        fn $name:ident(&$own:ident $(, $arg:ident: $type:ty)*) $(-> $out:ty)?;
+        $($rest:tt)*
+    ) => {
+        fn $name(&$own $(, $arg: $type)*) $(-> $out)? {
+            $to.$name($($arg),*)
+        }
+        forward! { $to; $($rest)* }
+    };
+}
+
+// `Debug` for what is too large to be shown whole, or has parts that cannot be shown.
+
+/// A short `Debug`: `short_debug! { Name; self; field: value }`, values made of `self`.
+macro_rules! short_debug {
+    ($name:ident $(<$life:lifetime>)?; $own:ident; $($field:ident: $value:expr),* $(,)?) => {
+        impl std::fmt::Debug for $name $(<$life>)? {
+            fn fmt(&$own, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                let mut fields = formatter.debug_struct(stringify!($name));
+                $(fields.field(stringify!($field), &$value);)*
+                fields.finish_non_exhaustive()
+            }
+        }
+    };
+}

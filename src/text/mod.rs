@@ -1,10 +1,6 @@
 //! Text: words of choices, numbers, tables and columns, lines of files, forms in serde's formats.
 
 #[macro_use]
-mod forward;
-#[macro_use]
-mod short_debug;
-#[macro_use]
 pub(crate) mod forms;
 #[macro_use]
 pub(crate) mod words;
@@ -13,5 +9,3 @@ pub(crate) mod check_sum;
 pub(crate) mod column;
 pub(crate) mod number;
 pub(crate) mod table;
-pub(crate) mod unit;
-pub(crate) mod wrapped;

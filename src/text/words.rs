@@ -8,6 +8,9 @@ use crate::text::number::{excerpt, finite};
 macro_rules! words {
     ($type:ident, $quantity:literal, { $($variant:ident = $word:literal),+ $(,)? }) => {
         impl $type {
+            /// All variants, in the order of their declaration.
+            pub(crate) const ALL: [Self; [$($word),+].len()] = [$(Self::$variant),+];
+
             /// Its word, as `Display` writes and `FromStr` reads it.
             pub fn word(self) -> &'static str {
                 match self {
@@ -28,10 +31,9 @@ macro_rules! words {
             type Err = crate::error::Error;
 
             fn from_str(text: &str) -> crate::error::Result<Self> {
-                match crate::text::words::plain(text).as_str() {
-                    $($word => Ok(Self::$variant),)+
-                    _ => Err(crate::text::words::unknown($quantity, text, &[$($word),+])),
-                }
+                let word = crate::text::words::plain(text);
+                let found = Self::ALL.into_iter().find(|own| own.word() == word);
+                found.ok_or_else(|| crate::text::words::unknown($quantity, text, &[$($word),+]))
             }
         }
     };

@@ -88,7 +88,7 @@ fn modes_and_dofs_agree() {
                 apart(&modes, &dofs, |s| vec![s.probes[1]]),
                 apart(&modes, &dofs, |s| vec![s.probes[2]]),
                 apart(&modes, &dofs, |s| vec![s.base_shear, s.normal_force]),
-                // Measured against the ride: a smooth base does not rock.
+                // Relative to the ground's displacement: a frictionless base does not rock.
                 apart(&modes, &dofs, |s| vec![s.base_rotation, s.free_field[0]]),
                 apart(&modes, &dofs, energy_balance),
             ];
@@ -98,8 +98,8 @@ fn modes_and_dofs_agree() {
     }
 }
 
-/// K u of a ride over decimetres cancels to rounding of K times the ride, which in a stiff structure
-/// is no longer small. K does not see the ride, and in modes no rigid motion at all.
+/// K u of a rigid motion of decimetres cancels to rounding of K times that motion, which in a stiff structure
+/// is no longer small. K u is taken without the translation, and in modes without any rigid motion.
 #[test]
 fn stiffness_does_not_open_the_energy_balance() {
     for coordinates in [Coordinates::Modes, Coordinates::Physical] {
@@ -112,7 +112,7 @@ fn stiffness_does_not_open_the_energy_balance() {
             let run = builder.build().unwrap().run(STEPS, |_| {}).unwrap();
             let (largest, end) = (run.energy_error, run.energy_balance.residual());
             println!("{coordinates:?}, E = {modulus:e}, × {strength}: {largest:.1e}, {end:.1e}");
-            // In degrees of freedom rocking is left, which K sees; a ride of 1 m would give 1e-8.
+            // In degrees of freedom rocking is left in K u; a translation of 1 m would give 1e-8.
             let limit = match coordinates {
                 Coordinates::Modes => 1e-12,
                 _ => 1e-10 + 1e-22 * modulus,

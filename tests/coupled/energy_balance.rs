@@ -136,11 +136,11 @@ fn energy_balance_closes_and_every_term_counts() {
     assert_eq!(seen, [true; 10], "a term was never put to the test");
 }
 
-/// A stiff structure that rides far with the ground: K u and ½ u·K u are those of a deformation of
-/// micrometres on a displacement of decimetres. Rounding of the ride opens the energy balance in proportion
-/// to the stiffness, most while the motion is still weak, and no more than that.
+/// A stiff structure that moves far with the ground: K u and ½ u·K u are those of a deformation of
+/// micrometres on a displacement of decimetres. Rounding of that displacement opens the energy balance in
+/// proportion to the stiffness, most while the motion is still weak, and no more than that.
 #[test]
-fn long_rides_open_the_energy_balance_by_rounding_only() {
+fn large_displacements_of_the_ground_open_the_energy_balance_by_rounding_only() {
     for (modulus, strength) in [(2e8, 1.0), (2e10, 1.0), (2e10, 10.0), (2e12, 10.0)] {
         let material = Material::new(modulus, 0.2, 1500.0).unwrap();
         let mesh = Mesh::layered_block(-2.0..2.0, 6, &[Layer::new(6.0, 6, material)]).unwrap();

@@ -19,7 +19,7 @@ const SCENES: u64 = 200;
 const STEPS: usize = 60;
 const WIDTH: f64 = 4.0;
 
-/// EnergyBalance residual, and whether the base opened and slid.
+/// Energy error, and whether the base opened and slid.
 fn run(seed: u64) -> Result<(f64, bool, bool)> {
     let mut random = Random(seed);
     let elements = random.pick(&[3, 4, 5, 6]);

@@ -148,8 +148,8 @@ fn deformed_shapes_move_as_their_structures() {
     }
     let model = FemModel::new(mesh, &[left, right]).unwrap();
     let model = model.with_rigid_link(foot, &[left, right]).unwrap();
-    let ride = model.rigid_motion(Direction::X, [0.0; 2]);
-    let moved = DeformedShape::of_model(&model).displacements(&ride).unwrap();
+    let shift = model.rigid_motion(Direction::X, [0.0; 2]);
+    let moved = DeformedShape::of_model(&model).displacements(&shift).unwrap();
     assert_eq!(moved, [[1.0, 0.0]; 4]);
 
     // P from a block: a rigid turn leaves all distances, to second order.

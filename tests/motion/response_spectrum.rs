@@ -64,7 +64,7 @@ fn step_load_doubles() {
 }
 
 #[test]
-fn stiff_oscillators_ride_and_soft_ones_stay() {
+fn stiff_oscillators_follow_the_ground_and_soft_ones_stay() {
     let record = el_centro_1940();
     let spectrum = record.response_spectrum(&[1e-3, 1e3], 0.05).unwrap();
     assert!((spectrum[0].acceleration / record.peak_acceleration() - 1.0).abs() < 2e-3);

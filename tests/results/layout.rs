@@ -1,4 +1,4 @@
-//! GravityStage of the texts of an SVG: none may leave the sheet or touch another.
+//! Places of the texts of an SVG: none may leave the sheet or touch another.
 
 /// A text and its box: left, top, right, bottom.
 type Placed = (String, [f64; 4]);

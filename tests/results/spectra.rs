@@ -12,7 +12,7 @@ use basemat::{Simulation, Soil};
 
 /// A light block, bonded to stiff ground, moves as the ground does: so do its floors' spectra.
 #[test]
-fn floors_of_a_light_rigid_block_ride_on_the_ground() {
+fn floors_of_a_light_rigid_block_move_as_the_ground() {
     let ground = ElasticGround::new(
         Soil::new(2e9, 0.3, 2000.0).unwrap(),
         Strip::uniform(-2.0..2.0, 4).unwrap(),

@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::AnyError;
+/// Whatever ends a study.
+pub(crate) type AnyError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Puts `text` between the markers of this name in a file of `benches/studies/tables`.
 pub(crate) fn splice(file: &str, name: &str, text: &str) -> Result<(), AnyError> {

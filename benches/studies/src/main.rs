@@ -33,7 +33,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-type AnyError = Box<dyn std::error::Error + Send + Sync>;
+use document::AnyError;
 
 /// What the tables and figures of basemat's documents come from.
 #[derive(Debug, Parser)]

@@ -43,7 +43,7 @@ pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure
 }
 
 /// Most degrees of freedom of a structure whose matrices are written out: an array takes 3.2 GB.
-const MOST_UNKNOWNS: usize = 20_000;
+const MOST_DOFS: usize = 20_000;
 
 /// An n × n array of what `fill` adds up.
 fn array<'py>(
@@ -52,9 +52,9 @@ fn array<'py>(
     fill: impl FnOnce(&dyn Structure, &mut Triplets) -> basemat::Result<()>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let order = structure.dofs();
-    if order > MOST_UNKNOWNS {
+    if order > MOST_DOFS {
         return Err(refuse(format!(
-            "the structure has {order} degrees of freedom, but its matrices are arrays up to {MOST_UNKNOWNS}"
+            "the structure has {order} degrees of freedom, but its matrices are arrays up to {MOST_DOFS}"
         )));
     }
     let mut entries = Triplets::new(order);

@@ -25,13 +25,13 @@ impl PyContactNode {
         Ok(Self(ContactNode { x, horizontal: horizontal.0, vertical: vertical.0 }, order))
     }
 
-    /// A point of a rigid flat base with ``degrees of freedom`` (horizontal, vertical, rotation) at ``center`` (m).
+    /// A point of a rigid flat base with ``dofs`` (horizontal, vertical, rotation) at ``center`` (m).
     #[staticmethod]
     fn rigid(x: f64, center: f64, #[pyo3(from_py_with = whole)] dofs: [usize; 3]) -> Self {
         ContactNode::rigid(x, center, dofs).into()
     }
 
-    /// The two ends of a rigid flat base from ``left`` to ``right`` (m), with ``degrees of freedom``
+    /// The two ends of a rigid flat base from ``left`` to ``right`` (m), with ``dofs``
     /// (horizontal, vertical, rotation) at its middle.
     #[staticmethod]
     fn rigid_base(

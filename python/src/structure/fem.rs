@@ -107,7 +107,7 @@ impl PyFemModel {
         Ok((shear, compression, moment))
     }
 
-    /// DofCombination of a uniform pressure (Pa) on a line of nodes.
+    /// Row of a uniform pressure (Pa) on a line of nodes.
     fn pressure_row(
         &self,
         #[pyo3(from_py_with = whole)] nodes: Vec<usize>,

@@ -5,6 +5,7 @@ mod block;
 mod building;
 mod composed;
 mod contact_node;
+mod dof_combination;
 mod fem;
 mod hysteresis;
 mod matrices;

@@ -8,7 +8,7 @@ use basemat::interface::{
 };
 use pyo3::prelude::*;
 
-use super::PyPreviousContact;
+use super::{PyContactState, PyPreviousContact};
 use crate::array::Numbers;
 use crate::error::{has_raised, keep, kept, returned};
 use crate::names::{mode, mode_name};
@@ -55,40 +55,6 @@ impl PyCondition {
         format!(
             "Condition(gap={gap:?}, slip={slip:?}, pressure={pressure:?}, shear={shear:?}, value={value:?})"
         )
-    }
-}
-
-/// Opening and total traction of an element: gap and slip (m), pressure and shear (Pa).
-#[pyclass(name = "ContactState", module = "basemat", frozen, get_all)]
-pub(crate) struct PyContactState {
-    /// Gap, m; positive when open.
-    gap: f64,
-    /// Slip since the static state, m; positive to the right.
-    slip: f64,
-    /// Pressure, Pa; positive in compression.
-    pressure: f64,
-    /// Shear traction of the structure on the soil, Pa; positive to the right.
-    shear: f64,
-}
-
-impl PyContactState {
-    fn of(state: &ContactState) -> Self {
-        let ContactState { gap, slip, pressure, shear } = *state;
-        Self { gap, slip, pressure, shear }
-    }
-
-    pub(crate) fn core(&self) -> ContactState {
-        let Self { gap, slip, pressure, shear } = *self;
-        ContactState { gap, slip, pressure, shear }
-    }
-}
-
-#[pymethods]
-impl PyContactState {
-    #[new]
-    #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0))]
-    fn new(gap: f64, slip: f64, pressure: f64, shear: f64) -> Self {
-        Self { gap, slip, pressure, shear }
     }
 }
 

@@ -1,10 +1,9 @@
 //! Parts that users write in Python. The core calls them without the GIL, which is taken here.
 
 mod law;
-mod nonlinear;
-mod step_start;
+mod previous_contact;
 mod structure;
 
-pub(crate) use law::{PyCondition, PyContactState, PyTolerance, UserLaw};
-pub(crate) use step_start::PyPreviousContact;
+pub(crate) use law::{PyCondition, PyTolerance, UserLaw};
+pub(crate) use previous_contact::{PyContactState, PyPreviousContact};
 pub(crate) use structure::UserStructure;

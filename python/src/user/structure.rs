@@ -1,16 +1,16 @@
 //! A structure written in Python.
 
-use basemat::Result;
-use basemat::structure::{ContactNode, NonlinearForce, Structure, Triplets};
+use basemat::structure::{ContactNode, InternalEnergy, NonlinearForce, Structure, Triplets};
+use basemat::{CheckpointError, Error, Result};
+use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use super::nonlinear::UserForce;
 use crate::array::{Matrix, Numbers};
-use crate::error::{kept, refuse, returned};
+use crate::error::{keep, kept, refuse, returned};
 use crate::structure::PyContactNode;
 
 /// Its name in errors.
-pub(super) const PART: &str = "structure";
+const PART: &str = "structure";
 
 /// A Python object with `dofs`, `contact_nodes()`, `mass()` and `stiffness()`; a structure that
 /// is nonlinear also has `force(u)` and `tangent(u)`.
@@ -72,11 +72,7 @@ impl UserStructure {
 }
 
 /// The matrix that a method of the structure returned.
-pub(super) fn matrix_of(
-    method: &str,
-    found: &Bound<'_, PyAny>,
-    order: usize,
-) -> PyResult<Triplets> {
+fn matrix_of(method: &str, found: &Bound<'_, PyAny>, order: usize) -> PyResult<Triplets> {
     let name = format!("{method} of the structure");
     let Matrix(matrix) = returned(&name, found)?;
     if matrix.order() == order {
@@ -90,11 +86,7 @@ pub(super) fn matrix_of(
 }
 
 /// The vector that a method of the structure returned.
-pub(super) fn vector_of(
-    method: &str,
-    found: &Bound<'_, PyAny>,
-    order: usize,
-) -> PyResult<Vec<f64>> {
+fn vector_of(method: &str, found: &Bound<'_, PyAny>, order: usize) -> PyResult<Vec<f64>> {
     let name = format!("{method} of the structure");
     let Numbers(values) = returned(&name, found)?;
     if values.len() == order {
@@ -107,14 +99,14 @@ pub(super) fn vector_of(
 }
 
 /// Adds a matrix of Python to one of the core.
-pub(super) fn add_matrix(own: &Triplets, matrix: &mut Triplets) {
+fn add_matrix(own: &Triplets, matrix: &mut Triplets) {
     for &(row, column, value) in own.entries() {
         matrix.add(row, column, value);
     }
 }
 
 /// Adds numbers of Python to a vector of the core.
-pub(super) fn add_numbers(own: &[f64], sum: &mut [f64]) {
+fn add_numbers(own: &[f64], sum: &mut [f64]) {
     sum.iter_mut().zip(own).for_each(|(sum, value)| *sum += value);
 }
 
@@ -165,5 +157,102 @@ impl Structure for UserStructure {
 
     fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
         self.force.as_mut().map(|force| force as &mut dyn NonlinearForce)
+    }
+}
+
+/// `force(u)` and `tangent(u)`, and as it may be `energy(u)`, `commit(u)`, `save()`, `restore(values)`.
+struct UserForce {
+    object: Py<PyAny>,
+    dofs: usize,
+    has_energy: bool,
+    has_commit: bool,
+    has_save: bool,
+}
+
+impl UserForce {
+    fn new(object: &Bound<'_, PyAny>, dofs: usize) -> PyResult<Self> {
+        Ok(Self {
+            dofs,
+            has_energy: object.hasattr("energy")?,
+            has_commit: object.hasattr("commit")?,
+            has_save: object.hasattr("save")?,
+            object: object.clone().unbind(),
+        })
+    }
+
+    /// Calls a method with the displacement: array of shape (n,).
+    fn call<'py>(
+        &self,
+        py: Python<'py>,
+        method: &str,
+        displacement: &[f64],
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let displacement = PyArray1::from_slice(py, displacement);
+        self.object.bind(py).call_method1(method, (displacement,))
+    }
+}
+
+impl NonlinearForce for UserForce {
+    fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
+        let found = Python::attach(|py| -> PyResult<Vec<f64>> {
+            vector_of("force", &self.call(py, "force", displacement)?, force.len())
+        });
+        add_numbers(&found.map_err(|error| kept(PART, error))?, force);
+        Ok(())
+    }
+
+    fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
+        let found = Python::attach(|py| -> PyResult<Triplets> {
+            matrix_of("tangent", &self.call(py, "tangent", displacement)?, self.dofs)
+        });
+        add_matrix(&found.map_err(|error| kept(PART, error))?, matrix);
+        Ok(())
+    }
+
+    fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
+        if !self.has_energy {
+            return None;
+        }
+        let found = Python::attach(|py| -> PyResult<(f64, f64)> {
+            returned("energy of the structure", &self.call(py, "energy", displacement)?)
+        });
+        let (stored, dissipated) = found.unwrap_or_else(|error| {
+            keep(error);
+            (f64::NAN, f64::NAN)
+        });
+        Some(InternalEnergy { stored, dissipated })
+    }
+
+    fn commit(&mut self, displacement: &[f64]) {
+        if self.has_commit {
+            let done = Python::attach(|py| self.call(py, "commit", displacement).map(|_| ()));
+            // The step is accepted by now: the exception ends the run after it.
+            done.unwrap_or_else(keep);
+        }
+    }
+
+    fn save(&self) -> Result<Vec<f64>> {
+        if self.has_save {
+            let found = Python::attach(|py| -> PyResult<Vec<f64>> {
+                let found = self.object.bind(py).call_method0("save")?;
+                Ok(returned::<Numbers>("save of the structure", &found)?.0)
+            });
+            return found.map_err(|error| kept(PART, error));
+        }
+        if self.has_commit {
+            return Err(Error::Checkpoint(CheckpointError::Unsupported { part: "structure" }));
+        }
+        Ok(Vec::new())
+    }
+
+    fn restore(&mut self, values: &[f64]) -> Result<()> {
+        if !self.has_save && values.is_empty() {
+            return Ok(());
+        }
+        let done = Python::attach(|py| {
+            let values = PyArray1::from_slice(py, values);
+            self.object.bind(py).call_method1("restore", (values,)).map(|_| ())
+        });
+        done.map_err(|error| kept(PART, error))
     }
 }

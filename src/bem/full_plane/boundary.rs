@@ -1,10 +1,10 @@
-//! The boundary of the soil: contact elements and traction-free ones.
+//! The boundary of the soil: its elements, contact ones and traction-free ones, and pairs of them.
 
-use super::Segment;
-use super::segment::{check_count, check_segments};
+use std::collections::HashMap;
+
 use crate::bem::{ContactElement, Strip};
-use crate::error::{Error, Result};
-use crate::geometry::check_order;
+use crate::error::{Error, MemoryError, Result, finite, memory, positive};
+use crate::geometry::{ContactLayout, check_order};
 
 /// A polygonal boundary of the soil, with the elements on which the structure stands.
 ///
@@ -124,4 +124,214 @@ impl Boundary {
         };
         self.segments.iter().all(on)
     }
+}
+
+// Straight boundary elements.
+
+/// A straight boundary element, with the soil on the right-hand side of the way from `from` to
+/// `to` as seen with x to the right and z **down** (on a flat surface: from left to right).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Segment {
+    /// Where it begins, (x, z), m.
+    pub from: [f64; 2],
+    /// Where it ends, (x, z), m.
+    pub to: [f64; 2],
+}
+
+impl Segment {
+    /// Length, m.
+    pub fn length(&self) -> f64 {
+        (self.to[0] - self.from[0]).hypot(self.to[1] - self.from[1])
+    }
+
+    /// Midpoint (x, z), m: where the boundary equation is collocated.
+    pub fn center(&self) -> [f64; 2] {
+        [0.5 * (self.from[0] + self.to[0]), 0.5 * (self.from[1] + self.to[1])]
+    }
+
+    /// Unit vector (x, z) along the element.
+    pub fn direction(&self) -> [f64; 2] {
+        let length = self.length();
+        [(self.to[0] - self.from[0]) / length, (self.to[1] - self.from[1]) / length]
+    }
+
+    /// Unit normal (x, z) pointing out of the soil: (0, −1) on a flat surface.
+    pub fn normal(&self) -> [f64; 2] {
+        let [along, down] = self.direction();
+        [down, -along]
+    }
+
+    /// Distance (m) of a point (x, z) from the element.
+    fn distance(&self, point: [f64; 2]) -> f64 {
+        let (d, n, y) = (self.direction(), self.normal(), self.center());
+        let offset = [point[0] - y[0], point[1] - y[1]];
+        let along = (offset[0] * d[0] + offset[1] * d[1]).abs() - 0.5 * self.length();
+        along.max(0.0).hypot(offset[0] * n[0] + offset[1] * n[1])
+    }
+}
+
+/// Bytes for each pair of elements: eight dense operators of 2 × 2 numbers.
+const BYTES_PER_PAIR: f64 = 256.0;
+
+/// Error for so many elements that the operators between them would not fit into memory.
+pub(super) fn check_count(count: usize) -> std::result::Result<(), MemoryError> {
+    let count = count as f64;
+    memory::check("boundary elements", count, BYTES_PER_PAIR * count * count)
+}
+
+/// Error unless there are elements, all have length, and none passes through a midpoint of another.
+pub(super) fn check_segments(segments: &[Segment]) -> Result<()> {
+    if segments.is_empty() {
+        return Err(Error::Size { quantity: "list of boundary elements", found: 0, needed: 1 });
+    }
+    check_count(segments.len())?;
+    for segment in segments {
+        for coordinate in segment.from.into_iter().chain(segment.to) {
+            finite("end of a boundary element", coordinate)?;
+        }
+        positive("length of a boundary element", segment.length())?;
+    }
+    for (q, source) in segments.iter().enumerate() {
+        for (p, receiver) in segments.iter().enumerate() {
+            let distance = source.distance(receiver.center());
+            if p != q && distance < 1e-6 * source.length().min(receiver.length()) {
+                return Err(Error::Input {
+                    quantity: "distance of a boundary element from the midpoint of another",
+                    value: distance,
+                    needed: "at least 1e-6 of the shorter",
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+// Pairs of elements that see each other in the same way, each kind once.
+
+/// Coefficients of a pair in G and in H: `[row][column]`, row the receiver's component.
+pub(super) type PairBlocks = [[[f64; 2]; 2]; 2];
+
+/// Which pairs of midpoint and element are translations of each other; for horizontal elements
+/// also those that are mirror images.
+#[derive(Debug, Clone)]
+pub(super) struct PairClasses {
+    /// One (receiver, source) per class.
+    pub(super) classes: Vec<(usize, usize)>,
+    /// Per class, how its element looks from the midpoint: which of `views`.
+    view_of: Vec<usize>,
+    /// Ends along the element and height: on a circle E of them for E² classes.
+    views: Vec<([f64; 2], f64)>,
+    /// Receiver by receiver: class, and whether the mirror image is meant: xz and zx change sign.
+    pub(super) pairs: Vec<(usize, bool)>,
+}
+
+impl PairClasses {
+    pub(super) fn new(segments: &[Segment]) -> Self {
+        let far = |s: &Segment| s.from.iter().chain(&s.to).fold(0.0_f64, |m, x| m.max(x.abs()));
+        let span = segments.iter().map(far).fold(f64::MIN_POSITIVE, f64::max);
+        // Rounding of the nodes must not split a class: 1e-12 of the boundary is nothing.
+        #[allow(clippy::cast_possible_truncation, reason = "at most 2e12")]
+        let key = |length: f64| (length / span * 1e12).round() as i64;
+        let mut numbers = HashMap::new();
+        let mut classes = Vec::new();
+        let mut pairs = Vec::with_capacity(segments.len() * segments.len());
+        for (p, receiver) in segments.iter().enumerate() {
+            for (q, source) in segments.iter().enumerate() {
+                let (x, y) = (receiver.center(), source.center());
+                let across =
+                    [key(source.to[0] - source.from[0]), key(source.to[1] - source.from[1])];
+                let offset = [key(y[0] - x[0]), key(y[1] - x[1])];
+                let mirrored = across[1] == 0 && offset[0] < 0;
+                let place = [if mirrored { -offset[0] } else { offset[0] }, offset[1]];
+                let (class, other) = *numbers.entry((across, place)).or_insert_with(|| {
+                    classes.push((p, q));
+                    (classes.len() - 1, mirrored)
+                });
+                pairs.push((class, mirrored != other));
+            }
+        }
+        let (mut numbers, mut views) = (HashMap::new(), Vec::new());
+        let view_of = classes
+            .iter()
+            .map(|&(p, q): &(usize, usize)| {
+                let seen = view(segments[p].center(), &segments[q], p == q);
+                let place = (key(seen.0[0]), key(seen.0[1]), key(seen.1));
+                *numbers.entry(place).or_insert_with(|| {
+                    views.push(seen);
+                    views.len() - 1
+                })
+            })
+            .collect();
+        Self { classes, view_of, views, pairs }
+    }
+
+    /// Overwrites G and H with what `local` says of each class in the axes (d, n) of the source,
+    /// given its ends along d and its height along n as seen from the receiver's midpoint.
+    pub(super) fn fill(
+        &self,
+        segments: &[Segment],
+        g: &mut [f64],
+        h: &mut [f64],
+        free_term: f64,
+        local: impl Fn([f64; 2], f64) -> PairBlocks,
+    ) {
+        let (count, layout) = (segments.len(), ContactLayout::new(segments.len()));
+        let seen: Vec<PairBlocks> =
+            self.views.iter().map(|&(ends, height)| local(ends, height)).collect();
+        let blocks: Vec<PairBlocks> = self
+            .classes
+            .iter()
+            .zip(&self.view_of)
+            .map(|(&(_, q), &view)| {
+                let axes = [segments[q].direction(), segments[q].normal()];
+                seen[view].map(|block| turn(block, axes))
+            })
+            .collect();
+        for (p, pairs) in self.pairs.chunks_exact(count).enumerate() {
+            for (q, &(class, mirrored)) in pairs.iter().enumerate() {
+                for (block, matrix) in blocks[class].iter().zip([&mut *g, &mut *h]) {
+                    for i in 0..2 {
+                        for j in 0..2 {
+                            let value = if mirrored && i != j { -block[i][j] } else { block[i][j] };
+                            matrix[layout.place(i, p) * layout.len() + layout.place(j, q)] = value;
+                        }
+                    }
+                }
+            }
+        }
+        for k in 0..layout.len() {
+            h[k * (layout.len() + 1)] += free_term;
+        }
+    }
+}
+
+/// Ends along the element's direction and height along its normal, as seen from `point`.
+pub(super) fn view(point: [f64; 2], element: &Segment, itself: bool) -> ([f64; 2], f64) {
+    let half = 0.5 * element.length();
+    if itself {
+        return ([-half, half], 0.0);
+    }
+    let (d, n, y) = (element.direction(), element.normal(), element.center());
+    let offset = [y[0] - point[0], y[1] - point[1]];
+    let along = offset[0] * d[0] + offset[1] * d[1];
+    let height = offset[0] * n[0] + offset[1] * n[1];
+    // Points on the element's line are so but for rounding.
+    let size = offset[0].hypot(offset[1]);
+    let height = if height.abs() < 1e-13 * size { 0.0 } else { height };
+    ([along - half, along + half], height)
+}
+
+/// Components (x, z) of a block in the axes (d, n).
+fn turn(block: [[f64; 2]; 2], axes: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    let mut out = [[0.0; 2]; 2];
+    for (i, row) in out.iter_mut().enumerate() {
+        for (j, value) in row.iter_mut().enumerate() {
+            for a in 0..2 {
+                for b in 0..2 {
+                    *value += axes[a][i] * block[a][b] * axes[b][j];
+                }
+            }
+        }
+    }
+    out
 }

@@ -10,7 +10,7 @@ use realfft::RealFftPlanner;
 
 use super::BoundaryKernel;
 use super::block::{Level, Link, Work};
-use super::pairs::PairClasses;
+use super::boundary::PairClasses;
 use crate::error::{Result, same_length};
 use crate::geometry::ContactLayout;
 

@@ -21,9 +21,14 @@
 
 use std::f64::consts::PI;
 
+use super::Segment;
+use super::boundary::PairClasses;
+use crate::error::{Error, Result};
+use crate::geometry::ContactLayout;
+use crate::linalg::DenseFactor;
 use crate::soil::Soil;
-
-use super::laplace_bessel::{Complex64, SERIES_REACH, modified};
+use complex_bessel::{Scaling, besselk_seq};
+use realfft::num_complex::Complex;
 
 /// The full plane of a soil at one s.
 #[derive(Debug, Clone, Copy)]
@@ -107,5 +112,249 @@ impl LaplacePlane {
             }
         }
         (u, t)
+    }
+}
+
+// Modified Bessel functions K₀ and K₁ of complex argument, and their power series.
+//
+// | symbol | meaning |
+// |---|---|
+// | z | argument, Re z > 0 |
+// | q | (z/2)² |
+// | κ | K₁(z)/z − 1/z²: what is left of K₁/z once its pole is taken away |
+//
+// With ψ the digamma function [Abramowitz & Stegun 1964, 9.6.10–9.6.13],
+//
+// * K₀ = Σ qᵏ/(k!)² · (ψ(k+1) − ln(z/2)),
+// * κ = Σ qᵏ/(k!(k+1)!) · (½ ln(z/2) − ¼ψ(k+1) − ¼ψ(k+2)).
+
+/// Complex number of double precision.
+pub(super) type Complex64 = Complex<f64>;
+
+/// Up to this |z| the series has all digits: it loses the factor I₀/|K₀|, below 20.
+pub(super) const SERIES_REACH: f64 = 2.0;
+
+/// Beyond this real part, K is below 1e-30 and counts as zero.
+const NOTHING: f64 = 70.0;
+
+/// Terms of the series: (q^k/k!²) below 1e-17 at |z| = 2.
+const TERMS: usize = 14;
+
+/// Euler's constant.
+const EULER: f64 = 0.577_215_664_901_532_9;
+
+/// K₀, K₁/z or κ, and z K₁ of one argument.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Modified {
+    /// K₀(z).
+    pub(super) zeroth: Complex64,
+    /// K₁(z)/z, or κ where that was asked for.
+    pub(super) quotient: Complex64,
+    /// z K₁(z).
+    pub(super) product: Complex64,
+}
+
+/// K₀ and K₁ of `z`; with `regular`, |z| ≤ [`SERIES_REACH`] and κ stands for K₁/z.
+pub(super) fn modified(z: Complex64, regular: bool) -> Modified {
+    if z.norm() <= SERIES_REACH {
+        let [zeroth, kappa] = series(z, false);
+        let square = z * z;
+        let quotient = if regular { kappa } else { kappa + 1.0 / square };
+        return Modified { zeroth, quotient, product: 1.0 + square * kappa };
+    }
+    if z.re > NOTHING {
+        return Modified::default();
+    }
+    if let Ok(found) = besselk_seq(0.0, z, 2, Scaling::Unscaled) {
+        let (zeroth, first) = (found.values[0], found.values[1]);
+        return Modified { zeroth, quotient: first / z, product: first * z };
+    }
+    // Only arguments that are not finite come here: they must not pass for numbers.
+    let nan = Complex64::new(f64::NAN, f64::NAN);
+    Modified { zeroth: nan, quotient: nan, product: nan }
+}
+
+/// K₀ and κ at `z`, or with `mean` their means over the way from 0 to `z`.
+pub(super) fn series(z: Complex64, mean: bool) -> [Complex64; 2] {
+    let half = 0.5 * z;
+    let (log, q) = (half.ln(), half * half);
+    let mut power = Complex64::new(1.0, 0.0);
+    let mut sums = [Complex64::default(); 2];
+    let mut digamma = -EULER;
+    for k in 0..TERMS {
+        let next = (k + 1) as f64;
+        // ∫₀¹ x^{2k} ln(xz/2) dx = (ln(z/2) − 1/(2k+1))/(2k+1)
+        let (scale, log) = if mean {
+            let odd = (2 * k + 1) as f64;
+            (power / odd, log - 1.0 / odd)
+        } else {
+            (power, log)
+        };
+        sums[0] += scale * (digamma - log);
+        sums[1] += scale / next * (0.5 * log - 0.5 * digamma - 0.25 / next);
+        digamma += 1.0 / next;
+        power *= q / (next * next);
+    }
+    sums
+}
+
+// The static limit of the boundary equation (Kelvin's solution).
+//
+// With time the functions of [`super::step_integrals`] tend to D = (c₂⁻²−c₁⁻²)/2, Q = c⁻², and
+// L₁ + L₂ to −(c₁⁻²+c₂⁻²) ln(r/L₀), L₀ a length that no static plane fixes.
+
+/// The primitives of displacement (dd, dn, nn; 1/2πρ) and traction (μ/2πρ) at one end.
+fn primitive(square: [f64; 2], lame: f64, s: f64, h: f64, datum: f64) -> [f64; 7] {
+    let r = s.hypot(h);
+    let d = 0.5 * (square[1] - square[0]);
+    let growth = -(square[0] + square[1]);
+    let log = (r / datum).ln();
+    let angle = if h == 0.0 { 0.0 } else { (s / h).atan() };
+    let logs = s * log - s + h * angle;
+    let middle = 0.5 * (growth * logs - d * s);
+    let dd = middle + d * (s - h * angle);
+    let nn = middle + d * h * angle;
+    let dn = d * h * log;
+    // ∫ h/r², s/r², s h²/r⁴, h³/r⁴; D and Q are constants.
+    let (one, two) = (angle, log);
+    let three = -0.5 * (h / r).powi(2);
+    let four = 0.5 * (h * s / (r * r) + angle);
+    let bend = 8.0 * d + 2.0 * (square[0] - square[1]);
+    let across = 2.0 * d * two - bend * three;
+    [
+        dd,
+        dn,
+        nn,
+        (2.0 * d - square[1]) * one - bend * (one - four),
+        across - square[1] * two,
+        across - lame * square[0] * two,
+        (6.0 * d - 2.0 * square[1] - lame * square[0]) * one - bend * four,
+    ]
+}
+
+/// Static displacements of the elements `contact` per unit traction on them, 2Q × 2Q in the order
+/// of contact vectors; all other elements free.
+pub(super) fn static_compliance(
+    soil: Soil,
+    segments: &[Segment],
+    contact: &[usize],
+    datum: f64,
+    matrix: &mut [f64],
+) -> Result<()> {
+    let layout = ContactLayout::new(segments.len());
+    let size = layout.len();
+    let square = [soil.pressure_wave_speed(), soil.shear_wave_speed()].map(|c| 1.0 / (c * c));
+    let lame = 2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson());
+    let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density());
+    let (mut g, mut h) = (vec![0.0; layout.square()], vec![0.0; layout.square()]);
+    PairClasses::new(segments).fill(segments, &mut g, &mut h, 0.5, |ends, height| {
+        let [low, high] = ends.map(|s| primitive(square, lame, s, height, datum));
+        let at = |k: usize| unit * (high[k] - low[k]);
+        let mu = soil.shear_modulus();
+        [[[at(0), at(1)], [at(1), at(2)]], [[mu * at(3), mu * at(5)], [mu * at(4), mu * at(6)]]]
+    });
+    let mut factor = DenseFactor::with_capacity(size);
+    if !factor.factor(&h, size) {
+        return Err(Error::Singular { matrix: "static boundary operator", order: size });
+    }
+    let width = ContactLayout::new(contact.len()).len();
+    let mut column = vec![0.0; size];
+    for k in 0..width {
+        let source = super::prepared::component(contact, layout, k);
+        for (i, value) in column.iter_mut().enumerate() {
+            *value = g[i * size + source];
+        }
+        factor.solve(&mut column);
+        for i in 0..width {
+            matrix[i * width + k] = column[super::prepared::component(contact, layout, i)];
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// GOAL: both branches have all digits. TABLE: mpmath, made by tests/data/bessel_k.py.
+    #[test]
+    fn values_agree_with_the_table() {
+        let table = include_str!("../../../tests/data/bessel_k.csv");
+        let mut rows = 0;
+        for line in table.lines().filter(|line| !line.starts_with(['#', 'r'])) {
+            let x: Vec<f64> = line.split(',').map(|field| field.parse().unwrap()).collect();
+            let [z, k0, k1] = [0, 2, 4].map(|k| Complex64::new(x[k], x[k + 1]));
+            let found = modified(z, false);
+            for (what, found, wanted) in [
+                ("K0", found.zeroth, k0),
+                ("K1/z", found.quotient, k1 / z),
+                ("zK1", found.product, k1 * z),
+            ] {
+                let error = (found - wanted).norm() / wanted.norm();
+                assert!(error < 5e-14, "{what}({z}): {found} instead of {wanted}: {error:.1e}");
+            }
+            rows += 1;
+        }
+        assert_eq!(rows, 112);
+    }
+
+    /// GOAL: the regular part of K₁/z at the seam, and near 0 its leading terms.
+    #[test]
+    fn regular_part_is_what_the_pole_leaves() {
+        let z = Complex64::new(1.2, -1.5);
+        let kappa = modified(z, true).quotient;
+        let k1 = besselk_seq(0.0, z, 2, Scaling::Unscaled).unwrap().values[1];
+        assert!((kappa - (k1 / z - 1.0 / (z * z))).norm() < 1e-14);
+        let tiny = Complex64::new(3e-9, 1e-9);
+        let leading = 0.5 * (0.5 * tiny).ln() + 0.5 * EULER - 0.25;
+        assert!((modified(tiny, true).quotient - leading).norm() < 1e-14);
+    }
+
+    /// GOAL: means over [0, z] against a Gauss rule on a part away from the logarithm.
+    #[test]
+    fn means_are_integrals() {
+        let z = Complex64::new(0.9, 1.1);
+        let whole = series(z, true).map(|mean| mean * z);
+        let half = series(0.5 * z, true).map(|mean| mean * 0.5 * z);
+        let rule = crate::linalg::gauss::largest();
+        let mut sums = [Complex64::default(); 2];
+        for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
+            let point = z * (0.75 + 0.25 * node);
+            for (sum, value) in sums.iter_mut().zip(series(point, false)) {
+                *sum += value * z * (0.25 * weight);
+            }
+        }
+        for k in 0..2 {
+            assert!((whole[k] - half[k] - sums[k]).norm() < 1e-14);
+        }
+    }
+}
+
+#[cfg(test)]
+mod static_limit_tests {
+    use super::*;
+    use crate::bem::full_plane::step_integrals::{Medium, step_integrals};
+
+    /// The answer to a load that was switched on long ago, but for its growth in time.
+    #[test]
+    fn a_held_load_tends_to_the_static_limit() {
+        let soil = Soil::new(1.0, 0.2, 1.0).unwrap();
+        let speeds = [soil.pressure_wave_speed(), soil.shear_wave_speed()];
+        let square = speeds.map(|c| 1.0 / (c * c));
+        let medium = Medium { speeds, lame: 0.4 / 0.6 };
+        for (ends, h) in [([0.3, 1.1], 0.0), ([-0.4, 0.9], 0.6), ([1.0, 2.0], -0.5)] {
+            let [low, high] = ends.map(|s| primitive(square, medium.lame, s, h, 1.0));
+            let late = step_integrals(&medium, ends, h, 1e4);
+            let t = late.traction.as_flattened();
+            let [dd, dn, nn] = late.displacement;
+            // ½ Σ c⁻² ln(2 c t) of each displacement.
+            let growth: f64 = (0..2).map(|k| 0.5 * square[k] * (2e4 * speeds[k]).ln()).sum();
+            let rise = growth * (ends[1] - ends[0]);
+            let found = [dd - rise, dn, nn - rise, t[0], t[1], t[2], t[3]];
+            for k in 0..7 {
+                let wanted = high[k] - low[k];
+                assert!((found[k] - wanted).abs() < 2e-7, "{ends:?} {k}: {} {wanted}", found[k]);
+            }
+        }
     }
 }

@@ -6,7 +6,7 @@ use crate::error::{Error, Result, same_length};
 use crate::geometry::{COMPONENTS, ContactLayout};
 use crate::linalg::{DenseFactor, dense_multiply_add};
 
-/// TimeSeries and operators for one time step.
+/// Convolutions and operators for one time step.
 pub(super) struct Prepared {
     pub(super) history: BoundaryHistory,
     time_step: f64,

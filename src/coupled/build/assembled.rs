@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use crate::bem::ContactElement;
 use crate::coupled::diagnosis::mechanism::AtRest;
-use crate::coupled::diagnosis::{sign, supports};
+use crate::coupled::diagnosis::{mechanism, supports};
 use crate::coupled::scene::base::Base;
 use crate::coupled::scene::influence::Influence;
 use crate::error::{Error, Result};
@@ -109,7 +109,7 @@ impl Assembled {
         let held = HeldBase::new(self.base.nodes(), stiffness, stiffest(stiffness));
         let mut factor = held.factor()?;
         if self.linear && !factor.is_positive_definite() {
-            sign::check(&self.base, self.matrices())?;
+            mechanism::check_signs(&self.base, self.matrices())?;
         }
         let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
         let mut translations = held.pulls().map(|pull| {

@@ -15,7 +15,7 @@ use super::assembled::Assembled;
 use super::parts::Parts;
 use super::step_response::{Rows, StepResponses};
 use super::subspace::Subspace;
-use crate::coupled::scene::modal_basis::ModalBasis;
+use crate::coupled::scene::transformation::ModalBasis;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, ReducedError, Result, finite};
 use crate::linalg::matrix::spread;

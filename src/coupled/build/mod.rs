@@ -8,11 +8,8 @@
 //! 5. the scene, and in `initial.rs` what moves at t = 0.
 
 pub(crate) mod assembled;
-pub(crate) mod coordinates;
 pub(crate) mod equilibrium;
-mod initial;
 mod krylov;
-mod modes;
 pub(crate) mod parts;
 mod statics;
 mod step_response;
@@ -27,9 +24,9 @@ use super::scene::Scene;
 use super::scheme::TimeScheme;
 use super::simulation::Simulation;
 use super::state::State;
-use super::step::forcing::Forcing;
-use super::step::increment::Increment;
-use super::step::solver::Solver;
+use super::step::Forcing;
+use super::step::Increment;
+use super::step::newton::Solver;
 use crate::bem::Ground;
 use crate::contact::{ContactSearch, ModeSearch};
 use crate::coupled::run::Serviceability;
@@ -39,7 +36,7 @@ use crate::motion::FreeField;
 use crate::structure::Structure;
 use crate::structure::probe::Probe;
 use assembled::Assembled;
-use coordinates::Coordinates;
+use parts::Coordinates;
 use parts::{Given, GravityStage, Parts};
 use stepped::Stepped;
 
@@ -162,14 +159,14 @@ impl SimulationBuilder {
         self
     }
 
-    /// A quantity to read off at every step, see [`super::State::probes`]. Names must differ.
+    /// A quantity recorded at every step, see [`super::State::probes`]. Names must differ.
     #[must_use]
     pub fn probe(mut self, probe: Probe) -> Self {
         self.given.probes.push(probe);
         self
     }
 
-    /// Several of them, after those given before.
+    /// Adds probes.
     #[must_use]
     pub fn probes(mut self, probes: impl IntoIterator<Item = Probe>) -> Self {
         self.given.probes.extend(probes);
@@ -215,7 +212,8 @@ impl SimulationBuilder {
         self
     }
 
-    /// The same for each element, from left to right.
+    /// Friction coefficients for the factor of safety against sliding, one per element from left to right, see
+    /// [`safety_friction`](Self::safety_friction).
     #[must_use]
     pub fn safety_frictions(mut self, coefficients: Vec<f64>) -> Self {
         self.given.safety_friction = coefficients;
@@ -263,7 +261,7 @@ impl SimulationBuilder {
         let mut state = State::at_rest(&scene)?;
         let compliant = scene.is_compliant(&state.start)?;
         let mass = &assembled.mass;
-        initial::set_in_motion(&given, mass, &scene, structure.as_mut(), &mut state)?;
+        statics::set_in_motion(&given, mass, &scene, structure.as_mut(), &mut state)?;
         let books = || EnergyAccumulator::new(&scene, structure.as_ref(), &state, compliant);
         let books = given.energy_balance.then(books).transpose()?;
         state.energy_balance =

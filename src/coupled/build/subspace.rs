@@ -8,7 +8,7 @@
 //! All are rows. The first vectors are rigid translations, of which K knows nothing: their products
 //! with K are zero, not rounding.
 
-use crate::coupled::scene::modal_basis::ModalBasis;
+use crate::coupled::scene::transformation::ModalBasis;
 use crate::error::{ReducedError, Result};
 use crate::linalg::{SparseMatrix, add_combined_rows, largest, row_products, symmetric_modes};
 

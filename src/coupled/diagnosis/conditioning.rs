@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::coupled::scene::Scene;
 use crate::coupled::scene::operators::{self, Operators};
-use crate::coupled::step::solver::Solver;
+use crate::coupled::step::newton::Solver;
 use crate::error::{Error, Result};
 use crate::interface::PreviousContacts;
 use crate::linalg::dense_condition;

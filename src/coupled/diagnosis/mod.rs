@@ -1,11 +1,177 @@
-//! What is wrong with a scene, and why: all that is refused while building beyond its parts themselves.
+//! Errors of a scene as a whole, found while it is built, and their causes.
 //!
-//! Each question is asked where it can first be answered: signs, supports and detached parts of the
-//! assembled structure; stability when weight and loads find no equilibrium; condition, and
-//! mechanisms that look like a bad one, in the coordinates that are stepped.
+//! Signs of matrices, supports and detached parts are checked on the assembled structure; static stability when
+//! weight and loads find no equilibrium; the condition, and mechanisms that look like a bad one, in the
+//! coordinates that are stepped.
 
 pub(crate) mod conditioning;
 pub(crate) mod mechanism;
-pub(crate) mod sign;
-pub(crate) mod stability;
 pub(crate) mod supports;
+
+use crate::coupled::build::equilibrium::Standing;
+use crate::error::{Error, StabilityError};
+use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance, law_of};
+use crate::linalg::dot;
+use mechanism::{Regular, unresisted};
+
+// Why a structure cannot stand: resultants that its base does not carry, or a mechanism.
+//
+// | symbol | meaning |
+// |---|---|
+// | N, n | displacements of the contact nodes; those of a rigid motion of the base |
+// | r | displacements when the contact nodes take part in that motion and the rest follows |
+// | e | distance of the resultant from the middle of the base |
+
+/// The reason behind `error`, that no equilibrium was found under `load`, if it can be told.
+pub(crate) fn cause(
+    stage: &Standing<'_>,
+    laws: &[Box<dyn InterfaceLaw>],
+    load: &[f64],
+    error: Error,
+) -> Error {
+    use Error::{IllConditioned, Preload, Singular};
+    if !matches!(error, Preload { .. } | IllConditioned { .. } | Singular { .. }) {
+        return error;
+    }
+    let Standing { assembled, structure, .. } = *stage;
+    let at_rest = assembled.at_rest(structure);
+    let is_singular = matches!(error, Singular { .. });
+    let others = [&assembled.damping, &assembled.mass];
+    let massless = || unresisted(structure, at_rest.stiffness, others);
+    at_rest
+        .mechanism()
+        .or_else(|| if is_singular { massless() } else { None })
+        .or_else(|| resultants(stage, laws, load))
+        .map_or(error, |cause| Error::Stability(Box::new(cause)))
+}
+
+/// Whether the resultants of the load on each part lift it, overturn it, push it off or press it in.
+fn resultants(
+    stage: &Standing<'_>,
+    laws: &[Box<dyn InterfaceLaw>],
+    load: &[f64],
+) -> Option<StabilityError> {
+    let (assembled, base) = (stage.assembled, &stage.assembled.base);
+    let (held, regular) = Regular::held(&assembled.at_rest(stage.structure));
+    let mut factor = regular.factor()?;
+    assembled.influence.parts().iter().find_map(|part| {
+        let [horizontal, upward] = part.resultants(load);
+        let normal = -upward;
+        let nodes = part.nodes(base);
+        let (left, right) = (nodes.first()?.x, nodes.last()?.x);
+        let ends = [left, right];
+        let laws = || part.elements().iter().map(|&e| law_of(laws, e));
+        let little = 1e-6 * normal.abs().max(1.0);
+        let glued = |trial| laws().any(|law| sticks_at(law, trial));
+        // With a bond something must have broken it: without one the state would have been found.
+        let pulls = glued(ContactState { pressure: -little, ..ContactState::default() });
+        let coheres = glued(ContactState { shear: little, ..ContactState::default() });
+        let broken = |bonded: bool, then: StabilityError| {
+            let then = Box::new(then);
+            Some(if bonded { StabilityError::BondBreaks { then } } else { *then })
+        };
+        let opens = laws().any(|law| law.modes().contains(&Mode::Open));
+        if normal <= 0.0 {
+            let lifted = StabilityError::Uplift { ends, upward };
+            return if opens { broken(pulls, lifted) } else { None };
+        }
+        let lengths = || part.elements().iter().map(|&e| base.lengths()[e]);
+        let pressure = normal / lengths().sum::<f64>();
+        let friction = laws().map(|law| friction(law, pressure)).fold(0.0, f64::max);
+        let resistance = friction * normal;
+        let slides = || {
+            let ratio = horizontal.abs() / resistance;
+            let error = StabilityError::Sliding { ends, horizontal, normal, resistance, ratio };
+            if ratio > 1.0 { broken(coheres, error) } else { None }
+        };
+        if !coheres && let Some(slides) = slides() {
+            return Some(slides);
+        }
+        let (middle, half_width) = (0.5 * (left + right), 0.5 * (right - left));
+        let mut rotation = held.turn(nodes, middle);
+        factor.solve(&mut rotation);
+        let moment = dot(&rotation, load);
+        // The soil's pressure stands at the distance e: M + N e = 0.
+        let eccentricity = -moment / normal;
+        let ratio = eccentricity.abs() / half_width;
+        if ratio >= 1.0 && opens {
+            let error = StabilityError::Overturning { ends, moment, normal, eccentricity, ratio };
+            return broken(pulls, error);
+        }
+        let elements = part.elements().len();
+        let middles = part.elements().iter().map(|&e| base.middle(e));
+        let reach = [
+            middles.clone().fold(f64::INFINITY, f64::min),
+            middles.fold(f64::NEG_INFINITY, f64::max),
+        ];
+        let resultant = middle + eccentricity;
+        let slack = 1e-9 * half_width;
+        if opens && (resultant < reach[0] - slack || resultant > reach[1] + slack) {
+            return broken(pulls, StabilityError::Beyond { ends, elements, resultant, reach });
+        }
+        if let Some(slides) = slides() {
+            return Some(slides);
+        }
+        // At most the bearing pressure everywhere between the resultant's two equal distances.
+        let largest = laws().map(bearing_pressure).fold(0.0, f64::max);
+        let all: f64 = laws().zip(lengths()).map(|(law, l)| bearing_pressure(law) * l).sum();
+        let width = 2.0 * half_width * (1.0 - ratio);
+        let capacity = all.min(largest * width);
+        let ratio = normal / capacity;
+        (ratio > 1.0).then_some(StabilityError::BearingFailure {
+            ends,
+            normal,
+            width,
+            capacity,
+            ratio,
+        })
+    })
+}
+
+/// The friction coefficient of a law, or the ratio of traction at which it lets an element under this
+/// pressure go; infinite if it does not.
+fn friction(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
+    const MOST: f64 = 1e6;
+    if let Some(known) = law.friction_coefficient() {
+        return known;
+    }
+    let holds = |ratio: f64| {
+        sticks_at(
+            law,
+            ContactState { pressure, shear: ratio * pressure, ..ContactState::default() },
+        )
+    };
+    if law.modes().len() == 1 || holds(MOST) {
+        return f64::INFINITY;
+    }
+    let (mut low, mut high) = (0.0, MOST);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if holds(middle) { low = middle } else { high = middle }
+    }
+    high
+}
+
+/// Whether a law holds an element that nobody has moved so far at these tractions, without sliding
+/// or opening.
+fn sticks_at(law: &dyn InterfaceLaw, trial: ContactState) -> bool {
+    let mut memory = vec![0.0; law.state_variables()];
+    let pressed = ContactState { pressure: trial.pressure.max(0.0), ..ContactState::default() };
+    let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
+    if !memory.is_empty() {
+        law.initial_state_variables(&start, &mut memory);
+    }
+    let start = start.with_memory(&memory);
+    let tolerance = Tolerance::new(0.0, 0.0);
+    // A bonded base has no other mode.
+    law.modes().len() > 1 && law.next_mode(Mode::Stick, &start, &trial, tolerance) == Mode::Stick
+}
+
+/// The largest pressure that a law carries; infinite if it has no mode of yielding.
+fn bearing_pressure(law: &dyn InterfaceLaw) -> f64 {
+    let start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
+    let yielding = law.modes().iter().filter(|mode| mode.is_yield());
+    let conditions = yielding.flat_map(|&mode| law.conditions(mode, &start));
+    let pressures = conditions.filter_map(|c| c.pressure_alone());
+    pressures.reduce(f64::max).unwrap_or(f64::INFINITY)
+}

@@ -2,29 +2,25 @@
 
 use std::time::{Duration, Instant};
 
-mod envelope;
 pub(crate) mod page;
-pub(crate) mod peak;
 pub(crate) mod quantity;
-mod safety;
-pub(crate) mod sequence;
+pub(crate) mod safety;
 mod serviceability;
-mod sliding;
-mod uplift;
+pub(crate) mod sliding;
 
-pub use envelope::ElementEnvelope;
-pub use peak::{Extremes, Peak, ProbeExtremes};
 pub use quantity::{Quantity, Summary};
+pub use safety::{Extremes, Peak, ProbeExtremes};
 pub use serviceability::{Criterion, ServiceCheck, Serviceability};
+pub use sliding::ElementEnvelope;
+pub use sliding::Uplift;
 pub use sliding::{Sliding, SlipEvent};
-pub use uplift::Uplift;
 
 use crate::bem::{ContactElement, Ground};
 use crate::contact::SearchMethod;
 use crate::coupled::{EnergyBalance, Probe, Resolution, State, Warning, probe_index};
 use crate::error::Result;
 use crate::motion::FreeField;
-use sequence::Sequence;
+use sliding::Sequence;
 
 /// Steps whose contact modes the first search did not find, see
 /// [`SearchMethod`](crate::coupled::SearchMethod).
@@ -108,6 +104,11 @@ pub struct Run {
     begin: Option<Instant>,
 }
 
+/// The present, where there is a clock: not in bare WebAssembly.
+pub(crate) fn clock() -> Option<Instant> {
+    (!cfg!(target_family = "wasm")).then(Instant::now)
+}
+
 impl Run {
     /// Before its first step, at `state`.
     pub(crate) fn start(probes: &[Probe], state: &State, resolution: Resolution) -> Self {
@@ -128,7 +129,7 @@ impl Run {
                 .map(|k| Summary::start(state, Some(k)))
                 .collect(),
             serviceability: Vec::new(),
-            envelope: envelope::start(elements, state),
+            envelope: sliding::start(elements, state),
             mode_changes: 0,
             debondings: 0,
             rebondings: 0,
@@ -142,8 +143,7 @@ impl Run {
             sequence: Sequence::new(state),
             resolution,
             least_algorithmic: state.energy_balance.algorithmic,
-            // There is no clock in bare WebAssembly.
-            begin: (!cfg!(target_family = "wasm")).then(Instant::now),
+            begin: clock(),
         }
     }
 
@@ -171,7 +171,7 @@ impl Run {
             probe.extremes.see(*value, time);
         }
         self.serviceability.iter_mut().for_each(|check| check.see(state));
-        envelope::see(&mut self.envelope, state, time - begin);
+        sliding::see(&mut self.envelope, state, time - begin);
         self.mode_changes += state.transitions.len();
         self.debondings += state.transitions.iter().filter(|t| t.is_debonding()).count();
         self.rebondings += state.transitions.iter().filter(|t| t.is_rebonding()).count();

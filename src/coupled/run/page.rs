@@ -5,8 +5,8 @@ use std::fmt;
 use super::quantity::Place;
 use super::{Extremes, Quantity, Run, Summary};
 use crate::coupled::Peak;
+use crate::text::number::{number, printed};
 use crate::text::table::Table;
-use crate::text::unit::{number, printed};
 
 /// Elements of the pressure envelope beyond which only some are printed.
 const MOST_ROWS: usize = 12;

@@ -12,7 +12,7 @@ use crate::coupled::{Foundation, Peak, State};
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, Mode};
 use crate::text::column::column;
-use crate::text::unit::printed;
+use crate::text::number::printed;
 use crate::text::words::{plain, unknown};
 
 /// One row: how a quantity is called, and where it is shown beside its time series.

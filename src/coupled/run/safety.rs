@@ -1,11 +1,12 @@
-//! Factors of safety against sliding and overturning.
+//! Extremes of a run and when they occurred; factors of safety against sliding and overturning.
 //!
-//! They are made of the contact tractions that did act. Tractions of a base that may open and slide
+//! Factors of safety are made of the contact tractions that did act. Tractions of a base that may open and slide
 //! cannot go beyond its strength: such a factor stays at or above one, and reaches it when the base
 //! does slide, or stands on its edge. Below one it falls on a bonded base only, where it says how
 //! much the interface would have lacked.
 
 use crate::bem::ContactElement;
+use crate::error::{Error, Result};
 use crate::interface::ContactState;
 
 /// Σ A φ p over |Σ A τ|, for one friction coefficient or one for each element; NaN without any. An infinite
@@ -59,6 +60,97 @@ fn ratio(normal: f64, resistance: f64, demand: f64) -> f64 {
     } else {
         resistance / demand
     }
+}
+
+// Largest and smallest values of a run, and when they occurred.
+
+/// A value of largest magnitude, with its sign, and when it occurred.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Peak {
+    /// The value, with its sign.
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    pub value: f64,
+    /// When, s.
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    pub time: f64,
+}
+
+impl Peak {
+    /// The value without its sign.
+    pub fn magnitude(&self) -> f64 {
+        self.value.abs()
+    }
+
+    pub(crate) fn see(&mut self, value: f64, time: f64) {
+        if value.abs() > self.value.abs() {
+            *self = Self { value, time };
+        }
+    }
+}
+
+/// Smallest and largest value, and when they occurred; of equal ones the first. NaN does not count
+/// unless there is nothing else.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Extremes {
+    /// The smallest value.
+    pub lowest: Peak,
+    /// The largest value.
+    pub highest: Peak,
+}
+
+impl Extremes {
+    /// Of one value.
+    pub(crate) fn of(value: f64, time: f64) -> Self {
+        let peak = Peak { value, time };
+        Self { lowest: peak, highest: peak }
+    }
+
+    pub(crate) fn see(&mut self, value: f64, time: f64) {
+        if value < self.lowest.value || self.lowest.value.is_nan() {
+            self.lowest = Peak { value, time };
+        }
+        if value > self.highest.value || self.highest.value.is_nan() {
+            self.highest = Peak { value, time };
+        }
+    }
+
+    /// The one of larger magnitude, with its sign.
+    pub fn largest(&self) -> Peak {
+        if self.lowest.value.abs() > self.highest.value.abs() { self.lowest } else { self.highest }
+    }
+
+    /// Its value without its sign.
+    pub fn magnitude(&self) -> f64 {
+        self.largest().magnitude()
+    }
+}
+
+/// Smallest and largest value of a probe.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct ProbeExtremes {
+    /// Name of the probe.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// The values, and when.
+    pub extremes: Extremes,
+}
+
+/// Place of the probe called `name` in a list.
+pub(crate) fn probe_index<T>(
+    list: &[T],
+    name: &str,
+    name_of: impl Fn(&T) -> &String,
+) -> Result<usize> {
+    let unknown = || Error::Name { quantity: "probe", name: name.to_owned() };
+    list.iter().position(|entry| name_of(entry) == name).ok_or_else(unknown)
 }
 
 #[cfg(test)]

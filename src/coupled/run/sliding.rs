@@ -1,5 +1,10 @@
-//! Distance slid by a base, and in how many events.
+//! The base over a run: distance slid and slip events, uplift, extremes of its elements, the sequence of states.
 
+use std::ops::Range;
+
+use crate::bem::ContactElement;
+use crate::coupled::run::Extremes;
+use crate::coupled::{Origin, Peak, State};
 use crate::interface::Mode;
 
 /// A stretch of steps in which a whole base slid one way: some elements are closed, all closed
@@ -73,6 +78,157 @@ impl Sliding {
     }
 }
 
+// Extremes of each contact element.
+
+/// Envelopes of one contact element; tractions are means over it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct ElementEnvelope {
+    /// Where it is.
+    pub element: ContactElement,
+    /// Pressure at the start, Pa.
+    pub static_pressure: f64,
+    /// Smallest and largest pressure, Pa.
+    pub pressure: Extremes,
+    /// Shear traction of largest magnitude, with its sign, Pa.
+    pub shear: Peak,
+    /// Largest gap, m.
+    pub gap: Peak,
+    /// Slip of largest magnitude, with its sign, m.
+    pub slip: Peak,
+    /// Time open, s.
+    pub open: f64,
+}
+
+/// Of every element, at the start.
+pub(super) fn start(elements: &[ContactElement], state: &State) -> Vec<ElementEnvelope> {
+    let envelope = |(element, contact): (&ContactElement, &crate::interface::ContactState)| {
+        let peak = |value| Peak { value, time: state.time };
+        ElementEnvelope {
+            element: *element,
+            static_pressure: contact.pressure,
+            pressure: Extremes::of(contact.pressure, state.time),
+            shear: peak(contact.shear),
+            gap: peak(contact.gap),
+            slip: peak(contact.slip),
+            open: 0.0,
+        }
+    };
+    elements.iter().zip(&state.contact).map(envelope).collect()
+}
+
+/// Of every element, after a step of length `step`.
+pub(super) fn see(envelopes: &mut [ElementEnvelope], state: &State, step: f64) {
+    let modes = state.modes.iter();
+    for ((envelope, contact), mode) in envelopes.iter_mut().zip(&state.contact).zip(modes) {
+        envelope.pressure.see(contact.pressure, state.time);
+        envelope.shear.see(contact.shear, state.time);
+        envelope.gap.see(contact.gap, state.time);
+        envelope.slip.see(contact.slip, state.time);
+        if !mode.is_closed() {
+            envelope.open += step;
+        }
+    }
+}
+
+// States that follow one another.
+
+/// The states of one simulation, each later than the one before.
+#[derive(Debug, Clone)]
+pub(crate) struct Sequence {
+    origin: Origin,
+    elements: usize,
+    probes: usize,
+    foundations: Vec<Range<usize>>,
+    end: f64,
+}
+
+impl Sequence {
+    /// Beginning with `state`.
+    pub(crate) fn new(state: &State) -> Self {
+        Self {
+            origin: state.origin,
+            elements: state.contact.len(),
+            probes: state.probes.len(),
+            foundations: state.foundations.iter().map(|own| own.elements.clone()).collect(),
+            end: state.time,
+        }
+    }
+
+    /// One that takes no state: that of a run read from a file.
+    #[cfg(feature = "serde")]
+    pub(crate) fn closed() -> Self {
+        let (elements, probes, foundations) = (0, 0, Vec::new());
+        Self { origin: Origin::new(), elements, probes, foundations, end: f64::INFINITY }
+    }
+
+    /// Whether `state` is of the same simulation and later; it is the last one then.
+    pub(crate) fn takes(&mut self, state: &State) -> bool {
+        // Its fields are public: somebody may have changed them.
+        let takes = state.origin.is(self.origin)
+            && state.contact.len() == self.elements
+            && state.modes.len() == self.elements
+            && state.probes.len() == self.probes
+            && state.foundations.iter().map(|own| &own.elements).eq(&self.foundations)
+            && state.time > self.end;
+        if takes {
+            self.end = state.time;
+        }
+        takes
+    }
+
+    /// Time of the last state, s.
+    pub(crate) fn end(&self) -> f64 {
+        self.end
+    }
+}
+
+// For how long the base left the ground.
+
+/// Uplift of a run. A stretch begins with the first step that ends with an open element, and ends
+/// with the first one that ends without.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct Uplift {
+    /// Time with any part uplifted, s.
+    pub duration: f64,
+    /// Time without any contact at all, s.
+    pub flight: f64,
+    /// Number of stretches.
+    pub count: usize,
+    /// Longest stretch, s.
+    pub longest: f64,
+    current: f64,
+}
+
+impl Uplift {
+    /// A step that began at `begin`.
+    pub(super) fn see(&mut self, uplifted: f64, modes: &[Mode], step: f64) {
+        self.advance(uplifted, step, modes.iter().any(|mode| mode.is_closed()));
+    }
+
+    /// A step of length `step`, and whether any element is closed at its end.
+    fn advance(&mut self, fraction: f64, step: f64, closed: bool) {
+        if fraction <= 0.0 {
+            self.current = 0.0;
+            return;
+        }
+        if self.current == 0.0 {
+            self.count += 1;
+        }
+        self.duration += step;
+        self.current += step;
+        self.longest = self.longest.max(self.current);
+        if !closed {
+            self.flight += step;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -100,5 +256,23 @@ mod tests {
         assert_eq!(sliding.largest_event(), Some(known[1]));
         assert_eq!([0.0, 3.5, 6.0].map(|least| sliding.events_above(least)), [3, 1, 0]);
         assert_eq!(Sliding::default().largest_event(), None);
+    }
+}
+
+#[cfg(test)]
+mod uplift_tests {
+    use super::*;
+
+    #[test]
+    fn by_hand() {
+        let mut uplift = Uplift::default();
+        for fraction in [0.0, 0.2, 0.5, 0.0, 1.0, 1.0, 0.3, 0.0] {
+            uplift.advance(fraction, 0.1, fraction < 1.0);
+        }
+        assert_eq!(uplift.count, 2);
+        for (found, known) in [(uplift.duration, 0.5), (uplift.flight, 0.2), (uplift.longest, 0.3)]
+        {
+            assert!((found - known).abs() < 1e-15);
+        }
     }
 }

@@ -2,8 +2,6 @@
 
 pub(crate) mod base;
 pub(crate) mod influence;
-pub(crate) mod modal_basis;
-pub(crate) mod model;
 pub(crate) mod operators;
 pub(crate) mod transformation;
 
@@ -23,7 +21,7 @@ use crate::linalg::matrix::{Thinned, spread};
 use crate::structure::probe::Probe;
 use base::Base;
 use influence::Part;
-use model::Model;
+use operators::Model;
 use transformation::{Transformation, Weights};
 
 /// Structure, base, laws and static state as a step sees them, read-only once built.

@@ -1,11 +1,9 @@
 //! Time schemes of the structure.
 
-mod dissipative;
-mod hht;
 mod newmark;
 
-pub use dissipative::DissipativeMidpoint;
-pub use hht::HhtAlpha;
+pub use newmark::DissipativeMidpoint;
+pub use newmark::HhtAlpha;
 pub use newmark::Newmark;
 
 use crate::error::{Error, Result, finite};

@@ -1,6 +1,6 @@
-//! Newmark's method.
+//! Schemes of Newmark's family: his own, HHT-α, and one that dissipates at high frequencies.
 
-use super::{SchemeCoefficients, TimeScheme};
+use super::{Midpoint, SchemeCoefficients, TimeScheme};
 use crate::error::{Error, Result};
 
 /// Newmark's method (1959), equation of motion at the end of the step: **for comparison with papers**.
@@ -83,4 +83,156 @@ pub(super) fn end_of_step(gamma: f64, beta: f64, h: f64) -> ([f64; 3], [f64; 3])
     let acceleration = [1.0 / (beta * h * h), -1.0 / (beta * h), 1.0 - 0.5 / beta];
     let velocity = [gamma / (beta * h), 1.0 - gamma / beta, h * (1.0 - 0.5 * gamma / beta)];
     (acceleration, velocity)
+}
+
+// The method of Hilber, Hughes & Taylor.
+
+/// HHT-α (Hilber, Hughes & Taylor 1977), **for comparison with papers**: second order, damps high
+/// frequencies of the structure alone. For use take
+/// [`DissipativeMidpoint`](super::DissipativeMidpoint), which is passive together with the soil.
+///
+/// Newmark's method with γ = ½ − α and β = (1−α)²/4, its damping and stiffness forces and loads
+/// taken at t₁ + α Δt, its inertia at t₁. Contact tractions are constant over the step and enter in
+/// full: what [`Newmark`](super::Newmark) says of the energy that its coupling makes holds here, less
+/// what α takes. α = 0 is average acceleration; −⅓ damps most: the spectral radius tends to
+/// (1+α)/(1−α) for steps that are long against the period, ½ at α = −⅓.
+///
+/// ```
+/// use basemat::coupled::HhtAlpha;
+/// assert!(HhtAlpha::new(-0.1).is_ok());
+/// assert!(HhtAlpha::new(0.1).is_err() && HhtAlpha::new(-0.4).is_err());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "HhtAlphaForm"))]
+pub struct HhtAlpha {
+    alpha: f64,
+}
+
+validated! {
+    HhtAlpha as HhtAlphaForm { alpha: f64 }
+    => HhtAlpha::new(alpha)
+}
+
+impl HhtAlpha {
+    /// Method with −⅓ ≤ α ≤ 0.
+    ///
+    /// # Errors
+    /// [`Error::Input`] outside this range.
+    pub fn new(alpha: f64) -> Result<Self> {
+        if (-1.0 / 3.0..=0.0).contains(&alpha) {
+            Ok(Self { alpha })
+        } else {
+            Err(Error::Input { quantity: "alpha", value: alpha, needed: "from -1/3 to 0" })
+        }
+    }
+}
+
+impl TimeScheme for HhtAlpha {
+    fn coefficients(&self, time_step: f64) -> SchemeCoefficients {
+        let share = 1.0 + self.alpha;
+        let (gamma, beta) = (0.5 - self.alpha, 0.25 * (1.0 - self.alpha).powi(2));
+        let (acceleration, velocity) = end_of_step(gamma, beta, time_step);
+        let [dv, v, a] = velocity;
+        SchemeCoefficients {
+            displacement: [share, 0.0, 0.0],
+            velocity: [share * dv, share * v - self.alpha, share * a],
+            acceleration,
+            new_velocity: velocity,
+            new_acceleration: acceleration,
+            load_fraction: share,
+        }
+    }
+}
+
+// The midpoint rule with algorithmic damping of high frequencies.
+
+/// Midpoint rule that damps high frequencies: second order, and passive together with the soil.
+///
+/// Newmark's formulas for displacement and velocity, with the equation of motion in the middle of
+/// the step and the step's own traction:
+///
+/// ```text
+/// M Δv/Δt + C Δu/Δt + K (u₀ + u₁)/2 + f(ū) = p(t_½) − Bᵀ A τ,      β = (γ + ½)²/4
+/// Δu = Δt (v₀ + v₁)/2 + Δt² (β − γ/2) Δa,      Δv = Δt (a₀ + γ Δa)
+/// ```
+///
+/// This is the generalised-α method (Chung & Hulbert 1993) with α_f = ½ and α_m = 1 − γ. Tractions do
+/// the work on the structure that they take from the soil, whatever the step; the scheme itself only
+/// takes energy, Δt² (β − γ/2)(γ − ½) Δa·M Δa in a step, and holds ½ Δt² (β − γ/2) a·M a, which with
+/// the energy taken is [`EnergyBalance::numerical`](crate::coupled::EnergyBalance) (proof in `docs/theory.md`,
+/// section 8). γ = ½ is [`Midpoint`].
+///
+/// Spectral radius, the factor per step of a free vibration of circular frequency ω:
+///
+/// | ωΔt | 0.1 | 1 | 3 | 10 | 30 |
+/// |---|---|---|---|---|---|
+/// | γ = 0.6 | 1.0000 | 0.9999 | 0.9972 | 0.9766 | 0.9443 |
+/// | γ = 0.8 | 1.0000 | 0.9976 | 0.9570 | 0.8478 | 0.9306 |
+/// | γ = 1 | 1.0000 | 0.9907 | 0.8873 | 0.7082 | 0.9630 |
+///
+/// It returns to 1 for ωΔt → ∞, where displacements alternate with a bounded amplitude. Right where
+/// landings on fine elements, or a structure with much faster vibrations than matter, fill accelerations
+/// with frequencies that the step does not resolve. Accelerations of the state belong to the time
+/// (γ − ½) Δt before the end of the step. An initial motion needs them at t = 0, and so a mass
+/// matrix that is not singular.
+///
+/// ```
+/// use basemat::coupled::DissipativeMidpoint;
+/// assert_eq!(DissipativeMidpoint::new(0.8)?, DissipativeMidpoint::default());
+/// assert!(DissipativeMidpoint::new(0.4).is_err() && DissipativeMidpoint::new(1.1).is_err());
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "DissipativeMidpointForm"))]
+pub struct DissipativeMidpoint {
+    gamma: f64,
+}
+
+validated! {
+    DissipativeMidpoint as DissipativeMidpointForm { gamma: f64 }
+    => DissipativeMidpoint::new(gamma)
+}
+
+impl DissipativeMidpoint {
+    /// Method with ½ ≤ γ ≤ 1, from no damping to the most.
+    ///
+    /// # Errors
+    /// [`Error::Input`] outside this range.
+    pub fn new(gamma: f64) -> Result<Self> {
+        if (0.5..=1.0).contains(&gamma) {
+            Ok(Self { gamma })
+        } else {
+            Err(Error::Input { quantity: "gamma", value: gamma, needed: "from 0.5 to 1" })
+        }
+    }
+}
+
+impl Default for DissipativeMidpoint {
+    /// γ = 0.8.
+    fn default() -> Self {
+        Self { gamma: 0.8 }
+    }
+}
+
+impl TimeScheme for DissipativeMidpoint {
+    fn coefficients(&self, time_step: f64) -> SchemeCoefficients {
+        // Accelerations at the ends of steps would alternate undamped for γ = ½, where nothing needs
+        // them.
+        if self.gamma == 0.5 {
+            return Midpoint.coefficients(time_step);
+        }
+        let beta = 0.25 * (self.gamma + 0.5).powi(2);
+        let (new_acceleration, new_velocity) = end_of_step(self.gamma, beta, time_step);
+        let [du, v, a] = new_velocity;
+        SchemeCoefficients {
+            displacement: [0.5, 0.0, 0.0],
+            velocity: [1.0 / time_step, 0.0, 0.0],
+            acceleration: [du / time_step, (v - 1.0) / time_step, a / time_step],
+            new_velocity,
+            new_acceleration,
+            load_fraction: 0.5,
+        }
+    }
 }

@@ -1,22 +1,20 @@
 //! The history as a window of exact lags and a sum of exponentials: memory that does not grow.
 
-mod accuracy;
 mod passivity;
 pub(super) mod tail;
-mod window;
 
 use std::sync::Arc;
 
 use self::passivity::Margin;
 pub use self::tail::{ExponentialSum, TailProduct};
 use self::tail::{Fit, Measured, Request, Tail};
-use self::window::{Cut, Lags};
+use super::choice::{Estimate, LONGEST_WINDOW};
 use super::convolution::ConvolutionHistory;
-use super::convolution_weights::{ConvolutionWeights, LateWeights};
-use super::cost::{Estimate, LONGEST_WINDOW};
-use super::relaxed_fft::spectra::Windowed;
+use super::convolution::{ConvolutionWeights, LateWeights};
+use super::relaxed_fft::wave_level::Windowed;
 use super::relaxed_fft::{Blocks, LEAF, SharedSpectra, bounded};
 use crate::error::{CheckpointError, Error, MemoryError, Result, same_length};
+use crate::history::exponentials::passivity::{Cut, Lags};
 
 /// Tolerances that can be reached.
 const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;

@@ -13,7 +13,7 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 use crate::error::Result;
-use crate::history::convolution_weights::ConvolutionWeights;
+use crate::history::convolution::ConvolutionWeights;
 use crate::history::pair_classes::PairClasses;
 
 /// Lags that are evaluated together.

@@ -1,13 +1,11 @@
-//! Blocks of one size: their transforms and the spectra of the coefficients.
+//! Blocks of one size: their transforms and tables, the spectra of the coefficients, rings of past blocks.
 
 use std::sync::Arc;
 
-use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-
-use super::ring::Ring;
 use crate::history::pair_classes::{Pair, PairClasses};
 use crate::linalg::{Simd, WithSimd, vectorized};
+use realfft::num_complex::Complex;
+use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 /// Frequencies that are multiplied together, so that all inputs and outputs stay in cache.
 const TILE: usize = 64;
@@ -266,5 +264,67 @@ impl<const PLUS: bool> WithSimd for Product<'_, PLUS> {
             tail_re[k] += a * b_re_tail[k] - b * b_im_tail[k];
             tail_im[k] += a * b_im_tail[k] + b * b_re_tail[k];
         }
+    }
+}
+
+// Rows whose places are used again.
+
+/// Where in its row a step is, and how many steps a row holds before its places are used again.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ring(pub(super) usize);
+
+impl Ring {
+    /// Rows that hold all steps.
+    pub(super) const ENDLESS: Self = Self(usize::MAX);
+
+    /// Place of a step.
+    pub(super) fn place(self, step: usize) -> usize {
+        if self.is_bounded() { step % self.0 } else { step }
+    }
+
+    /// Places of the `size` steps before `now`, which are a block of their size.
+    pub(super) fn before(self, now: usize, size: usize) -> std::ops::Range<usize> {
+        let begin = self.place(now - size);
+        begin..begin + size
+    }
+
+    /// Whether places are used again.
+    pub(super) fn is_bounded(self) -> bool {
+        self.0 < usize::MAX
+    }
+
+    /// Number of the level for the block that ends before `now`, a multiple of `leaf`.
+    pub(super) fn level(self, now: usize, leaf: usize, levels: usize) -> usize {
+        let number = (now / leaf).trailing_zeros() as usize;
+        if self.is_bounded() { number.min(levels - 1) } else { number }
+    }
+
+    /// Places whose old inputs have to make room for outputs at `now`.
+    pub(super) fn stale(self, now: usize) -> Option<std::ops::Range<usize>> {
+        let half = self.0 / 2;
+        let begins = self.is_bounded() && now.is_multiple_of(half);
+        begins.then(|| self.place(now)..self.place(now) + half)
+    }
+}
+
+// Coefficients over short delays, class by class.
+
+/// Coefficients that are summed directly.
+///
+/// Index d of a coefficient is the number of steps from the traction to the first step that sees
+/// it as history: lag d + 1 of the kernel.
+#[derive(Debug, Default)]
+pub(crate) struct Tables {
+    /// Per class: d = 0 … leaf − 1; the first is zero.
+    pub(super) normal: Vec<Vec<f64>>,
+    pub(super) tangential: Vec<Vec<f64>>,
+    /// Per class: d = 0 … as long as it is not zero and summed directly.
+    pub(super) coupling: Vec<Vec<f64>>,
+}
+
+impl Tables {
+    /// Numbers held.
+    pub(super) fn numbers(&self) -> usize {
+        [&self.normal, &self.tangential, &self.coupling].into_iter().flatten().map(Vec::len).sum()
     }
 }

@@ -1,26 +1,22 @@
 //! The history by transforms of blocks: exact to rounding, O(log² N) per step.
 
-mod blocks;
 mod coefficients;
 mod lattice;
 mod level;
 mod pairs;
-mod ring;
-pub(super) mod spectra;
-mod tables;
-mod wave_level;
+pub(crate) mod wave_level;
 mod waves;
 
 use std::sync::Arc;
 
-pub(crate) use self::blocks::{Blocks, LEAF};
 use self::lattice::Lattice;
 use self::pairs::Pairs;
-pub use self::spectra::SharedSpectra;
 use self::waves::Waves;
+use super::convolution::ConvolutionWeights;
 use super::convolution::{ConvolutionHistory, ExactHistory, check_inputs};
-use super::convolution_weights::ConvolutionWeights;
 use crate::error::{Error, Result, same_length};
+pub(crate) use crate::history::relaxed_fft::coefficients::{Blocks, LEAF};
+pub use crate::history::relaxed_fft::wave_level::SharedSpectra;
 
 /// Elements from which on the transform along the surface is taken. Measured, µs per step by pairs
 /// and by wavenumbers: 6 elements 1.9 and 1.7, 10 elements 4.4 and 2.5, 14 elements 8.0 and 3.9.

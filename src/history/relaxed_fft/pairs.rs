@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use realfft::RealFftPlanner;
 
-use super::blocks::{Blocks, LEAF};
+use super::coefficients::{Blocks, LEAF};
 use super::coefficients::{Class, Coefficients};
+use super::level::Ring;
+use super::level::Tables;
 use super::level::{Block, Level, Part, Work};
-use super::ring::Ring;
-use super::tables::Tables;
 use crate::error::Result;
-use crate::history::convolution_weights::ConvolutionWeights;
+use crate::history::convolution::ConvolutionWeights;
 
 /// A coupling that reaches no further ahead than this is summed directly. Times hardly depend on
 /// it up to here; further on blocks are faster.

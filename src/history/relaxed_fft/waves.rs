@@ -9,12 +9,12 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
-use super::blocks::{Blocks, LEAF};
+use super::coefficients::{Blocks, LEAF};
 use super::lattice::Lattice;
-use super::ring::Ring;
+use super::level::Ring;
 use super::wave_level::{KINDS, Near, Part, WaveLevel};
 use crate::error::Result;
-use crate::history::convolution_weights::ConvolutionWeights;
+use crate::history::convolution::ConvolutionWeights;
 use crate::linalg::{Simd, WithSimd, vectorized};
 
 /// Between the ends of rows, so that equal places of all rows do not fall into one cache set.

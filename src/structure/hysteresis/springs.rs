@@ -6,6 +6,7 @@ use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variable
 use crate::structure::{ContactNode, DofCombination, NonlinearForce, Structure, Triplets};
 
 /// A spring and the deformation l·u that it sees.
+#[derive(Clone)]
 struct Spring {
     row: DofCombination,
     law: Box<dyn Hysteresis>,
@@ -18,7 +19,7 @@ impl Spring {
 }
 
 /// The nonlinear part of a structure with springs.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Springs(Vec<Spring>);
 
 impl Springs {

@@ -1,7 +1,6 @@
 //! Structure made of finite elements.
 
-use super::node_names;
-use super::rigid_links::RigidLinks;
+use super::rigid_links::{RigidLinks, describe};
 use crate::error::{Error, Result, positive};
 use crate::fem::{
     Direction, MassKind, Mesh, Numbering, assemble_damping, assemble_geometric_stiffness,
@@ -342,7 +341,7 @@ impl Structure for FemModel {
 
     /// Nodes with their places, and whether one of the rest lies where one of them does.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
-        node_names::describe(self.mesh(), &|node, direction| self.unknown(node, direction), dofs)
+        describe(self.mesh(), &|node, direction| self.unknown(node, direction), dofs)
     }
 
     fn has_active_damping(&self) -> bool {

@@ -2,9 +2,6 @@
 
 mod fem_model;
 mod group;
-mod line_loads;
-mod matrix_model;
-mod node_names;
 mod p_delta;
 mod rigid_block;
 mod rigid_links;
@@ -14,7 +11,7 @@ mod storey_laws;
 
 pub use fem_model::FemModel;
 pub use group::StructureGroup;
-pub use matrix_model::MatrixModel;
+pub use rigid_block::MatrixModel;
 pub use rigid_block::RigidBlock;
 pub use section::{Section, SectionRows};
 pub use shear_building::{ShearBuilding, Storey};

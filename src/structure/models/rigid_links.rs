@@ -1,8 +1,11 @@
-//! Rigid links: nodes that follow another one like a rigid body.
+//! Nodes: rigid links, by which some follow another one like a rigid body, and the names of their degrees of freedom.
+
+use std::fmt::Write;
 
 use crate::error::{Error, Result};
 use crate::fem::{Direction, Mesh, Numbering};
 use crate::structure::Triplets;
+use crate::structure::detached::{NAMED, listed};
 
 /// Every unknown of the mesh as a weighted sum of those that remain.
 #[derive(Debug, Clone, PartialEq)]
@@ -139,4 +142,52 @@ impl RigidLinks {
             }
         }
     }
+}
+
+// Names of a finite-element model's degrees of freedom in errors: its nodes.
+
+/// Nodes of these degrees of freedom with their places, and whether one of the rest lies where one of them
+/// does; `number` numbers the degrees of freedom. `None` without degrees of freedom of nodes.
+pub(super) fn describe(
+    mesh: &Mesh,
+    number: &dyn Fn(usize, Direction) -> Option<usize>,
+    dofs: &[usize],
+) -> Option<String> {
+    let limit = dofs.iter().copied().max()?;
+    let mut is_meant = vec![false; limit.saturating_add(1).min(3 * mesh.nodes().len())];
+    for &unknown in dofs {
+        *is_meant.get_mut(unknown)? = true;
+    }
+    let meant = |unknown: usize| is_meant.get(unknown).copied().unwrap_or(false);
+    let mut nodes = Vec::new();
+    let mut texts = Vec::new();
+    for (node, [x, y]) in mesh.nodes().iter().enumerate() {
+        let own = || Direction::ALL.into_iter().filter(|d| number(node, *d).is_some());
+        let these: Vec<_> = own().filter(|d| number(node, *d).is_some_and(meant)).collect();
+        if these.is_empty() {
+            continue;
+        }
+        nodes.push(node);
+        if texts.len() < NAMED {
+            let mut text = format!("node {node} at ({x}, {y})");
+            if these.len() < own().count() {
+                for direction in these {
+                    let _ = write!(text, " in {direction:?}");
+                }
+            }
+            texts.push(text);
+        }
+    }
+    if nodes.is_empty() {
+        return None;
+    }
+    let mut text = listed(&texts, nodes.len());
+    let twin = nodes.iter().find_map(|&node| {
+        let other = mesh.nodes_beside(node).find(|other| nodes.binary_search(other).is_err())?;
+        Some((node, other))
+    });
+    if let Some((node, other)) = twin {
+        let _ = write!(text, "; node {node} lies where node {other} is, but is not merged with it");
+    }
+    Some(text)
 }

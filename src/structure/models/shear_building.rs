@@ -53,6 +53,7 @@ impl Storey {
 /// assert!((building.fixed_base_frequency() - 2.02589).abs() < 1e-5);
 /// # Ok::<(), basemat::Error>(())
 /// ```
+#[derive(Clone)]
 pub struct ShearBuilding {
     width: f64,
     base_mass: f64,
@@ -69,9 +70,7 @@ pub struct ShearBuilding {
     gravity: f64,
 }
 
-short_debug! {
-    ShearBuilding; self; storeys: self.storeys, laws: self.springs.len()
-}
+short_debug! { ShearBuilding; self; storeys: self.storeys, laws: self.springs.len() }
 
 impl ShearBuilding {
     /// Index of the base's horizontal displacement.

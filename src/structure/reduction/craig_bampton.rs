@@ -13,8 +13,8 @@ use super::recovery::{Basis, Recovery};
 use crate::error::memory;
 use crate::error::{Error, Result, damping_ratio};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
+use crate::structure::detached::SYMMETRIC;
 use crate::structure::detached::{check_attached, numbers};
-use crate::structure::matrix_checks::SYMMETRIC;
 use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::{ContactNode, DofCombination, Structure, Triplets};
 
@@ -56,7 +56,7 @@ pub struct ReducedModel {
     basis: Arc<Basis>,
     contact: Vec<ContactNode>,
     foundation_ends: Vec<usize>,
-    /// DofCombination-major, of the order of the reduced model.
+    /// Row-major, of the order of the reduced model.
     mass: Vec<f64>,
     damping: Vec<f64>,
     stiffness: Vec<f64>,

@@ -66,6 +66,11 @@ impl Hysteresis for Double {
         self.0.asked("restore");
         Err(refusal())
     }
+
+    fn clone_box(&self) -> Box<dyn Hysteresis> {
+        self.0.asked("clone_box");
+        Box::new(Self(self.0.clone()))
+    }
 }
 
 impl InterfaceLaw for Double {

@@ -229,7 +229,7 @@ fn relative_coordinates_are_no_part() {
         for (k, (m, h)) in m.iter().zip(h).enumerate() {
             coupling.extend([(0, 3 + k, *m), (2, 3 + k, -h * m)]);
         }
-        // Floors that ride with the base: (u_x − h θ)².
+        // Floors that move with the base: (u_x − h θ)².
         coupling.push((0, 2, -(m[0] * h[0] + m[1] * h[1])));
         let whole = [m[0] + m[1], m[0] * h[0] * h[0] + m[1] * h[1] * h[1]];
         let halves = [(0, 0, 0.5 * whole[0]), (2, 2, 0.5 * whole[1])];

@@ -85,8 +85,8 @@ fn leaning_columns_overturn() {
     let model = column(3, |beam| bent(beam).with_compression(compression).unwrap());
     let matrix = stiffness(&model);
     for direction in [Direction::X, Direction::Y] {
-        let ride = model.rigid_motion(direction, [0.0; 2]);
-        assert!(largest(&multiply(&matrix, &ride)) < 1e-12 * E);
+        let shift = model.rigid_motion(direction, [0.0; 2]);
+        assert!(largest(&multiply(&matrix, &shift)) < 1e-12 * E);
     }
     let turn = model.rigid_motion(Direction::Rotation, [0.0; 2]);
     let moment = form(&turn, &matrix, &turn);
@@ -207,10 +207,10 @@ fn arms_lengthen_a_cantilever() {
     let turn = at(&model.row(2, Direction::Rotation).unwrap());
     let tip = found[model.unknown(3, Direction::X).unwrap()];
     assert!((tip - (at(&row) - arm * turn)).abs() < 1e-10 * exact);
-    // A rigid ride is still one.
-    let ride = model.rigid_motion(Direction::Rotation, [0.0; 2]);
-    assert!(largest(&multiply(&stiffness(&model), &ride)) < 1e-12 * E);
-    assert!(dot(&ride, &ride) > 0.0);
+    // A rigid motion is still one.
+    let shift = model.rigid_motion(Direction::Rotation, [0.0; 2]);
+    assert!(largest(&multiply(&stiffness(&model), &shift)) < 1e-12 * E);
+    assert!(dot(&shift, &shift) > 0.0);
 }
 
 #[test]

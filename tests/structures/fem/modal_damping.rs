@@ -36,8 +36,8 @@ fn every_mode_has_its_ratio() {
         assert!((frequency / expected - 1.0).abs() < 1e-9);
     }
     for direction in [Direction::X, Direction::Y, Direction::Rotation] {
-        let ride = model.rigid_motion(direction, [0.0; 2]);
-        let force = largest(&multiply(&damping(&damped), &ride));
+        let shift = model.rigid_motion(direction, [0.0; 2]);
+        let force = largest(&multiply(&damping(&damped), &shift));
         assert!(force < 1e-9 * top * 2000.0, "{direction:?} {force}");
     }
 }
@@ -123,7 +123,7 @@ fn the_lowest_modes_of_a_fine_mesh_are_damped() {
     }
 }
 
-/// What has two footings and no stiffness between them rides in six ways, what has P–Δ still in three.
+/// What has two footings and no stiffness between them has six rigid motions, what has P–Δ three.
 #[test]
 fn rigid_motions_are_counted_by_what_they_are() {
     use basemat::structure::StructureGroup;

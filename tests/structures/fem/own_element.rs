@@ -76,7 +76,7 @@ fn own_triangle_passes_the_patch_test_beside_quads() {
     for (a, b) in found.iter().zip(&exact) {
         assert!((a - b).abs() < 1e-15);
     }
-    let ride = model.rigid_motion(Direction::X, [0.0, 0.0]);
-    assert!((form(&ride, &mass(&model), &ride) - 2.0 * 1800.0).abs() < 1e-9);
-    assert!(largest(&multiply(&stiffness(&model), &ride)) < 1e-7);
+    let shift = model.rigid_motion(Direction::X, [0.0, 0.0]);
+    assert!((form(&shift, &mass(&model), &shift) - 2.0 * 1800.0).abs() < 1e-9);
+    assert!(largest(&multiply(&stiffness(&model), &shift)) < 1e-7);
 }

@@ -219,8 +219,8 @@ fn p_delta_overturns_but_does_not_hold() {
     let matrix = stiffness(&model);
     let stiffest = matrix.iter().map(|row| largest(row)).fold(0.0, f64::max);
     for direction in [Direction::X, Direction::Y] {
-        let ride = model.rigid_motion(direction, [0.0; 2]);
-        assert!(largest(&multiply(&matrix, &ride)) < 1e-14 * stiffest);
+        let shift = model.rigid_motion(direction, [0.0; 2]);
+        assert!(largest(&multiply(&matrix, &shift)) < 1e-14 * stiffest);
     }
     let turn = model.rigid_motion(Direction::Rotation, [0.0; 2]);
     let moment = form(&turn, &matrix, &turn);

@@ -82,10 +82,10 @@ fn rigid_motions_meet_no_force_and_their_inertia_is_exact() {
         let mesh = refined(&POINTS, &QUADS, material, integration, 0.04);
         let model = FemModel::new(mesh, &[0, 1]).unwrap();
         for direction in [Direction::X, Direction::Y, Direction::Rotation] {
-            let ride = model.rigid_motion(direction, [0.0; 2]);
+            let shift = model.rigid_motion(direction, [0.0; 2]);
             let matrix = stiffness(&model);
             let stiffest = matrix.iter().map(|row| largest(row)).fold(0.0, f64::max);
-            assert!(largest(&multiply(&matrix, &ride)) < 1e-14 * stiffest);
+            assert!(largest(&multiply(&matrix, &shift)) < 1e-14 * stiffest);
         }
     }
     // A rectangle 2 × 3 of density 5 about its corner: m and m (w² + h²)/3.
@@ -95,8 +95,8 @@ fn rigid_motions_meet_no_force_and_their_inertia_is_exact() {
         let mesh = refined(&corners, &[[0, 1, 2, 3]], material, BOTH[0], 0.0);
         let model = FemModel::new(mesh, &[0, 1]).unwrap().with_mass(kind);
         let inertia = |direction| {
-            let ride = model.rigid_motion(direction, [0.0; 2]);
-            form(&ride, &mass(&model), &ride)
+            let shift = model.rigid_motion(direction, [0.0; 2]);
+            form(&shift, &mass(&model), &shift)
         };
         assert!((inertia(Direction::X) - 30.0).abs() < 1e-12);
         assert!((inertia(Direction::Y) - 30.0).abs() < 1e-12);

@@ -62,15 +62,15 @@ fn rigid_motions_meet_no_force_and_all_the_mass() {
     for matrix in [stiffness(&building), damping(&building), mass(&building)] {
         assert_symmetric(&matrix);
     }
-    let ride = [1.0, 0.0, 0.0, 1.0, 1.0, 1.0];
-    for motion in [ride, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0], TURN] {
+    let shift = [1.0, 0.0, 0.0, 1.0, 1.0, 1.0];
+    for motion in [shift, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0], TURN] {
         assert!(largest(&multiply(&stiffness(&building), &motion)) < 1e-9);
         assert!(largest(&multiply(&damping(&building), &motion)) < 1e-9);
     }
     let inertia = 5000.0 + 0.7 * 2000.0 + 900.0 * 16.0 + 700.0 * 49.0 + 400.0 * 10.5 * 10.5;
     assert!((form(&TURN, &mass(&building), &TURN) / inertia - 1.0).abs() < 1e-14);
     let rise = [0.0, 1.0, 0.0, 0.0, 0.0, 0.0];
-    for motion in [ride, rise] {
+    for motion in [shift, rise] {
         assert!((form(&motion, &mass(&building), &motion) / 4000.0 - 1.0).abs() < 1e-14);
     }
 }

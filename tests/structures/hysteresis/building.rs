@@ -48,6 +48,26 @@ fn on_soil(structure: impl Structure + 'static, time_step: f64) -> SimulationBui
         .gravity(STANDARD_GRAVITY)
 }
 
+/// A clone has the laws with their internal variables, and from then on its own.
+#[test]
+fn clones_yield_by_themselves() {
+    let mut building = yielding(|force| Box::new(BoucWen::new(40e6, force, 0.05).unwrap()));
+    let (past, now) = ([0.0, 0.0, 0.0, 0.02, 0.03, 0.03, 0.04, 0.05], [0.0; 8]);
+    let force = |building: &ShearBuilding| {
+        let mut force = [0.0; 8];
+        building.nonlinear().unwrap().force(&now, &mut force).unwrap();
+        force
+    };
+    let new = force(&building);
+    building.nonlinear_mut().unwrap().commit(&past);
+    let mut clone = building.clone();
+    let yielded = force(&building);
+    assert!(yielded != new && force(&clone) == yielded);
+    clone.nonlinear_mut().unwrap().commit(&now);
+    clone.nonlinear_mut().unwrap().commit(&past.map(|u| -u));
+    assert!(force(&clone) != yielded && force(&building) == yielded);
+}
+
 /// ∂f/∂u of the whole structure by central differences, where no law is near a kink.
 #[test]
 fn tangents_are_consistent() {

@@ -97,7 +97,7 @@ fn refused(structure: impl Structure + 'static) {
     assert!(matches!(built, Err(Error::Restrained { .. })), "{:?}", built.err());
 }
 
-/// An elastic support would carry part of the weight and distort the ride that weighs the structure.
+/// An elastic support would carry part of the weight and distort the rigid motion by which the structure is weighed.
 #[test]
 fn stiffness_to_a_fixed_point_is_refused() {
     let block = || RigidBlock::new(6.0, 10.0, 80.0e3 / 60.0).unwrap();
@@ -115,9 +115,9 @@ fn stiffness_to_a_fixed_point_is_refused() {
     refused(WithSprings::new(tower(4, 6)).spring(vec![(roof, 1.0)], law).unwrap());
 }
 
-/// However stiff, a structure without supports rides freely.
+/// However stiff, a structure without supports is free to translate.
 #[test]
-fn stiff_structures_ride_freely() {
+fn stiff_structures_are_free_to_translate() {
     for modulus in [1e3, 1e9, 1e15, 1e20] {
         let material = Material::new(modulus, 0.2, 2000.0).unwrap();
         let mesh = Mesh::layered_block(-3.0..3.0, 6, &[Layer::new(120.0, 60, material)]).unwrap();

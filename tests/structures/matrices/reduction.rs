@@ -43,21 +43,21 @@ fn static_motion(recovery: &Recovery, order: usize, full: &[f64]) -> Vec<f64> {
 #[test]
 fn rigid_motions_weight_and_inertia_pass_exactly() {
     let model = damped();
-    let rides = [Direction::X, Direction::Y, Direction::Rotation]
+    let rigid = [Direction::X, Direction::Y, Direction::Rotation]
         .map(|direction| model.rigid_motion(direction, [0.0, 0.0]));
     let inertia: Vec<Vec<f64>> =
-        rides.iter().map(|ride| product(&model, Structure::mass, ride)).collect();
+        rigid.iter().map(|motion| product(&model, Structure::mass, motion)).collect();
     let reduced = CraigBampton::new(5).reduce(model).unwrap();
     let recovery = reduced.recovery();
     let order = reduced.dofs();
-    for (ride, momentum) in rides.iter().zip(&inertia) {
-        let q = static_motion(&recovery, order, ride);
+    for (motion, momentum) in rigid.iter().zip(&inertia) {
+        let q = static_motion(&recovery, order, motion);
         let back = recovery.full(&q).unwrap();
-        let apart: Vec<f64> = back.iter().zip(ride).map(|(a, b)| a - b).collect();
-        assert!(largest(&apart) < 1e-9 * largest(ride), "{:e}", largest(&apart));
+        let apart: Vec<f64> = back.iter().zip(motion).map(|(a, b)| a - b).collect();
+        assert!(largest(&apart) < 1e-9 * largest(motion), "{:e}", largest(&apart));
         let force = product(&reduced, Structure::stiffness, &q);
-        assert!(largest(&force) < 1e-11 * 2.0e9 * largest(ride), "{:e}", largest(&force));
-        for other in &rides {
+        assert!(largest(&force) < 1e-11 * 2.0e9 * largest(motion), "{:e}", largest(&force));
+        for other in &rigid {
             let expected: f64 = other.iter().zip(momentum).map(|(a, b)| a * b).sum();
             let own = static_motion(&recovery, order, other);
             let found: f64 =

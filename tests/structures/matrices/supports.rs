@@ -110,7 +110,7 @@ fn rounding_is_no_support() {
     stands(wall_on_soil(reduced));
 }
 
-/// Seven digits leave forces that bend the ride: refused, with their size.
+/// Seven digits leave forces under a rigid motion: an error with their size.
 #[test]
 fn matrices_of_few_digits_are_refused() {
     for (count, size) in [(6, 1e-5), (7, 1e-6), (8, 1e-7)] {

@@ -202,3 +202,25 @@ pub(crate) fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
     values.get(place.round() as usize).copied().unwrap_or(f64::NAN)
 }
+
+/// Share of the bootstrap's curves within a band.
+const BAND: f64 = 0.9;
+
+/// The curve of a friction coefficient and a width.
+pub(crate) struct Group {
+    pub(crate) friction: f64,
+    pub(crate) width: f64,
+    pub(crate) stripes: Vec<Stripe>,
+    pub(crate) fit: Option<Fit>,
+    /// Of the bootstrap.
+    pub(crate) samples: Vec<Curve>,
+}
+
+impl Group {
+    /// Bounds of the band: quantiles of a number that the curves of the bootstrap have.
+    pub(crate) fn band(&self, of: impl Fn(&Curve) -> f64) -> [f64; 2] {
+        let tail = 0.5 * (1.0 - BAND);
+        let values: Vec<_> = self.samples.iter().map(of).collect();
+        [tail, 1.0 - tail].map(|share| quantile(values.clone(), share))
+    }
+}

@@ -34,22 +34,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::AnyError;
 use crate::document::write_csv;
-use lognormal::{Curve, Fit, Outcomes, Stripe};
+use lognormal::{Fit, Group, Outcomes};
 use motions::Motion;
 
-/// Curves of the bootstrap, and the share of them within a band.
+/// Curves of the bootstrap.
 const SAMPLES: usize = 1000;
-const BAND: f64 = 0.9;
-
-/// The curve of a friction coefficient and a width.
-pub(crate) struct Group {
-    pub(crate) friction: f64,
-    pub(crate) width: f64,
-    pub(crate) stripes: Vec<Stripe>,
-    pub(crate) fit: Option<Fit>,
-    /// Of the bootstrap.
-    pub(crate) samples: Vec<Curve>,
-}
 
 /// Fragility of a shear building that may uplift and slide: friction × width × motions × intensities.
 ///
@@ -146,7 +135,8 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
     }
     report(&groups, options);
     write(&options.out.join("curves.csv"), &groups)?;
-    picture::draw(&options.out.join("fragility.svg"), &groups, widths, options)?;
+    let title = format!("{} above {}: fitted curves, bands of 90 %", options.demand, options.limit);
+    picture::draw(&options.out.join("fragility.svg"), &title, &groups, widths)?;
     println!("files in {}", options.out.display());
     Ok(())
 }
@@ -235,15 +225,6 @@ fn group(
     let mut random = Random(1);
     let samples = lognormal::resampled(levels, &outcomes, SAMPLES, || random.bits());
     Ok(Group { friction, width, fit: lognormal::fit(&stripes), stripes, samples })
-}
-
-impl Group {
-    /// Bounds of the band: quantiles of a number that the curves of the bootstrap have.
-    pub(crate) fn band(&self, of: impl Fn(&Curve) -> f64) -> [f64; 2] {
-        let tail = 0.5 * (1.0 - BAND);
-        let values: Vec<_> = self.samples.iter().map(of).collect();
-        [tail, 1.0 - tail].map(|share| lognormal::quantile(values.clone(), share))
-    }
 }
 
 fn report(groups: &[Group], options: &Options) {

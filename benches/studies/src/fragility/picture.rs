@@ -4,10 +4,8 @@ use std::path::Path;
 
 use plotters::prelude::*;
 
-use super::Group;
-use super::Options;
+use super::lognormal::Group;
 use crate::AnyError;
-
 use crate::key::{self, Area, Sample};
 
 const PANEL: (u32, u32) = (440, 460);
@@ -19,15 +17,14 @@ const POINTS: u32 = 100;
 /// Draws all.
 pub(crate) fn draw(
     path: &Path,
+    title: &str,
     groups: &[Group],
     widths: &[f64],
-    options: &Options,
 ) -> Result<(), AnyError> {
     let size = (PANEL.0 * u32::try_from(widths.len())? + 150, PANEL.1);
     let root = SVGBackend::new(path, size).into_drawing_area();
     root.fill(&WHITE)?;
-    let title = format!("{} above {}: fitted curves, bands of 90 %", options.demand, options.limit);
-    let body = root.titled(&title, ("sans-serif", 22))?;
+    let body = root.titled(title, ("sans-serif", 22))?;
     let first = groups.iter().filter(|group| group.width == widths[0]);
     let names = first.zip(COLORS.iter().cycle());
     let entries: Vec<_> = names

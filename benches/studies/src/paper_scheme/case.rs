@@ -8,6 +8,8 @@ use basemat::coupled::State;
 use basemat::{Error, StepError};
 use cpu_time::ProcessTime;
 
+use super::scheme::Scheme;
+
 /// Why a run ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum End {
@@ -87,5 +89,19 @@ impl Outcome {
         let (end, largest) = apart.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let factor = largest / other.peak(usize::MAX);
         (factor > 10.0).then(|| factor.powf(1.0 / (end - begin) as f64) - 1.0)
+    }
+}
+
+/// A row of Table 1 by all schemes.
+pub(crate) struct Row {
+    pub(crate) name: &'static str,
+    /// The paper's peak, lb/ft.
+    pub(crate) printed: f64,
+    pub(crate) outcomes: Vec<(Scheme, Outcome)>,
+}
+
+impl Row {
+    pub(crate) fn outcome(&self, scheme: Scheme) -> Option<&Outcome> {
+        self.outcomes.iter().find(|(other, _)| *other == scheme).map(|(_, outcome)| outcome)
     }
 }

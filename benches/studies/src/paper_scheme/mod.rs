@@ -33,7 +33,7 @@ use basemat::motion::el_centro_1940;
 
 use crate::AnyError;
 use basemat_problems::containment::{Containment, PAPER_SHEARS, POUND_FORCE_PER_FOOT, ROWS};
-use case::{Outcome, march};
+use case::{Row, march};
 use scheme::{SCHEMES, Scene, Scheme};
 
 /// The paper's scheme, its soil by convolution quadrature, and this crate's, side by side.
@@ -77,20 +77,6 @@ pub(crate) struct Options {
     /// Only the table of growth and passivity of boundary equations over β.
     #[arg(long)]
     stability: bool,
-}
-
-/// A row of Table 1 by all schemes.
-struct Row {
-    name: &'static str,
-    /// The paper's peak, lb/ft.
-    printed: f64,
-    outcomes: Vec<(Scheme, Outcome)>,
-}
-
-impl Row {
-    fn outcome(&self, scheme: Scheme) -> Option<&Outcome> {
-        self.outcomes.iter().find(|(other, _)| *other == scheme).map(|(_, outcome)| outcome)
-    }
 }
 
 pub(crate) fn run(options: &Options) -> Result<(), AnyError> {

@@ -6,8 +6,7 @@ use basemat::Error;
 use basemat::bem::full_plane::Stability;
 use basemat::plot::{Curve, curves};
 
-use super::Row;
-use super::case::{End, Outcome};
+use super::case::{End, Outcome, Row};
 use super::scheme::{SCHEMES, Scene, Scheme};
 use crate::AnyError;
 use crate::document::{file_stem, write_csv};

@@ -8,7 +8,7 @@ use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::RigidBlock;
 use basemat::{Result, Sweep};
 
-use super::timed;
+use super::report::timed;
 use crate::AnyError;
 use crate::document::peak_memory;
 use basemat_problems::headline::{COUNT, ELEMENT, headline, soil, time_step, without_end};

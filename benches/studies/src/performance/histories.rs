@@ -1,4 +1,4 @@
-//! TimeSeries and coefficients by themselves.
+//! Convolutions and coefficients by themselves.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -9,7 +9,7 @@ use basemat::history::{
     ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory, RelaxedFftHistory,
 };
 
-use super::timed;
+use super::report::timed;
 use basemat_problems::headline::{soil, strip, time_step};
 
 fn patch(count: usize) -> Result<Arc<dyn ConvolutionWeights>> {

@@ -15,7 +15,6 @@ mod child;
 mod histories;
 mod reduced;
 mod report;
-
 mod targets;
 
 use std::path::PathBuf;
@@ -39,13 +38,6 @@ pub(crate) struct Options {
     child: Option<child::Scene>,
     #[arg(long, hide = true, default_value_t = STEPS)]
     steps: usize,
-}
-
-/// What `work` gives, and the seconds that this thread was on a processor for it.
-fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
-    let begin = cpu_time::ThreadTime::now();
-    let result = work();
-    (result, begin.elapsed().as_secs_f64())
 }
 
 pub(crate) fn run(options: &Options) -> Result<(), AnyError> {

@@ -8,8 +8,7 @@ use basemat::motion::el_centro_1940;
 use basemat::structure::{FemModel, RayleighDamping, Structure};
 use basemat::{Result, Simulation, Soil};
 
-use super::report::Report;
-use super::timed;
+use super::report::{Report, timed};
 use crate::AnyError;
 
 const STEPS: usize = 1000;

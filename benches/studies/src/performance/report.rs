@@ -1,7 +1,14 @@
-//! Tables in Markdown.
+//! Times, and tables of them in Markdown.
 
 use crate::document::{processor, threads, told_by};
 use std::fmt::Write as _;
+
+/// What `work` gives, and the seconds that this thread was on a processor for it.
+pub(crate) fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let begin = cpu_time::ThreadTime::now();
+    let result = work();
+    (result, begin.elapsed().as_secs_f64())
+}
 
 /// The table of targets, and those that follow.
 pub(crate) struct Report {

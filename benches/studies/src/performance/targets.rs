@@ -2,8 +2,7 @@
 
 use super::child::{Scene, Taken, containment, measure};
 use super::histories::{alone, bounded, coefficients, direct, exponent, growth, relaxed};
-use super::report::Report;
-use super::timed;
+use super::report::{Report, timed};
 use crate::AnyError;
 use basemat_problems::headline::{ROWS, STEPS};
 
@@ -95,7 +94,7 @@ pub(crate) fn runs(report: &mut Report, short: bool) -> Result<(), AnyError> {
     Ok(())
 }
 
-/// TimeSeries and coefficients by themselves.
+/// Convolutions and coefficients by themselves.
 pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError> {
     // The direct sum costs its N² multiply–adds at a rate that is constant from here on.
     let steps: usize = if short { 3_000 } else { 8_000 };
@@ -147,7 +146,7 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
         .collect();
     report.table(
         &format!(
-            "TimeSeries alone, 10 elements: transforms (exponent {:.3}), exponentials at 1e-12 ({:.3})",
+            "Convolutions alone, 10 elements: transforms (exponent {:.3}), exponentials at 1e-12 ({:.3})",
             growths[0].exponent, growths[1].exponent
         ),
         &[
@@ -196,7 +195,7 @@ pub(crate) fn histories(report: &mut Report, short: bool) -> Result<(), AnyError
         "exponentials: setup, s",
         "µs per step",
     ];
-    report.table("TimeSeries alone, uniform strips, 10 000 steps", &head, &rows);
+    report.table("Convolutions alone, uniform strips, 10 000 steps", &head, &rows);
     Ok(())
 }
 

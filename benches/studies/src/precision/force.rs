@@ -1,4 +1,4 @@
-//! TimeSeries of the base shear, and how far one is from another.
+//! Time series of the base shear, and how far one is from another.
 
 use basemat_problems::series::{Series, whole};
 use basemat_problems::table;

@@ -14,7 +14,7 @@ pub(crate) struct Past {
     tolerance: Option<f64>,
 }
 
-/// TimeSeries that are compared. A new kind of [`History`] is one more line.
+/// Convolutions that are compared. A new kind of [`History`] is one more line.
 pub(crate) const HISTORIES: [Past; 5] = [
     Past { name: "transforms", kind: History::RelaxedFft, tolerance: None },
     Past { name: "direct", kind: History::Direct, tolerance: None },

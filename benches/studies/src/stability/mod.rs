@@ -25,18 +25,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::AnyError;
 use crate::document::splice;
 use axes::Map;
-use run::Outcome;
-use scene::{Foretold, Scheme};
-
-/// One cell of a map.
-pub(crate) struct Cell {
-    /// Number of the map.
-    pub(crate) map: usize,
-    pub(crate) scheme: Scheme,
-    /// Places on the axes.
-    pub(crate) place: [usize; 2],
-    pub(crate) outcome: Outcome,
-}
+use run::Cell;
+use scene::Foretold;
 
 /// Where the crate stays bounded, closes its energy balance and finds its contact modes, and where
 /// it refuses.

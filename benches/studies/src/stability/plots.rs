@@ -7,9 +7,8 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::Cell;
 use super::axes::{Map, SCHEME_MAP};
-use super::run::Verdict;
+use super::run::{Cell, Verdict};
 use super::scene::Scheme;
 use crate::AnyError;
 

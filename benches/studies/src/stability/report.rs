@@ -3,9 +3,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::Cell;
 use super::axes::{Map, SCHEME_MAP};
-use super::run::{ROUNDING, Verdict};
+use super::run::{Cell, ROUNDING, Verdict};
 use super::scene::Scheme;
 use crate::AnyError;
 use crate::document::write_csv;

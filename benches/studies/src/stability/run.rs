@@ -57,7 +57,7 @@ impl Verdict {
 #[derive(Debug, Clone)]
 pub(crate) struct Outcome {
     pub(crate) verdict: Verdict,
-    /// EnergyBalance residual at the end, and the largest of the run.
+    /// Energy error at the end, and the largest of the run.
     pub(crate) energy_balance: [f64; 2],
     /// Largest energy of the structure in the last quarter of the rest, over that in the first.
     pub(crate) growth: f64,
@@ -288,4 +288,14 @@ impl Outcome {
             self.growth_per_step = ratio.max(1.0).powf(0.5 / steps.max(1.0)) - 1.0;
         }
     }
+}
+
+/// One cell of a map.
+pub(crate) struct Cell {
+    /// Number of the map.
+    pub(crate) map: usize,
+    pub(crate) scheme: Scheme,
+    /// Places on the axes.
+    pub(crate) place: [usize; 2],
+    pub(crate) outcome: Outcome,
 }

@@ -39,7 +39,7 @@ impl<'a> Quantity<'a> {
     }
 }
 
-/// TimeSeries of one quantity.
+/// Time series of one quantity.
 struct History {
     name: String,
     error: f64,

@@ -1,11 +1,44 @@
-//! The start of a step, as laws written in Python see it.
+//! An element's contact, and its contact at the end of the step before, as laws written in Python see them.
 
 use basemat::interface::{ContactState, Mode, PreviousContact};
 use pyo3::prelude::*;
 
-use super::PyContactState;
 use crate::array::Numbers;
 use crate::names::mode_name;
+
+/// Opening and total traction of an element: gap and slip (m), pressure and shear (Pa).
+#[pyclass(name = "ContactState", module = "basemat", frozen, get_all)]
+pub(crate) struct PyContactState {
+    /// Gap, m; positive when open.
+    gap: f64,
+    /// Slip since the static state, m; positive to the right.
+    slip: f64,
+    /// Pressure, Pa; positive in compression.
+    pressure: f64,
+    /// Shear traction of the structure on the soil, Pa; positive to the right.
+    shear: f64,
+}
+
+impl PyContactState {
+    pub(super) fn of(state: &ContactState) -> Self {
+        let ContactState { gap, slip, pressure, shear } = *state;
+        Self { gap, slip, pressure, shear }
+    }
+
+    pub(crate) fn core(&self) -> ContactState {
+        let Self { gap, slip, pressure, shear } = *self;
+        ContactState { gap, slip, pressure, shear }
+    }
+}
+
+#[pymethods]
+impl PyContactState {
+    #[new]
+    #[pyo3(signature = (*, gap=0.0, slip=0.0, pressure=0.0, shear=0.0))]
+    fn new(gap: f64, slip: f64, pressure: f64, shear: f64) -> Self {
+        Self { gap, slip, pressure, shear }
+    }
+}
 
 /// An element at the start of a step.
 #[pyclass(name = "PreviousContact", module = "basemat", frozen)]

@@ -1,0 +1,103 @@
+//! What Python can do with a weighted sum of degrees of freedom.
+
+use numpy::PyArray1;
+use pyo3::exceptions::PyMemoryError;
+use pyo3::prelude::*;
+
+use super::recipe;
+use crate::array::{Numbers, whole};
+use crate::error::{OrRaise, refuse};
+use crate::row::{PyDofCombination, RowLike};
+
+#[pymethods]
+impl PyDofCombination {
+    #[new]
+    fn new(terms: RowLike) -> Self {
+        Self(terms.0, terms.1)
+    }
+
+    /// Pairs ``(unknown, weight)``.
+    #[getter]
+    fn terms(&self) -> Vec<(usize, f64)> {
+        self.0.terms().to_vec()
+    }
+
+    /// The sum for given degrees of freedom (array of shape (n,)).
+    fn value(&self, dofs: Numbers) -> PyResult<f64> {
+        let Numbers(dofs) = dofs;
+        self.1.check("the row", dofs.len())?;
+        if let Some((index, _)) = self.0.iter().find(|(index, _)| *index >= dofs.len()) {
+            return Err(refuse(format!("unknown {index} of a row, of {} given", dofs.len())));
+        }
+        Ok(self.0.value(&dofs))
+    }
+
+    /// All n weights as an array of shape (n,).
+    fn weights<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = whole)] dofs: usize,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        self.1.check("the row", dofs)?;
+        let mut weights = Vec::new();
+        weights.try_reserve_exact(dofs).map_err(|_| {
+            PyMemoryError::new_err(format!("an array of {dofs} weights does not fit"))
+        })?;
+        weights.resize(dofs, 0.0);
+        for &(index, weight) in &self.0 {
+            *weights
+                .get_mut(index)
+                .ok_or_else(|| refuse(format!("unknown {index} of a row, of {dofs}")))? += weight;
+        }
+        Ok(PyArray1::from_vec(py, weights))
+    }
+
+    /// This displacement to the right less that of the middle of the structure's base.
+    fn relative_to_base(&self, structure: Bound<'_, PyAny>) -> PyResult<Self> {
+        let structure = recipe(&structure)?().or_raise()?;
+        self.1.check("the row", structure.dofs())?;
+        Ok(Self(self.0.relative_to_base(structure.as_ref()).or_raise()?, self.1))
+    }
+
+    /// The same less what the base's rotation makes of it at ``height`` (m): the sway.
+    fn total_drift(&self, structure: Bound<'_, PyAny>, height: f64) -> PyResult<Self> {
+        let structure = recipe(&structure)?().or_raise()?;
+        self.1.check("the row", structure.dofs())?;
+        Ok(Self(self.0.total_drift(structure.as_ref(), height).or_raise()?, self.1))
+    }
+
+    fn __add__(&self, other: RowLike) -> PyResult<Self> {
+        Ok(Self(self.0.clone() + other.0, self.1.and(other.1)?))
+    }
+
+    fn __sub__(&self, other: RowLike) -> PyResult<Self> {
+        Ok(Self(self.0.clone() - other.0, self.1.and(other.1)?))
+    }
+
+    fn __neg__(&self) -> Self {
+        Self(-self.0.clone(), self.1)
+    }
+
+    fn __mul__(&self, factor: f64) -> Self {
+        Self(factor * self.0.clone(), self.1)
+    }
+
+    fn __rmul__(&self, factor: f64) -> Self {
+        self.__mul__(factor)
+    }
+
+    fn __truediv__(&self, divisor: f64) -> Self {
+        self.__mul__(1.0 / divisor)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("DofCombination({:?})", self.0.terms())
+    }
+
+    fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>,)> {
+        match self.1.0 {
+            Some(dofs) => Ok((self.weights(py, dofs)?.into_any(),)),
+            None => Ok((self.terms().into_pyobject(py)?,)),
+        }
+    }
+}
