@@ -16,6 +16,7 @@ use crate::bem::{ContactElement, Ground};
 use crate::coupled::run::Run;
 use crate::error::{Error, Result, StepError, not_negative, positive};
 use crate::history::HistoryChoice;
+use crate::interface::Mode;
 use crate::motion::FreeField;
 use crate::structure::Structure;
 use crate::structure::probe::Probe;
@@ -246,7 +247,8 @@ impl Simulation {
 
     /// Closes a run of this simulation: its warnings and wall time.
     pub fn end_run(&self, mut run: Run) -> Run {
-        run.finish(self.ground.as_ref(), self.motion.as_ref());
+        let opens = |element| self.scene.law(element).modes().contains(&Mode::Open);
+        run.finish(self.ground.as_ref(), self.motion.as_ref(), opens);
         run
     }
 

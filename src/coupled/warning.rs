@@ -24,6 +24,16 @@ pub enum Warning {
         /// Largest rotation, rad.
         rotation: f64,
     },
+    /// Tension under a base that cannot open, by more than [`Warning::TENSION_LIMIT`]: it is held down by what the
+    /// model does not have.
+    Tension {
+        /// Largest tension of any element, Pa.
+        tension: f64,
+        /// Middle of that element, m.
+        x: f64,
+        /// When, s.
+        time: f64,
+    },
     /// The energy balance does not close to 1e-9 at the end.
     EnergyBalance {
         /// Its residual, relative to the largest energy of the run.
@@ -93,9 +103,12 @@ impl Warning {
     pub const ROTATION_LIMIT: f64 = 0.1;
     /// Energy error at the end of a run above which it warns. Earlier, while energies are still
     /// small, it may be larger: see [`Run::energy_error`](super::Run::energy_error).
-    pub const LEDGER_LIMIT: f64 = 1e-9;
+    pub const ENERGY_LIMIT: f64 = 1e-9;
     /// Energy that the time scheme may make before a run warns, relative to the largest energy.
     pub const ALGORITHMIC_LIMIT: f64 = 0.02;
+
+    /// Tension above which a run under weight warns, relative to the largest static pressure.
+    pub const TENSION_LIMIT: f64 = 0.01;
 
     /// Speeds of shear waves in soils, m/s, from mud to rock.
     pub const SOIL_SPEEDS: [f64; 2] = [10.0, 5000.0];
@@ -129,7 +142,7 @@ impl Warning {
             warnings.push(Self::LargeRotation { rotation });
         }
         let residual = energy_balance.residual();
-        if residual > Self::LEDGER_LIMIT || (residual.is_nan() && !energy_balance.is_left_out()) {
+        if residual > Self::ENERGY_LIMIT || (residual.is_nan() && !energy_balance.is_left_out()) {
             warnings.push(Self::EnergyBalance { residual });
         }
         let made = -least_algorithmic / energy_balance.scale();
@@ -154,6 +167,10 @@ impl fmt::Display for Warning {
                     "base rotation of {rotation:.3e} rad: geometry is that of small rotations"
                 )
             }
+            Self::Tension { tension, x, time } => write!(
+                f,
+                "base pulled up by {tension:.2e} Pa, x = {x:.2} m at {time:.2} s: its law cannot open"
+            ),
             Self::EnergyBalance { residual } => write!(f, "energy balance open by {residual:.1e}"),
             Self::AlgorithmicEnergy { made } => write!(
                 f,

@@ -189,8 +189,13 @@ impl Run {
         }
     }
 
-    /// Closes the run; the ground is sampled where steps may have missed something.
-    pub(crate) fn finish(&mut self, ground: &dyn Ground, motion: &dyn FreeField) {
+    /// Closes the run; the ground is sampled where steps may have missed something. `opens` says which elements can.
+    pub(crate) fn finish(
+        &mut self,
+        ground: &dyn Ground,
+        motion: &dyn FreeField,
+        opens: impl Fn(usize) -> bool,
+    ) {
         // A run that was read from a file is closed.
         if self.elements.is_empty() {
             return;
@@ -205,6 +210,7 @@ impl Run {
             &self.energy_balance,
             self.least_algorithmic,
         );
+        self.warnings.extend(sliding::tension(&self.envelope, opens));
         self.warnings.extend(Warning::of_soils(&ground.soils()));
         self.resolution.warn(&mut self.warnings);
     }

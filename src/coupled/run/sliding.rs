@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::bem::ContactElement;
 use crate::coupled::run::Extremes;
-use crate::coupled::{Origin, Peak, State};
+use crate::coupled::{Origin, Peak, State, Warning};
 use crate::interface::Mode;
 
 /// A stretch of steps in which a whole base slid one way: some elements are closed, all closed
@@ -100,6 +100,20 @@ pub struct ElementEnvelope {
     pub slip: Peak,
     /// Time open, s.
     pub open: f64,
+}
+
+/// What warns of the largest tension under a base with static pressures, if its element cannot open.
+pub(super) fn tension(
+    envelope: &[ElementEnvelope],
+    opens: impl Fn(usize) -> bool,
+) -> Option<Warning> {
+    let pressures = envelope.iter().map(|element| element.static_pressure);
+    let limit = Warning::TENSION_LIMIT * pressures.fold(0.0, f64::max);
+    let held = envelope.iter().enumerate().filter(|(e, _)| !opens(*e));
+    let lowest = held.map(|(_, envelope)| (envelope.element, envelope.pressure.lowest));
+    let (element, lowest) = lowest.min_by(|a, b| a.1.value.total_cmp(&b.1.value))?;
+    let (tension, x) = (-lowest.value, 0.5 * (element.left + element.right));
+    (limit > 0.0 && tension > limit).then_some(Warning::Tension { tension, x, time: lowest.time })
 }
 
 /// Of every element, at the start.
