@@ -74,7 +74,6 @@ mod checkpoint;
 mod diagnosis;
 mod energy_accumulator;
 mod energy_balance;
-mod load;
 mod motion;
 
 mod refine;
@@ -90,13 +89,12 @@ mod warning;
 pub use crate::contact::{ContactSearch, SearchMethod};
 pub use advance::Observed;
 pub use build::SimulationBuilder;
-pub use build::parts::Coordinates;
-pub use build::parts::GravityStage;
+pub use build::parts::{Coordinates, GravityStage};
 pub use checkpoint::Checkpoint;
-pub use diagnosis::conditioning::Conditioning;
+pub use diagnosis::Conditioning;
 pub use energy_balance::{EnergyBalance, EnergyTerm};
-pub use load::Load;
-pub(crate) use run::safety::probe_index;
+pub use motion::Load;
+pub(crate) use run::peak::probe_index;
 pub use run::{Extremes, Fallbacks, Peak, ProbeExtremes, Run};
 
 pub use crate::structure::probe::Probe;
@@ -105,8 +103,7 @@ pub(crate) use resolution::Resolution;
 pub use scheme::{
     DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme,
 };
-pub use simulation::Simulation;
-pub use simulation::largest_convergent_step;
+pub use simulation::{Simulation, largest_convergent_step};
 pub(crate) use state::Origin;
 pub use state::{Foundation, State, Transition};
 pub use warning::Warning;

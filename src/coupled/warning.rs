@@ -27,14 +27,14 @@ pub enum Warning {
     /// The energy balance does not close to 1e-9 at the end.
     EnergyBalance {
         /// Its residual, relative to the largest energy of the run.
-        #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+        #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
         residual: f64,
     },
     /// The time scheme has made energy, more than [`Warning::ALGORITHMIC_LIMIT`] of the run's largest:
     /// see [`Newmark`](super::Newmark).
     AlgorithmicEnergy {
         /// Most that it had made at any time, relative to the largest energy of the run.
-        #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+        #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
         made: f64,
     },
     /// The base shear vibrates with a period that the time step does not resolve.

@@ -2,7 +2,7 @@
 
 use super::Quantity;
 use crate::bem::ContactElement;
-use crate::coupled::run::sliding::Sequence;
+use crate::coupled::run::base::Sequence;
 use crate::coupled::{EnergyBalance, Probe, Simulation, State, probe_index};
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, Mode};

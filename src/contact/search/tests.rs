@@ -8,8 +8,7 @@ use super::*;
 use crate::bem::{ElasticGround, Ground, Strip};
 use crate::contact::Delassus;
 use crate::coupled::build::assembled::Assembled;
-use crate::coupled::scene::operators::Model;
-use crate::coupled::scene::operators::{Factor, Operators};
+use crate::coupled::scene::operators::{Factor, Model, Operators};
 use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
 use crate::interface::{

@@ -13,8 +13,7 @@
 
 use super::assembled::Assembled;
 use super::parts::Parts;
-use super::step_response::{Rows, StepResponses};
-use super::subspace::Subspace;
+use super::subspace::{Rows, StepResponses, Subspace};
 use crate::coupled::scene::transformation::ModalBasis;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, ReducedError, Result, finite};

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::coupled::{Peak, State};
 use crate::error::{Error, Result, positive};
-use crate::text::number::{number, printed};
+use crate::text::column::{number, printed};
 
 /// Response of a base that a service requirement limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
