@@ -92,7 +92,7 @@ impl Warning {
     /// Rotation above which a run warns, rad: the cosine is off by half a percent.
     pub const ROTATION_LIMIT: f64 = 0.1;
     /// Energy error at the end of a run above which it warns. Earlier, while energies are still
-    /// small, it may be larger: see [`Run::energy_error`](super::Run::energy_error).
+    /// small, it may be larger: see [`Run::energy_error`](crate::results::Run::energy_error).
     pub const LEDGER_LIMIT: f64 = 1e-9;
     /// Energy that the time scheme may make before a run warns, relative to the largest energy.
     pub const ALGORITHMIC_LIMIT: f64 = 0.02;

@@ -21,7 +21,7 @@ use crate::motion::FreeField;
 use base::Sequence;
 
 /// Steps whose contact modes the first search did not find, see
-/// [`SearchMethod`](crate::coupled::SearchMethod).
+/// [`SearchMethod`](crate::contact::SearchMethod).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -64,7 +64,7 @@ impl Criterion {
 
 /// Limits that service sets to the motion of a base: give them to
 /// [`SimulationBuilder::serviceability`](crate::coupled::SimulationBuilder::serviceability), and
-/// each [`Run`](super::Run) says whether they were kept.
+/// each [`Run`](crate::results::Run) says whether they were kept.
 ///
 /// ```
 /// use basemat::bem::SpringGround;
