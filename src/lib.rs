@@ -114,7 +114,7 @@
 //! | [`prelude`] | what most programs name, in one `use` |
 //! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy balance |
 //! | [`results`] | histories, peaks, envelopes, factors of safety, tables for reports |
-//! | [`sweep`] | [`Sweep`]: many simulations over parameters, on all processors with the feature `rayon`; their table, shards |
+//! | [`sweep`] | [`sweep::Sweep`]: many simulations over parameters, on all processors with the feature `rayon`; their table, shards |
 //! | [`structure`] | finite-element model, shear building, rigid block, given matrices, reduction, hysteretic springs, and the trait for your own |
 //! | [`fem`] | meshes and elements |
 //! | [`contact`] | the contact problem of a step, for codes with an integrator of their own |
@@ -138,14 +138,14 @@
 //! | `reference` | `reference`: closed forms from the literature, to check against |
 //! | `plot` | `plot`: pictures of histories, contact, spectra and shapes, as SVG; `results::DeformedShape` |
 //! | `png` | `plot`, and the same pictures as PNG |
-//! | `rayon` | [`Sweep`], and coefficients of layered ground, on all processors |
+//! | `rayon` | [`sweep::Sweep`], and coefficients of layered ground, on all processors |
 //! | `serde` | `Serialize` and `Deserialize` of settings, results, records and [`Checkpoint`](coupled::Checkpoint)s |
 //! | `npz` | [`results::TimeSeries`] as an archive of NumPy's arrays |
 //!
 //! ## Settings and results in serde's formats
 //!
 //! With the feature `serde` plain data derive `Serialize` and `Deserialize`: soils, profiles, materials, laws that
-//! are numbers, schemes, options, probes, records, spectra, a [`coupled::Run`] with all in it. What a
+//! are numbers, schemes, options, probes, records, spectra, a [`results::Run`] with all in it. What a
 //! constructor checks is checked when it is read. Choices are words, those of their `Display` where they have one
 //! (`"slip_left"`), with their numbers in a map (`{"reduced": {"tolerance": 1e-6}}`).
 //! In formats that people read, a number that is NaN is null and infinities are `"inf"` and `"-inf"`, where
@@ -211,7 +211,7 @@ pub mod soil;
 pub mod structure;
 pub mod sweep;
 
-pub use coupled::Simulation;
+pub use coupled::simulation::Simulation;
 pub use error::{
     CaseError, CaseFileError, CheckpointError, Error, KernelFileError, LawError, LayeredError,
     MemoryError, RecordError, ReducedError, Result, StabilityError, StepError, SweepError,
@@ -221,7 +221,6 @@ pub use error::{
 pub use error::{MatrixFileError, MeshFileError};
 pub use linalg::Complex;
 pub use soil::Soil;
-pub use sweep::Sweep;
 
 /// The README's program is compiled and run.
 #[cfg(doctest)]

@@ -4,9 +4,9 @@
 use std::time::Instant;
 
 use basemat::bem::{ElasticGround, Strip};
-use basemat::coupled::Run;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::el_centro_1940;
+use basemat::results::Run;
 use basemat::results::{Quantity, Recorder, TimeSeries};
 use basemat::{Result, Simulation};
 use basemat_problems::containment::Containment;

@@ -21,8 +21,7 @@
 use super::strip::Overlap;
 use crate::error::{Error, Result, positive};
 use crate::fundamental::branch::{Branches, Part, Weight};
-use crate::fundamental::rayleigh::Rayleigh;
-use crate::fundamental::rayleigh::{TERMS, late_coefficients};
+use crate::fundamental::rayleigh::{Rayleigh, TERMS, late_coefficients};
 use crate::geometry::ContactElement;
 use crate::history::KINDS;
 use crate::linalg::gauss;

@@ -23,8 +23,7 @@ pub use elastic_ground::ElasticGround;
 pub use influence::{Influence, InfluenceKernel, PairInfluence};
 pub use shared::SharedKernels;
 pub use spring::SpringGround;
-pub use static_kernel::PatchKernel;
-pub use static_kernel::StaticKernel;
+pub use static_kernel::{PatchKernel, StaticKernel};
 pub use strip::{Grading, Strip};
 pub use weights_ground::WeightsGround;
 

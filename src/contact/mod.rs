@@ -25,7 +25,7 @@ words_with_numbers! {
     /// One of its words, or an [`Error::Word`](crate::Error::Word).
     ///
     /// ```
-    /// use basemat::coupled::ContactSearch;
+    /// use basemat::contact::ContactSearch;
     /// assert_eq!("flow_chart(50)".parse(), Ok(ContactSearch::FlowChart { iterations: 50 }));
     /// assert!("flow_chart(0.5)".parse::<ContactSearch>().is_err());
     /// ```

@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use crate::text::column::column;
-use crate::text::number::number;
+use crate::text::column::{column, number};
 
 /// Where a term stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,7 +51,7 @@ macro_rules! energies {
         pub struct EnergyBalance {
             $(
                 $(#[$doc])*
-                #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+                #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
                 pub $field: f64,
             )+
         }

@@ -67,6 +67,11 @@
 //!
 //! holds exactly for the discrete equations; see [`EnergyBalance`] for the terms. [`Run::energy_error`]
 //! is the largest violation of a run, relative to the largest energy until then.
+//!
+//! [`Run::energy_error`]: crate::results::Run::energy_error
+//! [`Simulation::builder`]: crate::Simulation::builder
+//! [`Simulation::run`]: crate::Simulation::run
+//! [`Simulation::step`]: crate::Simulation::step
 
 mod advance;
 pub(crate) mod build;
@@ -74,7 +79,6 @@ mod checkpoint;
 mod diagnosis;
 mod energy_accumulator;
 mod energy_balance;
-mod load;
 mod motion;
 
 mod refine;
@@ -82,22 +86,20 @@ mod resolution;
 pub(crate) mod run;
 pub(crate) mod scene;
 mod scheme;
-mod simulation;
+pub(crate) mod simulation;
 mod state;
 mod step;
 mod warning;
 
-pub use crate::contact::{ContactSearch, SearchMethod};
 pub use advance::Observed;
 pub use build::SimulationBuilder;
-pub use build::parts::Coordinates;
-pub use build::parts::GravityStage;
+pub use build::parts::{Coordinates, GravityStage};
 pub use checkpoint::Checkpoint;
-pub use diagnosis::conditioning::Conditioning;
+pub use diagnosis::Conditioning;
 pub use energy_balance::{EnergyBalance, EnergyTerm};
-pub use load::Load;
-pub(crate) use run::safety::probe_index;
-pub use run::{Extremes, Fallbacks, Peak, ProbeExtremes, Run};
+pub use motion::Load;
+pub(crate) use run::Peak;
+pub(crate) use run::peak::probe_index;
 
 pub use crate::structure::probe::Probe;
 pub use refine::{Refinement, Setting, refine};
@@ -105,7 +107,6 @@ pub(crate) use resolution::Resolution;
 pub use scheme::{
     DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme,
 };
-pub use simulation::Simulation;
 pub use simulation::largest_convergent_step;
 pub(crate) use state::Origin;
 pub use state::{Foundation, State, Transition};

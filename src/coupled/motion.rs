@@ -1,11 +1,15 @@
 //! Motion of the structure in the coordinates that are stepped.
 
+use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 use super::scene::influence::Influence;
 use super::scene::operators::Model;
-use super::scene::transformation::Transformation;
+use super::scene::transformation::{Transformation, Weights};
 use super::scheme::SchemeCoefficients;
+use crate::error::{Error, Result, finite, positive};
+use crate::motion::Record;
+use crate::structure::DofCombination;
 
 /// Mean translation of the free field under a part, `[right, up]`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -127,5 +131,154 @@ impl std::fmt::Debug for Motion {
             shown.field(name, &self.dofs(which));
         }
         shown.finish()
+    }
+}
+
+// External loads: a row of degrees of freedom times a function of time.
+
+/// A force that acts on a structure from outside: wind, machinery, blast, impact.
+///
+/// The force of every degree of freedom is its weight in `row` times the load's value at the time, so that the
+/// load does the work value × Δ(row): for the [`DofCombination`] of a displacement a force (N per metre of
+/// thickness), for that of a rotation a moment. Its value at t = 0 belongs to the static state, after
+/// the weight; what acts suddenly is zero there.
+///
+/// ```
+/// use basemat::Simulation;
+/// use basemat::bem::ElasticGround;
+/// use basemat::coupled::{Load, Probe};
+/// use basemat::interface::Coulomb;
+/// use basemat::structure::RigidBlock;
+/// use basemat::Soil;
+///
+/// let block = RigidBlock::new(6.0, 9.0, 2000.0)?;
+/// let roof = block.horizontal_at(9.0);
+/// // 100 kN/m at the roof, let go at t = 0.
+/// let mut simulation = Simulation::builder(0.005)
+///     .ground(ElasticGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, 8)?)
+///     .structure(block)
+///     .interface(Coulomb::new(0.5)?)
+///     .load(Load::released(roof.clone(), 100.0e3))
+///     .probe(Probe::displacement("roof", roof))
+///     .build()?;
+/// assert!((simulation.state().base_shear - 100.0e3).abs() < 1.0);
+/// let run = simulation.run(400, |_| {})?;
+/// // It swings back.
+/// assert!(run.probes[0].extremes.lowest.value < -5e-3);
+/// assert!(run.whole.base_shear.lowest.value < 0.0 && run.energy_error < 1e-9);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub struct Load {
+    row: DofCombination,
+    value: Box<dyn Fn(f64) -> f64 + Send>,
+}
+
+impl Load {
+    /// `value(t)`, t in seconds, on `row`. A value that is not finite ends the step with an error.
+    pub fn new(
+        row: impl Into<DofCombination>,
+        value: impl Fn(f64) -> f64 + Send + 'static,
+    ) -> Self {
+        Self { row: row.into(), value: Box::new(value) }
+    }
+
+    /// The same `force` at any time, the static state included.
+    pub fn constant(row: impl Into<DofCombination>, force: f64) -> Self {
+        Self::new(row, move |_| force)
+    }
+
+    /// A `force` of the static state that is gone from the first step on (snap-back). Without a static
+    /// state (no gravity, or [`GravityStage::Unloaded`](super::GravityStage::Unloaded)) it never acts.
+    pub fn released(row: impl Into<DofCombination>, force: f64) -> Self {
+        Self::new(row, move |time| if time > 0.0 { 0.0 } else { force })
+    }
+
+    /// `force` times the samples of a record, linear between them and zero beyond its ends. The
+    /// samples are in m/s² whatever they stand for.
+    pub fn record(row: impl Into<DofCombination>, record: &Record, force: f64) -> Self {
+        let record = record.clone();
+        Self::new(row, move |time| force * record.acceleration_at(time))
+    }
+
+    /// `forces` at `times` (s, ascending), linear between them; zero before the first and after the
+    /// last.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for lists that differ in length or are empty, [`Error::Input`] for numbers
+    /// that are not finite or times that do not ascend.
+    pub fn table(row: impl Into<DofCombination>, times: &[f64], forces: &[f64]) -> Result<Self> {
+        let sizes = |found, needed| Error::Size { quantity: "table of a load", found, needed };
+        if times.len() != forces.len() || times.is_empty() {
+            return Err(sizes(forces.len(), times.len().max(1)));
+        }
+        for (time, force) in times.iter().zip(forces) {
+            finite("time of a load", *time)?;
+            finite("value of a load", *force)?;
+        }
+        for pair in times.windows(2) {
+            positive("time between two values of a load", pair[1] - pair[0])?;
+        }
+        let (times, forces) = (times.to_vec(), forces.to_vec());
+        Ok(Self::new(row, move |time| {
+            let next = times.partition_point(|t| *t <= time);
+            match (next.checked_sub(1), times.get(next)) {
+                (Some(k), Some(end)) => {
+                    let share = (time - times[k]) / (end - times[k]);
+                    // Not by the difference, which may overflow.
+                    (1.0 - share) * forces[k] + share * forces[next]
+                }
+                (Some(k), None) if time <= times[k] => forces[k],
+                _ => 0.0,
+            }
+        }))
+    }
+
+    /// Where it acts.
+    pub fn row(&self) -> &DofCombination {
+        &self.row
+    }
+
+    /// Its value at `time`, s.
+    pub fn value(&self, time: f64) -> f64 {
+        (self.value)(time)
+    }
+
+    /// Refuses a row with other degrees of freedom than the structure's, and a value at t = 0 that is not finite;
+    /// `index` is the load's number.
+    pub(crate) fn check(&self, index: usize, dofs: usize) -> Result<()> {
+        self.row.check("unknown of a load", dofs)?;
+        let (quantity, value) = ("external load at t = 0", self.value(0.0));
+        if value.is_finite() { Ok(()) } else { Err(Error::NotFinite { quantity, index, value }) }
+    }
+}
+
+impl fmt::Debug for Load {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Load").field("row", &self.row).finish_non_exhaustive()
+    }
+}
+
+/// A load in the coordinates that are stepped.
+pub(crate) struct SteppedLoad {
+    load: Load,
+    row: Weights,
+    /// Its value in the static state.
+    at_start: f64,
+}
+
+impl SteppedLoad {
+    pub(crate) fn new(load: Load, transformation: &Transformation, is_static: bool) -> Self {
+        let row = transformation.row(load.row.terms());
+        let at_start = if is_static { load.value(0.0) } else { 0.0 };
+        Self { load, row, at_start }
+    }
+
+    /// Adds the force at `time`, less that of the static state, to `force`; returns its value.
+    pub(crate) fn add(&self, time: f64, force: &mut [f64]) -> f64 {
+        let value = self.load.value(time) - self.at_start;
+        if value != 0.0 {
+            self.row.add(value, force);
+        }
+        value
     }
 }

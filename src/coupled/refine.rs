@@ -25,10 +25,10 @@ pub struct Setting {
     /// Time step, s.
     pub time_step: f64,
     /// Estimated error of the results, relative to their size (root of the sum of squares).
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub error: f64,
     /// Wall time of building and running, zero where there is no clock (WebAssembly).
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::seconds"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::seconds"))]
     pub wall: Duration,
     /// The results.
     pub results: Vec<f64>,
@@ -46,14 +46,14 @@ pub struct Refinement {
     /// Results extrapolated to infinitely many elements and steps.
     pub extrapolated: Vec<f64>,
     /// Observed order of convergence in the element length; NaN if the results do not depend on it.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub mesh_order: f64,
     /// Observed order of convergence in the time step; NaN if the results do not depend on it.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub step_order: f64,
     /// Distance of the last setting's results from those that the errors of mesh and step, added,
     /// foretell, relative to the results' size. Estimates of errors below it say nothing.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub mismatch: f64,
 }
 

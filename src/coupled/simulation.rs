@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::advance::Observed;
 use super::checkpoint;
 use super::checkpoint::Checkpoint;
-use super::diagnosis::conditioning::Conditioning;
+use super::diagnosis::Conditioning;
 use super::energy_accumulator::EnergyAccumulator;
 use super::resolution::Resolution;
 use super::scene::Scene;

@@ -37,14 +37,14 @@ pub enum Warning {
     /// The energy balance does not close to 1e-9 at the end.
     EnergyBalance {
         /// Its residual, relative to the largest energy of the run.
-        #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+        #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
         residual: f64,
     },
     /// The time scheme has made energy, more than [`Warning::ALGORITHMIC_LIMIT`] of the run's largest:
     /// see [`Newmark`](super::Newmark).
     AlgorithmicEnergy {
         /// Most that it had made at any time, relative to the largest energy of the run.
-        #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+        #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
         made: f64,
     },
     /// The base shear vibrates with a period that the time step does not resolve.
@@ -102,7 +102,7 @@ impl Warning {
     /// Rotation above which a run warns, rad: the cosine is off by half a percent.
     pub const ROTATION_LIMIT: f64 = 0.1;
     /// Energy error at the end of a run above which it warns. Earlier, while energies are still
-    /// small, it may be larger: see [`Run::energy_error`](super::Run::energy_error).
+    /// small, it may be larger: see [`Run::energy_error`](crate::results::Run::energy_error).
     pub const ENERGY_LIMIT: f64 = 1e-9;
     /// Energy that the time scheme may make before a run warns, relative to the largest energy.
     pub const ALGORITHMIC_LIMIT: f64 = 0.02;

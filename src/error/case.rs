@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 
 use super::Error;
 
-/// Why a case of a [`Sweep`](crate::Sweep) has no result.
+/// Why a case of a [`Sweep`](crate::sweep::Sweep) has no result.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CaseError<E> {
@@ -38,7 +38,7 @@ impl From<CaseError<Error>> for Error {
     }
 }
 
-/// Fault of a [`Sweep`](crate::Sweep)'s parameters, of its table or of the table's files.
+/// Fault of a [`Sweep`](crate::sweep::Sweep)'s parameters, of its table or of the table's files.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SweepError {
@@ -104,7 +104,7 @@ pub enum SweepError {
         computed: usize,
         /// Cases of the shard without one.
         left: usize,
-        /// All rows that there are, as CSV: [`Sweep::table_in`](crate::Sweep::table_in) goes on from
+        /// All rows that there are, as CSV: [`Sweep::table_in`](crate::sweep::Sweep::table_in) goes on from
         /// them once they are in a file called as its own with `.part` at the end.
         rows: String,
     },

@@ -5,31 +5,27 @@
 //! is therefore written `r#source`, which `thiserror` does not take for one.
 
 mod case;
+#[cfg(feature = "io")]
+mod input_file;
 mod layered;
 pub(crate) mod memory;
-#[cfg(feature = "io")]
-mod mesh_file;
 mod part;
 mod record;
-mod stability;
 mod step;
 
 pub use case::{CaseError, CaseFileError, SweepError};
+#[cfg(feature = "io")]
+pub use input_file::MatrixFileError;
+#[cfg(feature = "io")]
+pub use input_file::MeshFileError;
 pub use layered::{KernelFileError, LayeredError};
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
 pub(crate) use memory::{
     all_finite, damping_ratio, finite, not_finite, not_negative, positive, same_length, write_file,
 };
-#[cfg(feature = "io")]
-pub use mesh_file::MatrixFileError;
-#[cfg(feature = "io")]
-pub use mesh_file::MeshFileError;
-pub use part::LawError;
-pub use part::ReducedError;
+pub use part::{LawError, ReducedError};
 pub use record::RecordError;
-pub use stability::StabilityError;
-pub use step::CheckpointError;
-pub use step::StepError;
+pub use step::{CheckpointError, StabilityError, StepError};
 
 /// Result of every fallible function of the crate.
 pub type Result<T> = std::result::Result<T, Error>;

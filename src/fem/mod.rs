@@ -17,7 +17,6 @@
 mod assembly;
 mod beam;
 mod element;
-mod layered_block;
 mod mesh;
 mod quad4;
 mod quad8;
@@ -30,10 +29,8 @@ pub(crate) use assembly::{
     assemble_stiffness, set_static_state,
 };
 pub use beam::Beam;
-pub use element::Material;
-pub use element::{Element, MassKind};
-pub use layered_block::Layer;
-pub use mesh::Mesh;
+pub use element::{Element, MassKind, Material};
+pub use mesh::{Layer, Mesh};
 pub use quad4::{Quad4, QuadFormulation};
 pub use quad8::{Quad8, Quad8Integration};
 pub use spring::{Dashpot, LumpedMass, Spring};

@@ -1,7 +1,6 @@
 //! Eight-node quadrilateral of a solid in plane strain.
 
-use super::element::Material;
-use super::element::{Element, MassKind, add_square};
+use super::element::{Element, MassKind, Material, add_square};
 use crate::error::{Error, Result, same_length};
 use crate::geometry::{Direction, TRANSLATIONS};
 use crate::linalg::gauss;

@@ -14,8 +14,7 @@
 //! | s | √(τ²−a²), √(τ²−1), √(1−τ²), or u in the tail |
 
 use crate::fundamental::rayleigh::Rayleigh;
-use crate::linalg::Complex;
-use crate::linalg::gauss;
+use crate::linalg::{Complex, gauss};
 
 /// Weight under which the kernel is integrated: a smooth function A of the slowness u.
 pub(crate) trait Weight {

@@ -3,9 +3,7 @@
 use std::sync::Arc;
 
 use super::choice::{ChoiceReason, Estimate, History, HistoryChoice};
-use super::convolution::ConvolutionWeights;
-use super::convolution::DirectHistory;
-use super::convolution::{ConvolutionHistory, ExactHistory};
+use super::convolution::{ConvolutionHistory, ConvolutionWeights, DirectHistory, ExactHistory};
 use super::exponentials::{ExponentialHistory, LONGEST, MEMORY};
 use super::relaxed_fft::{LEAF, RelaxedFftHistory};
 use crate::error::{Error, MemoryError, Result, memory};

@@ -13,11 +13,8 @@ mod relaxed_fft;
 
 pub(crate) use choice::SavedChoice;
 pub use choice::{ChoiceReason, History, HistoryChoice};
-pub(crate) use chosen::ChosenHistory;
-pub(crate) use chosen::HistoryOptions;
-pub use convolution::ConvolutionHistory;
-pub use convolution::DirectHistory;
-pub use convolution::{ConvolutionWeights, LateWeights};
+pub(crate) use chosen::{ChosenHistory, HistoryOptions};
+pub use convolution::{ConvolutionHistory, ConvolutionWeights, DirectHistory, LateWeights};
 pub use exponentials::{ExponentialHistory, ExponentialSum, TailProduct};
 pub(crate) use pair_classes::KINDS;
 pub use pair_classes::{Pair, PairClasses};

@@ -48,7 +48,7 @@ validated! {
     Cohesive as AdhesiveForm {
         tension: f64,
         cohesion: f64,
-        #[serde(with = "crate::text::forms::number")]
+        #[serde(with = "crate::text::words::number")]
         friction: f64,
     }
     => Cohesive::new(tension, cohesion, friction)

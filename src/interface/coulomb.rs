@@ -38,7 +38,7 @@ pub enum UnilateralCondition {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "CoulombForm"))]
 pub struct Coulomb {
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     friction: f64,
     tensile_strength: f64,
     condition: UnilateralCondition,
@@ -46,7 +46,7 @@ pub struct Coulomb {
 
 validated! {
     Coulomb as CoulombForm {
-        #[serde(with = "crate::text::forms::number")]
+        #[serde(with = "crate::text::words::number")]
         friction: f64,
         #[serde(default)]
         tensile_strength: f64,
@@ -125,7 +125,7 @@ impl Coulomb {
         &self,
         to: S,
     ) -> std::result::Result<S::Ok, S::Error> {
-        crate::text::forms::number::serialize(&self.friction, to)
+        crate::text::words::number::serialize(&self.friction, to)
     }
 
     fn strength(&self, start: &PreviousContact) -> f64 {

@@ -11,8 +11,7 @@ mod thin_layer;
 mod yielding;
 
 pub use cohesive::{Bonded, Cohesive};
-pub use coulomb::VariableFriction;
-pub use coulomb::{Coulomb, UnilateralCondition};
+pub use coulomb::{Coulomb, UnilateralCondition, VariableFriction};
 pub(crate) use previous_contact::memory_ends;
 pub use previous_contact::{PreviousContact, PreviousContacts};
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};

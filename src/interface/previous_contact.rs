@@ -1,8 +1,7 @@
 //! The start of a step: the past of each element, as its law sees it.
 
 use super::{ContactState, InterfaceLaw, Mode, law_of};
-use crate::error::memory;
-use crate::error::{LawError, Result, finite, positive, same_length};
+use crate::error::{LawError, Result, finite, memory, positive, same_length};
 
 /// State of an element at the beginning of a step, as its law sees it.
 ///

@@ -56,7 +56,7 @@ pub struct Yielding {
 validated! {
     Yielding as YieldingForm {
         bearing_pressure: f64,
-        #[serde(with = "crate::text::forms::number")]
+        #[serde(with = "crate::text::words::number")]
         friction: f64,
     }
     => Yielding::new(bearing_pressure, friction)

@@ -2,10 +2,8 @@
 
 use std::ops::Deref;
 
-use crate::error::memory;
-use crate::error::{Error, MemoryError, Result, same_length};
-use crate::linalg::Triplets;
-use crate::linalg::{dense_multiply_add, weighted_dot};
+use crate::error::{Error, MemoryError, Result, memory, same_length};
+use crate::linalg::{Triplets, dense_multiply_add, weighted_dot};
 
 /// Bytes of a degree of freedom in the sparse matrices of a structure, their factor and its states.
 const BYTES_PER_UNKNOWN: f64 = 400.0;

@@ -3,7 +3,6 @@
 //! Everything runs sequentially, and solves use workspace made when the factor was made.
 
 mod complex;
-mod condition;
 mod dense;
 mod eigen;
 pub(crate) mod gauss;
@@ -14,16 +13,13 @@ mod triplets;
 
 pub use complex::Complex;
 pub(crate) use complex::hermitian_range;
-pub(crate) use condition::{dense_condition, sparse_condition};
-pub(crate) use dense::DenseFactor;
-pub(crate) use eigen::lowest_modes;
-pub(crate) use eigen::{generalised_modes, indefinite_pivot, symmetric_modes};
+pub(crate) use dense::{DenseFactor, dense_condition, sparse_condition};
+pub(crate) use eigen::{generalised_modes, indefinite_pivot, lowest_modes, symmetric_modes};
 pub(crate) use faer::traits::ComplexField;
 pub(crate) use matrix::SparseMatrix;
 pub(crate) use product::{
     Dot, Simd, WithSimd, add_combined_rows, add_row, add_rows, dense_multiply_add, dot, largest,
     magnitude, row_products, transposed_multiply_add, vectorized, weighted_dot,
 };
-pub(crate) use sparse::Partition;
-pub(crate) use sparse::{SparseFactor, indefinite_row};
+pub(crate) use sparse::{Partition, SparseFactor, indefinite_row};
 pub use triplets::Triplets;

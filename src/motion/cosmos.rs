@@ -7,7 +7,7 @@ use super::lines::{Lines, Reason, count, push_numbers, read_numbers, record, sca
 use super::unit::{Quantity, clause_end, unclear};
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{RecordError, Result};
-use crate::text::number::finite;
+use crate::text::column::finite;
 
 /// The `.V2` and `.V2c` files of the Center for Engineering Strong Motion Data.
 ///

@@ -5,7 +5,7 @@ use std::io::Read;
 use super::format::FixedColumns;
 use crate::error::{Error, RecordError, Result};
 use crate::text::bounded_line;
-use crate::text::number::{excerpt, finite, has_implied_point, in_field};
+use crate::text::column::{excerpt, finite, has_implied_point, in_field};
 
 /// What is read of lines, or why one is refused, and which.
 pub(super) type Reason<T> = std::result::Result<T, (usize, RecordError)>;

@@ -21,8 +21,7 @@ mod spectrum;
 mod unit;
 
 pub use baseline::Baseline;
-pub use cosmos::CosmosFormat;
-pub use cosmos::KNetFormat;
+pub use cosmos::{CosmosFormat, KNetFormat};
 pub use format::RecordFormat;
 pub use free_field::{
     AtRest, FreeField, FreeFieldFn, RickerDisplacement, TravellingWave, VerticalIncidence,

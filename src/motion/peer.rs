@@ -6,7 +6,7 @@ use super::lines::{Lines, Reason, count, end_of_numbers, read_numbers, record, s
 use super::unit::{Quantity, clause_end, unclear};
 use super::{AccelerationUnit, Record, RecordFormat, STANDARD_GRAVITY};
 use crate::error::{RecordError, Result};
-use crate::text::number::finite;
+use crate::text::column::finite;
 
 const G: AccelerationUnit = AccelerationUnit::StandardGravity;
 /// Lines among which the number of points and the time step must stand.

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::error::{Error, RecordError, Result};
-use crate::text::number::{excerpt, finite};
+use crate::text::column::{excerpt, finite};
 use crate::text::words::unknown;
 
 /// Standard gravity, 9.80665 m/s² (3rd CGPM, 1901).

@@ -6,8 +6,7 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-use super::stroke::{Area, Drawing, Stroke};
-use super::stroke::{fitted, width};
+use super::drawing::{Area, Drawing, Stroke, fitted, width};
 
 pub(super) const LABEL: (&str, u32) = ("sans-serif", 15);
 const DESCRIPTION: (&str, u32) = ("sans-serif", 17);

@@ -1,14 +1,13 @@
 //! Curves over time or period: quantities, energy, spectra; error against run time.
 
 use super::axes::{Axis, chart, draw_curve, drawable, range_of};
-use super::stroke::Stroke;
-use super::stroke::{Key, Sample};
+use super::drawing::{Key, Sample, Stroke};
 use super::svg::{Sheet, Svg};
 use crate::coupled::{EnergyBalance, Refinement, Setting};
 use crate::error::{Error, Result};
 use crate::motion::SpectralOrdinate;
 use crate::results::{Quantity, TimeSeries};
-use crate::text::number::printed;
+use crate::text::column::printed;
 use plotters::prelude::*;
 
 /// Stretches of a curve that are drawn by their extremes: more than pixels help nobody.

@@ -27,16 +27,14 @@
 
 mod animation;
 mod axes;
+mod base;
+mod drawing;
 mod lines;
-mod mode_map;
 #[cfg(feature = "png")]
 mod png;
-mod stroke;
 mod svg;
 
-pub use animation::animation;
-pub use animation::deformed_shapes;
-pub use lines::refinement;
-pub use lines::{Curve, curves, energy, history, probe_history, spectra};
-pub use mode_map::{mode_map, pressure_envelope};
+pub use animation::{animation, deformed_shapes};
+pub use base::{mode_map, pressure_envelope};
+pub use lines::{Curve, curves, energy, history, probe_history, refinement, spectra};
 pub use svg::Svg;

@@ -6,9 +6,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::axes::{ABOVE, BELOW, LEFT, RIGHT};
-use super::stroke::Key;
-use super::stroke::lines;
-use super::stroke::{Area, Drawing};
+use super::drawing::{Area, Drawing, Key, lines};
 use crate::error::{Error, Result, write_file};
 
 /// Size of the pictures, pixels; they are higher where title or key need it.

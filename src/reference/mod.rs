@@ -4,17 +4,14 @@
 //! counter-clockwise, x to the right, y up; loads are per metre of thickness, in SI units.
 
 mod line_load;
-mod no_tension_strip;
 mod rocking_block;
 mod sliding_block;
+mod strip;
 
 pub use line_load::{
     flamant_horizontal_displacement, flamant_radial_stress, flamant_relative_settlement,
     kelvin_relative_displacement,
 };
-pub use no_tension_strip::RigidStrip;
-pub use no_tension_strip::WinklerStrip;
-pub use no_tension_strip::{NoTensionStrip, StripContact};
 pub use rocking_block::RockingBlock;
-pub use sliding_block::SlidingBlock;
-pub use sliding_block::{SlidingEvent, SlidingHistory};
+pub use sliding_block::{SlidingBlock, SlidingEvent, SlidingHistory};
+pub use strip::{NoTensionStrip, RigidStrip, StripContact, WinklerStrip};

@@ -8,8 +8,7 @@ use crate::coupled::EnergyTerm;
 use crate::coupled::run::page::factor;
 use crate::coupled::run::quantity::Place;
 use crate::error::{Result, write_file};
-use crate::text::column::{Cell, column, distinct};
-use crate::text::number::{number, printed};
+use crate::text::column::{Cell, column, distinct, number, printed};
 use crate::text::table::Table;
 
 /// Runs side by side; prints as a table with a row per quantity and a column per case, in blocks of

@@ -81,6 +81,4 @@ pub use csv::{save_spectrum_csv, write_spectrum_csv};
 #[cfg(any(feature = "io", feature = "plot"))]
 pub use deformed_shape::{DeformedShape, ShapePoint};
 pub use floor::{broadened, log_spaced};
-pub use time_series::Recorder;
-pub use time_series::TimeSeries;
-pub use time_series::{ContactFrame, MotionFrame};
+pub use time_series::{ContactFrame, MotionFrame, Recorder, TimeSeries};

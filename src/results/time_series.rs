@@ -1,9 +1,10 @@
 //! The observer: time series of a run, and the frames of motion and contact that it keeps.
 
 use super::Quantity;
+use crate::Simulation;
 use crate::bem::ContactElement;
-use crate::coupled::run::sliding::Sequence;
-use crate::coupled::{EnergyBalance, Probe, Simulation, State, probe_index};
+use crate::coupled::run::base::Sequence;
+use crate::coupled::{EnergyBalance, Probe, State, probe_index};
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, Mode};
 

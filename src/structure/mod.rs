@@ -11,11 +11,10 @@ mod reduction;
 
 pub use crate::linalg::Triplets;
 pub use damping::{ModalDamping, RayleighDamping, WithModalDamping};
-pub(crate) use detached::{HeldBase, stiffest};
-pub(crate) use detached::{check_attached, numbers as unknown_numbers};
-pub(crate) use detached::{check_damping, check_mass};
-pub use dof_combination::ContactNode;
-pub use dof_combination::DofCombination;
+pub(crate) use detached::{
+    HeldBase, check_attached, check_damping, check_mass, numbers as unknown_numbers, stiffest,
+};
+pub use dof_combination::{ContactNode, DofCombination};
 pub(crate) use dof_combination::{check_contact_nodes, foundation_nodes};
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, InternalEnergy, LeadRubber, SpringResponse,

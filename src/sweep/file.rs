@@ -5,7 +5,7 @@ use std::path::Path;
 use super::table::{Row, heading, name, parameter_cells};
 use super::{Grid, LAST_COLUMNS};
 use crate::error::{CaseFileError, Result, SweepError};
-use crate::text::number::excerpt;
+use crate::text::column::excerpt;
 
 /// Columns and rows of a file, in its order.
 pub(super) struct Content {
@@ -181,7 +181,7 @@ pub(super) fn parsed(cell: &str) -> Option<f64> {
         "" => Some(f64::NAN),
         "inf" => Some(f64::INFINITY),
         "-inf" => Some(f64::NEG_INFINITY),
-        cell => crate::text::number::finite(cell),
+        cell => crate::text::column::finite(cell),
     }
 }
 

@@ -5,8 +5,7 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::Parameter;
-use super::{Grid, no_name};
+use super::{Grid, Parameter, no_name};
 use crate::error::{CaseError, Error, Result};
 
 /// A number of cases to run, each by the same closure.

@@ -9,10 +9,8 @@ use std::sync::Arc;
 use super::{Grid, LAST_COLUMNS, no_name};
 use crate::error::{Error, Result, SweepError};
 use crate::text::check_sum::CheckSum;
-use crate::text::column::Cell;
-use crate::text::number::number;
-use crate::text::table::in_columns;
-use crate::text::table::{LONGEST_LINE, Table, csv_line};
+use crate::text::column::{Cell, number};
+use crate::text::table::{LONGEST_LINE, Table, csv_line, in_columns};
 
 /// The cases of a [`Sweep`](super::Sweep), a row each: the case's number, its parameters, its results, and why it has none if it
 /// failed. Prints as a table of five figures no line of which is longer than 99 characters: a wide

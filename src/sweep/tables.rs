@@ -8,11 +8,10 @@ use std::io::{ErrorKind, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use super::Parameter;
-use super::check_names;
 use super::file::{Content, Ending, read};
 use super::run::{Sweep, SweepCase};
 use super::table::{CaseTable, Row, heading, name, replaced, unwritten};
+use super::{Parameter, check_names};
 use crate::error::{CaseError, Error, Result, SweepError};
 use crate::text::table::csv_line;
 

@@ -1,7 +1,8 @@
 //! Names of columns and numbers in cells: the one rule for all files.
 
 use std::collections::BTreeSet;
-use std::fmt::{self, Write};
+use std::fmt;
+use std::fmt::Write;
 
 /// Name of the column of a quantity: its name in `snake_case`, then its unit spelled out
 /// (`_n_per_m`, `_m_per_s2`, `_rad`), nothing for a ratio.
@@ -83,6 +84,84 @@ pub(crate) fn line<T: fmt::Display>(cells: impl IntoIterator<Item = T>) -> Strin
     text
 }
 
+// Decimal numbers in text files, the one place that says what counts as a number, and numbers as engineers read them.
+
+/// The finite number that all of `text` is, with the exponent of C or of Fortran: `1.5`, `-2E+3`,
+/// `.5D-2`. No other text is one: no unit behind it, no decimal comma, no `inf`.
+pub(crate) fn finite(text: &str) -> Option<f64> {
+    let known = |sign: u8| sign.is_ascii_digit() || b"+-.eEdD".contains(&sign);
+    if !text.bytes().all(known) {
+        return None;
+    }
+    let value: f64 = match text.find(['d', 'D']) {
+        Some(_) => text.replace(['d', 'D'], "e").parse().ok()?,
+        None => text.parse().ok()?,
+    };
+    value.is_finite().then_some(value)
+}
+
+/// The number in a field of Fortran's `kPFw.d`: without a decimal point, the last `decimals` digits
+/// are behind one; without an exponent, 10ᵏ times the value is printed.
+pub(crate) fn in_field(text: &str, decimals: u16, scale: u16) -> Option<f64> {
+    let (digits, exponent) = match text.find(['e', 'E', 'd', 'D']) {
+        Some(at) => (&text[..at], Some(text[at + 1..].parse::<i32>().ok()?)),
+        None => (text, None),
+    };
+    let implied = if has_implied_point(text) { i32::from(decimals) } else { 0 };
+    let scale = if exponent.is_some() { 0 } else { i32::from(scale) };
+    match exponent.unwrap_or(0).checked_sub(implied + scale)? {
+        0 => finite(digits),
+        exponent => finite(&format!("{digits}e{exponent}")),
+    }
+}
+
+/// Whether a field leaves its decimal point to the format.
+pub(crate) fn has_implied_point(text: &str) -> bool {
+    !text.contains('.')
+}
+
+/// The first 40 characters, for errors; those that do not show are written as `\u{feff}`.
+pub(crate) fn excerpt(text: &str) -> String {
+    let hidden =
+        |sign: char| sign.is_control() || matches!(sign, '\u{feff}' | '\u{200b}'..='\u{200f}');
+    let shown = |sign: char| {
+        if hidden(sign) { sign.escape_unicode().to_string() } else { sign.to_string() }
+    };
+    text.chars().take(40).map(shown).collect()
+}
+
+// Numbers as engineers read them.
+
+/// Factor from an SI unit to the one that is printed for it, and that; others stay.
+pub(crate) fn printed(unit: &str) -> (f64, &str) {
+    match unit {
+        "m" => (1e3, "mm"),
+        "rad" => (1e3, "mrad"),
+        "N/m" => (1e-3, "kN/m"),
+        "N·m/m" => (1e-3, "kN·m/m"),
+        other => (1.0, other),
+    }
+}
+
+/// Below this, in units of engineers, a number is rounding: nobody measures 10⁻¹² N or m.
+const NOTHING: f64 = 1e-9;
+
+/// Five figures, no exponents where they can be helped; no negative zero.
+pub(crate) fn number(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude < NOTHING {
+        "0".to_owned()
+    } else if !(1e-3..1e6).contains(&magnitude) {
+        format!("{value:.3e}")
+    } else if magnitude >= 1e3 {
+        format!("{value:.1}")
+    } else if magnitude >= 1.0 {
+        format!("{value:.3}")
+    } else {
+        format!("{value:.5}")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -122,5 +201,79 @@ mod tests {
             assert_eq!(text.parse::<f64>().map(f64::to_bits), Ok(value.to_bits()), "{text}");
         }
         assert_eq!(line([1.0, f64::NAN, f64::INFINITY, 1e-9].map(Cell)), "1.0,,inf,1e-9\n");
+    }
+}
+
+#[cfg(test)]
+mod number_tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_whole_texts() {
+        for (text, value) in [
+            ("1.5", 1.5),
+            ("+.5", 0.5),
+            ("5.", 5.0),
+            ("-2E+3", -2e3),
+            ("1.0D-2", 0.01),
+            ("3d0", 3.0),
+            ("007", 7.0),
+            ("1e-999", 0.0),
+        ] {
+            assert_eq!(finite(text), Some(value), "{text}");
+        }
+        for text in [
+            "",
+            " 1",
+            "1 ",
+            "1,5",
+            "inf",
+            "nan",
+            "1e999",
+            "1D",
+            "D1",
+            "1D2D3",
+            "1E2D3",
+            ".",
+            "-",
+            "1-2",
+            "0x1",
+            "1_0",
+            "1.2.3",
+            "\u{2212}1",
+            "\u{feff}1",
+            "1\0",
+            "1m",
+            "1/2",
+            "٣",
+        ] {
+            assert_eq!(finite(text), None, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn fields_have_their_formats_point() {
+        for (text, decimals, scale, value) in [
+            ("12345", 3, 0, 12.345),
+            ("-2345", 3, 0, -2.345),
+            ("12.5", 3, 0, 12.5),
+            ("12345E1", 3, 0, 123.45),
+            ("12345D-01", 3, 0, 1.2345),
+            ("5", 0, 0, 5.0),
+            ("12.5", 3, 1, 1.25),
+            ("12345", 3, 1, 1.2345),
+            ("12.5E0", 3, 1, 12.5),
+        ] {
+            assert_eq!(in_field(text, decimals, scale), Some(value), "{text}");
+        }
+        for text in ["", "-", "E5", "1E", "1E9999999999", "1E-2147483648", "**", "1e2e3", "1,5"] {
+            assert_eq!(in_field(text, 3, 0), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn hidden_signs_show_in_errors() {
+        assert_eq!(excerpt("\u{feff}1\r2 \u{2212}é"), "\\u{feff}1\\u{d}2 \u{2212}é");
+        assert_eq!(excerpt(&"1".repeat(50)).len(), 40);
     }
 }

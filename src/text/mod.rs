@@ -1,11 +1,8 @@
 //! Text: words of choices, numbers, tables and columns, lines of files, forms in serde's formats.
 
 #[macro_use]
-pub(crate) mod forms;
-#[macro_use]
 pub(crate) mod words;
 pub(crate) mod bounded_line;
 pub(crate) mod check_sum;
 pub(crate) mod column;
-pub(crate) mod number;
 pub(crate) mod table;

@@ -5,9 +5,10 @@
 
 use basemat::Simulation;
 use basemat::bem::{Grading, SpringGround};
-use basemat::coupled::{Run, SimulationBuilder, Transition};
+use basemat::coupled::{SimulationBuilder, Transition};
 use basemat::interface::Mode;
 use basemat::motion::FreeFieldFn;
+use basemat::results::Run;
 use basemat::structure::RigidBlock;
 
 use basemat_problems::scenes::{GRAVITY, SI, friction, ground};

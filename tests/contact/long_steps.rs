@@ -5,7 +5,8 @@
 //! `LONG_STEPS=10000 cargo test --test contact long_steps` asks for more scenes.
 
 use basemat::bem::{ElasticGround, Grading, Strip};
-use basemat::coupled::{SearchMethod, State};
+use basemat::contact::SearchMethod;
+use basemat::coupled::State;
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::motion::FreeFieldFn;

@@ -6,9 +6,9 @@
 
 use basemat::Simulation;
 use basemat::bem::SpringGround;
-use basemat::coupled::Run;
 use basemat::interface::Coulomb;
 use basemat::motion::FreeFieldFn;
+use basemat::results::Run;
 use basemat::structure::RigidBlock;
 
 /// Ground displacement and velocity of a ground acceleration 5·Ricker(σ = 0.3 s, t₀ = 1.5 s) m/s².

@@ -6,11 +6,12 @@
 use basemat::Simulation;
 use basemat::bem::SpringGround;
 use basemat::coupled::{
-    DissipativeMidpoint, EnergyBalance, Load, Newmark, Run, SimulationBuilder, Theta,
+    DissipativeMidpoint, EnergyBalance, Load, Newmark, SimulationBuilder, Theta,
 };
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::{Bonded, ThinLayer, UnilateralCondition};
 use basemat::motion::AtRest;
+use basemat::results::Run;
 use basemat::structure::{
     Bilinear, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, WithSprings,
 };

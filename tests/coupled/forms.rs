@@ -9,9 +9,10 @@ use std::path::{Path, PathBuf};
 use basemat::bem::full_plane::CqMethod;
 use basemat::bem::layered::{Stages, StripContact};
 use basemat::bem::{ContactElement, Grading, SpringGround, Strip};
+use basemat::contact::ContactSearch;
 use basemat::coupled::{
-    Checkpoint, ContactSearch, Coordinates, DissipativeMidpoint, EnergyBalance, GravityStage,
-    HhtAlpha, Midpoint, Newmark, Peak, Probe, Run, Theta, Warning, refine,
+    Checkpoint, Coordinates, DissipativeMidpoint, EnergyBalance, GravityStage, HhtAlpha, Midpoint,
+    Newmark, Probe, Theta, Warning, refine,
 };
 use basemat::fem::{Direction, Layer, MassKind, Material, Quad8Integration, QuadFormulation};
 use basemat::history::History;
@@ -24,6 +25,7 @@ use basemat::motion::{
     el_centro_1940,
 };
 use basemat::results::{Criterion, Quantity, Recorder, Serviceability};
+use basemat::results::{Peak, Run};
 use basemat::site::{ControlPoint, VerticalWave};
 use basemat::soil::{
     Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation, SoilProfile,

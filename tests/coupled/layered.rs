@@ -11,7 +11,8 @@ use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::{RigidBlock, StructureGroup};
-use basemat::{Error, LayeredError, Simulation, Soil, StepError, Sweep};
+use basemat::sweep::Sweep;
+use basemat::{Error, LayeredError, Simulation, Soil, StepError};
 
 use basemat_problems::sampled_block::{distance, sample, under_pulse};
 use basemat_problems::scenes::{SI, TIME_STEP, block, friction, scene, soil, states};

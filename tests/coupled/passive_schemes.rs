@@ -7,11 +7,12 @@
 use basemat::Simulation;
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::coupled::{
-    DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, Run, SchemeCoefficients, State, TimeScheme,
+    DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, SchemeCoefficients, State, TimeScheme,
     Warning,
 };
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{AtRest, el_centro_1940};
+use basemat::results::Run;
 use basemat::structure::{RigidBlock, ShearBuilding, Storey, Structure, Triplets};
 use basemat::{Complex, Soil};
 

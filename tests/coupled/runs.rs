@@ -4,7 +4,8 @@
 
 use std::ops::ControlFlow::{Break, Continue};
 
-use basemat::coupled::{Run, State};
+use basemat::coupled::State;
+use basemat::results::Run;
 use basemat::results::{Comparison, Recorder};
 use basemat::{Error, Simulation};
 

@@ -7,7 +7,8 @@ use std::sync::Mutex;
 use basemat::bem::{ElasticGround, Grading, Ground, SharedKernels, Strip};
 use basemat::coupled::State;
 use basemat::interface::Coulomb;
-use basemat::{CaseError, Error, Soil, Sweep};
+use basemat::sweep::Sweep;
+use basemat::{CaseError, Error, Soil};
 
 use basemat_problems::scenes::{SI, block, scene, soil, states};
 

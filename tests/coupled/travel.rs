@@ -7,10 +7,11 @@ use std::f64::consts::TAU;
 
 use basemat::Simulation;
 use basemat::bem::{ElasticGround, Grading, Strip};
-use basemat::coupled::{DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, Probe, Run, TimeScheme};
+use basemat::coupled::{DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, Probe, TimeScheme};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::motion::{FreeField, FreeFieldFn};
+use basemat::results::Run;
 use basemat::structure::{
     Bilinear, ContactNode, FemModel, NonlinearForce, RayleighDamping, RigidBlock, ShearBuilding,
     Storey, Structure, StructureGroup, Triplets, WithSprings,

@@ -7,7 +7,8 @@ use std::str::FromStr;
 
 use basemat::Error;
 use basemat::bem::Grading;
-use basemat::coupled::{ContactSearch, Coordinates, GravityStage, SearchMethod};
+use basemat::contact::{ContactSearch, SearchMethod};
+use basemat::coupled::{Coordinates, GravityStage};
 use basemat::fem::{Direction, MassKind};
 use basemat::history::History;
 use basemat::interface::{FrictionLimit, Mode, SlipSense};

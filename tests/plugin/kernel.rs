@@ -6,13 +6,13 @@ use basemat::bem::{
     ContactElement, ElasticGround, Grading, Ground, PatchKernel, SharedKernels, SpringGround,
     Strip, WeightsGround, WeightsSource,
 };
-use basemat::coupled::Run;
 use basemat::history::{
     ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
     ExponentialSum, History, LateWeights, PairClasses, RelaxedFftHistory, SharedSpectra,
     TailProduct,
 };
 use basemat::interface::Coulomb;
+use basemat::results::Run;
 use basemat::{Error, Result, Simulation};
 
 use super::{assert_same_motion, push, soil};

@@ -20,8 +20,9 @@ mod threads_and_texts;
 use std::sync::Arc;
 
 use basemat::bem::Strip;
-use basemat::coupled::{Run, SimulationBuilder};
+use basemat::coupled::SimulationBuilder;
 use basemat::motion::RickerDisplacement;
+use basemat::results::Run;
 use basemat::{Simulation, Soil};
 use free_field::Passing;
 use ground::Bed;

@@ -5,10 +5,11 @@
 use std::sync::Arc;
 
 use basemat::bem::{ElasticGround, Ground, PatchKernel, Strip};
-use basemat::coupled::{Run, SimulationBuilder};
+use basemat::coupled::SimulationBuilder;
 use basemat::history::DirectHistory;
 use basemat::interface::Bonded;
 use basemat::motion::TravellingWave;
+use basemat::results::Run;
 use basemat::structure::{StructureGroup, WithSprings};
 use basemat::sweep::{Parameter, Sweep};
 use basemat::{Error, Simulation};

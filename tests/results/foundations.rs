@@ -2,9 +2,9 @@
 //! SCENE: a tower and a block on independent springs.
 //! REFERENCE: each of them alone.
 
-use basemat::coupled::{Extremes, Peak};
 use basemat::prelude::*;
 use basemat::results::Summary;
+use basemat::results::{Extremes, Peak};
 
 fn tower() -> RigidBlock {
     RigidBlock::new(4.0, 12.0, 1500.0).unwrap()

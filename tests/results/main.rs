@@ -19,7 +19,8 @@ mod serviceability;
 mod spectra;
 
 use basemat::Simulation;
-use basemat::coupled::{Probe, Run, State};
+use basemat::coupled::{Probe, State};
+use basemat::results::Run;
 use basemat::results::{Recorder, TimeSeries};
 
 use basemat_problems::scenes::{SI, block, friction, scene};

@@ -5,10 +5,11 @@
 #![cfg(feature = "plot")]
 
 use basemat::bem::{ElasticGround, Strip};
-use basemat::coupled::{Probe, Run};
+use basemat::coupled::Probe;
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::{SpectralOrdinate, el_centro_1940};
 use basemat::plot::{self, Curve, Svg};
+use basemat::results::Run;
 use basemat::results::{DeformedShape, Quantity, Recorder, ShapePoint, TimeSeries};
 use basemat::structure::{DofCombination, RigidBlock, StructureGroup};
 use basemat::{Error, Simulation};

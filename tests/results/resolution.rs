@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use basemat::bem::{ElasticGround, Grading, Ground, Strip};
-use basemat::coupled::{Run, Warning};
+use basemat::coupled::Warning;
 use basemat::motion::{FreeFieldFn, RickerDisplacement, TravellingWave};
 use basemat::prelude::*;
-use basemat::results::ElementEnvelope;
+use basemat::results::{ElementEnvelope, Run};
 use basemat::soil::SoilProfile;
 
 /// Largest base shear of the three storeys under El Centro with steps of 1 ms, N/m.

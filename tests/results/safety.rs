@@ -3,12 +3,13 @@
 //! REFERENCE: statics, μW/H and Wb/(Hh).
 
 use basemat::bem::{ElasticGround, SpringGround, Strip};
-use basemat::coupled::{GravityStage, Run};
+use basemat::coupled::GravityStage;
 use basemat::interface::{
     Bonded, Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, ThinLayer,
     Tolerance,
 };
 use basemat::motion::{AtRest, STANDARD_GRAVITY, el_centro_1940};
+use basemat::results::Run;
 use basemat::results::{Quantity, Recorder, TimeSeries};
 use basemat::structure::{RigidBlock, StructureGroup};
 use basemat::{Error, Simulation, Soil};

@@ -3,7 +3,8 @@
 //! REFERENCE: the states of the run.
 
 use basemat::Error;
-use basemat::coupled::{Run, State};
+use basemat::coupled::State;
+use basemat::results::Run;
 use basemat::results::{Comparison, Criterion, Serviceability};
 
 use super::{FRICTION, STEPS};

@@ -1,6 +1,6 @@
 //! Foundations and limits of service after a run.
 
-use basemat::coupled::Extremes;
+use basemat::results::Extremes;
 use basemat::results::{ServiceCheck, SlipEvent, Summary};
 use pyo3::prelude::*;
 

@@ -1,6 +1,6 @@
 //! Largest values with their times.
 
-use basemat::coupled::{Extremes, Peak};
+use basemat::results::{Extremes, Peak};
 use pyo3::prelude::*;
 
 /// A value with its time.

@@ -1,6 +1,6 @@
 //! A run: its summary and its time series.
 
-use basemat::coupled::Run;
+use basemat::results::Run;
 use basemat::results::{ElementEnvelope, Quantity, TimeSeries};
 use numpy::PyArray1;
 use pyo3::prelude::*;

@@ -1,7 +1,8 @@
 //! From Python's arguments to a simulation of the core.
 
 use basemat::Simulation;
-use basemat::coupled::{ContactSearch, Coordinates, GravityStage, Probe, SimulationBuilder};
+use basemat::contact::ContactSearch;
+use basemat::coupled::{Coordinates, GravityStage, Probe, SimulationBuilder};
 use basemat::results::{Quantity, Serviceability};
 use pyo3::prelude::*;
 

@@ -1,6 +1,7 @@
 //! The state at the end of a step.
 
-use basemat::coupled::{Foundation, SearchMethod, State};
+use basemat::contact::SearchMethod;
+use basemat::coupled::{Foundation, State};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 

@@ -2,7 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use basemat::coupled::{Run, State};
+use basemat::coupled::State;
+use basemat::results::Run;
 use basemat::results::TimeSeries;
 use pyo3::prelude::*;
 

@@ -23,10 +23,10 @@ use crate::error::{Error, Result, positive, same_length};
 use crate::geometry::ContactLayout;
 use crate::soil::Soil;
 
-use super::laplace::Complex64;
-use super::laplace::LaplacePlane;
-use super::laplace_element::{Block, View, integrate};
-use super::laplace_element::{CqMethod, LogTerms, TERMS, first_lag, log_terms, weights};
+use super::laplace::{Complex64, LaplacePlane};
+use super::laplace_element::{
+    Block, CqMethod, LogTerms, TERMS, View, first_lag, integrate, log_terms, weights,
+};
 use super::{BoundaryKernel, Segment};
 
 /// The full-plane boundary equation by convolution quadrature.

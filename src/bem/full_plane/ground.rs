@@ -2,8 +2,8 @@
 
 use std::cell::Cell;
 
+use super::convolution::{Prepared, component};
 use super::laplace::static_compliance;
-use super::prepared::{Prepared, component};
 use super::{Boundary, BoundaryKernel, GroundStability, IncidentField, Segment, TimeKernel};
 use crate::bem::{ContactElement, Ground, StaticKernel, Strip};
 use crate::error::{Error, Result, same_length};

@@ -260,13 +260,13 @@ pub(super) fn static_compliance(
     let width = ContactLayout::new(contact.len()).len();
     let mut column = vec![0.0; size];
     for k in 0..width {
-        let source = super::prepared::component(contact, layout, k);
+        let source = super::convolution::component(contact, layout, k);
         for (i, value) in column.iter_mut().enumerate() {
             *value = g[i * size + source];
         }
         factor.solve(&mut column);
         for i in 0..width {
-            matrix[i * width + k] = column[super::prepared::component(contact, layout, i)];
+            matrix[i * width + k] = column[super::convolution::component(contact, layout, i)];
         }
     }
     Ok(())

@@ -62,21 +62,17 @@ mod convolution_quadrature;
 mod ground;
 mod laplace;
 mod laplace_element;
-mod prepared;
 mod stability;
 mod stability_symbol;
 mod stability_zeros;
 mod step_integrals;
 mod time_kernel;
 
-pub use boundary::Boundary;
-pub use boundary::Segment;
+pub use boundary::{Boundary, Segment};
 pub use convolution_quadrature::ConvolutionQuadrature;
 pub use ground::FullPlaneGround;
 pub use laplace_element::CqMethod;
-pub use stability::GroundStability;
-pub use stability::Stability;
-pub use stability::{BoundaryMarch, Given};
+pub use stability::{BoundaryMarch, Given, GroundStability, Stability};
 pub use time_kernel::TimeKernel;
 
 use crate::error::{Result, not_negative};

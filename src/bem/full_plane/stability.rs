@@ -10,8 +10,7 @@ use std::fmt;
 
 use super::convolution::BoundaryHistory;
 use super::stability_symbol::Symbol;
-use super::stability_zeros::passivity;
-use super::stability_zeros::smallest_zero;
+use super::stability_zeros::{passivity, smallest_zero};
 use super::{Boundary, BoundaryCondition, BoundaryKernel};
 use crate::error::{Error, Result, positive, same_length};
 use crate::geometry::ContactLayout;

@@ -8,8 +8,7 @@ use super::*;
 use crate::bem::{ElasticGround, Ground, Strip};
 use crate::contact::Delassus;
 use crate::coupled::build::assembled::Assembled;
-use crate::coupled::scene::operators::Model;
-use crate::coupled::scene::operators::{Factor, Operators};
+use crate::coupled::scene::operators::{Factor, Model, Operators};
 use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
 use crate::interface::{
@@ -128,7 +127,7 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
         let mesh = Mesh::layered_block(-2.0..2.0, count, &layers).unwrap();
         Box::new(FemModel::on_base(mesh).unwrap())
     };
-    let assembled = Assembled::new(structure.as_ref(), ground.elements()).unwrap();
+    let (assembled, _) = Assembled::new(structure.as_ref(), ground.elements()).unwrap();
     let (model, tangent) = (Model::new(&assembled), SparseMatrix::default());
     let coefficients = Midpoint.coefficients(time_step);
     let factor = Factor::of_dofs(&model, &coefficients, &tangent).unwrap();

@@ -16,17 +16,16 @@ mod step_response;
 mod stepped;
 mod subspace;
 
-use super::diagnosis::{conditioning, supports};
+use super::diagnosis::{self, supports};
 use super::energy_accumulator::EnergyAccumulator;
 use super::energy_balance::EnergyBalance;
-use super::load::Load;
+use super::motion::Load;
 use super::scene::Scene;
 use super::scheme::TimeScheme;
 use super::simulation::Simulation;
 use super::state::State;
-use super::step::Forcing;
-use super::step::Increment;
 use super::step::newton::Solver;
+use super::step::{Forcing, Increment};
 use crate::bem::Ground;
 use crate::contact::{ContactSearch, ModeSearch};
 use crate::coupled::run::Serviceability;
@@ -36,8 +35,7 @@ use crate::motion::FreeField;
 use crate::structure::Structure;
 use crate::structure::probe::Probe;
 use assembled::Assembled;
-use parts::Coordinates;
-use parts::{Given, GravityStage, Parts};
+use parts::{Coordinates, Given, GravityStage, Parts};
 use stepped::Stepped;
 
 /// Parts of a [`Simulation`]: a structure, a ground and an interface law are needed, the rest has
@@ -266,7 +264,7 @@ impl SimulationBuilder {
         let books = given.energy_balance.then(books).transpose()?;
         state.energy_balance =
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
-        let conditioning = conditioning::assess(&scene, &mut solver, &state.start)?;
+        let conditioning = diagnosis::conditioning(&scene, &mut solver, &state.start)?;
         if scene.model.linear {
             // Last: stiffnesses too far apart for double precision look like a mechanism.
             assembled.at_rest(structure.as_ref()).check(&mut held)?;

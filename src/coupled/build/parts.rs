@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::bem::{ContactElement, Ground};
 use crate::contact::ContactSearch;
-use crate::coupled::load::Load;
+use crate::coupled::motion::Load;
 use crate::coupled::run::Serviceability;
 use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
 use crate::error::{

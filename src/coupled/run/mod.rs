@@ -2,28 +2,26 @@
 
 use std::time::{Duration, Instant};
 
+pub(crate) mod base;
 pub(crate) mod page;
+pub(crate) mod peak;
 pub(crate) mod quantity;
-pub(crate) mod safety;
 mod serviceability;
-pub(crate) mod sliding;
 
+pub use base::{ElementEnvelope, Sliding, SlipEvent, Uplift};
+pub use peak::{Extremes, Peak, ProbeExtremes};
 pub use quantity::{Quantity, Summary};
-pub use safety::{Extremes, Peak, ProbeExtremes};
 pub use serviceability::{Criterion, ServiceCheck, Serviceability};
-pub use sliding::ElementEnvelope;
-pub use sliding::Uplift;
-pub use sliding::{Sliding, SlipEvent};
 
 use crate::bem::{ContactElement, Ground};
 use crate::contact::SearchMethod;
 use crate::coupled::{EnergyBalance, Probe, Resolution, State, Warning, probe_index};
 use crate::error::Result;
 use crate::motion::FreeField;
-use sliding::Sequence;
+use base::Sequence;
 
 /// Steps whose contact modes the first search did not find, see
-/// [`SearchMethod`](crate::coupled::SearchMethod).
+/// [`SearchMethod`](crate::contact::SearchMethod).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -80,7 +78,7 @@ pub struct Run {
     /// The energy balance at the end.
     pub energy_balance: EnergyBalance,
     /// Largest energy error of the run; NaN if no energy balance is kept.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub energy_error: f64,
     /// Linear solves of the mode search, in all.
     pub trials: usize,
@@ -89,7 +87,7 @@ pub struct Run {
     /// Warnings; none before the run is closed.
     pub warnings: Vec<Warning>,
     /// Wall time, observers included; zero where there is no clock (WebAssembly).
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::seconds"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::seconds"))]
     pub wall: Duration,
     #[cfg_attr(feature = "serde", serde(skip))]
     elements: Vec<ContactElement>,
@@ -129,7 +127,7 @@ impl Run {
                 .map(|k| Summary::start(state, Some(k)))
                 .collect(),
             serviceability: Vec::new(),
-            envelope: sliding::start(elements, state),
+            envelope: base::start(elements, state),
             mode_changes: 0,
             debondings: 0,
             rebondings: 0,
@@ -171,7 +169,7 @@ impl Run {
             probe.extremes.see(*value, time);
         }
         self.serviceability.iter_mut().for_each(|check| check.see(state));
-        sliding::see(&mut self.envelope, state, time - begin);
+        base::see(&mut self.envelope, state, time - begin);
         self.mode_changes += state.transitions.len();
         self.debondings += state.transitions.iter().filter(|t| t.is_debonding()).count();
         self.rebondings += state.transitions.iter().filter(|t| t.is_rebonding()).count();
@@ -210,7 +208,7 @@ impl Run {
             &self.energy_balance,
             self.least_algorithmic,
         );
-        self.warnings.extend(sliding::tension(&self.envelope, opens));
+        self.warnings.extend(base::tension(&self.envelope, opens));
         self.warnings.extend(Warning::of_soils(&ground.soils()));
         self.resolution.warn(&mut self.warnings);
     }

@@ -5,7 +5,7 @@ use std::fmt;
 use super::quantity::Place;
 use super::{Extremes, Quantity, Run, Summary};
 use crate::coupled::Peak;
-use crate::text::number::{number, printed};
+use crate::text::column::{number, printed};
 use crate::text::table::Table;
 
 /// Elements of the pressure envelope beyond which only some are printed.

@@ -5,14 +5,13 @@ use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-use super::safety::{against_overturning, against_sliding};
+use super::peak::{against_overturning, against_sliding};
 use super::{Extremes, Sliding, Uplift};
 use crate::bem::ContactElement;
 use crate::coupled::{Foundation, Peak, State};
 use crate::error::{Error, Result};
 use crate::interface::{ContactState, Mode};
-use crate::text::column::column;
-use crate::text::number::printed;
+use crate::text::column::{column, printed};
 use crate::text::words::{plain, unknown};
 
 /// One row: how a quantity is called, and where it is shown beside its time series.

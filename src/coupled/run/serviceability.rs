@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::coupled::{Peak, State};
 use crate::error::{Error, Result, positive};
-use crate::text::number::{number, printed};
+use crate::text::column::{number, printed};
 
 /// Response of a base that a service requirement limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,7 +64,7 @@ impl Criterion {
 
 /// Limits that service sets to the motion of a base: give them to
 /// [`SimulationBuilder::serviceability`](crate::coupled::SimulationBuilder::serviceability), and
-/// each [`Run`](super::Run) says whether they were kept.
+/// each [`Run`](crate::results::Run) says whether they were kept.
 ///
 /// ```
 /// use basemat::bem::SpringGround;

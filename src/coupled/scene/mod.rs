@@ -9,8 +9,7 @@ use std::sync::Arc;
 
 use super::build::equilibrium::StaticState;
 use super::build::parts::Parts;
-use super::load::SteppedLoad;
-use super::motion::Motion;
+use super::motion::{Motion, SteppedLoad};
 use super::scheme::SchemeCoefficients;
 use crate::bem::ContactElement;
 use crate::coupled::run::Serviceability;

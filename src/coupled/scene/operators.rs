@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use super::base::Base;
 use super::influence::Influence;
-use super::transformation::ModalBasis;
-use super::transformation::{Terms, Transformation};
+use super::transformation::{ModalBasis, Terms, Transformation};
 use crate::contact::Delassus;
 use crate::coupled::build::assembled::Assembled;
 use crate::coupled::scheme::SchemeCoefficients;

@@ -2,9 +2,7 @@
 
 mod newmark;
 
-pub use newmark::DissipativeMidpoint;
-pub use newmark::HhtAlpha;
-pub use newmark::Newmark;
+pub use newmark::{DissipativeMidpoint, HhtAlpha, Newmark};
 
 use crate::error::{Error, Result, finite};
 

@@ -11,8 +11,7 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use super::Forcing;
-use super::Increment;
+use super::{Forcing, Increment};
 use crate::contact::{ContactInput, ContactSolver, ModeSearch};
 use crate::coupled::motion::Motion;
 use crate::coupled::scene::Scene;

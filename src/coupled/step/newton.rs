@@ -1,8 +1,7 @@
 //! Newton's method around the whole step of a nonlinear structure, contact inside.
 
-use super::Forcing;
-use super::Increment;
 use super::linear::LinearStep;
+use super::{Forcing, Increment};
 use crate::contact::{ContactSolver, ModeSearch, SearchMethod};
 use crate::coupled::motion::Motion;
 use crate::coupled::scene::Scene;

@@ -4,11 +4,8 @@ use std::sync::Arc;
 
 use realfft::RealFftPlanner;
 
-use super::coefficients::{Blocks, LEAF};
-use super::coefficients::{Class, Coefficients};
-use super::level::Ring;
-use super::level::Tables;
-use super::level::{Block, Level, Part, Work};
+use super::coefficients::{Blocks, Class, Coefficients, LEAF};
+use super::level::{Block, Level, Part, Ring, Tables, Work};
 use crate::error::Result;
 use crate::history::convolution::ConvolutionWeights;
 

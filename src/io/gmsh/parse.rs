@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use crate::error::MeshFileError;
 use crate::text::bounded_line::Lines;
-use crate::text::number::{excerpt, finite};
+use crate::text::column::{excerpt, finite};
 
 /// Why a line is refused, and which.
 type Reason<T> = Result<T, (usize, MeshFileError)>;

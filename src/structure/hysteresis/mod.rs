@@ -3,8 +3,7 @@
 mod bouc_wen;
 mod springs;
 
-pub use bouc_wen::BoucWen;
-pub use bouc_wen::LeadRubber;
+pub use bouc_wen::{BoucWen, LeadRubber};
 pub(super) use springs::Springs;
 pub use springs::WithSprings;
 

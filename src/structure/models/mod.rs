@@ -11,8 +11,7 @@ mod storey_laws;
 
 pub use fem_model::FemModel;
 pub use group::StructureGroup;
-pub use rigid_block::MatrixModel;
-pub use rigid_block::RigidBlock;
+pub use rigid_block::{MatrixModel, RigidBlock};
 pub use section::{Section, SectionRows};
 pub use shear_building::{ShearBuilding, Storey};
 pub use storey_laws::IsolationLevel;

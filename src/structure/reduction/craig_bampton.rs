@@ -9,12 +9,10 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::recovery::{Basis, Recovery};
-use crate::error::memory;
-use crate::error::{Error, Result, damping_ratio};
+use super::{Basis, Recovery};
+use crate::error::{Error, Result, damping_ratio, memory};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
-use crate::structure::detached::SYMMETRIC;
-use crate::structure::detached::{check_attached, numbers};
+use crate::structure::detached::{SYMMETRIC, check_attached, numbers};
 use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::{ContactNode, DofCombination, Structure, Triplets};
 

@@ -1,7 +1,132 @@
 //! Reduction of large structures to their contact nodes and a few modes.
 
 mod craig_bampton;
-mod recovery;
 
 pub use craig_bampton::{CraigBampton, ReducedModel};
-pub use recovery::Recovery;
+
+use std::sync::Arc;
+
+use crate::error::{Result, same_length};
+use crate::linalg::{SparseMatrix, row_products, transposed_multiply_add};
+use crate::structure::DofCombination;
+use crate::structure::probe::Probe;
+
+// From a reduced model back to the degrees of freedom of the full one.
+
+/// Columns of A T held at a time.
+const BLOCK: usize = 16;
+
+/// The basis T of a reduction, u = T q.
+#[derive(Debug)]
+pub(super) struct Basis {
+    /// Degrees of freedom of the full model that are among q.
+    kept: Vec<usize>,
+    /// Tᵀ, row-major: a row of the full model's degrees of freedom for each reduced one.
+    transposed: Vec<f64>,
+    full: usize,
+}
+
+impl Basis {
+    pub(super) fn new(kept: Vec<usize>, transposed: Vec<f64>, full: usize) -> Self {
+        Self { kept, transposed, full }
+    }
+
+    /// Degrees of freedom of the full model that are among those of the reduced one.
+    pub(super) fn kept(&self) -> &[usize] {
+        &self.kept
+    }
+
+    /// Number of reduced degrees of freedom.
+    pub(super) fn order(&self) -> usize {
+        self.transposed.len() / self.full.max(1)
+    }
+
+    pub(super) fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.transposed.chunks_exact(self.full.max(1))
+    }
+
+    /// Tᵀ A T for a symmetric matrix, row-major, symmetric to the last bit.
+    pub(super) fn congruence(&self, matrix: &SparseMatrix) -> Vec<f64> {
+        let order = self.order();
+        let mut result = vec![0.0; order * order];
+        if matrix.is_empty() {
+            return result;
+        }
+        for (block, rows) in self.transposed.chunks(BLOCK * self.full).enumerate() {
+            let mut products = vec![0.0; rows.len()];
+            for (row, product) in
+                rows.chunks_exact(self.full).zip(products.chunks_exact_mut(self.full))
+            {
+                matrix.multiply_add(1.0, row, product);
+            }
+            let entries = row_products(&self.transposed, &products, self.full);
+            let columns = rows.len() / self.full;
+            for (place, value) in entries.iter().enumerate() {
+                let (i, j) = (place / columns, BLOCK * block + place % columns);
+                if i <= j {
+                    result[i * order + j] = *value;
+                    result[j * order + i] = *value;
+                }
+            }
+        }
+        result
+    }
+}
+
+/// The way from a [`ReducedModel`](ReducedModel) back to the degrees of freedom of the full model.
+#[derive(Debug, Clone)]
+pub struct Recovery {
+    basis: Arc<Basis>,
+}
+
+impl Recovery {
+    pub(super) fn new(basis: Arc<Basis>) -> Self {
+        Self { basis }
+    }
+
+    /// Number of degrees of freedom of the full model.
+    pub fn full_dofs(&self) -> usize {
+        self.basis.full
+    }
+
+    /// Degrees of freedom of the full model that the reduced one kept: its first ones, in this order.
+    pub fn kept(&self) -> &[usize] {
+        &self.basis.kept
+    }
+
+    /// A weighted sum of the full model's degrees of freedom as one of the reduced model's, for a spring or a
+    /// deformed shape.
+    ///
+    /// # Errors
+    /// [`Error::Index`](crate::Error::Index) for a degree of freedom that the full model does not have, [`Error::Input`](crate::Error::Input) for a
+    /// weight that is not finite.
+    pub fn row(&self, row: impl Into<DofCombination>) -> Result<DofCombination> {
+        let full = row.into();
+        full.check("unknown of the full model", self.basis.full)?;
+        if full.is_empty() {
+            return Ok(full);
+        }
+        Ok(self.basis.rows().map(|values| full.value(values)).enumerate().collect())
+    }
+
+    /// A probe of the full model as one of the reduced model, with its name and unit; section
+    /// resultants too.
+    ///
+    /// # Errors
+    /// [`Error::Probe`](crate::Error::Probe) with the reason of [`Recovery::row`].
+    pub fn probe(&self, probe: Probe) -> Result<Probe> {
+        probe.try_map_rows(|row| self.row(row))
+    }
+
+    /// The full model's degrees of freedom, from the reduced model's: displacements, velocities or
+    /// accelerations.
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size) unless there is a value for each reduced unknown.
+    pub fn full(&self, reduced: &[f64]) -> Result<Vec<f64>> {
+        same_length("list of reduced degrees of freedom", reduced.len(), self.basis.order())?;
+        let mut full = vec![0.0; self.basis.full];
+        transposed_multiply_add(&self.basis.transposed, 1.0, reduced, &mut full);
+        Ok(full)
+    }
+}

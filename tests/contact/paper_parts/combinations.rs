@@ -3,7 +3,8 @@
 //! REFERENCE: the energy balance. Only the flow chart may give up, with an error that says so.
 
 use basemat::bem::{ContactElement, Grading, SpringGround};
-use basemat::coupled::{ContactSearch, HhtAlpha, Midpoint, Newmark, SimulationBuilder, Theta};
+use basemat::contact::ContactSearch;
+use basemat::coupled::{HhtAlpha, Midpoint, Newmark, SimulationBuilder, Theta};
 use basemat::interface::{Bonded, FrictionLimit, InterfaceLaw, ThinLayer, UnilateralCondition};
 use basemat::{Error, Simulation, StepError};
 use basemat_problems::scenes::{GRAVITY, SI, friction, ground, shake, soil, tower};

@@ -3,12 +3,13 @@
 //! REFERENCE: one-point and exactly integrated quadrilaterals; hard contact; the weight carried.
 
 use basemat::bem::{Grading, Ground};
-use basemat::coupled::{Run, State};
+use basemat::coupled::State;
 use basemat::fem::{Element, Material, Quad4, QuadFormulation};
 use basemat::interface::{
     ContactState, FrictionLimit, InterfaceLaw, Mode, PreviousContact, SlipSense, ThinLayer,
     Tolerance,
 };
+use basemat::results::Run;
 use basemat_problems::scenes::{GRAVITY, SI, block, friction, ground, scene, soil, tower};
 
 const LENGTH: f64 = 1.3;

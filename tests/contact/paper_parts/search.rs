@@ -2,7 +2,8 @@
 //! SCENE: sliding blocks of several strengths and coefficients of friction.
 //! REFERENCE: the robust search, step by step; an unchanged state after an error.
 
-use basemat::coupled::{ContactSearch, SearchMethod, SimulationBuilder};
+use basemat::contact::{ContactSearch, SearchMethod};
+use basemat::coupled::SimulationBuilder;
 use basemat::{Error, StepError};
 use basemat_problems::scenes::{SI, block, friction, scene};
 

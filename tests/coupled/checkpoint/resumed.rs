@@ -105,7 +105,7 @@ fn lasting(state: &State) -> State {
     let mut lasting = state.clone();
     lasting.transitions.clear();
     lasting.trials = 0;
-    lasting.method = basemat::coupled::SearchMethod::ActiveSet;
+    lasting.method = basemat::contact::SearchMethod::ActiveSet;
     lasting
 }
 

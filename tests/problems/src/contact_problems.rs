@@ -4,7 +4,8 @@
 use std::sync::{Arc, Mutex};
 
 use basemat::bem::{ContactElement, ElasticGround, Ground, Strip};
-use basemat::coupled::{SearchMethod, State};
+use basemat::contact::SearchMethod;
+use basemat::coupled::State;
 use basemat::interface::Coulomb;
 use basemat::structure::RigidBlock;
 use basemat::{Result, Simulation, Soil};

@@ -1,9 +1,9 @@
 //! Runs under a Ricker pulse, and their sampled histories.
 
 use basemat::bem::Ground;
-use basemat::coupled::Run;
 use basemat::interface::Bonded;
 use basemat::motion::RickerDisplacement;
+use basemat::results::Run;
 use basemat::structure::Structure;
 use basemat::{Result, Simulation};
 

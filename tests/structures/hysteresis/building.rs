@@ -3,9 +3,10 @@
 //! REFERENCE: tangents by differences, the energy balance, Runge–Kutta integration.
 
 use basemat::bem::{ElasticGround, SpringGround, Strip};
-use basemat::coupled::{Newmark, Probe, Run, SimulationBuilder, Theta};
+use basemat::coupled::{Newmark, Probe, SimulationBuilder, Theta};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{FreeFieldFn, STANDARD_GRAVITY, el_centro_1940};
+use basemat::results::Run;
 use basemat::structure::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber, ShearBuilding,
     Storey, Structure, Triplets,

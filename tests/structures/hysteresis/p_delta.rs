@@ -4,9 +4,10 @@
 
 use crate::curvature;
 use basemat::bem::{ElasticGround, SpringGround, Strip};
-use basemat::coupled::{Probe, Run};
+use basemat::coupled::Probe;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
+use basemat::results::Run;
 use basemat::structure::{
     Bilinear, FrictionPendulum, Hysteresis, IsolationLevel, LeadRubber, ShearBuilding, Storey,
     Structure, Triplets,

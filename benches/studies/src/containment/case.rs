@@ -2,9 +2,10 @@
 
 use basemat::Simulation;
 use basemat::bem::{ElasticGround, Strip};
-use basemat::coupled::{Probe, Run};
+use basemat::coupled::Probe;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::el_centro_1940;
+use basemat::results::Run;
 use basemat::results::{Recorder, Serviceability, TimeSeries};
 use basemat_problems::containment::{Containment, PAPER_SHEARS, ROWS};
 

@@ -12,9 +12,9 @@ mod report;
 
 use std::path::PathBuf;
 
-use basemat::Sweep;
 use basemat::fem::QuadFormulation;
 use basemat::motion::el_centro_1940;
+use basemat::sweep::Sweep;
 use basemat_problems::containment::Containment;
 
 use crate::AnyError;

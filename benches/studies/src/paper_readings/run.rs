@@ -2,7 +2,8 @@
 
 use basemat::Simulation;
 use basemat::bem::{ElasticGround, Strip};
-use basemat::coupled::{ContactSearch, HhtAlpha, Midpoint, Newmark, SimulationBuilder};
+use basemat::contact::ContactSearch;
+use basemat::coupled::{HhtAlpha, Midpoint, Newmark, SimulationBuilder};
 use basemat::interface::{Bonded, InterfaceLaw};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 

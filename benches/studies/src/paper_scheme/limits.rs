@@ -1,7 +1,7 @@
 //! Largest step and least damping with which the paper's scheme lasts the record with contact,
 //! and what that costs.
 
-use basemat::coupled::ContactSearch;
+use basemat::contact::ContactSearch;
 
 use super::case::{End, Outcome, march};
 use super::report::growth_of;

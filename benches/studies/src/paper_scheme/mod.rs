@@ -28,7 +28,7 @@ mod stability;
 
 use std::path::PathBuf;
 
-use basemat::coupled::ContactSearch;
+use basemat::contact::ContactSearch;
 use basemat::motion::el_centro_1940;
 
 use crate::AnyError;

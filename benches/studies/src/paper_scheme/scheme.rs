@@ -5,7 +5,8 @@ use basemat::bem::full_plane::{
     BoundaryKernel, ConvolutionQuadrature, CqMethod, FullPlaneGround, TimeKernel,
 };
 use basemat::bem::{ElasticGround, Strip};
-use basemat::coupled::{ContactSearch, Newmark, SimulationBuilder};
+use basemat::contact::ContactSearch;
+use basemat::coupled::{Newmark, SimulationBuilder};
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw, ThinLayer};
 use basemat::motion::{Record, STANDARD_GRAVITY};
 

@@ -3,10 +3,11 @@
 use std::process::Command;
 use std::time::Instant;
 
+use basemat::Result;
 use basemat::bem::{ElasticGround, Grading, SharedKernels, Strip};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::RigidBlock;
-use basemat::{Result, Sweep};
+use basemat::sweep::Sweep;
 
 use super::report::timed;
 use crate::AnyError;

@@ -3,8 +3,9 @@
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
+use basemat::Simulation;
 use basemat::bem::{ElasticGround, Grading, Ground, Strip};
-use basemat::coupled::{Coordinates, Simulation};
+use basemat::coupled::Coordinates;
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{Record, el_centro_1940};

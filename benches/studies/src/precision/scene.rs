@@ -1,7 +1,8 @@
 //! A scene, apart from how it is computed; its runs.
 
+use basemat::Simulation;
 use basemat::Soil;
-use basemat::coupled::{Simulation, SimulationBuilder};
+use basemat::coupled::SimulationBuilder;
 use cpu_time::ThreadTime;
 
 use super::force::Force;

@@ -12,7 +12,8 @@
 //! same, relative to the largest energy of the run. `least_soil` is the least work done on the soil,
 //! relative in the same way: below zero, the soil gave more than it had got.
 
-use basemat::coupled::{EnergyBalance, SearchMethod, State};
+use basemat::contact::SearchMethod;
+use basemat::coupled::{EnergyBalance, State};
 use basemat::{Error, StepError};
 
 use super::scene::{Foretold, Law, Scene, Scheme};

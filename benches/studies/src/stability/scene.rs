@@ -6,8 +6,9 @@ use std::sync::{Mutex, PoisonError};
 
 use basemat::bem::full_plane::{ConvolutionQuadrature, CqMethod, FullPlaneGround};
 use basemat::bem::{ElasticGround, Strip};
+use basemat::contact::ContactSearch;
 use basemat::coupled::{
-    ContactSearch, DissipativeMidpoint, GravityStage, HhtAlpha, Load, Newmark, SimulationBuilder,
+    DissipativeMidpoint, GravityStage, HhtAlpha, Load, Newmark, SimulationBuilder,
 };
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::history::History;

@@ -1,7 +1,7 @@
 //! What happens along the base: contact modes over time, and the envelope of pressure.
 
 use super::axes::{Axis, Chart, LABEL, chart, draw_curve, linear, range_of};
-use super::stroke::{COLORS, Drawing, Key, Sample, Stroke, short, width};
+use super::drawing::{COLORS, Drawing, Key, Sample, Stroke, short, width};
 use super::svg::{Sheet, Svg};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result};

@@ -70,10 +70,10 @@ fn ratio(normal: f64, resistance: f64, demand: f64) -> f64 {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Peak {
     /// The value, with its sign.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub value: f64,
     /// When, s.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
     pub time: f64,
 }
 

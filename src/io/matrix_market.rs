@@ -12,7 +12,7 @@ use crate::linalg::SparseMatrix;
 use crate::linalg::matrix::check_order;
 use crate::structure::Triplets;
 use crate::text::bounded_line;
-use crate::text::number::{excerpt, finite};
+use crate::text::column::{excerpt, finite};
 
 impl Triplets {
     /// Reads a square matrix from a Matrix Market file (`.mtx`).
