@@ -15,7 +15,7 @@ use basemat::coupled::{
     Coordinates, GravityStage, HhtAlpha, Load, Newmark, Probe, SimulationBuilder, Theta,
 };
 use basemat::fem::{Layer, Material, Mesh};
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 use basemat::interface::{Bonded, Cohesive, Coulomb, ThinLayer, VariableFriction, Yielding};
 use basemat::motion::{PlaneWave, Record, VerticalIncidence, el_centro_1940};
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
@@ -74,7 +74,7 @@ fn half_plane(structure: &dyn Structure) -> Result<ElasticGround> {
 }
 
 /// A block that uplifts and slides on a half-plane with one kind of history.
-fn by_history(kind: History, grading: Grading) -> Result<SimulationBuilder> {
+fn by_history(kind: HistoryMethod, grading: Grading) -> Result<SimulationBuilder> {
     let strip = Strip::new(-2.0..2.0, 8, grading)?;
     let ground = ElasticGround::new(soil()?, strip)?.with_history_kind(kind);
     Ok(on(block()?, ground).interface(Coulomb::new(0.4)?))
@@ -114,13 +114,15 @@ fn group() -> Result<StructureGroup> {
 }
 
 const SCENES: [(&str, Make); 32] = [
-    ("block, direct", || by_history(History::Direct, Grading::Cosine)),
-    ("block, relaxed transforms on pairs", || by_history(History::RelaxedFft, Grading::Cosine)),
-    ("block, relaxed transforms on a lattice", || {
-        by_history(History::RelaxedFft, Grading::Uniform)
+    ("block, direct", || by_history(HistoryMethod::Direct, Grading::Cosine)),
+    ("block, relaxed transforms on pairs", || {
+        by_history(HistoryMethod::RelaxedFft, Grading::Cosine)
     }),
-    ("block, exponentials", || by_history(History::Exponentials, Grading::Uniform)),
-    ("block, history by choice", || by_history(History::Auto, Grading::Uniform)),
+    ("block, relaxed transforms on a lattice", || {
+        by_history(HistoryMethod::RelaxedFft, Grading::Uniform)
+    }),
+    ("block, exponentials", || by_history(HistoryMethod::Exponentials, Grading::Uniform)),
+    ("block, history by choice", || by_history(HistoryMethod::Auto, Grading::Uniform)),
     ("block, bonded", || block_under(Bonded)),
     ("block, uplift only", || block_under(Coulomb::uplift_only())),
     ("block, frictionless", || block_under(Coulomb::new(0.0)?)),

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::error::{Result, positive};
 use crate::geometry::{ContactElement, check_order};
-use crate::history::{ConvolutionHistory, ConvolutionWeights, History, HistoryChoice};
+use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryMethod};
 use crate::motion::FreeField;
 use crate::soil::{Base, Soil, SoilProfile};
 use crate::structure::Structure;
@@ -233,7 +233,7 @@ impl ElasticGround {
 
     /// As [`WeightsGround::with_history_kind`]; only the closed form has exponentials.
     #[must_use]
-    pub fn with_history_kind(self, history: History) -> Self {
+    pub fn with_history_kind(self, history: HistoryMethod) -> Self {
         Self { ground: self.ground.with_history_kind(history), ..self }
     }
 

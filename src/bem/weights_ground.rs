@@ -6,8 +6,8 @@ use super::{Ground, SharedKernels, WeightsSource};
 use crate::error::{CheckpointError, Error, Result};
 use crate::geometry::{ContactElement, check_order};
 use crate::history::{
-    ChosenHistory, ConvolutionHistory, ConvolutionWeights, ExponentialHistory, History,
-    HistoryChoice, HistoryOptions, SavedChoice,
+    ChosenHistory, ConvolutionHistory, ConvolutionWeights, ExponentialHistory, HistoryChoice,
+    HistoryMethod, HistoryOptions, SavedChoice,
 };
 
 /// Any soil that knows its step coefficients and its static compliance, as a ground.
@@ -191,16 +191,16 @@ impl WeightsGround {
         Ok(Self { source, elements, options, own_history: None, shared, prepared: None })
     }
 
-    /// With a history of this kind; [`History::Auto`] unless called.
+    /// With a history of this kind; [`HistoryMethod::Auto`] unless called.
     #[must_use]
-    pub fn with_history_kind(mut self, history: History) -> Self {
+    pub fn with_history_kind(mut self, history: HistoryMethod) -> Self {
         (self.options.kind, self.own_history) = (history, None);
         self
     }
 
     /// Allows a history whose coefficients are within `tolerance` (relative, 1e-12 to 1e-2) of the
-    /// exact ones: exponentials take it instead of 1e-12 ([`History::Auto`]) or 1e-10
-    /// ([`History::Exponentials`]).
+    /// exact ones: exponentials take it instead of 1e-12 ([`HistoryMethod::Auto`]) or 1e-10
+    /// ([`HistoryMethod::Exponentials`]).
     ///
     /// # Errors
     /// [`Error::Input`] for a tolerance outside this range.
@@ -211,7 +211,7 @@ impl WeightsGround {
 
     /// With a limit (bytes) on the memory of the history; 1 GiB unless called.
     ///
-    /// [`History::Auto`] goes by it and by the steps announced ([`Ground::expect_steps`] or
+    /// [`HistoryMethod::Auto`] goes by it and by the steps announced ([`Ground::expect_steps`] or
     /// [`Ground::reserve`]: of a simulation,
     /// [`expected_steps`](crate::coupled::SimulationBuilder::expected_steps) or the steps of the
     /// first run). Beyond those steps, or where none are known, it holds for every history: that which
@@ -251,7 +251,7 @@ impl WeightsGround {
     fn begin(&self, kernel: Arc<dyn ConvolutionWeights>) -> Result<Prepared> {
         let history = self.own_history.as_ref().map(|make| Kept::Own(make(Arc::clone(&kernel))));
         let mut prepared = Prepared { kernel, history };
-        if self.options.kind != History::Auto {
+        if self.options.kind != HistoryMethod::Auto {
             prepared.history(self.options, None)?;
         }
         Ok(prepared)
@@ -336,7 +336,7 @@ impl Ground for WeightsGround {
         if let Some(history) = prepared.history.as_mut().filter(|_| own == saved) {
             return history.any_mut().restore(steps, values);
         }
-        if saved.kind == History::Auto {
+        if saved.kind == HistoryMethod::Auto {
             // Nothing had been chosen yet, so that it is still to be.
             if self.own_history.is_some() || steps > 0 || !values.is_empty() {
                 return Err(other.into());

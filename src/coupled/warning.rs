@@ -19,12 +19,12 @@ pub enum Warning {
         /// Mean length of the elements, m.
         element_length: f64,
     },
-    /// Rotation of the base beyond [`Warning::ROTATION_LIMIT`]: cosines are no longer one.
+    /// Rotation of the base beyond 0.1 rad: cosines are no longer one.
     LargeRotation {
         /// Largest rotation, rad.
         rotation: f64,
     },
-    /// Tension under a base that cannot open, by more than [`Warning::TENSION_LIMIT`]: it is held down by what the
+    /// Tension under a base that cannot open, above 1 % of the largest static pressure: it is held down by what the
     /// model does not have.
     Tension {
         /// Largest tension of any element, Pa.
@@ -40,7 +40,7 @@ pub enum Warning {
         #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
         residual: f64,
     },
-    /// The time scheme has made energy, more than [`Warning::ALGORITHMIC_LIMIT`] of the run's largest:
+    /// The time scheme has made energy, more than 2 % of the run's largest:
     /// see [`Newmark`](super::Newmark).
     AlgorithmicEnergy {
         /// Most that it had made at any time, relative to the largest energy of the run.
@@ -100,20 +100,20 @@ pub enum Warning {
 
 impl Warning {
     /// Rotation above which a run warns, rad: the cosine is off by half a percent.
-    pub const ROTATION_LIMIT: f64 = 0.1;
+    const ROTATION_LIMIT: f64 = 0.1;
     /// Energy error at the end of a run above which it warns. Earlier, while energies are still
-    /// small, it may be larger: see [`Run::energy_error`](crate::results::Run::energy_error).
-    pub const ENERGY_LIMIT: f64 = 1e-9;
+    /// small, it may be larger.
+    const ENERGY_ERROR_LIMIT: f64 = 1e-9;
     /// Energy that the time scheme may make before a run warns, relative to the largest energy.
-    pub const ALGORITHMIC_LIMIT: f64 = 0.02;
+    const ALGORITHMIC_LIMIT: f64 = 0.02;
 
     /// Tension above which a run under weight warns, relative to the largest static pressure.
-    pub const TENSION_LIMIT: f64 = 0.01;
+    pub(crate) const TENSION_LIMIT: f64 = 0.01;
 
     /// Speeds of shear waves in soils, m/s, from mud to rock.
-    pub const SOIL_SPEEDS: [f64; 2] = [10.0, 5000.0];
+    const SOIL_SPEEDS: [f64; 2] = [10.0, 5000.0];
     /// Densities of soils, kg/m³.
-    pub const SOIL_DENSITIES: [f64; 2] = [500.0, 10_000.0];
+    const SOIL_DENSITIES: [f64; 2] = [500.0, 10_000.0];
 
     /// Those that the numbers of `soils` call for.
     pub(crate) fn of_soils(soils: &[Soil]) -> impl Iterator<Item = Self> {
@@ -142,7 +142,9 @@ impl Warning {
             warnings.push(Self::LargeRotation { rotation });
         }
         let residual = energy_balance.residual();
-        if residual > Self::ENERGY_LIMIT || (residual.is_nan() && !energy_balance.is_left_out()) {
+        if residual > Self::ENERGY_ERROR_LIMIT
+            || (residual.is_nan() && !energy_balance.is_left_out())
+        {
             warnings.push(Self::EnergyBalance { residual });
         }
         let made = -least_algorithmic / energy_balance.scale();

@@ -29,7 +29,7 @@ use crate::error::{CheckpointError, Result};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
-pub enum History {
+pub enum HistoryMethod {
     /// The sum as it is, [`DirectHistory`](super::DirectHistory): for checks.
     Direct,
     /// Transforms of blocks, [`RelaxedFftHistory`](super::RelaxedFftHistory).
@@ -61,7 +61,7 @@ pub enum History {
     Auto,
 }
 
-words! { History, "history", {
+words! { HistoryMethod, "history", {
     Direct = "direct",
     RelaxedFft = "relaxed_fft",
     Exponentials = "exponentials",
@@ -113,8 +113,8 @@ impl fmt::Display for ChoiceReason {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct HistoryChoice {
-    /// Which one; never [`History::Auto`].
-    pub kind: History,
+    /// Which one; never [`HistoryMethod::Auto`].
+    pub kind: HistoryMethod,
     /// Why.
     pub reason: ChoiceReason,
     /// Steps that were expected; `None` if nothing was known.
@@ -133,18 +133,22 @@ pub struct HistoryChoice {
 /// A choice as a checkpoint has it: with the same options, the same is chosen again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct SavedChoice {
-    /// [`History::Auto`] where none was made, or the history is one of the user's own.
-    pub(crate) kind: History,
+    /// [`HistoryMethod::Auto`] where none was made, or the history is one of the user's own.
+    pub(crate) kind: HistoryMethod,
     pub(crate) steps: Option<usize>,
 }
 
 impl SavedChoice {
     /// Kinds by their number in a checkpoint.
-    const KINDS: [History; 4] =
-        [History::Auto, History::Direct, History::RelaxedFft, History::Exponentials];
+    const KINDS: [HistoryMethod; 4] = [
+        HistoryMethod::Auto,
+        HistoryMethod::Direct,
+        HistoryMethod::RelaxedFft,
+        HistoryMethod::Exponentials,
+    ];
 
     pub(crate) fn new(choice: Option<HistoryChoice>) -> Self {
-        let (kind, steps) = choice.map_or((History::Auto, None), |c| (c.kind, c.steps));
+        let (kind, steps) = choice.map_or((HistoryMethod::Auto, None), |c| (c.kind, c.steps));
         Self { kind, steps }
     }
 
@@ -175,10 +179,10 @@ impl SavedChoice {
 impl fmt::Display for HistoryChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = match self.kind {
-            History::Direct => "direct sum",
-            History::RelaxedFft => "relaxed transforms",
-            History::Exponentials => "exponentials",
-            History::Auto => "not chosen yet",
+            HistoryMethod::Direct => "direct sum",
+            HistoryMethod::RelaxedFft => "relaxed transforms",
+            HistoryMethod::Exponentials => "exponentials",
+            HistoryMethod::Auto => "not chosen yet",
         };
         write!(f, "history: {name} ({}); ", self.reason)?;
         match self.steps {
@@ -201,7 +205,7 @@ impl fmt::Display for HistoryChoice {
     }
 }
 
-// Cost model of the histories: the table of [`History`].
+// Cost model of the histories: the table of [`HistoryMethod`].
 
 /// Longest window of exponentials: the step is so short that all of a run may lie in it.
 pub(super) const LONGEST_WINDOW: usize = 1_000_000;
@@ -229,7 +233,7 @@ const TAIL: f64 = 3000.0;
 impl Estimate {
     /// Of a history over `steps` steps; without bound for exponentials that cannot be had.
     pub(super) fn new(
-        kind: History,
+        kind: HistoryMethod,
         kernel: &dyn ConvolutionWeights,
         steps: usize,
     ) -> Result<Self> {
@@ -238,14 +242,16 @@ impl Estimate {
         // A coupling that does not end is a third series of coefficients, and twice the products.
         let lasts = if couples_without_end(kernel)? { 1.0 } else { 0.0 };
         match kind {
-            History::Direct => {
+            HistoryMethod::Direct => {
                 let n = steps as f64;
                 let memory = (16.0 * (classes + q) + 8.0 * lasts * classes) * n;
                 let making = COEFFICIENT * classes * n;
                 Ok(Self::of(q * q * n * (1.0 + lasts), memory, making))
             }
-            History::RelaxedFft | History::Auto => Ok(Self::transforms(kernel, steps, lasts)),
-            History::Exponentials => {
+            HistoryMethod::RelaxedFft | HistoryMethod::Auto => {
+                Ok(Self::transforms(kernel, steps, lasts))
+            }
+            HistoryMethod::Exponentials => {
                 let late = kernel.late_weights().map(LateWeights::window);
                 let Some(late) = late.filter(|late| *late <= LONGEST_WINDOW && lasts == 0.0) else {
                     return Ok(Self::of(f64::INFINITY, f64::INFINITY, f64::INFINITY));

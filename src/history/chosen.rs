@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::choice::{ChoiceReason, Estimate, History, HistoryChoice};
+use super::choice::{ChoiceReason, Estimate, HistoryChoice, HistoryMethod};
 use super::convolution::{ConvolutionHistory, ConvolutionWeights, DirectHistory, ExactHistory};
 use super::exponentials::{ExponentialHistory, LONGEST, MEMORY};
 use super::relaxed_fft::{LEAF, RelaxedFftHistory};
@@ -27,7 +27,11 @@ pub(crate) struct ChosenHistory {
 }
 
 /// Steps that a history of this kind holds in the memory allowed.
-fn room(options: HistoryOptions, kind: History, kernel: &dyn ConvolutionWeights) -> Result<usize> {
+fn room(
+    options: HistoryOptions,
+    kind: HistoryMethod,
+    kernel: &dyn ConvolutionWeights,
+) -> Result<usize> {
     let mut most = 0;
     // Memory grows by doubling, so that a power of two fills it.
     for power in LEAF.ilog2() + 1..usize::BITS {
@@ -83,8 +87,8 @@ impl ChosenHistory {
             remedy: "announce the steps with `expected_steps`, or allow more with \
                      `with_history_memory`: a checkpoint can go on there",
         });
-        let exponentials = estimate(History::Exponentials, most)?;
-        if self.options.kind != History::Auto || exponentials.memory >= exact.memory {
+        let exponentials = estimate(HistoryMethod::Exponentials, most)?;
+        if self.options.kind != HistoryMethod::Auto || exponentials.memory >= exact.memory {
             return Err(refused);
         }
         let horizon = ExponentialHistory::HORIZON.max(most.saturating_mul(AHEAD));
@@ -92,7 +96,7 @@ impl ChosenHistory {
         let made = ExponentialHistory::within(kernel, tolerance, horizon, usize::MAX);
         let history = Box::new(made.map_err(|_| refused)?);
         let choice = HistoryChoice {
-            kind: History::Exponentials,
+            kind: HistoryMethod::Exponentials,
             reason: ChoiceReason::MemoryLimit,
             estimated_memory: history.memory(),
             estimated_cost: exponentials.cost,
@@ -194,7 +198,7 @@ const ROUNDING: f64 = 1e-12;
 /// Options of a ground's history.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HistoryOptions {
-    pub(crate) kind: History,
+    pub(crate) kind: HistoryMethod,
     pub(crate) tolerance: Option<f64>,
     /// Bytes.
     pub(crate) memory: usize,
@@ -208,7 +212,7 @@ pub(super) enum Kept {
 
 impl Default for HistoryOptions {
     fn default() -> Self {
-        Self { kind: History::Auto, tolerance: None, memory: MEMORY }
+        Self { kind: HistoryMethod::Auto, tolerance: None, memory: MEMORY }
     }
 }
 
@@ -224,7 +228,7 @@ impl HistoryOptions {
         let expected = steps.unwrap_or(UNKNOWN_STEPS);
         let estimate = |kind| Estimate::new(kind, &**kernel, expected);
         let (exact, exponentials) =
-            (estimate(History::RelaxedFft)?, estimate(History::Exponentials)?);
+            (estimate(HistoryMethod::RelaxedFft)?, estimate(HistoryMethod::Exponentials)?);
         let fits = |needed: usize| {
             let count = kernel.classes().elements().len();
             memory::check("contact elements", count as f64, needed as f64)
@@ -246,21 +250,21 @@ impl HistoryOptions {
             let choice = HistoryChoice {
                 estimated_memory: history.memory(),
                 error_bound: history.error_bound(),
-                ..choice(History::Exponentials, reason, exponentials)
+                ..choice(HistoryMethod::Exponentials, reason, exponentials)
             };
             Ok((Kept::Exponentials(Box::new(history)), choice))
         };
         let asked = ChoiceReason::Asked;
         let tolerance = self.tolerance();
         let reason = match self.kind {
-            History::Direct => {
-                fits(Estimate::new(History::Direct, &**kernel, LEAF)?.memory)?;
-                let choice = choice(History::Direct, asked, estimate(History::Direct)?);
+            HistoryMethod::Direct => {
+                fits(Estimate::new(HistoryMethod::Direct, &**kernel, LEAF)?.memory)?;
+                let choice = choice(HistoryMethod::Direct, asked, estimate(HistoryMethod::Direct)?);
                 return Ok((Kept::Exact(Box::new(DirectHistory::new(own()))), choice));
             }
-            History::Exponentials => return fit(tolerance, asked, self.memory),
-            History::RelaxedFft => asked,
-            History::Auto => {
+            HistoryMethod::Exponentials => return fit(tolerance, asked, self.memory),
+            HistoryMethod::RelaxedFft => asked,
+            HistoryMethod::Auto => {
                 let known = steps.map(|_| (ROUNDING, ChoiceReason::Rounding));
                 let allowed = self.tolerance.map(|it| (it, ChoiceReason::ToleranceAllowed));
                 let shorter = exponentials.of_run(expected) < exact.of_run(expected);
@@ -282,9 +286,9 @@ impl HistoryOptions {
                 }
             }
         };
-        fits(Estimate::new(History::RelaxedFft, &**kernel, LEAF)?.memory)?;
+        fits(Estimate::new(HistoryMethod::RelaxedFft, &**kernel, LEAF)?.memory)?;
         let history = Kept::Exact(Box::new(RelaxedFftHistory::new(own())));
-        Ok((history, choice(History::RelaxedFft, reason, exact)))
+        Ok((history, choice(HistoryMethod::RelaxedFft, reason, exact)))
     }
 
     /// Tolerance of exponentials that are not taken for their speed.
@@ -296,11 +300,11 @@ impl HistoryOptions {
     /// may stand for a run without end.
     pub(super) fn prepared_steps(
         self,
-        kind: History,
+        kind: HistoryMethod,
         kernel: &dyn ConvolutionWeights,
         mut steps: usize,
     ) -> Result<usize> {
-        if let History::Direct | History::RelaxedFft = kind {
+        if let HistoryMethod::Direct | HistoryMethod::RelaxedFft = kind {
             while steps > LEAF && Estimate::new(kind, kernel, steps)?.memory > self.memory {
                 steps /= 2;
             }

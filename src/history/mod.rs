@@ -2,7 +2,7 @@
 //!
 //! A [`ConvolutionWeights`] tells the coefficients of a ground, lag by lag; the histories sum them over all
 //! past tractions, exactly ([`DirectHistory`], [`RelaxedFftHistory`]) or within a tolerance
-//! ([`ExponentialHistory`]). [`History::Auto`] chooses. Nothing here knows what the ground is made of.
+//! ([`ExponentialHistory`]). [`HistoryMethod::Auto`] chooses. Nothing here knows what the ground is made of.
 
 mod choice;
 mod chosen;
@@ -12,7 +12,7 @@ mod pair_classes;
 mod relaxed_fft;
 
 pub(crate) use choice::SavedChoice;
-pub use choice::{ChoiceReason, History, HistoryChoice};
+pub use choice::{ChoiceReason, HistoryChoice, HistoryMethod};
 pub(crate) use chosen::{ChosenHistory, HistoryOptions};
 pub use convolution::{ConvolutionHistory, ConvolutionWeights, DirectHistory, LateWeights};
 pub use exponentials::{ExponentialHistory, ExponentialSum, TailProduct};

@@ -15,7 +15,7 @@ use basemat::coupled::{
     Newmark, Probe, Theta, Warning, refine,
 };
 use basemat::fem::{Direction, Layer, MassKind, Material, Quad8Integration, QuadFormulation};
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 use basemat::interface::{
     Bonded, Cohesive, Coulomb, FrictionLimit, Mode, SlipSense, ThinLayer, UnilateralCondition,
     Yielding,
@@ -246,7 +246,12 @@ fn choices_are_their_words() {
         }
     }
     words(&[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight]);
-    words(&[History::Direct, History::RelaxedFft, History::Exponentials, History::Auto]);
+    words(&[
+        HistoryMethod::Direct,
+        HistoryMethod::RelaxedFft,
+        HistoryMethod::Exponentials,
+        HistoryMethod::Auto,
+    ]);
     words(&[Grading::Uniform, Grading::Cosine]);
     words(&[GravityStage::Frictionless, GravityStage::Frictional, GravityStage::Unloaded]);
     words(&[Criterion::Slip, Criterion::Gap, Criterion::UpliftedFraction, Criterion::Rotation]);

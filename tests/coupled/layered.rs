@@ -6,7 +6,7 @@
 use basemat::bem::layered::{LayeredKernel, Stages};
 use basemat::bem::{ElasticGround, Grading, Ground, SharedKernels, Strip};
 use basemat::coupled::SimulationBuilder;
-use basemat::history::{ConvolutionWeights, History};
+use basemat::history::{ConvolutionWeights, HistoryMethod};
 use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
@@ -68,7 +68,7 @@ fn one_undamped_half_plane_is_the_closed_form_to_the_last_bit() {
 /// Cut anywhere, saved and resumed in another simulation, whatever either had computed before.
 #[test]
 fn cut_and_resumed_runs_have_the_same_bits() {
-    for history in [History::Direct, History::RelaxedFft] {
+    for history in [HistoryMethod::Direct, HistoryMethod::RelaxedFft] {
         let make = || shaken(layered(6).with_history_kind(history)).build().unwrap();
         let mut whole = make();
         let wanted = states(&mut whole, 300);
@@ -137,7 +137,7 @@ fn the_stages_are_said_and_follow_the_rule() {
 
 #[test]
 fn exponentials_are_refused() {
-    let mut ground = layered(3).with_history_kind(History::Exponentials);
+    let mut ground = layered(3).with_history_kind(HistoryMethod::Exponentials);
     let found = ground.prepare(0.002).unwrap_err();
     assert!(matches!(found, Error::NoExponentials { .. }), "{found}");
 }

@@ -8,7 +8,7 @@
 use basemat::bem::full_plane::Boundary;
 use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
 use basemat::fem::{Layer, Material, Mesh};
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 use basemat::motion::{Record, el_centro_1940};
 use basemat::structure::{MatrixModel, Triplets};
 use basemat::sweep::{Parameter, Sweep};
@@ -88,10 +88,10 @@ fn hints_without_end_take_what_a_history_may() {
     let soil = Soil::new(80e6, 0.33, 1900.0).unwrap();
     let mut displacement = [0.0; 32];
     for (kind, steps) in [
-        (History::Auto, 1 << 40),
-        (History::RelaxedFft, 1 << 39),
-        (History::RelaxedFft, usize::MAX),
-        (History::Direct, usize::MAX),
+        (HistoryMethod::Auto, 1 << 40),
+        (HistoryMethod::RelaxedFft, 1 << 39),
+        (HistoryMethod::RelaxedFft, usize::MAX),
+        (HistoryMethod::Direct, usize::MAX),
     ] {
         let before = peak();
         let ground = ElasticGround::new(soil, Strip::graded(-5.0..5.0, 16).unwrap()).unwrap();

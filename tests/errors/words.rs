@@ -10,7 +10,7 @@ use basemat::bem::Grading;
 use basemat::contact::{ContactSearch, SearchMethod};
 use basemat::coupled::{Coordinates, GravityStage};
 use basemat::fem::{Direction, MassKind};
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 use basemat::interface::{FrictionLimit, Mode, SlipSense};
 use basemat::motion::{AccelerationUnit, Baseline};
 use basemat::results::{Criterion, Quantity};
@@ -59,8 +59,12 @@ fn choices_are_read_as_they_are_shown() {
     use SlipSense::{Inelastic, LastVelocity, Velocity};
 
     check("contact mode", &[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight]);
-    let histories =
-        [History::Direct, History::RelaxedFft, History::Exponentials, History::default()];
+    let histories = [
+        HistoryMethod::Direct,
+        HistoryMethod::RelaxedFft,
+        HistoryMethod::Exponentials,
+        HistoryMethod::default(),
+    ];
     check("history", &histories);
     check("grading", &[Grading::Uniform, Grading::Cosine]);
     check("gravity stage", &[Frictionless, Frictional, Unloaded]);

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, PatchKernel, Strip};
 use basemat::history::{
     ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
-    History,
+    HistoryMethod,
 };
 use basemat::{Error, MemoryError, Soil};
 
@@ -173,7 +173,7 @@ fn random_tractions_never_extract_energy() {
                     elements: 6,
                     steps: 8000,
                     seed: 5,
-                    history: History::Exponentials,
+                    history: HistoryMethod::Exponentials,
                     tolerance,
                 };
                 let (work, growth) = (scene.least_work(), scene.growth_of_tractions());
@@ -226,13 +226,13 @@ fn bad_input_is_an_error() {
     let ground = || ElasticGround::new(soil, Strip::uniform(-1.0..1.0, 2).unwrap()).unwrap();
     assert!(ground().with_history_tolerance(f64::NAN).is_err());
     // Windows of more than a million steps are refused; Auto takes the transforms instead.
-    let mut short = ground().with_history_kind(History::Exponentials);
+    let mut short = ground().with_history_kind(HistoryMethod::Exponentials);
     assert!(matches!(short.prepare(1e-7), Err(Error::Input { .. })));
     // So is what takes more memory than allowed, before any of it is taken.
     let begin = std::time::Instant::now();
     for (step, memory) in [(2e-5, None), (1e-3, Some(100_000))] {
         let asked = ElasticGround::new(soil, Strip::graded(-1.0..1.0, 24).unwrap()).unwrap();
-        let asked = asked.with_history_kind(History::Exponentials);
+        let asked = asked.with_history_kind(HistoryMethod::Exponentials);
         let mut asked = match memory {
             Some(memory) => asked.with_history_memory(memory),
             None => asked,
@@ -252,7 +252,7 @@ fn the_choice_is_made_and_explained() {
     use ChoiceReason::{
         Exact, MemoryLimit, NoExponentials, Rounding, ToleranceAllowed, UnknownLength,
     };
-    use History::{Exponentials, RelaxedFft};
+    use HistoryMethod::{Exponentials, RelaxedFft};
 
     let soil = Soil::new(80.0e6, 0.3, 1900.0).unwrap();
     let choose = |tolerance: Option<f64>, memory: Option<usize>, steps: Option<usize>, dt| {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use basemat::bem::{ContactElement, ElasticGround, Grading, Ground, PatchKernel, Strip};
 use basemat::history::{
-    ConvolutionHistory, ConvolutionWeights, DirectHistory, History, RelaxedFftHistory,
+    ConvolutionHistory, ConvolutionWeights, DirectHistory, HistoryMethod, RelaxedFftHistory,
 };
 use basemat::{Error, Soil};
 use proptest::prelude::*;
@@ -202,7 +202,12 @@ fn grounds_with_either_history_agree() {
         ground.prepare(1e-3).unwrap();
         ground
     };
-    let kinds = [Some(History::Direct), Some(History::RelaxedFft), Some(History::Auto), None];
+    let kinds = [
+        Some(HistoryMethod::Direct),
+        Some(HistoryMethod::RelaxedFft),
+        Some(HistoryMethod::Auto),
+        None,
+    ];
     let mut grounds = kinds.map(ground);
     let mut traction = [0.0; 8];
     for step in 0..200 {

@@ -3,7 +3,7 @@
 //! can.
 //! REFERENCE: zero work. The example `passivity` runs longer.
 
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 
 use basemat_problems::passivity::Scene;
 
@@ -21,7 +21,7 @@ fn scenes() -> impl Iterator<Item = Scene> {
                 elements: 20,
                 steps: 3000,
                 seed: 11,
-                history: History::Auto,
+                history: HistoryMethod::Auto,
                 tolerance: 0.0,
             })
         })

@@ -8,7 +8,7 @@ use basemat::bem::{
 };
 use basemat::history::{
     ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
-    ExponentialSum, History, LateWeights, PairClasses, RelaxedFftHistory, SharedSpectra,
+    ExponentialSum, HistoryMethod, LateWeights, PairClasses, RelaxedFftHistory, SharedSpectra,
     TailProduct,
 };
 use basemat::interface::Coulomb;
@@ -352,10 +352,10 @@ fn bed() -> WeightsGround {
 /// REFERENCE: the spring bed, whose rule of second order is another one.
 #[test]
 fn a_block_on_the_voigt_bed() {
-    let kinds = [History::Auto, History::Direct, History::Exponentials];
+    let kinds = [HistoryMethod::Auto, HistoryMethod::Direct, HistoryMethod::Exponentials];
     let [auto, direct, exponentials] =
         kinds.map(|kind| run(bed().with_history_kind(kind), 2e-3, 600));
-    assert_eq!(auto.0.history_choice().unwrap().kind, History::RelaxedFft);
+    assert_eq!(auto.0.history_choice().unwrap().kind, HistoryMethod::RelaxedFft);
     for (simulation, run) in [&auto, &direct, &exponentials] {
         assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
         assert_same_motion(simulation, &auto.0, 1e-6);
@@ -429,14 +429,14 @@ impl ConvolutionWeights for Coupled {
 fn without_late_weights_exponentials_are_refused() {
     let none = Voigt { late: false, ..VOIGT };
     let ground = || WeightsGround::new(none, strips(Grading::Uniform)).unwrap();
-    let refused = ground().with_history_kind(History::Exponentials).prepare(1e-3);
+    let refused = ground().with_history_kind(HistoryMethod::Exponentials).prepare(1e-3);
     assert!(matches!(refused, Err(Error::NoExponentials { .. })), "{refused:?}");
     // Auto takes the transforms, in any memory.
     let mut auto = ground().with_history_memory(1000).with_history_tolerance(1e-6).unwrap();
     auto.prepare(1e-3).unwrap();
     auto.expect_steps(5000).unwrap();
     let choice = auto.history_choice().unwrap();
-    let wanted = (History::RelaxedFft, ChoiceReason::NoExponentials);
+    let wanted = (HistoryMethod::RelaxedFft, ChoiceReason::NoExponentials);
     assert_eq!((choice.kind, choice.reason), wanted);
 
     let kernel = Coupled(VoigtKernel::new(VOIGT, &strips(Grading::Uniform), 1e-4));
@@ -475,9 +475,9 @@ fn a_tail_that_does_not_fit_is_refused() {
 #[test]
 fn the_steps_of_a_run_are_announced_however_many() {
     for (steps, kind, reason) in [
-        (2_000_000, History::Exponentials, ChoiceReason::Rounding),
-        (500, History::RelaxedFft, ChoiceReason::Exact),
-        (usize::MAX, History::RelaxedFft, ChoiceReason::UnknownLength),
+        (2_000_000, HistoryMethod::Exponentials, ChoiceReason::Rounding),
+        (500, HistoryMethod::RelaxedFft, ChoiceReason::Exact),
+        (usize::MAX, HistoryMethod::RelaxedFft, ChoiceReason::UnknownLength),
     ] {
         let mut simulation = Simulation::builder(5e-3)
             .structure(block())

@@ -4,7 +4,7 @@
 
 use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Probe, SimulationBuilder, State};
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{RickerDisplacement, STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
@@ -274,7 +274,7 @@ fn nonlinear_members_keep_to_their_places() {
     let group = || StructureGroup::new().with(block(), 0.0).unwrap().with(soft(), 5.0).unwrap();
     let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
     let build = || {
-        let ground = half_plane(&strips).with_history_kind(History::Direct);
+        let ground = half_plane(&strips).with_history_kind(HistoryMethod::Direct);
         base().structure(group()).ground(ground).build().unwrap()
     };
     let mut simulation = build();

@@ -5,7 +5,7 @@
 //! cargo study passivity --elements 60 --steps 10000
 //! ```
 
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 
 use basemat_problems::passivity::Scene;
 
@@ -44,8 +44,8 @@ pub(crate) fn run(options: &Options) {
         for &poisson in &options.poisson {
             for &graded in meshes {
                 let (history, tolerance) = match options.tolerance {
-                    Some(tolerance) => (History::Exponentials, tolerance),
-                    None => (History::Auto, 0.0),
+                    Some(tolerance) => (HistoryMethod::Exponentials, tolerance),
+                    None => (HistoryMethod::Auto, 0.0),
                 };
                 let scene =
                     Scene { poisson, beta, graded, elements, steps, seed: 1, history, tolerance };

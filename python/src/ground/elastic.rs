@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, SharedKernels, Strip};
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 use basemat::soil::SoilProfile;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -74,7 +74,7 @@ impl From<Profile<'_>> for SoilProfile {
 /// Step coefficients and history of the ground.
 #[derive(Clone)]
 struct Options {
-    kind: History,
+    kind: HistoryMethod,
     history_tolerance: Option<f64>,
     memory: Option<usize>,
     stages: Option<Stages>,

@@ -88,7 +88,7 @@ impl ExponentialHistory {
     /// Accuracy unless another one is asked for.
     pub const TOLERANCE: f64 = 1e-10;
     /// Steps over which `tolerance` holds, unless others are asked for.
-    pub const HORIZON: usize = 1 << 20;
+    pub(crate) const HORIZON: usize = 1 << 20;
 
     /// History of `kernel`, empty, with every coefficient within `tolerance` of the largest
     /// one of its lag.

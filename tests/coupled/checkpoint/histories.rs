@@ -9,7 +9,7 @@ use basemat::bem::{ElasticGround, Ground, PatchKernel, Strip};
 use basemat::coupled::{Coordinates, SimulationBuilder};
 use basemat::history::{
     ChoiceReason, ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory,
-    History, RelaxedFftHistory,
+    HistoryMethod, RelaxedFftHistory,
 };
 use basemat::soil::SoilProfile;
 use basemat::{CheckpointError, Error, MemoryError, StepError};
@@ -32,12 +32,12 @@ fn what_auto_has_chosen_is_chosen_again() {
     const GIB: usize = 1 << 30;
     for (elements, memory, expected, steps, kind) in [
         // By wavenumbers and by pairs.
-        (10, GIB, 0, 50, History::RelaxedFft),
-        (4, GIB, 0, 50, History::RelaxedFft),
-        (10, GIB, 0, 100, History::RelaxedFft),
-        (10, 10_000, 0, 100, History::Exponentials),
+        (10, GIB, 0, 50, HistoryMethod::RelaxedFft),
+        (4, GIB, 0, 50, HistoryMethod::RelaxedFft),
+        (10, GIB, 0, 100, HistoryMethod::RelaxedFft),
+        (10, 10_000, 0, 100, HistoryMethod::Exponentials),
         // Their poles depend on the steps that were expected, which are no part of the scene.
-        (10, 10_000, 1 << 30, 100, History::Exponentials),
+        (10, 10_000, 1 << 30, 100, HistoryMethod::Exponentials),
     ] {
         let case = format!("{elements} elements, {memory} bytes, {expected} steps expected");
         let mut whole = auto(elements, memory).expected_steps(expected).build().unwrap();
@@ -63,11 +63,11 @@ fn where_nothing_was_chosen_the_choice_is_open_again() {
     let fresh = auto(10, 60_000).build().unwrap().checkpoint().unwrap();
     let mut used = auto(10, 60_000).build().unwrap();
     used.run(100, |_| {}).unwrap();
-    assert_eq!(used.history_choice().unwrap().kind, History::Exponentials);
+    assert_eq!(used.history_choice().unwrap().kind, HistoryMethod::Exponentials);
     used.resume(&fresh).unwrap();
     assert_eq!((used.history_choice(), used.state().step), (None, 0));
     used.run(50, |_| {}).unwrap();
-    assert_eq!(used.history_choice().unwrap().kind, History::RelaxedFft);
+    assert_eq!(used.history_choice().unwrap().kind, HistoryMethod::RelaxedFft);
 }
 
 /// GOAL: where a long run is announced the exponentials take over, with an error at rounding.
@@ -82,7 +82,7 @@ fn the_history_of_a_long_run_differs_by_rounding() {
         };
         let (short, long) = (run(0), run(100_000));
         let kinds = [&short, &long].map(|simulation| simulation.history_choice().unwrap());
-        assert_eq!(kinds.map(|c| c.kind), [History::RelaxedFft, History::Exponentials]);
+        assert_eq!(kinds.map(|c| c.kind), [HistoryMethod::RelaxedFft, HistoryMethod::Exponentials]);
         assert_eq!(kinds[1].reason, ChoiceReason::Rounding);
         assert!(kinds[1].error_bound > 0.0 && kinds[1].error_bound <= 1e-12);
         let (short, long) = (short.state(), long.state());
@@ -121,7 +121,7 @@ fn a_run_may_be_cut_anywhere() {
             for expected in [0, 40, 300, 1000] {
                 let cut = run(cuts, expected);
                 assert_eq!(cut.state(), state, "{elements} elements, {cuts:?}, {expected}");
-                assert_eq!(cut.history_choice().unwrap().kind, History::RelaxedFft);
+                assert_eq!(cut.history_choice().unwrap().kind, HistoryMethod::RelaxedFft);
             }
             // Only the first announcement is noted.
             assert_eq!(
@@ -170,8 +170,8 @@ fn a_choice_by_memory_is_that_of_the_first_announcement() {
         }
         (simulation.history_choice().unwrap().kind, simulation.state().clone())
     };
-    assert_eq!(run(&[300], 0).0, History::Exponentials);
-    assert_eq!(run(&[50], 0).0, History::RelaxedFft);
+    assert_eq!(run(&[300], 0).0, HistoryMethod::Exponentials);
+    assert_eq!(run(&[50], 0).0, HistoryMethod::RelaxedFft);
     assert_ne!(run(&[50, 250], 0).1, run(&[300], 0).1);
     assert_eq!(run(&[50, 250], 300), run(&[300], 0));
 }
@@ -199,7 +199,7 @@ fn beyond_the_memory_exponentials_take_over() {
         let choice = whole.history_choice().unwrap();
         assert_eq!(
             (choice.kind, choice.reason),
-            (History::Exponentials, ChoiceReason::MemoryLimit)
+            (HistoryMethod::Exponentials, ChoiceReason::MemoryLimit)
         );
         assert!(choice.error_bound > 0.0 && choice.error_bound <= ExponentialHistory::TOLERANCE);
         assert!(found[400].energy_balance.soil_error_bound > 0.0);
@@ -256,8 +256,8 @@ fn beyond_the_memory_exact_histories_stop() {
     let asked = |history, memory| over(Box::new(half_plane(history).with_history_memory(memory)));
     let scenes: [(usize, &dyn Fn(usize) -> SimulationBuilder); 3] = [
         (30_000, &layers),
-        (100_000, &|memory| asked(History::RelaxedFft, memory)),
-        (100_000, &|memory| asked(History::Direct, memory)),
+        (100_000, &|memory| asked(HistoryMethod::RelaxedFft, memory)),
+        (100_000, &|memory| asked(HistoryMethod::Direct, memory)),
     ];
     for (number, (memory, make)) in scenes.into_iter().enumerate() {
         let mut whole = make(1 << 30).expected_steps(10).build().unwrap();
@@ -334,11 +334,11 @@ fn an_approximate_history_is_in_the_energy_balance() {
         let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
         base.ground(ground).build().unwrap().run(STEPS, |_| {}).unwrap()
     };
-    let exact = run(History::Direct, 1e-3);
+    let exact = run(HistoryMethod::Direct, 1e-3);
     assert_eq!(exact.history_error_bound(), 0.0);
     let mut last = f64::INFINITY;
     for tolerance in [1e-3, 1e-6, 1e-9] {
-        let run = run(History::Exponentials, tolerance);
+        let run = run(HistoryMethod::Exponentials, tolerance);
         let bound = run.history_error_bound();
         println!("{tolerance:e}: soil {:e} within {bound:e}", run.energy_balance.soil);
         assert!(bound > 0.0 && bound < 100.0 * tolerance * run.energy_balance.soil);

@@ -3,7 +3,7 @@
 //! REFERENCE: typed errors, and a simulation that is unchanged.
 
 use basemat::bem::{ContactElement, Ground, SpringGround};
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 use basemat::structure::{
     ModalDamping, NonlinearForce, RigidBlock, Structure, StructureGroup, Triplets, WithSprings,
 };
@@ -39,9 +39,9 @@ fn other_scenes_are_refused() {
         assert_eq!(found, CheckpointError::OtherScene { quantity });
     }
     let with = |history| base().structure(block(SI)).ground(half_plane(history)).build().unwrap();
-    let direct = with(History::Direct).checkpoint().unwrap();
+    let direct = with(HistoryMethod::Direct).checkpoint().unwrap();
     let quantity = "kind of history";
-    let found = refusal(&mut with(History::Exponentials), &direct);
+    let found = refusal(&mut with(HistoryMethod::Exponentials), &direct);
     assert_eq!(found, CheckpointError::OtherScene { quantity });
 }
 

@@ -7,7 +7,7 @@ use std::any::Any;
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{SimulationBuilder, State};
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 use basemat::interface::Bonded;
 use basemat::structure::{NonlinearForce, RigidBlock, Structure, Triplets};
 use basemat::{CheckpointError, Result, Simulation};
@@ -72,23 +72,25 @@ fn kinds() -> Vec<Kind> {
     }
     let base = || scene(SI, 0.6).interface(friction(0.3));
     vec![
-        kind("direct", move || base().structure(block(SI)).ground(half_plane(History::Direct))),
+        kind("direct", move || {
+            base().structure(block(SI)).ground(half_plane(HistoryMethod::Direct))
+        }),
         kind("transforms", move || {
-            base().structure(tower(SI, None)).ground(half_plane(History::RelaxedFft))
+            base().structure(tower(SI, None)).ground(half_plane(HistoryMethod::RelaxedFft))
         }),
         kind("transforms along the surface", move || {
             let ground =
                 ElasticGround::new(soil(SI), Strip::uniform(-2.0..2.0, 9).unwrap()).unwrap();
-            base().structure(block(SI)).ground(ground.with_history_kind(History::RelaxedFft))
+            base().structure(block(SI)).ground(ground.with_history_kind(HistoryMethod::RelaxedFft))
         }),
         kind("exponentials", move || {
-            base().structure(tower(SI, None)).ground(half_plane(History::Exponentials))
+            base().structure(tower(SI, None)).ground(half_plane(HistoryMethod::Exponentials))
         }),
         kind("exponentials, bonded", move || {
             let base = scene(SI, 0.6).interface(Bonded);
-            base.structure(block(SI)).ground(half_plane(History::Exponentials))
+            base.structure(block(SI)).ground(half_plane(HistoryMethod::Exponentials))
         }),
-        kind("auto", move || base().structure(block(SI)).ground(half_plane(History::Auto))),
+        kind("auto", move || base().structure(block(SI)).ground(half_plane(HistoryMethod::Auto))),
         kind("spring bed", move || base().structure(block(SI)).ground(spring_bed())),
         kind("nonlinear", move || {
             base().structure(Rider { block: block(SI) }).ground(spring_bed())

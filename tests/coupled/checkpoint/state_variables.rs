@@ -4,7 +4,7 @@
 //! REFERENCE: the uninterrupted run, to the last bit; typed errors for other memories.
 
 use basemat::coupled::SimulationBuilder;
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 use basemat::{CheckpointError, Simulation};
 
 use super::{STEPS, carried, half_plane, refusal, spring_bed};
@@ -22,7 +22,7 @@ fn base() -> SimulationBuilder {
 #[test]
 fn memories_resume_to_the_last_bit() {
     type Kind = (&'static str, Box<dyn Fn() -> Simulation>);
-    let on_half_plane = || base().ground(half_plane(History::Direct));
+    let on_half_plane = || base().ground(half_plane(HistoryMethod::Direct));
     let kinds: [Kind; 4] = [
         ("weakening", Box::new(|| base().interface(WEAKENING).build().unwrap())),
         ("glue", Box::new(move || on_half_plane().interface(GLUE).build().unwrap())),

@@ -4,7 +4,7 @@
 //! REFERENCE: typed errors, and a simulation that is unchanged.
 
 use basemat::coupled::Checkpoint;
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 use basemat::{CheckpointError, Simulation};
 use proptest::prelude::*;
 use serde_json::Value;
@@ -14,7 +14,7 @@ use super::sum::sealed;
 use super::{half_plane, refusal};
 use basemat_problems::scenes::{SI, block, friction, scene};
 
-fn simulation(history: History) -> Simulation {
+fn simulation(history: HistoryMethod) -> Simulation {
     let base = scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
     base.ground(half_plane(history)).build().unwrap()
 }
@@ -30,7 +30,7 @@ fn leaves(value: &mut Value) -> Vec<&mut Value> {
 
 #[test]
 fn numbers_missing_or_not_finite_are_refused() {
-    for history in [History::Direct, History::RelaxedFft, History::Exponentials] {
+    for history in [HistoryMethod::Direct, HistoryMethod::RelaxedFft, HistoryMethod::Exponentials] {
         let mut simulation = simulation(history);
         simulation.run(70, |_| {}).unwrap();
         let good = serde_json::to_value(simulation.checkpoint().unwrap()).unwrap();
@@ -108,7 +108,7 @@ proptest! {
         which in 0_usize..3,
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u64>()), 1..6),
     ) {
-        let history = [History::Direct, History::RelaxedFft, History::Exponentials][which];
+        let history = [HistoryMethod::Direct, HistoryMethod::RelaxedFft, HistoryMethod::Exponentials][which];
         let mut simulation = simulation(history);
         simulation.run(40, |_| {}).unwrap();
         let mut value = serde_json::to_value(simulation.checkpoint().unwrap()).unwrap();
@@ -134,7 +134,7 @@ proptest! {
             1..6,
         ),
     ) {
-        let history = [History::Direct, History::RelaxedFft, History::Exponentials][which];
+        let history = [HistoryMethod::Direct, HistoryMethod::RelaxedFft, HistoryMethod::Exponentials][which];
         let mut simulation = simulation(history);
         simulation.run(20, |_| {}).unwrap();
         let mut text = serde_json::to_vec(&simulation.checkpoint().unwrap()).unwrap();
@@ -159,7 +159,7 @@ proptest! {
     #[test]
     fn any_bytes_do_not_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
         if let Ok(checkpoint) = serde_json::from_slice::<Checkpoint>(&bytes) {
-            let _ = simulation(History::Direct).resume(&checkpoint);
+            let _ = simulation(HistoryMethod::Direct).resume(&checkpoint);
         }
     }
 }

@@ -6,7 +6,7 @@ use basemat::coupled::{
     State, Theta,
 };
 use basemat::fem::{Layer, Material, Mesh, Quad8, Quad8Integration};
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 use basemat::interface::{Bonded, Coulomb, ThinLayer};
 use basemat::structure::{
     CraigBampton, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey,
@@ -84,7 +84,7 @@ impl Tower {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Bed {
-    HalfPlane { graded: bool, poisson: f64, history: History },
+    HalfPlane { graded: bool, poisson: f64, history: HistoryMethod },
     Springs { dashpots: bool },
 }
 
@@ -339,10 +339,10 @@ fn tower() -> impl Strategy<Value = Tower> {
 
 fn bed() -> impl Strategy<Value = Bed> {
     let history = prop::sample::select(vec![
-        History::Auto,
-        History::Direct,
-        History::RelaxedFft,
-        History::Exponentials,
+        HistoryMethod::Auto,
+        HistoryMethod::Direct,
+        HistoryMethod::RelaxedFft,
+        HistoryMethod::Exponentials,
     ]);
     prop_oneof![
         3 => (any::<bool>(), prop_oneof![7 => 0.0..0.49, 1 => 0.49..0.4995], history)

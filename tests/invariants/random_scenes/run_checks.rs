@@ -95,7 +95,7 @@ pub(crate) fn energy_is_kept(
     let scale = Scales::of(states).energy;
     let exact = !matches!(
         recipe.bed,
-        Bed::HalfPlane { history: basemat::history::History::Exponentials, .. }
+        Bed::HalfPlane { history: basemat::history::HistoryMethod::Exponentials, .. }
     );
     // Where du = Δt v*, the dashpots' work of a step is a square.
     let one_point = matches!(recipe.scheme, Scheme::Midpoint | Scheme::Theta(_));

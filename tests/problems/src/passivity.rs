@@ -2,7 +2,7 @@
 
 use basemat::Soil;
 use basemat::bem::{ElasticGround, Ground, Strip};
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 
 use super::dense::inverse;
 use super::random::Random;
@@ -17,7 +17,7 @@ pub struct Scene {
     pub elements: usize,
     pub steps: usize,
     pub seed: u64,
-    pub history: History,
+    pub history: HistoryMethod,
     /// Allowed tolerance of the history; 0 for none.
     pub tolerance: f64,
 }

@@ -2,25 +2,25 @@
 
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::coupled::{Midpoint, Newmark, SimulationBuilder, Theta};
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 use basemat::{Result, Soil};
 
 /// How the past is summed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Past {
     pub(crate) name: &'static str,
-    kind: History,
+    kind: HistoryMethod,
     /// Of the coefficients, where they are approximate.
     tolerance: Option<f64>,
 }
 
-/// Convolutions that are compared. A new kind of [`History`] is one more line.
+/// Convolutions that are compared. A new kind of [`HistoryMethod`] is one more line.
 pub(crate) const HISTORIES: [Past; 5] = [
-    Past { name: "transforms", kind: History::RelaxedFft, tolerance: None },
-    Past { name: "direct", kind: History::Direct, tolerance: None },
-    Past { name: "exponentials 1e-10", kind: History::Exponentials, tolerance: Some(1e-10) },
-    Past { name: "exponentials 1e-6", kind: History::Exponentials, tolerance: Some(1e-6) },
-    Past { name: "exponentials 1e-3", kind: History::Exponentials, tolerance: Some(1e-3) },
+    Past { name: "transforms", kind: HistoryMethod::RelaxedFft, tolerance: None },
+    Past { name: "direct", kind: HistoryMethod::Direct, tolerance: None },
+    Past { name: "exponentials 1e-10", kind: HistoryMethod::Exponentials, tolerance: Some(1e-10) },
+    Past { name: "exponentials 1e-6", kind: HistoryMethod::Exponentials, tolerance: Some(1e-6) },
+    Past { name: "exponentials 1e-3", kind: HistoryMethod::Exponentials, tolerance: Some(1e-3) },
 ];
 
 /// A time scheme of the structure. A new one is one more variant and its arms below.

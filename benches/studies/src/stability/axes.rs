@@ -1,6 +1,6 @@
 //! The sweeps: pairs of parameters, the rest as in [`Scene::default`].
 
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 
 use super::motions::{MOTIONS, Motion};
 use super::run::Verdict;
@@ -298,13 +298,13 @@ fn schemes(short: bool, base: Scene) -> Map {
 
 /// Single runs of many steps.
 fn long_runs(short: bool) -> Map {
-    type Case = (&'static str, Law, f64, History);
+    type Case = (&'static str, Law, f64, HistoryMethod);
     let cases: [Case; 5] = [
-        ("friction 0.4 (β = 5)", Law::Coulomb(0.4), 5.0, History::Exponentials),
-        ("uplift only (β = 2)", Law::Coulomb(f64::INFINITY), 2.0, History::Exponentials),
-        ("bonded (β = 0.5)", Law::Bonded, 0.5, History::Exponentials),
-        ("smooth (β = 0.05)", Law::Coulomb(0.0), 0.05, History::Exponentials),
-        ("friction 0.4 (β = 5; transforms)", Law::Coulomb(0.4), 5.0, History::RelaxedFft),
+        ("friction 0.4 (β = 5)", Law::Coulomb(0.4), 5.0, HistoryMethod::Exponentials),
+        ("uplift only (β = 2)", Law::Coulomb(f64::INFINITY), 2.0, HistoryMethod::Exponentials),
+        ("bonded (β = 0.5)", Law::Bonded, 0.5, HistoryMethod::Exponentials),
+        ("smooth (β = 0.05)", Law::Coulomb(0.0), 0.05, HistoryMethod::Exponentials),
+        ("friction 0.4 (β = 5; transforms)", Law::Coulomb(0.4), 5.0, HistoryMethod::RelaxedFft),
     ];
     let kept = if short { &cases[..1] } else { &cases[..] }.to_vec();
     let labels = kept.iter().map(|case| case.0.to_owned()).collect();
@@ -321,7 +321,7 @@ fn long_runs(short: bool) -> Map {
             labels,
             set: Box::new(move |k, scene| {
                 (scene.law, scene.beta, scene.history) = (kept[k].1, kept[k].2, kept[k].3);
-                if kept[k].3 == History::RelaxedFft {
+                if kept[k].3 == HistoryMethod::RelaxedFft {
                     scene.steps /= 10;
                 }
             }),

@@ -11,7 +11,7 @@ use basemat::coupled::{
     DissipativeMidpoint, GravityStage, HhtAlpha, Load, Newmark, SimulationBuilder,
 };
 use basemat::fem::{Layer, Material, Mesh};
-use basemat::history::History;
+use basemat::history::HistoryMethod;
 use basemat::interface::{Bonded, Coulomb, ThinLayer, Yielding};
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{FemModel, RigidBlock};
@@ -96,7 +96,7 @@ pub(crate) struct Scene {
     pub(crate) motion: Motion,
     /// Steps of shaking; as many of rest follow (see [`Scene::rest`]).
     pub(crate) steps: usize,
-    pub(crate) history: History,
+    pub(crate) history: HistoryMethod,
     /// Amplitude of a horizontal load at the top, over the weight.
     pub(crate) push: f64,
     /// Tilt over the one that statics would bear on rigid ground, b/h, from which the block is let go; zero: it
@@ -118,7 +118,7 @@ impl Default for Scene {
             law: Law::Coulomb(0.4),
             motion: Motion::Sines,
             steps: 1000,
-            history: History::Auto,
+            history: HistoryMethod::Auto,
             push: 0.0,
             tilt: 0.0,
         }
