@@ -32,6 +32,8 @@ pub struct MotionFrame<'a> {
 
 /// Frames of the base, end to end.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct ContactFrames {
     pub(super) every: usize,
     times: Vec<f64>,
@@ -58,6 +60,13 @@ impl ContactFrames {
         let _ = self.modes.try_reserve(frames.saturating_mul(count));
     }
 
+    /// Whether these are frames of `count` elements each.
+    #[cfg(feature = "serde")]
+    pub(super) fn is_whole(&self, count: usize) -> bool {
+        let needed = self.times.len().checked_mul(count);
+        self.every > 0 && [self.states.len(), self.modes.len()].map(Some) == [needed; 2]
+    }
+
     /// Frames of `count` elements each.
     pub(super) fn frames(&self, count: usize) -> impl ExactSizeIterator<Item = ContactFrame<'_>> {
         self.times.iter().enumerate().map(move |(k, &time)| {
@@ -73,6 +82,8 @@ impl ContactFrames {
 
 /// Frames of the structure, end to end.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct MotionFrames {
     pub(super) every: usize,
     times: Vec<f64>,
@@ -101,6 +112,15 @@ impl MotionFrames {
         let _ = self.displacement.try_reserve(frames.saturating_mul(count));
         let _ = self.velocity.try_reserve(frames.saturating_mul(count));
         self.free_field.reserve(frames);
+    }
+
+    /// Whether these are frames of `count` degrees of freedom each.
+    #[cfg(feature = "serde")]
+    pub(super) fn is_whole(&self, count: usize) -> bool {
+        let needed = self.times.len().checked_mul(count);
+        self.every > 0
+            && self.free_field.len() == self.times.len()
+            && [self.displacement.len(), self.velocity.len()].map(Some) == [needed; 2]
     }
 
     /// Frames of `count` degrees of freedom each.

@@ -11,22 +11,67 @@ use crate::error::{Error, Result};
 /// observer of [`Simulation::run`].
 ///
 /// The first entry of every history is the state it started from. See the [module](super) for an
-/// example.
+/// example. One that was read from a file takes no more steps.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "TimeSeriesForm"))]
 pub struct TimeSeries {
     pub(super) recorder: Recorder,
     pub(super) elements: Vec<ContactElement>,
     pub(super) probes: Vec<Probe>,
     pub(super) time_step: f64,
+    #[cfg_attr(feature = "serde", serde(rename = "end", serialize_with = "Sequence::write_end"))]
     pub(super) sequence: Sequence,
     steps: usize,
     dofs: usize,
     times: Vec<f64>,
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::lists"))]
     scalars: Vec<Vec<f64>>,
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::lists"))]
     pub(super) probe_values: Vec<Vec<f64>>,
     energy_balances: Vec<EnergyBalance>,
     contact: Option<ContactFrames>,
     motion: Option<MotionFrames>,
+}
+
+validated! {
+    TimeSeries as TimeSeriesForm {
+        recorder: Recorder,
+        elements: Vec<ContactElement>,
+        probes: Vec<Probe>,
+        time_step: f64,
+        end: f64,
+        steps: usize,
+        dofs: usize,
+        times: Vec<f64>,
+        #[serde(with = "crate::text::forms::lists")]
+        scalars: Vec<Vec<f64>>,
+        #[serde(with = "crate::text::forms::lists")]
+        probe_values: Vec<Vec<f64>>,
+        energy_balances: Vec<EnergyBalance>,
+        contact: Option<ContactFrames>,
+        motion: Option<MotionFrames>,
+    } => {
+        let kept = times.len();
+        let lengths = scalars.iter().chain(&probe_values).map(Vec::len);
+        let sized = |quantity, found, needed| match found == needed {
+            true => Ok(()),
+            false => Err(Error::Size { quantity, found, needed }),
+        };
+        sized("list of scalars", scalars.len(), Quantity::ALL.len())?;
+        sized("list of probes", probe_values.len(), probes.len())?;
+        sized("list of energy balances", energy_balances.len(), kept)?;
+        lengths.into_iter().try_for_each(|length| sized("time series", length, kept))?;
+        let frames = contact.as_ref().is_none_or(|own| own.is_whole(elements.len()))
+            && motion.as_ref().is_none_or(|own| own.is_whole(dofs));
+        sized("list of whole frames", usize::from(frames), 1)?;
+        sized("list of times", usize::from(kept > 0), 1)?;
+        let sequence = Sequence::ended(end);
+        Ok(Self {
+            recorder, elements, probes, time_step, sequence, steps, dofs, times, scalars,
+            probe_values, energy_balances, contact, motion,
+        })
+    }
 }
 
 /// Most steps that memory is reserved for.
