@@ -10,11 +10,11 @@ use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::structure;
 
-/// A weighted sum of a structure's degrees of freedom, ``Σ weight · unknown``: where a probe reads and a load
-/// acts.
+/// A weighted sum of a structure's degrees of freedom: where a probe reads and a load acts.
 ///
-/// Rows add, subtract and scale. Wherever a row is asked for, a degree of freedom's number, a dict
-/// ``{unknown: weight}``, a list of pairs ``(unknown, weight)`` or an array of all n weights will do.
+/// ``terms``: a degree of freedom's number (from 0), a dict ``{dof: weight}``, a list of pairs
+/// ``(dof, weight)``, an array of all n weights, or another row. All of these will do wherever a row
+/// is asked for. Rows add, subtract and scale.
 #[pyclass(name = "DofCombination", module = "basemat", frozen, eq)]
 #[derive(Clone)]
 pub(crate) struct PyDofCombination(pub(crate) DofCombination, pub(crate) Order);
@@ -91,8 +91,8 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
         match object.extract::<Vec<(usize, f64)>>() {
             Ok(terms) => Ok(Self(terms.into(), Order::default())),
             Err(_) => Err(refuse(
-                "a row must be a DofCombination, a degree of freedom's number, a dict {unknown: weight}, a list of \
-                 pairs (unknown, weight) or an array of weights",
+                "a row must be a DofCombination, a degree of freedom's number, a dict {dof: weight}, a list of \
+                 pairs (dof, weight) or an array of weights",
             )),
         }
     }
@@ -105,13 +105,13 @@ impl PyDofCombination {
         Self(terms.0, terms.1)
     }
 
-    /// Pairs ``(unknown, weight)``.
+    /// List of pairs ``(dof, weight)``.
     #[getter]
     fn terms(&self) -> Vec<(usize, f64)> {
         self.0.terms().to_vec()
     }
 
-    /// The sum for given degrees of freedom (array of shape (n,)).
+    /// The sum for given degrees of freedom: ``dofs`` is an array of shape (n,); in their unit.
     fn value(&self, dofs: Numbers) -> PyResult<f64> {
         let Numbers(dofs) = dofs;
         self.1.check("the row", dofs.len())?;
@@ -121,7 +121,7 @@ impl PyDofCombination {
         Ok(self.0.value(&dofs))
     }
 
-    /// All n weights as an array of shape (n,).
+    /// All weights as an array of shape (n,) for a number n of degrees of freedom, ``dofs``.
     fn weights<'py>(
         &self,
         py: Python<'py>,
@@ -141,14 +141,15 @@ impl PyDofCombination {
         Ok(PyArray1::from_vec(py, weights))
     }
 
-    /// This displacement to the right less that of the middle of the structure's base.
+    /// This displacement to the right less that of the middle of the base of the ``structure``.
     fn relative_to_base(&self, structure: Bound<'_, PyAny>) -> PyResult<Self> {
         let structure = structure::recipe(&structure)?().or_raise()?;
         self.1.check("the row", structure.dofs())?;
         Ok(Self(self.0.relative_to_base(structure.as_ref()).or_raise()?, self.1))
     }
 
-    /// The same less what the base's rotation makes of it at ``height`` (m): the sway.
+    /// This displacement to the right less that of the base of the ``structure``, its rotation included,
+    /// which moves what is ``height`` (m) above it: the lateral deformation.
     fn total_drift(&self, structure: Bound<'_, PyAny>, height: f64) -> PyResult<Self> {
         let structure = structure::recipe(&structure)?().or_raise()?;
         self.1.check("the row", structure.dofs())?;
@@ -191,8 +192,9 @@ impl PyDofCombination {
     }
 }
 
-/// A section's resultant: weighted sums of displacements, velocities and accelerations that give a
-/// force (N/m) or a moment (N·m/m). For :meth:`Probe.section`.
+/// A section's resultant: rows of ``displacement``, ``velocity`` and ``acceleration`` whose sum is a
+/// force (N/m) or a moment (N·m/m). ``unit``: "N/m" (the default) or "N·m/m". For
+/// :meth:`Probe.section`.
 #[pyclass(name = "SectionRows", module = "basemat", frozen)]
 pub(crate) struct PySectionRows(pub(crate) SectionRows, pub(crate) Order);
 
@@ -232,25 +234,25 @@ impl PySectionRows {
         Ok(((self.displacement(), self.velocity(), self.acceleration()), unit))
     }
 
-    /// SI unit of the resultant.
+    /// SI unit of the resultant: "N/m" or "N·m/m".
     #[getter]
     fn unit(&self) -> &'static str {
         self.0.unit
     }
 
-    /// Weights of the displacements.
+    /// The :class:`DofCombination` of displacements.
     #[getter]
     fn displacement(&self) -> PyDofCombination {
         PyDofCombination(self.0.displacement.clone(), self.1)
     }
 
-    /// Weights of the velocities.
+    /// The :class:`DofCombination` of velocities.
     #[getter]
     fn velocity(&self) -> PyDofCombination {
         PyDofCombination(self.0.velocity.clone(), self.1)
     }
 
-    /// Weights of the accelerations.
+    /// The :class:`DofCombination` of accelerations.
     #[getter]
     fn acceleration(&self) -> PyDofCombination {
         PyDofCombination(self.0.acceleration.clone(), self.1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import os
 import threading
 import traceback
@@ -12,6 +13,7 @@ from typing import Any, Optional
 
 from . import _core
 from ._core import Run, Simulation
+from ._errors import InputError
 
 # Results of a case, the texts of its run's warnings, and that of its error.
 Outcome = tuple[dict[str, Any], Optional[str], Optional[str]]
@@ -19,13 +21,24 @@ _OWN = ("warnings", "error")
 """Columns that every table has."""
 
 
-def cases_of(grid: Any) -> list[dict[str, Any]]:
-    """The cases of a grid: of a mapping all combinations, the last name fastest; a list as it is."""
+Grid = list[tuple[str, list[Any]]]
+"""Names and values of parameters."""
+
+
+def parameters_of(grid: Any) -> Grid | None:
+    """Names and values of a grid that is a mapping."""
     if isinstance(grid, Mapping):
-        names = list(grid)
-        values = [list(own) for own in grid.values()]
-        return [dict(zip(names, combination)) for combination in itertools.product(*values)]
-    return [dict(case) for case in grid]
+        return [(name, list(values)) for name, values in grid.items()]
+    return None
+
+
+def cases_of(grid: Any, parameters: Grid | None) -> list[dict[str, Any]]:
+    """The cases of a grid: of parameters all combinations, the last name fastest; a list as it is."""
+    if parameters is None:
+        return [dict(case) for case in grid]
+    names = [name for name, _ in parameters]
+    values = [values for _, values in parameters]
+    return [dict(zip(names, combination)) for combination in itertools.product(*values)]
 
 
 def results_of(
@@ -69,11 +82,11 @@ def described(error: BaseException) -> str:
 
 def _run_in_thread(cancelled: threading.Event, *arguments: Any) -> Outcome:
     """A case whose runs end once ``cancelled`` is set."""
-    _core.cancel_when(cancelled)
+    _core._cancel_when(cancelled)
     try:
         return run_case(*arguments)
     finally:
-        _core.cancel_when(None)
+        _core._cancel_when(None)
 
 
 def _outcome(future: Future[Any]) -> Outcome:
@@ -100,6 +113,8 @@ def sweep(
     jobs: int | None = None,
     executor: Any = None,
     progress: bool | Callable[[int, int], Any] = False,
+    shard: tuple[int, int] | None = None,
+    file: str | os.PathLike[str] | None = None,
 ) -> Any:
     """Runs a scene for every case of a grid; a pandas frame with one row per case.
 
@@ -117,6 +132,12 @@ def sweep(
         executor: instead, any executor of ``concurrent.futures``, or a ``Client`` of Dask, which runs
             the cases of a worker that dies on another one; ``make`` and what it returns must pickle.
         progress: True for a line on stderr, or a function ``(cases done, cases in all)``.
+        shard: ``(index, of)``: only case ``index`` and every ``of``-th one after it, from 0; the
+            frame's index has the numbers of the cases. All cases unless given.
+        file: path of a file of comma-separated values that is written when all cases are done, with
+            a check sum in every row, as Rust's sweeps write it: :func:`merge` and Rust read it. The
+            grid must be a mapping to numbers or texts, and results must be numbers. If it cannot be
+            written, the frame is the attribute ``table`` of the error. None unless given.
 
     Returns:
         Frame with the columns of the parameters, of the results, ``warnings`` (None, or the texts of
@@ -126,7 +147,15 @@ def sweep(
     from ._frames import pandas
 
     frames = pandas()
-    cases = cases_of(grid)
+    given = parameters_of(grid)
+    cases = cases_of(grid, given)
+    numbers = _shard(range(len(cases)), shard)
+    if file is not None:
+        # Before anything runs.
+        if given is None:
+            raise InputError("file: the grid is a list, but must be a mapping of names to values")
+        _core._case_numbers(given, shard)
+    cases = [cases[number] for number in numbers]
     parameters = list(dict.fromkeys(name for case in cases for name in case))
     for name in _OWN:
         if name in parameters:
@@ -146,7 +175,73 @@ def sweep(
     else:
         outcomes = _in_threads(arguments, jobs or os.cpu_count() or 1, tell)
     taken = {*parameters, *_OWN}
-    return frames.DataFrame(_table(cases, parameters, [_distinct(own, taken) for own in outcomes]))
+    outcomes = [_distinct(own, taken) for own in outcomes]
+    table = frames.DataFrame(_table(cases, parameters, outcomes), index=numbers)
+    if file is not None and given is not None:
+        try:
+            _save(file, given, shard, outcomes)
+        except Exception as error:
+            error.table = table  # type: ignore[attr-defined]
+            raise
+    return table
+
+
+def merge(
+    files: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
+    grid: Mapping[str, Any],
+) -> Any:
+    """Puts the files of a sweep's shards together; a pandas frame with one row per case.
+
+    Args:
+        files: path of a file that :func:`sweep` or a sweep in Rust wrote, or a list of such paths,
+            which hold every case of the grid once.
+        grid: names and values of the whole sweep, a mapping as for :func:`sweep`.
+
+    Returns:
+        Frame with the columns of the parameters, of the results and ``error`` (None, or its text),
+        rows in the order of the cases. A file that was cut off or changed, and cases that are there
+        twice or not at all, raise a :class:`FileError`.
+    """
+    from ._frames import pandas
+
+    paths = [files] if isinstance(files, (str, os.PathLike)) else list(files)
+    parameters = parameters_of(grid)
+    if parameters is None:
+        raise InputError("grid is a list, but must be a mapping of names to values")
+    columns, outcomes = _core._merge_cases(paths, parameters)
+    found: list[Outcome] = [
+        (dict(zip(columns, results or ())), None, error) for results, error in outcomes
+    ]
+    names = [name for name, _ in parameters]
+    table = _table(cases_of(grid, parameters), names, found)
+    del table["warnings"]
+    return pandas().DataFrame(table)
+
+
+def _shard(numbers: range, shard: tuple[int, int] | None) -> range:
+    """Numbers of the cases of a shard."""
+    if shard is None:
+        return numbers
+    index, of = shard
+    if not 0 <= index < of:
+        raise InputError(f"shard is {shard}, but must be (index, of) with 0 ≤ index < of")
+    return numbers[index::of]
+
+
+def _save(
+    file: str | os.PathLike[str],
+    grid: Grid,
+    shard: tuple[int, int] | None,
+    outcomes: Sequence[Outcome],
+) -> None:
+    columns = list(dict.fromkeys(name for results, *_ in outcomes for name in results))
+    rows = [
+        [math.nan if results.get(name) is None else results[name] for name in columns]
+        if error is None
+        else error
+        for results, _, error in outcomes
+    ]
+    _core._save_cases(file, grid, shard, columns, rows)
 
 
 def _teller(progress: bool | Callable[[int, int], Any], count: int) -> Callable[[int], Any]:

@@ -9,12 +9,13 @@ use basemat::interface::{
 use pyo3::prelude::*;
 
 use super::PyPreviousContact;
-use crate::array::Numbers;
+use crate::array::{Count, Numbers};
 use crate::error::{has_raised, keep, kept, returned};
 use crate::names::{mode, mode_name};
 
-/// One linear condition on the end of a step:
-/// ``gap · g + slip · s + pressure · p + shear · τ = value``, coefficients by name.
+/// One linear condition on an element at the end of a step:
+/// ``gap`` · g + ``slip`` · s + ``pressure`` · p + ``shear`` · τ = ``value``, with its gap g and slip s (m),
+/// pressure p and shear traction τ (Pa); what is not given is 0.
 #[pyclass(name = "Condition", module = "basemat", frozen, dict)]
 pub(crate) struct PyCondition(pub(crate) Condition);
 
@@ -58,7 +59,8 @@ impl PyCondition {
     }
 }
 
-/// Opening and total traction of an element: gap and slip (m), pressure and shear (Pa).
+/// Opening and total traction of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure``
+/// (positive in compression) and ``shear`` (Pa); 0 by default.
 #[pyclass(name = "ContactState", module = "basemat", frozen, get_all)]
 pub(crate) struct PyContactState {
     /// Gap, m; positive when open.
@@ -92,12 +94,13 @@ impl PyContactState {
     }
 }
 
-/// Differences below which a law should see equality: of lengths (m) and of tractions (Pa).
+/// Differences below which a law should see equality: ``length`` of gaps and slips (m), ``traction`` of
+/// pressure and shear (Pa).
 #[pyclass(name = "Tolerance", module = "basemat", frozen, get_all)]
 pub(crate) struct PyTolerance {
-    /// For gaps and slips, m.
+    /// Difference of gaps and slips, m.
     length: f64,
-    /// For tractions, Pa.
+    /// Difference of tractions, Pa.
     traction: f64,
 }
 
@@ -154,7 +157,8 @@ impl UserLaw {
         Ok(Self {
             modes: names.iter().map(|name| mode(name)).collect::<PyResult<_>>()?,
             memory: optional("memory")?
-                .map_or(Ok(0), |count| returned("memory of the interface law", &count))?,
+                .map_or(Ok(Count(0)), |count| returned("memory of the interface law", &count))?
+                .0,
             friction_coefficient: optional("friction_coefficient")?
                 .map(|value| returned("friction_coefficient of the interface law", &value))
                 .transpose()?,

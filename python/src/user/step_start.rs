@@ -7,7 +7,11 @@ use super::PyContactState;
 use crate::array::Numbers;
 use crate::names::mode_name;
 
-/// An element at the start of a step.
+/// An element at the start of a step: what a law knows of it.
+///
+/// A law can be tried without a simulation on one that is made of a ``state`` (:class:`ContactState`),
+/// its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's state
+/// variables ``memory`` (array of shape (m,); none unless given).
 #[pyclass(name = "PreviousContact", module = "basemat", frozen)]
 pub(crate) struct PyPreviousContact {
     state: ContactState,
@@ -41,7 +45,6 @@ impl PyPreviousContact {
 
 #[pymethods]
 impl PyPreviousContact {
-    /// A start by which a law can be tried without a simulation.
     #[new]
     #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, memory=None))]
     fn new(
@@ -110,7 +113,7 @@ impl PyPreviousContact {
         self.time_step
     }
 
-    /// Numbers that the law remembers of the element.
+    /// State variables of the law: list of numbers.
     #[getter]
     fn memory(&self) -> Vec<f64> {
         self.memory.clone()
