@@ -145,6 +145,25 @@ def test_stubs_have_the_modules_texts() -> None:
     assert ast.get_docstring(simulation) == inspect.getdoc(bm.Simulation)
 
 
+@pytest.mark.parametrize(
+    ("expression", "name", "text"),
+    [
+        ("bm.Simulation", "Simulation", "A structure on a ground, ready to march"),
+        ("bm.el_centro_1940().high_pass", "Record.high_pass", "Record filtered at a ``corner``"),
+        ("bm.load('run').floor_spectra", "Run.floor_spectra", "Floor spectra as a pandas frame"),
+        ("bm.load('run').base_shear.magnitude", "Extremes.magnitude", "Magnitude of :attr:`largest`"),
+        ("bm.Soil.from_wave_speeds", "Soil.from_wave_speeds", "Soil from the speeds of ``shear``"),
+    ],
+)
+def test_an_editor_shows_the_texts(expression: str, name: str, text: str) -> None:
+    """What hovering shows, by the engine of Python's language server."""
+    jedi = pytest.importorskip("jedi")
+    source = f"import basemat as bm\n{expression}"
+    [found] = jedi.Script(source).help(2, len(expression))
+    assert found.is_stub() and found.full_name == f"basemat._core.{name}"
+    assert found.docstring(raw=True).startswith(text)
+
+
 SOIL = bm.Soil(80.0e6, 0.33, 1900.0)
 BLOCK = bm.RigidBlock(6.0, 9.0, 1000.0)
 START = bm.PreviousContact(bm.ContactState(), "stick", 0.01)
