@@ -83,6 +83,30 @@ def test_a_worker_that_dies_leaves_a_row_with_an_error() -> None:
     assert "BrokenProcessPool" in table["error"].iloc[2]
 
 
+def sometimes(case: int) -> dict[str, int]:
+    if case in (7, 30):
+        os._exit(1)
+    time.sleep(0.002)
+    return {"value": case}
+
+
+@pytest.mark.parametrize("workers", [1, 3])
+def test_a_process_that_dies_costs_one_case(workers: int) -> None:
+    told: list[tuple[int, int]] = []
+    with concurrent.futures.ProcessPoolExecutor(workers) as executor:
+        table = bm.sweep(
+            sometimes,
+            {"case": range(40)},
+            executor=executor,
+            progress=lambda done, of: told.append((done, of)),
+        )
+    assert list(table.index[table["error"].notna()]) == [7, 30]
+    assert table["error"].str.contains("BrokenProcessPool")[[7, 30]].all()
+    good = table.drop([7, 30])
+    assert good["value"].tolist() == good["case"].tolist()
+    assert told == [(k, 40) for k in range(1, 41)]
+
+
 def test_make_may_return_a_run_or_a_mapping() -> None:
     assert list(bm.sweep(lambda a: {"b": a * a}, {"a": [2, 3]})["b"]) == [4, 9]
     table = bm.sweep(lambda friction: make(friction, 2.0).run(50), {"friction": [0.3]})

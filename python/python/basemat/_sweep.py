@@ -8,7 +8,13 @@ import os
 import threading
 import traceback
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import (
+    BrokenExecutor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    wait,
+)
 from typing import Any, Optional
 
 from . import _core
@@ -89,8 +95,8 @@ def _run_in_thread(cancelled: threading.Event, *arguments: Any) -> Outcome:
         _core._cancel_when(None)
 
 
-def _outcome(future: Future[Any]) -> Outcome:
-    """Outcome of a case, or the error of a worker that died before it could report one."""
+def _outcome(future: Future[Any]) -> Outcome | BrokenExecutor:
+    """Outcome of a case, or the error of a pool one of whose workers died before it could report one."""
     # A wait without end would not hear Ctrl-C everywhere.
     while not wait([future], timeout=0.2).done:
         pass
@@ -99,6 +105,8 @@ def _outcome(future: Future[Any]) -> Outcome:
         return outcome
     except (KeyboardInterrupt, SystemExit):
         raise
+    except BrokenExecutor as error:
+        return error
     except BaseException as error:  # Cancelled futures of Dask are no Exception.
         return {}, None, described(error)
 
@@ -129,8 +137,8 @@ def sweep(
         results: columns of a row, from its run; :meth:`Run.summary` unless given.
         jobs: threads (the GIL is released while steps are made); one unless given, all processors
             for 0.
-        executor: instead, any executor of ``concurrent.futures``, or a ``Client`` of Dask, which runs
-            the cases of a worker that dies on another one; ``make`` and what it returns must pickle.
+        executor: instead, any executor of ``concurrent.futures``, or a ``Client`` of Dask; ``make`` and
+            what it returns must pickle. Cases of a process that dies run again in others.
         progress: True for a line on stderr, or a function ``(cases done, cases in all)``.
         shard: ``(index, of)``: only case ``index`` and every ``of``-th one after it, from 0; the
             frame's index has the numbers of the cases. All cases unless given.
@@ -165,8 +173,7 @@ def sweep(
     if _dask.is_client(executor):
         outcomes = _dask.outcomes(executor, make, cases, (steps, duration, results), tell)
     elif executor is not None:
-        futures = [executor.submit(run_case, *own) for own in arguments]
-        outcomes = _collect(futures, tell)
+        outcomes = _submitted(executor, arguments, tell)
     elif jobs is None or jobs == 1:
         outcomes = []
         for own in arguments:
@@ -255,13 +262,59 @@ def _teller(progress: bool | Callable[[int, int], Any], count: int) -> Callable[
     return lambda done: None
 
 
-def _collect(futures: Sequence[Future[Any]], tell: Callable[[int], Any]) -> list[Any]:
+def _submitted(executor: Any, arguments: list[Any], tell: Callable[[int], Any]) -> list[Outcome]:
+    """Outcomes by an executor; a process that dies costs the case that it ran, and no other.
+
+    A process pool is lost with one of its processes. The first cases without an outcome may have
+    been running there: each of them runs again by itself, and the others in another pool.
+    """
+    found: dict[int, Any] = {}
+
+    def run(pool: Any, numbers: Sequence[int]) -> list[int]:
+        """Runs these cases; returns those that a pool lost."""
+        try:
+            futures = [pool.submit(run_case, *arguments[number]) for number in numbers]
+        except BrokenExecutor as error:
+            own: list[Any] = [error] * len(numbers)
+        else:
+            own = _collect(futures, tell, sum(isinstance(one, tuple) for one in found.values()))
+        found.update(zip(numbers, own))
+        return [number for number in numbers if isinstance(found[number], BrokenExecutor)]
+
+    lost = run(executor, range(len(arguments)))
+    workers = getattr(executor, "_max_workers", 1)
+    while lost and isinstance(executor, ProcessPoolExecutor):
+        # A pool hands out one case more than it has processes.
+        first, others = lost[: 2 * workers + 1], lost[2 * workers + 1 :]
+        for number in first:
+            with _like(executor, 1) as pool:
+                for dead in run(pool, [number]):
+                    found[dead] = {}, None, described(found[dead])
+                    tell(sum(isinstance(one, tuple) for one in found.values()))
+        with _like(executor, workers) as pool:
+            lost = run(pool, others)
+    for number in lost:
+        found[number] = {}, None, described(found[number])
+    return [found[number] for number in range(len(arguments))]
+
+
+def _like(executor: ProcessPoolExecutor, workers: int) -> ProcessPoolExecutor:
+    """A new pool with the settings of another."""
+    options = {name: getattr(executor, f"_{name}") for name in ("mp_context", "initializer", "initargs")}
+    return ProcessPoolExecutor(workers, **options)
+
+
+def _collect(
+    futures: Sequence[Future[Any]], tell: Callable[[int], Any], before: int = 0
+) -> list[Any]:
     """Outcomes in the order of the cases; on an interrupt what has not begun is not begun."""
     outcomes = []
     try:
         for future in futures:
             outcomes.append(_outcome(future))
-            tell(len(outcomes))
+            if isinstance(outcomes[-1], tuple):
+                before += 1
+                tell(before)
     except BaseException:
         for future in futures:
             future.cancel()
