@@ -13,7 +13,7 @@ mkdir -p "$CARGO_TARGET_DIR"
 cargo fmt --check
 cargo clippy --locked --all-targets -- -D warnings
 # No file of the package above 400 lines, but for the one stub file of the compiled module.
-long="$(find src python tests examples -name '*.rs' -o -name '*.py' | xargs wc -l | awk '$2 != "total" && $1 > 400')"
+long="$(find src python tests examples tools -name '*.rs' -o -name '*.py' | xargs wc -l | awk '$2 != "total" && $1 > 400')"
 [[ -z "$long" ]] || { echo "above 400 lines: $long"; exit 1; }
 
 "$programs/pip" install -q maturin
@@ -22,7 +22,16 @@ long="$(find src python tests examples -name '*.rs' -o -name '*.py' | xargs wc -
 wheel="$(ls -t "$CARGO_TARGET_DIR"/wheels/basemat-*.whl | head -1)"
 "$programs/pip" install -q --force-reinstall --no-deps "$wheel"
 "$programs/pip" install -q "$wheel[test]"
+# Texts of the stubs are those of the module.
+"$programs/python" tools/stubs.py --check
 "$programs/python" -m pytest -q
 walkthrough="$PWD/examples/walkthrough.py"
 (cd "$CARGO_TARGET_DIR" && MPLBACKEND=agg "$programs/python" "$walkthrough")
+# The wheel in an environment of its own, without Rust.
+clean="$CARGO_TARGET_DIR/clean"
+rm -rf "$clean"
+"${PYTHON:-python3}" -m venv "$clean"
+"${programs/#$venv/$clean}/pip" install -q "$wheel"
+(cd "$clean" && PATH=/usr/bin:/bin "${programs/#$venv/$clean}/python" -m basemat.containment --duration 2)
+case "$wheel" in *-cp39-abi3-*) ;; *) echo "no abi3 wheel: $wheel"; exit 1 ;; esac
 echo "wheel: $wheel"

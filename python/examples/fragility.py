@@ -5,8 +5,11 @@
     python examples/fragility.py --scheduler tcp://host:8786   # one that is there
 
 A shear building stands on a mat that may uplift and slide. El Centro and near-fault pulses are
-scaled to levels of peak ground velocity. The table has the columns and, to the last bit, the
-numbers of Rust's `cases.csv`, but for the check sums of its rows, without which Rust does not read them again.
+scaled to levels of peak ground velocity. The file is Rust's `cases.csv`, byte for byte. Rust fits
+the curves:
+
+    python examples/fragility.py --dask 2 --table runs/shard_0_of_1.csv
+    cargo study fragility --merge --out runs
 """
 
 from __future__ import annotations
@@ -121,14 +124,6 @@ def shake(
     }
 
 
-def compute(short: bool, **options: Any) -> Any:
-    """The table; options are those of :func:`basemat.sweep`."""
-    # Rust's table has no warnings.
-    table = bm.sweep(shake, grid(short), **options).drop(columns="warnings")
-    table.insert(0, "case", range(len(table)))
-    return table
-
-
 def main(arguments: list[str] | None = None) -> None:
     """The study from the command line."""
     parser = argparse.ArgumentParser(
@@ -153,14 +148,14 @@ def main(arguments: list[str] | None = None) -> None:
     else:
         client, how = None, {"jobs": options.jobs}
     begin = time.perf_counter()
-    table = compute(options.short, progress=sys.stderr.isatty(), **how)
+    table = bm.sweep(
+        shake, grid(options.short), progress=sys.stderr.isatty(), file=options.table, **how
+    )
     elapsed = time.perf_counter() - begin
     if client is not None:
         client.close()
         if options.dask:
             cluster.close()
-    options.table.parent.mkdir(parents=True, exist_ok=True)
-    table.to_csv(options.table, index=False)
     failed = int(table["error"].notna().sum())
     print(f"{options.table}: {len(table)} cases, {failed} failed")
     print(f"{elapsed:.2f} s by the clock, {1e3 * elapsed / len(table):.2f} s per thousand runs")

@@ -78,6 +78,17 @@ where
     Err(refuse(format!("{found}, but only whole numbers from 0 on will do")))
 }
 
+/// A count that user code gives.
+pub(crate) struct Count(pub(crate) usize);
+
+impl<'py> FromPyObject<'_, 'py> for Count {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        Ok(Self(whole(&object)?))
+    }
+}
+
 /// Numbers of anything that numpy takes for a list of them.
 pub(crate) struct Numbers(pub(crate) Vec<f64>);
 

@@ -72,6 +72,12 @@ where
     })
 }
 
+/// The error of an argument that is none of the types named.
+pub(crate) fn no_such(object: &Bound<'_, PyAny>, needed: &str) -> PyErr {
+    let found = object.get_type().name().map_or_else(|_| "object".into(), |name| name.to_string());
+    pyo3::exceptions::PyTypeError::new_err(format!("of the type {found}, but must be {needed}"))
+}
+
 /// A warning of the package, at the line of Python that is being run.
 pub(crate) fn warn(py: Python<'_>, text: String) -> PyResult<()> {
     let text = CString::new(text)?;
@@ -90,13 +96,29 @@ pub(crate) fn locked<T>(reason: TryLockError<T>) -> PyErr {
     })
 }
 
+/// A message of the core that names the core's own functions, in Python's words.
+pub(crate) fn in_python(mut text: String) -> String {
+    for (core, python) in [
+        (
+            "`coupled::largest_convergent_step` finds a time step that gets through",
+            "a shorter step may get through",
+        ),
+        ("; `with_time_limit` allows more", ""),
+        ("take `Midpoint`,", "take TimeScheme.midpoint(),"),
+    ] {
+        text = text.replace(core, python);
+    }
+    text
+}
+
 /// The exception of user code that led to `error`, or that of the core with its full text.
 pub(crate) fn raise(error: basemat::Error) -> PyErr {
     use basemat::Error as Core;
+    use basemat::SweepError::{File, Missing, Twice, Unreadable, Unwritten};
     if let Some(own) = take_raised() {
         return own;
     }
-    let text = error.to_string();
+    let text = in_python(error.to_string());
     match error {
         Core::Step { step, time, .. } => {
             let exception = classes::StepError::new_err(text);
@@ -111,7 +133,10 @@ pub(crate) fn raise(error: basemat::Error) -> PyErr {
         Core::Record { .. }
         | Core::MeshFile { .. }
         | Core::MatrixFile { .. }
-        | Core::Write { .. } => classes::FileError::new_err(text),
+        | Core::Write { .. }
+        | Core::Sweep(
+            File { .. } | Missing { .. } | Twice { .. } | Unreadable { .. } | Unwritten { .. },
+        ) => classes::FileError::new_err(text),
         _ => classes::InputError::new_err(text),
     }
 }

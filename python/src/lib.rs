@@ -2,6 +2,7 @@
 //! motions, the simulation made of them, and its results.
 
 mod array;
+mod cases;
 mod error;
 mod ground;
 mod interface;
@@ -12,8 +13,10 @@ mod probe;
 mod profile;
 mod recipe;
 mod refine;
+mod restored;
 mod results;
 mod row;
+mod saved;
 mod simulation;
 mod soil;
 mod structure;
@@ -28,6 +31,10 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("STANDARD_GRAVITY", basemat::motion::STANDARD_GRAVITY)?;
     module.add_class::<refine::PyRefinement>()?;
     module.add_function(wrap_pyfunction!(refine::refine, module)?)?;
+    module.add_function(wrap_pyfunction!(cases::case_numbers, module)?)?;
+    module.add_function(wrap_pyfunction!(cases::save_cases, module)?)?;
+    module.add_function(wrap_pyfunction!(cases::merge_cases, module)?)?;
+    module.add_function(wrap_pyfunction!(restored::restored, module)?)?;
     module.add_function(wrap_pyfunction!(memory::memory_limit, module)?)?;
     module.add_function(wrap_pyfunction!(memory::set_memory_limit, module)?)?;
     module.add_class::<soil::PySoil>()?;

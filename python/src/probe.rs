@@ -5,7 +5,10 @@ use pyo3::prelude::*;
 
 use crate::row::{Order, PyDofCombination, PySectionRows, RowLike};
 
-/// A quantity read off at every step: a weighted sum of displacements, velocities or accelerations.
+/// A quantity recorded at every step: a weighted sum of displacements, velocities or accelerations.
+///
+/// ``name``: that of its time series. ``row``: a :class:`DofCombination` or what makes one. ``unit``:
+/// its label in tables; that of the quantity unless given.
 ///
 /// Displacements are changes against the static state, relative to the translation of the free
 /// field; :meth:`absolute_displacement` includes it. Velocities and accelerations are total. No two
@@ -25,42 +28,47 @@ impl PyProbe {
 
 #[pymethods]
 impl PyProbe {
-    /// Displacement (m, or rad of a rotation) relative to the free field.
+    /// Displacement (m, or rad of a rotation) of the ``row`` relative to the free field, as the time
+    /// series ``name``; ``unit``: its label, "m" unless given.
     #[staticmethod]
     #[pyo3(signature = (name, row, *, unit=None))]
     fn displacement(name: String, row: RowLike, unit: Option<String>) -> Self {
         Self::labelled(Probe::displacement(name, row.0), row.1, unit)
     }
 
-    /// The same with the translation of the free field.
+    /// Displacement (m) of the ``row`` with the translation of the free field, as the time series
+    /// ``name``; ``unit``: its label, "m" unless given.
     #[staticmethod]
     #[pyo3(signature = (name, row, *, unit=None))]
     fn absolute_displacement(name: String, row: RowLike, unit: Option<String>) -> Self {
         Self::labelled(Probe::absolute_displacement(name, row.0), row.1, unit)
     }
 
-    /// Total velocity, m/s.
+    /// Total velocity of the ``row``, m/s, as the time series ``name``; ``unit``: its label, "m/s" unless
+    /// given.
     #[staticmethod]
     #[pyo3(signature = (name, row, *, unit=None))]
     fn velocity(name: String, row: RowLike, unit: Option<String>) -> Self {
         Self::labelled(Probe::velocity(name, row.0), row.1, unit)
     }
 
-    /// Total acceleration, m/s².
+    /// Total acceleration of the ``row``, m/s², as the time series ``name``; ``unit``: its label, "m/s²"
+    /// unless given.
     #[staticmethod]
     #[pyo3(signature = (name, row, *, unit=None))]
     fn acceleration(name: String, row: RowLike, unit: Option<String>) -> Self {
         Self::labelled(Probe::acceleration(name, row.0), row.1, unit)
     }
 
-    /// A section's resultant: a force (N/m) or a moment (N·m/m).
+    /// Resultant of a ``section`` (:class:`SectionRows`), a force (N/m) or a moment (N·m/m), as the time
+    /// series ``name``; ``unit``: its label, that of the section unless given.
     #[staticmethod]
     #[pyo3(signature = (name, section, *, unit=None))]
     fn section(name: String, section: &PySectionRows, unit: Option<String>) -> Self {
         Self::labelled(Probe::section(name, &section.0), section.1, unit)
     }
 
-    /// Its name.
+    /// Its name, that of its time series.
     #[getter]
     fn name(&self) -> &str {
         &self.0.name
@@ -72,7 +80,7 @@ impl PyProbe {
         &self.0.unit
     }
 
-    /// Its rows: of displacements, velocities, accelerations.
+    /// The :class:`DofCombination` of displacements, that of velocities and that of accelerations.
     #[getter]
     fn rows(&self) -> [PyDofCombination; 3] {
         [&self.0.displacement, &self.0.velocity, &self.0.acceleration]

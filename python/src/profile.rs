@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 
 use crate::array::Numbers;
 use crate::error::OrRaise;
+use crate::results::preformatted;
 use crate::soil::PySoil;
 
 /// Damping of a soil: how its shear modulus depends on frequency.
@@ -24,15 +25,17 @@ impl PyDampingLaw {
         Self(Arc::new(Elastic))
     }
 
-    /// Generalised Maxwell body with the damping ``ratio`` over a ``band`` (lowest and highest
-    /// frequency, Hz) and the soil's modulus at ``reference`` (Hz): the usual choice in time.
+    /// Generalised Maxwell body with the damping ``ratio`` (0.05: 5 %) over a ``band`` (lowest and highest
+    /// frequency, Hz; 0.1 to 30 by default) and the soil's modulus at ``reference`` (Hz; 1 by
+    /// default): the usual choice in time.
     #[staticmethod]
     #[pyo3(signature = (ratio, band=[0.1, 30.0], reference=1.0))]
     fn constant_q(ratio: f64, band: [f64; 2], reference: f64) -> PyResult<Self> {
         Ok(Self(Arc::new(GeneralizedMaxwell::constant_q(ratio, band, reference).or_raise()?)))
     }
 
-    /// Generalised Maxwell body of a long-term modulus ratio, shares and relaxation rates (1/s).
+    /// Generalised Maxwell body: ``long_term`` modulus over that of the soil, ``shares`` of the rest
+    /// (array of shape (m,)) and their relaxation ``rates`` (array of shape (m,), 1/s).
     #[staticmethod]
     fn maxwell(long_term: f64, shares: Numbers, rates: Numbers) -> PyResult<Self> {
         Ok(Self(Arc::new(GeneralizedMaxwell::new(long_term, shares.0, rates.0).or_raise()?)))
@@ -44,14 +47,16 @@ impl PyDampingLaw {
         Ok(Self(Arc::new(KelvinVoigt::with_ratio(ratio, frequency).or_raise()?)))
     }
 
-    /// Exactly constant damping (Kjartansson 1979) with the soil's modulus at ``reference`` (Hz).
+    /// Exactly constant damping ``ratio`` (Kjartansson 1979) with the soil's modulus at ``reference`` (Hz;
+    /// 1 by default).
     #[staticmethod]
     #[pyo3(signature = (ratio, reference=1.0))]
     fn kjartansson(ratio: f64, reference: f64) -> PyResult<Self> {
         Ok(Self(Arc::new(Kjartansson::new(ratio, reference).or_raise()?)))
     }
 
-    /// The frequency domain's usual damping: not causal, for impedances only.
+    /// The frequency domain's usual damping ``ratio``, the same at all frequencies: not causal, for
+    /// impedances only.
     #[staticmethod]
     fn hysteretic(ratio: f64) -> PyResult<Self> {
         Ok(Self(Arc::new(Hysteretic::new(ratio).or_raise()?)))
@@ -62,7 +67,8 @@ impl PyDampingLaw {
     }
 }
 
-/// A horizontal layer: its soil, its thickness (m), its damping (none unless given).
+/// A horizontal layer: its ``soil`` (:class:`Soil`), its ``thickness`` (m), its ``damping``
+/// (:class:`DampingLaw`; none unless given).
 #[pyclass(name = "SoilLayer", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilLayer(SoilLayer);
 
@@ -73,14 +79,27 @@ impl PySoilLayer {
     fn new(soil: &PySoil, thickness: f64, damping: Option<&PyDampingLaw>) -> Self {
         Self(SoilLayer { soil: soil.0, thickness, damping: law(damping) })
     }
+
+    /// Its :class:`Soil`.
+    #[getter]
+    fn soil(&self) -> PySoil {
+        PySoil(self.0.soil)
+    }
+
+    /// Its thickness, m.
+    #[getter]
+    fn thickness(&self) -> f64 {
+        self.0.thickness
+    }
 }
 
 fn law(given: Option<&PyDampingLaw>) -> Arc<dyn Relaxation> {
     given.map_or_else(|| Arc::new(Elastic) as Arc<dyn Relaxation>, |law| Arc::clone(&law.0))
 }
 
-/// Horizontal layers from the surface down, on a half-plane of the soil ``base`` or, with
-/// ``base=None``, on a rigid base.
+/// Horizontal ``layers`` (list of :class:`SoilLayer`) from the surface down, on a half-plane of the soil
+/// ``base`` or, unless that is given, on a rigid base. ``base_damping``: :class:`DampingLaw` of the
+/// base; none unless given. Printed, it is a table.
 #[pyclass(name = "SoilProfile", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilProfile(pub(crate) SoilProfile);
 
@@ -99,6 +118,25 @@ impl PySoilProfile {
             None => Base::Rigid,
         };
         Ok(Self(SoilProfile::new(layers, base).or_raise()?))
+    }
+
+    /// The layers from the surface down: list of :class:`SoilLayer`.
+    #[getter]
+    fn layers(&self) -> Vec<PySoilLayer> {
+        self.0.layers().iter().cloned().map(PySoilLayer).collect()
+    }
+
+    /// The :class:`Soil` of the half-plane under the layers; None on a rigid base.
+    #[getter]
+    fn base(&self) -> Option<PySoil> {
+        match self.0.base() {
+            Base::HalfPlane { soil, .. } => Some(PySoil(*soil)),
+            Base::Rigid => None,
+        }
+    }
+
+    fn _repr_html_(&self) -> String {
+        preformatted(&self.0.to_string())
     }
 
     /// Depth of all layers, m.

@@ -6,9 +6,11 @@ use pyo3::prelude::*;
 
 use crate::array::{Numbers, real};
 use crate::error::{OrRaise, heard, kept, returned};
+use crate::saved::{Reduced, reduced};
 
-/// Error against run time at six settings: what :func:`refine` returns. Printed, a table.
+/// Error against run time at six settings: what :func:`refine` returns. Printed, it is a table.
 #[pyclass(name = "Refinement", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyRefinement(Refinement);
 
 /// Runs a scene at six settings and estimates the error of each by Richardson's extrapolation.
@@ -49,37 +51,42 @@ impl PyRefinement {
 
 #[pymethods]
 impl PyRefinement {
-    /// Number of elements of each setting.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
+    /// Numbers of elements of the settings: list of 6.
     #[getter]
     fn elements(&self) -> Vec<usize> {
         self.0.settings.iter().map(|setting| setting.elements).collect()
     }
 
-    /// Time step of each setting, s.
+    /// Time steps of the settings: array of shape (6,), s.
     #[getter]
     fn time_steps<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.array(py, |setting| setting.time_step)
     }
 
-    /// Estimated error of each setting, relative to the size of the results.
+    /// Estimated errors of the settings, relative to the size of the results: array of shape (6,).
     #[getter]
     fn errors<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.array(py, |setting| setting.error)
     }
 
-    /// Wall time of each setting, s.
+    /// Wall times of the settings: array of shape (6,), s.
     #[getter]
     fn wall_times<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.array(py, |setting| setting.wall.as_secs_f64())
     }
 
-    /// Results of each setting.
+    /// Results of the settings, in the units of the scene: list of 6 arrays of shape (results,).
     #[getter]
     fn results<'py>(&self, py: Python<'py>) -> Vec<Bound<'py, PyArray1<f64>>> {
         self.0.settings.iter().map(|setting| setting.results.to_pyarray(py)).collect()
     }
 
-    /// Results extrapolated to infinitely many elements and steps.
+    /// Results extrapolated to infinitely many elements and steps: array of shape (results,), in the
+    /// units of the scene.
     #[getter]
     fn extrapolated<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         self.0.extrapolated.to_pyarray(py)
@@ -97,7 +104,8 @@ impl PyRefinement {
         self.0.step_order
     }
 
-    /// Distance of the last setting's results from those that the other errors foretell, relative.
+    /// Distance of the last setting's results from those that the other errors foretell, relative to
+    /// the size of the results.
     #[getter]
     fn mismatch(&self) -> f64 {
         self.0.mismatch

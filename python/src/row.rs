@@ -8,11 +8,11 @@ use pyo3::types::{PyDict, PyInt};
 use crate::array::{Numbers, whole};
 use crate::error::refuse;
 
-/// A weighted sum of a structure's degrees of freedom, ``Σ weight · unknown``: where a probe reads and a load
-/// acts.
+/// A weighted sum of a structure's degrees of freedom: where a probe reads and a load acts.
 ///
-/// Rows add, subtract and scale. Wherever a row is asked for, a degree of freedom's number, a dict
-/// ``{unknown: weight}``, a list of pairs ``(unknown, weight)`` or an array of all n weights will do.
+/// ``terms``: a degree of freedom's number (from 0), a dict ``{dof: weight}``, a list of pairs
+/// ``(dof, weight)``, an array of all n weights, or another row. All of these will do wherever a row
+/// is asked for. Rows add, subtract and scale.
 #[pyclass(name = "DofCombination", module = "basemat", frozen, eq)]
 #[derive(Clone)]
 pub(crate) struct PyDofCombination(pub(crate) DofCombination, pub(crate) Order);
@@ -89,15 +89,16 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
         match object.extract::<Vec<(usize, f64)>>() {
             Ok(terms) => Ok(Self(terms.into(), Order::default())),
             Err(_) => Err(refuse(
-                "a row must be a DofCombination, a degree of freedom's number, a dict {unknown: weight}, a list of \
-                 pairs (unknown, weight) or an array of weights",
+                "a row must be a DofCombination, a degree of freedom's number, a dict {dof: weight}, a list of \
+                 pairs (dof, weight) or an array of weights",
             )),
         }
     }
 }
 
-/// A section's resultant: weighted sums of displacements, velocities and accelerations that give a
-/// force (N/m) or a moment (N·m/m). For :meth:`Probe.section`.
+/// A section's resultant: rows of ``displacement``, ``velocity`` and ``acceleration`` whose sum is a
+/// force (N/m) or a moment (N·m/m). ``unit``: "N/m" (the default) or "N·m/m". For
+/// :meth:`Probe.section`.
 #[pyclass(name = "SectionRows", module = "basemat", frozen)]
 pub(crate) struct PySectionRows(pub(crate) SectionRows, pub(crate) Order);
 
@@ -137,25 +138,25 @@ impl PySectionRows {
         Ok(((self.displacement(), self.velocity(), self.acceleration()), unit))
     }
 
-    /// SI unit of the resultant.
+    /// SI unit of the resultant: "N/m" or "N·m/m".
     #[getter]
     fn unit(&self) -> &'static str {
         self.0.unit
     }
 
-    /// Weights of the displacements.
+    /// The :class:`DofCombination` of displacements.
     #[getter]
     fn displacement(&self) -> PyDofCombination {
         PyDofCombination(self.0.displacement.clone(), self.1)
     }
 
-    /// Weights of the velocities.
+    /// The :class:`DofCombination` of velocities.
     #[getter]
     fn velocity(&self) -> PyDofCombination {
         PyDofCombination(self.0.velocity.clone(), self.1)
     }
 
-    /// Weights of the accelerations.
+    /// The :class:`DofCombination` of accelerations.
     #[getter]
     fn acceleration(&self) -> PyDofCombination {
         PyDofCombination(self.0.acceleration.clone(), self.1)

@@ -5,7 +5,9 @@ use pyo3::prelude::*;
 
 use crate::error::OrRaise;
 
-/// Elastic soil: shear modulus (Pa), Poisson's ratio (−1 to 0.5), density (kg/m³).
+/// Elastic soil: ``shear_modulus`` G = ρ c² (Pa), Poisson's ratio ``poisson`` (above −1, below 0.5),
+/// ``density`` (kg/m³). A run warns of a speed of shear waves outside 10 to 5 000 m/s or a density
+/// outside 500 to 10 000 kg/m³, which a slip of units often makes.
 #[pyclass(name = "Soil", module = "basemat", frozen, eq)]
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct PySoil(pub(crate) Soil);
@@ -17,13 +19,14 @@ impl PySoil {
         Ok(Self(Soil::new(shear_modulus, poisson, density).or_raise()?))
     }
 
-    /// Soil from the speed of its shear waves (m/s), Poisson's ratio and density (kg/m³).
+    /// Soil from the ``speed`` of its shear waves (m/s), Poisson's ratio ``poisson`` and ``density``
+    /// (kg/m³).
     #[staticmethod]
     fn from_shear_wave_speed(speed: f64, poisson: f64, density: f64) -> PyResult<Self> {
         Ok(Self(Soil::from_shear_wave_speed(speed, poisson, density).or_raise()?))
     }
 
-    /// Soil from the speeds of shear and pressure waves (m/s) and density (kg/m³).
+    /// Soil from the speeds of ``shear`` and ``pressure`` waves (m/s) and its ``density`` (kg/m³).
     #[staticmethod]
     fn from_wave_speeds(shear: f64, pressure: f64, density: f64) -> PyResult<Self> {
         Ok(Self(Soil::from_wave_speeds(shear, pressure, density).or_raise()?))
@@ -35,7 +38,7 @@ impl PySoil {
         self.0.shear_modulus()
     }
 
-    /// Poisson's ratio.
+    /// Poisson's ratio, a number.
     #[getter]
     fn poisson(&self) -> f64 {
         self.0.poisson()

@@ -126,6 +126,8 @@ def test_rows_of_all_weights_belong_to_a_structure_of_as_many_dofs(soil: bm.Soil
 
 
 MATRICES = np.ones((2, 3))
+STONE = bm.Material(1e9, 0.2, 2000.0)
+YIELD = bm.Bilinear(1e6, 1e4, 0.1)
 
 
 @pytest.mark.parametrize(
@@ -156,6 +158,11 @@ MATRICES = np.ones((2, 3))
         ("storey: -1, but only whole", lambda: BUILDING.drift(-1)),
         ("keep: .*, but only whole", lambda: bm.ReducedModel(BUILDING, 1, keep=[-3])),
         ("modes: -1, but only whole", lambda: bm.ReducedModel(BUILDING, -1)),
+        ("hourglass_percent: -1, but only", lambda: bm.Layer(1.0, 1, STONE, hourglass_percent=-1)),
+        ("hourglass_percent is 300, but", lambda: bm.Layer(1.0, 1, STONE, hourglass_percent=300)),
+        ("bytes: -1, but only whole", lambda: bm.set_memory_limit(-1)),
+        ("storey is -1, but must be 0", lambda: bm.ShearBuilding(8.0, 5e4, 4e5, [], laws={-1: YIELD})),
+        ("contact: .*-1.*, but only whole", lambda: bm.FemModel(bm.Mesh(), [-1])),
     ],
 )
 def test_errors_name_the_argument_and_what_it_should_be(
@@ -163,6 +170,43 @@ def test_errors_name_the_argument_and_what_it_should_be(
 ) -> None:
     with pytest.raises(bm.InputError, match=text):
         call()
+
+
+@pytest.mark.parametrize(
+    ("text", "call"),
+    [
+        ("soil: of the type float, but must be a Soil or a SoilProfile", lambda: bm.ElasticGround(80e6, [])),
+        ("strips: of the type int, but must be a Strip or a list", lambda: bm.SpringGround(3, 1e8, 1e8)),
+    ],
+)
+def test_wrong_types_are_named_in_pythons_words(text: str, call: Callable[[], object]) -> None:
+    with pytest.raises(TypeError) as caught:
+        call()
+    name, _, reason = text.partition(": ")
+    assert reason in str(caught.value)
+    assert name in str([caught.value, *getattr(caught.value, "__notes__", [name])])
+
+
+def test_an_observer_says_yes_or_no(rocking) -> None:
+    with pytest.raises(bm.InputError, match="observe returned what will not do"):
+        rocking().run(5, observe=lambda state: "on")
+    with pytest.raises(bm.InputError, match="observe must be a function"):
+        rocking().run(5, observe=3)
+    with pytest.raises(bm.InputError, match="element is 8, but must be below 8"):
+        rocking().state.state_variables(8)
+
+
+def test_soil_far_from_any_soil_warns_once(rocking, block) -> None:
+    """MPa for Pa, and t/m³ for kg/m³."""
+    for soil, number in (
+        (bm.Soil(80.0, 0.33, 1900.0), "MPa"),
+        (bm.Soil(80e6, 0.33, 1.9), "1.900e0 kg/m³"),
+    ):
+        ground = bm.ElasticGround.under(soil, block, 4)
+        with pytest.warns(bm.BasematWarning) as caught:
+            run = rocking(ground=ground).run(20)
+        found = [str(own.message) for own in caught if "soil" in str(own.message)]
+        assert len(found) == 1 and number in found[0] and found[0] in run.warnings
 
 
 def test_counts_of_a_run_are_whole_and_not_negative(rocking) -> None:
@@ -216,7 +260,8 @@ class Law:
         (r"mass of the structure returned .* matrix of shape \(2, 3\)", {"mass": lambda: MATRICES}),
         (r"stiffness of the structure returned a .*\(2, 2\)", {"stiffness": lambda: np.eye(2)}),
         ("damping of the structure returned", {"damping": lambda: "none"}),
-        ("degrees of freedom of the structure returned", {"dofs": "three"}),
+        ("dofs of the structure returned", {"dofs": "three"}),
+        ("dofs of the structure returned .*-3, but only whole", {"dofs": -3}),
         ("contact_nodes of the structure returned", {"contact_nodes": lambda: [1, 2]}),
         (r"load of the structure returned .* \(2,\), .* \(3,\)", {"load": lambda t: [0.0, 1.0]}),
     ],

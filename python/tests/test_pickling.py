@@ -151,6 +151,14 @@ def test_descriptions_show_how_they_were_made() -> None:
     assert "Mesh(…)" in repr(finite_elements())
     wave = bm.PlaneWave.sv(SOIL, 0.3).reversed()
     assert repr(wave) == "PlaneWave.reversed()"
+    assert repr(bm.ricker(0.1, 0.05, center=0.5)) == "ricker(0.1, 0.05, center=0.5)"
+    state = bm.ContactState(gap=0.5, shear=-2.0)
+    assert repr(state) == "ContactState(gap=0.5, slip=0.0, pressure=0.0, shear=-2.0)"
+    bases = {"FreeField", "Ground", "Hysteresis", "InterfaceLaw", "Structure"}
+    classes = [getattr(bm, name) for name in bm.__all__ if not name.startswith("User")]
+    classes = [own for own in classes if isinstance(own, type)]
+    plain = {own.__name__ for own in classes if own.__repr__ is object.__repr__}
+    assert plain <= bases
 
 
 def test_soils_are_equal_by_their_numbers() -> None:

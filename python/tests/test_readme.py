@@ -63,7 +63,11 @@ def test_its_matrices_are_those_of_a_shear_building(names: dict[str, object]) ->
     np.testing.assert_allclose(model.stiffness(), building.stiffness(), rtol=1e-14, atol=1e-6)
 
 
-def test_the_others_run(names: dict[str, object]) -> None:
+def test_the_others_run(
+    names: dict[str, object], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Where they save a run.
+    monkeypatch.chdir(tmp_path)
     for program in PROGRAMS[1:]:
         exec(program, names)
     table = names["table"]

@@ -8,6 +8,7 @@ import signal
 import threading
 import time
 import warnings
+from pathlib import Path
 
 import pytest
 
@@ -82,6 +83,30 @@ def test_a_worker_that_dies_leaves_a_row_with_an_error() -> None:
     assert "BrokenProcessPool" in table["error"].iloc[2]
 
 
+def sometimes(case: int) -> dict[str, int]:
+    if case in (7, 30):
+        os._exit(1)
+    time.sleep(0.002)
+    return {"value": case}
+
+
+@pytest.mark.parametrize("workers", [1, 3])
+def test_a_process_that_dies_costs_one_case(workers: int) -> None:
+    told: list[tuple[int, int]] = []
+    with concurrent.futures.ProcessPoolExecutor(workers) as executor:
+        table = bm.sweep(
+            sometimes,
+            {"case": range(40)},
+            executor=executor,
+            progress=lambda done, of: told.append((done, of)),
+        )
+    assert list(table.index[table["error"].notna()]) == [7, 30]
+    assert table["error"].str.contains("BrokenProcessPool")[[7, 30]].all()
+    good = table.drop([7, 30])
+    assert good["value"].tolist() == good["case"].tolist()
+    assert told == [(k, 40) for k in range(1, 41)]
+
+
 def test_make_may_return_a_run_or_a_mapping() -> None:
     assert list(bm.sweep(lambda a: {"b": a * a}, {"a": [2, 3]})["b"]) == [4, 9]
     table = bm.sweep(lambda friction: make(friction, 2.0).run(50), {"friction": [0.3]})
@@ -125,6 +150,59 @@ def test_a_result_with_the_name_of_another_column_is_an_error_of_its_row() -> No
     assert "another column, 'a'" in table["error"].iloc[0]
     assert "another column, 'error'" in table["error"].iloc[2]
     assert table["error"].isna().tolist() == [False, True, False]
+
+
+def area(width: float, soil: str) -> dict[str, object]:
+    if width == 6.0 and soil == "clay, soft":
+        raise ValueError("no\nsuch case")
+    return {"area": width * width / 3.0, "flat": width < 5.0, "none": None}
+
+
+AREAS = {"width": [4, 6.0], "soil": ["sand", "clay, soft", 'gravel "0/32"']}
+
+
+def test_files_of_shards_merge_to_the_table(tmp_path: Path) -> None:
+    whole = bm.sweep(area, AREAS, file=tmp_path / "whole.csv")
+    for index in range(2):
+        part = bm.sweep(area, AREAS, shard=(index, 2), file=str(tmp_path / f"{index}.csv"))
+        pandas.testing.assert_frame_equal(
+            part, whole.iloc[index::2], check_exact=True, check_dtype=False
+        )
+    merged = bm.merge([tmp_path / "1.csv", tmp_path / "0.csv"], AREAS)
+    pandas.testing.assert_frame_equal(merged, bm.merge(tmp_path / "whole.csv", AREAS))
+    assert list(merged.columns) == ["width", "soil", "area", "flat", "none", "error"]
+    assert merged["error"].isna().tolist() == [True] * 4 + [False, True]
+    assert merged["error"][4] == "ValueError: no\nsuch case"
+    right = merged.drop(4)
+    assert right["area"].tolist() == whole.drop(4)["area"].tolist() and right["none"].isna().all()
+    assert right["flat"].tolist() == [1.0, 1.0, 1.0, 0.0, 0.0]
+    heading, row, *_ = (tmp_path / "whole.csv").read_text("utf-8").splitlines()
+    assert heading == "case,width,soil,area,flat,none,error,check"
+    assert row[:-16] == "0,4.0,sand,5.333333333333333,1.0,,," and int(row[-16:], 16)
+
+    with pytest.raises(bm.FileError, match=r"3 of the sweep's cases missing: .*shard 1/2"):
+        bm.merge(tmp_path / "0.csv", AREAS)
+    text = (tmp_path / "whole.csv").read_text("utf-8")
+    (tmp_path / "whole.csv").write_text(text.replace("5.333333333333333", "5.333333333333334", 1), "utf-8")
+    with pytest.raises(bm.FileError, match=r"whole.csv, line 2: .*check"):
+        bm.merge(tmp_path / "whole.csv", AREAS)
+
+
+def test_a_file_needs_numbers_and_is_refused_before_anything_runs(tmp_path: Path) -> None:
+    made: list[object] = []
+    for grid in ({"a": [1.0, 1.0]}, {"a": [object()]}, [{"a": 1.0}], {"check": [1.0]}):
+        with pytest.raises((bm.InputError, TypeError)):
+            bm.sweep(lambda **case: made.append(case), grid, file=tmp_path / "cases.csv")
+    with pytest.raises(bm.InputError, match=r"shard is \(2, 2\)"):
+        bm.sweep(lambda **case: made.append(case), {"a": [1.0]}, shard=(2, 2))
+    assert made == []
+    with pytest.raises(bm.InputError, match="real number") as caught:
+        bm.sweep(lambda a: {"b": "text"}, {"a": [1.0]}, file=tmp_path / "cases.csv")
+    assert caught.value.table["b"].tolist() == ["text"]
+    (tmp_path / "folder").write_text("no folder")
+    with pytest.raises(bm.FileError, match="cannot be written") as failed:
+        bm.sweep(lambda a: {"b": a}, {"a": [1.0]}, file=tmp_path / "folder" / "cases.csv")
+    assert failed.value.table["b"].tolist() == [1.0]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="os.kill ends the process on Windows")

@@ -12,22 +12,63 @@ use crate::interface::{ContactState, Mode};
 /// observer of [`Simulation::run`].
 ///
 /// The first entry of every history is the state it started from. See the [module](super) for an
-/// example.
+/// example. One that was read from a file takes no more steps.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "TimeSeriesForm"))]
 pub struct TimeSeries {
     pub(super) recorder: Recorder,
     pub(super) elements: Vec<ContactElement>,
     pub(super) probes: Vec<Probe>,
     pub(super) time_step: f64,
+    #[cfg_attr(feature = "serde", serde(rename = "end", serialize_with = "Sequence::write_end"))]
     pub(super) sequence: Sequence,
     steps: usize,
     dofs: usize,
     times: Vec<f64>,
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::lists"))]
     scalars: Vec<Vec<f64>>,
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::lists"))]
     pub(super) probe_values: Vec<Vec<f64>>,
     energy_balances: Vec<EnergyBalance>,
     contact: Option<ContactFrames>,
     motion: Option<MotionFrames>,
+}
+
+validated! {
+    TimeSeries as TimeSeriesForm {
+        recorder: Recorder,
+        elements: Vec<ContactElement>,
+        probes: Vec<Probe>,
+        time_step: f64,
+        end: f64,
+        steps: usize,
+        dofs: usize,
+        times: Vec<f64>,
+        #[serde(with = "crate::text::words::lists")]
+        scalars: Vec<Vec<f64>>,
+        #[serde(with = "crate::text::words::lists")]
+        probe_values: Vec<Vec<f64>>,
+        energy_balances: Vec<EnergyBalance>,
+        contact: Option<ContactFrames>,
+        motion: Option<MotionFrames>,
+    } => {
+        let kept = times.len();
+        let lengths = scalars.iter().chain(&probe_values).map(Vec::len);
+        crate::error::same_length("list of scalars", scalars.len(), Quantity::ALL.len())?;
+        crate::error::same_length("list of probes", probe_values.len(), probes.len())?;
+        crate::error::same_length("list of energy balances", energy_balances.len(), kept)?;
+        lengths.into_iter().try_for_each(|length| crate::error::same_length("time series", length, kept))?;
+        let frames = contact.as_ref().is_none_or(|own| own.is_whole(elements.len()))
+            && motion.as_ref().is_none_or(|own| own.is_whole(dofs));
+        crate::error::same_length("list of whole frames", usize::from(frames), 1)?;
+        crate::error::same_length("list of times", usize::from(kept > 0), 1)?;
+        let sequence = Sequence::ended(end);
+        Ok(Self {
+            recorder, elements, probes, time_step, sequence, steps, dofs, times, scalars,
+            probe_values, energy_balances, contact, motion,
+        })
+    }
 }
 
 /// Most steps that memory is reserved for.
@@ -252,6 +293,8 @@ pub struct MotionFrame<'a> {
 
 /// Frames of the base, end to end.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct ContactFrames {
     pub(super) every: usize,
     times: Vec<f64>,
@@ -278,6 +321,13 @@ impl ContactFrames {
         let _ = self.modes.try_reserve(frames.saturating_mul(count));
     }
 
+    /// Whether these are frames of `count` elements each.
+    #[cfg(feature = "serde")]
+    pub(super) fn is_whole(&self, count: usize) -> bool {
+        let needed = self.times.len().checked_mul(count);
+        self.every > 0 && [self.states.len(), self.modes.len()].map(Some) == [needed; 2]
+    }
+
     /// Frames of `count` elements each.
     pub(super) fn frames(&self, count: usize) -> impl ExactSizeIterator<Item = ContactFrame<'_>> {
         self.times.iter().enumerate().map(move |(k, &time)| {
@@ -293,6 +343,8 @@ impl ContactFrames {
 
 /// Frames of the structure, end to end.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct MotionFrames {
     pub(super) every: usize,
     times: Vec<f64>,
@@ -321,6 +373,15 @@ impl MotionFrames {
         let _ = self.displacement.try_reserve(frames.saturating_mul(count));
         let _ = self.velocity.try_reserve(frames.saturating_mul(count));
         self.free_field.reserve(frames);
+    }
+
+    /// Whether these are frames of `count` degrees of freedom each.
+    #[cfg(feature = "serde")]
+    pub(super) fn is_whole(&self, count: usize) -> bool {
+        let needed = self.times.len().checked_mul(count);
+        self.every > 0
+            && self.free_field.len() == self.times.len()
+            && [self.displacement.len(), self.velocity.len()].map(Some) == [needed; 2]
     }
 
     /// Frames of `count` degrees of freedom each.

@@ -12,7 +12,7 @@ use super::file::{Content, Ending, read};
 use super::run::{Sweep, SweepCase};
 use super::table::{CaseTable, Row, heading, name, replaced, unwritten};
 use super::{Parameter, check_names};
-use crate::error::{CaseError, Error, Result, SweepError};
+use crate::error::{CaseError, Error, Result, SweepError, same_length};
 use crate::text::table::csv_line;
 
 /// Rows by their cases, each with the file that it is from.
@@ -50,7 +50,7 @@ impl Sweep<'_> {
         columns: [&str; N],
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<[f64; N], E> + Sync,
     ) -> Result<CaseTable> {
-        let columns = self.named(columns)?;
+        let columns = self.named(&columns)?;
         let mut rows = Vec::new();
         self.run(run, |case, result| rows.push(row(case, result)));
         Ok(self.tabled(columns, rows))
@@ -75,7 +75,7 @@ impl Sweep<'_> {
         columns: [&str; N],
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<[f64; N], E> + Sync,
     ) -> Result<CaseTable> {
-        let (path, columns) = (path.as_ref(), self.named(columns)?);
+        let (path, columns) = (path.as_ref(), self.named(&columns)?);
         let part = PathBuf::from([path.as_os_str(), ".part".as_ref()].join("".as_ref()));
         let mut there = Rows::new();
         if path.exists() {
@@ -158,15 +158,36 @@ impl Sweep<'_> {
             let shards = missing_shards(&places, self.cases().len(), files);
             return Err(SweepError::Missing { cases, shards }.into());
         }
-        let columns = columns.unwrap_or_default();
-        check_names(self.grid.parameters.iter().map(Parameter::name).chain(each(&columns)))?;
+        let columns = self.named(&columns.unwrap_or_default())?;
         Ok(self.tabled(columns, rows.into_values().map(|(row, _)| row).collect()))
     }
 
+    /// Table of cases that another program ran: `columns` of results, and for each of
+    /// [`Sweep::cases`] its results or the text of its error.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a number of outcomes that is not that of the cases, and for one of results
+    /// that is not that of the columns; those of [`Sweep::table`].
+    pub fn tabulate<S: AsRef<str>>(
+        &self,
+        columns: &[S],
+        outcomes: impl IntoIterator<Item = std::result::Result<Vec<f64>, String>>,
+    ) -> Result<CaseTable> {
+        let columns = self.named(columns)?;
+        let outcomes: Vec<_> = outcomes.into_iter().collect();
+        same_length("list of outcomes", outcomes.len(), self.cases().len())?;
+        for results in outcomes.iter().flatten() {
+            same_length("list of results of a case", results.len(), columns.len())?;
+        }
+        let rows = self.cases().zip(outcomes).map(|(case, outcome)| Row::new(case, outcome));
+        Ok(self.tabled(columns, rows.collect()))
+    }
+
     /// The columns' names, if they may stand beside the parameters'.
-    fn named<const N: usize>(&self, columns: [&str; N]) -> Result<Vec<String>> {
-        check_names(self.grid.parameters.iter().map(Parameter::name).chain(columns))?;
-        Ok(columns.map(str::to_owned).to_vec())
+    fn named<S: AsRef<str>>(&self, columns: &[S]) -> Result<Vec<String>> {
+        let own = || columns.iter().map(AsRef::as_ref);
+        check_names(self.grid.parameters.iter().map(Parameter::name).chain(own()))?;
+        Ok(own().map(str::to_owned).collect())
     }
 
     fn tabled(&self, columns: Vec<String>, mut rows: Vec<Row>) -> CaseTable {
@@ -203,10 +224,6 @@ impl Sweep<'_> {
     }
 }
 
-fn each(names: &[String]) -> impl Iterator<Item = &str> {
-    names.iter().map(String::as_str)
-}
-
 /// Most missing shards that are named; beyond, cases are.
 const MOST_SHARDS: usize = 256;
 
@@ -241,6 +258,28 @@ fn missing_shards(missing: &[usize], count: usize, files: usize) -> Vec<[usize; 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn outcomes_of_another_program() {
+        let sweep = Sweep::grid([Parameter::numbers("width_m", [4.0, 6.0, 8.0])]).unwrap();
+        let run = |case: &SweepCase<'_>| match case.value("width_m") {
+            Ok(width) if width < 7.0 => Ok([width, -0.0]),
+            _ => Err("too wide"),
+        };
+        let wide = || Err("too wide".to_owned());
+        let shard = || sweep.table(["width", "zero"], run).unwrap();
+        let given = [Ok(vec![4.0, -0.0]), Ok(vec![6.0, -0.0]), wide()];
+        assert_eq!(sweep.tabulate(&["width", "zero"], given.clone()).unwrap(), shard());
+        assert_eq!(
+            sweep.tabulate(&["width", "zero"], given[..2].to_vec()).unwrap_err(),
+            Error::Size { quantity: "list of outcomes", found: 2, needed: 3 }
+        );
+        assert_eq!(
+            sweep.tabulate(&["width"], given.clone()).unwrap_err(),
+            Error::Size { quantity: "list of results of a case", found: 2, needed: 1 }
+        );
+        assert!(sweep.tabulate(&["width", "width_m"], given).is_err());
+    }
 
     #[test]
     fn shards_that_are_missing() {

@@ -221,6 +221,27 @@ pub(crate) mod number {
     }
 }
 
+/// Lists of numbers, each as [`number`] writes it.
+#[cfg(feature = "serde")]
+pub(crate) mod lists {
+    use serde::de::{Deserialize, Deserializer};
+    use serde::ser::Serializer;
+
+    #[derive(serde::Serialize, serde::Deserialize)]
+    #[serde(transparent)]
+    struct Number(#[serde(with = "super::number")] f64);
+
+    pub(crate) fn serialize<S: Serializer>(lists: &[Vec<f64>], to: S) -> Result<S::Ok, S::Error> {
+        let numbers = |list: &Vec<f64>| list.iter().copied().map(Number).collect::<Vec<_>>();
+        to.collect_seq(lists.iter().map(numbers))
+    }
+
+    pub(crate) fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<Vec<Vec<f64>>, D::Error> {
+        let lists = Vec::<Vec<Number>>::deserialize(from)?.into_iter();
+        Ok(lists.map(|list| list.into_iter().map(|number| number.0).collect()).collect())
+    }
+}
+
 /// A duration in seconds.
 #[cfg(feature = "serde")]
 pub(crate) mod seconds {

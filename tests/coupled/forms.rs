@@ -24,8 +24,7 @@ use basemat::motion::{
     AccelerationUnit, Baseline, ColumnFormat, CosmosFormat, KNetFormat, PeerFormat, Record,
     el_centro_1940,
 };
-use basemat::results::{Criterion, Quantity, Recorder, Serviceability};
-use basemat::results::{Peak, Run};
+use basemat::results::{Criterion, Peak, Quantity, Recorder, Run, Serviceability, TimeSeries};
 use basemat::site::{ControlPoint, VerticalWave};
 use basemat::soil::{
     Elastic, GeneralizedMaxwell, Hysteretic, KelvinVoigt, Kjartansson, Relaxation, SoilProfile,
@@ -364,6 +363,7 @@ fn run() -> (Simulation, Run) {
     let block = RigidBlock::new(4.0, 6.0, 2000.0).unwrap();
     let mut simulation = Simulation::builder(0.08)
         .probe(Probe::displacement("top", block.horizontal_at(6.0)))
+        .probe(Probe::acceleration("roof", block.horizontal_at(6.0)))
         .structure(block)
         .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7).unwrap())
         .interface(Coulomb::new(0.3).unwrap())
@@ -399,6 +399,48 @@ fn runs_with_all_that_is_in_them() {
     assert_eq!(read.steps, run.steps);
     let ended = simulation.end_run(read);
     assert_eq!(serde_json::to_string(&ended).unwrap(), text);
+}
+
+#[test]
+fn time_series_with_all_that_is_in_them() {
+    let (mut simulation, _) = run();
+    let mut series = Recorder::new().contact(2).motion(5).start(&simulation).unwrap();
+    simulation.run(40, |state| series.record(state)).unwrap();
+    let form = serde_json::to_value(&series).unwrap();
+    assert!(closed::<TimeSeries>(&form) > 20);
+    let mut read: TimeSeries = serde_json::from_value(form.clone()).unwrap();
+    assert_eq!(serde_json::to_value(&read).unwrap(), form);
+    assert_eq!(read.times(), series.times());
+    let safety = Quantity::OverturningSafety;
+    assert_eq!(read.series(safety), series.series(safety));
+    assert_eq!(read.contact_frames().count(), 21);
+    assert!(read.contact_frames().eq(series.contact_frames()));
+    assert!(read.motion_frames().eq(series.motion_frames()));
+    // Its end is known: an acceleration still has a record if every step is there.
+    let record = |own: &TimeSeries| own.acceleration_record("roof").map(|own| own.len());
+    assert_eq!(record(&read), Ok(41));
+    let mut later = form.clone();
+    later["end"] = json!(series.times()[40] + 1.0);
+    assert!(record(&serde_json::from_value(later).unwrap()).is_err());
+    // It takes no more steps, and lists of other lengths are refused.
+    simulation.step().unwrap();
+    read.record(simulation.state());
+    assert_eq!(read.times().len(), 41);
+    for (list, reason) in [
+        ("times", "list of energy balances has length 41, but must have 40"),
+        ("scalars", "list of scalars has length 10, but must have 11"),
+        ("probe_values", "list of probes has length 1, but must have 2"),
+        ("energy_balances", "list of energy balances has length 40, but must have 41"),
+        ("elements", "whole frames"),
+    ] {
+        let mut short = form.clone();
+        short[list].as_array_mut().unwrap().pop().unwrap();
+        let error = serde_json::from_value::<TimeSeries>(short).unwrap_err().to_string();
+        assert!(error.contains(reason), "{list}: {error}");
+    }
+    let mut short = form;
+    short["probe_values"][0].as_array_mut().unwrap().pop().unwrap();
+    assert!(serde_json::from_value::<TimeSeries>(short).is_err());
 }
 
 #[test]

@@ -1,8 +1,11 @@
-"""The compiled half of basemat: types. Units and shapes are in the docstrings."""
+"""The compiled half of basemat.
+
+Types stand here; docstrings are those of the module, written by ``tools/stubs.py``.
+"""
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, ClassVar, Union, final
+from typing import Any, ClassVar, Literal, Union, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,8 +14,36 @@ from typing_extensions import Self, TypeAlias, disjoint_base
 from ._protocols import UserLaw, UserStructure
 
 __version__: str
-MODES: list[str]
+MODES: list[_Mode]
+"""Names of the contact modes, in the order of their numbers in arrays."""
 STANDARD_GRAVITY: float
+"""9.80665 m/s²."""
+
+_Mode: TypeAlias = Literal["stick", "slip left", "slip right", "open", "yield", "yield left", "yield right"]
+_History: TypeAlias = Literal["auto", "direct", "relaxed fft", "exponentials"]
+_Grading: TypeAlias = Literal["cosine", "uniform"]
+_StripContact: TypeAlias = Literal["bonded", "relaxed"]
+_FrictionLimit: TypeAlias = Literal["total", "lagged", "static", "dynamic"]
+_SlipSense: TypeAlias = Literal["inelastic", "velocity", "last velocity"]
+_AccelerationUnit: TypeAlias = Literal["m/s²", "mm/s²", "g", "gal", "ft/s²", "in/s²"]
+_RecordFormat: TypeAlias = Literal["columns", "peer", "cosmos", "k-net"]
+_Baseline: TypeAlias = Literal[
+    "remove mean",
+    "newmark parabola",
+    "velocity polynomial",
+    "displacement polynomial",
+    "rest to rest",
+]
+_Wave: TypeAlias = Literal["shear", "pressure"]
+_ControlPoint: TypeAlias = Literal["outcrop", "within"]
+_InclinedControl: TypeAlias = Literal["outcrop horizontal", "outcrop vertical", "incident"]
+_GravityStage: TypeAlias = Literal["frictionless", "frictional", "unloaded"]
+_Coordinates: TypeAlias = Literal["auto", "physical", "modes"]
+_SectionUnit: TypeAlias = Literal["N/m", "N·m/m"]
+_Mass: TypeAlias = Literal["consistent", "lumped"]
+_Formulation: TypeAlias = Literal["incompatible modes", "full", "one point", "hourglass"]
+_Direction: TypeAlias = Literal["x", "y", "rotation"]
+_SpringDirection: TypeAlias = Literal["x", "y", "rotation", "axial"]
 
 _Interface: TypeAlias = Union["InterfaceLaw", UserLaw]
 _RowLike: TypeAlias = Union[
@@ -23,40 +54,74 @@ _MatrixLike: TypeAlias = Any
 
 @final
 class Refinement:
+    """Error against run time at six settings: what :func:`refine` returns. Printed, it is a table."""
+
     @property
-    def elements(self) -> list[int]: ...
+    def elements(self) -> list[int]:
+        """Numbers of elements of the settings: list of 6."""
     @property
-    def time_steps(self) -> NDArray[np.float64]: ...
+    def time_steps(self) -> NDArray[np.float64]:
+        """Time steps of the settings: array of shape (6,), s."""
     @property
-    def errors(self) -> NDArray[np.float64]: ...
+    def errors(self) -> NDArray[np.float64]:
+        """Estimated errors of the settings, relative to the size of the results: array of shape (6,)."""
     @property
-    def wall_times(self) -> NDArray[np.float64]: ...
+    def wall_times(self) -> NDArray[np.float64]:
+        """Wall times of the settings: array of shape (6,), s."""
     @property
-    def results(self) -> list[NDArray[np.float64]]: ...
+    def results(self) -> list[NDArray[np.float64]]:
+        """Results of the settings, in the units of the scene: list of 6 arrays of shape (results,)."""
     @property
-    def extrapolated(self) -> NDArray[np.float64]: ...
+    def extrapolated(self) -> NDArray[np.float64]:
+        """Results extrapolated to infinitely many elements and steps: array of shape (results,), in the
+        units of the scene.
+        """
     @property
-    def mesh_order(self) -> float: ...
+    def mesh_order(self) -> float:
+        """Observed order of convergence in the element length; NaN if nothing depends on it."""
     @property
-    def step_order(self) -> float: ...
+    def step_order(self) -> float:
+        """Observed order of convergence in the time step; NaN if nothing depends on it."""
     @property
-    def mismatch(self) -> float: ...
+    def mismatch(self) -> float:
+        """Distance of the last setting's results from those that the other errors foretell, relative to
+        the size of the results.
+        """
     @property
-    def is_regular(self) -> bool: ...
+    def is_regular(self) -> bool:
+        """Whether the estimate can be trusted: regular orders, and the coarsest error above the
+        mismatch.
+        """
 
 @disjoint_base
 class Ground:
+    """A ground: a description from which every simulation makes one of its own."""
+
     @property
-    def elements(self) -> NDArray[np.float64]: ...
+    def elements(self) -> NDArray[np.float64]:
+        """Ends of the contact elements from left to right: array of shape (elements, 2), m."""
 
 @final
 class ElasticGround(Ground):
+    """Elastic half-plane of a ``soil`` (:class:`Soil`), or its layers (:class:`SoilProfile`), with contact
+    elements on its surface: ``strips`` is a :class:`Strip` or a list of them.
+
+    ``history``: how the response to all past tractions is summed: "auto" (the default: whichever takes
+    least time), "direct", "relaxed fft" or, without layers and damping, "exponentials".
+    ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (1e-12 unless
+    given, 1e-10 where they were asked for); ``history_memory``: bytes that the history may take (1 GiB
+    unless given). ``kernels``: :class:`SharedKernels` of several simulations; own ones unless given.
+    Of layers and damping: ``stages``: 2 or 3 Runge–Kutta stages (the rule's choice unless given);
+    ``tolerance``: relative error of the element compliances, 1e-13 to 1e-4 (1e-10 unless given);
+    ``kernel_file``: path of a file that keeps them (none unless given).
+    """
+
     def __new__(
         cls,
         soil: Soil | SoilProfile,
         strips: Strip | Sequence[Strip],
         *,
-        history: str = "auto",
+        history: _History = "auto",
         history_tolerance: float | None = None,
         history_memory: int | None = None,
         stages: int | None = None,
@@ -70,38 +135,75 @@ class ElasticGround(Ground):
         structure: Structure | UserStructure,
         count: int,
         *,
-        grading: str = "cosine",
-        history: str = "auto",
+        grading: _Grading = "cosine",
+        history: _History = "auto",
         history_tolerance: float | None = None,
         history_memory: int | None = None,
         stages: int | None = None,
         tolerance: float | None = None,
         kernel_file: str | os.PathLike[str] | None = None,
         kernels: SharedKernels | None = None,
-    ) -> ElasticGround: ...
-    def impedances(self, frequencies: ArrayLike, *, contact: str = "bonded") -> Impedances: ...
+    ) -> ElasticGround:
+        """Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is.
+
+        ``soil`` is that of the class, and so are the options, none of them needed: ``history``,
+        ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
+        ``kernels``. ``grading``: "cosine" (the default: short at the edges) or "uniform".
+        """
+    def impedances(self, frequencies: ArrayLike, *, contact: _StripContact = "bonded") -> Impedances:
+        """Dynamic stiffness of all strips as one rigid body, :class:`Impedances`, at ``frequencies`` (array
+        of shape (m,), Hz). ``contact``: "bonded" (the default: soil and strips move together) or
+        "relaxed" (vertical motions without shear, horizontal ones without pressure).
+        """
 
 @final
 class SharedKernels:
+    """Kernels that grounds of equal soil and elements share: evaluated once for all simulations that
+    are built with the same object. A copy in another process begins empty; ``len()`` counts them.
+    """
+
     def __new__(cls) -> Self: ...
     def __getnewargs__(self) -> tuple[()]: ...
     def __len__(self) -> int: ...
 
 @final
 class Impedances:
+    """Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex
+    arrays of shape (m,), one value per frequency; the imaginary part is that of radiation and damping.
+    """
+
     @property
-    def frequency(self) -> NDArray[np.float64]: ...
+    def frequency(self) -> NDArray[np.float64]:
+        """Frequencies: array of shape (m,), Hz."""
     @property
-    def horizontal(self) -> NDArray[np.complex128]: ...
+    def horizontal(self) -> NDArray[np.complex128]:
+        """Horizontal force by horizontal translation: complex array of shape (m,), N/m²."""
     @property
-    def vertical(self) -> NDArray[np.complex128]: ...
+    def vertical(self) -> NDArray[np.complex128]:
+        """Vertical force by vertical translation: complex array of shape (m,), N/m²."""
     @property
-    def rocking(self) -> NDArray[np.complex128]: ...
+    def rocking(self) -> NDArray[np.complex128]:
+        """Moment by rotation: complex array of shape (m,), N."""
     @property
-    def coupling(self) -> NDArray[np.complex128]: ...
+    def coupling(self) -> NDArray[np.complex128]:
+        """Horizontal force by rotation: complex array of shape (m,), N/m."""
+    def to_frame(self) -> Any:
+        """The impedances as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
+    def plot(self, axes: Any = None) -> list[Any]:
+        """Draws real and imaginary parts over the frequency; returns the list of four axes.
+
+        ``axes``: four of matplotlib to draw into; those of a new figure unless given.
+        """
 
 @final
 class SpringGround(Ground):
+    """Independent springs and dashpots under each element (Winkler bed).
+
+    ``strips``: a :class:`Strip` or a list of them. ``normal_stiffness``, ``tangential_stiffness``: Pa/m.
+    ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: of the rule that steps
+    them, ½ to 1; ½ unless given.
+    """
+
     def __new__(
         cls,
         strips: Strip | Sequence[Strip],
@@ -121,7 +223,11 @@ class SpringGround(Ground):
         *,
         dashpots: Sequence[float] | None = None,
         theta: float | None = None,
-    ) -> SpringGround: ...
+    ) -> SpringGround:
+        """One strip from ``left`` to ``right`` (m) of ``count`` equal elements; ``normal_stiffness``,
+        ``tangential_stiffness`` (Pa/m), ``dashpots`` and ``theta`` are those of the class, the last two
+        if given.
+        """
     @staticmethod
     def under(
         structure: Structure | UserStructure,
@@ -131,47 +237,97 @@ class SpringGround(Ground):
         *,
         dashpots: Sequence[float] | None = None,
         theta: float | None = None,
-    ) -> SpringGround: ...
+    ) -> SpringGround:
+        """Strips of ``count`` elements under each foundation of a ``structure``; ``normal_stiffness``,
+        ``tangential_stiffness`` (Pa/m), ``dashpots`` and ``theta`` are those of the class, the last two
+        if given.
+        """
 
 @final
 class Strip:
-    def __new__(cls, left: float, right: float, count: int, *, grading: str = "cosine") -> Self: ...
+    """A strip of contact elements from ``left`` to ``right`` (m): ``count`` elements with the ``grading``
+    "cosine" (the default: short at the edges, where tractions are singular) or "uniform".
+    """
+
+    def __new__(cls, left: float, right: float, count: int, *, grading: _Grading = "cosine") -> Self: ...
     @staticmethod
-    def from_nodes(nodes: ArrayLike) -> Strip: ...
+    def from_nodes(nodes: ArrayLike) -> Strip:
+        """Strip of elements between given ``nodes`` (array of shape (elements + 1,), m, ascending)."""
     @property
-    def nodes(self) -> list[float]: ...
+    def nodes(self) -> list[float]:
+        """Ends of the elements: list of elements + 1 numbers, m."""
 
 @disjoint_base
 class InterfaceLaw:
+    """A law between base and ground: what an element of the contact does in a step, its mode (see
+    :data:`MODES`), and which conditions that imposes.
+    """
+
     @property
-    def modes(self) -> list[str]: ...
-    def conditions(self, mode: str, start: PreviousContact) -> tuple[Condition, Condition]: ...
+    def modes(self) -> list[_Mode]:
+        """List of the names of the modes that this law uses; the first is that of an element at rest."""
+    def conditions(self, mode: _Mode, start: PreviousContact) -> tuple[Condition, Condition]:
+        """The two :class:`Condition` that ``mode`` imposes on the end of a step, whose beginning ``start``
+        (:class:`PreviousContact`) is.
+        """
     def next_mode(
-        self, mode: str, start: PreviousContact, trial: ContactState, tolerance: Tolerance
-    ) -> str: ...
+        self, mode: _Mode, start: PreviousContact, trial: ContactState, tolerance: Tolerance
+    ) -> _Mode:
+        """The mode to try next after the ``trial`` (:class:`ContactState`) that ``mode`` led to in the step
+        that begins with ``start``; ``mode`` itself if the trial is admissible, differences below the
+        ``tolerance`` left aside.
+        """
 
 @final
 class Bonded(InterfaceLaw):
+    """Base and ground never part."""
+
     def __new__(cls) -> Self: ...
 
 @final
 class Coulomb(InterfaceLaw):
+    """Hard unilateral contact with Coulomb friction: an element sticks, slides or opens.
+
+    ``friction``: coefficient, 0 or more; ``math.inf`` for a base that opens but never slides.
+    ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens. ``closed_below`` (m):
+    contact conditions act on the change of the gap of elements whose gap is at most that (Moreau's
+    rule); on the gap unless given.
+    """
+
     def __new__(
         cls, friction: float, *, tensile_strength: float = 0.0, closed_below: float | None = None
     ) -> Self: ...
     @property
-    def friction(self) -> float: ...
+    def friction(self) -> float:
+        """Friction coefficient, a number."""
 
 @final
 class Cohesive(InterfaceLaw):
+    """A bond that breaks for good, and friction afterwards: ``tension`` and ``cohesion`` are its strengths
+    (Pa) against opening and shear, ``friction`` the coefficient when it is broken.
+    """
+
     def __new__(cls, tension: float, cohesion: float, friction: float) -> Self: ...
 
 @final
 class Yielding(InterfaceLaw):
+    """Coulomb friction of a coefficient ``friction`` on soil that yields under its ``bearing_pressure`` (Pa)."""
+
     def __new__(cls, bearing_pressure: float, friction: float) -> Self: ...
 
 @final
 class ThinLayer(InterfaceLaw):
+    """The thin layer of soil between base and ground of Patel and Spyrakos, elastic while it is closed.
+
+    ``soil``: of the layer. ``neighbour_height``: of the finite elements beside it, m. ``friction``:
+    coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_share``: of the
+    stiffness that is kept when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_share``: when
+    it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure that friction sees, "total" (of this
+    step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
+    ``slip_sense``: what tells the sense of slip, "inelastic" (slip beyond the elastic one; the
+    default), "velocity" or "last velocity" (of this step or the one before).
+    """
+
     def __new__(
         cls,
         soil: Soil,
@@ -181,8 +337,8 @@ class ThinLayer(InterfaceLaw):
         thickness_ratio: float | None = None,
         debonded_share: float | None = None,
         slip_stiffness_share: float | None = None,
-        friction_limit: str | None = None,
-        slip_sense: str | None = None,
+        friction_limit: _FrictionLimit | None = None,
+        slip_sense: _SlipSense | None = None,
     ) -> Self: ...
     @staticmethod
     def from_stiffness(
@@ -192,161 +348,355 @@ class ThinLayer(InterfaceLaw):
         *,
         debonded_share: float | None = None,
         slip_stiffness_share: float | None = None,
-        friction_limit: str | None = None,
-        slip_sense: str | None = None,
-    ) -> ThinLayer: ...
+        friction_limit: _FrictionLimit | None = None,
+        slip_sense: _SlipSense | None = None,
+    ) -> ThinLayer:
+        """Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_share``,
+        ``slip_stiffness_share``, ``friction_limit`` and ``slip_sense`` are those of the class, the last
+        four if given.
+        """
     @property
-    def stiffness(self) -> list[float]: ...
+    def stiffness(self) -> list[float]:
+        """Normal and shear stiffness, Pa/m."""
 
 @final
 class VariableFriction(InterfaceLaw):
+    """Coulomb friction whose coefficient is a function of the start of the step:
+    ``coefficient(start)`` returns a number for a :class:`PreviousContact`. It may raise: the exception
+    comes out of the run. ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens.
+    """
+
     def __new__(
         cls, coefficient: Callable[[PreviousContact], float], *, tensile_strength: float = 0.0
     ) -> Self: ...
 
 @disjoint_base
 class FreeField:
-    def displacement(self, x: float, time: float) -> list[float]: ...
-    def velocity(self, x: float, time: float) -> list[float]: ...
+    """Motion of the ground's surface without the structure: a :class:`Record`, a wave, or what
+    :func:`free_field` makes of a function. Until t = 0 the ground rests.
+    """
+
+    def displacement(self, x: float, time: float) -> list[float]:
+        """Displacement (to the right, up), m, at ``x`` (m) and ``time`` (s)."""
+    def velocity(self, x: float, time: float) -> list[float]:
+        """Velocity (to the right, up), m/s, at ``x`` (m) and ``time`` (s)."""
 
 @final
 class Record(FreeField):
-    def __new__(cls, time_step: float, acceleration: ArrayLike, *, unit: str = "m/s²") -> Self: ...
+    """Ground acceleration at equal time steps, linear between samples; velocity and displacement are
+    its exact integrals from rest.
+
+    ``time_step`` in s, ``acceleration`` an array of shape (samples,), at least two, in ``unit``:
+    "m/s²" (the default), "mm/s²", "g", "gal", "ft/s²" or "in/s²". As the motion of a simulation it
+    is horizontal, the same everywhere at once.
+    """
+
+    def __new__(cls, time_step: float, acceleration: ArrayLike, *, unit: _AccelerationUnit = "m/s²") -> Self: ...
     @staticmethod
     def read(
         path: str | os.PathLike[str],
         *,
-        format: str = "columns",
-        unit: str | None = None,
+        format: _RecordFormat = "columns",
+        unit: _AccelerationUnit | None = None,
         time_step: float | None = None,
         columns: Sequence[int] | None = None,
         channel: int | None = None,
-    ) -> Record: ...
+    ) -> Record:
+        """staticmethod(function) -> method
+
+        Convert a function to be a static method.
+
+        A static method does not receive an implicit first argument.
+        To declare a static method, use this idiom:
+
+             class C:
+                 @staticmethod
+                 def f(arg1, arg2, argN):
+                     ...
+
+        It can be called either on the class (e.g. C.f()) or on an instance
+        (e.g. C().f()). Both the class and the instance are ignored, and
+        neither is passed implicitly as the first argument to the method.
+
+        Static methods in Python are similar to those found in Java or C++.
+        For a more advanced concept, see the classmethod builtin.
+        """
     @property
-    def time_step(self) -> float: ...
+    def time_step(self) -> float:
+        """Time step, s."""
     @property
-    def duration(self) -> float: ...
+    def duration(self) -> float:
+        """Time of the last sample, s."""
     @property
-    def times(self) -> NDArray[np.float64]: ...
+    def times(self) -> NDArray[np.float64]:
+        """Times of the samples: array of shape (samples,), s."""
     @property
-    def accelerations(self) -> NDArray[np.float64]: ...
+    def accelerations(self) -> NDArray[np.float64]:
+        """Acceleration at the samples: array of shape (samples,), m/s²."""
     @property
-    def velocities(self) -> NDArray[np.float64]: ...
+    def velocities(self) -> NDArray[np.float64]:
+        """Velocity at the samples: array of shape (samples,), m/s."""
     @property
-    def displacements(self) -> NDArray[np.float64]: ...
+    def displacements(self) -> NDArray[np.float64]:
+        """Displacement at the samples: array of shape (samples,), m."""
     @property
-    def peak_acceleration(self) -> float: ...
+    def peak_acceleration(self) -> float:
+        """Largest |acceleration|, m/s²."""
     @property
-    def peak_velocity(self) -> float: ...
+    def peak_velocity(self) -> float:
+        """Largest |velocity|, m/s."""
     @property
-    def peak_displacement(self) -> float: ...
+    def peak_displacement(self) -> float:
+        """Largest |displacement|, m."""
     @property
-    def arias_intensity(self) -> float: ...
-    def significant_times(self, start: float = 0.05, end: float = 0.95) -> list[float]: ...
-    def scaled(self, factor: float) -> Record: ...
-    def scaled_to_peak(self, peak: float) -> Record: ...
-    def resampled(self, time_step: float) -> Record: ...
-    def with_baseline(self, treatment: str, *, degree: int = 4) -> Record: ...
-    def high_pass(self, corner: float, *, order: int = 4) -> Record: ...
-    def tapered(self, beginning: float, end: float) -> Record: ...
-    def padded(self, before: float, after: float) -> Record: ...
-    def response_spectrum(self, periods: ArrayLike, damping: float = 0.05) -> Spectrum: ...
+    def arias_intensity(self) -> float:
+        """Arias intensity, m/s."""
+    def significant_times(self, start: float = 0.05, end: float = 0.95) -> list[float]:
+        """The two times (s) at which the fractions ``start`` and ``end`` of the Arias intensity are reached,
+        by default 0.05 and 0.95: between them is the significant duration.
+        """
+    def scaled(self, factor: float) -> Record:
+        """Record with all samples times a ``factor``."""
+    def scaled_to_peak(self, peak: float) -> Record:
+        """Record scaled to a ``peak`` acceleration (m/s²), signs kept."""
+    def resampled(self, time_step: float) -> Record:
+        """Record with samples every ``time_step`` (s), linear between the old ones."""
+    def with_baseline(self, treatment: _Baseline, *, degree: int = 4) -> Record:
+        """Record with its baseline treated. ``treatment``: "remove mean", "newmark parabola", "velocity
+        polynomial", "displacement polynomial" or "rest to rest"; polynomials have the ``degree``, 4 by
+        default.
+        """
+    def high_pass(self, corner: float, *, order: int = 4) -> Record:
+        """Record filtered at a ``corner`` frequency (Hz): a high-pass Butterworth filter of ``order`` (1 to
+        8; 4 by default), forwards and backwards, so without phase shift.
+
+        The record gets longer by quiet time of 1.5 ``order / corner`` s before and after it, 30 s each
+        for a corner of 0.2 Hz, into which such a filter reaches. Keep it: without it velocity and
+        displacement do not return to zero.
+        """
+    def tapered(self, beginning: float, end: float) -> Record:
+        """Record tapered over the durations ``beginning`` and ``end`` (s) at its two ends."""
+    def padded(self, before: float, after: float) -> Record:
+        """Record with rest of ``before`` and ``after`` (s) at its two ends."""
+    def response_spectrum(self, periods: ArrayLike, damping: float = 0.05) -> Spectrum:
+        """Elastic response :class:`Spectrum` at ``periods`` (array of shape (m,), s) with the damping ratio
+        ``damping`` (0.05 by default).
+        """
     def __len__(self) -> int: ...
     def __getnewargs__(self) -> tuple[float, NDArray[np.float64]]: ...
 
 @final
 class Spectrum:
+    """A response spectrum: arrays of shape (m,), one value per natural period."""
+
     @property
-    def period(self) -> NDArray[np.float64]: ...
+    def period(self) -> NDArray[np.float64]:
+        """Natural periods: array of shape (m,), s."""
     @property
-    def displacement(self) -> NDArray[np.float64]: ...
+    def displacement(self) -> NDArray[np.float64]:
+        """Largest displacements relative to the ground or floor: array of shape (m,), m."""
     @property
-    def pseudo_velocity(self) -> NDArray[np.float64]: ...
+    def pseudo_velocity(self) -> NDArray[np.float64]:
+        """Pseudo-velocities: array of shape (m,), m/s."""
     @property
-    def pseudo_acceleration(self) -> NDArray[np.float64]: ...
+    def pseudo_acceleration(self) -> NDArray[np.float64]:
+        """Pseudo-accelerations: array of shape (m,), m/s²."""
     @property
-    def acceleration(self) -> NDArray[np.float64]: ...
-    def broadened(self, share: float = 0.15) -> Spectrum: ...
-    def to_frame(self) -> Any: ...
+    def acceleration(self) -> NDArray[np.float64]:
+        """Largest total accelerations: array of shape (m,), m/s²."""
+    def broadened(self, share: float = 0.15) -> Spectrum:
+        """Spectrum with its peaks broadened to frequencies lower and higher by the fraction ``share``, 0.15
+        by default (U.S. NRC R.G. 1.122).
+        """
+    def to_frame(self) -> Any:
+        """The spectrum as a pandas frame, indexed by the period (s)."""
+    def plot(self, axes: Any = None) -> Any:
+        """Draws total and pseudo-accelerations over the period; returns the axes.
+
+        ``axes``: those of matplotlib to draw into; those of a new figure unless given.
+        """
     def __len__(self) -> int: ...
 
 @final
 class PlaneWave:
+    """A plane wave that meets the free surface of a half-plane at an angle, or a Rayleigh wave;
+    :meth:`field_from_horizontal` and :meth:`field_from_vertical` make it a motion.
+    """
+
     @staticmethod
-    def sv(soil: Soil, angle: float) -> PlaneWave: ...
+    def sv(soil: Soil, angle: float) -> PlaneWave:
+        """SV wave from below in a half-plane of this ``soil`` at ``angle`` (rad) from the vertical, to the
+        right if positive.
+        """
     @staticmethod
-    def p(soil: Soil, angle: float) -> PlaneWave: ...
+    def p(soil: Soil, angle: float) -> PlaneWave:
+        """P wave from below in a half-plane of this ``soil`` at ``angle`` (rad) from the vertical, to the
+        right if positive.
+        """
     @staticmethod
-    def rayleigh(soil: Soil) -> PlaneWave: ...
-    def reversed(self) -> PlaneWave: ...
+    def rayleigh(soil: Soil) -> PlaneWave:
+        """Rayleigh wave to the right on a half-plane of this ``soil``."""
+    def reversed(self) -> PlaneWave:
+        """The same wave running the other way."""
     @property
-    def apparent_velocity(self) -> float: ...
-    def field_from_horizontal(self, record: Record, origin: float) -> FreeField: ...
-    def field_from_vertical(self, record: Record, origin: float) -> FreeField: ...
+    def apparent_velocity(self) -> float:
+        """Apparent velocity along the surface, m/s."""
+    def field_from_horizontal(self, record: Record, origin: float) -> FreeField:
+        """The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``."""
+    def field_from_vertical(self, record: Record, origin: float) -> FreeField:
+        """The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``."""
 
 @final
 class SoilColumn:
-    def __new__(cls, profile: SoilProfile, wave: str = "shear") -> Self: ...
+    """A soil ``profile`` (:class:`SoilProfile`) as a column that waves travel up and down; ``wave``: "shear"
+    (the default) or "pressure".
+    """
+
+    def __new__(cls, profile: SoilProfile, wave: _Wave = "shear") -> Self: ...
     def transfer(
-        self, frequencies: ArrayLike, *, control: str = "outcrop"
-    ) -> NDArray[np.complex128]: ...
-    def to_surface(self, record: Record, *, control: str = "outcrop") -> Record: ...
-    def from_surface(self, record: Record, *, control: str = "outcrop") -> Record: ...
+        self, frequencies: ArrayLike, *, control: _ControlPoint = "outcrop"
+    ) -> NDArray[np.complex128]:
+        """Ratio of the motion of the surface to that of the ``control`` point for e^(iωt): complex array of
+        shape (m,) at ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the
+        base without layers) or "within" (the base under them).
+        """
+    def to_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
+        """The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or
+        "within", as long. A :class:`BasematWarning` gives the
+        size of what comes before or after and is cut off: ``Record.padded`` makes room for it.
+        """
+    def from_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
+        """The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the
+        surface (deconvolution); it warns as :meth:`to_surface`.
+        """
 
 @final
 class InclinedWave:
+    """A plane wave from the half-plane under a layered profile; :meth:`field` makes it a motion."""
+
     @staticmethod
-    def sv(profile: SoilProfile, angle: float) -> InclinedWave: ...
+    def sv(profile: SoilProfile, angle: float) -> InclinedWave:
+        """SV wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
+        positive.
+        """
     @staticmethod
-    def p(profile: SoilProfile, angle: float) -> InclinedWave: ...
+    def p(profile: SoilProfile, angle: float) -> InclinedWave:
+        """P wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
+        positive.
+        """
     @property
-    def apparent_velocity(self) -> float: ...
+    def apparent_velocity(self) -> float:
+        """Apparent velocity along the surface, m/s."""
     def field(
-        self, record: Record, origin: float, *, control: str = "outcrop horizontal"
-    ) -> FreeField: ...
+        self, record: Record, origin: float, *, control: _InclinedControl = "outcrop horizontal"
+    ) -> FreeField:
+        """The :class:`FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
+        (x, m), the point that is reached first. ``control``: "outcrop horizontal" (the default), "outcrop
+        vertical" (motions of the base without layers) or "incident" (the incident wave alone).
+        """
 
 @final
 class Probe:
+    """A quantity recorded at every step: a weighted sum of displacements, velocities or accelerations.
+
+    ``name``: that of its time series. ``row``: a :class:`DofCombination` or what makes one. ``unit``:
+    its label in tables; that of the quantity unless given.
+
+    Displacements are changes against the static state, relative to the translation of the free
+    field; :meth:`absolute_displacement` includes it. Velocities and accelerations are total. No two
+    probes of a simulation have the same name, and none that of another time series of a run.
+    """
+
     @staticmethod
-    def displacement(name: str, row: _RowLike, *, unit: str | None = None) -> Probe: ...
+    def displacement(name: str, row: _RowLike, *, unit: str | None = None) -> Probe:
+        """Displacement (m, or rad of a rotation) of the ``row`` relative to the free field, as the time
+        series ``name``; ``unit``: its label, "m" unless given.
+        """
     @staticmethod
-    def absolute_displacement(name: str, row: _RowLike, *, unit: str | None = None) -> Probe: ...
+    def absolute_displacement(name: str, row: _RowLike, *, unit: str | None = None) -> Probe:
+        """Displacement (m) of the ``row`` with the translation of the free field, as the time series
+        ``name``; ``unit``: its label, "m" unless given.
+        """
     @staticmethod
-    def velocity(name: str, row: _RowLike, *, unit: str | None = None) -> Probe: ...
+    def velocity(name: str, row: _RowLike, *, unit: str | None = None) -> Probe:
+        """Total velocity of the ``row``, m/s, as the time series ``name``; ``unit``: its label, "m/s" unless
+        given.
+        """
     @staticmethod
-    def acceleration(name: str, row: _RowLike, *, unit: str | None = None) -> Probe: ...
+    def acceleration(name: str, row: _RowLike, *, unit: str | None = None) -> Probe:
+        """Total acceleration of the ``row``, m/s², as the time series ``name``; ``unit``: its label, "m/s²"
+        unless given.
+        """
     @staticmethod
-    def section(name: str, section: SectionRows, *, unit: str | None = None) -> Probe: ...
+    def section(name: str, section: SectionRows, *, unit: str | None = None) -> Probe:
+        """Resultant of a ``section`` (:class:`SectionRows`), a force (N/m) or a moment (N·m/m), as the time
+        series ``name``; ``unit``: its label, that of the section unless given.
+        """
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Its name, that of its time series."""
     @property
-    def unit(self) -> str: ...
+    def unit(self) -> str:
+        """Label of its unit; values are what the weights make of SI units."""
     @property
-    def rows(self) -> list[DofCombination]: ...
+    def rows(self) -> list[DofCombination]:
+        """The :class:`DofCombination` of displacements, that of velocities and that of accelerations."""
 
 @final
 class DampingLaw:
+    """Damping of a soil: how its shear modulus depends on frequency."""
+
     @staticmethod
-    def elastic() -> DampingLaw: ...
+    def elastic() -> DampingLaw:
+        """No damping."""
     @staticmethod
     def constant_q(
         ratio: float, band: Sequence[float] = ..., reference: float = 1.0
-    ) -> DampingLaw: ...
+    ) -> DampingLaw:
+        """Generalised Maxwell body with the damping ``ratio`` (0.05: 5 %) over a ``band`` (lowest and highest
+        frequency, Hz; 0.1 to 30 by default) and the soil's modulus at ``reference`` (Hz; 1 by
+        default): the usual choice in time.
+        """
     @staticmethod
-    def maxwell(long_term: float, shares: ArrayLike, rates: ArrayLike) -> DampingLaw: ...
+    def maxwell(long_term: float, shares: ArrayLike, rates: ArrayLike) -> DampingLaw:
+        """Generalised Maxwell body: ``long_term`` modulus over that of the soil, ``shares`` of the rest
+        (array of shape (m,)) and their relaxation ``rates`` (array of shape (m,), 1/s).
+        """
     @staticmethod
-    def kelvin_voigt(ratio: float, frequency: float) -> DampingLaw: ...
+    def kelvin_voigt(ratio: float, frequency: float) -> DampingLaw:
+        """Kelvin–Voigt body with the damping ``ratio`` at ``frequency`` (Hz)."""
     @staticmethod
-    def kjartansson(ratio: float, reference: float = 1.0) -> DampingLaw: ...
+    def kjartansson(ratio: float, reference: float = 1.0) -> DampingLaw:
+        """Exactly constant damping ``ratio`` (Kjartansson 1979) with the soil's modulus at ``reference`` (Hz;
+        1 by default).
+        """
     @staticmethod
-    def hysteretic(ratio: float) -> DampingLaw: ...
+    def hysteretic(ratio: float) -> DampingLaw:
+        """The frequency domain's usual damping ``ratio``, the same at all frequencies: not causal, for
+        impedances only.
+        """
 
 @final
 class SoilLayer:
+    """A horizontal layer: its ``soil`` (:class:`Soil`), its ``thickness`` (m), its ``damping``
+    (:class:`DampingLaw`; none unless given).
+    """
+
     def __new__(cls, soil: Soil, thickness: float, damping: DampingLaw | None = None) -> Self: ...
+    @property
+    def soil(self) -> Soil:
+        """Its :class:`Soil`."""
+    @property
+    def thickness(self) -> float:
+        """Its thickness, m."""
 
 @final
 class SoilProfile:
+    """Horizontal ``layers`` (list of :class:`SoilLayer`) from the surface down, on a half-plane of the soil
+    ``base`` or, unless that is given, on a rigid base. ``base_damping``: :class:`DampingLaw` of the
+    base; none unless given. Printed, it is a table.
+    """
+
     def __new__(
         cls,
         layers: Sequence[SoilLayer],
@@ -355,201 +705,395 @@ class SoilProfile:
         base_damping: DampingLaw | None = None,
     ) -> Self: ...
     @property
-    def depth(self) -> float: ...
+    def layers(self) -> list[SoilLayer]:
+        """The layers from the surface down: list of :class:`SoilLayer`."""
     @property
-    def first_frequency(self) -> float | None: ...
+    def base(self) -> Soil | None:
+        """The :class:`Soil` of the half-plane under the layers; None on a rigid base."""
+    def plot(self, axes: Any = None) -> Any:
+        """Draws the speed of shear waves over the depth; returns the axes.
+
+        ``axes``: those of matplotlib to draw into; those of a new figure unless given.
+        """
     @property
-    def travel_time(self) -> float: ...
+    def depth(self) -> float:
+        """Depth of all layers, m."""
+    @property
+    def first_frequency(self) -> float | None:
+        """First natural frequency of the layers, Hz; None without layers."""
+    @property
+    def travel_time(self) -> float:
+        """Time that a shear wave takes through all layers, s."""
 
 @final
 class FoundationSummary:
+    """A foundation over a run, with the numbers of a :class:`Run`; forces are those of the structure on the
+    soil, per metre of thickness.
+    """
+
     @property
-    def ends(self) -> list[float]: ...
+    def ends(self) -> list[float]:
+        """x of its two ends, m."""
     @property
-    def static_normal_force(self) -> float: ...
+    def static_normal_force(self) -> float:
+        """Total pressure at the start, N/m."""
     @property
-    def base_shear(self) -> Extremes: ...
+    def base_shear(self) -> Extremes:
+        """Horizontal force on the soil, positive to the right, N/m: its :class:`Extremes`."""
     @property
-    def base_moment(self) -> Extremes: ...
+    def base_moment(self) -> Extremes:
+        """Moment about its middle, counter-clockwise, N·m/m: its :class:`Extremes`."""
     @property
-    def normal_force(self) -> Extremes: ...
+    def normal_force(self) -> Extremes:
+        """Total pressure, N/m: its :class:`Extremes`."""
     @property
-    def base_rotation(self) -> Extremes: ...
+    def base_rotation(self) -> Extremes:
+        """Rotation, counter-clockwise, rad: its :class:`Extremes`."""
     @property
-    def uplifted_fraction(self) -> Peak: ...
+    def uplifted_fraction(self) -> Peak:
+        """Largest ratio of its open length to its length: its :class:`Peak`."""
     @property
-    def mean_slip(self) -> Extremes: ...
+    def mean_slip(self) -> Extremes:
+        """Slip averaged over it, m: its :class:`Extremes`."""
     @property
-    def residual_slip(self) -> float: ...
+    def residual_slip(self) -> float:
+        """Slip averaged over it at the end, m."""
     @property
-    def slip_events(self) -> list[tuple[float, float, float]]: ...
+    def slip_events(self) -> list[tuple[float, float, float]]:
+        """Slip events: list of tuples (start in s, end in s, slip in m)."""
     @property
-    def least_sliding_safety(self) -> Peak | None: ...
+    def least_sliding_safety(self) -> Peak | None:
+        """Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient."""
     @property
-    def least_overturning_safety(self) -> Peak: ...
+    def least_overturning_safety(self) -> Peak:
+        """Least factor of safety against overturning, a :class:`Peak`."""
 
 @final
 class ServiceCheck:
+    """A limit of service, held against a run."""
+
     @property
-    def criterion(self) -> str: ...
+    def criterion(self) -> Literal["slip", "gap", "uplifted fraction", "rotation"]:
+        """The limited response: "slip", "gap", "uplifted fraction" or "rotation"."""
     @property
-    def limit(self) -> float: ...
+    def limit(self) -> float:
+        """Its limit, in SI units."""
     @property
-    def largest(self) -> Peak: ...
+    def largest(self) -> Peak:
+        """The run's value furthest from zero, a :class:`Peak` in SI units."""
     @property
-    def first_excess(self) -> float | None: ...
+    def first_excess(self) -> float | None:
+        """End of the first step beyond the limit, s; None if there was none."""
     @property
-    def is_met(self) -> bool: ...
+    def is_met(self) -> bool:
+        """Whether the limit was kept."""
     @property
-    def margin(self) -> float: ...
+    def margin(self) -> float:
+        """Unused fraction of the limit; below zero where it is exceeded."""
 
 @final
 class EnergyBalance:
+    """Energies since the start, J per metre of thickness:
+    ``kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input``.
+    """
+
     @property
-    def kinetic(self) -> float: ...
+    def kinetic(self) -> float:
+        """Kinetic energy ½ v·M v, J/m."""
     @property
-    def strain(self) -> float: ...
+    def strain(self) -> float:
+        """Elastic energy of the structure, J/m."""
     @property
-    def hysteresis(self) -> float: ...
+    def hysteresis(self) -> float:
+        """Heat of hysteretic parts of the structure, J/m."""
     @property
-    def damping(self) -> float: ...
+    def damping(self) -> float:
+        """Work of the dashpots, J/m."""
     @property
-    def algorithmic(self) -> float: ...
+    def algorithmic(self) -> float:
+        """Energy that the time scheme removes, J/m; negative if it makes any."""
     @property
-    def soil(self) -> float: ...
+    def soil(self) -> float:
+        """Work done on the soil, radiated and stored, J/m."""
     @property
-    def contact(self) -> float: ...
+    def contact(self) -> float:
+        """Loss by friction and impact, J/m."""
     @property
-    def interface(self) -> float: ...
+    def interface(self) -> float:
+        """Elastic energy of compliant interfaces, J/m."""
     @property
-    def static_contact(self) -> float: ...
+    def static_contact(self) -> float:
+        """Potential of the static tractions against gaps and slips, J/m."""
     @property
-    def input(self) -> float: ...
+    def input(self) -> float:
+        """Work of loads and free field, and the energy of an initial motion, J/m."""
     @property
-    def relative_input(self) -> float: ...
+    def relative_input(self) -> float:
+        """Relative input energy (Uang and Bertero 1990), J/m."""
     @property
-    def soil_error_bound(self) -> float: ...
+    def soil_error_bound(self) -> float:
+        """Error bound of :attr:`soil` by an approximate history, J/m."""
     @property
-    def largest(self) -> float: ...
+    def largest(self) -> float:
+        """Largest energy so far, to which :attr:`residual` is relative, J/m."""
     @property
-    def residual(self) -> float: ...
-    def to_dict(self) -> dict[str, Any]: ...
+    def residual(self) -> float:
+        """Difference between the two sides of the balance, relative to the largest energy so far."""
+    def to_dict(self) -> dict[str, Any]:
+        """All terms by their names: dict of numbers, J/m."""
 
 @final
 class Peak:
+    """A value of a run with its time; ``float()`` gives the value."""
+
     @property
-    def value(self) -> float: ...
+    def value(self) -> float:
+        """The value, in the quantity's unit, with its sign."""
     @property
-    def time(self) -> float: ...
+    def time(self) -> float:
+        """Its time, s."""
     def __float__(self) -> float: ...
     def __eq__(self, other: object, /) -> bool: ...
 
 @final
 class Extremes:
+    """Smallest and largest value of a quantity over a run."""
+
     @property
-    def lowest(self) -> Peak: ...
+    def lowest(self) -> Peak:
+        """The smallest value, a :class:`Peak` in the quantity's unit."""
     @property
-    def highest(self) -> Peak: ...
+    def highest(self) -> Peak:
+        """The largest value, a :class:`Peak` in the quantity's unit."""
     @property
-    def largest(self) -> Peak: ...
+    def largest(self) -> Peak:
+        """Whichever of the two is further from zero, with its sign: a :class:`Peak` in the
+        quantity's unit.
+        """
     @property
-    def magnitude(self) -> float: ...
+    def magnitude(self) -> float:
+        """Magnitude of :attr:`largest`, in the quantity's unit."""
     def __eq__(self, other: object, /) -> bool: ...
 
 @final
 class Run:
+    """A run: peaks with their times, envelopes, uplift, slip, energies, warnings, and its time series.
+
+    ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``; printed, a run is
+    a page for a report.
+    """
+
     @property
-    def steps(self) -> int: ...
+    def steps(self) -> int:
+        """Number of steps made."""
     @property
-    def start(self) -> float: ...
+    def start(self) -> float:
+        """Time at the beginning, s."""
     @property
-    def end(self) -> float: ...
+    def end(self) -> float:
+        """Time at the end, s."""
     @property
-    def time(self) -> NDArray[np.float64]: ...
+    def time(self) -> NDArray[np.float64]:
+        """Times of the kept steps: array of shape (steps + 1,), s; the first is that of the start."""
     def __getitem__(self, name: str, /) -> NDArray[np.float64]: ...
     @property
-    def series(self) -> dict[str, Any]: ...
+    def series(self) -> dict[str, Any]:
+        """All time series: dict of arrays of shape (steps + 1,), "time" first."""
     @property
-    def energy_balances(self) -> dict[str, Any]: ...
+    def energy_balances(self) -> dict[str, Any]:
+        """Terms of the energy balance over time: dict of arrays of shape (steps + 1,), J/m."""
     @property
-    def contact(self) -> dict[str, Any]: ...
+    def contact(self) -> dict[str, Any]:
+        """Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear"
+        (Pa), "mode" (numbers into :data:`basemat.MODES`), each of shape (frames, elements).
+        """
     @property
-    def motion(self) -> dict[str, Any]: ...
-    def to_frame(self) -> Any: ...
-    def contact_frame(self) -> Any: ...
-    def acceleration_record(self, probe: str) -> Record: ...
-    def floor_spectrum(self, probe: str, periods: ArrayLike, damping: float = 0.05) -> Spectrum: ...
+    def motion(self) -> dict[str, Any]:
+        """Snapshots of the structure: dict of "time" (frames,), s, "displacement" and "velocity" (frames, n),
+        m and m/s, and "free_field" (frames, 2), m to the right and up.
+        """
     @property
-    def probes(self) -> dict[str, Any]: ...
+    def units(self) -> dict[str, str]:
+        """SI units of the time series, and J/m of the energies: dict of texts by their names, "" for ratios."""
+    def to_frame(self) -> Any:
+        """All time series as a pandas frame, indexed by the time (s).
+
+        Units of the columns of this and of all other frames are in ``frame.attrs["units"]``.
+        """
+    def contact_frame(self) -> Any:
+        """Snapshots of the base as a tidy pandas frame: a row per frame and element.
+
+        Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode".
+        """
+    def envelope_frame(self) -> Any:
+        """:attr:`Run.envelope` as a pandas frame: a row per element."""
+    def foundation_frame(self) -> Any:
+        """:attr:`Run.foundations` as a pandas frame: a row each, largest values with their signs."""
+    def energy_frame(self) -> Any:
+        """:attr:`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m."""
+    def floor_spectra(
+        self, periods: ArrayLike, damping: float = 0.05, *, probes: Sequence[str] | None = None
+    ) -> Any:
+        """Floor spectra as a pandas frame: total accelerations (m/s²), a column per probe.
+
+        Args:
+            periods: natural periods, array of shape (m,), s: the index of the frame.
+            damping: damping ratio; 0.05 by default.
+            probes: names of acceleration probes; all those with the unit "m/s²" unless given.
+        """
+    def plot(self, axes: Any = None) -> list[Any]:
+        """Draws base shear, contact modes and energies over time; returns the list of axes.
+
+        Contact modes are those of the snapshots, if ``contact_every`` was given to
+        :meth:`Simulation.run`. ``axes``: two of matplotlib to draw into, three with snapshots; those of a
+        new figure unless given.
+        """
+    def plot_modes(self, axes: Any = None) -> Any:
+        """Draws the contact mode of every element over time; returns the axes.
+
+        It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``axes``: those of
+        matplotlib to draw into; those of a new figure unless given.
+        """
+    def animate(self, scale: float | None = None) -> Any:
+        """Moving picture of the base, its gaps and the pressure under it, element by element.
+
+        It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``scale``: factor
+        on gaps; the largest one is a tenth of the base's length unless given. Returns a
+        ``matplotlib.animation.FuncAnimation``, whose ``save`` writes a file.
+        """
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the run with its time series to a file at ``path``, for :func:`load`.
+
+        The file is for this version of the package; frames, arrays and :meth:`Run.summary` are for
+        longer keeping.
+        """
+    def acceleration_record(self, probe: str) -> Record:
+        """The :class:`Record` of the acceleration probe called ``probe``."""
+    def floor_spectrum(self, probe: str, periods: ArrayLike, damping: float = 0.05) -> Spectrum:
+        """Floor (in-structure) response :class:`Spectrum` of the acceleration probe called ``probe`` at
+        ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default).
+        """
     @property
-    def static_normal_force(self) -> float: ...
+    def probes(self) -> dict[str, Any]:
+        """Smallest and largest value of each probe: dict of :class:`Extremes` by its name, in its unit."""
     @property
-    def base_shear(self) -> Extremes: ...
+    def static_normal_force(self) -> float:
+        """Total pressure at the start, N/m."""
     @property
-    def base_moment(self) -> Extremes: ...
+    def base_shear(self) -> Extremes:
+        """Horizontal force on the soil, positive to the right, N/m: its :class:`Extremes`."""
     @property
-    def normal_force(self) -> Extremes: ...
+    def base_moment(self) -> Extremes:
+        """Moment on the soil, counter-clockwise, N·m/m: its :class:`Extremes`."""
     @property
-    def base_rotation(self) -> Extremes: ...
+    def normal_force(self) -> Extremes:
+        """Total pressure on the soil, N/m: its :class:`Extremes`."""
     @property
-    def uplifted_fraction(self) -> Peak: ...
+    def base_rotation(self) -> Extremes:
+        """Rotation of the base, counter-clockwise, rad: its :class:`Extremes`."""
     @property
-    def uplift_duration(self) -> float: ...
+    def uplifted_fraction(self) -> Peak:
+        """Largest ratio of the open length to that of the base: its :class:`Peak`."""
     @property
-    def mean_slip(self) -> Extremes: ...
+    def uplift_duration(self) -> float:
+        """Time with uplift, s."""
     @property
-    def residual_slip(self) -> float: ...
+    def mean_slip(self) -> Extremes:
+        """Slip averaged over the base, m: its :class:`Extremes`."""
     @property
-    def largest_slip(self) -> Peak: ...
+    def residual_slip(self) -> float:
+        """Slip averaged over the base at the end, m."""
     @property
-    def largest_gap(self) -> Peak: ...
+    def largest_slip(self) -> Peak:
+        """Largest slip of any element, m: its :class:`Peak`."""
     @property
-    def largest_pressure(self) -> Peak | None: ...
+    def largest_gap(self) -> Peak:
+        """Largest gap of any element, m: its :class:`Peak`."""
     @property
-    def shear_coefficient(self) -> float | None: ...
+    def largest_pressure(self) -> Peak | None:
+        """Largest pressure of any element, Pa, a :class:`Peak`; None without elements."""
     @property
-    def slip_events(self) -> list[tuple[float, float, float]]: ...
+    def shear_coefficient(self) -> float | None:
+        """Ratio of the largest base shear to the weight; None without weight."""
     @property
-    def slip_path(self) -> float: ...
+    def slip_events(self) -> list[tuple[float, float, float]]:
+        """Slip events of the whole base: list of tuples (start in s, end in s, slip in m)."""
     @property
-    def least_sliding_safety(self) -> Peak | None: ...
+    def slip_path(self) -> float:
+        """Sliding distance: |slip| of the base summed over time, m."""
     @property
-    def least_overturning_safety(self) -> Peak: ...
+    def least_sliding_safety(self) -> Peak | None:
+        """Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient."""
     @property
-    def foundations(self) -> list[FoundationSummary]: ...
+    def least_overturning_safety(self) -> Peak:
+        """Least factor of safety against overturning, a :class:`Peak`."""
     @property
-    def serviceability(self) -> list[ServiceCheck]: ...
+    def foundations(self) -> list[FoundationSummary]:
+        """Each foundation by itself: list of :class:`FoundationSummary`, from left to right."""
     @property
-    def is_serviceable(self) -> bool | None: ...
+    def serviceability(self) -> list[ServiceCheck]:
+        """A check of each limit of service that the simulation was given: list of :class:`ServiceCheck`."""
     @property
-    def envelope(self) -> dict[str, Any]: ...
+    def is_serviceable(self) -> bool | None:
+        """Whether all limits of service were kept; None without limits."""
     @property
-    def mode_changes(self) -> int: ...
+    def envelope(self) -> dict[str, Any]:
+        """Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
+        "slip" (m), "static_pressure", "lowest_pressure", "highest_pressure", "shear" (Pa),
+        "open" (s).
+        """
     @property
-    def energy_balance(self) -> EnergyBalance: ...
+    def mode_changes(self) -> int:
+        """Number of changes of contact mode."""
     @property
-    def energy_error(self) -> float: ...
+    def energy_balance(self) -> EnergyBalance:
+        """The :class:`EnergyBalance` at the end."""
     @property
-    def energy_shares(self) -> dict[str, Any] | None: ...
+    def energy_error(self) -> float:
+        """Largest residual of the energy balance, relative to the largest energy; NaN if none is kept."""
     @property
-    def trials(self) -> int: ...
+    def energy_shares(self) -> dict[str, Any] | None:
+        """Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
+        is not positive.
+        """
     @property
-    def fallbacks(self) -> int: ...
+    def trials(self) -> int:
+        """Number of linear solves of the search for contact modes."""
     @property
-    def warnings(self) -> list[str]: ...
+    def fallbacks(self) -> int:
+        """Number of steps that the first search did not solve."""
     @property
-    def wall(self) -> float: ...
-    def summary(self) -> dict[str, Any]: ...
+    def warnings(self) -> list[str]:
+        """List of the texts of warnings: strained assumptions, and steps and elements too coarse for it."""
+    @property
+    def wall(self) -> float:
+        """Wall time, s."""
+    def summary(self) -> dict[str, Any]:
+        """Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME"."""
 
 @final
 class DofCombination:
+    """A weighted sum of a structure's degrees of freedom: where a probe reads and a load acts.
+
+    ``terms``: a degree of freedom's number (from 0), a dict ``{dof: weight}``, a list of pairs
+    ``(dof, weight)``, an array of all n weights, or another row. All of these will do wherever a row
+    is asked for. Rows add, subtract and scale.
+    """
+
     def __new__(cls, terms: _RowLike) -> Self: ...
     @property
-    def terms(self) -> list[tuple[int, float]]: ...
-    def value(self, dofs: ArrayLike) -> float: ...
-    def weights(self, dofs: int) -> NDArray[np.float64]: ...
-    def relative_to_base(self, structure: Structure | UserStructure) -> DofCombination: ...
-    def total_drift(self, structure: Structure | UserStructure, height: float) -> DofCombination: ...
+    def terms(self) -> list[tuple[int, float]]:
+        """List of pairs ``(dof, weight)``."""
+    def value(self, dofs: ArrayLike) -> float:
+        """The sum for given degrees of freedom: ``dofs`` is an array of shape (n,); in their unit."""
+    def weights(self, dofs: int) -> NDArray[np.float64]:
+        """All weights as an array of shape (n,) for a number n of degrees of freedom, ``dofs``."""
+    def relative_to_base(self, structure: Structure | UserStructure) -> DofCombination:
+        """This displacement to the right less that of the middle of the base of the ``structure``."""
+    def total_drift(self, structure: Structure | UserStructure, height: float) -> DofCombination:
+        """This displacement to the right less that of the base of the ``structure``, its rotation included,
+        which moves what is ``height`` (m) above it: the lateral deformation.
+        """
     def __add__(self, other: _RowLike, /) -> DofCombination: ...
     def __sub__(self, other: _RowLike, /) -> DofCombination: ...
     def __neg__(self) -> DofCombination: ...
@@ -561,35 +1105,95 @@ class DofCombination:
 
 @final
 class SectionRows:
+    """A section's resultant: rows of ``displacement``, ``velocity`` and ``acceleration`` whose sum is a
+    force (N/m) or a moment (N·m/m). ``unit``: "N/m" (the default) or "N·m/m". For
+    :meth:`Probe.section`.
+    """
+
     def __new__(
         cls,
         displacement: _RowLike,
         velocity: _RowLike,
         acceleration: _RowLike,
         *,
-        unit: str = "N/m",
+        unit: _SectionUnit = "N/m",
     ) -> Self: ...
     def __getnewargs_ex__(self) -> tuple[tuple[DofCombination, DofCombination, DofCombination], dict[str, Any]]: ...
     @property
-    def unit(self) -> str: ...
+    def unit(self) -> str:
+        """SI unit of the resultant: "N/m" or "N·m/m"."""
     @property
-    def displacement(self) -> DofCombination: ...
+    def displacement(self) -> DofCombination:
+        """The :class:`DofCombination` of displacements."""
     @property
-    def velocity(self) -> DofCombination: ...
+    def velocity(self) -> DofCombination:
+        """The :class:`DofCombination` of velocities."""
     @property
-    def acceleration(self) -> DofCombination: ...
+    def acceleration(self) -> DofCombination:
+        """The :class:`DofCombination` of accelerations."""
 
 @final
 class Checkpoint:
+    """A run between two steps: :meth:`Simulation.checkpoint` makes it, :meth:`Simulation.resume` goes
+    on from it, to the same bits. It pickles. ``data``: the bytes that :meth:`to_bytes` returned.
+    """
+
     def __new__(cls, data: bytes) -> Self: ...
     @property
-    def steps(self) -> int: ...
-    def to_bytes(self) -> bytes: ...
+    def steps(self) -> int:
+        """Steps made before it."""
+    def to_bytes(self) -> bytes:
+        """All of it as bytes, for a file."""
     def __getnewargs__(self) -> tuple[bytes]: ...
     def __eq__(self, other: object, /) -> bool: ...
 
 @final
 class Simulation:
+    """A structure on a ground, ready to march: from the static state under its weight, step by step.
+
+    Args:
+        time_step: time step, s.
+        structure: a :class:`Structure`, or any object with the methods of :class:`UserStructure`.
+        ground: an :class:`ElasticGround` or a :class:`SpringGround`.
+        interface: an :class:`InterfaceLaw` or an object with the methods of :class:`UserLaw`; one for
+            all contact elements, or a list of one each, from left to right.
+        motion: ground motion, a :class:`FreeField`: a :class:`Record`, a wave, or what
+            :func:`free_field` makes of a function. The ground rests unless given.
+        probes: quantities to record at every step, a list of :class:`Probe` with names of their own;
+            none unless given.
+        loads: forces from outside, a list of :class:`Load`; none unless given.
+        gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
+            state: the base begins without pressure, and nothing resists uplift and sliding.
+        gravity_stage: friction while the weight comes on. "frictionless" (the default): none, and the
+            base sticks from then on; "frictional": the interface law acts, in one step; "unloaded":
+            there is no static state, weight and loads act from t = 0 on, as for a block let go.
+        initial_displacement: of the n degrees of freedom at t = 0 against the static state, array of
+            shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
+        initial_velocity: the same for velocities, m/s and rad/s; zero unless given.
+        scheme: a :class:`TimeScheme`; the midpoint rule, which conserves energy, unless given.
+        coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less
+            time; "physical": its degrees of freedom; "modes": its vibration modes; a number: reduced
+            coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
+            relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
+        expected_steps: about how many steps will be made. Memory and the ground's weights are then
+            ready before the first; unless given, those of the first run.
+        moment_center: x of the point about which the base moment is taken, m; the middle of the base
+            unless given.
+        energy_balance: whether energies are booked; True by default. Without them a step takes less
+            time, and :attr:`Run.energy_error` is NaN.
+        safety_friction: friction coefficient for the factor of safety against sliding; that of the
+            interface law unless given. It changes nothing else.
+        allowable_slip: limit of service of |mean slip|, m; none unless given. This and the next three
+            change nothing in the run: :attr:`Run.serviceability` holds it against them.
+        allowable_gap: limit of service of the gap of any element, m; none unless given.
+        allowable_uplifted_fraction: limit of service of the open length over that of the base, above 0
+            to 1; none unless given.
+        allowable_rotation: limit of service of the base's |rotation|, rad; none unless given.
+        flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
+            most so many iterations a step, for comparison with their paper; the robust search unless
+            given.
+    """
+
     def __new__(
         cls,
         time_step: float,
@@ -601,11 +1205,11 @@ class Simulation:
         probes: Sequence[Probe] | None = None,
         loads: Sequence[Load] | None = None,
         gravity: float | None = None,
-        gravity_stage: str = "frictionless",
+        gravity_stage: _GravityStage = "frictionless",
         initial_displacement: ArrayLike | None = None,
         initial_velocity: ArrayLike | None = None,
         scheme: TimeScheme | None = None,
-        coordinates: str | float | None = None,
+        coordinates: _Coordinates | float | None = None,
         expected_steps: int | None = None,
         moment_center: float | None = None,
         energy_balance: bool = True,
@@ -629,162 +1233,348 @@ class Simulation:
         contact_every: int | None = None,
         motion_every: int | None = None,
         warn: bool = True,
-    ) -> Run: ...
-    def step(self) -> State: ...
-    def steps(self, steps: int | None = None, *, duration: float | None = None) -> Steps: ...
+    ) -> Run:
+        """Makes ``steps`` steps, or those of a ``duration`` (s); without either, those to the end of the
+        motion. If that is past, as many as it has, under rest, with a :class:`BasematWarning`:
+        :meth:`reset` goes back to the start.
+
+        ``progress``: True for a line on stderr, or a function ``(steps done, steps in all)`` that is
+        called about every 50 ms. ``observe(state)`` is called after every ``observe_every``th step
+        and ends the run when it returns True; what it raises comes out of here. Ctrl-C is heard, or
+        a :class:`BasematWarning` says that the process ignores it. In all three cases the
+        simulation stays at the last accepted step.
+
+        ``series``: whether time series are kept, True by default: of every ``every``th step (1 by
+        default, which floor spectra need), of contact every ``contact_every``th and of the structure's
+        motion every ``motion_every``th (none unless given).
+
+        ``warn``: whether every warning in :attr:`Run.warnings` is also a :class:`BasematWarning`; True
+        by default.
+        """
+    def step(self) -> State:
+        """Makes one step and returns the new state. Raises :class:`StepError` if the step could not be
+        solved; the simulation is then as it was before.
+        """
+    def steps(self, steps: int | None = None, *, duration: float | None = None) -> Steps:
+        """An iterator that makes a step and yields its state, ``steps`` times or those of a
+        ``duration`` (s); without either, those to the end of the motion.
+        """
     @property
-    def state(self) -> State: ...
+    def state(self) -> State:
+        """The :class:`State` at the end of the last accepted step (at first: the static state)."""
     @property
-    def time_step(self) -> float: ...
+    def time_step(self) -> float:
+        """Time step, s."""
     @property
-    def probe_names(self) -> list[str]: ...
+    def structure(self) -> Any:
+        """The structure as it was given; of one written in Python with a ``force`` of its own the copy that
+        this simulation works on, with its internal variables.
+        """
     @property
-    def elements(self) -> list[tuple[float, float]]: ...
+    def probe_names(self) -> list[str]:
+        """Names of the probes, in their order."""
     @property
-    def static_displacement(self) -> NDArray[np.float64]: ...
+    def elements(self) -> list[tuple[float, float]]:
+        """Ends of the contact elements: list of (left, right), m."""
     @property
-    def history_choice(self) -> str | None: ...
+    def static_displacement(self) -> NDArray[np.float64]:
+        """Static displacement of the degrees of freedom: array of shape (n,), m and rad."""
     @property
-    def conditioning(self) -> tuple[float, float, float]: ...
-    def steps_for(self, duration: float) -> int: ...
-    def checkpoint(self) -> Checkpoint: ...
-    def reset(self) -> None: ...
-    def resume(self, checkpoint: Checkpoint) -> None: ...
+    def history_choice(self) -> str | None:
+        """Which history the ground keeps and why, in words; None if it has not chosen one yet."""
+    @property
+    def conditioning(self) -> tuple[float, float, float]:
+        """Condition numbers of the three matrices of a step: effective stiffness, ground, contact problem."""
+    def steps_for(self, duration: float) -> int:
+        """Number of steps that last ``duration`` (s), rounded up."""
+    def checkpoint(self) -> Checkpoint:
+        """Saves what the steps so far have left behind as a :class:`Checkpoint`, for :meth:`resume`."""
+    def reset(self) -> None:
+        """Goes back to the start: what follows has the bits that it had from there.
+
+        Needs what :meth:`checkpoint` needs: a structure of the user's that has ``commit`` also has
+        ``save`` and ``restore``.
+        """
+    def resume(self, checkpoint: Checkpoint) -> None:
+        """Goes to where ``checkpoint`` (a :class:`Checkpoint`) was made, in a simulation that was built in
+        the same way; raises :class:`CheckpointError` in another one.
+        """
 
 @final
 class Steps:
+    """An iterator that makes a step whenever it is asked and yields the :class:`State` at its end, as long
+    as ``len()`` of them are left: see :meth:`Simulation.steps`.
+    """
+
     def __iter__(self) -> Self: ...
     def __next__(self) -> State: ...
     def __len__(self) -> int: ...
 
 @final
 class Load:
+    """A force that acts on a structure from outside.
+
+    ``row``: where it acts, a :class:`DofCombination` or what makes one. ``value``: a function of time
+    (s) that returns the force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0
+    belongs to the static state.
+    """
+
     def __new__(cls, row: _RowLike, value: Callable[[float], float]) -> Self: ...
     @staticmethod
-    def constant(row: _RowLike, force: float) -> Load: ...
+    def constant(row: _RowLike, force: float) -> Load:
+        """The same ``force`` (N/m) on the ``row`` at any time, the static state included."""
     @staticmethod
-    def released(row: _RowLike, force: float) -> Load: ...
+    def released(row: _RowLike, force: float) -> Load:
+        """A ``force`` (N/m) on the ``row`` in the static state that is gone from the first step on (snap-back)."""
     @staticmethod
-    def record(row: _RowLike, record: Record, force: float) -> Load: ...
+    def record(row: _RowLike, record: Record, force: float) -> Load:
+        """``force`` (N/m) on the ``row`` times the accelerations of a ``record`` as bare numbers, linear
+        between its samples and zero beyond its ends.
+        """
     @staticmethod
-    def table(row: _RowLike, times: ArrayLike, forces: ArrayLike) -> Load: ...
+    def table(row: _RowLike, times: ArrayLike, forces: ArrayLike) -> Load:
+        """Forces on the ``row`` from a table: ``forces`` (array of shape (m,), N/m) at ``times`` (array of
+        shape (m,), s, ascending), linear between them, zero outside.
+        """
 
 @final
 class TimeScheme:
+    """A time scheme of the structure: the midpoint rule unless told otherwise."""
+
     @staticmethod
-    def midpoint() -> TimeScheme: ...
+    def midpoint() -> TimeScheme:
+        """The midpoint rule: conserves energy."""
     @staticmethod
-    def dissipative_midpoint(gamma: float = 0.8) -> TimeScheme: ...
+    def dissipative_midpoint(gamma: float = 0.8) -> TimeScheme:
+        """The midpoint rule that damps high frequencies: second order, makes no energy with the soil.
+        ``gamma``: ½ (the midpoint rule) to 1; 0.8 by default.
+        """
     @staticmethod
-    def theta(theta: float) -> TimeScheme: ...
+    def theta(theta: float) -> TimeScheme:
+        """The θ rule; ``theta``: ½ (the midpoint rule) to 1. First order above ½."""
     @staticmethod
-    def newmark(gamma: float = 0.5, beta: float = 0.25) -> TimeScheme: ...
+    def newmark(gamma: float = 0.5, beta: float = 0.25) -> TimeScheme:
+        """Newmark's rule, for comparison with papers: its coupling with the soil may make energy.
+        ``gamma`` and ``beta`` are his γ and β, by default ½ and ¼ (average acceleration).
+        """
     @staticmethod
-    def hht_alpha(alpha: float) -> TimeScheme: ...
+    def hht_alpha(alpha: float) -> TimeScheme:
+        """The rule of Hilber, Hughes and Taylor, for comparison with papers: its coupling with the soil may
+        make energy. ``alpha``: −⅓ (most damping) to 0 (none).
+        """
 
 @final
 class State:
+    """The simulation at the end of an accepted step.
+
+    Displacements are changes against the static state, relative to the free field's translation
+    unless they say otherwise. Forces are those of the structure on the soil, per metre of thickness.
+    """
+
     @property
-    def step(self) -> int: ...
+    def step(self) -> int:
+        """Number of steps made."""
     @property
-    def time(self) -> float: ...
+    def time(self) -> float:
+        """Time, s."""
     @property
-    def gap(self) -> NDArray[np.float64]: ...
+    def gap(self) -> NDArray[np.float64]:
+        """Gap of each element: array of shape (elements,), m."""
     @property
-    def slip(self) -> NDArray[np.float64]: ...
+    def slip(self) -> NDArray[np.float64]:
+        """Slip of each element: array of shape (elements,), m."""
     @property
-    def pressure(self) -> NDArray[np.float64]: ...
+    def pressure(self) -> NDArray[np.float64]:
+        """Pressure on each element: array of shape (elements,), Pa."""
     @property
-    def shear(self) -> NDArray[np.float64]: ...
+    def shear(self) -> NDArray[np.float64]:
+        """Shear traction on each element: array of shape (elements,), Pa."""
     @property
-    def modes(self) -> NDArray[np.uint8]: ...
+    def modes(self) -> NDArray[np.uint8]:
+        """Mode of each element: array of shape (elements,) of numbers into :data:`basemat.MODES`."""
     @property
-    def transitions(self) -> list[tuple[int, str, str]]: ...
+    def transitions(self) -> list[tuple[int, _Mode, _Mode]]:
+        """Changes of mode in this step: list of tuples (element, mode before, mode now)."""
     @property
-    def probes(self) -> NDArray[np.float64]: ...
+    def probes(self) -> NDArray[np.float64]:
+        """Values of the probes: array of shape (probes,), in their order."""
     @property
-    def base_shear(self) -> float: ...
+    def base_shear(self) -> float:
+        """Horizontal force on the soil, positive to the right, N/m."""
     @property
-    def base_moment(self) -> float: ...
+    def base_moment(self) -> float:
+        """Moment on the soil, counter-clockwise, N·m/m."""
     @property
-    def normal_force(self) -> float: ...
+    def normal_force(self) -> float:
+        """Total pressure on the soil, N/m."""
     @property
-    def uplifted_fraction(self) -> float: ...
+    def uplifted_fraction(self) -> float:
+        """Ratio of the length of open elements to that of the base."""
     @property
-    def mean_slip(self) -> float: ...
+    def mean_slip(self) -> float:
+        """Slip averaged over the base, m."""
     @property
-    def largest_slip(self) -> float: ...
+    def largest_slip(self) -> float:
+        """Largest |slip| of any element, m."""
     @property
-    def base_rotation(self) -> float: ...
+    def base_rotation(self) -> float:
+        """Rotation of the base, counter-clockwise, rad."""
     @property
-    def foundations(self) -> list[FoundationState]: ...
+    def foundations(self) -> list[FoundationState]:
+        """Each foundation by itself: list of :class:`FoundationState`, from left to right."""
     @property
-    def free_field(self) -> list[float]: ...
+    def free_field(self) -> list[float]:
+        """Mean displacement (to the right, up) of the free field under the base, m."""
     @property
-    def energy_balance(self) -> EnergyBalance: ...
+    def energy_balance(self) -> EnergyBalance:
+        """The :class:`EnergyBalance` since the start."""
     @property
-    def trials(self) -> int: ...
+    def trials(self) -> int:
+        """Number of linear solves that the search for contact modes needed."""
     @property
-    def method(self) -> str: ...
+    def method(self) -> Literal["active set", "gauss-seidel", "path"]:
+        """Method that found the modes: "active set", "gauss-seidel" or "path"."""
     @property
-    def displacement(self) -> NDArray[np.float64]: ...
+    def displacement(self) -> NDArray[np.float64]:
+        """Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad."""
     @property
-    def absolute_displacement(self) -> NDArray[np.float64]: ...
+    def absolute_displacement(self) -> NDArray[np.float64]:
+        """Displacement of the degrees of freedom with the translation of the free field: array of shape
+        (n,), m and rad.
+        """
     @property
-    def velocity(self) -> NDArray[np.float64]: ...
+    def velocity(self) -> NDArray[np.float64]:
+        """Total velocity of the degrees of freedom: array of shape (n,), m/s and rad/s."""
     @property
-    def acceleration(self) -> NDArray[np.float64]: ...
-    def state_variables(self, element: int) -> list[float]: ...
+    def acceleration(self) -> NDArray[np.float64]:
+        """Total acceleration of the degrees of freedom: array of shape (n,), m/s² and rad/s²."""
+    def state_variables(self, element: int) -> list[float]:
+        """State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if it
+        has none.
+        """
 
 @final
 class FoundationState:
+    """A foundation at the end of a step; forces are those of the structure on the soil, per metre."""
+
     @property
-    def elements(self) -> tuple[int, int]: ...
+    def elements(self) -> tuple[int, int]:
+        """Numbers of its first element and of the one after its last."""
     @property
-    def shear(self) -> float: ...
+    def shear(self) -> float:
+        """Horizontal force on the soil, positive to the right, N/m."""
     @property
-    def moment(self) -> float: ...
+    def moment(self) -> float:
+        """Moment on the soil about its middle, counter-clockwise, N·m/m."""
     @property
-    def normal_force(self) -> float: ...
+    def normal_force(self) -> float:
+        """Total pressure, N/m."""
     @property
-    def uplifted_fraction(self) -> float: ...
+    def uplifted_fraction(self) -> float:
+        """Ratio of its open length to its length."""
     @property
-    def mean_slip(self) -> float: ...
+    def mean_slip(self) -> float:
+        """Slip averaged over it, m."""
     @property
-    def rotation(self) -> float: ...
+    def rotation(self) -> float:
+        """Rotation of its chord, rad."""
 
 @final
 class Soil:
+    """Elastic soil: ``shear_modulus`` G = ρ c² (Pa), Poisson's ratio ``poisson`` (above −1, below 0.5),
+    ``density`` (kg/m³). A run warns of a speed of shear waves outside 10 to 5 000 m/s or a density
+    outside 500 to 10 000 kg/m³, which a slip of units often makes.
+    """
+
     def __new__(cls, shear_modulus: float, poisson: float, density: float) -> Self: ...
     @staticmethod
-    def from_shear_wave_speed(speed: float, poisson: float, density: float) -> Soil: ...
+    def from_shear_wave_speed(speed: float, poisson: float, density: float) -> Soil:
+        """staticmethod(function) -> method
+
+        Convert a function to be a static method.
+
+        A static method does not receive an implicit first argument.
+        To declare a static method, use this idiom:
+
+             class C:
+                 @staticmethod
+                 def f(arg1, arg2, argN):
+                     ...
+
+        It can be called either on the class (e.g. C.f()) or on an instance
+        (e.g. C().f()). Both the class and the instance are ignored, and
+        neither is passed implicitly as the first argument to the method.
+
+        Static methods in Python are similar to those found in Java or C++.
+        For a more advanced concept, see the classmethod builtin.
+        """
     @staticmethod
-    def from_wave_speeds(shear: float, pressure: float, density: float) -> Soil: ...
+    def from_wave_speeds(shear: float, pressure: float, density: float) -> Soil:
+        """staticmethod(function) -> method
+
+        Convert a function to be a static method.
+
+        A static method does not receive an implicit first argument.
+        To declare a static method, use this idiom:
+
+             class C:
+                 @staticmethod
+                 def f(arg1, arg2, argN):
+                     ...
+
+        It can be called either on the class (e.g. C.f()) or on an instance
+        (e.g. C().f()). Both the class and the instance are ignored, and
+        neither is passed implicitly as the first argument to the method.
+
+        Static methods in Python are similar to those found in Java or C++.
+        For a more advanced concept, see the classmethod builtin.
+        """
     @property
-    def shear_modulus(self) -> float: ...
+    def shear_modulus(self) -> float:
+        """Shear modulus, Pa."""
     @property
-    def poisson(self) -> float: ...
+    def poisson(self) -> float:
+        """Poisson's ratio, a number."""
     @property
-    def density(self) -> float: ...
+    def density(self) -> float:
+        """Density, kg/m³."""
     @property
-    def shear_wave_speed(self) -> float: ...
+    def shear_wave_speed(self) -> float:
+        """Speed of shear waves, m/s."""
     @property
-    def pressure_wave_speed(self) -> float: ...
+    def pressure_wave_speed(self) -> float:
+        """Speed of pressure waves, m/s."""
     def __getnewargs__(self) -> tuple[float, float, float]: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
 
 @disjoint_base
 class Structure:
+    """A structure with n degrees of freedom (m, rad), free of supports: the ground holds it up. It is a
+    description from which every simulation makes one of its own.
+    """
+
     @property
-    def dofs(self) -> int: ...
-    def contact_nodes(self) -> list[ContactNode]: ...
-    def mass(self) -> NDArray[np.float64]: ...
-    def stiffness(self) -> NDArray[np.float64]: ...
-    def damping(self) -> NDArray[np.float64]: ...
+    def dofs(self) -> int:
+        """Number n of degrees of freedom."""
+    def contact_nodes(self) -> list[ContactNode]:
+        """Points of the base that touch the ground: list of :class:`ContactNode`, from left to right."""
+    def mass(self) -> NDArray[np.float64]:
+        """Mass matrix (n × n array, kg/m); this and the others of up to 20 000 degrees of freedom."""
+    def stiffness(self) -> NDArray[np.float64]:
+        """Stiffness matrix (n × n array, N/m per metre)."""
+    def damping(self) -> NDArray[np.float64]:
+        """Viscous damping matrix (n × n array, N s/m per metre)."""
 
 @final
 class RigidBlock(Structure):
+    """A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to
+    the right, displacement up, rotation.
+
+    ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default.
+    ``p_delta``: gravity (m/s²) with which its weight tips it once it leans; none unless given.
+    """
+
     def __new__(
         cls,
         width: float,
@@ -803,19 +1593,32 @@ class RigidBlock(Structure):
         *,
         center: float = 0.0,
         p_delta: float | None = None,
-    ) -> RigidBlock: ...
+    ) -> RigidBlock:
+        """Block of a ``width`` (m) and a ``mass`` (kg/m) with the ``rotary_inertia`` (kg m²/m) about its
+        centre of mass, which is ``center_height`` (m) above the base; ``center`` and ``p_delta`` are
+        those of the class, if given.
+        """
     HORIZONTAL: ClassVar[int]
     VERTICAL: ClassVar[int]
     ROTATION: ClassVar[int]
     @property
-    def total_mass(self) -> float: ...
+    def total_mass(self) -> float:
+        """Mass, kg/m."""
     @property
-    def base_inertia(self) -> float: ...
-    def horizontal_at(self, height: float) -> DofCombination: ...
-    def vertical_at(self, x: float) -> DofCombination: ...
+    def base_inertia(self) -> float:
+        """Rotary inertia about the middle of the base, kg m²/m."""
+    def horizontal_at(self, height: float) -> DofCombination:
+        """The :class:`DofCombination` of the displacement to the right at a ``height`` (m) above the base."""
+    def vertical_at(self, x: float) -> DofCombination:
+        """The :class:`DofCombination` of the displacement up at ``x`` (m)."""
 
 @final
 class Storey:
+    """A storey of a :class:`ShearBuilding`, per metre of thickness: ``height`` of its columns (m), ``mass``
+    of the floor above (kg), lateral ``stiffness`` (N/m), ``rotary_inertia`` of the floor (kg m²; 0 by
+    default), ``damping`` by a dashpot between the floors (N s/m; 0 by default).
+    """
+
     def __new__(
         cls,
         height: float,
@@ -828,6 +1631,17 @@ class Storey:
 
 @final
 class ShearBuilding(Structure):
+    """Rigid floors on columns that shear, on a rigid base.
+
+    Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute
+    horizontal displacement of every floor from below. ``width`` of the base: m. ``base_mass``: kg/m.
+    ``base_inertia``: kg m²/m. ``storeys``: list of :class:`Storey`, the lowest first. ``damping``: ratio
+    in the first mode on a fixed base, by damping proportional to stiffness; none unless given.
+    ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
+    effect; none unless given. ``laws``: dict ``{storey: law}`` of :class:`Hysteresis` laws that take the
+    place of the stiffness of storeys, storey 0 the lowest; none unless given.
+    """
+
     def __new__(
         cls,
         width: float,
@@ -850,31 +1664,62 @@ class ShearBuilding(Structure):
         slab_inertia: float = 0.0,
         damping: float = 0.0,
         laws: Mapping[int, Hysteresis] | None = None,
-    ) -> ShearBuilding: ...
+    ) -> ShearBuilding:
+        """The ``building`` with its lowest columns on a slab that rests on isolators of this ``law``
+        (:class:`Hysteresis`); they become storey 0, and the building's storeys count from 1.
+
+        ``height`` of the bearings: m. ``slab_mass``: kg/m. ``slab_inertia``: kg m²/m; 0 by default.
+        ``damping`` beside the bearings: N s/m; 0 by default. ``laws``: of further storeys, as for the
+        class; none unless given. The building must have none.
+        """
     @property
-    def total_mass(self) -> float: ...
+    def total_mass(self) -> float:
+        """Mass, kg/m."""
     @property
-    def fixed_base_frequency(self) -> float: ...
+    def fixed_base_frequency(self) -> float:
+        """First natural frequency on a fixed base without P–Δ, Hz."""
     @property
-    def roof(self) -> int: ...
-    def floor(self, storey: int) -> int: ...
-    def drift(self, storey: int) -> DofCombination: ...
-    def total_drift(self, storey: int) -> DofCombination: ...
-    def shear(self, storey: int) -> SectionRows: ...
+    def roof(self) -> int:
+        """Number of the degree of freedom of the topmost floor."""
+    def floor(self, storey: int) -> int:
+        """Number of the degree of freedom of the floor above a ``storey`` (0: the lowest)."""
+    def drift(self, storey: int) -> DofCombination:
+        """The :class:`DofCombination` of the drift of a ``storey`` (0: the lowest), m: its floors' relative
+        displacement less what the base's rotation makes of it.
+        """
+    def total_drift(self, storey: int) -> DofCombination:
+        """The :class:`DofCombination` of the displacement of the floor above a ``storey`` (0: the lowest)
+        less the motion of the base, its rotation included, m.
+        """
+    def shear(self, storey: int) -> SectionRows:
+        """The :class:`SectionRows` of the force (N/m) of what is above the columns of a ``storey`` (0: the
+        lowest) on what is below; of a storey that follows a law, from the inertia above.
+        """
 
 @final
 class RayleighDamping:
+    """Rayleigh damping: ``mass`` (1/s) times the mass matrix and ``stiffness`` (s) times the stiffness."""
+
     def __new__(cls, mass: float, stiffness: float) -> Self: ...
     @staticmethod
-    def from_ratios(frequencies: Sequence[float], ratios: Sequence[float]) -> RayleighDamping: ...
+    def from_ratios(frequencies: Sequence[float], ratios: Sequence[float]) -> RayleighDamping:
+        """Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz)."""
     @property
-    def mass(self) -> float: ...
+    def mass(self) -> float:
+        """Factor of the mass, 1/s."""
     @property
-    def stiffness(self) -> float: ...
-    def ratio(self, frequency: float) -> float: ...
+    def stiffness(self) -> float:
+        """Factor of the stiffness, s."""
+    def ratio(self, frequency: float) -> float:
+        """Damping ratio at a ``frequency`` (Hz)."""
 
 @final
 class ReducedModel(Structure):
+    """A ``structure`` reduced by Craig and Bampton's method to its contact nodes, the degrees of freedom in
+    the list ``keep`` (none unless given) and the lowest ``modes`` modes of the rest. ``damping_ratio``:
+    of these modes, in place of the structure's damping, which stays unless given.
+    """
+
     def __new__(
         cls,
         structure: Structure | UserStructure,
@@ -884,85 +1729,197 @@ class ReducedModel(Structure):
         damping_ratio: float | None = None,
     ) -> Self: ...
     @property
-    def frequencies(self) -> NDArray[np.float64]: ...
-    def row(self, row: _RowLike) -> DofCombination: ...
-    def full(self, reduced: ArrayLike) -> NDArray[np.float64]: ...
+    def frequencies(self) -> NDArray[np.float64]:
+        """Frequencies of the modes: array of shape (modes,), Hz."""
+    def row(self, row: _RowLike) -> DofCombination:
+        """A ``row`` of the full structure as a :class:`DofCombination` of the reduced one, for a probe or a
+        load.
+        """
+    def full(self, reduced: ArrayLike) -> NDArray[np.float64]:
+        """Degrees of freedom of the full structure, array of shape (n,), m and rad, from those of the
+        ``reduced`` one, array of shape (dofs,).
+        """
 
 @final
 class StructureGroup(Structure):
+    """Several structures on one ground, coupled through the soil: ``members`` is a list of pairs
+    ``(structure, shift)`` from left to right, each moved to the right by its shift (m).
+    """
+
     def __new__(cls, members: Sequence[tuple[Structure | UserStructure, float]]) -> Self: ...
-    def row(self, member: int, row: _RowLike) -> DofCombination: ...
+    def row(self, member: int, row: _RowLike) -> DofCombination:
+        """A ``row`` of the structure ``member`` (0: the leftmost) as a :class:`DofCombination` of the group."""
 
 @final
 class WithModalDamping(Structure):
+    """A ``structure`` with damping ``ratios`` (array of shape (m,)) of its own modes beside its own damping:
+    of the lowest mode first, the last of them for all further modes.
+    """
+
     def __new__(cls, structure: Structure | UserStructure, ratios: ArrayLike) -> Self: ...
     @property
-    def frequencies(self) -> NDArray[np.float64]: ...
+    def frequencies(self) -> NDArray[np.float64]:
+        """Frequencies of the modes that are not rigid: array of shape (modes,), Hz."""
 
 @final
 class ContactNode:
+    """A point of the base: its coordinate ``x`` (m), and the rows (:class:`DofCombination`, or what makes
+    one) of its displacement to the right, ``horizontal``, and up, ``vertical``.
+    """
+
     def __new__(cls, x: float, horizontal: _RowLike, vertical: _RowLike) -> Self: ...
     @staticmethod
-    def rigid(x: float, center: float, dofs: Sequence[int]) -> ContactNode: ...
+    def rigid(x: float, center: float, dofs: Sequence[int]) -> ContactNode:
+        """staticmethod(function) -> method
+
+        Convert a function to be a static method.
+
+        A static method does not receive an implicit first argument.
+        To declare a static method, use this idiom:
+
+             class C:
+                 @staticmethod
+                 def f(arg1, arg2, argN):
+                     ...
+
+        It can be called either on the class (e.g. C.f()) or on an instance
+        (e.g. C().f()). Both the class and the instance are ignored, and
+        neither is passed implicitly as the first argument to the method.
+
+        Static methods in Python are similar to those found in Java or C++.
+        For a more advanced concept, see the classmethod builtin.
+        """
     @staticmethod
-    def rigid_base(left: float, right: float, dofs: Sequence[int]) -> list[ContactNode]: ...
+    def rigid_base(left: float, right: float, dofs: Sequence[int]) -> list[ContactNode]:
+        """staticmethod(function) -> method
+
+        Convert a function to be a static method.
+
+        A static method does not receive an implicit first argument.
+        To declare a static method, use this idiom:
+
+             class C:
+                 @staticmethod
+                 def f(arg1, arg2, argN):
+                     ...
+
+        It can be called either on the class (e.g. C.f()) or on an instance
+        (e.g. C().f()). Both the class and the instance are ignored, and
+        neither is passed implicitly as the first argument to the method.
+
+        Static methods in Python are similar to those found in Java or C++.
+        For a more advanced concept, see the classmethod builtin.
+        """
     @property
-    def x(self) -> float: ...
+    def x(self) -> float:
+        """Coordinate to the right, m."""
     @property
-    def horizontal(self) -> DofCombination: ...
+    def horizontal(self) -> DofCombination:
+        """The :class:`DofCombination` of its displacement to the right."""
     @property
-    def vertical(self) -> DofCombination: ...
+    def vertical(self) -> DofCombination:
+        """The :class:`DofCombination` of its displacement up."""
     def __getnewargs__(self) -> tuple[float, DofCombination, DofCombination]: ...
 
 @final
 class FemModel(Structure):
+    """A finite-element structure.
+
+    ``mesh``: a :class:`Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right;
+    a list of such lists for separate foundations; all lowest nodes unless given. ``rayleigh``:
+    :class:`RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
+    or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
+    unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
+    given. ``active_damping``: whether dashpots may feed energy in, which is refused by default.
+    """
+
     def __new__(
         cls,
         mesh: Mesh,
         contact: Sequence[int] | Sequence[Sequence[int]] | None = None,
         *,
         rayleigh: RayleighDamping | None = None,
-        mass: str = "consistent",
+        mass: _Mass = "consistent",
         rigid_links: Sequence[tuple[int, Sequence[int]]] | None = None,
         p_delta: float | None = None,
         active_damping: bool = False,
     ) -> Self: ...
-    def row(self, node: int, direction: str) -> DofCombination: ...
-    def unknown(self, node: int, direction: str) -> int | None: ...
-    def node_at(self, x: float, y: float) -> int: ...
+    def row(self, node: int, direction: _Direction) -> DofCombination:
+        """The :class:`DofCombination` of the motion of a ``node`` in a ``direction``: "x", "y" or "rotation"."""
+    def unknown(self, node: int, direction: _Direction) -> int | None:
+        """Number of the degree of freedom of a ``node`` in a ``direction``, "x", "y" or "rotation"; None if it
+        has none of its own.
+        """
+    def node_at(self, x: float, y: float) -> int:
+        """Number of the node at (``x``, ``y``), m, to a millionth of the model's size."""
     def section(
         self, height: float, reference: float = 0.0
-    ) -> tuple[SectionRows, SectionRows, SectionRows]: ...
-    def pressure_row(self, nodes: Sequence[int]) -> DofCombination: ...
-    def buckling_factor(self) -> float: ...
+    ) -> tuple[SectionRows, SectionRows, SectionRows]:
+        """The :class:`SectionRows` of shear (N/m), compression (N/m) and moment (N·m/m) that the part above
+        ``height`` (m) exerts on the part below, the moment about (``reference``, ``height``), m;
+        ``reference`` is 0 by default.
+        """
+    def pressure_row(self, nodes: Sequence[int]) -> DofCombination:
+        """The :class:`DofCombination` of a uniform pressure on a line of ``nodes`` (list of numbers): as the
+        row of a :class:`Load`, whose forces are then pressures (Pa).
+        """
+    def buckling_factor(self) -> float:
+        """Factor on the axial forces of its static state at which it buckles."""
 
 @final
 class GmshMesh:
+    """A mesh of quadrilaterals from the file of Gmsh (format 4.1, ASCII) at ``path``."""
+
     def __new__(cls, path: str | os.PathLike[str]) -> Self: ...
     @property
-    def surfaces(self) -> list[str]: ...
+    def surfaces(self) -> list[str]:
+        """List of the names of the groups of quadrilaterals."""
     @property
-    def lines(self) -> list[str]: ...
+    def lines(self) -> list[str]:
+        """List of the names of the groups of lines."""
     def mesh(
         self,
         materials: Mapping[str, Material],
         *,
-        formulation: str = "incompatible modes",
+        formulation: _Formulation = "incompatible modes",
         hourglass_percent: int = 5,
-    ) -> Mesh: ...
-    def line(self, name: str) -> list[int]: ...
-    def foundations(self, name: str) -> list[list[int]]: ...
+    ) -> Mesh:
+        """The quadrilaterals as a :class:`Mesh`, each with the material of its group: ``materials`` is a dict
+        ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are those of :class:`Layer`.
+        """
+    def line(self, name: str) -> list[int]:
+        """Numbers of the nodes of the group ``name`` of lines in one piece: list, from left to right."""
+    def foundations(self, name: str) -> list[list[int]]:
+        """Numbers of the nodes of the group ``name`` of lines, a list for each piece: for the ``contact`` of a
+        :class:`FemModel`.
+        """
 
 @disjoint_base
 class Hysteresis:
-    def path(self, deformations: ArrayLike) -> list[float]: ...
+    """A spring whose force depends on where it has been: a yield law of a storey, an isolator.
+    Forces and stiffnesses are per metre of thickness.
+    """
+
+    def path(self, deformations: ArrayLike) -> list[float]:
+        """Forces (list of m numbers, N/m) at the ``deformations`` (array of shape (m,), m) of a path that a
+        new spring is led along.
+        """
 
 @final
 class Bilinear(Hysteresis):
+    """Bilinear: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times
+    the stiffness; unloading with the first stiffness.
+    """
+
     def __new__(cls, stiffness: float, yield_force: float, hardening: float) -> Self: ...
 
 @final
 class BoucWen(Hysteresis):
+    """Bouc–Wen: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times
+    the stiffness, with a smooth knee of an ``exponent``, and ``beta`` for the shape of loops: both, or
+    neither (then 2 and 0.5).
+    """
+
     def __new__(
         cls,
         stiffness: float,
@@ -975,13 +1932,23 @@ class BoucWen(Hysteresis):
 
 @final
 class FrictionPendulum(Hysteresis):
+    """Friction pendulum under a ``weight`` (N/m): ``radius`` of its dish (m), ``friction`` coefficient,
+    ``yield_displacement`` (m; 0.5 mm by default) before it slides.
+    """
+
     def __new__(
         cls, weight: float, radius: float, friction: float, *, yield_displacement: float = ...
     ) -> Self: ...
-    def sliding_period(self, gravity: float = ...) -> float: ...
+    def sliding_period(self, gravity: float = ...) -> float:
+        """Period of sliding on the dish, s, under a ``gravity`` (m/s²; 9.80665 by default)."""
 
 @final
 class LeadRubber(Hysteresis):
+    """Lead–rubber bearing: ``shear_modulus`` (Pa), ``rubber_area`` (m² per metre) and ``rubber_thickness`` (m)
+    of its rubber, ``lead_area`` (m² per metre) of its lead; ``stiffness_ratio``: first stiffness over that
+    after yielding, 10 by default.
+    """
+
     def __new__(
         cls,
         shear_modulus: float,
@@ -994,14 +1961,28 @@ class LeadRubber(Hysteresis):
     @staticmethod
     def from_strength(
         stiffness: float, strength: float, *, stiffness_ratio: float = ...
-    ) -> LeadRubber: ...
+    ) -> LeadRubber:
+        """Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
+        ``stiffness_ratio`` is that of the class.
+        """
     @property
-    def strength(self) -> float: ...
+    def strength(self) -> float:
+        """Strength: force at zero deformation, N/m."""
     @property
-    def stiffness(self) -> float: ...
+    def stiffness(self) -> float:
+        """Stiffness after yielding, N/m per metre."""
 
 @final
 class MatrixModel(Structure):
+    """A structure given by its mass, stiffness and damping matrices, dense or of ``scipy.sparse``.
+
+    ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
+    (m, rad). The structure is free, without supports: the ground holds it up. ``contact``: the
+    points of its base, a list of :class:`ContactNode` from left to right. ``damping`` (n × n, N s/m per
+    metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
+    (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given.
+    """
+
     def __new__(
         cls,
         mass: _MatrixLike,
@@ -1015,28 +1996,51 @@ class MatrixModel(Structure):
 
 @final
 class Material:
+    """Elastic material in plane strain: Young's modulus ``young_modulus`` (Pa), Poisson's ratio ``poisson``,
+    ``density`` (kg/m³).
+    """
+
     def __new__(cls, young_modulus: float, poisson: float, density: float) -> Self: ...
 
 @final
 class Layer:
+    """Horizontal layer of a block of quadrilaterals: ``height`` (m), number of ``rows`` of elements,
+    ``material`` (:class:`Material`).
+
+    ``formulation`` of four-node quadrilaterals: "incompatible modes" (the default: right in bending),
+    "full" (2 × 2 points), "one point" (without stiffness against hourglass modes) or "hourglass" (one
+    point, stabilised with ``hourglass_percent``, 5 by default).
+    """
+
     def __new__(
         cls,
         height: float,
         rows: int,
         material: Material,
         *,
-        formulation: str = "incompatible modes",
+        formulation: _Formulation = "incompatible modes",
         hourglass_percent: int = 5,
     ) -> Self: ...
 
 @final
 class Mesh:
+    """Nodes and finite elements; ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add
+    elements, all or, if one is refused, none.
+    """
+
     def __new__(cls, nodes: ArrayLike | None = None) -> Self: ...
     @staticmethod
-    def layered_block(left: float, right: float, columns: int, layers: Sequence[Layer]) -> Mesh: ...
+    def layered_block(left: float, right: float, columns: int, layers: Sequence[Layer]) -> Mesh:
+        """Block of ``columns`` of equal width from ``left`` to ``right`` (m): ``layers`` is a list of
+        :class:`Layer` from y = 0 upwards.
+        """
     @staticmethod
-    def graded_block(grid: ArrayLike, layers: Sequence[Layer]) -> Mesh: ...
-    def add_node(self, x: float, y: float) -> int: ...
+    def graded_block(grid: ArrayLike, layers: Sequence[Layer]) -> Mesh:
+        """Block with columns between the lines of ``grid`` (array of shape (columns + 1,), x in m, ascending):
+        ``layers`` is a list of :class:`Layer` from y = 0 upwards.
+        """
+    def add_node(self, x: float, y: float) -> int:
+        """Adds a node at (``x``, ``y``), m; returns its number."""
     def add_beams(
         self,
         nodes: ArrayLike,
@@ -1048,34 +2052,68 @@ class Mesh:
         shear_stiffness: ArrayLike | None = None,
         rotary_inertia: bool = False,
         compression: ArrayLike | None = None,
-    ) -> None: ...
+    ) -> None:
+        """Adds beams on ``nodes`` (array of shape (beams, 2)): ``young_modulus`` (Pa), ``area`` (m²) and
+        ``second_moment`` (m⁴) per metre of thickness, ``density`` (kg/m³), each one number or an array of
+        one per beam. ``shear_stiffness`` (N per metre): of Timoshenko beams, infinite unless given;
+        ``rotary_inertia``: whether sections have one, False by default; ``compression`` (N per metre):
+        axial force of P–Δ, none unless given.
+        """
     def add_trusses(
         self, nodes: ArrayLike, young_modulus: ArrayLike, area: ArrayLike, density: ArrayLike
-    ) -> None: ...
-    def add_springs(self, nodes: ArrayLike, direction: str, stiffness: ArrayLike) -> None: ...
-    def add_dashpots(self, nodes: ArrayLike, direction: str, coefficient: ArrayLike) -> None: ...
-    def add_mass(self, node: int, mass: float, *, rotary_inertia: float | None = None) -> None: ...
+    ) -> None:
+        """Adds trusses on ``nodes`` (array of shape (trusses, 2)): ``young_modulus`` (Pa), ``area`` (m² per
+        metre of thickness), ``density`` (kg/m³), each one number or an array of one per truss.
+        """
+    def add_springs(self, nodes: ArrayLike, direction: _SpringDirection, stiffness: ArrayLike) -> None:
+        """Adds springs between ``nodes`` (array of shape (springs, 2)) in a ``direction`` ("x", "y",
+        "rotation" or "axial"), of ``stiffness`` (N/m, of rotations N·m).
+        """
+    def add_dashpots(self, nodes: ArrayLike, direction: _SpringDirection, coefficient: ArrayLike) -> None:
+        """Adds dashpots between ``nodes`` (array of shape (dashpots, 2)) in a ``direction`` ("x", "y",
+        "rotation" or "axial"), of a ``coefficient`` (N s/m, of rotations N·m s).
+        """
+    def add_mass(self, node: int, mass: float, *, rotary_inertia: float | None = None) -> None:
+        """Adds a ``mass`` (kg/m) at a ``node``, with a ``rotary_inertia`` (kg m²/m; none unless given)."""
     def add_quads(
         self,
         nodes: ArrayLike,
         material: Material,
         *,
-        formulation: str = "incompatible modes",
+        formulation: _Formulation = "incompatible modes",
         hourglass_percent: int = 5,
-    ) -> None: ...
+    ) -> None:
+        """Adds plane-strain quadrilaterals of a ``material`` on ``nodes``, counter-clockwise: array of shape
+        (quads, 4), or (quads, 8) with the midside nodes last. ``formulation`` and ``hourglass_percent``,
+        those of :class:`Layer`, are for four nodes.
+        """
     @property
-    def nodes(self) -> NDArray[np.float64]: ...
-    def node_at(self, x: float, y: float) -> int: ...
-    def nodes_at_height(self, y: float, tolerance: float = 1e-9) -> list[int]: ...
+    def nodes(self) -> NDArray[np.float64]:
+        """Coordinates of the nodes: array of shape (nodes, 2), m."""
+    def node_at(self, x: float, y: float) -> int:
+        """Number of the node at (``x``, ``y``), m, to a millionth of the mesh's size."""
+    def nodes_at_height(self, y: float, tolerance: float = 1e-9) -> list[int]:
+        """Numbers of the nodes at a height ``y`` (m) within a ``tolerance`` (m; 1e-9 by default): list, from
+        left to right.
+        """
 
 @final
 class WithSprings(Structure):
+    """A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
+    freedom, which is the spring's deformation (m), and a :class:`Hysteresis`.
+    """
+
     def __new__(
         cls, structure: Structure | UserStructure, springs: Sequence[tuple[_RowLike, Hysteresis]]
     ) -> Self: ...
 
 @final
 class Condition:
+    """One linear condition on an element at the end of a step:
+    ``gap`` · g + ``slip`` · s + ``pressure`` · p + ``shear`` · τ = ``value``, with its gap g and slip s (m),
+    pressure p and shear traction τ (Pa); what is not given is 0.
+    """
+
     def __new__(
         cls,
         *,
@@ -1086,89 +2124,182 @@ class Condition:
         value: float = 0.0,
     ) -> Self: ...
     @staticmethod
-    def gap_is(value: float) -> Condition: ...
+    def gap_is(value: float) -> Condition:
+        """The gap is ``value``, m."""
     @staticmethod
-    def slip_is(value: float) -> Condition: ...
+    def slip_is(value: float) -> Condition:
+        """The slip is ``value``, m."""
     @staticmethod
-    def pressure_is(value: float) -> Condition: ...
+    def pressure_is(value: float) -> Condition:
+        """The pressure is ``value``, Pa."""
     @staticmethod
-    def shear_is(value: float) -> Condition: ...
+    def shear_is(value: float) -> Condition:
+        """The shear traction is ``value``, Pa."""
 
 @final
 class ContactState:
+    """Opening and total traction of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure``
+    (positive in compression) and ``shear`` (Pa); 0 by default.
+    """
+
     @property
-    def gap(self) -> float: ...
+    def gap(self) -> float:
+        """Gap, m; positive when open."""
     @property
-    def slip(self) -> float: ...
+    def slip(self) -> float:
+        """Slip since the static state, m; positive to the right."""
     @property
-    def pressure(self) -> float: ...
+    def pressure(self) -> float:
+        """Pressure, Pa; positive in compression."""
     @property
-    def shear(self) -> float: ...
+    def shear(self) -> float:
+        """Shear traction of the structure on the soil, Pa; positive to the right."""
     def __new__(
         cls, *, gap: float = 0.0, slip: float = 0.0, pressure: float = 0.0, shear: float = 0.0
     ) -> Self: ...
 
 @final
 class Tolerance:
+    """Differences below which a law should see equality: ``length`` of gaps and slips (m), ``traction`` of
+    pressure and shear (Pa).
+    """
+
     @property
-    def length(self) -> float: ...
+    def length(self) -> float:
+        """Difference of gaps and slips, m."""
     @property
-    def traction(self) -> float: ...
+    def traction(self) -> float:
+        """Difference of tractions, Pa."""
     def __new__(cls, length: float, traction: float) -> Self: ...
 
 @final
 class PreviousContact:
+    """An element at the start of a step: what a law knows of it.
+
+    A law can be tried without a simulation on one that is made of a ``state`` (:class:`ContactState`),
+    its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's state
+    variables ``memory`` (array of shape (m,); none unless given).
+    """
+
     def __new__(
         cls,
         state: ContactState,
-        mode: str,
+        mode: _Mode,
         time_step: float,
         *,
         slip_rate: float = 0.0,
         memory: ArrayLike | None = None,
     ) -> Self: ...
     @property
-    def gap(self) -> float: ...
+    def gap(self) -> float:
+        """Gap, m; positive when open."""
     @property
-    def slip(self) -> float: ...
+    def slip(self) -> float:
+        """Slip since the static state, m; positive to the right."""
     @property
-    def pressure(self) -> float: ...
+    def pressure(self) -> float:
+        """Pressure, Pa; positive in compression."""
     @property
-    def shear(self) -> float: ...
+    def shear(self) -> float:
+        """Shear traction of the structure on the soil, Pa; positive to the right."""
     @property
-    def mode(self) -> str: ...
+    def mode(self) -> _Mode:
+        """Mode of the step before, as in :data:`basemat.MODES`."""
     @property
-    def has_opened(self) -> bool: ...
+    def has_opened(self) -> bool:
+        """Whether the element has been open."""
     @property
-    def slip_rate(self) -> float: ...
+    def slip_rate(self) -> float:
+        """Slip rate of the step before, m/s."""
     @property
-    def static_pressure(self) -> float: ...
+    def static_pressure(self) -> float:
+        """Pressure of the static state, Pa."""
     @property
-    def time_step(self) -> float: ...
+    def time_step(self) -> float:
+        """Time step, s."""
     @property
-    def memory(self) -> list[float]: ...
+    def memory(self) -> list[float]:
+        """State variables of the law: list of numbers."""
 
 def refine(
     elements: int,
     time_step: float,
     scene: Callable[[int, float], float | ArrayLike],
-) -> Refinement: ...
-def el_centro_1940() -> Record: ...
+) -> Refinement:
+    """Runs a scene at six settings and estimates the error of each by Richardson's extrapolation.
+
+    ``scene(elements, time_step)`` builds and runs, and returns a number or an array: a peak, some
+    peaks, or a time series at times that all settings have (those of the coarsest). Settings are
+    ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the
+    elements, and twice the elements with half the step.
+    """
+def el_centro_1940() -> Record:
+    """The :class:`Record` of El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s."""
 def free_field(
     *,
     displacement: Callable[[float, float], float | Sequence[float]] | None = None,
     acceleration: Callable[[float], float | Sequence[float]] | None = None,
     time_step: float | None = None,
     duration: float | None = None,
-) -> FreeField: ...
-def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]: ...
+) -> FreeField:
+    """A motion of functions, named by what they return: give one of the two.
+
+    ``displacement``: a function ``(x, time) -> (right, up)`` of the surface's displacement in m, at x
+    (m) and time (s, above 0). It should begin with zero: until t = 0 the ground rests.
+
+    ``acceleration``: a function ``(time) -> (right, up)`` in m/s², everywhere the same at once. It is
+    sampled every ``time_step`` (s) from 0 to ``duration`` (s), taken as linear between the samples as
+    a :class:`Record`, and integrated exactly from rest; after the ``duration`` it is zero, and the
+    velocity stays what it is by then.
+
+    Either may return a number instead, the motion to the right, and may raise. None is for the other one,
+    and for its ``time_step`` and ``duration``.
+    """
+def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]:
+    """``count`` numbers from ``first`` to ``last`` with equal ratios, for periods in s: array of shape
+    (count,).
+    """
 def vertical_incidence(
     horizontal: Record | None = None, vertical: Record | None = None
-) -> FreeField: ...
-def travelling_wave(motion: FreeField, apparent_velocity: float, origin: float) -> FreeField: ...
+) -> FreeField:
+    """Motion of a ``horizontal`` :class:`Record` (to the right), of a ``vertical`` one (up), or of both, the
+    same everywhere at once; the one that is None rests.
+    """
+def travelling_wave(motion: FreeField, apparent_velocity: float, origin: float) -> FreeField:
+    """A ``motion`` (:class:`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
+    negative), as it is at the ``origin`` (x, m).
+    """
 def ricker(
     amplitude: float, sigma: float, center: float, *, vertical: bool = False
-) -> FreeField: ...
-def memory_limit() -> int: ...
-def set_memory_limit(bytes: int) -> None: ...
-def cancel_when(event: Any = None) -> None: ...
+) -> FreeField:
+    """A Ricker pulse of displacement: peak ``amplitude`` (m), width ``sigma`` (s), at ``center`` (s), to the
+    right or, if ``vertical`` (False by default), up.
+    """
+def memory_limit() -> int:
+    """Most memory (bytes) that the size of one mesh, matrix, ground, record or sweep may ask for;
+    4 GiB unless :func:`set_memory_limit` was called.
+    """
+def set_memory_limit(bytes: int) -> None:
+    """Sets the limit for this process to so many ``bytes``: what the machine has, less what else runs on it.
+    Sizes are held against it before anything is allocated, and refused with what they would take.
+    """
+def _cancel_when(event: Any = None) -> None:
+    """Runs of this thread end with ``KeyboardInterrupt`` once ``event.is_set()``; None for no event."""
+def _restored(kind: str, data: bytes) -> Any:
+    """The result of the class ``kind`` from the bytes ``data`` that its pickle holds."""
+def _case_numbers(grid: Sequence[tuple[str, Sequence[Any]]], shard: tuple[int, int] | None = None) -> list[int]:
+    """Numbers of the cases of a grid, a list of pairs (name, values), or of its ``shard`` (index, of)."""
+def _save_cases(
+    path: str | os.PathLike[str],
+    grid: Sequence[tuple[str, Sequence[Any]]],
+    shard: tuple[int, int] | None,
+    columns: Sequence[str],
+    outcomes: Sequence[Sequence[Any] | str],
+) -> None:
+    """Writes a file of cases: ``outcomes`` is the list of the results, in the order of ``columns``, or
+    the text of the error of each case.
+    """
+def _merge_cases(
+    paths: Sequence[str | os.PathLike[str]], grid: Sequence[tuple[str, Sequence[Any]]]
+) -> tuple[list[str], list[tuple[list[float] | None, str | None]]]:
+    """Columns and results of all cases of a grid from the files of its shards, and the texts of errors."""

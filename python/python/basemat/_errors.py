@@ -1,6 +1,8 @@
 """Exceptions and warnings of the package."""
 
-import re
+import re as _re
+
+__all__ = ["BasematWarning", "CheckpointError", "Error", "FileError", "InputError", "StepError"]
 
 
 class Error(Exception):
@@ -12,7 +14,7 @@ class InputError(Error, ValueError):
 
     def add_note(self, note: str) -> None:
         """Takes a note into the text; of the argument that was refused, which PyO3 notes, the name."""
-        name = re.fullmatch(r"while processing '(\w+)'", note)
+        name = _re.fullmatch(r"while processing '(\w+)'", note)
         self.args = (f"{name[1]}: {self}" if name else f"{self}\n{note}",)
 
 
@@ -38,6 +40,5 @@ class BasematWarning(UserWarning):
     """What a user should know of a run that is no error: ``warnings`` filters it by this class."""
 
 
-for _class in (Error, InputError, FileError, CheckpointError, StepError, BasematWarning):
-    _class.__module__ = "basemat"
-del _class
+for _name in __all__:
+    globals()[_name].__module__ = "basemat"

@@ -1,12 +1,16 @@
-"""Results as pandas frames."""
+"""Results as pandas frames: methods of the results."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._core import MODES
+from ._core import MODES, Impedances, Run, Spectrum
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 def pandas() -> Any:
@@ -18,16 +22,45 @@ def pandas() -> Any:
     return pandas
 
 
-def run(run: Any) -> Any:
-    """All time series of a run, indexed by the time."""
-    return pandas().DataFrame(run.series).set_index("time")
+_UNITS = {
+    "m": "x left right gap slip mean_slip residual_slip displacement",
+    "Pa": "pressure shear static_pressure lowest_pressure highest_pressure",
+    "s": "time open period",
+    "m/s": "pseudo_velocity",
+    "m/s²": "acceleration pseudo_acceleration",
+    "N/m": "static_normal_force base_shear normal_force coupling",
+    "N·m/m": "base_moment",
+    "rad": "base_rotation",
+    "N/m²": "horizontal vertical",
+    "N": "rocking",
+    "Hz": "frequency",
+}
+_UNIT = {name: unit for unit, names in _UNITS.items() for name in names.split()}
 
 
-def contact(run: Any) -> Any:
-    """Snapshots of the base, a row per frame and element."""
-    columns = run.contact
+def _with_units(frame: Any, units: dict[str, str]) -> Any:
+    """The frame, with the units of its columns and its index in ``attrs``."""
+    names = [name for name in (frame.index.name, *frame.columns) if name is not None]
+    frame.attrs["units"] = {name: units.get(name, "") for name in names}
+    return frame
+
+
+def to_frame(self: Run) -> Any:
+    """All time series as a pandas frame, indexed by the time (s).
+
+    Units of the columns of this and of all other frames are in ``frame.attrs["units"]``.
+    """
+    return _with_units(pandas().DataFrame(self.series).set_index("time"), self.units)
+
+
+def contact_frame(self: Run) -> Any:
+    """Snapshots of the base as a tidy pandas frame: a row per frame and element.
+
+    Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode".
+    """
+    columns = self.contact
     frames, elements = columns["gap"].shape
-    x = 0.5 * (run.envelope["left"] + run.envelope["right"])
+    x = 0.5 * (self.envelope["left"] + self.envelope["right"])
     table = {
         "time": np.repeat(columns["time"], elements),
         "element": np.tile(np.arange(elements), frames),
@@ -35,11 +68,74 @@ def contact(run: Any) -> Any:
     }
     table.update({name: columns[name].ravel() for name in ("gap", "slip", "pressure", "shear")})
     modes = pandas().Categorical.from_codes(columns["mode"].ravel(), categories=MODES)
-    return pandas().DataFrame({**table, "mode": modes})
+    return _with_units(pandas().DataFrame({**table, "mode": modes}), _UNIT)
 
 
-def spectrum(spectrum: Any) -> Any:
-    """A spectrum, indexed by the period."""
+def envelope_frame(self: Run) -> Any:
+    """:attr:`Run.envelope` as a pandas frame: a row per element."""
+    frame = pandas().DataFrame(self.envelope)
+    return _with_units(frame.rename_axis("element"), _UNIT)
+
+
+def foundation_frame(self: Run) -> Any:
+    """:attr:`Run.foundations` as a pandas frame: a row each, largest values with their signs."""
+    rows = [
+        {
+            "left": own.ends[0],
+            "right": own.ends[1],
+            "static_normal_force": own.static_normal_force,
+            "base_shear": own.base_shear.largest.value,
+            "base_moment": own.base_moment.largest.value,
+            "normal_force": own.normal_force.largest.value,
+            "base_rotation": own.base_rotation.largest.value,
+            "uplifted_fraction": own.uplifted_fraction.value,
+            "mean_slip": own.mean_slip.largest.value,
+            "residual_slip": own.residual_slip,
+        }
+        for own in self.foundations
+    ]
+    return _with_units(pandas().DataFrame(rows).rename_axis("foundation"), _UNIT)
+
+
+def energy_frame(self: Run) -> Any:
+    """:attr:`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m."""
+    frame = pandas().DataFrame(self.energy_balances).set_index("time")
+    return _with_units(frame, self.units)
+
+
+def floor_spectra(
+    self: Run,
+    periods: ArrayLike,
+    damping: float = 0.05,
+    *,
+    probes: Sequence[str] | None = None,
+) -> Any:
+    """Floor spectra as a pandas frame: total accelerations (m/s²), a column per probe.
+
+    Args:
+        periods: natural periods, array of shape (m,), s: the index of the frame.
+        damping: damping ratio; 0.05 by default.
+        probes: names of acceleration probes; all those with the unit "m/s²" unless given.
+    """
+    units = self.units
+    names = [name for name in self.probes if units[name] == "m/s²"] if probes is None else probes
+    columns = {name: self.floor_spectrum(name, periods, damping).acceleration for name in names}
+    index = pandas().Index(np.asarray(periods, dtype=float), name="period")
+    frame = pandas().DataFrame(columns, index=index)
+    return _with_units(frame, {"period": "s", **dict.fromkeys(names, "m/s²")})
+
+
+def spectrum_frame(self: Spectrum) -> Any:
+    """The spectrum as a pandas frame, indexed by the period (s)."""
     columns = ("displacement", "pseudo_velocity", "pseudo_acceleration", "acceleration")
-    values = {name: getattr(spectrum, name) for name in columns}
-    return pandas().DataFrame(values, index=pandas().Index(spectrum.period, name="period"))
+    values = {name: getattr(self, name) for name in columns}
+    index = pandas().Index(self.period, name="period")
+    return _with_units(pandas().DataFrame(values, index=index), _UNIT)
+
+
+def impedance_frame(self: Impedances) -> Any:
+    """The impedances as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
+    columns = ("horizontal", "vertical", "rocking", "coupling")
+    values = {name: getattr(self, name) for name in columns}
+    index = pandas().Index(self.frequency, name="frequency")
+    return _with_units(pandas().DataFrame(values, index=index), _UNIT)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import sys
 from collections.abc import Callable, Mapping, MutableSequence
 from typing import Any, NamedTuple
 
@@ -57,6 +58,18 @@ _DESCRIBED = (
     _core.Mesh,
     _core.GmshMesh,
     _core.Condition,
+)
+_SHOWN = (
+    _core.ContactState,
+    _core.FoundationState,
+    _core.FoundationSummary,
+    _core.Impedances,
+    _core.PreviousContact,
+    _core.Refinement,
+    _core.SectionRows,
+    _core.SharedKernels,
+    _core.Steps,
+    _core.Tolerance,
 )
 _FIELDS = (
     (_core.PlaneWave, "field_from_horizontal"),
@@ -167,10 +180,18 @@ def _reduce(self: Any) -> Any:
 def _repr(self: Any) -> str:
     """The call that makes it."""
     made = _how(self)
-    owner = made.owner if isinstance(made.owner, type) else type(self)
+    is_named = isinstance(made.owner, type) or inspect.isfunction(made.owner)
+    owner = made.owner if is_named else type(self)
     name = owner.__name__ if made.name is None else f"{owner.__name__}.{made.name}"
     keywords = [f"{name}={_short(value)}" for name, value in made.keywords.items()]
     return f"{name}({', '.join([*map(_short, made.arguments), *keywords])})"
+
+
+def _values(self: Any) -> str:
+    """The values that can be read of it."""
+    names = [name for name, own in vars(type(self)).items() if inspect.isgetsetdescriptor(own)]
+    values = [f"{name}={_short(getattr(self, name))}" for name in names if name != "__dict__"]
+    return f"{type(self).__name__}({', '.join(values)})"
 
 
 def _short(value: Any) -> str:
@@ -186,6 +207,16 @@ def _short(value: Any) -> str:
 def _prepare(described: Any) -> None:
     """Lets a class remember what its instances are made of."""
     signature = inspect.signature(described) if described.__text_signature__ else None
+    described.__reduce__ = _reduce
+    if described.__repr__ is object.__repr__:
+        described.__repr__ = _repr
+    for name, method in list(vars(described).items()):
+        if isinstance(method, staticmethod) and not name.startswith("_"):
+            make = getattr(described, name)
+            setattr(described, name, staticmethod(_remembering(make, described, name)))
+    if signature is None and sys.version_info >= (3, 10):
+        # It has no constructor; older versions do not know signatures of classes.
+        return
 
     def __init__(self: Any, *arguments: Any, **keywords: Any) -> None:
         _init(self, *arguments, **keywords)
@@ -198,13 +229,6 @@ def _prepare(described: Any) -> None:
         except ValueError:
             pass
     described.__init__ = __init__
-    described.__reduce__ = _reduce
-    if described.__repr__ is object.__repr__:
-        described.__repr__ = _repr
-    for name, method in list(vars(described).items()):
-        if isinstance(method, staticmethod) and not name.startswith("_"):
-            make = getattr(described, name)
-            setattr(described, name, staticmethod(_remembering(make, described, name)))
 
 
 def _prepare_method(owner: Any, name: str) -> None:
@@ -238,6 +262,9 @@ def prepare() -> None:
     for described in _DESCRIBED:
         _prepare(described)
     _core.FreeField.__reduce__ = _reduce  # type: ignore[method-assign]
+    _core.FreeField.__repr__ = _repr  # type: ignore[method-assign]
+    for shown in _SHOWN:
+        shown.__repr__ = _values  # type: ignore[method-assign]
     # A record is its samples.
     _core.Record.__reduce__ = object.__reduce__  # type: ignore[method-assign]
     for owner, name in _FIELDS:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
+__all__ = ["UserLaw", "UserStructure"]
+
 if TYPE_CHECKING:
     from ._core import Condition, ContactNode, ContactState, PreviousContact, Tolerance
 

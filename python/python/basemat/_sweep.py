@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 import itertools
+import math
 import os
 import threading
 import traceback
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import (
+    BrokenExecutor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    wait,
+)
 from typing import Any, Optional
 
 from . import _core
 from ._core import Run, Simulation
+from ._errors import InputError
 
 # Results of a case, the texts of its run's warnings, and that of its error.
 Outcome = tuple[dict[str, Any], Optional[str], Optional[str]]
@@ -19,13 +27,24 @@ _OWN = ("warnings", "error")
 """Columns that every table has."""
 
 
-def cases_of(grid: Any) -> list[dict[str, Any]]:
-    """The cases of a grid: of a mapping all combinations, the last name fastest; a list as it is."""
+Grid = list[tuple[str, list[Any]]]
+"""Names and values of parameters."""
+
+
+def parameters_of(grid: Any) -> Grid | None:
+    """Names and values of a grid that is a mapping."""
     if isinstance(grid, Mapping):
-        names = list(grid)
-        values = [list(own) for own in grid.values()]
-        return [dict(zip(names, combination)) for combination in itertools.product(*values)]
-    return [dict(case) for case in grid]
+        return [(name, list(values)) for name, values in grid.items()]
+    return None
+
+
+def cases_of(grid: Any, parameters: Grid | None) -> list[dict[str, Any]]:
+    """The cases of a grid: of parameters all combinations, the last name fastest; a list as it is."""
+    if parameters is None:
+        return [dict(case) for case in grid]
+    names = [name for name, _ in parameters]
+    values = [values for _, values in parameters]
+    return [dict(zip(names, combination)) for combination in itertools.product(*values)]
 
 
 def results_of(
@@ -69,15 +88,15 @@ def described(error: BaseException) -> str:
 
 def _run_in_thread(cancelled: threading.Event, *arguments: Any) -> Outcome:
     """A case whose runs end once ``cancelled`` is set."""
-    _core.cancel_when(cancelled)
+    _core._cancel_when(cancelled)
     try:
         return run_case(*arguments)
     finally:
-        _core.cancel_when(None)
+        _core._cancel_when(None)
 
 
-def _outcome(future: Future[Any]) -> Outcome:
-    """Outcome of a case, or the error of a worker that died before it could report one."""
+def _outcome(future: Future[Any]) -> Outcome | BrokenExecutor:
+    """Outcome of a case, or the error of a pool one of whose workers died before it could report one."""
     # A wait without end would not hear Ctrl-C everywhere.
     while not wait([future], timeout=0.2).done:
         pass
@@ -86,6 +105,8 @@ def _outcome(future: Future[Any]) -> Outcome:
         return outcome
     except (KeyboardInterrupt, SystemExit):
         raise
+    except BrokenExecutor as error:
+        return error
     except BaseException as error:  # Cancelled futures of Dask are no Exception.
         return {}, None, described(error)
 
@@ -100,6 +121,8 @@ def sweep(
     jobs: int | None = None,
     executor: Any = None,
     progress: bool | Callable[[int, int], Any] = False,
+    shard: tuple[int, int] | None = None,
+    file: str | os.PathLike[str] | None = None,
 ) -> Any:
     """Runs a scene for every case of a grid; a pandas frame with one row per case.
 
@@ -114,9 +137,15 @@ def sweep(
         results: columns of a row, from its run; :meth:`Run.summary` unless given.
         jobs: threads (the GIL is released while steps are made); one unless given, all processors
             for 0.
-        executor: instead, any executor of ``concurrent.futures``, or a ``Client`` of Dask, which runs
-            the cases of a worker that dies on another one; ``make`` and what it returns must pickle.
+        executor: instead, any executor of ``concurrent.futures``, or a ``Client`` of Dask; ``make`` and
+            what it returns must pickle. Cases of a process that dies run again in others.
         progress: True for a line on stderr, or a function ``(cases done, cases in all)``.
+        shard: ``(index, of)``: only case ``index`` and every ``of``-th one after it, from 0; the
+            frame's index has the numbers of the cases. All cases unless given.
+        file: path of a file of comma-separated values that is written when all cases are done, with
+            a check sum in every row, as Rust's sweeps write it: :func:`merge` and Rust read it. The
+            grid must be a mapping to numbers or texts, and results must be numbers. If it cannot be
+            written, the frame is the attribute ``table`` of the error. None unless given.
 
     Returns:
         Frame with the columns of the parameters, of the results, ``warnings`` (None, or the texts of
@@ -126,7 +155,15 @@ def sweep(
     from ._frames import pandas
 
     frames = pandas()
-    cases = cases_of(grid)
+    given = parameters_of(grid)
+    cases = cases_of(grid, given)
+    numbers = _shard(range(len(cases)), shard)
+    if file is not None:
+        # Before anything runs.
+        if given is None:
+            raise InputError("file: the grid is a list, but must be a mapping of names to values")
+        _core._case_numbers(given, shard)
+    cases = [cases[number] for number in numbers]
     parameters = list(dict.fromkeys(name for case in cases for name in case))
     for name in _OWN:
         if name in parameters:
@@ -136,8 +173,7 @@ def sweep(
     if _dask.is_client(executor):
         outcomes = _dask.outcomes(executor, make, cases, (steps, duration, results), tell)
     elif executor is not None:
-        futures = [executor.submit(run_case, *own) for own in arguments]
-        outcomes = _collect(futures, tell)
+        outcomes = _submitted(executor, arguments, tell)
     elif jobs is None or jobs == 1:
         outcomes = []
         for own in arguments:
@@ -146,7 +182,73 @@ def sweep(
     else:
         outcomes = _in_threads(arguments, jobs or os.cpu_count() or 1, tell)
     taken = {*parameters, *_OWN}
-    return frames.DataFrame(_table(cases, parameters, [_distinct(own, taken) for own in outcomes]))
+    outcomes = [_distinct(own, taken) for own in outcomes]
+    table = frames.DataFrame(_table(cases, parameters, outcomes), index=numbers)
+    if file is not None and given is not None:
+        try:
+            _save(file, given, shard, outcomes)
+        except Exception as error:
+            error.table = table  # type: ignore[attr-defined]
+            raise
+    return table
+
+
+def merge(
+    files: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
+    grid: Mapping[str, Any],
+) -> Any:
+    """Puts the files of a sweep's shards together; a pandas frame with one row per case.
+
+    Args:
+        files: path of a file that :func:`sweep` or a sweep in Rust wrote, or a list of such paths,
+            which hold every case of the grid once.
+        grid: names and values of the whole sweep, a mapping as for :func:`sweep`.
+
+    Returns:
+        Frame with the columns of the parameters, of the results and ``error`` (None, or its text),
+        rows in the order of the cases. A file that was cut off or changed, and cases that are there
+        twice or not at all, raise a :class:`FileError`.
+    """
+    from ._frames import pandas
+
+    paths = [files] if isinstance(files, (str, os.PathLike)) else list(files)
+    parameters = parameters_of(grid)
+    if parameters is None:
+        raise InputError("grid is a list, but must be a mapping of names to values")
+    columns, outcomes = _core._merge_cases(paths, parameters)
+    found: list[Outcome] = [
+        (dict(zip(columns, results or ())), None, error) for results, error in outcomes
+    ]
+    names = [name for name, _ in parameters]
+    table = _table(cases_of(grid, parameters), names, found)
+    del table["warnings"]
+    return pandas().DataFrame(table)
+
+
+def _shard(numbers: range, shard: tuple[int, int] | None) -> range:
+    """Numbers of the cases of a shard."""
+    if shard is None:
+        return numbers
+    index, of = shard
+    if not 0 <= index < of:
+        raise InputError(f"shard is {shard}, but must be (index, of) with 0 ≤ index < of")
+    return numbers[index::of]
+
+
+def _save(
+    file: str | os.PathLike[str],
+    grid: Grid,
+    shard: tuple[int, int] | None,
+    outcomes: Sequence[Outcome],
+) -> None:
+    columns = list(dict.fromkeys(name for results, *_ in outcomes for name in results))
+    rows = [
+        [math.nan if results.get(name) is None else results[name] for name in columns]
+        if error is None
+        else error
+        for results, _, error in outcomes
+    ]
+    _core._save_cases(file, grid, shard, columns, rows)
 
 
 def _teller(progress: bool | Callable[[int, int], Any], count: int) -> Callable[[int], Any]:
@@ -160,13 +262,59 @@ def _teller(progress: bool | Callable[[int, int], Any], count: int) -> Callable[
     return lambda done: None
 
 
-def _collect(futures: Sequence[Future[Any]], tell: Callable[[int], Any]) -> list[Any]:
+def _submitted(executor: Any, arguments: list[Any], tell: Callable[[int], Any]) -> list[Outcome]:
+    """Outcomes by an executor; a process that dies costs the case that it ran, and no other.
+
+    A process pool is lost with one of its processes. The first cases without an outcome may have
+    been running there: each of them runs again by itself, and the others in another pool.
+    """
+    found: dict[int, Any] = {}
+
+    def run(pool: Any, numbers: Sequence[int]) -> list[int]:
+        """Runs these cases; returns those that a pool lost."""
+        try:
+            futures = [pool.submit(run_case, *arguments[number]) for number in numbers]
+        except BrokenExecutor as error:
+            own: list[Any] = [error] * len(numbers)
+        else:
+            own = _collect(futures, tell, sum(isinstance(one, tuple) for one in found.values()))
+        found.update(zip(numbers, own))
+        return [number for number in numbers if isinstance(found[number], BrokenExecutor)]
+
+    lost = run(executor, range(len(arguments)))
+    workers = getattr(executor, "_max_workers", 1)
+    while lost and isinstance(executor, ProcessPoolExecutor):
+        # A pool hands out one case more than it has processes.
+        first, others = lost[: 2 * workers + 1], lost[2 * workers + 1 :]
+        for number in first:
+            with _like(executor, 1) as pool:
+                for dead in run(pool, [number]):
+                    found[dead] = {}, None, described(found[dead])
+                    tell(sum(isinstance(one, tuple) for one in found.values()))
+        with _like(executor, workers) as pool:
+            lost = run(pool, others)
+    for number in lost:
+        found[number] = {}, None, described(found[number])
+    return [found[number] for number in range(len(arguments))]
+
+
+def _like(executor: ProcessPoolExecutor, workers: int) -> ProcessPoolExecutor:
+    """A new pool with the settings of another."""
+    options = {name: getattr(executor, f"_{name}") for name in ("mp_context", "initializer", "initargs")}
+    return ProcessPoolExecutor(workers, **options)
+
+
+def _collect(
+    futures: Sequence[Future[Any]], tell: Callable[[int], Any], before: int = 0
+) -> list[Any]:
     """Outcomes in the order of the cases; on an interrupt what has not begun is not begun."""
     outcomes = []
     try:
         for future in futures:
             outcomes.append(_outcome(future))
-            tell(len(outcomes))
+            if isinstance(outcomes[-1], tuple):
+                before += 1
+                tell(before)
     except BaseException:
         for future in futures:
             future.cancel()

@@ -13,13 +13,13 @@ use super::PyGround;
 use super::impedance::{PyImpedances, contact};
 use super::strip::{Strips, grading};
 use crate::array::{Numbers, whole};
-use crate::error::OrRaise;
+use crate::error::{OrRaise, no_such};
 use crate::profile::PySoilProfile;
 use crate::soil::PySoil;
 use crate::structure;
 
 /// Kernels that grounds of equal soil and elements share: evaluated once for all simulations that
-/// are built with the same object.
+/// are built with the same object. A copy in another process begins empty; ``len()`` counts them.
 #[pyclass(name = "SharedKernels", module = "basemat", frozen)]
 #[derive(Default)]
 pub(crate) struct PySharedKernels(SharedKernels);
@@ -42,31 +42,35 @@ impl PySharedKernels {
     }
 }
 
-/// Elastic half-plane of a ``Soil``, or the layers of a ``SoilProfile``, with one strip of contact
-/// elements or several.
+/// Elastic half-plane of a ``soil`` (:class:`Soil`), or its layers (:class:`SoilProfile`), with contact
+/// elements on its surface: ``strips`` is a :class:`Strip` or a list of them.
 ///
-/// ``history``: "auto", "direct", "relaxed fft" or, without layers and damping, "exponentials";
-/// ``history_tolerance``: relative error (1e-12 to 1e-2) that exponentials may have;
-/// ``history_memory``: bytes that the history may take; ``kernels``: to be shared between simulations.
+/// ``history``: how the response to all past tractions is summed: "auto" (the default: whichever takes
+/// least time), "direct", "relaxed fft" or, without layers and damping, "exponentials".
+/// ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (1e-12 unless
+/// given, 1e-10 where they were asked for); ``history_memory``: bytes that the history may take (1 GiB
+/// unless given). ``kernels``: :class:`SharedKernels` of several simulations; own ones unless given.
 /// Of layers and damping: ``stages``: 2 or 3 Runge–Kutta stages (the rule's choice unless given);
-/// ``tolerance``: of the step coefficients; ``kernel_file``: a file that keeps them.
+/// ``tolerance``: relative error of the element compliances, 1e-13 to 1e-4 (1e-10 unless given);
+/// ``kernel_file``: path of a file that keeps them (none unless given).
 #[pyclass(name = "ElasticGround", module = "basemat", extends = PyGround, frozen)]
 pub(crate) struct PyElasticGround {
     make: Box<dyn Fn() -> basemat::Result<ElasticGround> + Send + Sync>,
 }
 
-/// A soil or a profile.
-#[derive(FromPyObject)]
-enum Profile<'py> {
-    Soil(Bound<'py, PySoil>),
-    Profile(Bound<'py, PySoilProfile>),
-}
+/// Of a soil or a profile.
+struct Profile(SoilProfile);
 
-impl From<Profile<'_>> for SoilProfile {
-    fn from(given: Profile<'_>) -> Self {
-        match given {
-            Profile::Soil(soil) => soil.get().0.into(),
-            Profile::Profile(profile) => profile.get().0.clone(),
+impl<'py> FromPyObject<'_, 'py> for Profile {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(soil) = object.cast::<PySoil>() {
+            return Ok(Self(soil.get().0.into()));
+        }
+        match object.cast::<PySoilProfile>() {
+            Ok(profile) => Ok(Self(profile.get().0.clone())),
+            Err(_) => Err(no_such(&object, "a Soil or a SoilProfile")),
         }
     }
 }
@@ -124,11 +128,10 @@ impl Options {
 }
 
 fn ground(
-    profile: Profile<'_>,
+    Profile(profile): Profile,
     strips: impl Fn() -> basemat::Result<Vec<Strip>> + Clone + Send + Sync + 'static,
     options: Options,
 ) -> PyResult<PyClassInitializer<PyElasticGround>> {
-    let profile = SoilProfile::from(profile);
     let make = move || options.of(ElasticGround::new(profile.clone(), strips()?)?);
     let base = PyGround::new(make.clone())?;
     Ok(PyClassInitializer::from(base).add_subclass(PyElasticGround { make: Box::new(make) }))
@@ -139,8 +142,8 @@ impl PyElasticGround {
     #[new]
     #[pyo3(signature = (soil, strips, *, history="auto", history_tolerance=None, history_memory=None, stages=None, tolerance=None, kernel_file=None, kernels=None))]
     fn new(
-        soil: Profile<'_>,
-        strips: Strips<'_>,
+        soil: Profile,
+        strips: Strips,
         history: &str,
         history_tolerance: Option<f64>,
         #[pyo3(from_py_with = whole)] history_memory: Option<usize>,
@@ -159,15 +162,18 @@ impl PyElasticGround {
             kernel_file,
             kernels,
         )?;
-        let strips: Vec<Strip> = strips.into();
-        ground(soil, move || Ok(strips.clone()), options)
+        ground(soil, move || Ok(strips.0.clone()), options)
     }
 
-    /// Strips of ``count`` elements under each foundation of a structure, as wide as that is.
+    /// Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is.
+    ///
+    /// ``soil`` is that of the class, and so are the options, none of them needed: ``history``,
+    /// ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
+    /// ``kernels``. ``grading``: "cosine" (the default: short at the edges) or "uniform".
     #[staticmethod]
     #[pyo3(signature = (soil, structure, count, *, grading="cosine", history="auto", history_tolerance=None, history_memory=None, stages=None, tolerance=None, kernel_file=None, kernels=None))]
     fn under(
-        soil: Profile<'_>,
+        soil: Profile,
         structure: Bound<'_, PyAny>,
         #[pyo3(from_py_with = whole)] count: usize,
         grading: &str,
@@ -194,8 +200,9 @@ impl PyElasticGround {
         Py::new(py, ground(soil, move || Strip::under(&*structure()?, count, grading), options)?)
     }
 
-    /// Dynamic stiffness of all strips as one rigid body at ``frequencies`` (array of shape (m,),
-    /// Hz); ``contact``: "bonded" or "relaxed".
+    /// Dynamic stiffness of all strips as one rigid body, :class:`Impedances`, at ``frequencies`` (array
+    /// of shape (m,), Hz). ``contact``: "bonded" (the default: soil and strips move together) or
+    /// "relaxed" (vertical motions without shear, horizontal ones without pressure).
     #[pyo3(signature = (frequencies, *, contact="bonded"))]
     fn impedances(
         &self,

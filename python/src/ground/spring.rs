@@ -1,6 +1,6 @@
 //! Winkler's spring bed.
 
-use basemat::bem::{SpringGround, Strip};
+use basemat::bem::SpringGround;
 use pyo3::prelude::*;
 
 use super::PyGround;
@@ -10,8 +10,9 @@ use crate::structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
-/// Stiffnesses in Pa/m, normal and tangential; ``dashpots`` (normal, tangential) in Pa s/m.
-/// ``theta``: of the rule that steps them, from ½ (the default) to 1.
+/// ``strips``: a :class:`Strip` or a list of them. ``normal_stiffness``, ``tangential_stiffness``: Pa/m.
+/// ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: of the rule that steps
+/// them, ½ to 1; ½ unless given.
 #[pyclass(name = "SpringGround", module = "basemat", extends = PyGround, frozen)]
 pub(crate) struct PySpringGround;
 
@@ -38,18 +39,19 @@ impl PySpringGround {
     #[new]
     #[pyo3(signature = (strips, normal_stiffness, tangential_stiffness, *, dashpots=None, theta=None))]
     fn new(
-        strips: Strips<'_>,
+        strips: Strips,
         normal_stiffness: f64,
         tangential_stiffness: f64,
         dashpots: Option<[f64; 2]>,
         theta: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let strips: Vec<Strip> = strips.into();
         let (normal, tangential) = (normal_stiffness, tangential_stiffness);
-        ground(move || SpringGround::on_strips(&strips, normal, tangential), dashpots, theta)
+        ground(move || SpringGround::on_strips(&strips.0, normal, tangential), dashpots, theta)
     }
 
-    /// One strip from ``left`` to ``right`` (m) of ``count`` equal elements.
+    /// One strip from ``left`` to ``right`` (m) of ``count`` equal elements; ``normal_stiffness``,
+    /// ``tangential_stiffness`` (Pa/m), ``dashpots`` and ``theta`` are those of the class, the last two
+    /// if given.
     #[staticmethod]
     #[pyo3(signature = (left, right, count, normal_stiffness, tangential_stiffness, *, dashpots=None, theta=None))]
     fn strip(
@@ -67,7 +69,9 @@ impl PySpringGround {
         Py::new(py, ground(make, dashpots, theta)?)
     }
 
-    /// Strips of ``count`` elements under each foundation of a structure.
+    /// Strips of ``count`` elements under each foundation of a ``structure``; ``normal_stiffness``,
+    /// ``tangential_stiffness`` (Pa/m), ``dashpots`` and ``theta`` are those of the class, the last two
+    /// if given.
     #[staticmethod]
     #[pyo3(signature = (structure, count, normal_stiffness, tangential_stiffness, *, dashpots=None, theta=None))]
     fn under(

@@ -4,10 +4,10 @@ use basemat::bem::{Grading, Strip};
 use pyo3::prelude::*;
 
 use crate::array::{Numbers, whole};
-use crate::error::OrRaise;
+use crate::error::{OrRaise, no_such};
 
-/// A strip of contact elements from ``left`` to ``right`` (m): ``count`` elements with the
-/// ``grading`` "cosine" (short at the edges, where tractions are singular) or "uniform".
+/// A strip of contact elements from ``left`` to ``right`` (m): ``count`` elements with the ``grading``
+/// "cosine" (the default: short at the edges, where tractions are singular) or "uniform".
 #[pyclass(name = "Strip", module = "basemat", frozen, dict)]
 #[derive(Clone)]
 pub(crate) struct PyStrip(pub(crate) Strip);
@@ -29,13 +29,13 @@ impl PyStrip {
         Ok(Self(Strip::new(left..right, count, self::grading(grading)?).or_raise()?))
     }
 
-    /// Strip of elements between given nodes (array of shape (elements + 1,), m, ascending).
+    /// Strip of elements between given ``nodes`` (array of shape (elements + 1,), m, ascending).
     #[staticmethod]
     fn from_nodes(nodes: Numbers) -> PyResult<Self> {
         Ok(Self(Strip::from_nodes(nodes.0).or_raise()?))
     }
 
-    /// Ends of the elements, m.
+    /// Ends of the elements: list of elements + 1 numbers, m.
     #[getter]
     fn nodes(&self) -> Vec<f64> {
         self.0.nodes().to_vec()
@@ -47,18 +47,17 @@ impl PyStrip {
 }
 
 /// One strip, or a list of them.
-#[derive(FromPyObject)]
-pub(super) enum Strips<'py> {
-    One(Bound<'py, PyStrip>),
-    Several(Vec<Bound<'py, PyStrip>>),
-}
+pub(super) struct Strips(pub(super) Vec<Strip>);
 
-impl From<Strips<'_>> for Vec<Strip> {
-    fn from(given: Strips<'_>) -> Self {
-        let list = match given {
-            Strips::One(strip) => vec![strip],
-            Strips::Several(list) => list,
-        };
-        list.iter().map(|strip| strip.get().0.clone()).collect()
+impl<'py> FromPyObject<'_, 'py> for Strips {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(strip) = object.cast::<PyStrip>() {
+            return Ok(Self(vec![strip.get().0.clone()]));
+        }
+        let list: Vec<Bound<'_, PyStrip>> =
+            object.extract().map_err(|_| no_such(&object, "a Strip or a list of them"))?;
+        Ok(Self(list.iter().map(|strip| strip.get().0.clone()).collect()))
     }
 }

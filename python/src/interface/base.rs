@@ -10,7 +10,8 @@ use crate::names::{mode, mode_name};
 use crate::recipe::Recipe;
 use crate::user::{PyCondition, PyContactState, PyPreviousContact, PyTolerance, UserLaw};
 
-/// A law between base and ground.
+/// A law between base and ground: what an element of the contact does in a step, its mode (see
+/// :data:`MODES`), and which conditions that imposes.
 #[pyclass(name = "InterfaceLaw", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyInterfaceLaw {
     pub(crate) make: Recipe<dyn InterfaceLaw>,
@@ -25,13 +26,14 @@ impl PyInterfaceLaw {
 
 #[pymethods]
 impl PyInterfaceLaw {
-    /// Names of the modes that this law uses.
+    /// List of the names of the modes that this law uses; the first is that of an element at rest.
     #[getter]
     fn modes(&self) -> PyResult<Vec<&'static str>> {
         (self.make)().or_raise()?.modes().iter().map(|mode| mode_name(*mode)).collect()
     }
 
-    /// The two conditions that ``mode`` imposes on the end of a step.
+    /// The two :class:`Condition` that ``mode`` imposes on the end of a step, whose beginning ``start``
+    /// (:class:`PreviousContact`) is.
     fn conditions(
         &self,
         mode: &str,
@@ -44,7 +46,9 @@ impl PyInterfaceLaw {
         })
     }
 
-    /// The mode to try next after a trial; ``mode`` itself if the trial is admissible.
+    /// The mode to try next after the ``trial`` (:class:`ContactState`) that ``mode`` led to in the step
+    /// that begins with ``start``; ``mode`` itself if the trial is admissible, differences below the
+    /// ``tolerance`` left aside.
     fn next_mode(
         &self,
         mode: &str,

@@ -26,10 +26,10 @@ impl PyBonded {
 
 /// Hard unilateral contact with Coulomb friction: an element sticks, slides or opens.
 ///
-/// ``friction``: coefficient, infinite for a base that opens but never slides.
-/// ``tensile_strength`` (Pa) holds an element until it first opens. ``closed_below`` (m): contact
-/// conditions act on the change of the gap of elements whose gap is at most that (Moreau's rule),
-/// instead of on the gap.
+/// ``friction``: coefficient, 0 or more; ``math.inf`` for a base that opens but never slides.
+/// ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens. ``closed_below`` (m):
+/// contact conditions act on the change of the gap of elements whose gap is at most that (Moreau's
+/// rule); on the gap unless given.
 #[pyclass(name = "Coulomb", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCoulomb(Coulomb);
 
@@ -53,7 +53,7 @@ impl PyCoulomb {
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
     }
 
-    /// Friction coefficient.
+    /// Friction coefficient, a number.
     #[getter]
     fn friction(&self) -> f64 {
         self.0.friction()
@@ -64,8 +64,8 @@ impl PyCoulomb {
     }
 }
 
-/// Glue that breaks once, and friction afterwards: ``tension`` and ``cohesion`` are its strengths
-/// (Pa), ``friction`` the coefficient when it is broken.
+/// A bond that breaks for good, and friction afterwards: ``tension`` and ``cohesion`` are its strengths
+/// (Pa) against opening and shear, ``friction`` the coefficient when it is broken.
 #[pyclass(name = "Cohesive", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyCohesive;
 
@@ -78,7 +78,7 @@ impl PyCohesive {
     }
 }
 
-/// Coulomb friction on soil that yields under its ``bearing_pressure`` (Pa).
+/// Coulomb friction of a coefficient ``friction`` on soil that yields under its ``bearing_pressure`` (Pa).
 #[pyclass(name = "Yielding", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyYielding;
 
@@ -91,12 +91,15 @@ impl PyYielding {
     }
 }
 
-/// The paper's thin layer of soil between base and ground, elastic while it is closed.
+/// The thin layer of soil between base and ground of Patel and Spyrakos, elastic while it is closed.
 ///
-/// ``neighbour_height`` (m): height of the neighbouring elements. ``thickness_ratio``: of the layer
-/// to them; ``debonded_share``: of the stiffness that is kept when it is open;
-/// ``slip_stiffness_share``: when it slides. ``friction_limit``: "total", "lagged", "static" or
-/// "dynamic"; ``slip_sense``: "inelastic", "velocity" or "last velocity".
+/// ``soil``: of the layer. ``neighbour_height``: of the finite elements beside it, m. ``friction``:
+/// coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_share``: of the
+/// stiffness that is kept when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_share``: when
+/// it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure that friction sees, "total" (of this
+/// step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
+/// ``slip_sense``: what tells the sense of slip, "inelastic" (slip beyond the elastic one; the
+/// default), "velocity" or "last velocity" (of this step or the one before).
 #[pyclass(name = "ThinLayer", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyThinLayer(ThinLayer);
 
@@ -145,7 +148,9 @@ impl PyThinLayer {
         layer(law, shares.0, shares.1, shares.2, friction_limit, slip_sense)
     }
 
-    /// Layer of given normal and shear stiffness (Pa/m).
+    /// Layer of given ``normal`` and ``shear`` stiffness (Pa/m); ``friction``, ``debonded_share``,
+    /// ``slip_stiffness_share``, ``friction_limit`` and ``slip_sense`` are those of the class, the last
+    /// four if given.
     #[staticmethod]
     #[pyo3(signature = (normal, shear, friction, *, debonded_share=None, slip_stiffness_share=None, friction_limit=None, slip_sense=None))]
     fn from_stiffness(

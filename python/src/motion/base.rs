@@ -7,7 +7,7 @@ use crate::error::{OrRaise, heard, refuse};
 use crate::recipe::Recipe;
 
 /// Motion of the ground's surface without the structure: a :class:`Record`, a wave, or what
-/// :func:`free_field` makes of a function.
+/// :func:`free_field` makes of a function. Until t = 0 the ground rests.
 #[pyclass(name = "FreeField", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyFreeField {
     pub(crate) make: Recipe<dyn FreeField>,

@@ -20,7 +20,8 @@ use crate::error::{OrRaise, has_raised, heard, keep, refuse};
 /// a :class:`Record`, and integrated exactly from rest; after the ``duration`` it is zero, and the
 /// velocity stays what it is by then.
 ///
-/// Either may return a number instead, the motion to the right. Both may raise.
+/// Either may return a number instead, the motion to the right, and may raise. None is for the other one,
+/// and for its ``time_step`` and ``duration``.
 #[pyfunction]
 #[pyo3(signature = (*, displacement=None, acceleration=None, time_step=None, duration=None))]
 pub(crate) fn free_field(

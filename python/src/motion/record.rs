@@ -37,7 +37,7 @@ impl PyRecord {
     }
 }
 
-/// El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s.
+/// The :class:`Record` of El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s.
 #[pyfunction]
 pub(crate) fn el_centro_1940(py: Python<'_>) -> PyResult<Py<PyRecord>> {
     PyRecord::create(py, Ok(basemat::motion::el_centro_1940()))
@@ -46,7 +46,11 @@ pub(crate) fn el_centro_1940(py: Python<'_>) -> PyResult<Py<PyRecord>> {
 #[pymethods]
 impl PyRecord {
     #[new]
-    #[pyo3(signature = (time_step, acceleration, *, unit="m/s²"))]
+    // Python's own reader of signatures knows ASCII only.
+    #[pyo3(
+        signature = (time_step, acceleration, *, unit="m/s²"),
+        text_signature = r#"(time_step, acceleration, *, unit="m/s\xb2")"#
+    )]
     fn new(
         time_step: f64,
         acceleration: Numbers,
@@ -63,9 +67,13 @@ impl PyRecord {
         Ok(Self::from_core(Record::new(time_step, samples).or_raise()?))
     }
 
-    /// Reads a file. ``format``: "columns" (text: time in s and acceleration, with ``unit``;
-    /// ``columns`` are their numbers from 1; with ``time_step`` a single column of acceleration),
-    /// "peer" (.AT2), "cosmos" (.V2; ``channel`` from 1) or "k-net".
+    /// Reads a file at ``path``.
+    ///
+    /// ``format``: "columns" (the default: text, time in s and acceleration), "peer" (.AT2), "cosmos"
+    /// (.V2) or "k-net". ``unit`` of the acceleration as for the class: needed for columns, that of the
+    /// file unless given for others. Of columns: ``columns`` are the numbers of time and acceleration
+    /// from 1, (1, 2) unless given; with ``time_step`` (s) the file has no times, only accelerations.
+    /// Of "cosmos": ``channel`` from 1, the first unless given.
     #[staticmethod]
     #[pyo3(signature = (path, *, format="columns", unit=None, time_step=None, columns=None, channel=None))]
     fn read(
@@ -140,29 +148,31 @@ impl PyRecord {
         self.0.arias_intensity()
     }
 
-    /// Times (s) at which the shares ``start`` and ``end`` of the Arias intensity are reached.
+    /// The two times (s) at which the fractions ``start`` and ``end`` of the Arias intensity are reached,
+    /// by default 0.05 and 0.95: between them is the significant duration.
     #[pyo3(signature = (start=0.05, end=0.95))]
     fn significant_times(&self, start: f64, end: f64) -> PyResult<[f64; 2]> {
         self.0.significant_times(start, end).or_raise()
     }
 
-    /// All samples times a factor.
+    /// Record with all samples times a ``factor``.
     fn scaled(&self, py: Python<'_>, factor: f64) -> PyResult<Py<Self>> {
         Self::create(py, self.0.scaled(factor))
     }
 
-    /// Scaled to a peak acceleration (m/s²), signs kept.
+    /// Record scaled to a ``peak`` acceleration (m/s²), signs kept.
     fn scaled_to_peak(&self, py: Python<'_>, peak: f64) -> PyResult<Py<Self>> {
         Self::create(py, self.0.scaled_to_peak(peak))
     }
 
-    /// Samples every ``time_step`` (s), linear between the old ones.
+    /// Record with samples every ``time_step`` (s), linear between the old ones.
     fn resampled(&self, py: Python<'_>, time_step: f64) -> PyResult<Py<Self>> {
         Self::create(py, self.0.resampled(time_step))
     }
 
-    /// With its baseline treated: "remove mean", "newmark parabola", "velocity polynomial",
-    /// "displacement polynomial" or "rest to rest", polynomials of the ``degree``.
+    /// Record with its baseline treated. ``treatment``: "remove mean", "newmark parabola", "velocity
+    /// polynomial", "displacement polynomial" or "rest to rest"; polynomials have the ``degree``, 4 by
+    /// default.
     #[pyo3(signature = (treatment, *, degree=4))]
     fn with_baseline(
         &self,
@@ -173,8 +183,8 @@ impl PyRecord {
         Self::create(py, self.0.with_baseline(baseline(treatment, degree)?))
     }
 
-    /// High-pass filtered at a ``corner`` frequency (Hz): a Butterworth filter of ``order`` (1 to 8),
-    /// forwards and backwards, so without phase shift.
+    /// Record filtered at a ``corner`` frequency (Hz): a high-pass Butterworth filter of ``order`` (1 to
+    /// 8; 4 by default), forwards and backwards, so without phase shift.
     ///
     /// The record gets longer by quiet time of 1.5 ``order / corner`` s before and after it, 30 s each
     /// for a corner of 0.2 Hz, into which such a filter reaches. Keep it: without it velocity and
@@ -189,17 +199,18 @@ impl PyRecord {
         Self::create(py, self.0.high_pass(corner, order))
     }
 
-    /// Tapered over durations (s) at its beginning and its end.
+    /// Record tapered over the durations ``beginning`` and ``end`` (s) at its two ends.
     fn tapered(&self, py: Python<'_>, beginning: f64, end: f64) -> PyResult<Py<Self>> {
         Self::create(py, self.0.tapered(beginning, end))
     }
 
-    /// With rest (s) before and after it.
+    /// Record with rest of ``before`` and ``after`` (s) at its two ends.
     fn padded(&self, py: Python<'_>, before: f64, after: f64) -> PyResult<Py<Self>> {
         Self::create(py, self.0.padded(before, after))
     }
 
-    /// Elastic response spectrum at ``periods`` (array of shape (m,), s) with the ratio ``damping``.
+    /// Elastic response :class:`Spectrum` at ``periods`` (array of shape (m,), s) with the damping ratio
+    /// ``damping`` (0.05 by default).
     #[pyo3(signature = (periods, damping=0.05))]
     fn response_spectrum(
         &self,

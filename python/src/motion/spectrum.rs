@@ -6,9 +6,11 @@ use pyo3::prelude::*;
 
 use crate::array::whole;
 use crate::error::OrRaise;
+use crate::saved::{Reduced, reduced};
 
-/// A response spectrum: arrays of shape (m,), one value per period.
+/// A response spectrum: arrays of shape (m,), one value per natural period.
 #[pyclass(name = "Spectrum", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySpectrum(pub(crate) Vec<SpectralOrdinate>);
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -19,7 +21,8 @@ impl PySpectrum {
     }
 }
 
-/// ``count`` numbers from ``first`` to ``last`` with equal ratios, for periods: array of shape (count,).
+/// ``count`` numbers from ``first`` to ``last`` with equal ratios, for periods in s: array of shape
+/// (count,).
 #[pyfunction]
 pub(crate) fn log_spaced(
     py: Python<'_>,
@@ -32,45 +35,45 @@ pub(crate) fn log_spaced(
 
 #[pymethods]
 impl PySpectrum {
-    /// Natural periods, s.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
+    /// Natural periods: array of shape (m,), s.
     #[getter]
     fn period<'py>(&self, py: Python<'py>) -> Array<'py> {
         self.column(py, |ordinate| ordinate.period)
     }
 
-    /// Largest displacements relative to the ground or floor, m.
+    /// Largest displacements relative to the ground or floor: array of shape (m,), m.
     #[getter]
     fn displacement<'py>(&self, py: Python<'py>) -> Array<'py> {
         self.column(py, |ordinate| ordinate.displacement)
     }
 
-    /// Pseudo-velocities, m/s.
+    /// Pseudo-velocities: array of shape (m,), m/s.
     #[getter]
     fn pseudo_velocity<'py>(&self, py: Python<'py>) -> Array<'py> {
         self.column(py, |ordinate| ordinate.pseudo_velocity)
     }
 
-    /// Pseudo-accelerations, m/s².
+    /// Pseudo-accelerations: array of shape (m,), m/s².
     #[getter]
     fn pseudo_acceleration<'py>(&self, py: Python<'py>) -> Array<'py> {
         self.column(py, |ordinate| ordinate.pseudo_acceleration)
     }
 
-    /// Largest total accelerations, m/s².
+    /// Largest total accelerations: array of shape (m,), m/s².
     #[getter]
     fn acceleration<'py>(&self, py: Python<'py>) -> Array<'py> {
         self.column(py, |ordinate| ordinate.acceleration)
     }
 
-    /// Peaks broadened to frequencies lower and higher by ``share`` (U.S. NRC R.G. 1.122: 0.15).
+    /// Spectrum with its peaks broadened to frequencies lower and higher by the fraction ``share``, 0.15
+    /// by default (U.S. NRC R.G. 1.122).
     #[pyo3(signature = (share=0.15))]
     fn broadened(&self, share: f64) -> PyResult<Self> {
         Ok(Self(basemat::results::broadened(&self.0, share).or_raise()?))
-    }
-
-    /// A pandas frame, indexed by the period.
-    fn to_frame<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("basemat._frames")?.call_method1("spectrum", (slf,))
     }
 
     fn __len__(&self) -> usize {

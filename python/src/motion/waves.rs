@@ -10,7 +10,6 @@ use basemat::site::{
     ControlPoint, InclinedControl, InclinedWave, SiteMotion, SoilColumn, VerticalWave,
 };
 use numpy::{Complex64, PyArray1};
-use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 
 use super::{PyFreeField, PyRecord, given};
@@ -27,7 +26,8 @@ fn field<F: FreeField + 'static>(
     Ok(PyFreeField { make: Arc::new(move || Ok(Box::new(make()?))), duration: None })
 }
 
-/// Records of horizontal and vertical (up) motion, the same everywhere at once.
+/// Motion of a ``horizontal`` :class:`Record` (to the right), of a ``vertical`` one (up), or of both, the
+/// same everywhere at once; the one that is None rests.
 #[pyfunction]
 #[pyo3(signature = (horizontal=None, vertical=None))]
 pub(crate) fn vertical_incidence(
@@ -48,7 +48,8 @@ pub(crate) fn vertical_incidence(
     Ok(PyFreeField { duration, ..field(move || Ok(incidence.clone()))? })
 }
 
-/// A motion that runs along x with an apparent velocity (m/s), as it is at ``origin`` (m).
+/// A ``motion`` (:class:`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
+/// negative), as it is at the ``origin`` (x, m).
 #[pyfunction]
 pub(crate) fn travelling_wave(
     motion: Bound<'_, PyAny>,
@@ -59,7 +60,8 @@ pub(crate) fn travelling_wave(
     field(move || TravellingWave::new(motion()?, apparent_velocity, origin))
 }
 
-/// A Ricker pulse of displacement: peak ``amplitude`` (m), width ``sigma`` (s), at ``center`` (s).
+/// A Ricker pulse of displacement: peak ``amplitude`` (m), width ``sigma`` (s), at ``center`` (s), to the
+/// right or, if ``vertical`` (False by default), up.
 #[pyfunction]
 #[pyo3(signature = (amplitude, sigma, center, *, vertical=false))]
 pub(crate) fn ricker(
@@ -74,25 +76,28 @@ pub(crate) fn ricker(
     })
 }
 
-/// A plane wave that meets the free surface of a half-plane at an angle, or a Rayleigh wave.
+/// A plane wave that meets the free surface of a half-plane at an angle, or a Rayleigh wave;
+/// :meth:`field_from_horizontal` and :meth:`field_from_vertical` make it a motion.
 #[pyclass(name = "PlaneWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyPlaneWave(PlaneWave);
 
 #[pymethods]
 impl PyPlaneWave {
-    /// SV wave from below at ``angle`` (rad) from the vertical, to the right if positive.
+    /// SV wave from below in a half-plane of this ``soil`` at ``angle`` (rad) from the vertical, to the
+    /// right if positive.
     #[staticmethod]
     fn sv(soil: &PySoil, angle: f64) -> PyResult<Self> {
         Ok(Self(PlaneWave::sv(soil.0, angle).or_raise()?))
     }
 
-    /// P wave from below at ``angle`` (rad).
+    /// P wave from below in a half-plane of this ``soil`` at ``angle`` (rad) from the vertical, to the
+    /// right if positive.
     #[staticmethod]
     fn p(soil: &PySoil, angle: f64) -> PyResult<Self> {
         Ok(Self(PlaneWave::p(soil.0, angle).or_raise()?))
     }
 
-    /// Rayleigh wave to the right.
+    /// Rayleigh wave to the right on a half-plane of this ``soil``.
     #[staticmethod]
     fn rayleigh(soil: &PySoil) -> Self {
         Self(PlaneWave::rayleigh(soil.0))
@@ -109,20 +114,21 @@ impl PyPlaneWave {
         self.0.apparent_velocity()
     }
 
-    /// The field whose horizontal motion at ``origin`` (m) is the record.
+    /// The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``.
     fn field_from_horizontal(&self, record: &PyRecord, origin: f64) -> PyResult<PyFreeField> {
         let (wave, record) = (self.0, Arc::clone(&record.0));
         field(move || wave.field_from_horizontal(&record, origin))
     }
 
-    /// The field whose vertical motion at ``origin`` (m) is the record.
+    /// The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``.
     fn field_from_vertical(&self, record: &PyRecord, origin: f64) -> PyResult<PyFreeField> {
         let (wave, record) = (self.0, Arc::clone(&record.0));
         field(move || wave.field_from_vertical(&record, origin))
     }
 }
 
-/// A soil profile as a column that waves travel up and down; ``wave``: "shear" or "pressure".
+/// A soil ``profile`` (:class:`SoilProfile`) as a column that waves travel up and down; ``wave``: "shear"
+/// (the default) or "pressure".
 #[pyclass(name = "SoilColumn", module = "basemat", frozen, dict)]
 pub(crate) struct PyColumn(SoilColumn);
 
@@ -138,8 +144,7 @@ fn control(name: &str) -> PyResult<ControlPoint> {
 fn record(py: Python<'_>, step: f64, motion: SiteMotion) -> PyResult<Py<PyRecord>> {
     if !motion.is_whole() {
         let text = format!("{motion}: give the record quiet time on both sides (padded)");
-        let text = std::ffi::CString::new(text)?;
-        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
+        crate::error::warn(py, text)?;
     }
     PyRecord::create(py, Record::new(step, motion.samples))
 }
@@ -159,8 +164,9 @@ impl PyColumn {
         Ok(Self(SoilColumn::new(profile.0.clone(), wave).or_raise()?))
     }
 
-    /// Motion of the surface by that of the ``control`` ("outcrop" or "within") for e^(iωt):
-    /// complex array of shape (m,) at ``frequencies`` (Hz).
+    /// Ratio of the motion of the surface to that of the ``control`` point for e^(iωt): complex array of
+    /// shape (m,) at ``frequencies`` (array of shape (m,), Hz). ``control``: "outcrop" (the default: the
+    /// base without layers) or "within" (the base under them).
     #[pyo3(signature = (frequencies, *, control="outcrop"))]
     fn transfer<'py>(
         &self,
@@ -175,7 +181,8 @@ impl PyColumn {
         Ok(PyArray1::from_iter(py, values.iter().map(|value| Complex64::new(value.re, value.im))))
     }
 
-    /// The record of the surface from one of the ``control``, as long. A ``UserWarning`` gives the
+    /// The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or
+    /// "within", as long. A :class:`BasematWarning` gives the
     /// size of what comes before or after and is cut off: ``Record.padded`` makes room for it.
     #[pyo3(signature = (record, *, control="outcrop"))]
     fn to_surface(
@@ -189,7 +196,8 @@ impl PyColumn {
         self::record(py, step, self.0.to_surface(control, step, samples).or_raise()?)
     }
 
-    /// The record of the ``control`` from one of the surface (deconvolution), as ``to_surface``.
+    /// The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the
+    /// surface (deconvolution); it warns as :meth:`to_surface`.
     #[pyo3(signature = (record, *, control="outcrop"))]
     #[allow(clippy::wrong_self_convention, reason = "the core's name")]
     fn from_surface(
@@ -204,19 +212,21 @@ impl PyColumn {
     }
 }
 
-/// A plane wave from the half-plane under a layered profile.
+/// A plane wave from the half-plane under a layered profile; :meth:`field` makes it a motion.
 #[pyclass(name = "InclinedWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyInclinedWave(InclinedWave);
 
 #[pymethods]
 impl PyInclinedWave {
-    /// SV wave at ``angle`` (rad) from the vertical in the base, to the right if positive.
+    /// SV wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
+    /// positive.
     #[staticmethod]
     fn sv(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
         Ok(Self(InclinedWave::sv(profile.0.clone(), angle).or_raise()?))
     }
 
-    /// P wave at ``angle`` (rad).
+    /// P wave at ``angle`` (rad) from the vertical in the base of the ``profile``, to the right if
+    /// positive.
     #[staticmethod]
     fn p(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
         Ok(Self(InclinedWave::p(profile.0.clone(), angle).or_raise()?))
@@ -228,8 +238,9 @@ impl PyInclinedWave {
         self.0.apparent_velocity()
     }
 
-    /// The field of the surface whose ``control`` ("outcrop horizontal", "outcrop vertical" or
-    /// "incident") moves as the record at ``origin`` (m), the point that is reached first.
+    /// The :class:`FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
+    /// (x, m), the point that is reached first. ``control``: "outcrop horizontal" (the default), "outcrop
+    /// vertical" (motions of the base without layers) or "incident" (the incident wave alone).
     #[pyo3(signature = (record, origin, *, control="outcrop horizontal"))]
     fn field(&self, record: &PyRecord, origin: f64, control: &str) -> PyResult<PyFreeField> {
         let control = match control {

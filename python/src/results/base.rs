@@ -6,8 +6,12 @@ use pyo3::prelude::*;
 
 use super::{PyExtremes, PyPeak};
 
-/// A foundation in numbers, as a run's own.
+use crate::saved::{Reduced, reduced};
+
+/// A foundation over a run, with the numbers of a :class:`Run`; forces are those of the structure on the
+/// soil, per metre of thickness.
 #[pyclass(name = "FoundationSummary", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyFoundationSummary(pub(super) Summary);
 
 /// Slip events as tuples (start in s, end in s, slip in m).
@@ -22,85 +26,94 @@ pub(super) fn known(extremes: Extremes) -> Option<PyPeak> {
 
 #[pymethods]
 impl PyFoundationSummary {
-    /// Its ends, m.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
+    /// x of its two ends, m.
     #[getter]
     fn ends(&self) -> [f64; 2] {
         self.0.ends
     }
 
-    /// Normal force at the start, N/m.
+    /// Total pressure at the start, N/m.
     #[getter]
     fn static_normal_force(&self) -> f64 {
         self.0.static_normal_force
     }
 
-    /// Base shear, N/m.
+    /// Horizontal force on the soil, positive to the right, N/m: its :class:`Extremes`.
     #[getter]
     fn base_shear(&self) -> PyExtremes {
         PyExtremes(self.0.base_shear)
     }
 
-    /// Moment about its middle, N·m/m.
+    /// Moment about its middle, counter-clockwise, N·m/m: its :class:`Extremes`.
     #[getter]
     fn base_moment(&self) -> PyExtremes {
         PyExtremes(self.0.base_moment)
     }
 
-    /// Normal force, N/m.
+    /// Total pressure, N/m: its :class:`Extremes`.
     #[getter]
     fn normal_force(&self) -> PyExtremes {
         PyExtremes(self.0.normal_force)
     }
 
-    /// Rotation, rad.
+    /// Rotation, counter-clockwise, rad: its :class:`Extremes`.
     #[getter]
     fn base_rotation(&self) -> PyExtremes {
         PyExtremes(self.0.base_rotation)
     }
 
-    /// Largest uplifted fraction.
+    /// Largest ratio of its open length to its length: its :class:`Peak`.
     #[getter]
     fn uplifted_fraction(&self) -> PyPeak {
         PyPeak(self.0.uplifted_fraction.highest)
     }
 
-    /// Mean slip, m.
+    /// Slip averaged over it, m: its :class:`Extremes`.
     #[getter]
     fn mean_slip(&self) -> PyExtremes {
         PyExtremes(self.0.mean_slip)
     }
 
-    /// Mean slip at the end, m.
+    /// Slip averaged over it at the end, m.
     #[getter]
     fn residual_slip(&self) -> f64 {
         self.0.residual_slip
     }
 
-    /// Slip events: tuples (start in s, end in s, slip in m).
+    /// Slip events: list of tuples (start in s, end in s, slip in m).
     #[getter]
     fn slip_events(&self) -> Vec<(f64, f64, f64)> {
         events(&self.0.sliding.events)
     }
 
-    /// Least factor of safety against sliding; None without a friction coefficient.
+    /// Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient.
     #[getter]
     fn least_sliding_safety(&self) -> Option<PyPeak> {
         known(self.0.sliding_safety)
     }
 
-    /// Least factor of safety against overturning.
+    /// Least factor of safety against overturning, a :class:`Peak`.
     #[getter]
     fn least_overturning_safety(&self) -> PyPeak {
         PyPeak(self.0.overturning_safety.lowest)
     }
 }
 
-/// A limit of service after a run.
+/// A limit of service, held against a run.
 #[pyclass(name = "ServiceCheck", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyServiceCheck(pub(super) ServiceCheck);
 
 #[pymethods]
 impl PyServiceCheck {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
     /// The limited response: "slip", "gap", "uplifted fraction" or "rotation".
     #[getter]
     fn criterion(&self) -> &'static str {
@@ -113,7 +126,7 @@ impl PyServiceCheck {
         self.0.limit
     }
 
-    /// The value of the run furthest from zero.
+    /// The run's value furthest from zero, a :class:`Peak` in SI units.
     #[getter]
     fn largest(&self) -> PyPeak {
         PyPeak(self.0.largest)
@@ -131,7 +144,7 @@ impl PyServiceCheck {
         self.0.is_met()
     }
 
-    /// Unused share of the limit; below zero where it is exceeded.
+    /// Unused fraction of the limit; below zero where it is exceeded.
     #[getter]
     fn margin(&self) -> f64 {
         self.0.margin()

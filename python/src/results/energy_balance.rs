@@ -4,86 +4,93 @@ use basemat::coupled::{EnergyBalance, EnergyTerm};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::saved::{Reduced, reduced};
+
 /// Energies since the start, J per metre of thickness:
 /// ``kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input``.
 #[pyclass(name = "EnergyBalance", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyEnergyBalance(pub(crate) EnergyBalance);
 
 #[pymethods]
 impl PyEnergyBalance {
-    /// ½ v·M v.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
+    /// Kinetic energy ½ v·M v, J/m.
     #[getter]
     fn kinetic(&self) -> f64 {
         self.0.kinetic
     }
 
-    /// Elastic energy of the structure.
+    /// Elastic energy of the structure, J/m.
     #[getter]
     fn strain(&self) -> f64 {
         self.0.strain
     }
 
-    /// Heat of hysteretic parts of the structure.
+    /// Heat of hysteretic parts of the structure, J/m.
     #[getter]
     fn hysteresis(&self) -> f64 {
         self.0.hysteresis
     }
 
-    /// Work of the dashpots.
+    /// Work of the dashpots, J/m.
     #[getter]
     fn damping(&self) -> f64 {
         self.0.damping
     }
 
-    /// Loss by the time scheme.
+    /// Energy that the time scheme removes, J/m; negative if it makes any.
     #[getter]
     fn algorithmic(&self) -> f64 {
         self.0.algorithmic
     }
 
-    /// Work done on the soil: radiated and stored.
+    /// Work done on the soil, radiated and stored, J/m.
     #[getter]
     fn soil(&self) -> f64 {
         self.0.soil
     }
 
-    /// Loss by friction and impact.
+    /// Loss by friction and impact, J/m.
     #[getter]
     fn contact(&self) -> f64 {
         self.0.contact
     }
 
-    /// Elastic energy of compliant interfaces.
+    /// Elastic energy of compliant interfaces, J/m.
     #[getter]
     fn interface(&self) -> f64 {
         self.0.interface
     }
 
-    /// Potential of the static tractions against the change of the jump.
+    /// Potential of the static tractions against gaps and slips, J/m.
     #[getter]
     fn static_contact(&self) -> f64 {
         self.0.static_contact
     }
 
-    /// Work of loads and free field, and the energy of an initial motion.
+    /// Work of loads and free field, and the energy of an initial motion, J/m.
     #[getter]
     fn input(&self) -> f64 {
         self.0.input
     }
 
-    /// Relative input energy (Uang & Bertero 1990).
+    /// Relative input energy (Uang and Bertero 1990), J/m.
     #[getter]
     fn relative_input(&self) -> f64 {
         self.0.relative_input
     }
 
-    /// Error bound of ``soil`` by an approximate history.
+    /// Error bound of :attr:`soil` by an approximate history, J/m.
     #[getter]
     fn soil_error_bound(&self) -> f64 {
         self.0.soil_error_bound
     }
 
-    /// Largest energy so far, to which ``residual`` is relative.
+    /// Largest energy so far, to which :attr:`residual` is relative, J/m.
     #[getter]
     fn largest(&self) -> f64 {
         self.0.largest
@@ -95,13 +102,25 @@ impl PyEnergyBalance {
         self.0.residual()
     }
 
-    /// All terms by their names.
+    /// All terms by their names: dict of numbers, J/m.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let terms = PyDict::new(py);
         for term in EnergyTerm::ALL {
             terms.set_item(term.to_string(), self.0.term(term))?;
         }
         Ok(terms)
+    }
+
+    fn _repr_html_(&self) -> String {
+        let row = |term: EnergyTerm| {
+            format!("<tr><td>{term}</td><td>{:.4e}</td></tr>", self.0.term(term))
+        };
+        let rows: String = EnergyTerm::ALL.into_iter().map(row).collect();
+        format!(
+            "<table><tr><th>energy</th><th>J/m</th></tr>{rows}<tr><td>residual, relative</td>\
+             <td>{:.1e}</td></tr></table>",
+            self.0.residual()
+        )
     }
 
     fn __repr__(&self) -> String {

@@ -9,4 +9,4 @@ mod series;
 pub(crate) use base::{PyFoundationSummary, PyServiceCheck};
 pub(crate) use energy_balance::PyEnergyBalance;
 pub(crate) use peak::{PyExtremes, PyPeak};
-pub(crate) use run::PyRun;
+pub(crate) use run::{PyRun, preformatted};

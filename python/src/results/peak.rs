@@ -3,13 +3,19 @@
 use basemat::results::{Extremes, Peak};
 use pyo3::prelude::*;
 
-/// A value with its time.
+use crate::saved::{Reduced, reduced};
+
+/// A value of a run with its time; ``float()`` gives the value.
 #[pyclass(name = "Peak", module = "basemat", frozen, eq)]
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyPeak(pub(crate) Peak);
 
 #[pymethods]
 impl PyPeak {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
     /// The value, in the quantity's unit, with its sign.
     #[getter]
     fn value(&self) -> f64 {
@@ -31,32 +37,37 @@ impl PyPeak {
     }
 }
 
-/// Smallest and largest value of a run.
+/// Smallest and largest value of a quantity over a run.
 #[pyclass(name = "Extremes", module = "basemat", frozen, eq)]
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyExtremes(pub(crate) Extremes);
 
 #[pymethods]
 impl PyExtremes {
-    /// The smallest value.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
+    /// The smallest value, a :class:`Peak` in the quantity's unit.
     #[getter]
     fn lowest(&self) -> PyPeak {
         PyPeak(self.0.lowest)
     }
 
-    /// The largest value.
+    /// The largest value, a :class:`Peak` in the quantity's unit.
     #[getter]
     fn highest(&self) -> PyPeak {
         PyPeak(self.0.highest)
     }
 
-    /// Whichever of them is further from zero, with its sign.
+    /// Whichever of the two is further from zero, with its sign: a :class:`Peak` in the
+    /// quantity's unit.
     #[getter]
     fn largest(&self) -> PyPeak {
         PyPeak(self.0.largest())
     }
 
-    /// Its magnitude.
+    /// Magnitude of :attr:`largest`, in the quantity's unit.
     #[getter]
     fn magnitude(&self) -> f64 {
         self.0.magnitude()

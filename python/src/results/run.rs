@@ -1,7 +1,7 @@
 //! A run: its summary and its time series.
 
-use basemat::results::Run;
-use basemat::results::{ElementEnvelope, Quantity, TimeSeries};
+use basemat::coupled::EnergyTerm;
+use basemat::results::{ElementEnvelope, Quantity, Run, TimeSeries};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -9,10 +9,17 @@ use pyo3::types::PyDict;
 use super::base::{events, known};
 use super::{PyEnergyBalance, PyExtremes, PyFoundationSummary, PyPeak, PyServiceCheck, series};
 use crate::array::Numbers;
-use crate::error::{OrRaise, refuse};
+use crate::error::{OrRaise, in_python, refuse};
 use crate::motion::{PyRecord, PySpectrum};
+use crate::saved::{Reduced, reduced};
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
+/// A text as HTML, in its lines.
+pub(crate) fn preformatted(text: &str) -> String {
+    let text = text.replace('&', "&amp;").replace('<', "&lt;");
+    format!("<pre style=\"line-height: 1.2\">{text}</pre>")
+}
+
 type Column = fn(&ElementEnvelope) -> f64;
 
 /// A run: peaks with their times, envelopes, uplift, slip, energies, warnings, and its time series.
@@ -20,6 +27,7 @@ type Column = fn(&ElementEnvelope) -> f64;
 /// ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``; printed, a run is
 /// a page for a report.
 #[pyclass(name = "Run", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyRun {
     pub(super) run: Run,
     histories: Option<TimeSeries>,
@@ -39,7 +47,11 @@ impl PyRun {
 
 #[pymethods]
 impl PyRun {
-    /// Steps made.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
+    /// Number of steps made.
     #[getter]
     fn steps(&self) -> usize {
         self.run.steps
@@ -63,7 +75,7 @@ impl PyRun {
         Ok(PyArray1::from_slice(py, self.kept()?.times()))
     }
 
-    /// Time series of a scalar or a probe: array of shape (steps + 1,).
+    /// Time series of the scalar or the probe ``name``: array of shape (steps + 1,).
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Array<'py>> {
         series::named(py, self.kept()?, name)
     }
@@ -80,38 +92,31 @@ impl PyRun {
         series::energy_balances(py, self.kept()?)
     }
 
-    /// Snapshots of the base: dict of "time" (frames,) and "gap", "slip" (m), "pressure", "shear"
+    /// Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear"
     /// (Pa), "mode" (numbers into :data:`basemat.MODES`), each of shape (frames, elements).
     #[getter]
     fn contact<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         series::contact(py, self.kept()?)
     }
 
-    /// Snapshots of the structure: dict of "time" (frames,), "displacement", "velocity" (frames, n)
-    /// and "free_field" (frames, 2).
+    /// Snapshots of the structure: dict of "time" (frames,), s, "displacement" and "velocity" (frames, n),
+    /// m and m/s, and "free_field" (frames, 2), m to the right and up.
     #[getter]
     fn motion<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         series::motion(py, self.kept()?)
     }
 
-    /// All time series as a pandas frame, indexed by the time.
-    fn to_frame<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("basemat._frames")?.call_method1("run", (slf,))
+    fn _repr_html_(&self) -> String {
+        preformatted(&self.run.to_string())
     }
 
-    /// Snapshots of the base as a tidy pandas frame: a row per frame and element, with columns "time",
-    /// "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode".
-    fn contact_frame<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("basemat._frames")?.call_method1("contact", (slf,))
-    }
-
-    /// The record of an acceleration probe.
+    /// The :class:`Record` of the acceleration probe called ``probe``.
     fn acceleration_record(&self, py: Python<'_>, probe: &str) -> PyResult<Py<PyRecord>> {
         PyRecord::create(py, self.kept()?.acceleration_record(probe))
     }
 
-    /// Floor (in-structure) response spectrum of an acceleration probe at ``periods`` (array of
-    /// shape (m,), s) with the ratio ``damping``.
+    /// Floor (in-structure) response :class:`Spectrum` of the acceleration probe called ``probe`` at
+    /// ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default).
     #[pyo3(signature = (probe, periods, damping=0.05))]
     fn floor_spectrum(
         &self,
@@ -125,7 +130,7 @@ impl PyRun {
         Ok(PySpectrum(spectrum.or_raise()?))
     }
 
-    /// Smallest and largest value of each probe, by its name.
+    /// Smallest and largest value of each probe: dict of :class:`Extremes` by its name, in its unit.
     #[getter]
     fn probes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let probes = PyDict::new(py);
@@ -135,37 +140,37 @@ impl PyRun {
         Ok(probes)
     }
 
-    /// Normal force at the start, N/m.
+    /// Total pressure at the start, N/m.
     #[getter]
     fn static_normal_force(&self) -> f64 {
         self.run.whole.static_normal_force
     }
 
-    /// Base shear, N/m.
+    /// Horizontal force on the soil, positive to the right, N/m: its :class:`Extremes`.
     #[getter]
     fn base_shear(&self) -> PyExtremes {
         PyExtremes(self.run.whole.base_shear)
     }
 
-    /// Base moment, N·m/m.
+    /// Moment on the soil, counter-clockwise, N·m/m: its :class:`Extremes`.
     #[getter]
     fn base_moment(&self) -> PyExtremes {
         PyExtremes(self.run.whole.base_moment)
     }
 
-    /// Normal force, N/m.
+    /// Total pressure on the soil, N/m: its :class:`Extremes`.
     #[getter]
     fn normal_force(&self) -> PyExtremes {
         PyExtremes(self.run.whole.normal_force)
     }
 
-    /// Rotation of the base, rad.
+    /// Rotation of the base, counter-clockwise, rad: its :class:`Extremes`.
     #[getter]
     fn base_rotation(&self) -> PyExtremes {
         PyExtremes(self.run.whole.base_rotation)
     }
 
-    /// Largest uplifted fraction of the base.
+    /// Largest ratio of the open length to that of the base: its :class:`Peak`.
     #[getter]
     fn uplifted_fraction(&self) -> PyPeak {
         PyPeak(self.run.whole.uplifted_fraction.highest)
@@ -177,73 +182,73 @@ impl PyRun {
         self.run.whole.uplift.duration
     }
 
-    /// Slip averaged over the base, m.
+    /// Slip averaged over the base, m: its :class:`Extremes`.
     #[getter]
     fn mean_slip(&self) -> PyExtremes {
         PyExtremes(self.run.whole.mean_slip)
     }
 
-    /// Mean slip at the end, m.
+    /// Slip averaged over the base at the end, m.
     #[getter]
     fn residual_slip(&self) -> f64 {
         self.run.whole.residual_slip
     }
 
-    /// Largest slip of any element, m.
+    /// Largest slip of any element, m: its :class:`Peak`.
     #[getter]
     fn largest_slip(&self) -> PyPeak {
         PyPeak(self.run.whole.largest_slip.highest)
     }
 
-    /// Largest gap of any element, m.
+    /// Largest gap of any element, m: its :class:`Peak`.
     #[getter]
     fn largest_gap(&self) -> PyPeak {
         PyPeak(self.run.largest_gap())
     }
 
-    /// Largest pressure of any element, Pa; None without elements.
+    /// Largest pressure of any element, Pa, a :class:`Peak`; None without elements.
     #[getter]
     fn largest_pressure(&self) -> Option<PyPeak> {
         self.run.largest_pressure().map(|(_, peak)| PyPeak(peak))
     }
 
-    /// Largest base shear over the weight; None without weight.
+    /// Ratio of the largest base shear to the weight; None without weight.
     #[getter]
     fn shear_coefficient(&self) -> Option<f64> {
         self.run.shear_coefficient()
     }
 
-    /// Slip events of the whole base: tuples (start in s, end in s, slip in m).
+    /// Slip events of the whole base: list of tuples (start in s, end in s, slip in m).
     #[getter]
     fn slip_events(&self) -> Vec<(f64, f64, f64)> {
         events(&self.run.whole.sliding.events)
     }
 
-    /// Length of the way that the base has slid, m.
+    /// Sliding distance: |slip| of the base summed over time, m.
     #[getter]
     fn slip_path(&self) -> f64 {
         self.run.whole.sliding.path
     }
 
-    /// Least factor of safety against sliding; None without a friction coefficient.
+    /// Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient.
     #[getter]
     fn least_sliding_safety(&self) -> Option<PyPeak> {
         known(self.run.whole.sliding_safety)
     }
 
-    /// Least factor of safety against overturning.
+    /// Least factor of safety against overturning, a :class:`Peak`.
     #[getter]
     fn least_overturning_safety(&self) -> PyPeak {
         PyPeak(self.run.whole.overturning_safety.lowest)
     }
 
-    /// Each foundation by itself.
+    /// Each foundation by itself: list of :class:`FoundationSummary`, from left to right.
     #[getter]
     fn foundations(&self) -> Vec<PyFoundationSummary> {
         self.run.foundations.iter().cloned().map(PyFoundationSummary).collect()
     }
 
-    /// A check for each limit of service that the simulation was given.
+    /// A check of each limit of service that the simulation was given: list of :class:`ServiceCheck`.
     #[getter]
     fn serviceability(&self) -> Vec<PyServiceCheck> {
         self.run.serviceability.iter().copied().map(PyServiceCheck).collect()
@@ -253,6 +258,23 @@ impl PyRun {
     #[getter]
     fn is_serviceable(&self) -> Option<bool> {
         self.run.is_serviceable()
+    }
+
+    /// SI units of the time series, and J/m of the energies: dict of texts by their names, "" for ratios.
+    #[getter]
+    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let units = PyDict::new(py);
+        units.set_item("time", "s")?;
+        for quantity in Quantity::ALL {
+            units.set_item(quantity.to_string(), quantity.unit())?;
+        }
+        for probe in &self.run.probes {
+            units.set_item(&probe.name, &probe.unit)?;
+        }
+        for term in EnergyTerm::ALL {
+            units.set_item(term.to_string(), "J/m")?;
+        }
+        Ok(units)
     }
 
     /// Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
@@ -279,25 +301,26 @@ impl PyRun {
         Ok(envelope)
     }
 
-    /// Changes of contact mode.
+    /// Number of changes of contact mode.
     #[getter]
     fn mode_changes(&self) -> usize {
         self.run.mode_changes
     }
 
-    /// The energy balance at the end.
+    /// The :class:`EnergyBalance` at the end.
     #[getter]
     fn energy_balance(&self) -> PyEnergyBalance {
         PyEnergyBalance(self.run.energy_balance)
     }
 
-    /// Largest residual of the energy balance; NaN if none is kept.
+    /// Largest residual of the energy balance, relative to the largest energy; NaN if none is kept.
     #[getter]
     fn energy_error(&self) -> f64 {
         self.run.energy_error
     }
 
-    /// Shares of the energy input at the end, by their names; None if that is not positive.
+    /// Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
+    /// is not positive.
     #[getter]
     fn energy_shares<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let Some(energy) = self.run.energy_balance.shares() else { return Ok(None) };
@@ -308,22 +331,22 @@ impl PyRun {
         Ok(Some(shares))
     }
 
-    /// Linear solves of the search for contact modes.
+    /// Number of linear solves of the search for contact modes.
     #[getter]
     fn trials(&self) -> usize {
         self.run.trials
     }
 
-    /// Steps that the first search did not solve.
+    /// Number of steps that the first search did not solve.
     #[getter]
     fn fallbacks(&self) -> usize {
         self.run.fallbacks.total()
     }
 
-    /// Warnings, in words.
+    /// List of the texts of warnings: strained assumptions, and steps and elements too coarse for it.
     #[getter]
     pub(crate) fn warnings(&self) -> Vec<String> {
-        self.run.warnings.iter().map(ToString::to_string).collect()
+        self.run.warnings.iter().map(|own| in_python(own.to_string())).collect()
     }
 
     /// Wall time, s.
@@ -332,7 +355,7 @@ impl PyRun {
         self.run.wall.as_secs_f64()
     }
 
-    /// Numbers of the run for a table, SI units; peaks with their signs, probes as "peak NAME".
+    /// Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME".
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let Self { run, .. } = self;
         let numbers = PyDict::new(py);

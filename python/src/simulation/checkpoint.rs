@@ -7,14 +7,13 @@ use pyo3::types::PyBytes;
 use crate::error::refuse;
 
 /// A run between two steps: :meth:`Simulation.checkpoint` makes it, :meth:`Simulation.resume` goes
-/// on from it, to the same bits. It pickles.
+/// on from it, to the same bits. It pickles. ``data``: the bytes that :meth:`to_bytes` returned.
 #[pyclass(name = "Checkpoint", module = "basemat", frozen, eq)]
 #[derive(PartialEq)]
 pub(crate) struct PyCheckpoint(pub(super) Checkpoint);
 
 #[pymethods]
 impl PyCheckpoint {
-    /// Checkpoint from what :meth:`to_bytes` returned.
     #[new]
     fn new(data: &[u8]) -> PyResult<Self> {
         let read = postcard::from_bytes(data);
@@ -27,7 +26,7 @@ impl PyCheckpoint {
         self.0.steps()
     }
 
-    /// All of it, for a file.
+    /// All of it as bytes, for a file.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let written = postcard::to_allocvec(&self.0);
         let bytes = written.map_err(|error| refuse(format!("checkpoint: {error}")))?;

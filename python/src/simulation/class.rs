@@ -10,30 +10,67 @@ use pyo3::prelude::*;
 
 use super::build;
 use super::watched::{Watched, progress_function};
-use super::{PyCheckpoint, PyLoad, PyState, PyTimeScheme};
+use super::{PyCheckpoint, PyLoad, PyState, PySteps, PyTimeScheme};
 use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, locked, raise, refuse, take_raised};
 use crate::ground::PyGround;
 use crate::motion::PyFreeField;
 use crate::probe::PyProbe;
+use crate::recipe::Recipe;
 use crate::results::PyRun;
 use crate::{error, interface, motion, structure};
 
-/// A structure on a ground, ready to march.
+/// A structure on a ground, ready to march: from the static state under its weight, step by step.
+///
+/// Args:
+///     time_step: time step, s.
+///     structure: a :class:`Structure`, or any object with the methods of :class:`UserStructure`.
+///     ground: an :class:`ElasticGround` or a :class:`SpringGround`.
+///     interface: an :class:`InterfaceLaw` or an object with the methods of :class:`UserLaw`; one for
+///         all contact elements, or a list of one each, from left to right.
+///     motion: ground motion, a :class:`FreeField`: a :class:`Record`, a wave, or what
+///         :func:`free_field` makes of a function. The ground rests unless given.
+///     probes: quantities to record at every step, a list of :class:`Probe` with names of their own;
+///         none unless given.
+///     loads: forces from outside, a list of :class:`Load`; none unless given.
+///     gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
+///         state: the base begins without pressure, and nothing resists uplift and sliding.
+///     gravity_stage: friction while the weight comes on. "frictionless" (the default): none, and the
+///         base sticks from then on; "frictional": the interface law acts, in one step; "unloaded":
+///         there is no static state, weight and loads act from t = 0 on, as for a block let go.
+///     initial_displacement: of the n degrees of freedom at t = 0 against the static state, array of
+///         shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
+///     initial_velocity: the same for velocities, m/s and rad/s; zero unless given.
+///     scheme: a :class:`TimeScheme`; the midpoint rule, which conserves energy, unless given.
+///     coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less
+///         time; "physical": its degrees of freedom; "modes": its vibration modes; a number: reduced
+///         coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
+///         relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
+///     expected_steps: about how many steps will be made. Memory and the ground's weights are then
+///         ready before the first; unless given, those of the first run.
+///     moment_center: x of the point about which the base moment is taken, m; the middle of the base
+///         unless given.
+///     energy_balance: whether energies are booked; True by default. Without them a step takes less
+///         time, and :attr:`Run.energy_error` is NaN.
+///     safety_friction: friction coefficient for the factor of safety against sliding; that of the
+///         interface law unless given. It changes nothing else.
+///     allowable_slip: limit of service of |mean slip|, m; none unless given. This and the next three
+///         change nothing in the run: :attr:`Run.serviceability` holds it against them.
+///     allowable_gap: limit of service of the gap of any element, m; none unless given.
+///     allowable_uplifted_fraction: limit of service of the open length over that of the base, above 0
+///         to 1; none unless given.
+///     allowable_rotation: limit of service of the base's |rotation|, rad; none unless given.
+///     flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
+///         most so many iterations a step, for comparison with their paper; the robust search unless
+///         given.
 #[pyclass(name = "Simulation", module = "basemat", frozen)]
 pub(crate) struct PySimulation {
     simulation: Mutex<Simulation>,
+    structure: Py<PyAny>,
     /// Length of the motion that it was given, s.
     duration: Option<f64>,
     /// Where it began, or why it cannot go back there.
     start: basemat::Result<Checkpoint>,
-}
-
-/// Steps as an iterator: see :meth:`Simulation.steps`.
-#[pyclass(name = "Steps", module = "basemat")]
-pub(crate) struct PySteps {
-    simulation: Py<PySimulation>,
-    left: usize,
 }
 
 impl PySimulation {
@@ -71,6 +108,20 @@ impl PySimulation {
             }
         }
     }
+}
+
+/// Calls methods of a builder with the arguments that were given.
+macro_rules! with_given {
+    ($builder:ident, $($method:ident($given:expr)),+ $(,)?) => {
+        $(if let Some(given) = $given {
+            $builder = $builder.$method(given);
+        })+
+    };
+}
+
+/// A part for one simulation.
+fn made<T: ?Sized>(recipe: &Recipe<T>) -> PyResult<Box<T>> {
+    recipe().or_raise()
 }
 
 /// Result of a step, after the core has returned.
@@ -120,11 +171,11 @@ impl PySimulation {
         take_raised();
         let laws = interface::recipes(&interface)?;
         let laws = laws.iter().map(|make| make()).collect::<basemat::Result<_>>().or_raise()?;
-        let structure = structure::recipe(&structure)?().or_raise()?;
+        let (structure, object) = structure::made(&structure)?;
         let dofs = structure.dofs();
         let mut builder = Simulation::builder(time_step)
             .structure(structure)
-            .ground((ground.get().make)().or_raise()?)
+            .ground(made(&ground.get().make)?)
             .interfaces(laws)
             .gravity_stage(build::gravity_stage(gravity_stage)?)
             .contact_search(build::search(flow_chart_iterations))
@@ -139,42 +190,28 @@ impl PySimulation {
             load.get().order.check("a load", dofs)?;
             builder = builder.load((load.get().make)().or_raise()?);
         }
-        if let Some(motion) = &motion {
-            builder = builder.motion((motion::given(motion)?.get().make)().or_raise()?);
-        }
-        if let Some(gravity) = gravity {
-            builder = builder.gravity(gravity);
-        }
-        if let Some(values) = initial_displacement {
-            builder = builder.initial_displacement(values.0);
-        }
-        if let Some(values) = initial_velocity {
-            builder = builder.initial_velocity(values.0);
-        }
-        if let Some(scheme) = scheme {
-            builder = builder.scheme((scheme.get().make)().or_raise()?);
-        }
-        if let Some(coordinates) = coordinates {
-            builder = builder.coordinates(build::coordinates(&coordinates)?);
-        }
-        if let Some(steps) = expected_steps {
-            builder = builder.expected_steps(steps);
-        }
-        if let Some(x) = moment_center {
-            builder = builder.moment_center(x);
-        }
+        with_given!(
+            builder,
+            motion(motion.as_ref().map(|own| made(&motion::given(own)?.get().make)).transpose()?),
+            gravity(gravity),
+            initial_displacement(initial_displacement.map(|numbers| numbers.0)),
+            initial_velocity(initial_velocity.map(|numbers| numbers.0)),
+            scheme(scheme.map(|own| made(&own.get().make)).transpose()?),
+            coordinates(coordinates.map(|own| build::coordinates(&own)).transpose()?),
+            expected_steps(expected_steps),
+            moment_center(moment_center),
+            safety_friction(safety_friction),
+        );
         if !energy_balance {
             builder = builder.without_energy_balance();
-        }
-        if let Some(coefficient) = safety_friction {
-            builder = builder.safety_friction(coefficient);
         }
         let simulation = build::build(py, builder)?;
         let motion = motion.as_ref().and_then(|motion| motion.cast::<PyFreeField>().ok());
         let duration = motion.and_then(|motion| motion.get().duration);
         let start = simulation.checkpoint();
         take_raised();
-        Ok(Self { simulation: Mutex::new(simulation), duration, start })
+        let (simulation, structure) = (Mutex::new(simulation), object.unbind());
+        Ok(Self { simulation, structure, duration, start })
     }
 
     /// Makes ``steps`` steps, or those of a ``duration`` (s); without either, those to the end of the
@@ -187,11 +224,12 @@ impl PySimulation {
     /// a :class:`BasematWarning` says that the process ignores it. In all three cases the
     /// simulation stays at the last accepted step.
     ///
-    /// Time series are kept of every ``every``th step (all: needed for floor spectra), contact of
-    /// every ``contact_every``th and the structure's motion of every ``motion_every``th (none unless
-    /// given). ``series=False`` keeps no time series at all.
+    /// ``series``: whether time series are kept, True by default: of every ``every``th step (1 by
+    /// default, which floor spectra need), of contact every ``contact_every``th and of the structure's
+    /// motion every ``motion_every``th (none unless given).
     ///
-    /// Every warning in :attr:`Run.warnings` is also a :class:`BasematWarning`, unless ``warn=False``.
+    /// ``warn``: whether every warning in :attr:`Run.warnings` is also a :class:`BasematWarning`; True
+    /// by default.
     #[pyo3(signature = (
         steps=None, *, duration=None, progress=None, observe=None, observe_every=1, series=true,
         every=1, contact_every=None, motion_every=None, warn=true,
@@ -213,6 +251,11 @@ impl PySimulation {
         let steps = self.count(py, steps, duration)?;
         if observe_every == 0 {
             return Err(refuse("observe_every is 0, but must be one or more"));
+        }
+        if let Some(observe) = &observe
+            && !observe.bind(py).is_callable()
+        {
+            return Err(refuse("observe must be a function of a state"));
         }
         let mut recorder = Recorder::new().every(every);
         if let Some(every) = contact_every {
@@ -259,13 +302,20 @@ impl PySimulation {
         duration: Option<f64>,
     ) -> PyResult<PySteps> {
         let left = slf.get().count(slf.py(), steps, duration)?;
-        Ok(PySteps { simulation: slf.unbind(), left })
+        Ok(PySteps { simulation: slf.into_any().unbind(), left })
     }
 
-    /// The state at the end of the last accepted step (at first: the static state).
+    /// The :class:`State` at the end of the last accepted step (at first: the static state).
     #[getter]
     fn state(&self) -> PyResult<PyState> {
         Ok(PyState(self.lock()?.state().clone()))
+    }
+
+    /// The structure as it was given; of one written in Python with a ``force`` of its own the copy that
+    /// this simulation works on, with its internal variables.
+    #[getter]
+    fn structure(&self, py: Python<'_>) -> Py<PyAny> {
+        self.structure.clone_ref(py)
     }
 
     /// Time step, s.
@@ -274,7 +324,7 @@ impl PySimulation {
         Ok(self.lock()?.time_step())
     }
 
-    /// Names of the probes.
+    /// Names of the probes, in their order.
     #[getter]
     fn probe_names(&self) -> PyResult<Vec<String>> {
         Ok(self.lock()?.probes().iter().map(|probe| probe.name.clone()).collect())
@@ -298,7 +348,7 @@ impl PySimulation {
         Ok(self.lock()?.history_choice().map(|choice| choice.to_string()))
     }
 
-    /// Condition numbers of the matrices of a step: effective stiffness, ground, Delassus operator.
+    /// Condition numbers of the three matrices of a step: effective stiffness, ground, contact problem.
     #[getter]
     fn conditioning(&self) -> PyResult<(f64, f64, f64)> {
         let conditioning = self.lock()?.conditioning();
@@ -315,13 +365,14 @@ impl PySimulation {
         Ok(self.lock()?.steps_for(duration))
     }
 
-    /// All that the steps so far have left behind, for :meth:`resume`.
+    /// Saves what the steps so far have left behind as a :class:`Checkpoint`, for :meth:`resume`.
     fn checkpoint(&self) -> PyResult<PyCheckpoint> {
         take_raised();
         settled(self.lock()?.checkpoint()).map(PyCheckpoint)
     }
 
-    /// Goes to where ``checkpoint`` was made, in a simulation that was built in the same way.
+    /// Goes to where ``checkpoint`` (a :class:`Checkpoint`) was made, in a simulation that was built in
+    /// the same way; raises :class:`CheckpointError` in another one.
     fn resume(&self, checkpoint: &PyCheckpoint) -> PyResult<()> {
         take_raised();
         settled(self.lock()?.resume(&checkpoint.0))
@@ -338,37 +389,10 @@ impl PySimulation {
     }
 
     fn __repr__(&self) -> String {
-        let reason = if self.simulation.is_poisoned() { "unusable" } else { "running" };
-        self.lock().map_or_else(
-            |_| format!("Simulation({reason})"),
-            |simulation| {
-                format!(
-                    "Simulation(step {}, {} s)",
-                    simulation.state().step,
-                    simulation.state().time
-                )
-            },
-        )
-    }
-}
-
-#[pymethods]
-impl PySteps {
-    fn __iter__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
-        slf
-    }
-
-    fn __next__(&mut self, py: Python<'_>) -> PyResult<Option<PyState>> {
-        if self.left == 0 {
-            return Ok(None);
+        match self.lock() {
+            Ok(own) => format!("Simulation(step {}, {} s)", own.state().step, own.state().time),
+            Err(_) if self.simulation.is_poisoned() => "Simulation(unusable)".into(),
+            Err(_) => "Simulation(running)".into(),
         }
-        py.check_signals()?;
-        let state = self.simulation.get().step(py)?;
-        self.left -= 1;
-        Ok(Some(state))
-    }
-
-    fn __len__(&self) -> usize {
-        self.left
     }
 }

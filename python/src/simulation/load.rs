@@ -10,10 +10,11 @@ use crate::error::{OrRaise, keep, refuse};
 use crate::motion::PyRecord;
 use crate::row::{Order, RowLike};
 
-/// A force that acts on a structure from outside, on a row of degrees of freedom.
+/// A force that acts on a structure from outside.
 ///
-/// ``value``: a function of time (s) that returns the force (N/m; on a rotation a moment, N·m/m); it
-/// may raise. Its value at t = 0 belongs to the static state.
+/// ``row``: where it acts, a :class:`DofCombination` or what makes one. ``value``: a function of time
+/// (s) that returns the force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0
+/// belongs to the static state.
 #[pyclass(name = "Load", module = "basemat", frozen, dict)]
 pub(crate) struct PyLoad {
     pub(super) make: Arc<dyn Fn() -> basemat::Result<Load> + Send + Sync>,
@@ -40,26 +41,28 @@ impl PyLoad {
         }))
     }
 
-    /// The same force (N/m) at any time, the static state included.
+    /// The same ``force`` (N/m) on the ``row`` at any time, the static state included.
     #[staticmethod]
     fn constant(row: RowLike, force: f64) -> Self {
         Self::of(row.1, move || Ok(Load::constant(row.0.clone(), force)))
     }
 
-    /// A force (N/m) of the static state that is gone from the first step on (snap-back).
+    /// A ``force`` (N/m) on the ``row`` in the static state that is gone from the first step on (snap-back).
     #[staticmethod]
     fn released(row: RowLike, force: f64) -> Self {
         Self::of(row.1, move || Ok(Load::released(row.0.clone(), force)))
     }
 
-    /// ``force`` times the samples of a record, linear between them and zero beyond its ends.
+    /// ``force`` (N/m) on the ``row`` times the accelerations of a ``record`` as bare numbers, linear
+    /// between its samples and zero beyond its ends.
     #[staticmethod]
     fn record(row: RowLike, record: &PyRecord, force: f64) -> Self {
         let (RowLike(row, order), record) = (row, Arc::clone(&record.0));
         Self::of(order, move || Ok(Load::record(row.clone(), &record, force)))
     }
 
-    /// ``forces`` (array, N/m) at ``times`` (array, s, ascending), linear between them, zero outside.
+    /// Forces on the ``row`` from a table: ``forces`` (array of shape (m,), N/m) at ``times`` (array of
+    /// shape (m,), s, ascending), linear between them, zero outside.
     #[staticmethod]
     fn table(row: RowLike, times: Numbers, forces: Numbers) -> PyResult<Self> {
         Load::table(row.0.clone(), &times.0, &forces.0).or_raise()?;

@@ -6,12 +6,14 @@ mod class;
 mod load;
 mod scheme;
 mod state;
+mod steps;
 mod ticker;
 mod watched;
 
 pub(crate) use checkpoint::PyCheckpoint;
-pub(crate) use class::{PySimulation, PySteps};
+pub(crate) use class::PySimulation;
 pub(crate) use load::PyLoad;
 pub(crate) use scheme::PyTimeScheme;
 pub(crate) use state::{PyFoundation, PyState};
+pub(crate) use steps::PySteps;
 pub(crate) use ticker::cancel_when;

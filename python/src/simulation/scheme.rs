@@ -26,27 +26,30 @@ impl PyTimeScheme {
         copied(Midpoint)
     }
 
-    /// The midpoint rule that damps high frequencies, ½ ≤ γ ≤ 1: second order, passive together with the soil.
+    /// The midpoint rule that damps high frequencies: second order, makes no energy with the soil.
+    /// ``gamma``: ½ (the midpoint rule) to 1; 0.8 by default.
     #[staticmethod]
     #[pyo3(signature = (gamma=0.8))]
     fn dissipative_midpoint(gamma: f64) -> PyResult<Self> {
         Ok(copied(DissipativeMidpoint::new(gamma).or_raise()?))
     }
 
-    /// The θ rule, ½ ≤ θ ≤ 1: first order for θ > ½.
+    /// The θ rule; ``theta``: ½ (the midpoint rule) to 1. First order above ½.
     #[staticmethod]
     fn theta(theta: f64) -> PyResult<Self> {
         Ok(copied(Theta::new(theta).or_raise()?))
     }
 
     /// Newmark's rule, for comparison with papers: its coupling with the soil may make energy.
+    /// ``gamma`` and ``beta`` are his γ and β, by default ½ and ¼ (average acceleration).
     #[staticmethod]
     #[pyo3(signature = (gamma=0.5, beta=0.25))]
     fn newmark(gamma: f64, beta: f64) -> PyResult<Self> {
         Ok(copied(Newmark::new(gamma, beta).or_raise()?))
     }
 
-    /// The HHT-α rule, for comparison with papers: its coupling with the soil may make energy.
+    /// The rule of Hilber, Hughes and Taylor, for comparison with papers: its coupling with the soil may
+    /// make energy. ``alpha``: −⅓ (most damping) to 0 (none).
     #[staticmethod]
     fn hht_alpha(alpha: f64) -> PyResult<Self> {
         Ok(copied(HhtAlpha::new(alpha).or_raise()?))

@@ -6,8 +6,10 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::array::whole;
+use crate::error::refuse;
 use crate::names::{mode_name, mode_number};
 use crate::results::PyEnergyBalance;
+use crate::saved::{Reduced, reduced};
 
 type Array<'py> = Bound<'py, PyArray1<f64>>;
 
@@ -18,28 +20,36 @@ type Array<'py> = Bound<'py, PyArray1<f64>>;
 #[pyclass(name = "State", module = "basemat", frozen)]
 pub(crate) struct PyState(pub(super) State);
 
-/// A foundation at the end of a step.
+/// A foundation at the end of a step; forces are those of the structure on the soil, per metre.
 #[pyclass(name = "FoundationState", module = "basemat", frozen, get_all)]
+#[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyFoundation {
-    /// First element and the one after the last.
+    /// Numbers of its first element and of the one after its last.
     elements: (usize, usize),
-    /// Horizontal force on the soil, N/m.
+    /// Horizontal force on the soil, positive to the right, N/m.
     shear: f64,
-    /// Moment on the soil, N·m/m.
+    /// Moment on the soil about its middle, counter-clockwise, N·m/m.
     moment: f64,
     /// Total pressure, N/m.
     normal_force: f64,
-    /// Open length over its length.
+    /// Ratio of its open length to its length.
     uplifted_fraction: f64,
-    /// Mean slip, m.
+    /// Slip averaged over it, m.
     mean_slip: f64,
     /// Rotation of its chord, rad.
     rotation: f64,
 }
 
 #[pymethods]
+impl PyFoundation {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+}
+
+#[pymethods]
 impl PyState {
-    /// Steps made.
+    /// Number of steps made.
     #[getter]
     fn step(&self) -> usize {
         self.0.step
@@ -82,7 +92,7 @@ impl PyState {
         Ok(PyArray1::from_vec(py, modes.collect::<PyResult<_>>()?))
     }
 
-    /// Changes of mode in this step: tuples (element, mode before, mode now).
+    /// Changes of mode in this step: list of tuples (element, mode before, mode now).
     #[getter]
     fn transitions(&self) -> PyResult<Vec<(usize, &'static str, &'static str)>> {
         let changes = self.0.transitions.iter();
@@ -115,7 +125,7 @@ impl PyState {
         self.0.normal_force
     }
 
-    /// Length of open elements over the length of the base.
+    /// Ratio of the length of open elements to that of the base.
     #[getter]
     fn uplifted_fraction(&self) -> f64 {
         self.0.uplifted_fraction
@@ -139,7 +149,7 @@ impl PyState {
         self.0.base_rotation
     }
 
-    /// Each foundation by itself.
+    /// Each foundation by itself: list of :class:`FoundationState`, from left to right.
     #[getter]
     fn foundations(&self) -> Vec<PyFoundation> {
         let own = |foundation: &Foundation| PyFoundation {
@@ -160,13 +170,13 @@ impl PyState {
         self.0.free_field
     }
 
-    /// The energy balance.
+    /// The :class:`EnergyBalance` since the start.
     #[getter]
     fn energy_balance(&self) -> PyEnergyBalance {
         PyEnergyBalance(self.0.energy_balance)
     }
 
-    /// Linear solves that the search for contact modes needed.
+    /// Number of linear solves that the search for contact modes needed.
     #[getter]
     fn trials(&self) -> usize {
         self.0.trials
@@ -188,7 +198,8 @@ impl PyState {
         PyArray1::from_slice(py, self.0.displacement())
     }
 
-    /// The same with the translation of the free field.
+    /// Displacement of the degrees of freedom with the translation of the free field: array of shape
+    /// (n,), m and rad.
     #[getter]
     fn absolute_displacement<'py>(&self, py: Python<'py>) -> Array<'py> {
         PyArray1::from_slice(py, self.0.absolute_displacement())
@@ -206,9 +217,14 @@ impl PyState {
         PyArray1::from_slice(py, self.0.acceleration())
     }
 
-    /// Numbers that the law of an element remembers.
-    fn state_variables(&self, #[pyo3(from_py_with = whole)] element: usize) -> Vec<f64> {
-        self.0.state_variables(element).to_vec()
+    /// State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if it
+    /// has none.
+    fn state_variables(&self, #[pyo3(from_py_with = whole)] element: usize) -> PyResult<Vec<f64>> {
+        let elements = self.0.contact.len();
+        if element >= elements {
+            return Err(refuse(format!("element is {element}, but must be below {elements}")));
+        }
+        Ok(self.0.state_variables(element).to_vec())
     }
 
     fn __repr__(&self) -> String {

@@ -16,8 +16,8 @@ thread_local! {
     static CANCELLED: RefCell<Option<Py<PyAny>>> = const { RefCell::new(None) };
 }
 
-/// Runs of this thread end with `KeyboardInterrupt` once ``event.is_set()``; None for no event.
-#[pyfunction]
+/// Runs of this thread end with ``KeyboardInterrupt`` once ``event.is_set()``; None for no event.
+#[pyfunction(name = "_cancel_when")]
 #[pyo3(signature = (event=None))]
 pub(crate) fn cancel_when(event: Option<Py<PyAny>>) {
     let before = CANCELLED.replace(event);

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 use super::PyState;
 use super::ticker::Ticker;
-use crate::error::{has_raised, raise, take_raised};
+use crate::error::{has_raised, raise, returned, take_raised};
 use crate::results::PyRun;
 
 /// The function that is told of the progress: the package's own for True, none for False.
@@ -72,7 +72,8 @@ impl Watched {
             return Ok(ControlFlow::Continue(()));
         };
         let ends = Python::attach(|py| {
-            observe.call1(py, (PyState(state.clone()),))?.extract::<Option<bool>>(py)
+            let found = observe.call1(py, (PyState(state.clone()),))?;
+            returned::<Option<bool>>("observe", found.bind(py))
         })?;
         Ok(if ends == Some(true) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
     }

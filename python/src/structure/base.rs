@@ -11,7 +11,8 @@ use crate::error::{OrRaise, kept, refuse};
 use crate::recipe::Recipe;
 use crate::user::UserStructure;
 
-/// A structure: a description from which every simulation makes one of its own.
+/// A structure with n degrees of freedom (m, rad), free of supports: the ground holds it up. It is a
+/// description from which every simulation makes one of its own.
 #[pyclass(name = "Structure", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyStructure {
     pub(crate) make: Recipe<dyn Structure>,
@@ -40,6 +41,19 @@ pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure
         "{} is no structure: it has no method `contact_nodes`",
         object.get_type().name()?
     )))
+}
+
+/// A structure for one simulation, and the object that has its internal variables: a copy if it is a
+/// nonlinear one of the user's.
+pub(crate) fn made<'py>(
+    object: &Bound<'py, PyAny>,
+) -> PyResult<(Box<dyn Structure>, Bound<'py, PyAny>)> {
+    if object.cast::<PyStructure>().is_err() && object.hasattr("contact_nodes")? {
+        let own = UserStructure::new(object)?;
+        let copy = own.object(object.py());
+        return Ok((Box::new(own), copy));
+    }
+    Ok((recipe(object)?().or_raise()?, object.clone()))
 }
 
 /// Most degrees of freedom of a structure whose matrices are written out: an array takes 3.2 GB.
@@ -81,13 +95,13 @@ fn array<'py>(
 
 #[pymethods]
 impl PyStructure {
-    /// Number of degrees of freedom n.
+    /// Number n of degrees of freedom.
     #[getter]
     fn dofs(&self) -> PyResult<usize> {
         Ok((self.make)().or_raise()?.dofs())
     }
 
-    /// Points of the base that touch the ground, from left to right.
+    /// Points of the base that touch the ground: list of :class:`ContactNode`, from left to right.
     fn contact_nodes(&self) -> PyResult<Vec<PyContactNode>> {
         Ok((self.make)().or_raise()?.contact_nodes().into_iter().map(PyContactNode::from).collect())
     }

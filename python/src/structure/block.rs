@@ -7,11 +7,11 @@ use super::PyStructure;
 use crate::error::OrRaise;
 use crate::row::PyDofCombination;
 
-/// A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to the
-/// right, displacement up, rotation.
+/// A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to
+/// the right, displacement up, rotation.
 ///
-/// ``width``, ``height`` in m, ``density`` in kg/m³. ``center``: x of its middle, m. ``p_delta``:
-/// gravity (m/s²) with which its weight tips it once it leans; none unless given.
+/// ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default.
+/// ``p_delta``: gravity (m/s²) with which its weight tips it once it leans; none unless given.
 #[pyclass(name = "RigidBlock", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyRigidBlock(RigidBlock);
 
@@ -42,8 +42,9 @@ impl PyRigidBlock {
         placed(RigidBlock::new(width, height, density).or_raise()?, center, p_delta)
     }
 
-    /// Block of a mass (kg/m) with a rotary inertia about its centre of mass (kg m²/m), which is
-    /// ``center_height`` (m) above the base.
+    /// Block of a ``width`` (m) and a ``mass`` (kg/m) with the ``rotary_inertia`` (kg m²/m) about its
+    /// centre of mass, which is ``center_height`` (m) above the base; ``center`` and ``p_delta`` are
+    /// those of the class, if given.
     #[staticmethod]
     #[pyo3(signature = (width, mass, rotary_inertia, center_height, *, center=0.0, p_delta=None))]
     fn from_mass(
@@ -59,13 +60,13 @@ impl PyRigidBlock {
         Py::new(py, placed(block.or_raise()?, center, p_delta)?)
     }
 
-    /// Unknown of the displacement to the right.
+    /// Number of the degree of freedom of the displacement to the right.
     #[classattr]
     const HORIZONTAL: usize = RigidBlock::HORIZONTAL;
-    /// Unknown of the displacement up.
+    /// Number of the degree of freedom of the displacement up.
     #[classattr]
     const VERTICAL: usize = RigidBlock::VERTICAL;
-    /// Unknown of the rotation.
+    /// Number of the degree of freedom of the rotation.
     #[classattr]
     const ROTATION: usize = RigidBlock::ROTATION;
 
@@ -81,12 +82,12 @@ impl PyRigidBlock {
         self.0.base_inertia()
     }
 
-    /// Horizontal displacement at a height (m) above the base.
+    /// The :class:`DofCombination` of the displacement to the right at a ``height`` (m) above the base.
     fn horizontal_at(&self, height: f64) -> PyDofCombination {
         self.0.horizontal_at(height).into()
     }
 
-    /// Vertical displacement at x (m).
+    /// The :class:`DofCombination` of the displacement up at ``x`` (m).
     fn vertical_at(&self, x: f64) -> PyDofCombination {
         self.0.vertical_at(x).into()
     }

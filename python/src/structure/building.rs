@@ -9,13 +9,13 @@ use pyo3::prelude::*;
 use super::PyStructure;
 use super::hysteresis::PyHysteresis;
 use crate::array::whole;
-use crate::error::OrRaise;
+use crate::error::{OrRaise, refuse};
 use crate::recipe::Recipe;
 use crate::row::{PyDofCombination, PySectionRows};
 
-/// A storey of a :class:`ShearBuilding`, per metre of thickness: ``height`` of its columns (m),
-/// ``mass`` of the floor above (kg), sway ``stiffness`` (N/m), ``rotary_inertia`` of the floor
-/// (kg m²), ``damping`` by a dashpot between the floors (N s/m).
+/// A storey of a :class:`ShearBuilding`, per metre of thickness: ``height`` of its columns (m), ``mass``
+/// of the floor above (kg), lateral ``stiffness`` (N/m), ``rotary_inertia`` of the floor (kg m²; 0 by
+/// default), ``damping`` by a dashpot between the floors (N s/m; 0 by default).
 #[pyclass(name = "Storey", module = "basemat", frozen, dict)]
 #[derive(Clone, Copy)]
 pub(crate) struct PyStorey(pub(crate) Storey);
@@ -39,9 +39,17 @@ impl PyStorey {
 
 type Laws = BTreeMap<usize, Recipe<dyn Hysteresis>>;
 
+/// Laws by storey, as Python gives them.
+type GivenLaws<'py> = Option<BTreeMap<i64, Bound<'py, PyHysteresis>>>;
+
 /// Recipes of laws by storey.
-fn recipes(laws: Option<BTreeMap<usize, Bound<'_, PyHysteresis>>>) -> Laws {
-    laws.into_iter().flatten().map(|(storey, law)| (storey, law.get().make.clone())).collect()
+fn recipes(laws: GivenLaws<'_>) -> PyResult<Laws> {
+    let own = |(storey, law): (i64, Bound<'_, PyHysteresis>)| {
+        let storey = usize::try_from(storey)
+            .map_err(|_| refuse(format!("laws: storey is {storey}, but must be 0 or more")))?;
+        Ok((storey, law.get().make.clone()))
+    };
+    laws.into_iter().flatten().map(own).collect()
 }
 
 /// The building with its laws.
@@ -52,14 +60,15 @@ fn following(mut building: ShearBuilding, laws: &Laws) -> basemat::Result<ShearB
     Ok(building)
 }
 
-/// Floors on sway columns on a rigid base.
+/// Rigid floors on columns that shear, on a rigid base.
 ///
-/// Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute horizontal
-/// displacement of every floor from below. ``width`` of the base in m, ``base_mass`` in kg/m,
-/// ``base_inertia`` in kg m²/m. ``damping``: ratio in the first mode on a fixed base, by damping
-/// proportional to stiffness. ``p_delta``: gravity (m/s²) of the P–Δ effect; none unless given.
-/// ``laws={storey: law}``: :class:`Hysteresis` laws that take the place of the stiffness of storeys,
-/// storey 0 the lowest.
+/// Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute
+/// horizontal displacement of every floor from below. ``width`` of the base: m. ``base_mass``: kg/m.
+/// ``base_inertia``: kg m²/m. ``storeys``: list of :class:`Storey`, the lowest first. ``damping``: ratio
+/// in the first mode on a fixed base, by damping proportional to stiffness; none unless given.
+/// ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
+/// effect; none unless given. ``laws``: dict ``{storey: law}`` of :class:`Hysteresis` laws that take the
+/// place of the stiffness of storeys, storey 0 the lowest; none unless given.
 #[pyclass(name = "ShearBuilding", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyShearBuilding(Make);
 
@@ -95,10 +104,10 @@ impl PyShearBuilding {
         damping: Option<f64>,
         center: f64,
         p_delta: Option<f64>,
-        laws: Option<BTreeMap<usize, Bound<'_, PyHysteresis>>>,
+        laws: GivenLaws<'_>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let storeys: Vec<Storey> = storeys.iter().map(|storey| storey.get().0).collect();
-        let laws = recipes(laws);
+        let laws = recipes(laws)?;
         Self::of(move || {
             let mut building = ShearBuilding::new(width, base_mass, base_inertia, &storeys)?
                 .centered_at(center)?;
@@ -112,10 +121,12 @@ impl PyShearBuilding {
         })
     }
 
-    /// The building with its lowest columns on a slab that rests on isolators of this ``law``; they
-    /// become storey 0, and the building's storeys count from 1. ``height`` of the bearings in m,
-    /// ``slab_mass`` in kg/m, ``slab_inertia`` in kg m²/m, ``damping`` beside the bearings in
-    /// N s/m. ``laws``: of further storeys; the building must have none.
+    /// The ``building`` with its lowest columns on a slab that rests on isolators of this ``law``
+    /// (:class:`Hysteresis`); they become storey 0, and the building's storeys count from 1.
+    ///
+    /// ``height`` of the bearings: m. ``slab_mass``: kg/m. ``slab_inertia``: kg m²/m; 0 by default.
+    /// ``damping`` beside the bearings: N s/m; 0 by default. ``laws``: of further storeys, as for the
+    /// class; none unless given. The building must have none.
     #[staticmethod]
     #[pyo3(signature = (building, law, *, height, slab_mass, slab_inertia=0.0, damping=0.0, laws=None))]
     fn isolated(
@@ -125,10 +136,10 @@ impl PyShearBuilding {
         slab_mass: f64,
         slab_inertia: f64,
         damping: f64,
-        laws: Option<BTreeMap<usize, Bound<'_, PyHysteresis>>>,
+        laws: GivenLaws<'_>,
     ) -> PyResult<Py<Self>> {
         let level = IsolationLevel { height, slab_mass, slab_inertia, damping };
-        let (make, own, laws) = (building.get().0.clone(), law.get().make.clone(), recipes(laws));
+        let (make, own, laws) = (building.get().0.clone(), law.get().make.clone(), recipes(laws)?);
         let made = Self::of(move || following(make()?.isolated(level, own()?)?, &laws))?;
         Py::new(law.py(), made)
     }
@@ -145,23 +156,25 @@ impl PyShearBuilding {
         Ok(self.made()?.fixed_base_frequency())
     }
 
-    /// Unknown of the topmost floor.
+    /// Number of the degree of freedom of the topmost floor.
     #[getter]
     fn roof(&self) -> PyResult<usize> {
         Ok(self.made()?.roof())
     }
 
-    /// Unknown of the floor above a storey (0: the lowest).
+    /// Number of the degree of freedom of the floor above a ``storey`` (0: the lowest).
     fn floor(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<usize> {
         self.made()?.floor(storey).or_raise()
     }
 
-    /// Drift of a storey: its floors' relative displacement less the turn of the base, m.
+    /// The :class:`DofCombination` of the drift of a ``storey`` (0: the lowest), m: its floors' relative
+    /// displacement less what the base's rotation makes of it.
     fn drift(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PyDofCombination> {
         Ok(self.made()?.drift(storey).or_raise()?.into())
     }
 
-    /// Displacement of a storey's floor less the motion of the base, m.
+    /// The :class:`DofCombination` of the displacement of the floor above a ``storey`` (0: the lowest)
+    /// less the motion of the base, its rotation included, m.
     fn total_drift(
         &self,
         #[pyo3(from_py_with = whole)] storey: usize,
@@ -169,8 +182,8 @@ impl PyShearBuilding {
         Ok(self.made()?.total_drift(storey).or_raise()?.into())
     }
 
-    /// Force of what is above a storey's columns on what is below, N/m; of a storey that follows a
-    /// law, from the inertia above.
+    /// The :class:`SectionRows` of the force (N/m) of what is above the columns of a ``storey`` (0: the
+    /// lowest) on what is below; of a storey that follows a law, from the inertia above.
     fn shear(&self, #[pyo3(from_py_with = whole)] storey: usize) -> PyResult<PySectionRows> {
         Ok(self.made()?.shear(storey).or_raise()?.into())
     }

@@ -25,7 +25,7 @@ impl PyRayleighDamping {
         Ok(Self(RayleighDamping::new(mass, stiffness).or_raise()?))
     }
 
-    /// Damping with given ``ratios`` at two ``frequencies`` (Hz).
+    /// Damping with given ``ratios`` (a pair) at two ``frequencies`` (a pair, Hz).
     #[staticmethod]
     fn from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) -> PyResult<Self> {
         Ok(Self(RayleighDamping::from_ratios(frequencies, ratios).or_raise()?))
@@ -43,15 +43,15 @@ impl PyRayleighDamping {
         self.0.stiffness()
     }
 
-    /// Damping ratio at a frequency (Hz).
+    /// Damping ratio at a ``frequency`` (Hz).
     fn ratio(&self, frequency: f64) -> f64 {
         self.0.ratio(frequency)
     }
 }
 
-/// A structure reduced by Craig and Bampton's method to its contact nodes, the degrees of freedom in ``keep``
-/// and the lowest ``modes`` modes of the rest. ``damping_ratio``: of these modes, in place of the
-/// structure's damping.
+/// A ``structure`` reduced by Craig and Bampton's method to its contact nodes, the degrees of freedom in
+/// the list ``keep`` (none unless given) and the lowest ``modes`` modes of the rest. ``damping_ratio``:
+/// of these modes, in place of the structure's damping, which stays unless given.
 #[pyclass(name = "ReducedModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyReducedModel(Arc<ReducedModel>);
 
@@ -86,20 +86,22 @@ impl PyReducedModel {
         PyArray1::from_vec(py, self.0.frequencies())
     }
 
-    /// A row of the full structure in the degrees of freedom of the reduced one, for a probe or a load.
+    /// A ``row`` of the full structure as a :class:`DofCombination` of the reduced one, for a probe or a
+    /// load.
     fn row(&self, row: RowLike) -> PyResult<PyDofCombination> {
         row.1.check("the row", self.0.recovery().full_dofs())?;
         Ok(self.0.recovery().row(row.0).or_raise()?.into())
     }
 
-    /// Degrees of freedom of the full structure (array of shape (n,)) from those of the reduced one.
+    /// Degrees of freedom of the full structure, array of shape (n,), m and rad, from those of the
+    /// ``reduced`` one, array of shape (dofs,).
     fn full<'py>(&self, py: Python<'py>, reduced: Numbers) -> PyResult<Bound<'py, PyArray1<f64>>> {
         Ok(PyArray1::from_vec(py, self.0.recovery().full(&reduced.0).or_raise()?))
     }
 }
 
-/// Several structures on one ground, from left to right: pairs ``(structure, shift)``, each moved to
-/// the right by its shift (m).
+/// Several structures on one ground, coupled through the soil: ``members`` is a list of pairs
+/// ``(structure, shift)`` from left to right, each moved to the right by its shift (m).
 #[pyclass(name = "StructureGroup", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyStructureGroup {
     make: Arc<dyn Fn() -> basemat::Result<StructureGroup> + Send + Sync>,
@@ -133,7 +135,7 @@ impl PyStructureGroup {
         Ok(PyClassInitializer::from(base).add_subclass(Self { make, dofs }))
     }
 
-    /// A row of the structure ``member`` (0: the leftmost) in the degrees of freedom of the group.
+    /// A ``row`` of the structure ``member`` (0: the leftmost) as a :class:`DofCombination` of the group.
     fn row(
         &self,
         #[pyo3(from_py_with = whole)] member: usize,
@@ -147,8 +149,8 @@ impl PyStructureGroup {
     }
 }
 
-/// A structure with the damping ``ratios`` of its own modes beside its own damping: of the lowest
-/// mode first, the last of them for all further modes.
+/// A ``structure`` with damping ``ratios`` (array of shape (m,)) of its own modes beside its own damping:
+/// of the lowest mode first, the last of them for all further modes.
 #[pyclass(name = "WithModalDamping", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithModalDamping(Vec<f64>);
 

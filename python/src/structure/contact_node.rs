@@ -6,7 +6,8 @@ use pyo3::prelude::*;
 use crate::array::whole;
 use crate::row::{Order, PyDofCombination, RowLike};
 
-/// A point of the base: its coordinate x (m), and rows for its displacement to the right and up.
+/// A point of the base: its coordinate ``x`` (m), and the rows (:class:`DofCombination`, or what makes
+/// one) of its displacement to the right, ``horizontal``, and up, ``vertical``.
 #[pyclass(name = "ContactNode", module = "basemat", frozen)]
 #[derive(Clone)]
 pub(crate) struct PyContactNode(pub(crate) ContactNode, Order);
@@ -25,14 +26,15 @@ impl PyContactNode {
         Ok(Self(ContactNode { x, horizontal: horizontal.0, vertical: vertical.0 }, order))
     }
 
-    /// A point of a rigid flat base with ``dofs`` (horizontal, vertical, rotation) at ``center`` (m).
+    /// A point at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
+    /// numbers ``dofs`` (horizontal, vertical, rotation).
     #[staticmethod]
     fn rigid(x: f64, center: f64, #[pyo3(from_py_with = whole)] dofs: [usize; 3]) -> Self {
         ContactNode::rigid(x, center, dofs).into()
     }
 
-    /// The two ends of a rigid flat base from ``left`` to ``right`` (m), with ``dofs``
-    /// (horizontal, vertical, rotation) at its middle.
+    /// The two ends, a list, of a rigid flat base from ``left`` to ``right`` (m) whose degrees of freedom
+    /// at its middle have the numbers ``dofs`` (horizontal, vertical, rotation).
     #[staticmethod]
     fn rigid_base(
         left: f64,
@@ -42,19 +44,19 @@ impl PyContactNode {
         ContactNode::rigid_base(left, right, dofs).into_iter().map(Self::from).collect()
     }
 
-    /// Coordinate, m.
+    /// Coordinate to the right, m.
     #[getter]
     fn x(&self) -> f64 {
         self.0.x
     }
 
-    /// Displacement to the right.
+    /// The :class:`DofCombination` of its displacement to the right.
     #[getter]
     fn horizontal(&self) -> PyDofCombination {
         PyDofCombination(self.0.horizontal.clone(), self.1)
     }
 
-    /// Displacement up.
+    /// The :class:`DofCombination` of its displacement up.
     #[getter]
     fn vertical(&self) -> PyDofCombination {
         PyDofCombination(self.0.vertical.clone(), self.1)

@@ -16,13 +16,13 @@ impl PyDofCombination {
         Self(terms.0, terms.1)
     }
 
-    /// Pairs ``(unknown, weight)``.
+    /// List of pairs ``(dof, weight)``.
     #[getter]
     fn terms(&self) -> Vec<(usize, f64)> {
         self.0.terms().to_vec()
     }
 
-    /// The sum for given degrees of freedom (array of shape (n,)).
+    /// The sum for given degrees of freedom: ``dofs`` is an array of shape (n,); in their unit.
     fn value(&self, dofs: Numbers) -> PyResult<f64> {
         let Numbers(dofs) = dofs;
         self.1.check("the row", dofs.len())?;
@@ -32,7 +32,7 @@ impl PyDofCombination {
         Ok(self.0.value(&dofs))
     }
 
-    /// All n weights as an array of shape (n,).
+    /// All weights as an array of shape (n,) for a number n of degrees of freedom, ``dofs``.
     fn weights<'py>(
         &self,
         py: Python<'py>,
@@ -52,14 +52,15 @@ impl PyDofCombination {
         Ok(PyArray1::from_vec(py, weights))
     }
 
-    /// This displacement to the right less that of the middle of the structure's base.
+    /// This displacement to the right less that of the middle of the base of the ``structure``.
     fn relative_to_base(&self, structure: Bound<'_, PyAny>) -> PyResult<Self> {
         let structure = recipe(&structure)?().or_raise()?;
         self.1.check("the row", structure.dofs())?;
         Ok(Self(self.0.relative_to_base(structure.as_ref()).or_raise()?, self.1))
     }
 
-    /// The same less what the base's rotation makes of it at ``height`` (m): the sway.
+    /// This displacement to the right less that of the base of the ``structure``, its rotation included,
+    /// which moves what is ``height`` (m) above it: the lateral deformation.
     fn total_drift(&self, structure: Bound<'_, PyAny>, height: f64) -> PyResult<Self> {
         let structure = recipe(&structure)?().or_raise()?;
         self.1.check("the row", structure.dofs())?;

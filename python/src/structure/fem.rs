@@ -19,17 +19,30 @@ use crate::row::{PyDofCombination, PySectionRows};
 
 /// A finite-element structure.
 ///
-/// ``contact``: nodes that touch the ground from left to right; a list of such lists for separate
-/// foundations; all lowest nodes unless given. ``rayleigh``: damping; ``mass``: "consistent" or
-/// "lumped"; ``rigid_links``: pairs (leader, followers) of nodes that move as one body; ``p_delta``:
-/// gravity (m/s²) of the weight whose axial forces make P–Δ.
+/// ``mesh``: a :class:`Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right;
+/// a list of such lists for separate foundations; all lowest nodes unless given. ``rayleigh``:
+/// :class:`RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
+/// or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
+/// unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
+/// given. ``active_damping``: whether dashpots may feed energy in, which is refused by default.
 #[pyclass(name = "FemModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyFemModel(Arc<FemModel>);
 
-#[derive(FromPyObject)]
+/// Nodes of the base, or of each foundation.
 enum Contact {
     Nodes(Vec<usize>),
     Lines(Vec<Vec<usize>>),
+}
+
+impl<'py> FromPyObject<'_, 'py> for Contact {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(lines) = object.extract() {
+            return Ok(Self::Lines(lines));
+        }
+        Ok(Self::Nodes(whole(&object)?))
+    }
 }
 
 #[pymethods]
@@ -70,7 +83,7 @@ impl PyFemModel {
         Ok(PyClassInitializer::from(base).add_subclass(Self(model)))
     }
 
-    /// Motion of a node in a direction ("x", "y" or "rotation") as a weighted sum of degrees of freedom.
+    /// The :class:`DofCombination` of the motion of a ``node`` in a ``direction``: "x", "y" or "rotation".
     fn row(
         &self,
         #[pyo3(from_py_with = whole)] node: usize,
@@ -79,7 +92,8 @@ impl PyFemModel {
         Ok(self.0.row(node, self::direction(direction)?).or_raise()?.into())
     }
 
-    /// Unknown of a node in a direction; None if it has none of its own.
+    /// Number of the degree of freedom of a ``node`` in a ``direction``, "x", "y" or "rotation"; None if it
+    /// has none of its own.
     fn unknown(
         &self,
         #[pyo3(from_py_with = whole)] node: usize,
@@ -88,13 +102,14 @@ impl PyFemModel {
         Ok(self.0.unknown(node, self::direction(direction)?))
     }
 
-    /// Node at (x, y), m, to a millionth of the model's size.
+    /// Number of the node at (``x``, ``y``), m, to a millionth of the model's size.
     fn node_at(&self, x: f64, y: f64) -> PyResult<usize> {
         self.0.node_at(x, y).or_raise()
     }
 
-    /// Shear, compression and moment that the part above ``height`` (m) exerts on the part below,
-    /// the moment about (``reference``, ``height``).
+    /// The :class:`SectionRows` of shear (N/m), compression (N/m) and moment (N·m/m) that the part above
+    /// ``height`` (m) exerts on the part below, the moment about (``reference``, ``height``), m;
+    /// ``reference`` is 0 by default.
     #[pyo3(signature = (height, reference=0.0))]
     fn section(
         &self,
@@ -107,7 +122,8 @@ impl PyFemModel {
         Ok((shear, compression, moment))
     }
 
-    /// Row of a uniform pressure (Pa) on a line of nodes.
+    /// The :class:`DofCombination` of a uniform pressure on a line of ``nodes`` (list of numbers): as the
+    /// row of a :class:`Load`, whose forces are then pressures (Pa).
     fn pressure_row(
         &self,
         #[pyo3(from_py_with = whole)] nodes: Vec<usize>,
@@ -115,13 +131,13 @@ impl PyFemModel {
         Ok(self.0.pressure_row(&nodes).or_raise()?.into())
     }
 
-    /// Share of the axial forces of its static state at which it buckles.
+    /// Factor on the axial forces of its static state at which it buckles.
     fn buckling_factor(&self) -> PyResult<f64> {
         self.0.buckling_factor().or_raise()
     }
 }
 
-/// A mesh of quadrilaterals from a file of Gmsh (format 4.1, ASCII).
+/// A mesh of quadrilaterals from the file of Gmsh (format 4.1, ASCII) at ``path``.
 #[pyclass(name = "GmshMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshMesh(GmshMesh);
 
@@ -132,25 +148,26 @@ impl PyGmshMesh {
         Ok(Self(GmshMesh::read(path).or_raise()?))
     }
 
-    /// Names of the groups of quadrilaterals.
+    /// List of the names of the groups of quadrilaterals.
     #[getter]
     fn surfaces(&self) -> Vec<&str> {
         self.0.surfaces()
     }
 
-    /// Names of the groups of lines.
+    /// List of the names of the groups of lines.
     #[getter]
     fn lines(&self) -> Vec<&str> {
         self.0.lines()
     }
 
-    /// The quadrilaterals, each with the material of its group: ``{"wall": material}``.
+    /// The quadrilaterals as a :class:`Mesh`, each with the material of its group: ``materials`` is a dict
+    /// ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are those of :class:`Layer`.
     #[pyo3(signature = (materials, *, formulation="incompatible modes", hourglass_percent=5))]
     fn mesh(
         &self,
         materials: BTreeMap<String, Bound<'_, PyMaterial>>,
         formulation: &str,
-        hourglass_percent: u8,
+        #[pyo3(from_py_with = whole)] hourglass_percent: usize,
     ) -> PyResult<PyMesh> {
         let materials: Vec<(&str, Material)> =
             materials.iter().map(|(name, own)| (name.as_str(), own.get().0)).collect();
@@ -158,12 +175,13 @@ impl PyGmshMesh {
         Ok(PyMesh(self.0.mesh_of(&materials, formulation).or_raise()?))
     }
 
-    /// Nodes of a group of lines in one piece, from left to right.
+    /// Numbers of the nodes of the group ``name`` of lines in one piece: list, from left to right.
     fn line(&self, name: &str) -> PyResult<Vec<usize>> {
         self.0.line(name).or_raise()
     }
 
-    /// Nodes of a group of lines, piece by piece: for the contact of a :class:`FemModel`.
+    /// Numbers of the nodes of the group ``name`` of lines, a list for each piece: for the ``contact`` of a
+    /// :class:`FemModel`.
     fn foundations(&self, name: &str) -> PyResult<Vec<Vec<usize>>> {
         self.0.foundations(name).or_raise()
     }

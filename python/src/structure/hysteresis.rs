@@ -9,6 +9,7 @@ use crate::error::OrRaise;
 use crate::recipe::Recipe;
 
 /// A spring whose force depends on where it has been: a yield law of a storey, an isolator.
+/// Forces and stiffnesses are per metre of thickness.
 #[pyclass(name = "Hysteresis", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyHysteresis {
     pub(super) make: Recipe<dyn Hysteresis>,
@@ -24,7 +25,8 @@ where
 
 #[pymethods]
 impl PyHysteresis {
-    /// Force (N) at each of the ``deformations`` (m) of a path that a new spring is led along.
+    /// Forces (list of m numbers, N/m) at the ``deformations`` (array of shape (m,), m) of a path that a
+    /// new spring is led along.
     fn path(&self, deformations: crate::array::Numbers) -> PyResult<Vec<f64>> {
         let mut spring = (self.make)().or_raise()?;
         let force = |deformation: f64| {
@@ -36,8 +38,8 @@ impl PyHysteresis {
     }
 }
 
-/// Bilinear: ``stiffness`` (N/m) up to ``yield_force`` (N), then ``hardening`` times the stiffness;
-/// unloading with the first stiffness.
+/// Bilinear: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times
+/// the stiffness; unloading with the first stiffness.
 #[pyclass(name = "Bilinear", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyBilinear;
 
@@ -49,7 +51,9 @@ impl PyBilinear {
     }
 }
 
-/// Bouc–Wen: as bilinear with a smooth knee of an ``exponent``, and ``beta`` for the shape of loops.
+/// Bouc–Wen: ``stiffness`` (N/m per metre) up to ``yield_force`` (N/m), then ``hardening`` (0 to 1) times
+/// the stiffness, with a smooth knee of an ``exponent``, and ``beta`` for the shape of loops: both, or
+/// neither (then 2 and 0.5).
 #[pyclass(name = "BoucWen", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyBoucWen;
 
@@ -74,8 +78,8 @@ impl PyBoucWen {
     }
 }
 
-/// Friction pendulum under a ``weight`` (N): ``radius`` of its dish (m), ``friction`` coefficient,
-/// ``yield_displacement`` (m) before it slides.
+/// Friction pendulum under a ``weight`` (N/m): ``radius`` of its dish (m), ``friction`` coefficient,
+/// ``yield_displacement`` (m; 0.5 mm by default) before it slides.
 #[pyclass(name = "FrictionPendulum", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyFrictionPendulum(FrictionPendulum);
 
@@ -95,15 +99,16 @@ impl PyFrictionPendulum {
         Ok(law(own.clone(), Self(own)))
     }
 
-    /// Period of sliding on the dish, s.
+    /// Period of sliding on the dish, s, under a ``gravity`` (m/s²; 9.80665 by default).
     #[pyo3(signature = (gravity=basemat::motion::STANDARD_GRAVITY))]
     fn sliding_period(&self, gravity: f64) -> PyResult<f64> {
         self.0.sliding_period(gravity).or_raise()
     }
 }
 
-/// Lead–rubber bearing: shear modulus (Pa), area (m²) and thickness (m) of its rubber, area of its
-/// lead (m²); ``stiffness_ratio``: first stiffness by that after yielding.
+/// Lead–rubber bearing: ``shear_modulus`` (Pa), ``rubber_area`` (m² per metre) and ``rubber_thickness`` (m)
+/// of its rubber, ``lead_area`` (m² per metre) of its lead; ``stiffness_ratio``: first stiffness over that
+/// after yielding, 10 by default.
 #[pyclass(name = "LeadRubber", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyLeadRubber(LeadRubber);
 
@@ -124,7 +129,8 @@ impl PyLeadRubber {
         Ok(law(own.clone(), Self(own)))
     }
 
-    /// Bearing of a ``stiffness`` after yielding (N/m) and a ``strength`` (N).
+    /// Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
+    /// ``stiffness_ratio`` is that of the class.
     #[staticmethod]
     #[pyo3(signature = (stiffness, strength, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
     fn from_strength(
@@ -139,13 +145,13 @@ impl PyLeadRubber {
         Py::new(py, law(own.clone(), Self(own)))
     }
 
-    /// Strength, N.
+    /// Strength: force at zero deformation, N/m.
     #[getter]
     fn strength(&self) -> f64 {
         self.0.strength()
     }
 
-    /// Stiffness after yielding, N/m.
+    /// Stiffness after yielding, N/m per metre.
     #[getter]
     fn stiffness(&self) -> f64 {
         self.0.stiffness()

@@ -16,8 +16,9 @@ use crate::recipe::Shared;
 ///
 /// ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
 /// (m, rad). The structure is free, without supports: the ground holds it up. ``contact``: the
-/// points of its base, from left to right. ``damping`` (n × n, N s/m per metre) must be symmetric
-/// and positive semi-definite unless ``active_damping``; ``rayleigh``: Rayleigh damping instead.
+/// points of its base, a list of :class:`ContactNode` from left to right. ``damping`` (n × n, N s/m per
+/// metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
+/// (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given.
 #[pyclass(name = "MatrixModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyMatrixModel;
 

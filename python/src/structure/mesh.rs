@@ -16,7 +16,10 @@ pub(super) fn direction(name: &str) -> PyResult<Direction> {
 }
 
 /// Integration of four-node quadrilaterals by its name.
-pub(super) fn formulation(name: &str, percent: u8) -> PyResult<QuadFormulation> {
+pub(super) fn formulation(name: &str, percent: usize) -> PyResult<QuadFormulation> {
+    let percent = u8::try_from(percent).map_err(|_| {
+        refuse(format!("hourglass_percent is {percent}, but must be {} or less", u8::MAX))
+    })?;
     match name {
         "full" => Ok(QuadFormulation::Full),
         "incompatible modes" => Ok(QuadFormulation::IncompatibleModes),
@@ -29,7 +32,8 @@ pub(super) fn formulation(name: &str, percent: u8) -> PyResult<QuadFormulation> 
     }
 }
 
-/// Elastic material in plane strain: Young's modulus (Pa), Poisson's ratio, density (kg/m³).
+/// Elastic material in plane strain: Young's modulus ``young_modulus`` (Pa), Poisson's ratio ``poisson``,
+/// ``density`` (kg/m³).
 #[pyclass(name = "Material", module = "basemat", frozen, dict)]
 pub(crate) struct PyMaterial(pub(super) Material);
 
@@ -41,7 +45,12 @@ impl PyMaterial {
     }
 }
 
-/// Horizontal layer of a block of quadrilaterals: ``height`` (m), ``rows`` of elements, material.
+/// Horizontal layer of a block of quadrilaterals: ``height`` (m), number of ``rows`` of elements,
+/// ``material`` (:class:`Material`).
+///
+/// ``formulation`` of four-node quadrilaterals: "incompatible modes" (the default: right in bending),
+/// "full" (2 × 2 points), "one point" (without stiffness against hourglass modes) or "hourglass" (one
+/// point, stabilised with ``hourglass_percent``, 5 by default).
 #[pyclass(name = "Layer", module = "basemat", frozen, dict)]
 pub(crate) struct PyLayer(Layer);
 
@@ -54,14 +63,15 @@ impl PyLayer {
         #[pyo3(from_py_with = whole)] rows: usize,
         material: &PyMaterial,
         formulation: &str,
-        hourglass_percent: u8,
+        #[pyo3(from_py_with = whole)] hourglass_percent: usize,
     ) -> PyResult<Self> {
         let formulation = self::formulation(formulation, hourglass_percent)?;
         Ok(Self(Layer { height, rows, material: material.0, formulation }))
     }
 }
 
-/// Nodes and finite elements; ``nodes``: array of shape (nodes, 2), m.
+/// Nodes and finite elements; ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add
+/// elements, all or, if one is refused, none.
 #[pyclass(name = "Mesh", module = "basemat", dict)]
 pub(crate) struct PyMesh(pub(super) Mesh);
 
@@ -158,7 +168,8 @@ impl PyMesh {
         Ok(Self(mesh))
     }
 
-    /// Block of equal columns from ``left`` to ``right`` (m), layer upon layer from y = 0 upwards.
+    /// Block of ``columns`` of equal width from ``left`` to ``right`` (m): ``layers`` is a list of
+    /// :class:`Layer` from y = 0 upwards.
     #[staticmethod]
     fn layered_block(
         left: f64,
@@ -170,21 +181,24 @@ impl PyMesh {
         Ok(Self(Mesh::layered_block(left..right, columns, &layers).or_raise()?))
     }
 
-    /// The same with columns between the lines of ``grid`` (array, m, ascending).
+    /// Block with columns between the lines of ``grid`` (array of shape (columns + 1,), x in m, ascending):
+    /// ``layers`` is a list of :class:`Layer` from y = 0 upwards.
     #[staticmethod]
     fn graded_block(grid: Numbers, layers: Vec<Bound<'_, PyLayer>>) -> PyResult<Self> {
         let layers: Vec<Layer> = layers.iter().map(|layer| layer.get().0).collect();
         Ok(Self(Mesh::graded_block(&grid.0, &layers).or_raise()?))
     }
 
-    /// Adds a node at (x, y), m; returns its number.
+    /// Adds a node at (``x``, ``y``), m; returns its number.
     fn add_node(&mut self, x: f64, y: f64) -> PyResult<usize> {
         self.0.add_node(x, y).or_raise()
     }
 
-    /// Adds beams on ``nodes`` (array of shape (beams, 2)): Young's modulus (Pa), area (m²) and
-    /// second moment (m⁴) per metre of thickness, density (kg/m³), each one number or one per beam.
-    /// ``shear_stiffness`` (N): of Timoshenko beams; ``compression`` (N): for P–Δ.
+    /// Adds beams on ``nodes`` (array of shape (beams, 2)): ``young_modulus`` (Pa), ``area`` (m²) and
+    /// ``second_moment`` (m⁴) per metre of thickness, ``density`` (kg/m³), each one number or an array of
+    /// one per beam. ``shear_stiffness`` (N per metre): of Timoshenko beams, infinite unless given;
+    /// ``rotary_inertia``: whether sections have one, False by default; ``compression`` (N per metre):
+    /// axial force of P–Δ, none unless given.
     #[pyo3(signature = (nodes, young_modulus, area, second_moment, density, *, shear_stiffness=None, rotary_inertia=false, compression=None))]
     fn add_beams(
         &mut self,
@@ -213,8 +227,8 @@ impl PyMesh {
         }))
     }
 
-    /// Adds trusses on ``nodes`` (array of shape (trusses, 2)): Young's modulus (Pa), area (m²) per
-    /// metre of thickness, density (kg/m³).
+    /// Adds trusses on ``nodes`` (array of shape (trusses, 2)): ``young_modulus`` (Pa), ``area`` (m² per
+    /// metre of thickness), ``density`` (kg/m³), each one number or an array of one per truss.
     fn add_trusses(
         &mut self,
         nodes: Connectivity,
@@ -249,7 +263,8 @@ impl PyMesh {
         }))
     }
 
-    /// Adds dashpots, as :meth:`add_springs`, of a ``coefficient`` (N s/m, of rotations N·m s).
+    /// Adds dashpots between ``nodes`` (array of shape (dashpots, 2)) in a ``direction`` ("x", "y",
+    /// "rotation" or "axial"), of a ``coefficient`` (N s/m, of rotations N·m s).
     fn add_dashpots(
         &mut self,
         nodes: Connectivity,
@@ -267,7 +282,7 @@ impl PyMesh {
         }))
     }
 
-    /// Adds a mass (kg/m) at a node, with a rotary inertia (kg m²/m) if that is given.
+    /// Adds a ``mass`` (kg/m) at a ``node``, with a ``rotary_inertia`` (kg m²/m; none unless given).
     #[pyo3(signature = (node, mass, *, rotary_inertia=None))]
     fn add_mass(
         &mut self,
@@ -282,15 +297,16 @@ impl PyMesh {
         self.0.add(element).or_raise().map(|_| ())
     }
 
-    /// Adds plane-strain quadrilaterals on ``nodes``, counter-clockwise: array of shape (quads, 4),
-    /// or (quads, 8) with the midside nodes last.
+    /// Adds plane-strain quadrilaterals of a ``material`` on ``nodes``, counter-clockwise: array of shape
+    /// (quads, 4), or (quads, 8) with the midside nodes last. ``formulation`` and ``hourglass_percent``,
+    /// those of :class:`Layer`, are for four nodes.
     #[pyo3(signature = (nodes, material, *, formulation="incompatible modes", hourglass_percent=5))]
     fn add_quads(
         &mut self,
         nodes: Connectivity,
         material: &PyMaterial,
         formulation: &str,
-        hourglass_percent: u8,
+        #[pyo3(from_py_with = whole)] hourglass_percent: usize,
     ) -> PyResult<()> {
         let formulation = self::formulation(formulation, hourglass_percent)?;
         if nodes.each == 8 {
@@ -308,12 +324,13 @@ impl PyMesh {
         Ok(PyArray2::from_vec2(py, &rows)?)
     }
 
-    /// Node at (x, y), m, to a millionth of the mesh's size.
+    /// Number of the node at (``x``, ``y``), m, to a millionth of the mesh's size.
     fn node_at(&self, x: f64, y: f64) -> PyResult<usize> {
         self.0.node_at(x, y).or_raise()
     }
 
-    /// Nodes at a height (m) within a tolerance (m), from left to right.
+    /// Numbers of the nodes at a height ``y`` (m) within a ``tolerance`` (m; 1e-9 by default): list, from
+    /// left to right.
     #[pyo3(signature = (y, tolerance=1e-9))]
     fn nodes_at_height(&self, y: f64, tolerance: f64) -> PyResult<Vec<usize>> {
         self.0.nodes_at_height(y, tolerance).or_raise()

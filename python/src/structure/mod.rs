@@ -12,7 +12,7 @@ mod matrices;
 mod mesh;
 mod nonlinear;
 
-pub(crate) use base::{PyStructure, recipe};
+pub(crate) use base::{PyStructure, made, recipe};
 pub(crate) use block::PyRigidBlock;
 pub(crate) use building::{PyShearBuilding, PyStorey};
 pub(crate) use composed::{

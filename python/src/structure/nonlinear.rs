@@ -11,8 +11,8 @@ use crate::error::OrRaise;
 use crate::recipe::Recipe;
 use crate::row::RowLike;
 
-/// A structure with hysteretic springs: pairs ``(row, law)``, each spring sees the deformation of
-/// its row (m).
+/// A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
+/// freedom, which is the spring's deformation (m), and a :class:`Hysteresis`.
 #[pyclass(name = "WithSprings", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithSprings;
 

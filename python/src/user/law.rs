@@ -9,12 +9,13 @@ use basemat::interface::{
 use pyo3::prelude::*;
 
 use super::{PyContactState, PyPreviousContact};
-use crate::array::Numbers;
+use crate::array::{Count, Numbers};
 use crate::error::{has_raised, keep, kept, returned};
 use crate::names::{mode, mode_name};
 
-/// One linear condition on the end of a step:
-/// ``gap · g + slip · s + pressure · p + shear · τ = value``, coefficients by name.
+/// One linear condition on an element at the end of a step:
+/// ``gap`` · g + ``slip`` · s + ``pressure`` · p + ``shear`` · τ = ``value``, with its gap g and slip s (m),
+/// pressure p and shear traction τ (Pa); what is not given is 0.
 #[pyclass(name = "Condition", module = "basemat", frozen, dict)]
 pub(crate) struct PyCondition(pub(crate) Condition);
 
@@ -58,12 +59,13 @@ impl PyCondition {
     }
 }
 
-/// Differences below which a law should see equality: of lengths (m) and of tractions (Pa).
+/// Differences below which a law should see equality: ``length`` of gaps and slips (m), ``traction`` of
+/// pressure and shear (Pa).
 #[pyclass(name = "Tolerance", module = "basemat", frozen, get_all)]
 pub(crate) struct PyTolerance {
-    /// For gaps and slips, m.
+    /// Difference of gaps and slips, m.
     length: f64,
-    /// For tractions, Pa.
+    /// Difference of tractions, Pa.
     traction: f64,
 }
 
@@ -120,7 +122,8 @@ impl UserLaw {
         Ok(Self {
             modes: names.iter().map(|name| mode(name)).collect::<PyResult<_>>()?,
             memory: optional("memory")?
-                .map_or(Ok(0), |count| returned("memory of the interface law", &count))?,
+                .map_or(Ok(Count(0)), |count| returned("memory of the interface law", &count))?
+                .0,
             friction_coefficient: optional("friction_coefficient")?
                 .map(|value| returned("friction_coefficient of the interface law", &value))
                 .transpose()?,

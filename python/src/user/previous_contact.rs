@@ -6,7 +6,8 @@ use pyo3::prelude::*;
 use crate::array::Numbers;
 use crate::names::mode_name;
 
-/// Opening and total traction of an element: gap and slip (m), pressure and shear (Pa).
+/// Opening and total traction of an element: ``gap`` (positive when open) and ``slip`` (m), ``pressure``
+/// (positive in compression) and ``shear`` (Pa); 0 by default.
 #[pyclass(name = "ContactState", module = "basemat", frozen, get_all)]
 pub(crate) struct PyContactState {
     /// Gap, m; positive when open.
@@ -40,7 +41,11 @@ impl PyContactState {
     }
 }
 
-/// An element at the start of a step.
+/// An element at the start of a step: what a law knows of it.
+///
+/// A law can be tried without a simulation on one that is made of a ``state`` (:class:`ContactState`),
+/// its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's state
+/// variables ``memory`` (array of shape (m,); none unless given).
 #[pyclass(name = "PreviousContact", module = "basemat", frozen)]
 pub(crate) struct PyPreviousContact {
     state: ContactState,
@@ -74,7 +79,6 @@ impl PyPreviousContact {
 
 #[pymethods]
 impl PyPreviousContact {
-    /// A start by which a law can be tried without a simulation.
     #[new]
     #[pyo3(signature = (state, mode, time_step, *, slip_rate=0.0, memory=None))]
     fn new(
@@ -143,7 +147,7 @@ impl PyPreviousContact {
         self.time_step
     }
 
-    /// Numbers that the law remembers of the element.
+    /// State variables of the law: list of numbers.
     #[getter]
     fn memory(&self) -> Vec<f64> {
         self.memory.clone()

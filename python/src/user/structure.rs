@@ -5,7 +5,7 @@ use basemat::{CheckpointError, Error, Result};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::array::{Matrix, Numbers};
+use crate::array::{Count, Matrix, Numbers};
 use crate::error::{keep, kept, refuse, returned};
 use crate::structure::PyContactNode;
 
@@ -37,7 +37,7 @@ impl UserStructure {
         };
         let dofs = object.getattr("dofs")?;
         let dofs = if dofs.is_callable() { dofs.call0()? } else { dofs };
-        let dofs: usize = returned("degrees of freedom of the structure", &dofs)?;
+        let Count(dofs) = returned("dofs of the structure", &dofs)?;
         let nodes: Vec<Bound<'_, PyContactNode>> =
             returned("contact_nodes of the structure", &object.call_method0("contact_nodes")?)?;
         let ends = if object.hasattr("foundation_ends")? {
@@ -59,6 +59,11 @@ impl UserStructure {
             force: nonlinear.then(|| UserForce::new(&object, dofs)).transpose()?,
             object: object.unbind(),
         })
+    }
+
+    /// The object that is asked.
+    pub(crate) fn object<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
+        self.object.bind(py).clone()
     }
 
     /// Adds the matrix that a method returns.

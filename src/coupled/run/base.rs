@@ -174,8 +174,20 @@ impl Sequence {
     /// One that takes no state: that of a run read from a file.
     #[cfg(feature = "serde")]
     pub(crate) fn closed() -> Self {
+        Self::ended(f64::INFINITY)
+    }
+
+    /// One that takes no state, whose last one was at `end`, s.
+    #[cfg(feature = "serde")]
+    pub(crate) fn ended(end: f64) -> Self {
         let (elements, probes, foundations) = (0, 0, Vec::new());
-        Self { origin: Origin::new(), elements, probes, foundations, end: f64::INFINITY }
+        Self { origin: Origin::new(), elements, probes, foundations, end }
+    }
+
+    /// Writes the time of the last state alone.
+    #[cfg(feature = "serde")]
+    pub(crate) fn write_end<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_f64(self.end)
     }
 
     /// Whether `state` is of the same simulation and later; it is the last one then.

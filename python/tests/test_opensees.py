@@ -1,0 +1,114 @@
+"""A frame from OpenSees on basemat's springs against the same frame on springs in OpenSees."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import basemat as bm
+from basemat import opensees
+
+try:
+    import openseespy.opensees as ops
+except (ImportError, RuntimeError):
+    # Not there, or without the system's BLAS.
+    pytest.skip("no OpenSees", allow_module_level=True)
+
+WIDTH, ELEMENTS, STEP, STEPS = 6.0, 4, 0.005, 1200
+NORMAL, TANGENTIAL, DASHPOTS = 40e6, 25e6, (0.8e6, 0.5e6)
+# A force rather than a motion, which OpenSees integrates by its time scheme and basemat exactly.
+FORCE, RECORD = 100e3, bm.el_centro_1940().resampled(STEP)
+
+
+def frame() -> None:
+    """An unsymmetric frame on a rigid base, whose middle is node 1."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    ops.node(1, 0.0, 0.0)
+    ops.mass(1, 40e3, 40e3, 150e3)
+    for tag, x, y in ((2, 0.0, 4.0), (3, 0.0, 8.0), (4, 2.5, 8.0), (5, 2.5, 4.0)):
+        ops.node(tag, x, y)
+        ops.mass(tag, 12e3, 12e3, 100.0 * tag)
+    ops.geomTransf("Linear", 1)
+    for tag, ends in enumerate(((1, 2), (2, 3), (3, 4), (4, 5), (5, 2)), 1):
+        ops.element("elasticBeamColumn", tag, *ends, 0.25, 30e9, 0.005, 1, "-mass", 500.0)
+    # Of the stiffness: the base has no dashpot to the ground's outside.
+    ops.region(1, "-eleRange", 1, 5, "-rayleigh", 0.0, 0.0, 0.002, 0.0)
+
+
+def on_springs() -> np.ndarray:
+    """Displacement of node 4 to the right under a force there, by OpenSees alone."""
+    frame()
+    length = WIDTH / ELEMENTS
+    for k in range(ELEMENTS):
+        x, tag = (k + 0.5) * length - 0.5 * WIDTH, 100 + k
+        ops.node(tag, x, 0.0)
+        ops.rigidLink("beam", 1, tag)
+        ops.node(tag + 100, x, 0.0)
+        ops.fix(tag + 100, 1, 1, 1)
+        materials = (10 * k + 1, 10 * k + 2)
+        for own, stiffness, dashpot in zip(materials, (TANGENTIAL, NORMAL), DASHPOTS[::-1]):
+            ops.uniaxialMaterial("Elastic", own, stiffness * length, dashpot * length)
+        ops.element("zeroLength", tag, tag, tag + 100, "-mat", *materials, "-dir", 1, 2, "-doRayleigh", 0)
+    ops.timeSeries("Path", 1, "-dt", STEP, "-values", *RECORD.accelerations)
+    ops.pattern("Plain", 1, 1, "-fact", FORCE)
+    ops.load(4, 1.0, 0.0, 0.0)
+    ops.constraints("Transformation")
+    ops.numberer("Plain")
+    ops.system("FullGeneral")
+    ops.algorithm("Linear")
+    ops.integrator("Newmark", 0.5, 0.25)
+    ops.analysis("Transient")
+    found = [0.0]
+    for _ in range(STEPS):
+        assert ops.analyze(1, STEP) == 0
+        found.append(ops.nodeDisp(4, 1))
+    return np.array(found)
+
+
+def test_a_frame_moves_as_in_opensees() -> None:
+    frame()
+    model = opensees.structure(ops, [1], width=WIDTH)
+    assert model.dofs == 15 and model.nodes == [1, 2, 3, 4, 5]
+    rigid = sum(model.row(node, "x").weights(15) for node in model.nodes)
+    assert np.abs(model.stiffness() @ rigid).max() < 1e-13 * np.abs(model.stiffness()).max()
+    total = 40e3 + 4 * 12e3 + 500.0 * (4.0 + 4.0 + 2.5 + 4.0 + 2.5)
+    assert rigid @ model.mass() @ rigid == pytest.approx(total, rel=1e-12)
+    damping = 0.002 * model.stiffness()
+    assert np.abs(model.damping() - damping).max() < 1e-12 * damping.max()
+    strip = bm.Strip(-0.5 * WIDTH, 0.5 * WIDTH, ELEMENTS, grading="uniform")
+    ground = bm.SpringGround(strip, NORMAL, TANGENTIAL, dashpots=DASHPOTS)
+    probe = bm.Probe.displacement("top", model.row(4))
+    load = bm.Load.record(model.row(4), RECORD, FORCE)
+    simulation = bm.Simulation(STEP, model, ground, bm.Bonded(), loads=[load], probes=[probe])
+    found = simulation.run(STEPS)["top"]
+    expected = on_springs()
+    assert np.abs(expected).max() > 5e-3
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-6 * np.abs(expected).max())
+
+
+def test_nodes_of_a_flexible_base_and_what_is_held() -> None:
+    ops.wipe()
+    ops.model("basic", "-ndm", 2, "-ndf", 3)
+    for tag, x in ((7, 2.0), (3, -2.0), (5, 0.0)):
+        ops.node(tag, x, 0.0)
+    ops.node(9, 0.0, 3.0)
+    ops.mass(9, 1e4, 1e4, 0.0)
+    ops.geomTransf("Linear", 1)
+    for tag, ends in enumerate(((3, 5), (5, 7), (5, 9)), 1):
+        ops.element("elasticBeamColumn", tag, *ends, 0.3, 30e9, 0.01, 1, "-mass", 700.0)
+    model = opensees.structure(ops, [7, 3, 5])
+    assert [node.x for node in model.contact_nodes()] == [-2.0, 0.0, 2.0]
+    assert model.contact_nodes()[0].vertical == model.row(3, "y")
+    assert not model.damping().any()
+    soil = bm.Soil.from_shear_wave_speed(250.0, 0.33, 1900.0)
+    ground = bm.ElasticGround.under(soil, model, 6)
+    run = bm.Simulation(0.002, model, ground, bm.Coulomb(0.4), motion=bm.el_centro_1940()).run(200)
+    assert run.energy_error < 1e-9
+    with pytest.raises(bm.InputError, match="no node 8"):
+        model.row(8)
+    with pytest.raises(bm.InputError, match="no direction 'z', only x, y, rotation"):
+        model.row(9, "z")  # type: ignore[arg-type]
+    ops.fix(3, 0, 1, 0)
+    with pytest.raises(bm.InputError, match="node 3 is held in the direction y: it must be free"):
+        opensees.structure(ops, [7, 3, 5])
