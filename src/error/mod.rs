@@ -17,6 +17,7 @@ mod mesh_file;
 mod part;
 mod record;
 mod reduced;
+mod site;
 mod stability;
 mod step;
 
@@ -34,6 +35,7 @@ pub use memory::{MemoryError, memory_limit, set_memory_limit};
 pub use mesh_file::MeshFileError;
 pub use record::RecordError;
 pub use reduced::ReducedError;
+pub use site::SiteError;
 pub use stability::StabilityError;
 pub use step::StepError;
 
@@ -341,6 +343,9 @@ pub enum Error {
     /// A layered ground that cannot be computed as asked.
     #[error("layered ground: {0}")]
     Layered(#[from] LayeredError),
+    /// A site that cannot be iterated to strain-compatible properties.
+    #[error("site response: {0}")]
+    Site(#[from] SiteError),
     /// Parameters, a table or files of a sweep that cannot be used.
     #[error(transparent)]
     Sweep(#[from] SweepError),

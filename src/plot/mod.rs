@@ -11,6 +11,7 @@
 //! | largest, least and static pressure along the base | [`pressure_envelope`] |
 //! | where the energy went | [`energy`] |
 //! | response spectra | [`spectra`] |
+//! | wave speeds and strains of a site over depth, and spectra | [`site_response`](site_response()) |
 //! | error against run time | [`refinement`](refinement()) |
 //! | the structure at some instants | [`deformed_shapes`] |
 //! | the structure in motion, with its base | [`animation`] (an SVG that browsers play) |
@@ -35,6 +36,7 @@ mod mode_map;
 mod png;
 mod refinement;
 mod shape;
+mod site_response;
 mod stroke;
 mod svg;
 mod text;
@@ -44,4 +46,5 @@ pub use lines::{Curve, curves, energy, history, probe_history, spectra};
 pub use mode_map::{mode_map, pressure_envelope};
 pub use refinement::refinement;
 pub use shape::deformed_shapes;
+pub use site_response::site_response;
 pub use svg::Svg;

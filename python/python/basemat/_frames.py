@@ -38,6 +38,14 @@ def contact(run: Any) -> Any:
     return pandas().DataFrame({**table, "mode": modes})
 
 
+def equivalent_linear(site: Any) -> Any:
+    """Layers of a site, indexed by the depth of their tops."""
+    columns = ("shear_modulus", "modulus_ratio", "damping", "largest_strain", "effective_strain")
+    values = {name: getattr(site, name) for name in columns}
+    values["peak_acceleration"] = site.peak_acceleration[: len(site.depth)]
+    return pandas().DataFrame(values, index=pandas().Index(site.depth, name="depth"))
+
+
 def spectrum(spectrum: Any) -> Any:
     """A spectrum, indexed by the period."""
     columns = ("displacement", "pseudo_velocity", "pseudo_acceleration", "acceleration")
