@@ -61,8 +61,8 @@ pub fn site_response(
         let width = area.dim_in_pixel().0;
         let (left, rest) = area.split_horizontally(width * 3 / 10);
         let (middle, right) = rest.split_horizontally(width * 3 / 10);
-        panel(&left, "shear wave speed, m/s", speeds.map(|(_, value)| value), &strokes[..2])?;
-        panel(&middle, "shear strain, %", strains.map(|(_, value)| value), &strokes[2..])?;
+        panel(&left, "c_S, m/s", speeds.map(|(_, value)| value), &strokes[..2])?;
+        panel(&middle, "strain, %", strains.map(|(_, value)| value), &strokes[2..])?;
         draw_spectra(&right, &axes, spectra)
     })
 }

@@ -107,10 +107,12 @@ impl SoilColumn {
     /// Strain-compatible properties under `motion`, by as many linear calculations as it takes, and the response with
     /// them. `curves` has one entry for each layer; the damping laws of layers are not used, that of the base is.
     ///
-    /// Each layer has one strain, that of its middle: divide those in which it varies. Iterations are in the frequency
-    /// domain with the complex modulus G(1 + 2iξ), as in SHAKE; the resulting profile has
-    /// [`GeneralizedMaxwell::constant_q`] in its place, of the same modulus at its first frequency, and Poisson's ratio
-    /// stays, so that pressure waves slow down with shear waves (below the water table they would not).
+    /// Each layer has one strain, that of its middle, where waves A up and B down at the layer's top have
+    /// du/dz = κ(A e^(κh/2) − B e^(−κh/2)), κ = s/c: divide layers in which it varies. Curves are read at a share of its
+    /// largest value. This is in the frequency domain, s = iω, with the modulus G(1 + 2iξ), as in SHAKE. The resulting
+    /// profile has [`GeneralizedMaxwell::constant_q`] in its place, of the same modulus at its first frequency: it
+    /// disperses, so what [`SoilColumn::to_surface`] makes with it is some per cent off `surface`. Poisson's ratio stays,
+    /// so pressure waves slow down with shear waves (below the water table they would not).
     ///
     /// ```
     /// use basemat::Soil;
@@ -140,88 +142,39 @@ impl SoilColumn {
         curves: &[StrainCurves],
         options: &EquivalentLinearOptions,
     ) -> Result<EquivalentLinear> {
-        options.check()?;
-        let layers = self.profile.layers();
-        if self.wave != VerticalWave::Shear {
-            return Err(SiteError::PressureWaves.into());
+        let iteration = Iteration::new(self, motion, curves, options)?;
+        let Converged { properties, strains, iterations, last_change } = iteration.converged()?;
+        let mut found = iteration.inside(&properties, Inside::Accelerations)?;
+        for motion in &mut found {
+            motion.cut(iteration.motion.len());
         }
-        if curves.len() != layers.len() {
-            return Err(SiteError::Curves { curves: curves.len(), layers: layers.len() }.into());
+        let peak_accelerations = found.iter().map(SiteMotion::peak).collect();
+        let surface = found.first().cloned().unwrap_or_default();
+        let (mut depth, mut layers) = (0.0, Vec::with_capacity(strains.len()));
+        let given = self.profile.layers().iter().zip(&properties).zip(&strains);
+        for ((layer, [modulus_ratio, damping]), strain) in given {
+            layers.push(LayerResponse {
+                depth,
+                shear_modulus: modulus_ratio * layer.soil.shear_modulus(),
+                modulus_ratio: *modulus_ratio,
+                damping: *damping,
+                largest_strain: *strain,
+                effective_strain: options.strain_ratio * strain,
+            });
+            depth += layer.thickness;
         }
-        let resolved = curves.iter().enumerate();
-        let resolved =
-            resolved.map(|(k, curves)| curves.resolved().map_err(|error| of_layer(k, error)));
-        let resolved: Vec<Resolved> = resolved.collect::<Result<_>>()?;
-        // At the logarithms of effective strains.
-        let read = |logs: &[f64]| -> Vec<[f64; 2]> {
-            resolved.iter().zip(logs).map(|(curves, log)| curves.at(log.exp())).collect()
-        };
-        let (step, samples) = (motion.time_step(), motion.accelerations());
-        let inside = |properties: &[[f64; 2]], what| {
-            let profile = self.compatible(properties, Hysteretic::new)?;
-            let column = Self { profile, wave: self.wave };
-            column.inside(what, options.control, step, samples)
-        };
-        let mut logs = vec![f64::NEG_INFINITY; layers.len()];
-        let mut properties = read(&logs);
-        let reflects =
-            matches!(self.profile.base(), Base::Rigid) || options.control == ControlPoint::Within;
-        if let Some(undamped) =
-            properties.iter().position(|[_, damping]| reflects && *damping == 0.0)
-        {
-            let (quantity, layer) = ("damping ratio at small strain", undamped + 1);
-            let needed = "above 0 on a rigid base or under a motion within, where nothing leaves";
-            return Err(SiteError::Layer { layer, quantity, value: 0.0, needed }.into());
-        }
-        let (mut iterations, mut aitken) = (0, Aitken::default());
-        let (strains, last_change) = loop {
-            iterations += 1;
-            let found = inside(&properties, Inside::Strains)?;
-            let strains: Vec<f64> = found.iter().map(SiteMotion::peak).collect();
-            let log = |strain: &f64| (options.strain_ratio * strain).max(LEAST_STRAIN).ln();
-            let found: Vec<f64> = strains.iter().map(log).collect();
-            logs = if iterations == 1 { found.clone() } else { aitken.next(&logs, &found) };
-            let [plain, next] = [read(&found), read(&logs)];
-            let change =
-                largest_change(&properties, &plain).max(largest_change(&properties, &next));
-            if change <= options.tolerance || iterations == options.most_iterations {
-                break (strains, change);
-            }
-            properties = next;
-        };
-        let mut found = inside(&properties, Inside::Accelerations)?;
-        found.iter_mut().for_each(|motion| motion.cut(samples.len()));
-        let peaks: Vec<f64> = found.iter().map(SiteMotion::peak).collect();
-        let cut_off =
-            found.first().map_or(0.0, |surface| surface.before.max(surface.after) / surface.peak());
-        let accelerations: Vec<Vec<f64>> = found.into_iter().map(|motion| motion.samples).collect();
-        let surface = accelerations.first().map_or(samples, |surface| surface);
-        let mut below = 0.0;
-        let response =
-            |((layer, [modulus_ratio, damping]), strain): ((&SoilLayer, &[f64; 2]), &f64)| {
-                let depth = below;
-                below += layer.thickness;
-                LayerResponse {
-                    depth,
-                    shear_modulus: modulus_ratio * layer.soil.shear_modulus(),
-                    modulus_ratio: *modulus_ratio,
-                    damping: *damping,
-                    largest_strain: *strain,
-                    effective_strain: options.strain_ratio * strain,
-                }
-            };
-        let responses = layers.iter().zip(&properties).zip(&strains).map(response).collect();
         let mut result = EquivalentLinear {
+            layers,
             profile: self.causal(&properties, options.band)?,
-            surface: Record::new(step, surface.to_vec())?,
-            layers: responses,
-            accelerations,
-            peak_accelerations: peaks,
+            surface: Record::new(motion.time_step(), surface.samples.clone())?,
+            accelerations: found.into_iter().map(|motion| motion.samples).collect(),
+            peak_accelerations,
             iterations,
             last_change,
             warnings: vec![],
         };
-        result.warn(options.tolerance, &resolved, cut_off);
+        let cut_off = surface.before.max(surface.after) / surface.peak();
+        result.warn(options.tolerance, &iteration.curves, cut_off);
         Ok(result)
     }
 
@@ -255,6 +208,90 @@ impl SoilColumn {
                 Ok(profile.with_base_damping(law))
             }
             _ => Ok(profile),
+        }
+    }
+}
+
+/// What an iteration works with.
+struct Iteration<'a> {
+    column: &'a SoilColumn,
+    motion: &'a Record,
+    curves: Vec<Resolved>,
+    options: &'a EquivalentLinearOptions,
+}
+
+/// Modulus ratio and damping ratio of each layer, and the largest strains with them.
+struct Converged {
+    properties: Vec<[f64; 2]>,
+    strains: Vec<f64>,
+    iterations: usize,
+    last_change: f64,
+}
+
+impl<'a> Iteration<'a> {
+    fn new(
+        column: &'a SoilColumn,
+        motion: &'a Record,
+        curves: &[StrainCurves],
+        options: &'a EquivalentLinearOptions,
+    ) -> Result<Self> {
+        options.check()?;
+        if column.wave != VerticalWave::Shear {
+            return Err(SiteError::PressureWaves.into());
+        }
+        let layers = column.profile.layers().len();
+        if curves.len() != layers {
+            return Err(SiteError::Curves { curves: curves.len(), layers }.into());
+        }
+        let base = column.profile.base();
+        let reflects = matches!(base, Base::Rigid) || options.control == ControlPoint::Within;
+        let resolved = |(index, curves): (usize, &StrainCurves)| {
+            let resolved = curves.resolved().map_err(|error| of_layer(index, error))?;
+            if reflects && resolved.at(0.0)[1] == 0.0 {
+                let (quantity, layer) = ("damping ratio at small strain", index + 1);
+                let needed = "above 0 on a rigid base or under a motion within: nothing leaves";
+                return Err(SiteError::Layer { layer, quantity, value: 0.0, needed }.into());
+            }
+            Ok(resolved)
+        };
+        let curves = curves.iter().enumerate().map(resolved).collect::<Result<_>>()?;
+        Ok(Self { column, motion, curves, options })
+    }
+
+    /// Modulus ratios and damping ratios at the logarithms of effective strains.
+    fn read(&self, logs: &[f64]) -> Vec<[f64; 2]> {
+        self.curves.iter().zip(logs).map(|(curves, log)| curves.at(log.exp())).collect()
+    }
+
+    /// Motions in the linear column with these properties.
+    fn inside(&self, properties: &[[f64; 2]], what: Inside) -> Result<Vec<SiteMotion>> {
+        let profile = self.column.compatible(properties, Hysteretic::new)?;
+        let column = SoilColumn { profile, wave: self.column.wave };
+        let (step, samples) = (self.motion.time_step(), self.motion.accelerations());
+        column.inside(what, self.options.control, step, samples)
+    }
+
+    /// From small strain on.
+    fn converged(&self) -> Result<Converged> {
+        let EquivalentLinearOptions { strain_ratio, tolerance, most_iterations, .. } =
+            *self.options;
+        let mut logs = vec![f64::NEG_INFINITY; self.curves.len()];
+        let (mut properties, mut aitken) = (self.read(&logs), Aitken::default());
+        let mut iterations = 0;
+        loop {
+            iterations += 1;
+            let found = self.inside(&properties, Inside::Strains)?;
+            let strains: Vec<f64> = found.iter().map(SiteMotion::peak).collect();
+            let log = |strain: &f64| (strain_ratio * strain).max(LEAST_STRAIN).ln();
+            let found: Vec<f64> = strains.iter().map(log).collect();
+            logs = if iterations == 1 { found.clone() } else { aitken.next(&logs, &found) };
+            let [plain, next] = [self.read(&found), self.read(&logs)];
+            let changes = [plain, next.clone()].map(|other| largest_change(&properties, &other));
+            let last_change = changes[0].max(changes[1]);
+            if last_change <= tolerance || iterations == most_iterations {
+                return Ok(Converged { properties, strains, iterations, last_change });
+            }
+            properties = next;
         }
     }
 }

@@ -163,7 +163,8 @@ fn sites_respond_as_in_another_program() {
         let (layers, rock) = site(name);
         let column = column(&layers, rock);
         for peak in PEAKS {
-            let options = EquivalentLinearOptions { tolerance: 1e-4, ..Default::default() };
+            let options =
+                EquivalentLinearOptions { tolerance: 1e-4, ..EquivalentLinearOptions::default() };
             let found =
                 column.equivalent_linear(&motion(peak), &curves_of(&layers), &options).unwrap();
             println!("{name} at {peak} g\n{found}");
@@ -225,7 +226,10 @@ fn strains_of_a_harmonic_are_those_of_theory() {
     let (damping, depth) = (0.08, 20.0);
     let column = SoilColumn::new(uniform(0.5), VerticalWave::Shear).unwrap();
     let curves = vec![StrainCurves::Linear { damping }; 4];
-    let options = EquivalentLinearOptions { control: ControlPoint::Within, ..Default::default() };
+    let options = EquivalentLinearOptions {
+        control: ControlPoint::Within,
+        ..EquivalentLinearOptions::default()
+    };
     for frequency in [0.8, 2.5, 4.0, 7.5, 9.0] {
         let omega = 2.0 * PI * frequency;
         let ramp = |t: f64| (PI / 16.0 * t.min(40.0 - t).min(8.0)).sin().powi(2);
@@ -277,7 +281,10 @@ fn small_motions_pass_a_linear_column() {
     let (step, count) = (0.02, 512);
     let motion =
         Record::new(step, (0..count).map(|i| pulse(step * f64::from(i))).collect()).unwrap();
-    let options = EquivalentLinearOptions { control: ControlPoint::Within, ..Default::default() };
+    let options = EquivalentLinearOptions {
+        control: ControlPoint::Within,
+        ..EquivalentLinearOptions::default()
+    };
     let found = column.equivalent_linear(&motion, &curves, &options).unwrap();
     assert_eq!((found.iterations, found.last_change, found.layers[0].modulus_ratio), (1, 0.0, 1.0));
     let length = 16_384;
@@ -343,7 +350,8 @@ fn strained_assumptions_are_told() {
     let (layers, rock) = site("clay");
     let column = column(&layers, rock);
     let found = |curves: &[StrainCurves], most_iterations| {
-        let options = EquivalentLinearOptions { most_iterations, ..Default::default() };
+        let options =
+            EquivalentLinearOptions { most_iterations, ..EquivalentLinearOptions::default() };
         column.equivalent_linear(&motion(0.5), curves, &options).unwrap()
     };
     let has = |found: &EquivalentLinear, kind: fn(&SiteWarning) -> bool| {
@@ -360,10 +368,13 @@ fn strained_assumptions_are_told() {
     // With next to no damping on a rigid base it rings long.
     let ringing = SoilColumn::new(uniform(0.0), VerticalWave::Shear).unwrap();
     let linear = vec![StrainCurves::Linear { damping: 0.003 }; 4];
-    let found = ringing.equivalent_linear(&el_centro_1940(), &linear, &Default::default()).unwrap();
+    let record = el_centro_1940().scaled(0.1).unwrap();
+    let found =
+        ringing.equivalent_linear(&record, &linear, &EquivalentLinearOptions::default()).unwrap();
     assert!(matches!(found.warnings[..], [SiteWarning::CutOff { .. }]), "{found}");
     let quiet = Record::new(0.01, vec![0.0; 50]).unwrap();
-    let found = ringing.equivalent_linear(&quiet, &linear, &Default::default()).unwrap();
+    let found =
+        ringing.equivalent_linear(&quiet, &linear, &EquivalentLinearOptions::default()).unwrap();
     assert_eq!((found.layers[0].largest_strain, &found.warnings[..]), (0.0, &[][..]));
 }
 
@@ -407,7 +418,7 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
     ] {
         assert!(bad.at(1e-4).is_err(), "{bad:?}");
         let curves = [good.clone(), bad.clone()];
-        let found = column.equivalent_linear(&quiet, &curves, &Default::default());
+        let found = column.equivalent_linear(&quiet, &curves, &EquivalentLinearOptions::default());
         let Err(Error::Site(SiteError::Layer { layer: 2, .. })) = found else {
             panic!("{bad:?}: {found:?}");
         };
@@ -417,31 +428,50 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
     for (options, name) in [
         (EquivalentLinearOptions::of_magnitude(1.0), "strain ratio"),
         (EquivalentLinearOptions::of_magnitude(nan), "strain ratio"),
-        (EquivalentLinearOptions { tolerance: 0.0, ..Default::default() }, "tolerance"),
-        (EquivalentLinearOptions { most_iterations: 0, ..Default::default() }, "iterations"),
-        (EquivalentLinearOptions { band: [1.0, 1.0], ..Default::default() }, "band"),
-        (EquivalentLinearOptions { band: [nan, 1.0], ..Default::default() }, "band"),
+        (
+            EquivalentLinearOptions { tolerance: 0.0, ..EquivalentLinearOptions::default() },
+            "tolerance",
+        ),
+        (
+            EquivalentLinearOptions { most_iterations: 0, ..EquivalentLinearOptions::default() },
+            "iterations",
+        ),
+        (
+            EquivalentLinearOptions { band: [1.0, 1.0], ..EquivalentLinearOptions::default() },
+            "band",
+        ),
+        (
+            EquivalentLinearOptions { band: [nan, 1.0], ..EquivalentLinearOptions::default() },
+            "band",
+        ),
     ] {
         let found = column.equivalent_linear(&quiet, &curves, &options).unwrap_err();
         assert!(found.to_string().contains(name), "{found}");
     }
-    let found = column.equivalent_linear(&quiet, &curves[..1], &Default::default()).unwrap_err();
+    let found = column
+        .equivalent_linear(&quiet, &curves[..1], &EquivalentLinearOptions::default())
+        .unwrap_err();
     assert_eq!(found, SiteError::Curves { curves: 1, layers: 2 }.into());
     let pressure = SoilColumn::new(profile, VerticalWave::Pressure).unwrap();
-    let found = pressure.equivalent_linear(&quiet, &curves, &Default::default()).unwrap_err();
+    let found = pressure
+        .equivalent_linear(&quiet, &curves, &EquivalentLinearOptions::default())
+        .unwrap_err();
     assert_eq!(found, SiteError::PressureWaves.into());
     // Nothing damps what a rigid base sends back.
     let rings = [good.clone(), StrainCurves::Linear { damping: 0.0 }];
-    let found = column.equivalent_linear(&quiet, &rings, &Default::default()).unwrap_err();
+    let found =
+        column.equivalent_linear(&quiet, &rings, &EquivalentLinearOptions::default()).unwrap_err();
     assert!(matches!(found, Error::Site(SiteError::Layer { layer: 2, value: 0.0, .. })), "{found}");
     // So much damping that no body has it, and a motion beyond all numbers.
     let damped = StrainCurves::Linear { damping: 0.99 };
-    let found = column.equivalent_linear(&quiet, &[damped, good], &Default::default()).unwrap_err();
+    let found = column
+        .equivalent_linear(&quiet, &[damped, good], &EquivalentLinearOptions::default())
+        .unwrap_err();
     assert!(
         matches!(found, Error::Site(SiteError::Layer { layer: 1, value: 0.99, .. })),
         "{found}"
     );
     let huge = Record::new(1.0, vec![1e300, -1e300, 1e300]).unwrap();
-    let found = column.equivalent_linear(&huge, &curves, &Default::default());
+    let found = column.equivalent_linear(&huge, &curves, &EquivalentLinearOptions::default());
     assert!(found.is_ok_and(|found| !found.warnings.is_empty()));
 }
