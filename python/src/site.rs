@@ -1,6 +1,8 @@
 //! Strain curves of soils, and the equivalent-linear response of a site.
 
-use basemat::site::{ControlPoint, EquivalentLinear, EquivalentLinearOptions, LayerResponse, SoilColumn};
+use basemat::site::{
+    ControlPoint, EquivalentLinear, EquivalentLinearOptions, LayerResponse, SoilColumn,
+};
 use basemat::soil::StrainCurves;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
@@ -63,7 +65,13 @@ impl PyStrainCurves {
         frequency: f64,
         cycles: f64,
     ) -> PyResult<Self> {
-        let state = StrainCurves::Darendeli { plasticity_index, overconsolidation, mean_stress, frequency, cycles };
+        let state = StrainCurves::Darendeli {
+            plasticity_index,
+            overconsolidation,
+            mean_stress,
+            frequency,
+            cycles,
+        };
         checked(state)
     }
 
@@ -72,10 +80,14 @@ impl PyStrainCurves {
     fn table(strains: Numbers, modulus_ratios: Numbers, dampings: Numbers) -> PyResult<Self> {
         let sizes = [strains.0.len(), modulus_ratios.0.len(), dampings.0.len()];
         if sizes != [sizes[0]; 3] {
-            return Err(refuse(format!("arrays of lengths {sizes:?}, but they must have one length")));
+            return Err(refuse(format!(
+                "arrays of lengths {sizes:?}, but they must have one length"
+            )));
         }
         let pairs = strains.0.iter().zip(&modulus_ratios.0).zip(&dampings.0);
-        checked(StrainCurves::Table(pairs.map(|((strain, ratio), damping)| [*strain, *ratio, *damping]).collect()))
+        checked(StrainCurves::Table(
+            pairs.map(|((strain, ratio), damping)| [*strain, *ratio, *damping]).collect(),
+        ))
     }
 
     /// G/G_max and damping ratios at ``strains`` (array of shape (n,)): two arrays of shape (n,).
@@ -218,6 +230,10 @@ impl PyEquivalentLinear {
     }
 
     fn __repr__(&self) -> String {
-        format!("EquivalentLinear({} layers, {} iterations)", self.0.layers.len(), self.0.iterations)
+        format!(
+            "EquivalentLinear({} layers, {} iterations)",
+            self.0.layers.len(),
+            self.0.iterations
+        )
     }
 }

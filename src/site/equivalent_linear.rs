@@ -110,9 +110,10 @@ impl SoilColumn {
     /// Each layer has one strain, that of its middle, where waves A up and B down at the layer's top have
     /// du/dz = κ(A e^(κh/2) − B e^(−κh/2)), κ = s/c: divide layers in which it varies. Curves are read at a share of its
     /// largest value. This is in the frequency domain, s = iω, with the modulus G(1 + 2iξ), as in SHAKE. The resulting
-    /// profile has [`GeneralizedMaxwell::constant_q`] in its place, of the same modulus at its first frequency: it
-    /// disperses, so what [`SoilColumn::to_surface`] makes with it is some per cent off `surface`. Poisson's ratio stays,
-    /// so pressure waves slow down with shear waves (below the water table they would not).
+    /// profile has [`GeneralizedMaxwell::constant_q`] in its place, of the same modulus at its first frequency, under
+    /// the layers too if the base's law cannot march in time. That disperses: what [`SoilColumn::to_surface`] makes with
+    /// it is some per cent off `surface`. Poisson's ratio stays, so pressure waves slow down with shear waves (below the
+    /// water table they would not).
     ///
     /// ```
     /// use basemat::Soil;
