@@ -208,7 +208,6 @@ impl PyColumn {
     /// with them. Unless given, ``strain_ratio`` is 0.65 (of a magnitude M: (M − 1)/10), ``tolerance`` of moduli
     /// and damping ratios 1e-3 in ``most_iterations`` 50, the ``band`` of constant damping 0.1 to 30 Hz.
     #[pyo3(signature = (record, curves, *, control="outcrop", strain_ratio=None, tolerance=None, most_iterations=None, band=None))]
-    #[expect(clippy::too_many_arguments, reason = "keywords")]
     fn equivalent_linear(
         &self,
         py: Python<'_>,
