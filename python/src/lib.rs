@@ -18,6 +18,7 @@ mod results;
 mod row;
 mod saved;
 mod simulation;
+mod site;
 mod soil;
 mod structure;
 mod user;
@@ -88,6 +89,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<motion::PyPlaneWave>()?;
     module.add_class::<motion::PyColumn>()?;
     module.add_class::<motion::PyInclinedWave>()?;
+    module.add_class::<site::PyStrainCurves>()?;
+    module.add_class::<site::PyEquivalentLinear>()?;
     module.add_function(wrap_pyfunction!(motion::el_centro_1940, module)?)?;
     module.add_function(wrap_pyfunction!(motion::free_field, module)?)?;
     module.add_function(wrap_pyfunction!(motion::log_spaced, module)?)?;

@@ -11,6 +11,7 @@ mod layered;
 pub(crate) mod memory;
 mod part;
 mod record;
+mod site;
 mod step;
 
 pub use case::{CaseError, CaseFileError, SweepError};
@@ -25,6 +26,7 @@ pub(crate) use memory::{
 };
 pub use part::{LawError, ReducedError};
 pub use record::RecordError;
+pub use site::SiteError;
 pub use step::{CheckpointError, StabilityError, StepError};
 
 /// Result of every fallible function of the crate.
@@ -331,6 +333,9 @@ pub enum Error {
     /// A layered ground that cannot be computed as asked.
     #[error("layered ground: {0}")]
     Layered(#[from] LayeredError),
+    /// A site that cannot be iterated to strain-compatible properties.
+    #[error("site response: {0}")]
+    Site(#[from] SiteError),
     /// Parameters, a table or files of a sweep that cannot be used.
     #[error(transparent)]
     Sweep(#[from] SweepError),

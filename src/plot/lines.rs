@@ -1,7 +1,7 @@
 //! Curves over time or period: quantities, energy, spectra; error against run time.
 
 use super::axes::{Axis, chart, draw_curve, drawable, range_of};
-use super::drawing::{Key, Sample, Stroke};
+use super::drawing::{Area, Drawing, Key, Sample, Stroke};
 use super::svg::{Sheet, Svg};
 use crate::coupled::{EnergyBalance, Refinement, Setting};
 use crate::error::{Error, Result};
@@ -180,6 +180,13 @@ const PERIODS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 /// # Errors
 /// [`Error::Size`] without an ordinate, [`Error::Input`] for a period that is not from 10⁻⁶ to 10⁶ s.
 pub fn spectra(title: &str, spectra: &[(&str, &[SpectralOrdinate])]) -> Result<Svg> {
+    let axes = axes_of_spectra(spectra)?;
+    Sheet::new(title, Key::of_curves(spectra.iter().map(|(name, _)| *name)))
+        .picture(|area| draw_spectra(area, &axes, spectra))
+}
+
+/// Axes that hold the spectra.
+pub(super) fn axes_of_spectra(spectra: &[(&str, &[SpectralOrdinate])]) -> Result<[Axis; 2]> {
     let all = || spectra.iter().flat_map(|(_, spectrum)| spectrum.iter());
     let (mut first, mut last, mut top) = (f64::INFINITY, 0.0_f64, 0.0_f64);
     for ordinate in all() {
@@ -199,16 +206,22 @@ pub fn spectra(title: &str, spectra: &[(&str, &[SpectralOrdinate])]) -> Result<S
     // A single period has no width, and nothing at all no height.
     let periods = if last > first { first..last } else { 0.5 * first..2.0 * first };
     let top = if top > 1e-60 { 1.08 * top } else { 1.0 };
-    Sheet::new(title, Key::of_curves(spectra.iter().map(|(name, _)| *name))).picture(|area| {
-        let x = Axis::logarithmic(periods, "period, s");
-        let y = Axis::linear(0.0..top, "pseudo-acceleration, m/s²");
-        let mut chart = chart(area, &x, &y, true)?;
-        for (k, (_, spectrum)) in spectra.iter().enumerate() {
-            let points = spectrum.iter().map(|o| (o.period.log10(), o.pseudo_acceleration));
-            draw_curve(&mut chart, &points.collect::<Vec<_>>(), Stroke::nth(k), 2)?;
-        }
-        Ok(())
-    })
+    let y = Axis::linear(0.0..top, "pseudo-acceleration, m/s²");
+    Ok([Axis::logarithmic(periods, "period, s"), y])
+}
+
+/// Draws the spectra, by colours in their order.
+pub(super) fn draw_spectra(
+    area: &Area<'_>,
+    [x, y]: &[Axis; 2],
+    spectra: &[(&str, &[SpectralOrdinate])],
+) -> Drawing<()> {
+    let mut chart = chart(area, x, y, true)?;
+    for (k, (_, spectrum)) in spectra.iter().enumerate() {
+        let points = spectrum.iter().map(|o| (o.period.log10(), o.pseudo_acceleration));
+        draw_curve(&mut chart, &points.collect::<Vec<_>>(), Stroke::nth(k), 2)?;
+    }
+    Ok(())
 }
 
 // Error against run time.

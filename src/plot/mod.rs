@@ -11,6 +11,7 @@
 //! | largest, least and static pressure along the base | [`pressure_envelope`] |
 //! | where the energy went | [`energy`] |
 //! | response spectra | [`spectra`] |
+//! | wave speeds and strains of a site over depth, and spectra | [`site_response`](site_response()) |
 //! | error against run time | [`refinement`](refinement()) |
 //! | the structure at some instants | [`deformed_shapes`] |
 //! | the structure in motion, with its base | [`animation`] (an SVG that browsers play) |
@@ -32,9 +33,11 @@ mod drawing;
 mod lines;
 #[cfg(feature = "png")]
 mod png;
+mod site_response;
 mod svg;
 
 pub use animation::{animation, deformed_shapes};
 pub use base::{mode_map, pressure_envelope};
 pub use lines::{Curve, curves, energy, history, probe_history, refinement, spectra};
+pub use site_response::site_response;
 pub use svg::Svg;

@@ -59,8 +59,26 @@ pub enum ControlPoint {
 /// ```
 #[derive(Debug, Clone)]
 pub struct SoilColumn {
-    profile: SoilProfile,
-    wave: VerticalWave,
+    pub(super) profile: SoilProfile,
+    pub(super) wave: VerticalWave,
+}
+
+/// What moves inside a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Inside {
+    /// Acceleration at the tops of all layers and of the base.
+    Accelerations,
+    /// Strain in the middle of all layers.
+    Strains,
+}
+
+/// Waves at the top of a layer or the base, and how far that one and those above it are, κh.
+#[derive(Debug, Clone, Copy)]
+struct Waves {
+    up: Complex,
+    down: Complex,
+    above: Complex,
+    own: Complex,
 }
 
 impl SoilColumn {
@@ -83,7 +101,8 @@ impl SoilColumn {
         let s = Complex::new(0.0, std::f64::consts::TAU * frequency);
         let mut layers =
             Sampled::exact(&self.profile, |soil, modulus, _| self.slowness(soil, modulus));
-        let (value, decay) = self.inverse_transfer(control, &Place::alone(s), &mut layers)?;
+        let (value, decay) =
+            self.inverse_transfer(control, &Place::alone(s), &mut layers, |_| ())?;
         Ok(value.inverse() * (-decay).exp())
     }
 
@@ -162,12 +181,13 @@ impl SoilColumn {
     }
 
     /// Control motion by surface motion, with a factor e^decay taken out: it may leave the range of
-    /// f64.
+    /// f64. Shows the waves at the tops of layers and base on the way down.
     fn inverse_transfer(
         &self,
         control: ControlPoint,
         place: &Place,
         layers: &mut Sampled<impl Fn(Soil, Complex, Complex) -> [Complex; 1], 1>,
+        mut see: impl FnMut(Waves),
     ) -> Result<(Complex, Complex)> {
         let (moduli, travels) = layers.at(place)?;
         let mut impedances = self.profile.soils().zip(moduli).map(|((soil, _), modulus)| {
@@ -180,9 +200,11 @@ impl SoilColumn {
             return Ok((up, total));
         };
         for [travel] in travels {
+            see(Waves { up, down, above: total, own: *travel });
             down = down * travel.scale(-2.0).exp();
             total += *travel;
             let Some(next) = impedances.next() else {
+                see(Waves { up, down, above: total, own: Complex::default() });
                 // A rigid base moves as the layer's bottom does.
                 return Ok(((up + down).scale(0.5), total));
             };
@@ -191,6 +213,7 @@ impl SoilColumn {
             (up, down) = (sum + difference, sum - difference);
             impedance = next;
         }
+        see(Waves { up, down, above: total, own: Complex::default() });
         Ok(match control {
             ControlPoint::Outcrop => (up, total),
             ControlPoint::Within => ((up + down).scale(0.5), total),
@@ -210,10 +233,48 @@ impl SoilColumn {
         let slowness = |soil, modulus, _| self.slowness(soil, modulus);
         let mut layers = Sampled::new(&self.profile, slowness, contour.end()?)?;
         let [mut found] = contour.filtered(motion, |place| {
-            let (value, decay) = self.inverse_transfer(control, place, &mut layers)?;
+            let (value, decay) = self.inverse_transfer(control, place, &mut layers, |_| ())?;
             Ok([filter(value, decay)])
         })?;
         found.cut(motion.len());
         Ok(found)
+    }
+
+    /// Motions inside the column from `motion` at `control`, of any damping law, with what follows the end of `motion`.
+    pub(super) fn inside(
+        &self,
+        what: Inside,
+        control: ControlPoint,
+        time_step: f64,
+        motion: &[f64],
+    ) -> Result<Vec<SiteMotion>> {
+        let contour = Contour::new(time_step, motion.len(), self.profile.travel_time())?;
+        let contour = contour.at_real_frequencies();
+        let slowness = |soil, modulus, _| self.slowness(soil, modulus);
+        let mut layers = Sampled::new(&self.profile, slowness, contour.end()?)?;
+        let thicknesses = self.profile.layers().iter().map(|layer| layer.thickness);
+        let thicknesses: Vec<f64> = thicknesses.collect();
+        let count = thicknesses.len() + usize::from(what == Inside::Accelerations);
+        let mut tops = Vec::with_capacity(count + 1);
+        contour.filtered_by(motion, count, |place, found| {
+            tops.clear();
+            let see = |waves| tops.push(waves);
+            let (value, decay) = self.inverse_transfer(control, place, &mut layers, see)?;
+            let scale = value.inverse().scale(0.5);
+            for (k, (found, Waves { up, down, above, own })) in
+                found.iter_mut().zip(&tops).enumerate()
+            {
+                let (amplitude, depth) = match what {
+                    Inside::Accelerations => (*up + *down, *above),
+                    Inside::Strains => {
+                        let half = own.scale(0.5);
+                        let wavenumber = own.scale(1.0 / thicknesses[k]) / (place.s * place.s);
+                        ((*up - *down * (-*own).exp()) * wavenumber, *above + half)
+                    }
+                };
+                *found = amplitude * scale * (depth - decay).exp();
+            }
+            Ok(())
+        })
     }
 }

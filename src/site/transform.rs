@@ -11,7 +11,7 @@ use std::fmt;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 
-use crate::error::{Error, Result, finite, positive};
+use crate::error::{Error, Result, finite, memory, positive};
 use crate::linalg::Complex;
 
 /// ηT: what wraps around is e^(−24).
@@ -26,6 +26,8 @@ pub(super) const BAND: f64 = 0.02;
 /// Exponent of the transition's slope, e^(β(√(1 − x²) − 1)) over the band (Barnett, Magland & af
 /// Klinteberg 2019): its transform is e^(−β) from 2β/(π · band) samples on.
 const SHARPNESS: f64 = 24.0;
+/// Frequency for zero, in steps of the transform's.
+const BESIDE_REST: f64 = 1e-3;
 /// Samples in which responses of the transition end.
 const TRANSITION: usize = 2000;
 
@@ -51,6 +53,8 @@ impl Place {
 pub(super) struct Contour {
     time_step: f64,
     length: usize,
+    /// ηT and η.
+    window: f64,
     decay: f64,
 }
 
@@ -78,7 +82,13 @@ impl Contour {
         // There and back, and later for damping that slows long waves.
         let length = (PADDING * (samples + 2 * travel + TRANSITION)).next_power_of_two();
         let decay = positive("decay of the window", WINDOW / (length as f64 * time_step))?;
-        Ok(Self { time_step, length, decay })
+        Ok(Self { time_step, length, window: WINDOW, decay })
+    }
+
+    /// The same along real frequencies, for filters that exist there alone: what lasts longer than the quiet three
+    /// quarters of the transform wraps around.
+    pub(super) fn at_real_frequencies(self) -> Self {
+        Self { window: 0.0, decay: 0.0, ..self }
     }
 
     /// Its end, the highest frequency.
@@ -111,13 +121,30 @@ impl Contour {
         motion: &[f64],
         mut filters: impl FnMut(&Place) -> Result<[Complex; N]>,
     ) -> Result<[SiteMotion; N]> {
+        let fill = |place: &Place, found: &mut [Complex]| {
+            found.copy_from_slice(&filters(place)?);
+            Ok(())
+        };
+        let mut found = self.filtered_by(motion, N, fill)?.into_iter();
+        Ok(std::array::from_fn(|_| found.next().unwrap_or_default()))
+    }
+
+    /// The same by `count` functions, whose values `filters` writes.
+    pub(super) fn filtered_by(
+        &self,
+        motion: &[f64],
+        count: usize,
+        mut filters: impl FnMut(&Place, &mut [Complex]) -> Result<()>,
+    ) -> Result<Vec<SiteMotion>> {
         let Self { length, decay, .. } = *self;
+        let needed = 12.0 * length as f64 * count as f64;
+        memory::check("motions in a site", count as f64, needed)?;
         let end = self.end()?.im;
         let mut planner = RealFftPlanner::<f64>::new();
         let (forward, inverse) =
             (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
         let mut values = forward.make_input_vec();
-        let window = |i: f64| (-WINDOW * i / length as f64).exp();
+        let window = |i: f64| (-self.window * i / length as f64).exp();
         for (i, (value, sample)) in values.iter_mut().zip(motion).enumerate() {
             *value = finite("sample of a motion", *sample)? * window(i as f64);
         }
@@ -128,16 +155,19 @@ impl Contour {
         let last = spectrum.len() - 1;
         let transition = self.transition();
         let below = last + 1 - transition.len();
-        let mut spectra: [_; N] = std::array::from_fn(|_| spectrum.clone());
+        let mut spectra = vec![spectrum.clone(); count];
+        let mut products = vec![Complex::default(); count];
         // Σ|F|² and Σ|FX|², for rounding.
-        let mut sums = [[0.0; 2]; N];
+        let mut sums = vec![[0.0; 2]; count];
         for (l, value) in spectrum.iter().enumerate() {
             let ratio = l as f64 / last as f64;
             let nearness = if l < below { 0.0 } else { transition[l - below] };
-            let place = Place { s: Complex::new(decay, end * ratio), nearness, ratio };
-            let found = filters(&place)?;
-            for ((spectrum, filter), sums) in spectra.iter_mut().zip(found).zip(&mut sums) {
-                let product = Complex::new(value.re, value.im) * filter;
+            // Beside s = 0, where strains are 0/0 and some laws have no modulus.
+            let beside = if l == 0 && decay == 0.0 { BESIDE_REST / last as f64 } else { ratio };
+            let place = Place { s: Complex::new(decay, end * beside), nearness, ratio };
+            filters(&place, &mut products)?;
+            for ((spectrum, filter), sums) in spectra.iter_mut().zip(&products).zip(&mut sums) {
+                let product = Complex::new(value.re, value.im) * *filter;
                 // Real by itself, but for rounding.
                 let imaginary = if l == 0 || l == last { 0.0 } else { product.im };
                 spectrum[l] = Complex64::new(product.re, imaginary);
@@ -145,7 +175,7 @@ impl Contour {
                 sums[1] += product.square();
             }
         }
-        let mut found = std::array::from_fn(|_| SiteMotion::default());
+        let mut found = vec![SiteMotion::default(); count];
         for ((mut spectrum, [gain, power]), found) in spectra.into_iter().zip(sums).zip(&mut found)
         {
             let mut band = spectrum.clone();

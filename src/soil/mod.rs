@@ -5,10 +5,13 @@ mod profile;
 #[cfg(feature = "serde")]
 mod profile_form;
 mod relaxation;
+mod strain_curves;
 
 pub use maxwell::GeneralizedMaxwell;
 pub use profile::{Base, SoilLayer, SoilProfile};
 pub use relaxation::{Elastic, Hysteretic, KelvinVoigt, Kjartansson, Relaxation};
+pub(crate) use strain_curves::Resolved;
+pub use strain_curves::StrainCurves;
 
 use crate::error::{Error, Result, finite, positive};
 

@@ -11,8 +11,10 @@ use basemat::motion::{SpectralOrdinate, el_centro_1940};
 use basemat::plot::{self, Curve, Svg};
 use basemat::results::Run;
 use basemat::results::{DeformedShape, Quantity, Recorder, ShapePoint, TimeSeries};
+use basemat::site::{EquivalentLinearOptions, SoilColumn, VerticalWave};
+use basemat::soil::{SoilProfile, StrainCurves};
 use basemat::structure::{DofCombination, RigidBlock, StructureGroup};
-use basemat::{Error, Simulation};
+use basemat::{Error, Simulation, Soil};
 
 use crate::layout::assert_readable;
 use basemat_problems::scenes::{self, SI, block, friction, scene};
@@ -117,6 +119,28 @@ fn every_picture_has_title_labels_units_and_legend() {
     let spectrum = el_centro_1940().response_spectrum(&[0.1, 0.5, 2.0], 0.05).unwrap();
     let svg = plot::spectra("Spectra", &[("El Centro", &spectrum)]).unwrap();
     shows(&svg, &["period, s", "pseudo-acceleration, m/s²", "El Centro"]);
+}
+
+#[test]
+fn sites_show_speeds_strains_and_spectra() {
+    let soil = Soil::from_shear_wave_speed(200.0, 0.3, 1800.0).unwrap();
+    let rock = SoilProfile::on_half_plane(Soil::from_shear_wave_speed(900.0, 0.3, 2200.0).unwrap());
+    let site = rock.with_layer(soil, 4.0).unwrap().with_layer(soil, 5.0).unwrap();
+    let column = SoilColumn::new(site, VerticalWave::Shear).unwrap();
+    let curves = [StrainCurves::Epri { depth: 2.0 }, StrainCurves::Epri { depth: 6.5 }];
+    let record = el_centro_1940();
+    let spectrum = record.response_spectrum(&[0.1, 0.5, 2.0], 0.05).unwrap();
+    // Strains of some tenths of a per cent, of 1e-12, none.
+    for factor in [1.0, 1e-9, 0.0] {
+        let motion = record.scaled(factor).unwrap();
+        let found = column
+            .equivalent_linear(&motion, &curves, &EquivalentLinearOptions::default())
+            .unwrap();
+        let svg = plot::site_response("Site", &found, &[("El Centro", &spectrum)]).unwrap();
+        shows(&svg, &["Site", "c_S, m/s", "strain, %", "y, m", "period, s"]);
+        shows(&svg, &["speed at small strain", "strain-compatible speed", "effective strain"]);
+        assert!(matches!(plot::site_response("S", &found, &[]), Err(Error::Size { .. })));
+    }
 }
 
 #[test]

@@ -33,6 +33,7 @@ for _class, _name, _method in (
     (Spectrum, "to_frame", _frames.spectrum_frame),
     (Spectrum, "plot", _plots.plot_spectrum),
     (SoilProfile, "plot", _plots.plot_profile),
+    (EquivalentLinear, "to_frame", _frames.equivalent_linear_frame),
     (Impedances, "to_frame", _frames.impedance_frame),
     (Impedances, "plot", _plots.plot_impedances),
 ):

@@ -34,6 +34,7 @@ _Baseline: TypeAlias = Literal[
     "displacement polynomial",
     "rest to rest",
 ]
+_CurveBound: TypeAlias = Literal["mean", "upper"]
 _Wave: TypeAlias = Literal["shear", "pressure"]
 _ControlPoint: TypeAlias = Literal["outcrop", "within"]
 _InclinedControl: TypeAlias = Literal["outcrop horizontal", "outcrop vertical", "incident"]
@@ -569,6 +570,71 @@ class SoilColumn:
         """The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the
         surface (deconvolution); it warns as :meth:`to_surface`.
         """
+    def equivalent_linear(
+        self,
+        record: Record,
+        curves: Sequence[StrainCurves],
+        *,
+        control: _ControlPoint = "outcrop",
+        strain_ratio: float | None = None,
+        tolerance: float | None = None,
+        most_iterations: int | None = None,
+        band: Sequence[float] | None = None,
+    ) -> EquivalentLinear: ...
+
+@final
+class StrainCurves:
+    @staticmethod
+    def linear(damping: float) -> StrainCurves: ...
+    @staticmethod
+    def seed_idriss(bound: _CurveBound = "mean") -> StrainCurves: ...
+    @staticmethod
+    def vucetic_dobry(plasticity_index: float) -> StrainCurves: ...
+    @staticmethod
+    def epri(depth: float) -> StrainCurves: ...
+    @staticmethod
+    def darendeli(
+        plasticity_index: float,
+        overconsolidation: float,
+        mean_stress: float,
+        *,
+        frequency: float = 1.0,
+        cycles: float = 10.0,
+    ) -> StrainCurves: ...
+    @staticmethod
+    def table(
+        strains: ArrayLike, modulus_ratios: ArrayLike, dampings: ArrayLike
+    ) -> StrainCurves: ...
+    def at(self, strains: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+
+@final
+class EquivalentLinear:
+    def profile(self) -> SoilProfile: ...
+    @property
+    def surface(self) -> Record: ...
+    @property
+    def depth(self) -> NDArray[np.float64]: ...
+    @property
+    def shear_modulus(self) -> NDArray[np.float64]: ...
+    @property
+    def modulus_ratio(self) -> NDArray[np.float64]: ...
+    @property
+    def damping(self) -> NDArray[np.float64]: ...
+    @property
+    def largest_strain(self) -> NDArray[np.float64]: ...
+    @property
+    def effective_strain(self) -> NDArray[np.float64]: ...
+    @property
+    def accelerations(self) -> NDArray[np.float64]: ...
+    @property
+    def peak_acceleration(self) -> NDArray[np.float64]: ...
+    @property
+    def iterations(self) -> int: ...
+    @property
+    def last_change(self) -> float: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    def to_frame(self) -> Any: ...
 
 @final
 class InclinedWave:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._core import MODES, Impedances, Run, Spectrum
+from ._core import MODES, EquivalentLinear, Impedances, Run, Spectrum
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -123,6 +123,15 @@ def floor_spectra(
     index = pandas().Index(np.asarray(periods, dtype=float), name="period")
     frame = pandas().DataFrame(columns, index=index)
     return _with_units(frame, {"period": "s", **dict.fromkeys(names, "m/s²")})
+
+
+def equivalent_linear_frame(self: EquivalentLinear) -> Any:
+    """The layers of the site as a pandas frame, indexed by the depth of their tops (m)."""
+    columns = ("shear_modulus", "modulus_ratio", "damping", "largest_strain", "effective_strain")
+    values = {name: getattr(self, name) for name in columns}
+    values["peak_acceleration"] = self.peak_acceleration[: len(self.depth)]
+    frame = pandas().DataFrame(values, index=pandas().Index(self.depth, name="depth"))
+    return _with_units(frame, {"depth": "m", "shear_modulus": "Pa", "peak_acceleration": "m/s²"})
 
 
 def spectrum_frame(self: Spectrum) -> Any:

@@ -36,6 +36,8 @@ _DESCRIBED = (
     _core.PlaneWave,
     _core.SoilColumn,
     _core.InclinedWave,
+    _core.StrainCurves,
+    _core.EquivalentLinear,
     _core.Probe,
     _core.Load,
     _core.TimeScheme,
@@ -76,6 +78,8 @@ _FIELDS = (
     (_core.PlaneWave, "field_from_vertical"),
     (_core.PlaneWave, "reversed"),
     (_core.InclinedWave, "field"),
+    (_core.SoilColumn, "equivalent_linear"),
+    (_core.EquivalentLinear, "profile"),
     (_core.GmshMesh, "mesh"),
 )
 """Methods that return descriptions."""

@@ -13,9 +13,10 @@ use numpy::{Complex64, PyArray1};
 use pyo3::prelude::*;
 
 use super::{PyFreeField, PyRecord, given};
-use crate::array::Numbers;
+use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, refuse};
 use crate::profile::PySoilProfile;
+use crate::site::{Iteration, PyEquivalentLinear, PyStrainCurves, iterate};
 use crate::soil::PySoil;
 
 /// A free field of this package from what makes it, which is tried once.
@@ -209,6 +210,26 @@ impl PyColumn {
         let control = self::control(control)?;
         let (step, samples) = (record.0.time_step(), record.0.accelerations());
         self::record(py, step, self.0.from_surface(control, step, samples).or_raise()?)
+    }
+
+    /// Strain-compatible properties under a record of the ``control``, by ``curves`` of each layer, and the response
+    /// with them. Unless given, ``strain_ratio`` is 0.65 (of a magnitude M: (M − 1)/10), ``tolerance`` of moduli
+    /// and damping ratios 1e-3 in ``most_iterations`` 50, the ``band`` of constant damping 0.1 to 30 Hz.
+    #[pyo3(signature = (record, curves, *, control="outcrop", strain_ratio=None, tolerance=None, most_iterations=None, band=None))]
+    fn equivalent_linear(
+        &self,
+        py: Python<'_>,
+        record: &PyRecord,
+        curves: Vec<Bound<'_, PyStrainCurves>>,
+        control: &str,
+        strain_ratio: Option<f64>,
+        tolerance: Option<f64>,
+        #[pyo3(from_py_with = whole)] most_iterations: Option<usize>,
+        band: Option<[f64; 2]>,
+    ) -> PyResult<PyEquivalentLinear> {
+        let control = self::control(control)?;
+        let given = Iteration { control, strain_ratio, tolerance, most_iterations, band };
+        iterate(py, &self.0, record, &curves, &given)
     }
 }
 

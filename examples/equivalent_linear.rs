@@ -1,0 +1,89 @@
+//! A building that may uplift on soft clay: the site as it is at small strain, and as strong shaking leaves it.
+//!
+//! ```text
+//! cargo run --release --example equivalent_linear
+//! ```
+//!
+//! The record, El Centro at 0.3 g, is that of the rock's outcrop. Strain-compatible moduli and damping are iterated
+//! from curves of Vucetic & Dobry and of EPRI; ground and surface motion of the building follow from them. Writes
+//! wave speeds, strains and spectra to `target/equivalent_linear.svg`.
+
+use basemat::bem::ElasticGround;
+use basemat::motion::SpectralOrdinate;
+use basemat::prelude::*;
+use basemat::results::log_spaced;
+use basemat::site::{EquivalentLinear, EquivalentLinearOptions, SoilColumn, VerticalWave};
+use basemat::soil::{GeneralizedMaxwell, SoilProfile, StrainCurves};
+use basemat::structure::ModalDamping;
+use basemat::{Result, plot};
+
+const STEP: f64 = 0.01;
+
+/// Clay over sand on rock, in layers of two metres, and the curves of each.
+fn site() -> Result<(SoilProfile, Vec<StrainCurves>)> {
+    let rock = Soil::from_shear_wave_speed(800.0, 0.25, 2300.0)?;
+    let mut profile = SoilProfile::on_half_plane(rock)
+        .with_base_damping(GeneralizedMaxwell::constant_q(0.01, [0.1, 30.0], 2.0)?);
+    let mut curves = vec![];
+    for k in 0..12 {
+        let depth = 2.0 * f64::from(k) + 1.0;
+        let (speed, poisson, density, own) = if k < 5 {
+            let plasticity_index = 30.0;
+            (140.0 + 4.0 * depth, 0.45, 1750.0, StrainCurves::VuceticDobry { plasticity_index })
+        } else {
+            (200.0 + 5.0 * depth, 0.35, 1950.0, StrainCurves::Epri { depth })
+        };
+        profile = profile.with_layer(Soil::from_shear_wave_speed(speed, poisson, density)?, 2.0)?;
+        curves.push(own);
+    }
+    Ok((profile, curves))
+}
+
+/// Fifteen seconds of a six-storey building, and the spectrum of its roof.
+fn shake(site: &EquivalentLinear) -> Result<(Run, Vec<SpectralOrdinate>)> {
+    let building = ShearBuilding::new(9.0, 60.0e3, 5.0e5, &[Storey::new(3.0, 25.0e3, 70.0e6); 6])?;
+    let roof = building.roof();
+    let damped = ModalDamping::new(&[0.05])?.on(building)?;
+    let mut simulation = Simulation::builder(STEP)
+        .ground(ElasticGround::under(site.profile.clone(), &damped, 8)?)
+        .structure(damped)
+        .interface(Coulomb::new(0.5)?)
+        .motion(site.surface.clone())
+        .probe(Probe::acceleration("roof", roof))
+        .expected_steps(1500)
+        .build()?;
+    let mut histories = Recorder::new().start(&simulation)?;
+    let run = simulation.run(1500, |state| histories.record(state))?;
+    Ok((run, histories.floor_spectrum("roof", &log_spaced(0.05, 3.0, 121)?, 0.05)?))
+}
+
+fn main() -> Result<()> {
+    let (profile, curves) = site()?;
+    let rock = el_centro_1940().scaled_to_peak(0.3 * STANDARD_GRAVITY)?.resampled(STEP)?;
+    let rock = rock.padded(0.0, 15.0)?;
+    let column = SoilColumn::new(profile, VerticalWave::Shear)?;
+    let options = EquivalentLinearOptions::of_magnitude(6.9);
+    let compatible = column.equivalent_linear(&rock, &curves, &options)?;
+    println!("{compatible}\n\n{}\n", compatible.profile);
+
+    // The same site with the properties of small strain.
+    let small = |curves: &StrainCurves| Ok(StrainCurves::Linear { damping: curves.at(0.0)?[1] });
+    let small = curves.iter().map(small).collect::<Result<Vec<_>>>()?;
+    let linear = column.equivalent_linear(&rock, &small, &options)?;
+
+    let periods = log_spaced(0.05, 3.0, 121)?;
+    let mut comparison = Comparison::new();
+    let mut spectra = vec![("rock", rock.response_spectrum(&periods, 0.05)?)];
+    for (name, site) in [("linear", &linear), ("strain-compatible", &compatible)] {
+        let (run, floor) = shake(site)?;
+        let highest = floor.iter().fold(0.0_f64, |most, o| most.max(o.pseudo_acceleration));
+        let [surface, roof] = [site.peak_accelerations[0], highest].map(|a| a / STANDARD_GRAVITY);
+        println!("{name:<18} surface {surface:.2} g, peak of the roof's spectrum {roof:.1} g");
+        comparison.add(name, run);
+        spectra.push((name, site.surface.response_spectrum(&periods, 0.05)?));
+    }
+    println!("\n{comparison}");
+    let spectra: Vec<_> = spectra.iter().map(|(name, list)| (*name, &list[..])).collect();
+    plot::site_response("Clay and sand under El Centro at 0.3 g", &compatible, &spectra)?
+        .save("target/equivalent_linear.svg")
+}

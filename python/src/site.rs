@@ -1,0 +1,234 @@
+//! Strain curves of soils, and the equivalent-linear response of a site.
+
+use basemat::site::{
+    ControlPoint, EquivalentLinear, EquivalentLinearOptions, LayerResponse, SoilColumn,
+};
+use basemat::soil::StrainCurves;
+use numpy::{PyArray1, PyArray2};
+use pyo3::prelude::*;
+
+use crate::array::Numbers;
+use crate::error::{OrRaise, refuse};
+use crate::motion::PyRecord;
+use crate::profile::PySoilProfile;
+
+type Array<'py> = Bound<'py, PyArray1<f64>>;
+
+/// Modulus reduction G/G_max and damping ratio of a soil over shear strain (0.01 is 1 %).
+#[pyclass(name = "StrainCurves", module = "basemat", frozen, dict)]
+pub(crate) struct PyStrainCurves(StrainCurves);
+
+fn checked(curves: StrainCurves) -> PyResult<PyStrainCurves> {
+    curves.at(0.0).or_raise()?;
+    Ok(PyStrainCurves(curves))
+}
+
+#[pymethods]
+impl PyStrainCurves {
+    /// A soil or rock that stays linear, with this ``damping`` ratio.
+    #[staticmethod]
+    fn linear(damping: f64) -> PyResult<Self> {
+        checked(StrainCurves::Linear { damping })
+    }
+
+    /// Sand (Seed & Idriss 1970): ``bound`` "mean", or "upper" for upper modulus and lower damping.
+    #[staticmethod]
+    #[pyo3(signature = (bound="mean"))]
+    fn seed_idriss(bound: &str) -> PyResult<Self> {
+        match bound {
+            "mean" => checked(StrainCurves::SeedIdrissMean),
+            "upper" => checked(StrainCurves::SeedIdrissUpper),
+            _ => Err(refuse(format!("bound is '{bound}', but must be 'mean' or 'upper'"))),
+        }
+    }
+
+    /// Soil by its plasticity index, per cent (Vucetic & Dobry 1991).
+    #[staticmethod]
+    fn vucetic_dobry(plasticity_index: f64) -> PyResult<Self> {
+        checked(StrainCurves::VuceticDobry { plasticity_index })
+    }
+
+    /// Sand by the ``depth`` of its layer's middle, m (EPRI 1993).
+    #[staticmethod]
+    fn epri(depth: f64) -> PyResult<Self> {
+        checked(StrainCurves::Epri { depth })
+    }
+
+    /// Soil by plasticity index (per cent), overconsolidation ratio, mean effective stress (Pa), ``frequency`` (Hz) and
+    /// number of ``cycles`` (Darendeli 2001).
+    #[staticmethod]
+    #[pyo3(signature = (plasticity_index, overconsolidation, mean_stress, *, frequency=1.0, cycles=10.0))]
+    fn darendeli(
+        plasticity_index: f64,
+        overconsolidation: f64,
+        mean_stress: f64,
+        frequency: f64,
+        cycles: f64,
+    ) -> PyResult<Self> {
+        let state = StrainCurves::Darendeli {
+            plasticity_index,
+            overconsolidation,
+            mean_stress,
+            frequency,
+            cycles,
+        };
+        checked(state)
+    }
+
+    /// A table: arrays of shape (n,) of increasing ``strains``, G/G_max and damping ratios.
+    #[staticmethod]
+    fn table(strains: Numbers, modulus_ratios: Numbers, dampings: Numbers) -> PyResult<Self> {
+        let sizes = [strains.0.len(), modulus_ratios.0.len(), dampings.0.len()];
+        if sizes != [sizes[0]; 3] {
+            return Err(refuse(format!(
+                "arrays of lengths {sizes:?}, but they must have one length"
+            )));
+        }
+        let pairs = strains.0.iter().zip(&modulus_ratios.0).zip(&dampings.0);
+        checked(StrainCurves::Table(
+            pairs.map(|((strain, ratio), damping)| [*strain, *ratio, *damping]).collect(),
+        ))
+    }
+
+    /// G/G_max and damping ratios at ``strains`` (array of shape (n,)): two arrays of shape (n,).
+    fn at<'py>(&self, py: Python<'py>, strains: Numbers) -> PyResult<(Array<'py>, Array<'py>)> {
+        let values = strains.0.iter().map(|strain| self.0.at(*strain));
+        let values: Vec<[f64; 2]> = values.collect::<Result<_, _>>().or_raise()?;
+        let column = |k: usize| PyArray1::from_iter(py, values.iter().map(|value| value[k]));
+        Ok((column(0), column(1)))
+    }
+}
+
+/// Options of an iteration; what is not given is the core's.
+pub(crate) struct Iteration {
+    pub(crate) control: ControlPoint,
+    pub(crate) strain_ratio: Option<f64>,
+    pub(crate) tolerance: Option<f64>,
+    pub(crate) most_iterations: Option<usize>,
+    pub(crate) band: Option<[f64; 2]>,
+}
+
+/// The response of a column with strain-compatible properties.
+pub(crate) fn iterate(
+    py: Python<'_>,
+    column: &SoilColumn,
+    record: &PyRecord,
+    curves: &[Bound<'_, PyStrainCurves>],
+    given: &Iteration,
+) -> PyResult<PyEquivalentLinear> {
+    let usual = EquivalentLinearOptions::default();
+    let options = EquivalentLinearOptions {
+        control: given.control,
+        strain_ratio: given.strain_ratio.unwrap_or(usual.strain_ratio),
+        tolerance: given.tolerance.unwrap_or(usual.tolerance),
+        most_iterations: given.most_iterations.unwrap_or(usual.most_iterations),
+        band: given.band.unwrap_or(usual.band),
+    };
+    let curves: Vec<StrainCurves> = curves.iter().map(|curves| curves.get().0.clone()).collect();
+    let record = &record.0;
+    let found = py.detach(|| column.equivalent_linear(record, &curves, &options));
+    Ok(PyEquivalentLinear(found.or_raise()?))
+}
+
+/// Response of a site with strain-compatible properties: arrays have one value per layer from the surface down, of
+/// accelerations also one of the base within. Printed, a table.
+#[pyclass(name = "EquivalentLinear", module = "basemat", frozen, dict)]
+pub(crate) struct PyEquivalentLinear(EquivalentLinear);
+
+impl PyEquivalentLinear {
+    fn column<'py>(&self, py: Python<'py>, value: fn(&LayerResponse) -> f64) -> Array<'py> {
+        PyArray1::from_iter(py, self.0.layers.iter().map(value))
+    }
+}
+
+#[pymethods]
+impl PyEquivalentLinear {
+    /// The site for a ground: strain-compatible moduli at its first frequency, damping constant over the band.
+    fn profile(&self) -> PySoilProfile {
+        PySoilProfile(self.0.profile.clone())
+    }
+
+    /// Record of the free surface.
+    #[getter]
+    fn surface(&self, py: Python<'_>) -> PyResult<Py<PyRecord>> {
+        PyRecord::create(py, Ok(self.0.surface.clone()))
+    }
+
+    /// Depth of each layer's top, m.
+    #[getter]
+    fn depth<'py>(&self, py: Python<'py>) -> Array<'py> {
+        self.column(py, |layer| layer.depth)
+    }
+
+    /// Strain-compatible shear moduli, Pa.
+    #[getter]
+    fn shear_modulus<'py>(&self, py: Python<'py>) -> Array<'py> {
+        self.column(py, |layer| layer.shear_modulus)
+    }
+
+    /// The same over those at small strain.
+    #[getter]
+    fn modulus_ratio<'py>(&self, py: Python<'py>) -> Array<'py> {
+        self.column(py, |layer| layer.modulus_ratio)
+    }
+
+    /// Damping ratios.
+    #[getter]
+    fn damping<'py>(&self, py: Python<'py>) -> Array<'py> {
+        self.column(py, |layer| layer.damping)
+    }
+
+    /// Largest shear strains in the layers' middles.
+    #[getter]
+    fn largest_strain<'py>(&self, py: Python<'py>) -> Array<'py> {
+        self.column(py, |layer| layer.largest_strain)
+    }
+
+    /// Effective shear strains, at which the curves were read.
+    #[getter]
+    fn effective_strain<'py>(&self, py: Python<'py>) -> Array<'py> {
+        self.column(py, |layer| layer.effective_strain)
+    }
+
+    /// Accelerations at the tops of layers and base: array of shape (layers + 1, samples), m/s².
+    #[getter]
+    fn accelerations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        Ok(PyArray2::from_vec2(py, &self.0.accelerations)?)
+    }
+
+    /// Their largest absolute values: array of shape (layers + 1,), m/s².
+    #[getter]
+    fn peak_acceleration<'py>(&self, py: Python<'py>) -> Array<'py> {
+        PyArray1::from_slice(py, &self.0.peak_accelerations)
+    }
+
+    /// Linear calculations made.
+    #[getter]
+    fn iterations(&self) -> usize {
+        self.0.iterations
+    }
+
+    /// Largest relative change of a modulus or damping ratio that all further iterations would make, as estimated.
+    #[getter]
+    fn last_change(&self) -> f64 {
+        self.0.last_change
+    }
+
+    /// Warnings, in words.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.0.warnings.iter().map(ToString::to_string).collect()
+    }
+
+    fn __str__(&self) -> String {
+        self.0.to_string()
+    }
+
+    fn __repr__(&self) -> String {
+        format!(
+            "EquivalentLinear({} layers, {} iterations)",
+            self.0.layers.len(),
+            self.0.iterations
+        )
+    }
+}

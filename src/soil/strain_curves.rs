@@ -1,0 +1,378 @@
+//! Modulus reduction and damping of soils over shear strain.
+
+use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive};
+
+/// Secant shear modulus and damping ratio of a soil over the amplitude of its shear strain.
+///
+/// Published curves are drawn: their numbers are the digitized ones of pystrata 0.5.4, and those of Darendeli his
+/// equations. Between points both quantities are linear in the logarithm of strain; outside they stay what they are at
+/// the end. Strains are plain numbers: 0.01 is 1 %.
+///
+/// ```
+/// use basemat::soil::StrainCurves;
+/// let clay = StrainCurves::VuceticDobry { plasticity_index: 30.0 };
+/// assert_eq!(clay.at(1.0e-3)?, [0.53, 0.088]); // G/G_max and damping ratio at 0.1 %
+/// let own = StrainCurves::Table(vec![[1.0e-5, 1.0, 0.01], [1.0e-3, 0.5, 0.09]]);
+/// let [reduction, damping] = own.at(1.0e-4)?;
+/// assert!((reduction - 0.75).abs() < 1e-12 && (damping - 0.05).abs() < 1e-12);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum StrainCurves {
+    /// A soil or rock that stays linear, with this damping ratio.
+    Linear {
+        /// Damping ratio, from 0 to below 1.
+        damping: f64,
+    },
+    /// Sand, mean of the data (Seed & Idriss 1970, EERC 70-10).
+    SeedIdrissMean,
+    /// Sand, upper modulus with lower damping of the same data: the usual pair for dense sand.
+    SeedIdrissUpper,
+    /// Soil by its plasticity (Vucetic & Dobry 1991, J. Geotech. Eng. 117, 89–107), linear between the drawn indices
+    /// 0, 15, 30, 50, 100 and 200.
+    VuceticDobry {
+        /// Plasticity index, per cent, from 0 to 200.
+        plasticity_index: f64,
+    },
+    /// Sand by its depth (EPRI 1993, TR-102293, appendix 7.A), in the report's ranges: 20, 50, 120, 250, 500, 1000 ft.
+    Epri {
+        /// Depth below the surface of the layer's middle, m, from 0 to 304.8.
+        depth: f64,
+    },
+    /// Soil by its state (Darendeli 2001, dissertation, University of Texas at Austin, ch. 9), up to a strain of 1 %.
+    Darendeli {
+        /// Plasticity index, per cent.
+        plasticity_index: f64,
+        /// Overconsolidation ratio.
+        overconsolidation: f64,
+        /// Mean effective stress, Pa.
+        mean_stress: f64,
+        /// Frequency of the shaking, Hz; usually 1. At least 0.05, below which the small-strain damping turns negative.
+        frequency: f64,
+        /// Number of cycles; usually 10.
+        cycles: f64,
+    },
+    /// Rows of strain, G/G_max and damping ratio, strains increasing.
+    Table(Vec<[f64; 3]>),
+}
+
+/// Curves with their parameters put in.
+#[derive(Debug)]
+pub(crate) enum Resolved {
+    Rows(Vec<[f64; 3]>),
+    /// Reference strain, small-strain damping, factor of Masing damping.
+    Darendeli([f64; 3]),
+}
+
+/// Curvature a of Darendeli's hyperbola, φ₅.
+const CURVATURE: f64 = 0.919;
+/// Strain over the reference strain from which his damping would decrease: it stays.
+const MOST_DAMPED: f64 = 55.45;
+/// Largest strain of Darendeli's curves.
+const LARGEST: f64 = 0.01;
+const ATMOSPHERE: f64 = 101_325.0;
+
+impl StrainCurves {
+    /// G/G_max and damping ratio at a `strain` amplitude.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a negative strain, parameters out of their range and a table without rows.
+    pub fn at(&self, strain: f64) -> Result<[f64; 2]> {
+        not_negative("shear strain", strain)?;
+        Ok(self.resolved()?.at(strain))
+    }
+
+    /// The same with parameters checked and put in.
+    pub(crate) fn resolved(&self) -> Result<Resolved> {
+        let rows = match self {
+            Self::Linear { damping } => {
+                vec![[
+                    f64::INFINITY,
+                    1.0,
+                    damping_ratio("damping ratio of a linear soil", *damping)?,
+                ]]
+            }
+            Self::SeedIdrissMean => rows(&NINE, &SEED_IDRISS[0], &SEED_IDRISS[1]),
+            Self::SeedIdrissUpper => rows(&NINE, &SEED_IDRISS[2], &SEED_IDRISS[3]),
+            Self::VuceticDobry { plasticity_index } => vucetic_dobry(*plasticity_index)?,
+            Self::Epri { depth } => {
+                let known = EPRI.iter().find(|(below, ..)| (0.0..=*below).contains(depth));
+                let (_, reduction, damping) = known.ok_or(Error::Input {
+                    quantity: "depth of EPRI's curves (m)",
+                    value: *depth,
+                    needed: "from 0 to 304.8",
+                })?;
+                rows(&SEVENTEEN, reduction, damping)
+            }
+            &Self::Darendeli {
+                plasticity_index,
+                overconsolidation,
+                mean_stress,
+                frequency,
+                cycles,
+            } => {
+                return darendeli(
+                    plasticity_index,
+                    overconsolidation,
+                    mean_stress,
+                    frequency,
+                    cycles,
+                );
+            }
+            Self::Table(rows) => checked(rows)?.to_vec(),
+        };
+        Ok(Resolved::Rows(rows))
+    }
+}
+
+impl Resolved {
+    /// G/G_max and damping ratio at a strain that is not negative.
+    pub(crate) fn at(&self, strain: f64) -> [f64; 2] {
+        match self {
+            Self::Rows(rows) => {
+                let above = rows.partition_point(|row| row[0] <= strain);
+                let [Some(low), high] =
+                    [above.checked_sub(1).map(|i| rows[i]), rows.get(above).copied()]
+                else {
+                    return rows.first().map_or([1.0, 0.0], |row| [row[1], row[2]]);
+                };
+                let high = high.unwrap_or(low);
+                let share = if high[0] > low[0] {
+                    (strain / low[0]).ln() / (high[0] / low[0]).ln()
+                } else {
+                    0.0
+                };
+                [1, 2].map(|k| low[k] + share * (high[k] - low[k]))
+            }
+            Self::Darendeli([reference, least, factor]) => {
+                let reduction = |x: f64| 1.0 / (1.0 + x.powf(CURVATURE));
+                let x = (strain / reference).min(MOST_DAMPED);
+                // Masing damping for a = 1, per cent; its limit 2x/3 where the difference is lost.
+                let loop_area = if x < 1e-5 {
+                    x / 1.5
+                } else {
+                    4.0 * (x - x.ln_1p()) * (1.0 + x) / (x * x) - 2.0
+                };
+                let first = 100.0 / std::f64::consts::PI * loop_area;
+                let a = CURVATURE;
+                let c1 = -1.1143 * a * a + 1.8618 * a + 0.2523;
+                let c2 = 0.0805 * a * a - 0.0710 * a - 0.0095;
+                let c3 = -0.0005 * a * a + 0.0002 * a + 0.0003;
+                let masing = first * (c1 + first * (c2 + first * c3));
+                [
+                    reduction(strain / reference),
+                    least + 0.01 * factor * reduction(x).powf(0.1) * masing,
+                ]
+            }
+        }
+    }
+
+    /// Largest strain of the curves.
+    pub(crate) fn largest(&self) -> f64 {
+        match self {
+            Self::Rows(rows) => rows.last().map_or(f64::INFINITY, |row| row[0]),
+            Self::Darendeli(_) => LARGEST,
+        }
+    }
+}
+
+/// Reference strain, small-strain damping and factor of Masing damping (Darendeli's eqs. 9.1, constants of his table 9.1).
+fn darendeli(
+    index: f64,
+    overconsolidation: f64,
+    stress: f64,
+    frequency: f64,
+    cycles: f64,
+) -> Result<Resolved> {
+    not_negative("plasticity index", index)?;
+    let ratio = positive("overconsolidation ratio", overconsolidation)?;
+    let stress = positive("mean effective stress (Pa)", stress)? / ATMOSPHERE;
+    let least = |quantity, value: f64, least, needed| {
+        let fits = value >= least && value.is_finite();
+        if fits { Ok(value) } else { Err(Error::Input { quantity, value, needed }) }
+    };
+    least("frequency of Darendeli's curves (Hz)", frequency, 0.05, "finite and at least 0.05")?;
+    least("number of cycles of Darendeli's curves", cycles, 1.0, "finite and at least 1")?;
+    let reference = 0.01 * (0.0352 + 0.0010 * index * ratio.powf(0.3246)) * stress.powf(0.3483);
+    let small = 0.01
+        * (0.8005 + 0.0129 * index * ratio.powf(-0.1069))
+        * stress.powf(-0.2889)
+        * (1.0 + 0.2919 * frequency.ln());
+    positive("reference strain of Darendeli's curves", reference)?;
+    damping_ratio("small-strain damping of Darendeli's curves", small)?;
+    Ok(Resolved::Darendeli([reference, small, 0.6329 - 0.00566 * cycles.ln()]))
+}
+
+fn rows<const N: usize>(
+    strains: &[f64; N],
+    reduction: &[f64; N],
+    damping: &[f64; N],
+) -> Vec<[f64; 3]> {
+    (0..N).map(|i| [strains[i], reduction[i], damping[i]]).collect()
+}
+
+/// The two drawn curves beside an index, weighted.
+fn vucetic_dobry(index: f64) -> Result<Vec<[f64; 3]>> {
+    let last = VUCETIC_DOBRY.len() - 1;
+    if !(0.0..=VUCETIC_DOBRY[last].0).contains(&index) {
+        return Err(Error::Input {
+            quantity: "plasticity index",
+            value: index,
+            needed: "from 0 to 200",
+        });
+    }
+    let above = VUCETIC_DOBRY.partition_point(|(drawn, ..)| *drawn <= index).clamp(1, last);
+    let ((low, ..), (high, ..)) = (VUCETIC_DOBRY[above - 1], VUCETIC_DOBRY[above]);
+    let share = (index - low) / (high - low);
+    let of = |(_, reduction, damping): &(f64, [f64; 9], [f64; 9])| rows(&NINE, reduction, damping);
+    let pairs = of(&VUCETIC_DOBRY[above - 1]).into_iter().zip(of(&VUCETIC_DOBRY[above]));
+    Ok(pairs
+        .map(|(a, b)| [a[0], a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])])
+        .collect())
+}
+
+/// The rows of a table, if they are a curve.
+fn checked(rows: &[[f64; 3]]) -> Result<&[[f64; 3]]> {
+    if rows.is_empty() {
+        let (quantity, needed) = ("number of rows of a table of strain curves", "at least 1");
+        return Err(Error::Input { quantity, value: 0.0, needed });
+    }
+    let mut before = 0.0;
+    for &[strain, reduction, damping] in rows {
+        finite("strain of a table", strain)?;
+        if strain <= before {
+            let needed = "above zero and above the one before";
+            return Err(Error::Input { quantity: "strain of a table", value: strain, needed });
+        }
+        before = strain;
+        if !(reduction > 0.0 && reduction <= 1.0) {
+            let (quantity, needed) = ("G/G_max of a table", "above 0 and at most 1");
+            return Err(Error::Input { quantity, value: reduction, needed });
+        }
+        damping_ratio("damping ratio of a table", damping)?;
+    }
+    Ok(rows)
+}
+
+/// Strains of the curves of Seed & Idriss and of Vucetic & Dobry.
+const NINE: [f64; 9] = [1e-6, 3.16e-6, 1e-5, 3.16e-5, 1e-4, 3.16e-4, 1e-3, 3.16e-3, 1e-2];
+/// Strains of EPRI's curves.
+const SEVENTEEN: [f64; 17] = [
+    1e-6, 1.778e-6, 3.162e-6, 5.623e-6, 1e-5, 1.778e-5, 3.162e-5, 5.623e-5, 1e-4, 1.778e-4,
+    3.162e-4, 5.623e-4, 1e-3, 1.778e-3, 3.162e-3, 5.623e-3, 1e-2,
+];
+
+/// Modulus and damping of the mean, modulus of the upper bound, damping of the lower.
+const SEED_IDRISS: [[f64; 9]; 4] = [
+    [1.0, 0.99, 0.96, 0.88, 0.74, 0.52, 0.29, 0.15, 0.06],
+    [0.0057, 0.0086, 0.017, 0.031, 0.055, 0.095, 0.155, 0.211, 0.246],
+    [1.0, 1.0, 0.99, 0.94, 0.84, 0.65, 0.36, 0.19, 0.08],
+    [0.005, 0.006, 0.008, 0.014, 0.028, 0.053, 0.1, 0.158, 0.215],
+];
+
+/// Plasticity index, G/G_max, damping ratio.
+const VUCETIC_DOBRY: [(f64, [f64; 9], [f64; 9]); 6] = [
+    (
+        0.0,
+        [1.0, 1.0, 0.96, 0.88, 0.7, 0.47, 0.26, 0.11, 0.03],
+        [0.01, 0.01, 0.01, 0.03, 0.054, 0.098, 0.15, 0.203, 0.24],
+    ),
+    (
+        15.0,
+        [1.0, 1.0, 0.99, 0.94, 0.81, 0.64, 0.41, 0.22, 0.1],
+        [0.01, 0.01, 0.01, 0.026, 0.045, 0.075, 0.116, 0.16, 0.2],
+    ),
+    (
+        30.0,
+        [1.0, 1.0, 1.0, 0.98, 0.9, 0.75, 0.53, 0.35, 0.17],
+        [0.01, 0.01, 0.01, 0.021, 0.038, 0.059, 0.088, 0.125, 0.169],
+    ),
+    (
+        50.0,
+        [1.0, 1.0, 1.0, 1.0, 0.95, 0.84, 0.67, 0.47, 0.25],
+        [0.01, 0.01, 0.01, 0.018, 0.029, 0.043, 0.062, 0.095, 0.135],
+    ),
+    (
+        100.0,
+        [1.0, 1.0, 1.0, 1.0, 0.98, 0.92, 0.81, 0.63, 0.37],
+        [0.01, 0.01, 0.01, 0.015, 0.02, 0.029, 0.041, 0.065, 0.098],
+    ),
+    (
+        200.0,
+        [1.0, 1.0, 1.0, 1.0, 1.0, 0.96, 0.89, 0.75, 0.53],
+        [0.01, 0.01, 0.01, 0.013, 0.016, 0.021, 0.03, 0.048, 0.081],
+    ),
+];
+
+/// Depth (m) down to which they hold, G/G_max, damping ratio.
+const EPRI: [(f64, [f64; 17], [f64; 17]); 6] = [
+    (
+        6.096,
+        [
+            1.0, 1.0, 1.0, 0.998, 0.986, 0.96, 0.92, 0.851, 0.759, 0.642, 0.515, 0.392, 0.278,
+            0.189, 0.121, 0.073, 0.043,
+        ],
+        [
+            0.01429, 0.01476, 0.01536, 0.01602, 0.01879, 0.02193, 0.02819, 0.03724, 0.05066,
+            0.0694, 0.09346, 0.12201, 0.15443, 0.18703, 0.21704, 0.24541, 0.27217,
+        ],
+    ),
+    (
+        15.24,
+        [
+            1.0, 1.0, 1.0, 0.999, 0.993, 0.979, 0.952, 0.903, 0.83, 0.733, 0.617, 0.488, 0.366,
+            0.258, 0.173, 0.108, 0.066,
+        ],
+        [
+            0.01142, 0.01196, 0.0125, 0.01304, 0.01469, 0.0167, 0.02074, 0.02658, 0.03622, 0.05066,
+            0.07069, 0.09569, 0.125, 0.15688, 0.19004, 0.22022, 0.24699,
+        ],
+    ),
+    (
+        36.576,
+        [
+            1.0, 1.0, 1.0, 0.999, 0.998, 0.988, 0.97, 0.934, 0.878, 0.797, 0.691, 0.567, 0.444,
+            0.328, 0.225, 0.145, 0.092,
+        ],
+        [
+            0.01, 0.00982, 0.00978, 0.01122, 0.01165, 0.01371, 0.0161, 0.02046, 0.0283, 0.03901,
+            0.05493, 0.07662, 0.10381, 0.13383, 0.16643, 0.19766, 0.2258,
+        ],
+    ),
+    (
+        76.2,
+        [
+            1.0, 1.0, 1.0, 0.999, 0.999, 0.994, 0.979, 0.954, 0.909, 0.84, 0.747, 0.631, 0.507,
+            0.384, 0.274, 0.182, 0.118,
+        ],
+        [
+            0.00857, 0.00839, 0.00821, 0.0088, 0.01006, 0.01125, 0.01341, 0.01629, 0.02198,
+            0.03131, 0.0446, 0.06281, 0.08686, 0.11573, 0.1477, 0.17879, 0.20906,
+        ],
+    ),
+    (
+        152.4,
+        [
+            1.0, 1.0, 1.0, 0.999, 0.999, 0.999, 0.986, 0.968, 0.934, 0.879, 0.799, 0.696, 0.575,
+            0.449, 0.332, 0.23, 0.148,
+        ],
+        [
+            0.00786, 0.00792, 0.00799, 0.00811, 0.00867, 0.0095, 0.01081, 0.01344, 0.01774,
+            0.02515, 0.0352, 0.05077, 0.07206, 0.09853, 0.12839, 0.15972, 0.19072,
+        ],
+    ),
+    (
+        304.8,
+        [
+            1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.995, 0.982, 0.96, 0.915, 0.85, 0.765, 0.66, 0.532,
+            0.41, 0.297, 0.2,
+        ],
+        [
+            0.00492, 0.00554, 0.00607, 0.00589, 0.00643, 0.00696, 0.00772, 0.00983, 0.01234,
+            0.01735, 0.02562, 0.03696, 0.05408, 0.07617, 0.10428, 0.13524, 0.16459,
+        ],
+    ),
+];
