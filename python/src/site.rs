@@ -31,7 +31,8 @@ impl PyStrainCurves {
         checked(StrainCurves::Linear { damping })
     }
 
-    /// Sand (Seed & Idriss 1970): ``bound`` "mean", or "upper" for upper modulus and lower damping.
+    /// Sand by Seed and Idriss (1970): ``bound`` "mean" (the default), or "upper" for the upper modulus and the lower
+    /// damping.
     #[staticmethod]
     #[pyo3(signature = (bound="mean"))]
     fn seed_idriss(bound: &str) -> PyResult<Self> {
@@ -42,20 +43,20 @@ impl PyStrainCurves {
         }
     }
 
-    /// Soil by its plasticity index, per cent (Vucetic & Dobry 1991).
+    /// Soil by its ``plasticity_index``, per cent, after Vucetic and Dobry (1991).
     #[staticmethod]
     fn vucetic_dobry(plasticity_index: f64) -> PyResult<Self> {
         checked(StrainCurves::VuceticDobry { plasticity_index })
     }
 
-    /// Sand by the ``depth`` of its layer's middle, m (EPRI 1993).
+    /// Sand by the ``depth`` (m) of the middle of its layer, after EPRI (1993).
     #[staticmethod]
     fn epri(depth: f64) -> PyResult<Self> {
         checked(StrainCurves::Epri { depth })
     }
 
-    /// Soil by plasticity index (per cent), overconsolidation ratio, mean effective stress (Pa), ``frequency`` (Hz) and
-    /// number of ``cycles`` (Darendeli 2001).
+    /// Soil after Darendeli (2001) by its ``plasticity_index`` (per cent), ratio of ``overconsolidation``, effective
+    /// ``mean_stress`` (Pa), the ``frequency`` (Hz; 1 by default) and the number of ``cycles`` (10 by default).
     #[staticmethod]
     #[pyo3(signature = (plasticity_index, overconsolidation, mean_stress, *, frequency=1.0, cycles=10.0))]
     fn darendeli(
@@ -75,7 +76,8 @@ impl PyStrainCurves {
         checked(state)
     }
 
-    /// A table: arrays of shape (n,) of increasing ``strains``, G/G_max and damping ratios.
+    /// A table: arrays of shape (n,) of increasing ``strains``, of their ``modulus_ratios`` G/G_max and of damping
+    /// ratios, ``dampings``.
     #[staticmethod]
     fn table(strains: Numbers, modulus_ratios: Numbers, dampings: Numbers) -> PyResult<Self> {
         let sizes = [strains.0.len(), modulus_ratios.0.len(), dampings.0.len()];
@@ -154,37 +156,37 @@ impl PyEquivalentLinear {
         PyRecord::create(py, Ok(self.0.surface.clone()))
     }
 
-    /// Depth of each layer's top, m.
+    /// Depth of the tops of the layers: array of shape (layers,), m.
     #[getter]
     fn depth<'py>(&self, py: Python<'py>) -> Array<'py> {
         self.column(py, |layer| layer.depth)
     }
 
-    /// Strain-compatible shear moduli, Pa.
+    /// Strain-compatible shear moduli: array of shape (layers,), Pa.
     #[getter]
     fn shear_modulus<'py>(&self, py: Python<'py>) -> Array<'py> {
         self.column(py, |layer| layer.shear_modulus)
     }
 
-    /// The same over those at small strain.
+    /// Ratio of the strain-compatible shear moduli to those at small strain: array of shape (layers,).
     #[getter]
     fn modulus_ratio<'py>(&self, py: Python<'py>) -> Array<'py> {
         self.column(py, |layer| layer.modulus_ratio)
     }
 
-    /// Damping ratios.
+    /// Strain-compatible damping ratio of each layer: array of shape (layers,).
     #[getter]
     fn damping<'py>(&self, py: Python<'py>) -> Array<'py> {
         self.column(py, |layer| layer.damping)
     }
 
-    /// Largest shear strains in the layers' middles.
+    /// Largest shear strains in the middle of the layers, relative to 1: array of shape (layers,).
     #[getter]
     fn largest_strain<'py>(&self, py: Python<'py>) -> Array<'py> {
         self.column(py, |layer| layer.largest_strain)
     }
 
-    /// Effective shear strains, at which the curves were read.
+    /// Effective shear strains, at which the curves were read, relative to 1: array of shape (layers,).
     #[getter]
     fn effective_strain<'py>(&self, py: Python<'py>) -> Array<'py> {
         self.column(py, |layer| layer.effective_strain)

@@ -199,6 +199,7 @@ CHOICES: dict[str, Callable[[str], object]] = {
     "_AccelerationUnit": lambda word: bm.Record(0.01, [1.0, 2.0], unit=word),
     "_RecordFormat": read,
     "_Baseline": lambda word: bm.el_centro_1940().with_baseline(word),
+    "_CurveBound": lambda word: bm.StrainCurves.seed_idriss(word),
     "_Wave": lambda word: bm.SoilColumn(PROFILE, word),
     "_ControlPoint": lambda word: bm.SoilColumn(PROFILE).transfer([1.0], control=word),
     "_InclinedControl": lambda word: WAVE.field(RECORD, -5.0, control=word),

@@ -179,7 +179,7 @@ impl Resolved {
     }
 }
 
-/// Reference strain, small-strain damping and factor of Masing damping (Darendeli's eqs. 9.1, constants of his table 9.1).
+/// Reference strain, small-strain damping and factor of Masing damping (means of Darendeli's model, 2001).
 fn darendeli(
     index: f64,
     overconsolidation: f64,

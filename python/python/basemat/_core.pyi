@@ -580,18 +580,28 @@ class SoilColumn:
         tolerance: float | None = None,
         most_iterations: int | None = None,
         band: Sequence[float] | None = None,
-    ) -> EquivalentLinear: ...
+    ) -> EquivalentLinear:
+        """Strain-compatible properties under a record of the ``control``, by ``curves`` of each layer, and the response
+        with them. Unless given, ``strain_ratio`` is 0.65 (of a magnitude M: (M − 1)/10), ``tolerance`` of moduli
+        and damping ratios 1e-3 in ``most_iterations`` 50, the ``band`` of constant damping 0.1 to 30 Hz.
+        """
 
 @final
 class StrainCurves:
+    """Modulus reduction G/G_max and damping ratio of a soil over shear strain (0.01 is 1 %)."""
+
     @staticmethod
-    def linear(damping: float) -> StrainCurves: ...
+    def linear(damping: float) -> StrainCurves:
+        """A soil or rock that stays linear, with this ``damping`` ratio."""
     @staticmethod
-    def seed_idriss(bound: _CurveBound = "mean") -> StrainCurves: ...
+    def seed_idriss(bound: _CurveBound = "mean") -> StrainCurves:
+        """Sand (Seed & Idriss 1970): ``bound`` "mean", or "upper" for upper modulus and lower damping."""
     @staticmethod
-    def vucetic_dobry(plasticity_index: float) -> StrainCurves: ...
+    def vucetic_dobry(plasticity_index: float) -> StrainCurves:
+        """Soil by its plasticity index, per cent (Vucetic & Dobry 1991)."""
     @staticmethod
-    def epri(depth: float) -> StrainCurves: ...
+    def epri(depth: float) -> StrainCurves:
+        """Sand by the ``depth`` of its layer's middle, m (EPRI 1993)."""
     @staticmethod
     def darendeli(
         plasticity_index: float,
@@ -600,41 +610,64 @@ class StrainCurves:
         *,
         frequency: float = 1.0,
         cycles: float = 10.0,
-    ) -> StrainCurves: ...
+    ) -> StrainCurves:
+        """Soil by plasticity index (per cent), overconsolidation ratio, mean effective stress (Pa), ``frequency`` (Hz) and
+        number of ``cycles`` (Darendeli 2001).
+        """
     @staticmethod
     def table(
         strains: ArrayLike, modulus_ratios: ArrayLike, dampings: ArrayLike
-    ) -> StrainCurves: ...
-    def at(self, strains: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    ) -> StrainCurves:
+        """A table: arrays of shape (n,) of increasing ``strains``, G/G_max and damping ratios."""
+    def at(self, strains: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """G/G_max and damping ratios at ``strains`` (array of shape (n,)): two arrays of shape (n,)."""
 
 @final
 class EquivalentLinear:
-    def profile(self) -> SoilProfile: ...
+    """Response of a site with strain-compatible properties: arrays have one value per layer from the surface down, of
+    accelerations also one of the base within. Printed, a table.
+    """
+
+    def profile(self) -> SoilProfile:
+        """The site for a ground: strain-compatible moduli at its first frequency, damping constant over the band."""
     @property
-    def surface(self) -> Record: ...
+    def surface(self) -> Record:
+        """Record of the free surface."""
     @property
-    def depth(self) -> NDArray[np.float64]: ...
+    def depth(self) -> NDArray[np.float64]:
+        """Depth of each layer's top, m."""
     @property
-    def shear_modulus(self) -> NDArray[np.float64]: ...
+    def shear_modulus(self) -> NDArray[np.float64]:
+        """Strain-compatible shear moduli, Pa."""
     @property
-    def modulus_ratio(self) -> NDArray[np.float64]: ...
+    def modulus_ratio(self) -> NDArray[np.float64]:
+        """The same over those at small strain."""
     @property
-    def damping(self) -> NDArray[np.float64]: ...
+    def damping(self) -> NDArray[np.float64]:
+        """Damping ratios."""
     @property
-    def largest_strain(self) -> NDArray[np.float64]: ...
+    def largest_strain(self) -> NDArray[np.float64]:
+        """Largest shear strains in the layers' middles."""
     @property
-    def effective_strain(self) -> NDArray[np.float64]: ...
+    def effective_strain(self) -> NDArray[np.float64]:
+        """Effective shear strains, at which the curves were read."""
     @property
-    def accelerations(self) -> NDArray[np.float64]: ...
+    def accelerations(self) -> NDArray[np.float64]:
+        """Accelerations at the tops of layers and base: array of shape (layers + 1, samples), m/s²."""
     @property
-    def peak_acceleration(self) -> NDArray[np.float64]: ...
+    def peak_acceleration(self) -> NDArray[np.float64]:
+        """Their largest absolute values: array of shape (layers + 1,), m/s²."""
     @property
-    def iterations(self) -> int: ...
+    def iterations(self) -> int:
+        """Linear calculations made."""
     @property
-    def last_change(self) -> float: ...
+    def last_change(self) -> float:
+        """Largest relative change of a modulus or damping ratio that all further iterations would make, as estimated."""
     @property
-    def warnings(self) -> list[str]: ...
-    def to_frame(self) -> Any: ...
+    def warnings(self) -> list[str]:
+        """Warnings, in words."""
+    def to_frame(self) -> Any:
+        """The layers of the site as a pandas frame, indexed by the depth of their tops (m)."""
 
 @final
 class InclinedWave:

@@ -212,9 +212,12 @@ impl PyColumn {
         self::record(py, step, self.0.from_surface(control, step, samples).or_raise()?)
     }
 
-    /// Strain-compatible properties under a record of the ``control``, by ``curves`` of each layer, and the response
-    /// with them. Unless given, ``strain_ratio`` is 0.65 (of a magnitude M: (M − 1)/10), ``tolerance`` of moduli
-    /// and damping ratios 1e-3 in ``most_iterations`` 50, the ``band`` of constant damping 0.1 to 30 Hz.
+    /// Response with strain-compatible properties, an :class:`EquivalentLinear`, to the ``record`` of the ``control``
+    /// point, "outcrop" (the default) or "within"; ``curves``: a list of :class:`StrainCurves`, one per layer.
+    ///
+    /// ``strain_ratio``: effective over largest strain, (M − 1)/10 for the magnitude M; 0.65 unless given.
+    /// ``tolerance``: relative, of moduli and damping ratios; 1e-3 unless given. ``most_iterations``: 50 unless given.
+    /// ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given.
     #[pyo3(signature = (record, curves, *, control="outcrop", strain_ratio=None, tolerance=None, most_iterations=None, band=None))]
     fn equivalent_linear(
         &self,
