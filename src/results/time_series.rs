@@ -5,6 +5,8 @@ use super::{Quantity, Recorder};
 use crate::bem::ContactElement;
 use crate::coupled::run::sequence::Sequence;
 use crate::coupled::{EnergyBalance, Probe, Simulation, State, probe_index};
+#[cfg(feature = "serde")]
+use crate::error::same_length;
 use crate::error::{Error, Result};
 
 /// Time series of a run and snapshots: made by [`Recorder::start`], fed by [`TimeSeries::record`], the
@@ -53,19 +55,15 @@ validated! {
         motion: Option<MotionFrames>,
     } => {
         let kept = times.len();
-        let lengths = scalars.iter().chain(&probe_values).map(Vec::len);
-        let sized = |quantity, found, needed| match found == needed {
-            true => Ok(()),
-            false => Err(Error::Size { quantity, found, needed }),
-        };
-        sized("list of scalars", scalars.len(), Quantity::ALL.len())?;
-        sized("list of probes", probe_values.len(), probes.len())?;
-        sized("list of energy balances", energy_balances.len(), kept)?;
-        lengths.into_iter().try_for_each(|length| sized("time series", length, kept))?;
+        let mut lengths = scalars.iter().chain(&probe_values).map(Vec::len);
+        same_length("list of scalars", scalars.len(), Quantity::ALL.len())?;
+        same_length("list of probes", probe_values.len(), probes.len())?;
+        same_length("list of energy balances", energy_balances.len(), kept)?;
+        lengths.try_for_each(|length| same_length("time series", length, kept))?;
         let frames = contact.as_ref().is_none_or(|own| own.is_whole(elements.len()))
             && motion.as_ref().is_none_or(|own| own.is_whole(dofs));
-        sized("list of whole frames", usize::from(frames), 1)?;
-        sized("list of times", usize::from(kept > 0), 1)?;
+        same_length("list of whole frames", usize::from(frames), 1)?;
+        same_length("list of times", usize::from(kept > 0), 1)?;
         let sequence = Sequence::ended(end);
         Ok(Self {
             recorder, elements, probes, time_step, sequence, steps, dofs, times, scalars,

@@ -13,7 +13,7 @@ use super::grid::Parameter;
 use super::grid::check_names;
 use super::run::{Sweep, SweepCase};
 use super::table::{CaseTable, Row, heading, name, replaced, unwritten};
-use crate::error::{CaseError, Error, Result, SweepError};
+use crate::error::{CaseError, Error, Result, SweepError, same_length};
 use crate::text::table::csv_line;
 
 /// Rows by their cases, each with the file that it is from.
@@ -176,13 +176,9 @@ impl Sweep<'_> {
     ) -> Result<CaseTable> {
         let columns = self.named(columns)?;
         let outcomes: Vec<_> = outcomes.into_iter().collect();
-        let sized = |quantity, found, needed| match found == needed {
-            true => Ok(()),
-            false => Err(Error::Size { quantity, found, needed }),
-        };
-        sized("list of outcomes", outcomes.len(), self.cases().len())?;
+        same_length("list of outcomes", outcomes.len(), self.cases().len())?;
         for results in outcomes.iter().flatten() {
-            sized("list of results of a case", results.len(), columns.len())?;
+            same_length("list of results of a case", results.len(), columns.len())?;
         }
         let rows = self.cases().zip(outcomes).map(|(case, outcome)| Row::new(case, outcome));
         Ok(self.tabled(columns, rows.collect()))
