@@ -214,8 +214,8 @@ pub mod sweep;
 pub use coupled::Simulation;
 pub use error::{
     CaseError, CaseFileError, CheckpointError, Error, KernelFileError, LawError, LayeredError,
-    MemoryError, RecordError, ReducedError, Result, StabilityError, StepError, SweepError,
-    memory_limit, set_memory_limit,
+    MemoryError, Observer, Progress, RecordError, ReducedError, Result, StabilityError, StepError,
+    SweepError, memory_limit, set_memory_limit,
 };
 #[cfg(feature = "io")]
 pub use error::{MatrixFileError, MeshFileError};

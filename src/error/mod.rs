@@ -15,6 +15,7 @@ pub(crate) mod memory;
 #[cfg(feature = "io")]
 mod mesh_file;
 mod part;
+mod progress;
 mod record;
 mod reduced;
 mod stability;
@@ -32,6 +33,8 @@ pub use matrix_file::MatrixFileError;
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
 #[cfg(feature = "io")]
 pub use mesh_file::MeshFileError;
+pub(crate) use progress::Watch;
+pub use progress::{Observer, Progress};
 pub use record::RecordError;
 pub use reduced::ReducedError;
 pub use stability::StabilityError;
@@ -338,6 +341,9 @@ pub enum Error {
         /// Where it is on the unit circle, radians per step.
         frequency: f64,
     },
+    /// A call that its [`Observer`] stopped; everything is as it was before it.
+    #[error("stopped by its observer: {0}")]
+    Stopped(Progress),
     /// A layered ground that cannot be computed as asked.
     #[error("layered ground: {0}")]
     Layered(#[from] LayeredError),

@@ -4,7 +4,7 @@
 use super::exponentials::ExponentialSum;
 use super::pair_classes::{KINDS, PairClasses};
 use super::relaxed_fft::spectra::SharedSpectra;
-use crate::error::{Result, same_length};
+use crate::error::{Observer, Result, same_length};
 
 /// Step coefficients Gⁿ of a laterally homogeneous ground under a patch of elements, for steps of
 /// one length.
@@ -44,6 +44,14 @@ pub trait ConvolutionWeights: Send + Sync {
     /// If coefficients cannot be computed.
     fn prepare(&self, _lags: usize) -> Result<()> {
         Ok(())
+    }
+
+    /// The same, with an observer; of a closed form there is nothing to hear (the default).
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped); as for [`ConvolutionWeights::prepare`].
+    fn prepare_observed(&self, lags: usize, _observer: &mut Observer<'_>) -> Result<()> {
+        self.prepare(lags)
     }
 
     /// Overwrites the slices of `values` (of one length, one for each kind: normal, tangential,

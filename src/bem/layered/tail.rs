@@ -15,7 +15,7 @@
 
 use std::sync::OnceLock;
 
-use super::form_factors::{DofCombination, FormFactors, LANES, PairShape};
+use super::form_factors::{DofCombination, FormFactors, LANES};
 use crate::linalg::Complex;
 
 /// Terms kept: for |x| ≤ 1/16 the last is below rounding.
@@ -72,7 +72,7 @@ pub(crate) fn on_grid(panels: usize) -> usize {
 }
 
 /// 2ᵉ so that `panels` is between 8 and 16 times it.
-fn grid(panels: usize) -> usize {
+pub(crate) fn grid(panels: usize) -> usize {
     1 << (panels.max(8).ilog2() - 3)
 }
 
@@ -90,25 +90,12 @@ impl Tails {
 fn table(forms: &FormFactors, limit: f64) -> Box<[DofCombination]> {
     let mut rows = vec![DofCombination::default(); forms.blocks() * TERMS];
     for (class, shape) in forms.shapes.iter().enumerate() {
-        let PairShape { lengths: [q, p], offset } = *shape;
-        let (sum, difference) = (0.5 * (p + q), 0.5 * (p - q));
-        for (y, sign) in [
-            (offset + sum, -1.0),
-            (offset - difference, 1.0),
-            (offset + difference, 1.0),
-            (offset - sum, -1.0),
-        ] {
-            let integrals = oscillating(limit * y.abs());
+        for (y, [even, odd]) in shape.waves() {
+            let integrals = oscillating(limit * y);
             for (j, integral) in integrals.iter().enumerate() {
                 let row = &mut rows[class / LANES * TERMS + j];
-                let factor = sign / (limit * limit);
-                row[0][class % LANES] += factor * integral.re;
-                row[1][class % LANES] += factor * integral.im * y.signum();
-            }
-        }
-        if offset == 0.0 {
-            for j in 0..TERMS {
-                rows[class / LANES * TERMS + j][1][class % LANES] = 0.0;
+                row[0][class % LANES] += even / (limit * limit) * integral.re;
+                row[1][class % LANES] += odd / (limit * limit) * integral.im;
             }
         }
     }
