@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use super::layered::{
     Cost, LIMIT, LayeredKernel, Stages, StripContact, StripImpedance, TOLERANCE, check_limit,
-    check_tolerance, rigid_strip_impedances, static_compliance,
+    check_tolerance, rigid_strip_impedances, rigid_strip_impedances_observed, static_compliance,
 };
 use super::{
     Grading, Ground, PatchKernel, SharedKernels, StaticKernel, Strip, WeightsGround, WeightsSource,
 };
-use crate::error::{Result, positive};
+use crate::error::{Observer, Result, positive};
 use crate::geometry::{ContactElement, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryMethod};
 use crate::motion::FreeField;
@@ -328,6 +328,20 @@ impl ElasticGround {
         rigid_strip_impedances(self.profile(), self.elements(), frequencies, contact)
     }
 
+    /// The same, with an observer.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped); as for [`rigid_strip_impedances`].
+    pub fn impedances_observed(
+        &self,
+        frequencies: &[f64],
+        contact: StripContact,
+        observer: &mut Observer<'_>,
+    ) -> Result<Vec<StripImpedance>> {
+        let (profile, elements) = (self.profile(), self.elements());
+        rigid_strip_impedances_observed(profile, elements, frequencies, contact, observer)
+    }
+
     /// The profile.
     pub fn profile(&self) -> &SoilProfile {
         &self.source.profile
@@ -340,6 +354,7 @@ impl Ground for ElasticGround {
         fn elements(&self) -> &[ContactElement];
         fn expect_steps(&mut self, steps: usize) -> Result<()>;
         fn reserve(&mut self, steps: usize) -> Result<()>;
+        fn precompute(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()>;
         fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
         fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
         fn commit(&mut self, traction: &[f64]);

@@ -32,7 +32,7 @@ use std::sync::Arc;
 
 pub use crate::geometry::ContactElement;
 
-use crate::error::{CheckpointError, Result};
+use crate::error::{CheckpointError, Observer, Result};
 use crate::geometry::ContactLayout;
 use crate::history::{ConvolutionWeights, HistoryChoice};
 use crate::motion::FreeField;
@@ -74,6 +74,16 @@ pub trait Ground: Any + Send {
     /// # Errors
     /// As for [`Ground::history`].
     fn reserve(&mut self, _steps: usize) -> Result<()> {
+        Ok(())
+    }
+
+    /// Computes the convolution weights of the first `steps` steps with an observer, so that those find them there.
+    /// Nothing else changes; the default has nothing to compute.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped) by the observer, and the ground is as it was; as for
+    /// [`Ground::history`].
+    fn precompute(&mut self, _steps: usize, _observer: &mut Observer<'_>) -> Result<()> {
         Ok(())
     }
 

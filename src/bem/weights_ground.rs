@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Ground, SharedKernels, WeightsSource};
-use crate::error::{CheckpointError, Error, Result};
+use crate::error::{CheckpointError, Error, Observer, Result};
 use crate::geometry::{ContactElement, check_order};
 use crate::history::{
     ChosenHistory, ConvolutionHistory, ConvolutionWeights, ExponentialHistory, HistoryChoice,
@@ -281,6 +281,14 @@ impl Ground for WeightsGround {
             Some(prepared) => prepared.history(self.options, Some(steps))?.reserve(steps),
             None => Err(NOT_PREPARED),
         }
+    }
+
+    /// As many lags as a history takes, by a power of two.
+    fn precompute(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
+        let Some(Prepared { kernel, .. }) = &self.prepared else { return Err(NOT_PREPARED) };
+        let steps = self.options.prepared_steps(HistoryMethod::RelaxedFft, &**kernel, steps)?;
+        let lags = steps.checked_next_power_of_two().unwrap_or(steps);
+        kernel.prepare_observed(lags, observer)
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {

@@ -14,7 +14,7 @@ use super::step::newton::Solver;
 use super::step::{Forcing, Increment};
 use crate::bem::{ContactElement, Ground};
 use crate::coupled::run::Run;
-use crate::error::{Error, Result, StepError, not_negative, positive};
+use crate::error::{Error, Observer, Result, StepError, not_negative, positive};
 use crate::history::HistoryChoice;
 use crate::interface::Mode;
 use crate::motion::FreeField;
@@ -178,6 +178,15 @@ impl Simulation {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
         let steps = steps as usize;
         steps
+    }
+
+    /// Computes the ground's convolution weights for `steps` further steps with an observer, so that a run of them
+    /// begins at once. Results are the same without.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] by the observer, and the simulation is as it was; as for [`Ground::history`].
+    pub fn precompute(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
+        self.ground.precompute(self.state.step.saturating_add(steps), observer)
     }
 
     /// Makes up to `steps` steps, calling `observe` after each with the new state.

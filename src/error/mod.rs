@@ -10,6 +10,7 @@ mod input_file;
 mod layered;
 pub(crate) mod memory;
 mod part;
+mod progress;
 mod record;
 mod site;
 mod step;
@@ -25,6 +26,8 @@ pub(crate) use memory::{
     all_finite, damping_ratio, finite, not_finite, not_negative, positive, same_length, write_file,
 };
 pub use part::{LawError, ReducedError};
+pub(crate) use progress::Watch;
+pub use progress::{Observer, Progress};
 pub use record::RecordError;
 pub use site::SiteError;
 pub use step::{CheckpointError, StabilityError, StepError};
@@ -330,6 +333,9 @@ pub enum Error {
         /// Where it is on the unit circle, radians per step.
         frequency: f64,
     },
+    /// A call that its [`Observer`] stopped; everything is as it was before it.
+    #[error("stopped by its observer: {0}")]
+    Stopped(Progress),
     /// A layered ground that cannot be computed as asked.
     #[error("layered ground: {0}")]
     Layered(#[from] LayeredError),

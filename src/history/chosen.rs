@@ -298,7 +298,7 @@ impl HistoryOptions {
 
     /// As many of these steps as a history of this kind holds in the memory allowed: a larger number
     /// may stand for a run without end.
-    pub(super) fn prepared_steps(
+    pub(crate) fn prepared_steps(
         self,
         kind: HistoryMethod,
         kernel: &dyn ConvolutionWeights,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::exponentials::ExponentialSum;
 use super::pair_classes::{ACTIONS, KINDS, PairClasses};
 use super::relaxed_fft::wave_level::SharedSpectra;
-use crate::error::{CheckpointError, Result, same_length};
+use crate::error::{CheckpointError, Observer, Result, same_length};
 use crate::linalg::dot;
 
 /// Discrete convolution h^N = Σ_{m<N} G^{N−m+1} τ^m, with the inputs known only up to now.
@@ -114,6 +114,14 @@ pub trait ConvolutionWeights: Send + Sync {
     /// If coefficients cannot be computed.
     fn prepare(&self, _lags: usize) -> Result<()> {
         Ok(())
+    }
+
+    /// The same, with an observer; of a closed form there is nothing to hear (the default).
+    ///
+    /// # Errors
+    /// [`Error::Stopped`](crate::Error::Stopped); as for [`ConvolutionWeights::prepare`].
+    fn prepare_observed(&self, lags: usize, _observer: &mut Observer<'_>) -> Result<()> {
+        self.prepare(lags)
     }
 
     /// Overwrites the slices of `values` (of one length, one for each kind: normal, tangential,

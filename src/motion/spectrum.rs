@@ -9,12 +9,15 @@
 
 use super::integral::quadratic_roots_within;
 use super::{Record, STANDARD_GRAVITY};
-use crate::error::{Error, Result, damping_ratio, positive};
+use crate::error::{Error, Observer, Result, Watch, damping_ratio, positive};
 
 /// Fewest substeps in a period.
 const SUBSTEPS_PER_PERIOD: f64 = 40.0;
 /// Most substeps in all: shorter periods are refused.
 const MOST_SUBSTEPS: f64 = 1e9;
+
+/// Substeps between two calls of an observer.
+const HEARD: usize = 1 << 20;
 
 /// Largest response of one oscillator during a record and one period after it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,11 +60,46 @@ impl Record {
         periods: &[f64],
         damping: f64,
     ) -> Result<Vec<SpectralOrdinate>> {
-        damping_ratio("damping ratio of a response spectrum", damping)?;
-        periods.iter().map(|&period| self.ordinate(period, damping)).collect()
+        self.ordinates(periods, damping, &mut Watch::nobody())
     }
 
-    fn ordinate(&self, period: f64, damping: f64) -> Result<SpectralOrdinate> {
+    /// The same, with an observer; parts are samples of the record, as many for every period.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`]; as for [`Record::response_spectrum`].
+    pub fn response_spectrum_observed(
+        &self,
+        periods: &[f64],
+        damping: f64,
+        observer: &mut Observer<'_>,
+    ) -> Result<Vec<SpectralOrdinate>> {
+        let total = self.len().saturating_mul(periods.len());
+        self.ordinates(periods, damping, &mut Watch::new("response spectrum", total, observer))
+    }
+
+    fn ordinates(
+        &self,
+        periods: &[f64],
+        damping: f64,
+        watch: &mut Watch,
+    ) -> Result<Vec<SpectralOrdinate>> {
+        damping_ratio("damping ratio of a response spectrum", damping)?;
+        let mut found = Vec::with_capacity(periods.len());
+        for (number, &period) in periods.iter().enumerate() {
+            let mut after = |sample: usize| watch.reach(self.len() * number + sample);
+            found.push(self.ordinate(period, damping, &mut after)?);
+            after(self.len())?;
+        }
+        Ok(found)
+    }
+
+    /// Calls `after` with the number of samples behind it, every so many substeps.
+    fn ordinate(
+        &self,
+        period: f64,
+        damping: f64,
+        after: &mut dyn FnMut(usize) -> Result<()>,
+    ) -> Result<SpectralOrdinate> {
         positive("period of a response spectrum", period)?;
         let substeps = (SUBSTEPS_PER_PERIOD * self.time_step() / period).ceil().max(1.0);
         let frequency = std::f64::consts::TAU / period;
@@ -75,12 +113,17 @@ impl Record {
             });
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 1e9")]
-        let (substeps, after) = (substeps as usize, (period / self.time_step()).ceil() as usize);
+        let (substeps, free) = (substeps as usize, (period / self.time_step()).ceil() as usize);
         let oscillator = Oscillator::new(frequency, damping, self.time_step() / substeps as f64);
         let mut motion = Motion { displacement: 0.0, velocity: 0.0 };
         let (mut displacement, mut acceleration) = (0.0_f64, 0.0_f64);
-        let mut march = |ground: f64, slope: f64| {
+        let mut made = 0;
+        let mut march = |sample: usize, ground: f64, slope: f64| -> Result<()> {
             for k in 0..substeps {
+                made += 1;
+                if made % HEARD == 0 {
+                    after(sample)?;
+                }
                 let now = ground + slope * (k as f64 / substeps as f64);
                 let next = oscillator.next(motion, now, slope / substeps as f64);
                 let then = now + slope / substeps as f64;
@@ -92,12 +135,13 @@ impl Record {
                     .max(largest_between(ends.map(|(m, ground)| oscillator.total(m, ground))));
                 motion = next;
             }
+            Ok(())
         };
-        for pair in self.accelerations().windows(2) {
-            march(pair[0], pair[1] - pair[0]);
+        for (sample, pair) in self.accelerations().windows(2).enumerate() {
+            march(sample, pair[0], pair[1] - pair[0])?;
         }
-        for _ in 0..after {
-            march(0.0, 0.0);
+        for _ in 0..free {
+            march(self.len(), 0.0, 0.0)?;
         }
         Ok(SpectralOrdinate {
             period,

@@ -139,9 +139,9 @@ fn files_of_other_kernels_are_made_anew() {
         assert_eq!(std::fs::read(&file.0).unwrap(), written);
         assert!(seen.insert(written));
     }
-    // An older or newer format.
+    // An older or newer format, or rule of sampling.
     let original = std::fs::read(&file.0).unwrap();
-    for format in [0, 2, u64::MAX] {
+    for format in [0, 1, 3, u64::MAX] {
         std::fs::write(&file.0, rewritten(&original, true, |words| words[1] = format)).unwrap();
         kernels[8]().with_file(&file.0).prepare(LAGS).unwrap();
         assert_eq!(std::fs::read(&file.0).unwrap(), original);

@@ -10,6 +10,7 @@ mod layered_coefficients;
 mod layered_files;
 mod layered_impedances;
 mod layered_passivity;
+mod observers;
 mod passivity;
 mod site_response;
 mod site_round_trip;

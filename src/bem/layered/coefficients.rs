@@ -12,15 +12,17 @@
 //!
 //! Lags N+1 … 2N always come from L = 4N, N a power of two: the bits of a lag depend on nothing else.
 
-use std::sync::Mutex;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use realfft::RealFftPlanner;
-use realfft::num_complex::Complex64;
 
-use super::runge_kutta::{Stages, on_circle};
+use super::contour::{Circle, POINTS, Panels, Place, evaluate, factor, is_resolved, transformed};
+use super::runge_kutta::{Node, Stages, on_circle};
 use super::wavenumber::{Wavenumbers, Workspace};
-use crate::error::{Error, Result};
-use crate::history::KINDS;
+use crate::error::{Error, Result, Watch};
+use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -54,6 +56,12 @@ impl Block {
         FIRST << number.saturating_sub(1)
     }
 
+    /// Circle on which block `number` is transformed, for a relative accuracy of F.
+    pub(crate) fn circle(number: usize, tolerance: f64) -> Circle {
+        let length = POINTS_PER_LAG * Self::lags(number) / if number == 0 { 2 } else { 1 };
+        Circle::new(length, tolerance)
+    }
+
     /// The last lag in block `number`.
     pub(crate) fn last(number: usize) -> usize {
         FIRST << number
@@ -65,31 +73,29 @@ impl Block {
     }
 }
 
-/// Circle |z| = r on which a block is transformed.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Circle {
-    /// Points of all of it.
-    length: usize,
-    /// ln r.
-    pub(crate) logarithm: f64,
+/// Samples of a block, as its observer hears of them.
+pub(crate) struct Samples<'w, 'a> {
+    watch: &'w mut Watch<'a>,
+    /// Those of the blocks before, and with this block: as expected.
+    expected: Range<usize>,
+    /// Those of this block so far.
+    done: usize,
 }
 
-impl Circle {
-    /// That of block `number` for a relative accuracy of F.
-    pub(crate) fn new(number: usize, tolerance: f64) -> Self {
-        let length = POINTS_PER_LAG * Block::lags(number) / if number == 0 { 2 } else { 1 };
-        // Aliases ε and noise tol·ε^(−1/2) at the last lag are then about equal.
-        Self { length, logarithm: 2.0 / 3.0 * tolerance.ln() / length as f64 }
+impl<'w, 'a> Samples<'w, 'a> {
+    pub(crate) fn new(watch: &'w mut Watch<'a>, expected: Range<usize>) -> Self {
+        Self { watch, expected, done: 0 }
     }
 
-    /// Points of the upper half, both ends included.
-    pub(crate) fn points(self) -> usize {
-        self.length / 2 + 1
+    /// Tells of so many more.
+    fn reach(&mut self, more: usize) -> Result<()> {
+        let done = self.expected.start + self.done + more;
+        self.watch.reach(done.min(self.expected.end))
     }
 
-    /// Angle of a point, radians.
-    pub(crate) fn angle(self, point: usize) -> f64 {
-        std::f64::consts::TAU / self.length as f64 * point as f64
+    /// Tells that all are done, as many as there were.
+    pub(crate) fn end(self) -> Result<()> {
+        self.watch.reach(self.expected.end)
     }
 }
 
@@ -103,96 +109,208 @@ pub(crate) struct Quadrature {
     pub(crate) time_step: f64,
     /// Relative accuracy of F.
     pub(crate) tolerance: f64,
+    /// Of each eigenvalue.
+    pub(crate) panels: Vec<Panels>,
 }
 
 impl Quadrature {
+    pub(crate) fn new(
+        profile: SoilProfile,
+        classes: &PairClasses,
+        stages: Stages,
+        time_step: f64,
+        tolerance: f64,
+    ) -> Self {
+        let integrals = Wavenumbers::new(classes, tolerance);
+        let panels = (0..stages.count()).map(|_| Panels::new(classes)).collect();
+        let classes = classes.count();
+        Self { profile, integrals, classes, stages, time_step, tolerance, panels }
+    }
+
     /// Σ wⱼ λⱼ F(λⱼ/Δt) = (1−z) Ĝ(z) for all classes (zz, xx, zx), at z given by ln |z| and its angle.
     pub(crate) fn mobility(
         &self,
-        [logarithm, angle]: [f64; 2],
+        place: [f64; 2],
         work: &mut Workspace,
         scratch: &mut [[Complex; KINDS]],
         sums: &mut [[Complex; KINDS]],
     ) -> Result<()> {
         sums.fill([Complex::default(); KINDS]);
+        for node in self.nodes(place) {
+            self.add(node, work, scratch, sums)?;
+        }
+        Ok(())
+    }
+
+    /// Eigenvalues and weights at z, given by ln |z| and its angle.
+    pub(super) fn nodes(&self, [logarithm, angle]: [f64; 2]) -> impl Iterator<Item = Node> {
         let [z, rest] = on_circle(logarithm, angle);
-        for node in self.stages.nodes(z, rest) {
-            let s = node.lambda.scale(1.0 / self.time_step);
-            self.integrals.compliance(&self.profile, s, work, scratch)?;
-            for (sum, value) in sums.iter_mut().zip(scratch.iter()) {
-                for (sum, value) in sum.iter_mut().zip(value) {
-                    *sum += node.weight * *value;
-                }
+        self.stages.nodes(z, rest)
+    }
+
+    /// Adds the share of one of them to the mobility.
+    pub(super) fn add(
+        &self,
+        node: Node,
+        work: &mut Workspace,
+        scratch: &mut [[Complex; KINDS]],
+        sums: &mut [[Complex; KINDS]],
+    ) -> Result<()> {
+        self.integrals.compliance(&self.profile, self.variable(node), work, scratch)?;
+        for (sum, value) in sums.iter_mut().zip(scratch.iter()) {
+            for (sum, value) in sum.iter_mut().zip(value) {
+                *sum += node.weight * *value;
             }
         }
         Ok(())
     }
 
+    /// The Laplace variable of an eigenvalue, 1/s.
+    pub(super) fn variable(&self, node: Node) -> Complex {
+        node.lambda.scale(1.0 / self.time_step)
+    }
+
     /// The coefficients of block `number`, computed on `threads` threads.
-    pub(crate) fn block(&self, number: usize, threads: usize) -> Result<Block> {
+    pub(crate) fn block(
+        &self,
+        number: usize,
+        threads: usize,
+        mut samples: Samples,
+    ) -> Result<Block> {
         let lags = Block::lags(number);
         let first = if number == 0 { 0 } else { lags };
-        let circle = Circle::new(number, self.tolerance);
+        let circle = Block::circle(number, self.tolerance);
         let Circle { length, logarithm } = circle;
-        let spectra = self.spectra(circle, threads)?;
+        let spectra = self.spectra(circle, threads, &mut samples)?;
+        // 1/(1−z): of the mobility, the transform of Gⁿ.
+        let over: Vec<_> = (0..circle.points())
+            .map(|point| on_circle(logarithm, circle.angle(point))[1].inverse())
+            .collect();
         let transform = RealFftPlanner::<f64>::new().plan_fft_inverse(length);
         let mut input = transform.make_input_vec();
         let (mut output, mut scratch) = (transform.make_output_vec(), transform.make_scratch_vec());
+        let growth: Vec<_> =
+            (first..first + lags).map(|n| (-logarithm * n as f64).exp() / length as f64).collect();
         let mut values = Vec::with_capacity(self.classes);
-        for class in 0..self.classes {
+        for rows in spectra.chunks_exact(KINDS * circle.points()) {
             let mut components = [const { Vec::new() }; KINDS];
-            for (component, list) in components.iter_mut().enumerate() {
-                for (point, input) in input.iter_mut().enumerate() {
-                    let value = spectra[point * self.classes + class][component];
-                    // The transform has the other sign, and the ends of the circle are real.
-                    let ends = point == 0 || 2 * point == length;
-                    *input = Complex64::new(value.re, if ends { 0.0 } else { -value.im });
+            for (list, row) in components.iter_mut().zip(rows.chunks_exact(circle.points())) {
+                for (input, (value, over)) in input.iter_mut().zip(row.iter().zip(&over)) {
+                    // The transform has the other sign.
+                    *input = (*value * *over).conj().inner();
                 }
+                // The ends of the circle are real.
+                [input[0].im, input[length / 2].im] = [0.0; 2];
                 transform.process_with_scratch(&mut input, &mut output, &mut scratch).map_err(
                     |_| Error::Singular { matrix: "spectrum of step coefficients", order: length },
                 )?;
-                let scaled = |(n, value): (usize, &f64)| {
-                    value * (-logarithm * (first + n) as f64).exp() / length as f64
-                };
-                list.extend(output[first..first + lags].iter().enumerate().map(scaled));
+                list.extend(
+                    output[first..].iter().zip(&growth).map(|(value, scale)| value * scale),
+                );
             }
             values.push(components);
         }
+        samples.end()?;
         Ok(Block { values })
     }
 
-    /// Ĝ on the upper half of a circle, point by point and class by class.
-    fn spectra(&self, circle: Circle, threads: usize) -> Result<Vec<[Complex; KINDS]>> {
-        let (count, logarithm) = (circle.points(), circle.logarithm);
-        let mut spectra: Vec<[Complex; KINDS]> = vec![];
-        spectra.try_reserve_exact(count * self.classes).map_err(|_| Error::Input {
+    /// The mobility on the upper half of a circle: point by point for one class and component after the other.
+    pub(super) fn spectra(
+        &self,
+        circle: Circle,
+        threads: usize,
+        samples: &mut Samples,
+    ) -> Result<Vec<Complex>> {
+        let (count, functions) = (circle.points(), self.classes * KINDS);
+        let mut spectra = vec![];
+        spectra.try_reserve_exact(count * functions).map_err(|_| Error::Input {
             quantity: "number of lags of a layered ground",
             value: count as f64,
             needed: "few enough for the memory of the machine",
         })?;
-        spectra.resize(count * self.classes, [Complex::default(); KINDS]);
-        let queue = Mutex::new(spectra.chunks_mut(self.classes).enumerate());
-        let work = || {
-            let mut work = Workspace::default();
-            let mut scratch = vec![[Complex::default(); KINDS]; self.classes];
-            loop {
-                // A thread that panicked leaves a queue that is still good.
-                let next = queue.lock().unwrap_or_else(std::sync::PoisonError::into_inner).next();
-                let Some((point, sums)) = next else { return Ok(()) };
-                let angle = circle.angle(point);
-                self.mobility([logarithm, angle], &mut work, &mut scratch, sums)
-                    .map_err(|error| (point, error))?;
-                let over = on_circle(logarithm, angle)[1].inverse();
-                for value in sums.iter_mut().flatten() {
-                    *value = *value * over;
+        spectra.resize(count * functions, Complex::default());
+        for (node, panels) in self.panels.iter().enumerate() {
+            let (covering, alone) = circle.covered(node, |places| {
+                self.sample(node, panels, places, threads, samples)?;
+                Ok(places.iter().map(|place| panels.known(*place) == Some(true)).collect())
+            })?;
+            for place in covering {
+                let Some(Some(panel)) = panels.kept().get(&place).cloned() else { continue };
+                evaluate(node, &panel, place, circle, &mut spectra);
+            }
+            let places = alone.iter().map(|point| [circle.logarithm, circle.angle(*point)]);
+            let values = self.shares(node, &places.collect::<Vec<_>>(), threads, samples)?;
+            for (point, values) in alone.iter().zip(values.chunks(self.classes)) {
+                for (row, value) in spectra.chunks_mut(count).zip(values.as_flattened()) {
+                    row[*point] += *value;
                 }
             }
+        }
+        Ok(spectra)
+    }
+
+    /// Samples those of the panels at `places` that have not been met before.
+    fn sample(
+        &self,
+        node: usize,
+        panels: &Panels,
+        places: &[Place],
+        threads: usize,
+        samples: &mut Samples,
+    ) -> Result<()> {
+        let missing: Vec<_> = {
+            let kept = panels.kept();
+            places.iter().filter(|place| !kept.contains_key(place)).collect()
+        };
+        let points: Vec<_> = missing.iter().flat_map(|place| place.places()).collect();
+        let mut values = self.shares(node, &points, threads, samples)?;
+        for (point, row) in points.iter().zip(values.chunks_mut(self.classes)) {
+            let over = factor(node, *point).inverse();
+            row.as_flattened_mut().iter_mut().for_each(|value| *value = *value * over);
+        }
+        let mut kept = panels.kept();
+        for (place, values) in missing.into_iter().zip(values.chunks(POINTS * self.classes)) {
+            let coefficients = transformed(values.as_flattened());
+            let resolved = is_resolved(&coefficients, &panels.own, self.tolerance);
+            kept.insert(*place, resolved.then(|| coefficients.into()));
+        }
+        Ok(())
+    }
+
+    /// The share of an eigenvalue in the mobility at each ln |z| and angle, class by class.
+    fn shares(
+        &self,
+        node: usize,
+        places: &[[f64; 2]],
+        threads: usize,
+        samples: &mut Samples,
+    ) -> Result<Vec<[Complex; KINDS]>> {
+        let mut values = vec![[Complex::default(); KINDS]; places.len() * self.classes];
+        let queue = Mutex::new(places.iter().zip(values.chunks_mut(self.classes)).enumerate());
+        let (done, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let work = |after: &mut dyn FnMut(usize) -> Result<()>| {
+            let mut work = Workspace::default();
+            let mut scratch = vec![[Complex::default(); KINDS]; self.classes];
+            while !stopped.load(Ordering::Relaxed) {
+                // A thread that panicked leaves a queue that is still good.
+                let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+                let Some((number, (place, sums))) = next else { break };
+                for node in self.nodes(*place).skip(node).take(1) {
+                    self.add(node, &mut work, &mut scratch, sums)
+                        .map_err(|error| (number, error))?;
+                }
+                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+                after(done).map_err(|error| (number, error))?;
+            }
+            Ok(())
         };
         // Threads of their own and not a pool: a pool's worker that waits takes up other work, which
         // may wait for these very coefficients.
         let mut failed: Vec<(usize, Error)> = std::thread::scope(|scope| {
-            let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-            let own = work().err();
+            let others: Vec<_> =
+                (1..threads).map(|_| scope.spawn(|| work(&mut |_| Ok(())))).collect();
+            let own = work(&mut |done| samples.reach(done)).err();
+            stopped.store(own.is_some(), Ordering::Relaxed);
             let joined = others.into_iter().map(|thread| match thread.join() {
                 Ok(outcome) => outcome.err(),
                 // A law of the user's may panic: not in silence.
@@ -201,8 +319,12 @@ impl Quadrature {
             let others = joined.collect::<Vec<_>>().into_iter().flatten();
             own.into_iter().chain(others).collect()
         });
-        failed.sort_by_key(|(point, _)| *point);
+        samples.done += done.into_inner();
+        failed.sort_by_key(|(number, _)| *number);
         failed.into_iter().next().map_or(Ok(()), |(_, error)| Err(error))?;
-        Ok(spectra)
+        Ok(values)
     }
 }
+
+#[cfg(test)]
+mod tests;

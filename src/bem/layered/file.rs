@@ -12,7 +12,8 @@
 //!
 //! The fingerprint is that of the mobility at the points of the passivity gate, bit for bit, with step,
 //! stages, tolerance and elements: whatever changes a coefficient changes it, be it a layer, a damping law of
-//! one's own, the crate's arithmetic or the machine's.
+//! one's own, the crate's arithmetic or the machine's. The format stands for the rule by which contours are
+//! sampled as well.
 
 use std::fs::File;
 use std::io::Read;
@@ -24,7 +25,8 @@ use crate::error::{Error, KernelFileError, LayeredError, Result, write_file};
 use crate::text::check_sum::CheckSum;
 
 const MAGIC: u64 = u64::from_le_bytes(*b"BASEMATK");
-const FORMAT: u64 = 1;
+/// 1: of coefficients sampled at every point of their circles; 2: on panels.
+const FORMAT: u64 = 2;
 const HEADER: usize = 5;
 
 /// The blocks of a file, in order; none if there is no file, or one of another kernel or format.

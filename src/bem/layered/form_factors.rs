@@ -4,6 +4,10 @@
 //! of e^(ik(x−ξ)) are `S_p` `S_q` cos kX and `S_p` `S_q` sin kX with S = 2 sin(kl/2)/k. Panels are so
 //! narrow that these turn by at most 16 radians, which 16 Gauss points resolve; they depend on the
 //! mesh alone, so they are computed once, panel by panel, when they are needed first.
+//!
+//! Wide panels, 2, 4, 8 … times as long, have 16 Gauss points as well: there C/k² is taken for a polynomial
+//! Σ cₙ Pₙ(x), and `S_p` `S_q` k² for what it is, four waves e^(iky), with
+//! ∫ Pₙ(x) e^(i(κ+hx)y) dx = 2 iⁿ jₙ(hy) e^(iκy) (Abramowitz & Stegun 10.1.14; Filon's idea).
 
 use std::sync::OnceLock;
 
@@ -19,13 +23,15 @@ pub(crate) const DEGREES: usize = 32;
 const TURN: f64 = 16.0;
 /// Pairs that are summed together.
 pub(crate) const LANES: usize = 4;
+/// Widths of panels, from one to the next twice as long.
+pub(crate) const LEVELS: usize = 14;
 /// Most memory for tables at Gauss points, bytes; panels beyond it are computed each time.
 const MEMORY: usize = 256 << 20;
 
 /// zz, xx, zx: real and imaginary part of each, for [`LANES`] pairs.
 pub(crate) type Sums = [[f64; LANES]; 6];
 /// Even and odd form factors of [`LANES`] pairs.
-pub(crate) type DofCombination = [[f64; LANES]; 2];
+pub(crate) type FormRow = [[f64; LANES]; 2];
 
 /// A pair of elements as the wavenumber domain sees it.
 #[derive(Debug, Clone, Copy)]
@@ -57,6 +63,36 @@ impl PairShape {
         let (sin, cos) = (k * self.offset).sin_cos();
         [one * two * cos, one * two * sin]
     }
+
+    /// Waves of which k² times the form factors are the sum: distances y ≥ 0 of cos ky and sin ky, and the factors
+    /// of these.
+    pub(crate) fn waves(&self) -> [(f64, [f64; 2]); 4] {
+        let Self { lengths: [q, p], offset } = *self;
+        let (sum, difference) = (0.5 * (p + q), 0.5 * (p - q));
+        let ends = [
+            (offset + sum, -1.0),
+            (offset - difference, 1.0),
+            (offset + difference, 1.0),
+            (offset - sum, -1.0),
+        ];
+        // An element on itself has no odd part, without rounding.
+        let odd = |y: f64| if offset == 0.0 { 0.0 } else { y.signum() };
+        ends.map(|(y, sign)| (y.abs(), [sign, sign * odd(y)]))
+    }
+}
+
+/// A panel of wavenumbers: the `index`-th of those that are 2^`level` times as long as the narrowest.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Panel {
+    pub(crate) level: u32,
+    pub(crate) index: usize,
+}
+
+impl Panel {
+    /// The same as two.
+    pub(crate) fn halves(self) -> [Self; 2] {
+        [0, 1].map(|half| Self { level: self.level - 1, index: 2 * self.index + half })
+    }
 }
 
 /// The form factors of a patch.
@@ -68,10 +104,16 @@ pub(crate) struct FormFactors {
     pub(crate) rule: Rule,
     fine: Rule,
     /// Per panel: blocks of pairs, rows of Gauss points.
-    values: Vec<OnceLock<Box<[DofCombination]>>>,
+    values: Vec<OnceLock<Box<[FormRow]>>>,
     /// Per panel: blocks of pairs, rows of Legendre coefficients.
-    legendre: Vec<OnceLock<Box<[DofCombination]>>>,
+    legendre: Vec<OnceLock<Box<[FormRow]>>>,
+    /// Per level above the first: as `values`.
+    wide: [OnceLock<Tables>; LEVELS],
+    /// Panels of any one level whose tables are kept.
+    room: usize,
 }
+
+type Tables = Box<[OnceLock<Box<[FormRow]>>]>;
 
 impl FormFactors {
     pub(crate) fn new(classes: &PairClasses) -> Self {
@@ -80,7 +122,7 @@ impl FormFactors {
             .map(|[source, receiver]| PairShape::new(source, receiver))
             .collect();
         let blocks = shapes.len().div_ceil(LANES);
-        let panels = MEMORY / (blocks * POINTS * size_of::<DofCombination>()).max(1);
+        let panels = MEMORY / (blocks * POINTS * size_of::<FormRow>()).max(1);
         let empty = |count: usize| (0..count).map(|_| OnceLock::new()).collect::<Vec<_>>();
         Self {
             width: TURN / classes.span(),
@@ -88,6 +130,8 @@ impl FormFactors {
             fine: Rule::new(DEGREES + 8),
             values: empty(panels.min(1 << 14)),
             legendre: empty((panels / 4).clamp(1, 1 << 12)),
+            wide: [const { OnceLock::new() }; LEVELS],
+            room: (panels / 8).max(1),
             shapes,
         }
     }
@@ -107,22 +151,36 @@ impl FormFactors {
         self.fine.nodes.len() as f64
     }
 
+    /// Left end of a panel and its width, 1/m.
+    pub(crate) fn extent(&self, Panel { level, index }: Panel) -> [f64; 2] {
+        let width = self.width * (1_u64 << level) as f64;
+        [width * index as f64, width]
+    }
+
     /// Calls `apply` with the rows of `panel` at its Gauss points.
-    pub(crate) fn with_values(&self, panel: usize, apply: impl FnOnce(&[DofCombination])) {
-        Self::with(&self.values, panel, || self.table(panel, &self.rule), apply);
+    pub(crate) fn with_values(&self, panel: Panel, apply: impl FnOnce(&[FormRow])) {
+        let index = panel.index;
+        if panel.level == 0 {
+            return Self::with(&self.values, index, || self.table(index, &self.rule), apply);
+        }
+        let level = panel.level as usize;
+        let count = self.room.min((1 << 17) >> level);
+        let empty = || (0..count).map(|_| OnceLock::new()).collect();
+        let tables = self.wide[level.min(LEVELS - 1)].get_or_init(empty);
+        Self::with(tables, index, || self.wide_table(panel), apply);
     }
 
     /// Calls `apply` with the rows of `panel` for Legendre polynomials of degree 0, 1, …: weights of
     /// ∫ C Pₙ dk.
-    pub(crate) fn with_legendre(&self, panel: usize, apply: impl FnOnce(&[DofCombination])) {
+    pub(crate) fn with_legendre(&self, panel: usize, apply: impl FnOnce(&[FormRow])) {
         Self::with(&self.legendre, panel, || self.projected(panel), apply);
     }
 
     fn with(
-        tables: &[OnceLock<Box<[DofCombination]>>],
+        tables: &[OnceLock<Box<[FormRow]>>],
         panel: usize,
-        make: impl FnOnce() -> Box<[DofCombination]>,
-        apply: impl FnOnce(&[DofCombination]),
+        make: impl FnOnce() -> Box<[FormRow]>,
+        apply: impl FnOnce(&[FormRow]),
     ) {
         match tables.get(panel) {
             Some(table) => apply(table.get_or_init(make)),
@@ -130,9 +188,9 @@ impl FormFactors {
         }
     }
 
-    fn table(&self, panel: usize, rule: &Rule) -> Box<[DofCombination]> {
+    fn table(&self, panel: usize, rule: &Rule) -> Box<[FormRow]> {
         let points = rule.nodes.len();
-        let mut rows = vec![DofCombination::default(); self.blocks() * points];
+        let mut rows = vec![FormRow::default(); self.blocks() * points];
         for (class, shape) in self.shapes.iter().enumerate() {
             for (i, node) in rule.nodes.iter().enumerate() {
                 let k = self.width * (panel as f64 + 0.5 * (1.0 + node));
@@ -144,10 +202,42 @@ impl FormFactors {
         rows.into_boxed_slice()
     }
 
-    fn projected(&self, panel: usize) -> Box<[DofCombination]> {
+    /// Rows of a wide panel: what the sum over Gauss points of C and their weights is to be multiplied with.
+    fn wide_table(&self, panel: Panel) -> Box<[FormRow]> {
+        let [left, width] = self.extent(panel);
+        let (half, middle) = (0.5 * width, left + 0.5 * width);
+        let mut rows = vec![FormRow::default(); self.blocks() * POINTS];
+        let polynomials: Vec<_> = self.rule.nodes.iter().map(|x| legendre(*x)).collect();
+        for (class, shape) in self.shapes.iter().enumerate() {
+            let mut moments = [[0.0; 2]; POINTS];
+            for (y, factors) in shape.waves() {
+                let (sin, cos) = (middle * y).sin_cos();
+                // iⁿ e^(iκy).
+                let turned = [[cos, sin], [-sin, cos], [-cos, -sin], [sin, -cos]];
+                for (n, bessel) in spherical_bessel(half * y).into_iter().enumerate() {
+                    for part in 0..2 {
+                        let size = 2.0 * (n as f64 + 0.5) * bessel;
+                        moments[n][part] += factors[part] * size * turned[n % 4][part];
+                    }
+                }
+            }
+            for (i, (node, polynomials)) in self.rule.nodes.iter().zip(&polynomials).enumerate() {
+                let k = middle + half * node;
+                let row = &mut rows[class / LANES * POINTS + i];
+                for part in 0..2 {
+                    let terms = moments.iter().zip(polynomials);
+                    let sum: f64 = terms.map(|(moment, p)| moment[part] * p).sum();
+                    row[part][class % LANES] = sum / (k * k);
+                }
+            }
+        }
+        rows.into_boxed_slice()
+    }
+
+    fn projected(&self, panel: usize) -> Box<[FormRow]> {
         let points = self.fine.nodes.len();
         let values = self.table(panel, &self.fine);
-        let mut rows = vec![DofCombination::default(); self.blocks() * DEGREES];
+        let mut rows = vec![FormRow::default(); self.blocks() * DEGREES];
         for (i, (node, weight)) in self.fine.nodes.iter().zip(&self.fine.weights).enumerate() {
             let polynomials = legendre(*node);
             for block in 0..self.blocks() {
@@ -165,6 +255,45 @@ impl FormFactors {
         }
         rows.into_boxed_slice()
     }
+}
+
+/// jₙ(t), n = 0 … 15, for t ≥ 0.
+fn spherical_bessel(t: f64) -> [f64; POINTS] {
+    /// Degree from which the recurrence is stable downwards to those wanted, for t up to their number.
+    const ABOVE: usize = 64;
+    let mut values = [0.0; POINTS];
+    if t < 1.0 {
+        // tⁿ/(2n+1)!! (1 − t²/2/(2n+3) (1 − t²/4/(2n+5) (1 − …)))
+        let mut power = 1.0;
+        for (n, value) in values.iter_mut().enumerate() {
+            let odd = (2 * n + 1) as f64;
+            let terms = (1..=10).rev().map(f64::from);
+            let series = terms.fold(1.0, |sum, i| 1.0 - sum * t * t / (2.0 * i * (odd + 2.0 * i)));
+            *value = power * series;
+            power *= t / (odd + 2.0);
+        }
+        return values;
+    }
+    let (sin, cos) = t.sin_cos();
+    if t > POINTS as f64 {
+        [values[0], values[1]] = [sin / t, (sin / t - cos) / t];
+        for n in 1..POINTS - 1 {
+            values[n + 1] = (2 * n + 1) as f64 / t * values[n] - values[n - 1];
+        }
+        return values;
+    }
+    let [mut above, mut value] = [0.0, 1e-200];
+    for n in (1..=ABOVE).rev() {
+        let below = (2 * n + 1) as f64 / t * value - above;
+        (above, value) = (value, below);
+        if n <= POINTS {
+            values[n - 1] = value;
+        }
+    }
+    // The larger of the first two cannot vanish.
+    let [zero, one] = [sin / t, (sin / t - cos) / t];
+    let scale = if zero.abs() > one.abs() { zero / values[0] } else { one / values[1] };
+    values.map(|value| scale * value)
 }
 
 /// Legendre polynomials at x.
@@ -190,7 +319,7 @@ const RECURRENCE: [[f64; 2]; DEGREES] = {
 };
 
 /// Adds Σ coefficient × row to the sums of all pairs: the whole cost of many pairs.
-pub(crate) fn accumulate(rows: &[DofCombination], coefficients: &[[f64; 6]], sums: &mut [Sums]) {
+pub(crate) fn accumulate(rows: &[FormRow], coefficients: &[[f64; 6]], sums: &mut [Sums]) {
     for (rows, sums) in rows.chunks_exact(coefficients.len()).zip(sums) {
         let mut local = *sums;
         for (row, c) in rows.iter().zip(coefficients) {
@@ -204,5 +333,62 @@ pub(crate) fn accumulate(rows: &[DofCombination], coefficients: &[[f64; 6]], sum
             }
         }
         *sums = local;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bem::{Grading, Strip};
+
+    /// The same integrals by a wide panel and by the narrow ones in it, elements on themselves and far apart.
+    #[test]
+    fn wide_panels_are_sums_of_narrow_ones() {
+        let strip = Strip::new(-1.0..1.0, 7, Grading::Cosine).unwrap();
+        let classes = PairClasses::new(strip.elements()).unwrap();
+        let forms = FormFactors::new(&classes);
+        for (level, index) in [(1, 2), (1, 9), (3, 5), (6, 2), (6, 3)] {
+            let panel = Panel { level, index };
+            let sum = |panel: Panel, sums: &mut [Sums]| {
+                let [left, width] = forms.extent(panel);
+                let coefficients: [[f64; 6]; POINTS] = std::array::from_fn(|i| {
+                    let k = left + 0.5 * width * (1.0 + forms.rule.nodes[i]);
+                    let c = 0.5 * width * forms.rule.weights[i] / (k + 20.0 * forms.width);
+                    [c, -2.0 * c, c, c, 3.0 * c, c]
+                });
+                forms.with_values(panel, |rows| accumulate(rows, &coefficients, sums));
+            };
+            let [mut wide, mut narrow] = [(); 2].map(|()| vec![Sums::default(); forms.blocks()]);
+            sum(panel, &mut wide);
+            for index in index << level..(index + 1) << level {
+                sum(Panel { level: 0, index }, &mut narrow);
+            }
+            let flat = |sums: &[Sums]| sums.iter().flatten().flatten().copied().collect::<Vec<_>>();
+            let largest = flat(&narrow).iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            for (one, two) in flat(&wide).iter().zip(flat(&narrow)) {
+                assert!((one - two).abs() < 1e-11 * largest, "{level} {index} {one} {two}");
+            }
+        }
+    }
+
+    /// Closed forms of the first three, and the recurrence, where methods change.
+    #[test]
+    fn bessel_functions_are_spherical() {
+        for t in [1e-12, 1e-3, 0.5, 0.999_999, 1.0, 3.1, 9.0, 15.9, 16.1, 300.0_f64] {
+            let found = spherical_bessel(t);
+            let (sin, cos) = t.sin_cos();
+            if t > 0.4 {
+                let two = (3.0 / t.powi(3) - 1.0 / t) * sin - 3.0 * cos / (t * t);
+                for (found, wanted) in found.iter().zip([sin / t, (sin / t - cos) / t, two]) {
+                    assert!((found - wanted).abs() < 1e-14, "{t} {found} {wanted}");
+                }
+            }
+            for n in 1..POINTS - 1 {
+                let sum = found[n - 1] + found[n + 1];
+                let wanted = (2 * n + 1) as f64 / t * found[n];
+                assert!((sum - wanted).abs() < 1e-13 * sum.abs().max(1e-3), "{t} {n}");
+            }
+        }
+        assert_eq!(spherical_bessel(0.0)[..2], [1.0, 0.0]);
     }
 }

@@ -12,7 +12,7 @@ use realfft::num_complex::Complex64;
 use super::passivity::assembled;
 use super::static_compliance;
 use super::wavenumber::{Wavenumbers, Workspace};
-use crate::error::{Error, LayeredError, Result, not_negative};
+use crate::error::{Error, LayeredError, Observer, Result, Watch, not_negative};
 use crate::geometry::ContactElement;
 use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
@@ -110,8 +110,38 @@ pub fn rigid_strip_impedances(
     frequencies: &[f64],
     contact: StripContact,
 ) -> Result<Vec<StripImpedance>> {
+    all(profile, elements, frequencies, contact, &mut Watch::nobody())
+}
+
+/// [`rigid_strip_impedances`] with an observer; parts are points of the Laplace plane, eight to a frequency.
+///
+/// # Errors
+/// [`Error::Stopped`]; as for [`rigid_strip_impedances`].
+pub(crate) fn rigid_strip_impedances_observed(
+    profile: &SoilProfile,
+    elements: &[ContactElement],
+    frequencies: &[f64],
+    contact: StripContact,
+    observer: &mut Observer<'_>,
+) -> Result<Vec<StripImpedance>> {
+    let mut watch = Watch::new("impedances", POINTS * frequencies.len(), observer);
+    all(profile, elements, frequencies, contact, &mut watch)
+}
+
+fn all(
+    profile: &SoilProfile,
+    elements: &[ContactElement],
+    frequencies: &[f64],
+    contact: StripContact,
+    watch: &mut Watch,
+) -> Result<Vec<StripImpedance>> {
     let strip = RigidStrip::new(profile, elements, contact)?;
-    frequencies.iter().map(|frequency| strip.at(*frequency)).collect()
+    let mut found = Vec::with_capacity(frequencies.len());
+    for (number, frequency) in frequencies.iter().enumerate() {
+        found.push(strip.at(*frequency, &mut |point| watch.reach(POINTS * number + point))?);
+        watch.reach(POINTS * (number + 1))?;
+    }
+    Ok(found)
 }
 
 struct RigidStrip<'a> {
@@ -143,7 +173,12 @@ impl<'a> RigidStrip<'a> {
         Ok(Self { profile, contact, classes, integrals, motions })
     }
 
-    fn at(&self, frequency: f64) -> Result<StripImpedance> {
+    /// Calls `after` with the number of each point of the Laplace plane but the last.
+    fn at(
+        &self,
+        frequency: f64,
+        after: &mut dyn FnMut(usize) -> Result<()>,
+    ) -> Result<StripImpedance> {
         not_negative("frequency of an impedance", frequency)?;
         self.profile.check()?;
         let omega = std::f64::consts::TAU * frequency;
@@ -163,7 +198,7 @@ impl<'a> RigidStrip<'a> {
             if moduli.iter().all(|modulus| modulus.im.abs() > LOSSLESS * modulus.abs()) {
                 self.dynamic(s)?
             } else {
-                self.extrapolated(omega)?
+                self.extrapolated(omega, after)?
             }
         };
         let [horizontal, vertical, rocking, coupling] = values;
@@ -171,13 +206,20 @@ impl<'a> RigidStrip<'a> {
     }
 
     /// K(iω) from K(iω + jη), j = 1 … 8.
-    fn extrapolated(&self, omega: f64) -> Result<[Complex; 4]> {
+    fn extrapolated(
+        &self,
+        omega: f64,
+        after: &mut dyn FnMut(usize) -> Result<()>,
+    ) -> Result<[Complex; 4]> {
         let slowest = self.profile.surface().map_or(f64::INFINITY, |soil| soil.shear_wave_speed());
         let time = self.classes.span() / slowest + 2.0 * self.profile.travel_time();
         let step = (SPACING[0] * omega).min(SPACING[1] / time);
         let mut sums = [[Complex::default(); 4]; 2];
         for j in 1..=POINTS {
             let found = self.dynamic(Complex::new(step * j as f64, omega))?;
+            if j < POINTS {
+                after(j)?;
+            }
             for (points, sums) in [POINTS, POINTS - 1].into_iter().zip(&mut sums) {
                 // Lagrange's polynomial at zero.
                 let others = (1..=points).filter(|m| *m != j);

@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 use std::path::PathBuf;
-use std::sync::OnceLock;
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
+use std::time::Duration;
 
-use super::coefficients::{BLOCKS, Block, FIRST, Quadrature};
+use super::coefficients::{BLOCKS, Block, FIRST, Quadrature, Samples};
 use super::cost::Cost;
 use super::runge_kutta::Stages;
-use super::wavenumber::Wavenumbers;
 use super::{file, passivity};
-use crate::error::{Error, Result, positive, same_length};
+use crate::error::{Error, Observer, Result, Watch, positive, same_length};
 use crate::geometry::ContactElement;
 use crate::history::{ConvolutionWeights, KINDS, PairClasses, SharedSpectra};
 use crate::soil::SoilProfile;
@@ -40,6 +40,8 @@ pub struct LayeredKernel {
     /// Fingerprint of what has passed the gate.
     checked: OnceLock<Result<u64>>,
     blocks: [OnceLock<Result<Block>>; BLOCKS],
+    /// Held by the thread that computes.
+    making: Mutex<()>,
     spectra: SharedSpectra,
     file: Option<PathBuf>,
     /// Most processor time that coefficients may take, s.
@@ -50,6 +52,9 @@ pub struct LayeredKernel {
 pub(crate) const TOLERANCE: f64 = 1e-10;
 /// Default limit on processor time, s.
 pub(crate) const LIMIT: f64 = 600.0;
+
+/// Between two looks whether another thread has ended.
+const WAIT: Duration = Duration::from_millis(20);
 
 impl LayeredKernel {
     /// Kernel of `profile` under `elements` (left to right, not overlapping) for steps of `time_step`
@@ -77,13 +82,11 @@ impl LayeredKernel {
         stages: Stages,
         tolerance: f64,
     ) -> Self {
-        let integrals = Wavenumbers::new(&classes, tolerance);
-        let count = classes.count();
-        let quadrature =
-            Quadrature { profile, integrals, classes: count, stages, time_step, tolerance };
+        let quadrature = Quadrature::new(profile, &classes, stages, time_step, tolerance);
         let blocks = std::array::from_fn(|_| OnceLock::new());
         let (checked, spectra) = (OnceLock::new(), SharedSpectra::default());
-        Self { classes, quadrature, checked, blocks, spectra, file: None, limit: LIMIT }
+        let making = Mutex::default();
+        Self { classes, quadrature, checked, blocks, making, spectra, file: None, limit: LIMIT }
     }
 
     /// With another number of stages.
@@ -167,17 +170,50 @@ impl LayeredKernel {
     }
 
     /// Block `number`, computed now if it has not been.
-    fn block(&self, number: usize) -> Result<&Block> {
-        let compute = || self.quadrature.block(number, threads());
-        self.blocks[number].get_or_init(compute).as_ref().map_err(Clone::clone)
+    fn block(&self, number: usize, watch: &mut Watch, expected: Range<usize>) -> Result<&Block> {
+        self.once(&self.blocks[number], watch, |watch| {
+            self.quadrature.block(number, threads(), Samples::new(watch, expected))
+        })
+    }
+
+    /// What is in `place`, made now if nothing is; what was stopped leaves nothing.
+    fn once<'a, T>(
+        &self,
+        place: &'a OnceLock<Result<T>>,
+        watch: &mut Watch,
+        make: impl FnOnce(&mut Watch) -> Result<T>,
+    ) -> Result<&'a T> {
+        let found = |made: &'a Result<T>| made.as_ref().map_err(Clone::clone);
+        if let Some(made) = place.get() {
+            return found(made);
+        }
+        let _making = self.enter(watch)?;
+        if let Some(made) = place.get() {
+            return found(made);
+        }
+        match make(watch) {
+            Err(stopped @ Error::Stopped(_)) => Err(stopped),
+            made => found(place.get_or_init(|| made)),
+        }
+    }
+
+    /// Waits until no other thread computes, with an open ear for the observer.
+    fn enter(&self, watch: &mut Watch) -> Result<MutexGuard<'_, ()>> {
+        while watch.is_observed() {
+            match self.making.try_lock() {
+                Ok(making) => return Ok(making),
+                Err(TryLockError::Poisoned(poisoned)) => return Ok(poisoned.into_inner()),
+                Err(TryLockError::WouldBlock) => {
+                    watch.reach(0)?;
+                    std::thread::sleep(WAIT);
+                }
+            }
+        }
+        Ok(self.making.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// Passes the gate, and refuses what is missing of the blocks of `wanted` if it costs too much.
-    fn admit(&self, wanted: Range<usize>) -> Result<u64> {
-        let missing = || {
-            let there = |number: &usize| self.blocks[*number].get().is_some();
-            wanted.start + wanted.clone().take_while(there).count()..wanted.end
-        };
+    fn admit(&self, wanted: Range<usize>, watch: &mut Watch) -> Result<u64> {
         let afford = |missing: Range<usize>| {
             let open = self.checked.get().is_none();
             if missing.is_empty() && !open {
@@ -187,16 +223,22 @@ impl LayeredKernel {
         };
         if self.checked.get().is_none() {
             // A file may hold all that is wanted.
-            afford(if self.file.is_some() { 0..0 } else { missing() })?;
+            afford(if self.file.is_some() { 0..0 } else { self.missing(wanted.clone()) })?;
         }
-        let fingerprint = self.checked.get_or_init(|| self.check()).clone()?;
-        afford(missing())?;
+        let fingerprint = *self.once(&self.checked, watch, |watch| self.check(watch))?;
+        afford(self.missing(wanted))?;
         Ok(fingerprint)
     }
 
+    /// Those of the blocks of `wanted` from the first on that is not there.
+    fn missing(&self, wanted: Range<usize>) -> Range<usize> {
+        let there = |number: &usize| self.blocks[*number].get().is_some();
+        wanted.start + wanted.clone().take_while(there).count()..wanted.end
+    }
+
     /// Whether it is passive; if so, its fingerprint, and the blocks of the file are in place.
-    fn check(&self) -> Result<u64> {
-        let fingerprint = passivity::check(&self.quadrature, &self.classes)?;
+    fn check(&self, watch: &mut Watch) -> Result<u64> {
+        let fingerprint = passivity::check(&self.quadrature, &self.classes, watch)?;
         if let Some(path) = &self.file {
             let blocks = file::read(path, fingerprint, self.classes.count())?;
             for (place, block) in self.blocks.iter().zip(blocks) {
@@ -204,6 +246,33 @@ impl LayeredKernel {
             }
         }
         Ok(fingerprint)
+    }
+
+    /// Computes the blocks of lags up to `lags`; without an observer, nobody counts beforehand.
+    fn make_ready(&self, lags: usize, observer: Option<&mut Observer<'_>>) -> Result<()> {
+        let last = last_block(lags.max(1))?;
+        let mut expected = vec![0; last + 1];
+        let mut watch = Watch::nobody();
+        if let Some(observer) = observer {
+            let missing = self.missing(0..last + 1);
+            // What cannot be counted beforehand fails as it does without an observer.
+            let counts = self.quadrature.expected(missing.clone()).unwrap_or_default();
+            expected[missing].iter_mut().zip(counts).for_each(|(own, count)| *own = count);
+            let total = passivity::POINTS + expected.iter().sum::<usize>();
+            watch = Watch::new("step coefficients of layered ground", total, observer);
+        }
+        let fingerprint = self.admit(0..last + 1, &mut watch)?;
+        let complete = self.blocks[..=last].iter().all(|block| block.get().is_some());
+        let mut done = passivity::POINTS;
+        watch.reach(done)?;
+        for (number, count) in expected.into_iter().enumerate() {
+            self.block(number, &mut watch, done..done + count)?;
+            done += count;
+        }
+        watch.reach(done)?;
+        let Some(path) = self.file.as_ref().filter(|_| !complete) else { return Ok(()) };
+        let blocks = self.blocks.iter().map_while(|block| block.get()?.as_ref().ok());
+        file::write(path, fingerprint, self.classes.count(), &blocks.collect::<Vec<_>>())
     }
 }
 
@@ -221,15 +290,12 @@ impl ConvolutionWeights for LayeredKernel {
     /// [`LayeredError::ActiveDamping`](crate::LayeredError::ActiveDamping) and
     /// [`LayeredError::Modulus`](crate::LayeredError::Modulus) for a damping law that is not passive.
     fn prepare(&self, lags: usize) -> Result<()> {
-        let last = last_block(lags.max(1))?;
-        let fingerprint = self.admit(0..last + 1)?;
-        let complete = self.blocks[..=last].iter().all(|block| block.get().is_some());
-        for number in 0..=last {
-            self.block(number)?;
-        }
-        let Some(path) = self.file.as_ref().filter(|_| !complete) else { return Ok(()) };
-        let blocks = self.blocks.iter().map_while(|block| block.get()?.as_ref().ok());
-        file::write(path, fingerprint, self.classes.count(), &blocks.collect::<Vec<_>>())
+        self.make_ready(lags, None)
+    }
+
+    /// The same, with an observer; parts are samples of the mobility, as many as are expected.
+    fn prepare_observed(&self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
+        self.make_ready(lags, Some(observer))
     }
 
     fn coefficients(
@@ -250,9 +316,9 @@ impl ConvolutionWeights for LayeredKernel {
         while done < lags {
             let (number, place) = Block::place(first_lag + done);
             if self.blocks[number].get().is_none() {
-                self.admit(number..number + 1)?;
+                self.admit(number..number + 1, &mut Watch::nobody())?;
             }
-            let found = self.block(number)?.from(class, place);
+            let found = self.block(number, &mut Watch::nobody(), 0..0)?.from(class, place);
             let count = found[0].len().min(lags - done);
             for (values, found) in values.iter_mut().zip(found) {
                 values[done..done + count].copy_from_slice(&found[..count]);

@@ -3,8 +3,8 @@
 //! | file | what is in it |
 //! |---|---|
 //! | compliance | surface compliance C(k, s) of a profile |
-//! | wavenumber, form_factors, tail | element compliances F(s): its integrals over k |
-//! | runge_kutta, coefficients, kernel | step coefficients Gⁿ by convolution quadrature |
+//! | wavenumber, halving, form_factors, tail | element compliances F(s): its integrals over k |
+//! | runge_kutta, contour, coefficients, kernel | step coefficients Gⁿ by convolution quadrature |
 //! | cost | what they cost, beforehand |
 //! | passivity | the gate that they pass |
 //! | file | coefficients kept in a file |
@@ -12,9 +12,11 @@
 
 mod coefficients;
 mod compliance;
+mod contour;
 mod cost;
 mod file;
 mod form_factors;
+mod halving;
 mod impedance;
 mod kernel;
 mod passivity;
@@ -26,6 +28,7 @@ mod test_profiles;
 mod wavenumber;
 
 pub use cost::Cost;
+pub(super) use impedance::rigid_strip_impedances_observed;
 pub use impedance::{StripContact, StripImpedance, rigid_strip_impedances};
 pub use kernel::LayeredKernel;
 pub(super) use kernel::{LIMIT, TOLERANCE, check_limit, check_tolerance};

@@ -4,7 +4,7 @@ use realfft::num_complex::Complex64;
 
 use super::coefficients::Quadrature;
 use super::wavenumber::Workspace;
-use crate::error::{LayeredError, Result};
+use crate::error::{LayeredError, Result, Watch};
 use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::text::check_sum::CheckSum;
@@ -14,12 +14,22 @@ pub(crate) const RADIUS: f64 = 0.99;
 /// Points on its upper half.
 pub(crate) const POINTS: usize = 40;
 
+/// ln |z| and angle of these points.
+pub(crate) fn places() -> impl Iterator<Item = [f64; 2]> {
+    (0..POINTS)
+        .map(|point| [RADIUS.ln(), std::f64::consts::PI * (point as f64 + 0.5) / POINTS as f64])
+}
+
 /// Fingerprint of the coefficients, after a check of Herm[(1−z) Ĝ(z)] ≥ 0 at 40 points of |z| = 0.99, up to the tolerance of the quadrature
 /// times the number of degrees of freedom, every pair relative to its elements' own mobilities.
 ///
 /// The theorem needs no check; errors of the quadrature and damping laws that are not passive show here. The fingerprint is that of all values at these points, of the
 /// elements and of what else a coefficient depends on.
-pub(crate) fn check(quadrature: &Quadrature, classes: &PairClasses) -> Result<u64> {
+pub(crate) fn check(
+    quadrature: &Quadrature,
+    classes: &PairClasses,
+    watch: &mut Watch,
+) -> Result<u64> {
     let order = classes.layout().len();
     let allowed = -quadrature.tolerance * order as f64;
     let mut work = Workspace::default();
@@ -29,9 +39,9 @@ pub(crate) fn check(quadrature: &Quadrature, classes: &PairClasses) -> Result<u6
     let sizes = [quadrature.time_step, quadrature.tolerance, quadrature.stages.count() as f64];
     let ends = classes.elements().iter().flat_map(|element| [element.left, element.right]);
     sizes.into_iter().chain(ends).for_each(|number| fingerprint.add_number(number));
-    for point in 0..POINTS {
-        let angle = std::f64::consts::PI * (point as f64 + 0.5) / POINTS as f64;
-        quadrature.mobility([RADIUS.ln(), angle], &mut work, &mut scratch, &mut values)?;
+    for (point, [logarithm, angle]) in places().enumerate() {
+        quadrature.mobility([logarithm, angle], &mut work, &mut scratch, &mut values)?;
+        watch.reach(point + 1)?;
         let margin = margin(classes, &values);
         if margin.is_nan() || margin < allowed {
             return Err(LayeredError::NotPassive { margin, allowed, angle, radius: RADIUS }.into());

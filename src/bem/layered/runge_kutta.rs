@@ -77,12 +77,20 @@ impl Stages {
     }
 
     /// Eigenvalues and weights at z; `rest` is 1 − z, given apart so that it keeps its digits.
+    ///
+    /// First the one near −ln z, then that near −ln z + 2πi: each by itself is analytic beside |z| = 1.
     pub(crate) fn nodes(self, z: Complex, rest: Complex) -> impl Iterator<Item = Node> {
         let [p, q] = self.stability();
-        let roots = match self {
+        let mut roots = match self {
             Self::Two => Self::quadratic(z, rest),
             Self::Three => Self::cubic(z, rest),
         };
+        for place in 0..2 {
+            let exact = -z.ln() + Complex::new(0.0, std::f64::consts::TAU * place as f64);
+            let distance = |root: &usize| (roots[*root] - exact).square();
+            let nearest = (place..self.count()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            roots.swap(place, nearest.unwrap_or(place));
+        }
         roots.into_iter().take(self.count()).map(move |lambda| {
             let slope = derivative(q, lambda) - z * derivative(p, lambda);
             let weight = -(rest * rest * polynomial(p, lambda) / (lambda * slope));

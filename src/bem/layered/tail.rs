@@ -15,7 +15,7 @@
 
 use std::sync::OnceLock;
 
-use super::form_factors::{DofCombination, FormFactors, LANES, PairShape};
+use super::form_factors::{FormFactors, FormRow, LANES};
 use crate::linalg::Complex;
 
 /// Terms kept: for |x| ≤ 1/16 the last is below rounding.
@@ -56,7 +56,7 @@ pub(crate) fn surface_series(a2: f64) -> [[f64; TERMS]; 3] {
 /// Integrals beyond K for the pairs of a patch, made when a K is met first.
 #[derive(Debug)]
 pub(crate) struct Tails {
-    tables: Vec<OnceLock<Box<[DofCombination]>>>,
+    tables: Vec<OnceLock<Box<[FormRow]>>>,
 }
 
 impl Default for Tails {
@@ -72,14 +72,14 @@ pub(crate) fn on_grid(panels: usize) -> usize {
 }
 
 /// 2ᵉ so that `panels` is between 8 and 16 times it.
-fn grid(panels: usize) -> usize {
+pub(crate) fn grid(panels: usize) -> usize {
     1 << (panels.max(8).ilog2() - 3)
 }
 
 impl Tails {
     /// Rows j = 0, 1, … of K^(2j) ∫_K^∞ k^(−1−2j) `S_p` `S_q` (cos, sin) kX dk, block by block, for K
     /// at the end of a [grid](on_grid) number of panels.
-    pub(crate) fn rows(&self, forms: &FormFactors, panels: usize) -> &[DofCombination] {
+    pub(crate) fn rows(&self, forms: &FormFactors, panels: usize) -> &[FormRow] {
         let step = grid(panels);
         let index = 8 * step.ilog2() as usize + panels / step;
         let limit = panels as f64 * forms.width;
@@ -87,28 +87,15 @@ impl Tails {
     }
 }
 
-fn table(forms: &FormFactors, limit: f64) -> Box<[DofCombination]> {
-    let mut rows = vec![DofCombination::default(); forms.blocks() * TERMS];
+fn table(forms: &FormFactors, limit: f64) -> Box<[FormRow]> {
+    let mut rows = vec![FormRow::default(); forms.blocks() * TERMS];
     for (class, shape) in forms.shapes.iter().enumerate() {
-        let PairShape { lengths: [q, p], offset } = *shape;
-        let (sum, difference) = (0.5 * (p + q), 0.5 * (p - q));
-        for (y, sign) in [
-            (offset + sum, -1.0),
-            (offset - difference, 1.0),
-            (offset + difference, 1.0),
-            (offset - sum, -1.0),
-        ] {
-            let integrals = oscillating(limit * y.abs());
+        for (y, [even, odd]) in shape.waves() {
+            let integrals = oscillating(limit * y);
             for (j, integral) in integrals.iter().enumerate() {
                 let row = &mut rows[class / LANES * TERMS + j];
-                let factor = sign / (limit * limit);
-                row[0][class % LANES] += factor * integral.re;
-                row[1][class % LANES] += factor * integral.im * y.signum();
-            }
-        }
-        if offset == 0.0 {
-            for j in 0..TERMS {
-                rows[class / LANES * TERMS + j][1][class % LANES] = 0.0;
+                row[0][class % LANES] += even / (limit * limit) * integral.re;
+                row[1][class % LANES] += odd / (limit * limit) * integral.im;
             }
         }
     }

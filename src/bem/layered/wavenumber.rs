@@ -5,13 +5,14 @@
 //! integrals over receiver and source, m²/Pa × m.
 //!
 //! For Re s > 0 and passive layers no pole lies on the real axis, so the path is the axis itself: a
-//! path into the complex plane would have to know where poles of backward waves are. Fixed panels of
-//! 16 Gauss points are halved until C is a polynomial there; what halved panels find reaches the
-//! pairs through Legendre moments over the whole panel, so that only C is evaluated more often. Beyond K the
-//! integral is a [series](super::tail).
+//! path into the complex plane would have to know where poles of backward waves are. Panels of 16 Gauss points
+//! are halved until C is a polynomial there. They begin as wide as C lets expect, whatever the elements are, and
+//! wide ones have weights that know the form factors; what halves of the narrowest find reaches the pairs
+//! through Legendre moments over the whole panel, so that only C is evaluated more often. Beyond K the integral
+//! is a [series](super::tail).
 
 use super::compliance::{Compliance, Surface};
-use super::form_factors::{DEGREES, FormFactors, LANES, POINTS, Sums, accumulate, legendre};
+use super::form_factors::{DEGREES, FormFactors, LANES, POINTS, Panel, Sums, accumulate, legendre};
 use super::tail::{REACH, TERMS, Tails, on_grid, surface_series};
 use crate::error::{LayeredError, Result};
 use crate::history::{KINDS, PairClasses};
@@ -21,22 +22,11 @@ use crate::soil::SoilProfile;
 /// Decay lengths in the top layer beyond which its bottom is not felt: e^(−2·20) is 4e-18.
 const DEEP: f64 = 20.0;
 /// K × shortest element: below it the second differences of the tail cancel.
-const SHORT: f64 = 0.05;
-/// Rounding of C relative to its largest value on a panel.
-const FLOOR: f64 = 3e-14;
-/// Exponent of the tolerance in the Legendre coefficients that may be left out: 16 points integrate
-/// products up to degree 31, so the error is about their power 3/2 to 5/3.
-const SHARE: f64 = 2.0 / 3.0;
-/// Panels are halved at most so often.
-const DEEPEST: u32 = 44;
-/// Most halves of one integral: rounding beyond [`FLOOR`] must not halve without end.
-const MOST_HALVES: usize = 1 << 16;
+pub(super) const SHORT: f64 = 0.05;
 /// Most panels of one integral.
 const MOST_PANELS: f64 = 65_536.0;
 /// Panels that short elements may ask for.
 const MOST_FOR_SHORT: f64 = 100.0;
-/// Panels of an integral that are looked at to know what all of them cost.
-const LOOKED_AT: usize = 256;
 
 /// Integrals over the wavenumber for the pairs of a patch.
 #[derive(Debug)]
@@ -44,21 +34,22 @@ pub(crate) struct Wavenumbers {
     pub(crate) forms: FormFactors,
     tails: Tails,
     /// Legendre polynomials at the Gauss points.
-    polynomials: Vec<[f64; DEGREES]>,
-    span: f64,
+    pub(super) polynomials: Vec<[f64; DEGREES]>,
+    pub(crate) span: f64,
     pub(crate) shortest: f64,
-    longest: f64,
+    pub(super) longest: f64,
     /// Accuracy relative to an element's own compliance.
-    tolerance: f64,
+    pub(super) tolerance: f64,
 }
 
 /// What one thread needs for one integral after the other.
 #[derive(Debug, Default)]
 pub(crate) struct Workspace {
     pub(crate) compliance: Compliance,
-    samples: Vec<[Surface; POINTS]>,
+    pub(super) samples: Vec<(Panel, [Surface; POINTS])>,
     sums: Vec<Sums>,
-    stack: Vec<(f64, f64, u32)>,
+    pub(super) wide: Vec<Panel>,
+    pub(super) stack: Vec<(f64, f64, u32)>,
     /// Number of evaluations of C so far.
     pub(crate) evaluations: usize,
 }
@@ -66,12 +57,20 @@ pub(crate) struct Workspace {
 /// Work that integrals take: numbers, estimated.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Counts {
+    /// Panels that are summed.
     pub(crate) panels: f64,
-    /// Those for the thickness of the top layer's sake.
-    pub(crate) deep: f64,
-    /// Those that are halved.
+    /// Those that are wide.
+    pub(crate) wide: f64,
+    /// Those that are halved below the narrowest.
     pub(crate) halved: f64,
-    /// Evaluations of C in halves.
+    /// Narrowest panels up to K.
+    pub(crate) reach: f64,
+    /// Integrals, and those whose K is for the thickness of the top layer's sake.
+    pub(crate) integrals: f64,
+    pub(crate) deep: f64,
+    /// Evaluations of C.
+    pub(crate) evaluations: f64,
+    /// Those in halves.
     pub(crate) halves: f64,
     /// Layers that evaluations go through after the first.
     pub(crate) layers: f64,
@@ -82,12 +81,22 @@ impl Counts {
     pub(crate) fn with(&self, other: &Self, combine: impl Fn(f64, f64) -> f64) -> Self {
         Self {
             panels: combine(self.panels, other.panels),
-            deep: combine(self.deep, other.deep),
+            wide: combine(self.wide, other.wide),
             halved: combine(self.halved, other.halved),
+            reach: combine(self.reach, other.reach),
+            integrals: combine(self.integrals, other.integrals),
+            deep: combine(self.deep, other.deep),
+            evaluations: combine(self.evaluations, other.evaluations),
             halves: combine(self.halves, other.halves),
             layers: combine(self.layers, other.layers),
         }
     }
+}
+
+/// What a panel gives: C at its points, or the moments of its halves.
+pub(super) enum Found<'a> {
+    Samples(&'a [Surface; POINTS]),
+    Moments(&'a [[f64; 6]; DEGREES]),
 }
 
 impl Wavenumbers {
@@ -131,7 +140,7 @@ impl Wavenumbers {
         Ok(())
     }
 
-    /// Work for the compliances at `s`, by a look at some panels.
+    /// Work for the compliances at `s`: all of it but the pairs'.
     ///
     /// # Errors
     /// As for [`Wavenumbers::compliance`].
@@ -143,47 +152,39 @@ impl Wavenumbers {
     ) -> Result<Counts> {
         let mut compliance = std::mem::take(&mut work.compliance);
         let outcome = compliance.set(profile, s).and_then(|()| {
-            let panels = self.panels(Self::reach(&compliance).max(Self::deep(profile)))?;
-            let stride = panels.div_ceil(LOOKED_AT);
+            let (reach, deep) = (Self::reach(&compliance), Self::deep(profile));
+            let panels = self.panels(reach.max(deep))?;
+            let mut counts = Counts {
+                reach: panels as f64,
+                integrals: 1.0,
+                deep: if deep > reach { 1.0 } else { 0.0 },
+                ..Counts::default()
+            };
             compliance.visited = 0;
-            let (mut halved, before) = (0.0, work.evaluations);
-            let mut symbol = |k| compliance.at(k);
-            let allowed = self.sample(panels, stride, work, &mut symbol);
-            for (place, panel) in (0..panels).step_by(stride).enumerate() {
-                let left = self.forms.width * panel as f64;
-                if !self.resolved(&work.samples[place], left, self.forms.width, allowed) {
-                    halved += 1.0;
-                    let done = self.halved(left, allowed, work, &mut symbol);
-                    done.map_err(|k| unresolved(s, k))?;
-                }
-            }
-            let looked_at = panels.div_ceil(stride);
-            let all = panels as f64 / looked_at as f64;
+            let before = work.evaluations;
+            let mut halves = 0;
+            let resolved = self.resolve(
+                panels,
+                work,
+                &mut |k| compliance.at(k),
+                &mut |panel, found, evaluations| {
+                    counts.panels += 1.0;
+                    counts.wide += if panel.level > 0 { 1.0 } else { 0.0 };
+                    if let Found::Moments(_) = found {
+                        counts.halved += 1.0;
+                        halves += evaluations;
+                    }
+                },
+            );
+            resolved.map_err(|k| unresolved(s, k))?;
             let evaluations = work.evaluations - before;
-            let halves = (evaluations - POINTS * looked_at) as f64;
-            Ok(Counts {
-                halved: all * halved,
-                halves: all * halves,
-                layers: all * (compliance.visited - evaluations) as f64,
-                ..self.whole(profile, &compliance)?
-            })
+            counts.evaluations = evaluations as f64;
+            counts.halves = halves as f64;
+            counts.layers = (compliance.visited - evaluations) as f64;
+            Ok(counts)
         });
         work.compliance = compliance;
         outcome
-    }
-
-    /// The same without a look: as if no panel were halved, and one layer seen.
-    pub(crate) fn counts_of_panels(&self, profile: &SoilProfile, s: Complex) -> Result<Counts> {
-        let mut compliance = Compliance::default();
-        compliance.set(profile, s)?;
-        self.whole(profile, &compliance)
-    }
-
-    fn whole(&self, profile: &SoilProfile, compliance: &Compliance) -> Result<Counts> {
-        let (reach, deep) = (Self::reach(compliance), Self::deep(profile));
-        let panels = self.panels(reach.max(deep))? as f64;
-        let deep = if deep > reach { panels } else { 0.0 };
-        Ok(Counts { panels, deep, ..Counts::default() })
     }
 
     /// The same at s = 0 with `symbol` for C up to `least` (1/m) at least, and the static tail of the
@@ -238,121 +239,36 @@ impl Wavenumbers {
         work: &mut Workspace,
         symbol: &mut dyn FnMut(f64) -> Surface,
     ) -> std::result::Result<(), f64> {
-        let (forms, width) = (&self.forms, self.forms.width);
-        work.sums.clear();
-        work.sums.resize(forms.blocks(), Sums::default());
-        let allowed = self.sample(panels, 1, work, symbol);
-        for panel in 0..panels {
-            let left = width * panel as f64;
-            if self.resolved(&work.samples[panel], left, width, allowed) {
-                let coefficients: [[f64; 6]; POINTS] = std::array::from_fn(|i| {
-                    parts(&work.samples[panel][i], 0.5 * width * forms.rule.weights[i])
-                });
-                forms.with_values(panel, |rows| accumulate(rows, &coefficients, &mut work.sums));
-            } else {
-                let moments = self.halved(left, allowed, work, symbol)?;
-                forms.with_legendre(panel, |rows| accumulate(rows, &moments, &mut work.sums));
+        let forms = &self.forms;
+        let mut sums = std::mem::take(&mut work.sums);
+        sums.clear();
+        sums.resize(forms.blocks(), Sums::default());
+        let outcome = self.resolve(panels, work, symbol, &mut |panel, found, _| match found {
+            Found::Samples(samples) => {
+                let half = 0.5 * forms.extent(panel)[1];
+                let coefficients: [[f64; 6]; POINTS] =
+                    std::array::from_fn(|i| parts(&samples[i], half * forms.rule.weights[i]));
+                forms.with_values(panel, |rows| accumulate(rows, &coefficients, &mut sums));
             }
-        }
-        Ok(())
+            Found::Moments(moments) => {
+                forms.with_legendre(panel.index, |rows| accumulate(rows, moments, &mut sums));
+            }
+        });
+        work.sums = sums;
+        outcome
     }
 
-    /// Every `stride`-th of so many panels into `work.samples`; the error that one of them may have.
-    fn sample(
-        &self,
-        panels: usize,
-        stride: usize,
-        work: &mut Workspace,
-        symbol: &mut dyn FnMut(f64) -> Surface,
-    ) -> f64 {
-        let width = self.forms.width;
-        work.samples.clear();
-        let mut whole = 0.0;
-        for panel in (0..panels).step_by(stride) {
-            let left = width * panel as f64;
-            let samples = self.sampled(left, width, symbol);
-            // The median: one sample beside a pole says little of the integral.
-            let mut sizes = samples.map(|c| c.xx.abs() + c.zz.abs());
-            let (_, median, _) = sizes.select_nth_unstable_by(POINTS / 2, f64::total_cmp);
-            let share = (2.0 / ((left + 0.5 * width) * self.longest)).powi(2).min(1.0);
-            whole += stride as f64 * 0.5 * width * share * *median;
-            work.samples.push(samples);
-        }
-        work.evaluations += POINTS * work.samples.len();
-        self.tolerance.powf(SHARE) * whole
-    }
-
-    fn sampled(
-        &self,
-        left: f64,
-        width: f64,
-        symbol: &mut dyn FnMut(f64) -> Surface,
-    ) -> [Surface; POINTS] {
-        std::array::from_fn(|i| symbol(left + 0.5 * width * (1.0 + self.forms.rule.nodes[i])))
-    }
-
-    /// Whether the last two Legendre coefficients of C are small enough.
-    fn resolved(&self, samples: &[Surface; POINTS], left: f64, width: f64, allowed: f64) -> bool {
-        let mut last = [[Complex::default(); KINDS]; 2];
-        let mut largest = 0.0_f64;
-        for (i, sample) in samples.iter().enumerate() {
-            let values = [sample.xx, sample.zz, sample.xz];
-            for value in values {
-                largest = largest.max(value.re.abs()).max(value.im.abs());
-            }
-            for (degree, last) in [POINTS - 2, POINTS - 1].into_iter().zip(&mut last) {
-                let polynomial = self.polynomials[i][degree];
-                let factor = (degree as f64 + 0.5) * self.forms.rule.weights[i] * polynomial;
-                for (last, value) in last.iter_mut().zip(values) {
-                    *last += value.scale(factor);
-                }
-            }
-        }
-        let errors = [0, 1, 2].map(|c| last[0][c].abs() + last[1][c].abs());
-        if errors.iter().sum::<f64>().is_nan() {
-            return false;
-        }
-        let error = errors.into_iter().fold(0.0, f64::max);
-        let share = (2.0 / (left * self.shortest)).powi(2).min(1.0);
-        error * width * share <= allowed || error <= FLOOR * largest
-    }
-
-    /// ∫ C Pₙ dk over one panel, by halves.
-    fn halved(
-        &self,
-        start: f64,
-        allowed: f64,
-        work: &mut Workspace,
-        symbol: &mut dyn FnMut(f64) -> Surface,
-    ) -> std::result::Result<[[f64; 6]; DEGREES], f64> {
-        let whole = self.forms.width;
-        let mut halves = 0;
-        let mut moments = [[0.0; 6]; DEGREES];
-        work.stack.clear();
-        work.stack.extend([(0.5, 0.5, 1), (0.0, 0.5, 1)]);
-        while let Some((place, size, depth)) = work.stack.pop() {
-            let (left, width) = (start + whole * place, whole * size);
-            let samples = self.sampled(left, width, symbol);
-            work.evaluations += POINTS;
-            if self.resolved(&samples, left, width, allowed) {
-                for (i, sample) in samples.iter().enumerate() {
-                    let x = 2.0 * (place + 0.5 * size * (1.0 + self.forms.rule.nodes[i])) - 1.0;
-                    let c = parts(sample, 0.5 * width * self.forms.rule.weights[i]);
-                    for (moment, polynomial) in moments.iter_mut().zip(legendre(x)) {
-                        for (moment, c) in moment.iter_mut().zip(c) {
-                            *moment += polynomial * c;
-                        }
-                    }
-                }
-            } else if depth < DEEPEST && halves < MOST_HALVES {
-                halves += 2;
-                let half = 0.5 * size;
-                work.stack.extend([(place + half, half, depth + 1), (place, half, depth + 1)]);
-            } else {
-                return Err(left);
-            }
-        }
-        Ok(moments)
+    /// Number of panels that an integral begins with at `s`.
+    ///
+    /// # Errors
+    /// As for [`Wavenumbers::compliance`].
+    pub(crate) fn widest(&self, profile: &SoilProfile, s: Complex) -> Result<usize> {
+        let mut compliance = Compliance::default();
+        compliance.set(profile, s)?;
+        let panels = self.panels(Self::reach(&compliance).max(Self::deep(profile)))?;
+        let mut widest = vec![];
+        self.begin(panels, &mut vec![], |panel| widest.push(panel));
+        Ok(widest.len())
     }
 
     /// Adds the series beyond the last panel.
@@ -388,7 +304,7 @@ fn unresolved(s: Complex, k: f64) -> LayeredError {
 }
 
 /// zz, xx, xz, real and imaginary, times a weight.
-fn parts(c: &Surface, weight: f64) -> [f64; 6] {
+pub(super) fn parts(c: &Surface, weight: f64) -> [f64; 6] {
     [c.zz.re, c.zz.im, c.xx.re, c.xx.im, c.xz.re, c.xz.im].map(|x| weight * x)
 }
 

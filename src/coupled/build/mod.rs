@@ -29,7 +29,7 @@ use super::step::{Forcing, Increment};
 use crate::bem::Ground;
 use crate::contact::{ContactSearch, ModeSearch};
 use crate::coupled::run::Serviceability;
-use crate::error::Result;
+use crate::error::{Observer, Result};
 use crate::interface::InterfaceLaw;
 use crate::motion::FreeField;
 use crate::structure::Structure;
@@ -240,7 +240,20 @@ impl SimulationBuilder {
     /// reason, [`crate::Error::IllConditioned`] if double precision cannot carry the scene,
     /// [`crate::Error::Law`] for an interface law that returns numbers which are not finite.
     pub fn build(self) -> Result<Simulation> {
-        let mut parts = Parts::new(self.structure, self.ground, self.given)?;
+        self.built(None)
+    }
+
+    /// The same, with an observer of the ground's convolution weights: for the expected steps, or those that the
+    /// build itself needs.
+    ///
+    /// # Errors
+    /// [`crate::Error::Stopped`] by the observer; as for [`SimulationBuilder::build`].
+    pub fn build_observed(self, observer: &mut Observer<'_>) -> Result<Simulation> {
+        self.built(Some(observer))
+    }
+
+    fn built(self, observer: Option<&mut Observer<'_>>) -> Result<Simulation> {
+        let mut parts = Parts::new(self.structure, self.ground, self.given, observer)?;
         let (assembled, mut held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
         let at_rest = statics::solve(&mut parts, &assembled)?;
         let joined = supports::joined_by_force(

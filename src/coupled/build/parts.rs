@@ -8,7 +8,7 @@ use crate::coupled::motion::Load;
 use crate::coupled::run::Serviceability;
 use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
 use crate::error::{
-    Error, Result, all_finite, finite, memory, not_negative, positive, same_length,
+    Error, Observer, Result, all_finite, finite, memory, not_negative, positive, same_length,
 };
 use crate::geometry::{ContactLayout, check_order};
 use crate::interface::{ContactScene, InterfaceLaw};
@@ -155,6 +155,7 @@ impl Parts {
         structure: Option<Box<dyn Structure>>,
         ground: Option<Box<dyn Ground>>,
         mut given: Given,
+        observer: Option<&mut Observer<'_>>,
     ) -> Result<Self> {
         let time_step = positive("time step", given.time_step)?;
         positive("square of the time step", time_step * time_step)?;
@@ -180,6 +181,9 @@ impl Parts {
         let middle = 0.5 * (elements[0].left + elements[count - 1].right);
         let moment_center = finite("moment center", given.moment_center.unwrap_or(middle))?;
         ground.prepare(time_step)?;
+        if let Some(observer) = observer {
+            ground.precompute(given.steps.max(1), observer)?;
+        }
         if given.steps > 0 {
             ground.reserve(given.steps)?;
         }

@@ -1,31 +1,42 @@
 //! Work that is estimated against work that is done, point by point.
 
 use super::*;
-use crate::bem::layered::coefficients::Circle;
+use crate::bem::layered::coefficients::Samples;
 use crate::bem::layered::runge_kutta::Stages;
 use crate::bem::layered::test_profiles::{gmb, p1, p3};
-use crate::bem::layered::wavenumber::Wavenumbers;
 use crate::bem::{Grading, Strip};
+use crate::error::Watch;
 use crate::history::PairClasses;
 use crate::soil::{Elastic, Soil, SoilProfile};
 
-/// Evaluations, and layers that they go through, of every point of the blocks up to `last` and of the gate.
+/// Evaluations, and layers that they go through, of every sample of the blocks up to `last` and of the gate.
 fn done(quadrature: &Quadrature, last: usize) -> [f64; 2] {
     let mut work = Workspace::default();
     let mut values = vec![[Complex::default(); 3]; quadrature.classes];
     let mut scratch = values.clone();
-    let mut at = |place: [f64; 2]| {
-        quadrature.mobility(place, &mut work, &mut scratch, &mut values).unwrap();
-    };
+    let mut watch = Watch::nobody();
     for number in 0..=last {
-        let circle = Circle::new(number, quadrature.tolerance);
-        for point in 0..circle.points() {
-            at([circle.logarithm, circle.angle(point)]);
-        }
+        let samples = Samples::new(&mut watch, 0..0);
+        quadrature.block(number, 1, samples).unwrap();
     }
-    for point in 0..passivity::POINTS {
-        let angle = std::f64::consts::PI * (point as f64 + 0.5) / passivity::POINTS as f64;
-        at([passivity::RADIUS.ln(), angle]);
+    for (node, panels) in quadrature.panels.iter().enumerate() {
+        let mut met = std::collections::HashSet::new();
+        let mut samples: Vec<_> = passivity::places().collect();
+        for number in 0..=last {
+            let circle = Block::circle(number, quadrature.tolerance);
+            let (_, alone) = circle
+                .covered(node, |places| {
+                    met.extend(places.iter().copied());
+                    Ok(places.iter().map(|place| panels.known(*place).unwrap()).collect())
+                })
+                .unwrap();
+            samples.extend(alone.iter().map(|p| [circle.logarithm, circle.angle(*p)]));
+        }
+        samples.extend(met.iter().flat_map(|place| place.places()));
+        for sample in samples {
+            let node = quadrature.nodes(sample).nth(node).unwrap();
+            quadrature.add(node, &mut work, &mut scratch, &mut values).unwrap();
+        }
     }
     [work.evaluations as f64, work.compliance.visited as f64]
 }
@@ -66,16 +77,10 @@ fn work_is_known_beforehand() {
         for stages in [Stages::Two, Stages::Three] {
             let strip = Strip::new(-1.0..1.0, elements, Grading::Cosine).unwrap();
             let classes = PairClasses::new(strip.elements()).unwrap();
-            let tolerance = 1e-10;
-            let integrals = Wavenumbers::new(&classes, tolerance);
-            let (profile, classes) = (profile.clone(), classes.count());
-            let quadrature =
-                Quadrature { profile, integrals, classes, stages, time_step, tolerance };
+            let quadrature = Quadrature::new(profile.clone(), &classes, stages, time_step, 1e-10);
             let mut work = Workspace::default();
-            let count = |s| quadrature.integrals.counts(&quadrature.profile, s, &mut work);
-            let total = quadrature.on_circles(0..last + 1, true, count).unwrap();
-            let evaluations = POINTS as f64 * total.sum.panels + total.sum.halves;
-            let found = [evaluations, evaluations + total.sum.layers];
+            let total = quadrature.counted(0..last + 1, true, &mut work).unwrap();
+            let found = [total.sum.evaluations, total.sum.evaluations + total.sum.layers];
             let wanted = done(&quadrature, last);
             let looked_at = work.evaluations as f64 / wanted[0];
             let ratios = [0, 1].map(|k| found[k] / wanted[k]);

@@ -13,9 +13,7 @@ use crate::soil::{
 };
 
 fn quadrature(profile: SoilProfile, classes: &PairClasses, time_step: f64) -> Quadrature {
-    let (tolerance, stages) = (1e-10, Stages::Two);
-    let integrals = Wavenumbers::new(classes, tolerance);
-    Quadrature { profile, integrals, classes: classes.count(), stages, time_step, tolerance }
+    Quadrature::new(profile, classes, Stages::Two, time_step, 1e-10)
 }
 
 fn law(kind: u8, ratio: f64) -> std::sync::Arc<dyn Relaxation> {
@@ -86,7 +84,12 @@ fn tables_profiles_pass_for_all_steps() {
     let classes = PairClasses::new(strip.elements()).unwrap();
     for profile in [p1(gmb(5), gmb(1)), p1(Elastic, Elastic), p3(gmb(5)), p3(Elastic)] {
         for time_step in [0.02, 0.3, 5.0, 50.0] {
-            check(&quadrature(profile.clone(), &classes, time_step), &classes).unwrap();
+            check(
+                &quadrature(profile.clone(), &classes, time_step),
+                &classes,
+                &mut Watch::nobody(),
+            )
+            .unwrap();
         }
     }
 }
@@ -105,7 +108,8 @@ impl Relaxation for Active {
 fn active_damping_is_refused() {
     let strip = Strip::uniform(-1.0..1.0, 2).unwrap();
     let classes = PairClasses::new(strip.elements()).unwrap();
-    let found = check(&quadrature(p1(Active, Elastic), &classes, 0.1), &classes);
+    let found =
+        check(&quadrature(p1(Active, Elastic), &classes, 0.1), &classes, &mut Watch::nobody());
     assert!(
         matches!(found, Err(Error::Layered(LayeredError::ActiveDamping { layer: 1, value, .. })) if value < 0.0),
         "{found:?}"
@@ -136,7 +140,7 @@ fn the_gate_reports_the_least_eigenvalue() {
     values[0][0] = Complex::real(f64::NAN);
     assert!(margin(&classes, &values).is_nan());
     let strict = Quadrature { tolerance: -0.25, ..quadrature };
-    let found = check(&strict, &classes);
+    let found = check(&strict, &classes, &mut Watch::nobody());
     let Err(Error::Layered(LayeredError::NotPassive { margin, allowed, radius, .. })) = found
     else {
         panic!("{found:?}");

@@ -1,0 +1,95 @@
+//! Panels against the points that they stand for.
+
+use super::*;
+use crate::bem::layered::test_profiles::{gmb, p1, p3};
+use crate::bem::{Grading, Strip};
+use crate::soil::{Elastic, SoilProfile};
+
+fn quadrature(profile: SoilProfile, stages: Stages) -> Quadrature {
+    let strip = Strip::new(-1.0..1.0, 4, Grading::Cosine).unwrap();
+    let classes = PairClasses::new(strip.elements()).unwrap();
+    Quadrature::new(profile, &classes, stages, 0.1, 1e-10)
+}
+
+fn block(quadrature: &Quadrature, number: usize, threads: usize) -> Block {
+    quadrature.block(number, threads, Samples::new(&mut Watch::nobody(), 0..0)).unwrap()
+}
+
+/// At every seventh point of circles, relative to the own mobility of each pair's elements.
+#[test]
+fn panels_give_what_points_give() {
+    for (name, profile) in [
+        ("damped", p1(gmb(5), gmb(1))),
+        ("elastic", p1(Elastic, Elastic)),
+        ("rigid base", p3(gmb(5))),
+        ("rigid base, elastic", p3(Elastic)),
+    ] {
+        for stages in [Stages::Two, Stages::Three] {
+            let quadrature = quadrature(profile.clone(), stages);
+            let own = quadrature.panels[0].own.clone();
+            let mut work = Workspace::default();
+            let mut values = vec![[Complex::default(); KINDS]; quadrature.classes];
+            let mut scratch = values.clone();
+            let (mut worst, mut covered) = (0.0_f64, 0);
+            for number in [0, 2, 4] {
+                let circle = Block::circle(number, 1e-10);
+                let mut watch = Watch::nobody();
+                let mut samples = Samples::new(&mut watch, 0..0);
+                let spectra = quadrature.spectra(circle, 1, &mut samples).unwrap();
+                covered += (stages.count() * circle.points()).saturating_sub(samples.done);
+                let count = circle.points();
+                for point in (0..count).step_by(7) {
+                    let place = [circle.logarithm, circle.angle(point)];
+                    quadrature.mobility(place, &mut work, &mut scratch, &mut values).unwrap();
+                    let size = |class: usize| values[class][0].abs().min(values[class][1].abs());
+                    for (class, value) in values.iter().enumerate() {
+                        let unit = own[class].map(size).iter().product::<f64>().sqrt();
+                        for (component, value) in value.iter().enumerate() {
+                            let found = spectra[(class * KINDS + component) * count + point];
+                            worst = worst.max((found - *value).abs() / unit);
+                        }
+                    }
+                }
+            }
+            println!("{name}, {stages:?}: {worst:e}, {covered} points by panels");
+            assert!(worst < 1e-10, "{name} {stages:?} {worst:e}");
+            assert!(covered > 500, "{name} {stages:?} {covered}");
+        }
+    }
+}
+
+/// Whatever had been sampled before, and on however many threads.
+#[test]
+fn bits_of_a_block_are_its_own() {
+    let alone = block(&quadrature(p1(gmb(5), gmb(1)), Stages::Three), 3, 1);
+    let after = quadrature(p1(gmb(5), gmb(1)), Stages::Three);
+    for number in [4, 0, 2] {
+        block(&after, number, 2);
+    }
+    let found = block(&after, 3, 3);
+    for (one, two) in alone.values.iter().flatten().zip(found.values.iter().flatten()) {
+        assert!(one.iter().zip(two).all(|(a, b)| a.to_bits() == b.to_bits()));
+    }
+}
+
+/// Each eigenvalue's own share goes round the half circle without a jump.
+#[test]
+fn eigenvalues_keep_their_numbers() {
+    for stages in [Stages::Two, Stages::Three] {
+        for logarithm in [-0.06, -1e-3, -1e-6] {
+            let nodes = |point: usize| {
+                let [z, rest] =
+                    on_circle(logarithm, std::f64::consts::PI * (point as f64 + 0.5) / 4000.0);
+                stages.nodes(z, rest).map(|node| node.lambda).collect::<Vec<_>>()
+            };
+            let mut before = nodes(0);
+            for point in 1..4000 {
+                let now = nodes(point);
+                for (one, two) in before.iter().zip(&now) {
+                    assert!((*one - *two).abs() < 0.02, "{stages:?} {point} {one:?} {two:?}");
+                }
+                before = now;
+            }
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! The mobility of a layered ground along its contours.
+//!
+//! (1−z) Ĝ(z) is smooth in the angle θ of z wherever the ground has forgotten. Panels in θ, each with 24 Chebyshev
+//! points, are halved until the last two coefficients are small: a binary tree for every eigenvalue of Δ(z). That of
+//! the first, whose waves travel and come back, becomes narrower towards θ = 0, where long waves have a branch
+//! point; waves of the others die within a step or two, but for high frequencies with three stages, and a few
+//! panels, after a division by (1−z)², are all of it.
+//!
+//! All singularities lie on |z| ≥ 1, those of undamped layers on the unit circle itself. Panels lie beside it,
+//! ln |z| = −w/20 for a width w, so that none is missed between two points; as polynomials of the complex
+//! variable ln z they are good on every circle from there to |z| = 1. One panel thus serves all
+//! blocks of lags. Where a panel would need more than half as many points as a circle has on it, and may be
+//! tried in vain, the circle's points themselves are evaluated: always at cut-off frequencies of undamped layers.
+
+use std::collections::HashMap;
+use std::f64::consts::PI;
+use std::ops::Range;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::runge_kutta::on_circle;
+use crate::error::Result;
+use crate::history::{KINDS, PairClasses};
+use crate::linalg::Complex;
+
+/// Chebyshev points of a panel.
+pub(crate) const POINTS: usize = 24;
+/// Halvings of θ = 0 … π with which panels begin.
+const COARSEST: u32 = 2;
+/// −ln |z| of a panel over its width.
+const ASIDE: f64 = 1.0 / 20.0;
+/// Last Chebyshev coefficients over the tolerance: errors grow with the lag where those of F do not.
+const LAST: f64 = 0.3;
+/// Points of a circle that are evaluated together.
+const LANES: usize = 32;
+
+/// Circle |z| = r on which a block is transformed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Circle {
+    /// Points of all of it.
+    pub(crate) length: usize,
+    /// ln r.
+    pub(crate) logarithm: f64,
+}
+
+impl Circle {
+    /// That of so many points for a relative accuracy of F.
+    pub(crate) fn new(length: usize, tolerance: f64) -> Self {
+        // Aliases ε and noise tol·ε^(−1/2) at the last lag are then about equal.
+        Self { length, logarithm: 2.0 / 3.0 * tolerance.ln() / length as f64 }
+    }
+
+    /// Points of the upper half, both ends included.
+    pub(crate) fn points(self) -> usize {
+        self.length / 2 + 1
+    }
+
+    /// Angle of a point, radians.
+    pub(crate) fn angle(self, point: usize) -> f64 {
+        std::f64::consts::TAU / self.length as f64 * point as f64
+    }
+}
+
+/// Share of an eigenvalue in the mobility over what has panels.
+pub(crate) fn factor(node: usize, [logarithm, angle]: [f64; 2]) -> Complex {
+    let [_, rest] = on_circle(logarithm, angle);
+    if node == 0 { Complex::real(1.0) } else { rest * rest }
+}
+
+/// Panels met so far: Chebyshev coefficients, degree by degree, of those that are resolved.
+#[derive(Debug)]
+pub(crate) struct Panels {
+    kept: Mutex<HashMap<Place, Option<Arc<[Complex]>>>>,
+    /// Per class: those of its two elements on themselves.
+    pub(super) own: Arc<[[usize; 2]]>,
+}
+
+/// A panel: the `index`-th of 2^`depth`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct Place {
+    depth: u32,
+    index: usize,
+}
+
+impl Place {
+    fn halves(self) -> [Self; 2] {
+        [0, 1].map(|half| Self { depth: self.depth + 1, index: 2 * self.index + half })
+    }
+
+    fn width(self) -> f64 {
+        PI / (1_usize << self.depth) as f64
+    }
+
+    /// Points of a circle that lie on it.
+    pub(super) fn points_of(self, circle: Circle) -> Range<usize> {
+        let points = (circle.points() - 1) >> self.depth;
+        self.index * points..(self.index + 1) * points
+    }
+
+    /// ln |z| and angle of its Chebyshev points.
+    pub(crate) fn places(self) -> impl Iterator<Item = [f64; 2]> {
+        let width = self.width();
+        nodes().map(move |x| [-ASIDE * width, width * (self.index as f64 + 0.5 * (1.0 + x))])
+    }
+}
+
+/// Chebyshev points.
+fn nodes() -> impl Iterator<Item = f64> {
+    (0..POINTS).map(|i| (PI * (i as f64 + 0.5) / POINTS as f64).cos())
+}
+
+/// Chebyshev coefficients of values at the points, one column for each function.
+pub(crate) fn transformed(values: &[Complex]) -> Vec<Complex> {
+    let count = values.len() / POINTS;
+    let mut coefficients = vec![Complex::default(); values.len()];
+    for (degree, row) in coefficients.chunks_exact_mut(count).enumerate() {
+        for (i, values) in values.chunks_exact(count).enumerate() {
+            let angle = PI * (degree as f64 * (i as f64 + 0.5)) / POINTS as f64;
+            let unit = if degree == 0 { 1.0 } else { 2.0 } / POINTS as f64;
+            let factor = unit * angle.cos();
+            for (sum, value) in row.iter_mut().zip(values) {
+                *sum += value.scale(factor);
+            }
+        }
+    }
+    coefficients
+}
+
+impl Panels {
+    pub(crate) fn new(classes: &PairClasses) -> Self {
+        let mut own = vec![[0; 2]; classes.count()];
+        let (pairs, elements) = (classes.pairs(), classes.elements().len());
+        for (place, pair) in pairs.iter().enumerate() {
+            let ends = [place / elements, place % elements];
+            own[pair.class] = ends.map(|element| pairs[element * (elements + 1)].class);
+        }
+        Self { kept: Mutex::default(), own: own.into() }
+    }
+
+    pub(super) fn kept(&self) -> MutexGuard<'_, HashMap<Place, Option<Arc<[Complex]>>>> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Whether the panel at `place` is resolved, if it has been met.
+    pub(crate) fn known(&self, place: Place) -> Option<bool> {
+        self.kept().get(&place).map(Option::is_some)
+    }
+}
+
+/// Whether the last two of the `coefficients` are small beside those of the elements themselves, up to the unit
+/// circle; `own` has, per class, the classes of its two elements.
+pub(crate) fn is_resolved(coefficients: &[Complex], own: &[[usize; 2]], tolerance: f64) -> bool {
+    let shift = 2.0 * ASIDE;
+    let growth = shift + (1.0 + shift * shift).sqrt();
+    let most = LAST * tolerance / growth.powf((POINTS - 1) as f64);
+    let degrees: Vec<_> = coefficients
+        .chunks_exact(own.len() * KINDS)
+        .map(|row| row.as_chunks::<KINDS>().0)
+        .collect();
+    let largest = |class: usize, kind: usize| {
+        degrees.iter().map(|row| row[class][kind].abs()).fold(0.0, f64::max)
+    };
+    let sizes: Vec<_> =
+        (0..own.len()).map(|class| largest(class, 0).min(largest(class, 1))).collect();
+    let [.., one, two] = &degrees[..] else { return false };
+    one.iter().zip(*two).zip(own).all(|((one, two), own)| {
+        let allowed = most * own.map(|class| sizes[class]).iter().product::<f64>().sqrt();
+        one.iter().zip(two).all(|(one, two)| one.abs() + two.abs() <= allowed)
+    })
+}
+
+impl Circle {
+    /// Panels that cover the upper half, and, ascending, the points that are left, with what tells which of some
+    /// panels of one width are resolved.
+    pub(crate) fn covered(
+        self,
+        node: usize,
+        mut resolved: impl FnMut(&[Place]) -> Result<Vec<bool>>,
+    ) -> Result<(Vec<Place>, Vec<usize>)> {
+        let mut covering = vec![];
+        let mut panels: Vec<_> =
+            (0..1 << COARSEST).map(|index| Place { depth: COARSEST, index }).collect();
+        let serves = |panel: &Place| {
+            let beside = -self.logarithm <= 2.0 * ASIDE * panel.width();
+            beside && panel.points_of(self).len() > 2 * POINTS
+        };
+        while panels.first().is_some_and(serves) {
+            // The branch point of long waves.
+            let never = node == 0 && panels[0].index == 0;
+            let (first, rest) = panels.split_at(usize::from(never));
+            let mut halves = first.to_vec();
+            for (panel, resolved) in rest.iter().zip(resolved(rest)?) {
+                if resolved { &mut covering } else { &mut halves }.push(*panel);
+            }
+            panels = halves.into_iter().flat_map(Place::halves).collect();
+        }
+        let mut alone: Vec<_> =
+            panels.into_iter().flat_map(|panel| panel.points_of(self)).collect();
+        alone.push(self.points() - 1);
+        Ok((covering, alone))
+    }
+}
+
+/// Adds an eigenvalue's share by a panel to the values at the points of a circle, row by row one function of them.
+pub(super) fn evaluate(
+    node: usize,
+    panel: &[Complex],
+    place: Place,
+    circle: Circle,
+    spectra: &mut [Complex],
+) {
+    let count = panel.len() / POINTS;
+    let points = place.points_of(circle);
+    // The polynomials of the panel's line in that of the circle, x − iy.
+    let shift = -(circle.logarithm + ASIDE * place.width()) / (0.5 * place.width());
+    let mut moved = vec![Complex::default(); panel.len()];
+    for (x, values) in nodes().zip(moved.chunks_exact_mut(count)) {
+        let x = Complex::new(x, shift);
+        let [mut last, mut value] = [x, Complex::real(1.0)];
+        for row in panel.chunks_exact(count) {
+            for (sum, coefficient) in values.iter_mut().zip(row) {
+                *sum += value * *coefficient;
+            }
+            (last, value) = (value, x.scale(2.0) * value - last);
+        }
+    }
+    let panel = transformed(&moved);
+    for first in points.clone().step_by(LANES) {
+        let x: [f64; LANES] = std::array::from_fn(|lane| {
+            2.0 * (first + lane - points.start) as f64 / points.len() as f64 - 1.0
+        });
+        let mut polynomials = [[1.0; LANES]; POINTS];
+        polynomials[1] = x;
+        for degree in 2..POINTS {
+            let [before, last] = [polynomials[degree - 2], polynomials[degree - 1]];
+            polynomials[degree] =
+                std::array::from_fn(|lane| 2.0 * x[lane] * last[lane] - before[lane]);
+        }
+        let factors: [Complex; LANES] = std::array::from_fn(|lane| {
+            factor(node, [circle.logarithm, circle.angle(first + lane)])
+        });
+        let end = points.end.min(first + LANES);
+        for (function, row) in spectra.chunks_exact_mut(circle.points()).enumerate() {
+            let [mut re, mut im] = [[0.0; LANES]; 2];
+            for (polynomial, row) in polynomials.iter().zip(panel.chunks_exact(count)) {
+                let coefficient = row[function];
+                for lane in 0..LANES {
+                    re[lane] += coefficient.re * polynomial[lane];
+                    im[lane] += coefficient.im * polynomial[lane];
+                }
+            }
+            for (lane, value) in row[first..end].iter_mut().enumerate() {
+                *value += factors[lane] * Complex::new(re[lane], im[lane]);
+            }
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! Panels of wavenumbers, halved until the surface compliance is a polynomial on each.
+
+use super::compliance::Surface;
+use super::form_factors::{DEGREES, POINTS, Panel, legendre};
+use super::tail::grid;
+use super::wavenumber::{Found, SHORT, Wavenumbers, Workspace, parts};
+use crate::history::KINDS;
+use crate::linalg::Complex;
+
+/// Rounding of C relative to its largest value on a panel.
+const FLOOR: f64 = 3e-14;
+/// Exponent of the tolerance in the Legendre coefficients that may be left out on the narrowest panels and
+/// their halves: 16 points integrate products up to degree 31, so the error is about their power 3/2 to 5/3.
+const SHARE: f64 = 2.0 / 3.0;
+/// Panels are halved at most so often.
+const DEEPEST: u32 = 44;
+/// Most halves of one integral: rounding beyond [`FLOOR`] must not halve without end.
+const MOST_HALVES: usize = 1 << 16;
+
+impl Wavenumbers {
+    /// Calls `take` with each panel that C is resolved on, what was found there, and evaluations of C in its halves.
+    pub(super) fn resolve(
+        &self,
+        panels: usize,
+        work: &mut Workspace,
+        symbol: &mut dyn FnMut(f64) -> Surface,
+        take: &mut dyn FnMut(Panel, Found, usize),
+    ) -> std::result::Result<(), f64> {
+        let allowed = self.sample(panels, work, symbol);
+        for place in 0..work.samples.len() {
+            let (mut panel, mut samples) = work.samples[place];
+            work.wide.clear();
+            loop {
+                let [left, width] = self.forms.extent(panel);
+                let (below, before) = (panel.level == 0, work.evaluations);
+                if self.resolved(&samples, left, width, allowed[usize::from(below)]) {
+                    take(panel, Found::Samples(&samples), 0);
+                } else if below {
+                    let moments = self.halved(left, allowed[1], work, symbol)?;
+                    take(panel, Found::Moments(&moments), work.evaluations - before);
+                } else {
+                    let [one, two] = panel.halves();
+                    work.wide.extend([two, one]);
+                }
+                let Some(next) = work.wide.pop() else { break };
+                let [left, width] = self.forms.extent(next);
+                (panel, samples) = (next, self.sampled(left, width, symbol));
+                work.evaluations += POINTS;
+            }
+        }
+        Ok(())
+    }
+
+    /// Calls `take` with the widest panels up to K.
+    pub(super) fn begin(&self, panels: usize, stack: &mut Vec<Panel>, mut take: impl FnMut(Panel)) {
+        let widest = grid(panels);
+        let level = widest.ilog2();
+        stack.clear();
+        stack.extend((0..panels / widest).rev().map(|index| Panel { level, index }));
+        while let Some(panel) = stack.pop() {
+            let [left, _] = self.forms.extent(panel);
+            // Near k = 0 the four waves of a wide panel would cancel.
+            if panel.level > 0 && (panel.index < 2 || left * self.shortest < SHORT) {
+                let [one, two] = panel.halves();
+                stack.extend([two, one]);
+            } else {
+                take(panel);
+            }
+        }
+    }
+
+    /// The widest panels up to K into `work.samples`; the errors that wide ones and the narrowest may have.
+    fn sample(
+        &self,
+        panels: usize,
+        work: &mut Workspace,
+        symbol: &mut dyn FnMut(f64) -> Surface,
+    ) -> [f64; 2] {
+        let Workspace { samples, wide, .. } = work;
+        samples.clear();
+        let mut whole = 0.0;
+        self.begin(panels, wide, |panel| {
+            let [left, width] = self.forms.extent(panel);
+            let found = self.sampled(left, width, symbol);
+            // The median: one sample beside a pole says little of the integral.
+            let mut sizes = found.map(|c| c.xx.abs() + c.zz.abs());
+            let (_, median, _) = sizes.select_nth_unstable_by(POINTS / 2, f64::total_cmp);
+            let share = (2.0 / ((left + 0.5 * width) * self.longest)).powi(2).min(1.0);
+            whole += 0.5 * width * share * *median;
+            samples.push((panel, found));
+        });
+        work.evaluations += POINTS * work.samples.len();
+        [self.tolerance, self.tolerance.powf(SHARE)].map(|tolerance| tolerance * whole)
+    }
+
+    fn sampled(
+        &self,
+        left: f64,
+        width: f64,
+        symbol: &mut dyn FnMut(f64) -> Surface,
+    ) -> [Surface; POINTS] {
+        std::array::from_fn(|i| symbol(left + 0.5 * width * (1.0 + self.forms.rule.nodes[i])))
+    }
+
+    /// Whether the last two Legendre coefficients of C are small enough.
+    fn resolved(&self, samples: &[Surface; POINTS], left: f64, width: f64, allowed: f64) -> bool {
+        let mut last = [[Complex::default(); KINDS]; 2];
+        let mut largest = 0.0_f64;
+        for (i, sample) in samples.iter().enumerate() {
+            let values = [sample.xx, sample.zz, sample.xz];
+            for value in values {
+                largest = largest.max(value.re.abs()).max(value.im.abs());
+            }
+            for (degree, last) in [POINTS - 2, POINTS - 1].into_iter().zip(&mut last) {
+                let polynomial = self.polynomials[i][degree];
+                let factor = (degree as f64 + 0.5) * self.forms.rule.weights[i] * polynomial;
+                for (last, value) in last.iter_mut().zip(values) {
+                    *last += value.scale(factor);
+                }
+            }
+        }
+        let errors = [0, 1, 2].map(|c| last[0][c].abs() + last[1][c].abs());
+        if errors.iter().sum::<f64>().is_nan() {
+            return false;
+        }
+        let error = errors.into_iter().fold(0.0, f64::max);
+        let share = (2.0 / (left * self.shortest)).powi(2).min(1.0);
+        error * width * share <= allowed || error <= FLOOR * largest
+    }
+
+    /// ∫ C Pₙ dk over one panel, by halves.
+    fn halved(
+        &self,
+        start: f64,
+        allowed: f64,
+        work: &mut Workspace,
+        symbol: &mut dyn FnMut(f64) -> Surface,
+    ) -> std::result::Result<[[f64; 6]; DEGREES], f64> {
+        let whole = self.forms.width;
+        let mut halves = 0;
+        let mut moments = [[0.0; 6]; DEGREES];
+        work.stack.clear();
+        work.stack.extend([(0.5, 0.5, 1), (0.0, 0.5, 1)]);
+        while let Some((place, size, depth)) = work.stack.pop() {
+            let (left, width) = (start + whole * place, whole * size);
+            let samples = self.sampled(left, width, symbol);
+            work.evaluations += POINTS;
+            if self.resolved(&samples, left, width, allowed) {
+                for (i, sample) in samples.iter().enumerate() {
+                    let x = 2.0 * (place + 0.5 * size * (1.0 + self.forms.rule.nodes[i])) - 1.0;
+                    let c = parts(sample, 0.5 * width * self.forms.rule.weights[i]);
+                    for (moment, polynomial) in moments.iter_mut().zip(legendre(x)) {
+                        for (moment, c) in moment.iter_mut().zip(c) {
+                            *moment += polynomial * c;
+                        }
+                    }
+                }
+            } else if depth < DEEPEST && halves < MOST_HALVES {
+                halves += 2;
+                let half = 0.5 * size;
+                work.stack.extend([(place + half, half, depth + 1), (place, half, depth + 1)]);
+            } else {
+                return Err(left);
+            }
+        }
+        Ok(moments)
+    }
+}

@@ -1,0 +1,95 @@
+//! Progress of long calls, and who looks on.
+
+use std::fmt;
+use std::ops::ControlFlow;
+
+use super::{Error, Result};
+
+/// Progress of a long call: so many parts of its work are done, of so many in all.
+///
+/// `done` never falls, and ends at `total`, which does not change during a call. Parts take about the same time
+/// each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Progress {
+    /// What is being computed.
+    pub task: &'static str,
+    /// Parts that are done.
+    pub done: usize,
+    /// All parts.
+    pub total: usize,
+}
+
+impl fmt::Display for Progress {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { task, done, total } = self;
+        write!(f, "{task}, {done} of {total} parts done")
+    }
+}
+
+/// Observer of a long call: a closure that hears of its [`Progress`], and may stop it.
+///
+/// It is called on the calling thread, at least every half second on meshes of up to some hundred elements, and
+/// more often where parts are quick: an observer that draws should look at a clock. After
+/// [`ControlFlow::Break`] the call returns [`Error::Stopped`], and everything is as it was
+/// before; calls after that give the same to the last bit.
+///
+/// ```
+/// use std::ops::ControlFlow::{Break, Continue};
+///
+/// use basemat::bem::layered::LayeredKernel;
+/// use basemat::bem::Strip;
+/// use basemat::history::ConvolutionWeights;
+/// use basemat::soil::SoilProfile;
+/// use basemat::{Error, Progress, Soil};
+///
+/// let soil = Soil::from_shear_wave_speed(150.0, 0.33, 1800.0)?;
+/// let profile = SoilProfile::on_rigid_base().with_layer(soil, 6.0)?;
+/// let kernel = LayeredKernel::new(profile, Strip::uniform(-5.0..5.0, 4)?.elements(), 0.01)?;
+/// let stopped = kernel.prepare_observed(500, &mut |progress: Progress| {
+///     if 2 * progress.done > progress.total { Break(()) } else { Continue(()) }
+/// });
+/// assert!(matches!(stopped, Err(Error::Stopped(progress)) if progress.done < progress.total));
+/// kernel.prepare_observed(500, &mut |progress| {
+///     println!("{progress}");
+///     Continue(())
+/// })?;
+/// # Ok::<(), Error>(())
+/// ```
+pub type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
+
+/// The observer of a call, if it has one, and what it has heard last.
+pub(crate) struct Watch<'a> {
+    observer: Option<&'a mut Observer<'a>>,
+    progress: Progress,
+}
+
+impl<'a> Watch<'a> {
+    /// Nobody looks on.
+    pub(crate) fn nobody() -> Self {
+        Self { observer: None, progress: Progress { task: "", done: 0, total: 0 } }
+    }
+
+    pub(crate) fn new(task: &'static str, total: usize, observer: &'a mut Observer<'_>) -> Self {
+        Self { observer: Some(observer), progress: Progress { task, done: 0, total } }
+    }
+
+    /// Whether anybody looks on.
+    pub(crate) fn is_observed(&self) -> bool {
+        self.observer.is_some()
+    }
+
+    /// Says that `done` parts are done, or more if that has been said.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`].
+    pub(crate) fn reach(&mut self, done: usize) -> Result<()> {
+        let Some(observer) = &mut self.observer else { return Ok(()) };
+        let progress = &mut self.progress;
+        progress.done = done.clamp(progress.done, progress.total);
+        match observer(*progress) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(Error::Stopped(*progress)),
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! GOAL: long calls tell how far they have come and can be stopped, and nothing else changes.
+//! SCENE: step coefficients, impedances, response spectra; a block on layers, built and run.
+//! REFERENCE: the same calls without an observer, to the last bit.
+
+use std::ops::ControlFlow::{Break, Continue};
+
+use basemat::bem::layered::{LayeredKernel, StripContact};
+use basemat::bem::{ElasticGround, Strip};
+use basemat::coupled::SimulationBuilder;
+use basemat::history::ConvolutionWeights;
+use basemat::interface::Coulomb;
+use basemat::motion::el_centro_1940;
+use basemat::soil::{Elastic, SoilProfile};
+use basemat::structure::RigidBlock;
+use basemat::{Error, Observer, Progress, Result, Simulation, Soil};
+
+use basemat_problems::profiles::{gmb, p1, p3};
+
+/// Runs `call` to its end, and stopped early and late before: `Stopped` each time, and what is wanted after all.
+fn watched<T: PartialEq + std::fmt::Debug>(
+    mut call: impl FnMut(&mut Observer<'_>) -> Result<T>,
+    wanted: Option<&T>,
+) {
+    let mut heard: Vec<Progress> = vec![];
+    for stop in [0, 1, 7, 41, 133, 400, usize::MAX] {
+        heard.clear();
+        let found = call(&mut |progress| {
+            heard.push(progress);
+            if heard.len() > stop { Break(()) } else { Continue(()) }
+        });
+        let last = *heard.last().unwrap();
+        for pair in heard.windows(2) {
+            let [one, two] = pair else { unreachable!() };
+            assert!(one.done <= two.done && one.total == two.total && one.task == two.task);
+        }
+        if heard.len() > stop {
+            assert_eq!(found.err(), Some(Error::Stopped(last)));
+            assert!(Error::Stopped(last).to_string().contains(last.task));
+        } else {
+            assert_eq!(last.done, last.total, "{last}");
+            let found = found.unwrap();
+            assert!(wanted.is_none_or(|wanted| *wanted == found));
+            return;
+        }
+    }
+}
+
+fn bits(kernel: &LayeredKernel, lags: usize) -> Vec<u64> {
+    let mut bits = vec![];
+    for class in 0..kernel.classes().count() {
+        let mut lists = [(); 3].map(|()| vec![0.0; lags]);
+        let [zz, xx, zx] = &mut lists;
+        kernel.coefficients(class, 1, [zz, xx, zx]).unwrap();
+        bits.extend(lists.iter().flatten().map(|value| value.to_bits()));
+    }
+    bits
+}
+
+#[test]
+fn step_coefficients_are_watched_and_stopped() {
+    let elements = Strip::uniform(-1.0..1.0, 2).unwrap().elements();
+    let make = || LayeredKernel::new(p1(gmb(5), gmb(1)), elements.clone(), 0.2).unwrap();
+    let wanted = bits(&make(), 500);
+    // A kernel anew each time, and one that is stopped again and again.
+    watched(
+        |observer| {
+            let kernel = make();
+            kernel.prepare_observed(500, observer)?;
+            Ok(bits(&kernel, 500))
+        },
+        Some(&wanted),
+    );
+    let kernel = make();
+    watched(|observer| kernel.prepare_observed(500, observer), None);
+    assert_eq!(bits(&kernel, 500), wanted);
+    // Stopped while it had to begin, then asked for without an observer.
+    let kernel = make();
+    for stop in [1, 30, 60, 200] {
+        let mut count = 0;
+        let found = kernel.prepare_observed(500, &mut |_| {
+            count += 1;
+            if count == stop { Break(()) } else { Continue(()) }
+        });
+        assert!(matches!(found, Err(Error::Stopped(_))));
+    }
+    assert_eq!(bits(&kernel, 500), wanted);
+    // All is there.
+    watched(|observer| kernel.prepare_observed(500, observer), None);
+}
+
+#[test]
+fn impedances_are_watched_and_stopped() {
+    for profile in [p1(gmb(5), gmb(1)), p3(Elastic)] {
+        let ground = ElasticGround::new(profile, Strip::graded(-1.0..1.0, 4).unwrap()).unwrap();
+        let frequencies = [0.05, 0.11, 0.3];
+        let contact = StripContact::Bonded;
+        let wanted = ground.impedances(&frequencies, contact).unwrap();
+        let call = |observer: &mut Observer<'_>| {
+            ground.impedances_observed(&frequencies, contact, observer)
+        };
+        watched(call, Some(&wanted));
+    }
+}
+
+#[test]
+fn response_spectra_are_watched_and_stopped() {
+    let record = el_centro_1940();
+    let periods: Vec<f64> = (0..20).map(|i| 1e-4 * 1.6_f64.powi(i)).collect();
+    let wanted = record.response_spectrum(&periods, 0.05).unwrap();
+    watched(|observer| record.response_spectrum_observed(&periods, 0.05, observer), Some(&wanted));
+}
+
+fn scene() -> SimulationBuilder {
+    let soil = |speed| Soil::from_shear_wave_speed(speed, 0.33, 1900.0).unwrap();
+    let profile = SoilProfile::on_half_plane(soil(500.0)).with_layer(soil(150.0), 6.0).unwrap();
+    let block = RigidBlock::new(6.0, 9.0, 2000.0).unwrap();
+    Simulation::builder(0.01)
+        .ground(ElasticGround::under(profile, &block, 4).unwrap())
+        .structure(block)
+        .interface(Coulomb::new(0.3).unwrap())
+        .motion(el_centro_1940())
+}
+
+/// All of a run's coefficients at build time, or before the run; then the run hears of none.
+#[test]
+fn builds_and_runs_hand_their_observer_on() {
+    let states = |mut simulation: Simulation| {
+        let mut bits = vec![];
+        simulation.run(200, |state| bits.push(state.base_shear.to_bits())).unwrap();
+        bits
+    };
+    let wanted = states(scene().build().unwrap());
+    watched(
+        |observer| Ok(states(scene().expected_steps(200).build_observed(observer)?)),
+        Some(&states(scene().expected_steps(200).build().unwrap())),
+    );
+    let mut simulation = scene().build_observed(&mut |_| Continue(())).unwrap();
+    let before = simulation.state().clone();
+    watched(|observer| simulation.precompute(200, observer), None);
+    assert_eq!(*simulation.state(), before);
+    assert_eq!(simulation.history_choice(), None);
+    assert_eq!(states(simulation), wanted);
+}
