@@ -21,6 +21,7 @@ mod simulation;
 mod site;
 mod soil;
 mod structure;
+mod ticker;
 mod user;
 
 use pyo3::prelude::*;
@@ -104,7 +105,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<simulation::PyState>()?;
     module.add_class::<simulation::PyFoundation>()?;
     module.add_class::<simulation::PyCheckpoint>()?;
-    module.add_function(wrap_pyfunction!(simulation::cancel_when, module)?)?;
+    module.add_function(wrap_pyfunction!(ticker::cancel_when, module)?)?;
     module.add_class::<results::PyRun>()?;
     module.add_class::<results::PyPeak>()?;
     module.add_class::<results::PyExtremes>()?;

@@ -1318,6 +1318,7 @@ class Simulation:
         allowable_uplifted_fraction: float | None = None,
         allowable_rotation: float | None = None,
         flow_chart_iterations: int | None = None,
+        progress: bool | Callable[[int, int], object] | None = None,
     ) -> Self: ...
     def run(
         self,

@@ -7,23 +7,27 @@ import time
 
 
 class Line:
-    """Writes the share of the steps (or ``items``) made and the time left, always into one line."""
+    """Writes the share of the steps (or ``items``) made and the time left, always into one line.
+
+    The time left follows from what has been made since the first call, which comes when work has begun.
+    """
 
     def __init__(self, items: str = "steps") -> None:
         self._items = items
-        self._begin = time.monotonic()
+        self._begin: tuple[float, int] | None = None
         self._written = 0.0
 
-    def __call__(self, done: int, steps: int) -> None:
+    def __call__(self, done: int, total: int) -> None:
         now = time.monotonic()
-        if done < steps and now - self._written < 0.2:
+        if self._begin is None:
+            self._begin = (now, done)
+        if done < total and now - self._written < 0.2:
             return
         self._written = now
-        elapsed = now - self._begin
-        left = elapsed * (steps - done) / done if done else 0.0
-        share = 100.0 * done / steps if steps else 100.0
-        end = "\n" if done >= steps else ""
-        sys.stderr.write(
-            f"\r{done} of {steps} {self._items} ({share:.0f} %), {left:.0f} s left  {end}"
-        )
+        begin, before = self._begin
+        made = done - before
+        left = f"{(now - begin) * (total - done) / made:.0f} s left" if made else ""
+        share = 100.0 * done / total if total else 100.0
+        end = "\n" if done >= total else ""
+        sys.stderr.write(f"\r{done} of {total} {self._items} ({share:.0f} %), {left}   {end}")
         sys.stderr.flush()

@@ -17,6 +17,7 @@ use crate::error::{OrRaise, no_such};
 use crate::profile::PySoilProfile;
 use crate::soil::PySoil;
 use crate::structure;
+use crate::ticker::watched;
 
 /// Kernels that grounds of equal soil and elements share: evaluated once for all simulations that
 /// are built with the same object. A copy in another process begins empty; ``len()`` counts them.
@@ -211,7 +212,9 @@ impl PyElasticGround {
         contact: &str,
     ) -> PyResult<PyImpedances> {
         let (ground, contact) = ((self.make)().or_raise()?, self::contact(contact)?);
-        let found = py.detach(move || ground.impedances(&frequencies.0, contact));
-        Ok(PyImpedances(found.or_raise()?))
+        let found = py.detach(move || {
+            watched(None, |observer| ground.impedances_observed(&frequencies.0, contact, observer))
+        });
+        Ok(PyImpedances(found?))
     }
 }

@@ -11,6 +11,7 @@ use super::formats::{baseline, read, unit};
 use super::{PyFreeField, PySpectrum};
 use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, refuse};
+use crate::ticker::watched;
 
 /// Ground acceleration at equal time steps, linear between samples; velocity and displacement are
 /// its exact integrals from rest.
@@ -219,8 +220,10 @@ impl PyRecord {
         damping: f64,
     ) -> PyResult<PySpectrum> {
         let record = &self.0;
-        let spectrum = py.detach(|| record.response_spectrum(&periods.0, damping));
-        Ok(PySpectrum(spectrum.or_raise()?))
+        let spectrum = py.detach(|| {
+            watched(None, |own| record.response_spectrum_observed(&periods.0, damping, own))
+        });
+        Ok(PySpectrum(spectrum?))
     }
 
     fn __len__(&self) -> usize {

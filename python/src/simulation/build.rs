@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 
 use crate::error::{OrRaise, refuse};
 use crate::probe::PyProbe;
+use crate::ticker::{progress_function, watched};
 
 /// A gravity stage by its name.
 pub(super) fn gravity_stage(name: &str) -> PyResult<GravityStage> {
@@ -70,11 +71,15 @@ pub(super) fn search(flow_chart: Option<usize>) -> ContactSearch {
     flow_chart.map_or(ContactSearch::Robust, |iterations| ContactSearch::FlowChart { iterations })
 }
 
+/// What a line of progress counts before the steps.
+pub(super) const COEFFICIENTS: &str = "parts of the ground's coefficients";
+
 /// Builds without the GIL.
-pub(super) fn build(py: Python<'_>, builder: SimulationBuilder) -> PyResult<Simulation> {
-    let built = py.detach(move || builder.build());
-    match crate::error::take_raised() {
-        Some(raised) => Err(raised),
-        None => built.or_raise(),
-    }
+pub(super) fn build(
+    py: Python<'_>,
+    builder: SimulationBuilder,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Simulation> {
+    let progress = progress_function(progress, COEFFICIENTS)?;
+    py.detach(move || watched(progress, |observer| builder.build_observed(observer)))
 }

@@ -9,7 +9,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use super::build;
-use super::watched::{Watched, progress_function};
+use super::watched::{Watched, settled};
 use super::{PyCheckpoint, PyLoad, PyState, PySteps, PyTimeScheme};
 use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, locked, raise, refuse, take_raised};
@@ -18,6 +18,7 @@ use crate::motion::PyFreeField;
 use crate::probe::PyProbe;
 use crate::recipe::Recipe;
 use crate::results::PyRun;
+use crate::ticker::{progress_function, watched};
 use crate::{error, interface, motion, structure};
 
 /// A structure on a ground, ready to march: from the static state under its weight, step by step.
@@ -63,6 +64,8 @@ use crate::{error, interface, motion, structure};
 ///     flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
 ///         most so many iterations a step, for comparison with their paper; the robust search unless
 ///         given.
+///     progress: True for a line on stderr, or a function ``(parts done, parts in all)``, while the coefficients of a
+///         layered ground are computed for the expected steps; none unless given.
 #[pyclass(name = "Simulation", module = "basemat", frozen)]
 pub(crate) struct PySimulation {
     simulation: Mutex<Simulation>,
@@ -124,14 +127,6 @@ fn made<T: ?Sized>(recipe: &Recipe<T>) -> PyResult<Box<T>> {
     recipe().or_raise()
 }
 
-/// Result of a step, after the core has returned.
-fn settled<T>(result: basemat::Result<T>) -> PyResult<T> {
-    match take_raised() {
-        Some(raised) => Err(raised),
-        None => result.or_raise(),
-    }
-}
-
 #[pymethods]
 impl PySimulation {
     #[new]
@@ -141,7 +136,7 @@ impl PySimulation {
         initial_displacement=None, initial_velocity=None, scheme=None, coordinates=None,
         expected_steps=None, moment_center=None, energy_balance=true, safety_friction=None,
         allowable_slip=None, allowable_gap=None, allowable_uplifted_fraction=None,
-        allowable_rotation=None, flow_chart_iterations=None,
+        allowable_rotation=None, flow_chart_iterations=None, progress=None,
     ))]
     fn new(
         py: Python<'_>,
@@ -167,6 +162,7 @@ impl PySimulation {
         allowable_uplifted_fraction: Option<f64>,
         allowable_rotation: Option<f64>,
         #[pyo3(from_py_with = whole)] flow_chart_iterations: Option<usize>,
+        progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         take_raised();
         let laws = interface::recipes(&interface)?;
@@ -205,7 +201,7 @@ impl PySimulation {
         if !energy_balance {
             builder = builder.without_energy_balance();
         }
-        let simulation = build::build(py, builder)?;
+        let simulation = build::build(py, builder, progress.as_ref())?;
         let motion = motion.as_ref().and_then(|motion| motion.cast::<PyFreeField>().ok());
         let duration = motion.and_then(|motion| motion.get().duration);
         let start = simulation.checkpoint();
@@ -218,8 +214,8 @@ impl PySimulation {
     /// motion. If that is past, as many as it has, under rest, with a :class:`BasematWarning`:
     /// :meth:`reset` goes back to the start.
     ///
-    /// ``progress``: True for a line on stderr, or a function ``(steps done, steps in all)`` that is
-    /// called about every 50 ms. ``observe(state)`` is called after every ``observe_every``th step
+    /// ``progress``: True for lines on stderr, one for the coefficients of a layered ground and one for the steps, or a
+    /// function ``(steps done, steps in all)`` that is called about every 50 ms. ``observe(state)`` is called after every ``observe_every``th step
     /// and ends the run when it returns True; what it raises comes out of here. Ctrl-C is heard, or
     /// a :class:`BasematWarning` says that the process ignores it. In all three cases the
     /// simulation stays at the last accepted step.
@@ -264,7 +260,9 @@ impl PySimulation {
         if let Some(every) = motion_every {
             recorder = recorder.motion(every);
         }
-        let progress = progress_function(progress)?;
+        let line = progress.as_ref().filter(|own| !own.is_callable());
+        let coefficients = progress_function(line, build::COEFFICIENTS)?;
+        let progress = progress_function(progress.as_ref(), "steps")?;
         take_raised();
         let run = py.detach(|| {
             let mut simulation = self.lock()?;
@@ -273,6 +271,7 @@ impl PySimulation {
             if let Some(histories) = &mut histories {
                 histories.reserve(steps);
             }
+            watched(coefficients, |observer| simulation.precompute(steps, observer))?;
             let mut watched = Watched::new(progress, steps, observe, observe_every, histories);
             let result = simulation.run(steps, |state| watched.see(state));
             watched.end(result)

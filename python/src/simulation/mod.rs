@@ -7,7 +7,6 @@ mod load;
 mod scheme;
 mod state;
 mod steps;
-mod ticker;
 mod watched;
 
 pub(crate) use checkpoint::PyCheckpoint;
@@ -16,4 +15,3 @@ pub(crate) use load::PyLoad;
 pub(crate) use scheme::PyTimeScheme;
 pub(crate) use state::{PyFoundation, PyState};
 pub(crate) use steps::PySteps;
-pub(crate) use ticker::cancel_when;

@@ -8,25 +8,14 @@ use basemat::results::TimeSeries;
 use pyo3::prelude::*;
 
 use super::PyState;
-use super::ticker::Ticker;
-use crate::error::{has_raised, raise, returned, take_raised};
+use crate::error::{OrRaise, has_raised, raise, returned, take_raised};
 use crate::results::PyRun;
-
-/// The function that is told of the progress: the package's own for True, none for False.
-pub(super) fn progress_function(given: Option<Bound<'_, PyAny>>) -> PyResult<Option<Py<PyAny>>> {
-    match given {
-        Some(function) if function.is_callable() => Ok(Some(function.unbind())),
-        Some(flag) if flag.is_truthy()? => {
-            let line = flag.py().import("basemat._progress")?.call_method0("Line")?;
-            Ok(Some(line.unbind()))
-        }
-        _ => Ok(None),
-    }
-}
+use crate::ticker::Ticker;
 
 /// A run and those who watch it.
 pub(super) struct Watched {
     ticker: Ticker,
+    steps: usize,
     observe: Option<Py<PyAny>>,
     observe_every: usize,
     histories: Option<TimeSeries>,
@@ -42,8 +31,8 @@ impl Watched {
         observe_every: usize,
         histories: Option<TimeSeries>,
     ) -> Self {
-        let ticker = Ticker::new(progress, steps);
-        Self { ticker, observe, observe_every, histories, done: 0, stopped: None }
+        let ticker = Ticker::new(progress);
+        Self { ticker, steps, observe, observe_every, histories, done: 0, stopped: None }
     }
 
     pub(super) fn see(&mut self, state: &State) -> ControlFlow<()> {
@@ -65,7 +54,7 @@ impl Watched {
         if has_raised() {
             return Ok(ControlFlow::Break(()));
         }
-        self.ticker.tick(self.done)?;
+        self.ticker.tick(self.done, self.steps)?;
         let Some(observe) =
             self.observe.as_ref().filter(|_| self.done.is_multiple_of(self.observe_every))
         else {
@@ -81,12 +70,20 @@ impl Watched {
     /// The run, or what ended it.
     pub(super) fn end(mut self, result: basemat::Result<Run>) -> PyResult<PyRun> {
         let raised = take_raised().or(self.stopped.take());
-        let last = Python::attach(|py| self.ticker.look(py, self.done));
+        let last = Python::attach(|py| self.ticker.look(py, self.done, self.steps));
         if let Some(raised) = raised {
             return Err(raised);
         }
         let run = result.map_err(raise)?;
         last?;
         Ok(PyRun::new(run, self.histories))
+    }
+}
+
+/// Result of a step, after the core has returned.
+pub(super) fn settled<T>(result: basemat::Result<T>) -> PyResult<T> {
+    match take_raised() {
+        Some(raised) => Err(raised),
+        None => result.or_raise(),
     }
 }

@@ -1,12 +1,14 @@
-//! Signals (Ctrl-C), progress and cancellation during a run.
+//! Signals (Ctrl-C), progress and cancellation during a long call.
 
 use std::cell::RefCell;
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use basemat::{Observer, Progress};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
-use crate::error::warn;
+use crate::error::{OrRaise, take_raised, warn};
 
 /// Time between two looks at Python.
 const INTERVAL: Duration = Duration::from_millis(50);
@@ -38,22 +40,21 @@ fn check_interrupt(py: Python<'_>) -> PyResult<()> {
 }
 
 /// Looks at Python every 50 ms.
-pub(super) struct Ticker {
+pub(crate) struct Ticker {
     last: Instant,
     /// Whether it has looked for somebody who hears Ctrl-C.
     asked: bool,
-    /// Called with the steps made and the steps in all.
+    /// Called with what is done and with all that there is to do.
     progress: Option<Py<PyAny>>,
-    steps: usize,
 }
 
 impl Ticker {
-    pub(super) fn new(progress: Option<Py<PyAny>>, steps: usize) -> Self {
-        Self { last: Instant::now(), asked: false, progress, steps }
+    pub(crate) fn new(progress: Option<Py<PyAny>>) -> Self {
+        Self { last: Instant::now(), asked: false, progress }
     }
 
-    /// After a step, `done` of them in all; to be called without the GIL.
-    pub(super) fn tick(&mut self, done: usize) -> PyResult<()> {
+    /// After a part of the work, `done` of `total` in all; to be called without the GIL.
+    pub(crate) fn tick(&mut self, done: usize, total: usize) -> PyResult<()> {
         if self.last.elapsed() < INTERVAL {
             return Ok(());
         }
@@ -61,14 +62,14 @@ impl Ticker {
             if !std::mem::replace(&mut self.asked, true) {
                 check_interrupt(py)?;
             }
-            self.look(py, done)
+            self.look(py, done, total)
         });
         self.last = Instant::now();
         result
     }
 
     /// Signals, cancellation and progress.
-    pub(super) fn look(&self, py: Python<'_>, done: usize) -> PyResult<()> {
+    pub(crate) fn look(&self, py: Python<'_>, done: usize, total: usize) -> PyResult<()> {
         py.check_signals()?;
         let event = CANCELLED.with_borrow(|event| event.as_ref().map(|event| event.clone_ref(py)));
         if let Some(event) = event
@@ -77,8 +78,50 @@ impl Ticker {
             return Err(PyKeyboardInterrupt::new_err("cancelled"));
         }
         if let Some(progress) = &self.progress {
-            progress.call1(py, (done, self.steps))?;
+            progress.call1(py, (done, total))?;
         }
         Ok(())
     }
+}
+
+/// The function that is told of the progress: a line of the package's own for True, none for False.
+pub(crate) fn progress_function(
+    given: Option<&Bound<'_, PyAny>>,
+    items: &str,
+) -> PyResult<Option<Py<PyAny>>> {
+    match given {
+        Some(function) if function.is_callable() => Ok(Some(function.clone().unbind())),
+        Some(flag) if flag.is_truthy()? => {
+            let line = flag.py().import("basemat._progress")?.call_method1("Line", (items,))?;
+            Ok(Some(line.unbind()))
+        }
+        _ => Ok(None),
+    }
+}
+
+/// Makes a long call of the core; to be called without the GIL.
+pub(crate) fn watched<T>(
+    progress: Option<Py<PyAny>>,
+    call: impl FnOnce(&mut Observer<'_>) -> basemat::Result<T>,
+) -> PyResult<T> {
+    let (mut ticker, mut stopped, mut total) = (Ticker::new(progress), None, 0);
+    let result = call(&mut |progress: Progress| {
+        total = progress.total;
+        match ticker.tick(progress.done, progress.total) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                stopped = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    });
+    if let Some(raised) = take_raised().or(stopped) {
+        return Err(raised);
+    }
+    let made = result.or_raise()?;
+    // A line that was begun is ended.
+    if ticker.asked {
+        Python::attach(|py| ticker.look(py, total, total))?;
+    }
+    Ok(made)
 }

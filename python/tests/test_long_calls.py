@@ -1,0 +1,65 @@
+"""Long calls say how far they are, and hear Ctrl-C."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+import time
+
+import pytest
+
+import basemat as bm
+
+SOIL = bm.Soil(60e6, 0.3, 1900.0)
+PROFILE = bm.SoilProfile([bm.SoilLayer(SOIL, 6.0)], bm.Soil(600e6, 0.3, 2200.0))
+BLOCK = bm.RigidBlock(10.0, 8.0, 1500.0)
+
+
+def simulation(time_step: float = 0.01, elements: int = 4, **keywords: object) -> bm.Simulation:
+    ground = bm.ElasticGround.under(PROFILE, BLOCK, elements)
+    motion = bm.el_centro_1940()
+    return bm.Simulation(time_step, BLOCK, ground, bm.Coulomb(0.4), motion=motion, **keywords)  # type: ignore[arg-type]
+
+
+def test_a_line_for_coefficients_and_one_for_steps(capsys: pytest.CaptureFixture[str]) -> None:
+    simulation(2e-4, 12).run(3000, progress=True)
+    coefficients, steps = capsys.readouterr().err.strip().split("\n")
+    assert coefficients.split("\r")[-1].endswith("parts of the ground's coefficients (100 %), 0 s left")
+    assert "3000 of 3000 steps (100 %)" in steps and "coefficients" not in steps
+
+
+def test_expected_steps_are_made_ready_under_eyes() -> None:
+    told: list[tuple[int, int]] = []
+    made = simulation(2e-4, 12, expected_steps=3000, progress=lambda *own: told.append(own))
+    assert told and told[-1][0] == told[-1][1]
+    assert [done for done, _ in told] == sorted(done for done, _ in told)
+    assert made.run(200).base_shear == simulation(2e-4, 12).run(200).base_shear
+
+
+def interrupted(call: object) -> float:
+    """Seconds from Ctrl-C to the end of a call."""
+    sent: list[float] = []
+
+    def send() -> None:
+        sent.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(0.4, send)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        call()  # type: ignore[operator]
+    return time.monotonic() - sent[0]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no process sends itself Ctrl-C there")
+def test_ctrl_c_is_heard() -> None:
+    run = simulation(2e-5, 24)
+    assert interrupted(lambda: run.run(2_000_000)) < 2.0
+    # As if nothing had been asked.
+    assert run.state.step == 0
+    record = bm.el_centro_1940()
+    assert interrupted(lambda: record.response_spectrum(bm.log_spaced(1e-4, 10.0, 20_000))) < 2.0
+    ground = bm.ElasticGround.under(PROFILE, BLOCK, 48)
+    assert interrupted(lambda: ground.impedances(bm.log_spaced(1.0, 200.0, 20_000))) < 2.0
