@@ -151,7 +151,7 @@ impl Panels {
 pub(crate) fn is_resolved(coefficients: &[Complex], own: &[[usize; 2]], tolerance: f64) -> bool {
     let shift = 2.0 * ASIDE;
     let growth = shift + (1.0 + shift * shift).sqrt();
-    let most = LAST * tolerance / growth.powi(POINTS as i32 - 1);
+    let most = LAST * tolerance / growth.powf((POINTS - 1) as f64);
     let degrees: Vec<_> = coefficients
         .chunks_exact(own.len() * KINDS)
         .map(|row| row.as_chunks::<KINDS>().0)
