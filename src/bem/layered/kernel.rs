@@ -154,7 +154,7 @@ impl LayeredKernel {
     }
 
     /// What the coefficients up to lag `lags` cost, to a factor of about two, files left out. It takes
-    /// some thousandths of that itself.
+    /// some hundredths of that itself.
     ///
     /// # Errors
     /// [`LayeredError::TooFine`](crate::LayeredError::TooFine) and
