@@ -46,11 +46,13 @@ pub(crate) struct Ticker {
     asked: bool,
     /// Called with what is done and with all that there is to do.
     progress: Option<Py<PyAny>>,
+    /// What it was last called with.
+    told: Option<usize>,
 }
 
 impl Ticker {
     pub(crate) fn new(progress: Option<Py<PyAny>>) -> Self {
-        Self { last: Instant::now(), asked: false, progress }
+        Self { last: Instant::now(), asked: false, progress, told: None }
     }
 
     /// After a part of the work, `done` of `total` in all; to be called without the GIL.
@@ -69,7 +71,7 @@ impl Ticker {
     }
 
     /// Signals, cancellation and progress.
-    pub(crate) fn look(&self, py: Python<'_>, done: usize, total: usize) -> PyResult<()> {
+    pub(crate) fn look(&mut self, py: Python<'_>, done: usize, total: usize) -> PyResult<()> {
         py.check_signals()?;
         let event = CANCELLED.with_borrow(|event| event.as_ref().map(|event| event.clone_ref(py)));
         if let Some(event) = event
@@ -78,6 +80,7 @@ impl Ticker {
             return Err(PyKeyboardInterrupt::new_err("cancelled"));
         }
         if let Some(progress) = &self.progress {
+            self.told = Some(done);
             progress.call1(py, (done, total))?;
         }
         Ok(())
@@ -104,9 +107,9 @@ pub(crate) fn watched<T>(
     progress: Option<Py<PyAny>>,
     call: impl FnOnce(&mut Observer<'_>) -> basemat::Result<T>,
 ) -> PyResult<T> {
-    let (mut ticker, mut stopped, mut total) = (Ticker::new(progress), None, 0);
+    let (mut ticker, mut stopped, mut last) = (Ticker::new(progress), None, None);
     let result = call(&mut |progress: Progress| {
-        total = progress.total;
+        last = Some(progress);
         match ticker.tick(progress.done, progress.total) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => {
@@ -120,7 +123,9 @@ pub(crate) fn watched<T>(
     }
     let made = result.or_raise()?;
     // A line that was begun is ended.
-    if ticker.asked {
+    if let Some(Progress { total, .. }) = last
+        && ticker.told.is_some_and(|told| told < total)
+    {
         Python::attach(|py| ticker.look(py, total, total))?;
     }
     Ok(made)

@@ -581,9 +581,12 @@ class SoilColumn:
         most_iterations: int | None = None,
         band: Sequence[float] | None = None,
     ) -> EquivalentLinear:
-        """Strain-compatible properties under a record of the ``control``, by ``curves`` of each layer, and the response
-        with them. Unless given, ``strain_ratio`` is 0.65 (of a magnitude M: (M − 1)/10), ``tolerance`` of moduli
-        and damping ratios 1e-3 in ``most_iterations`` 50, the ``band`` of constant damping 0.1 to 30 Hz.
+        """Response with strain-compatible properties, an :class:`EquivalentLinear`, to the ``record`` of the ``control``
+        point, "outcrop" (the default) or "within"; ``curves``: a list of :class:`StrainCurves`, one per layer.
+
+        ``strain_ratio``: effective over largest strain, (M − 1)/10 for the magnitude M; 0.65 unless given.
+        ``tolerance``: relative, of moduli and damping ratios; 1e-3 unless given. ``most_iterations``: 50 unless given.
+        ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given.
         """
 
 @final
@@ -595,13 +598,15 @@ class StrainCurves:
         """A soil or rock that stays linear, with this ``damping`` ratio."""
     @staticmethod
     def seed_idriss(bound: _CurveBound = "mean") -> StrainCurves:
-        """Sand (Seed & Idriss 1970): ``bound`` "mean", or "upper" for upper modulus and lower damping."""
+        """Sand by Seed and Idriss (1970): ``bound`` "mean" (the default), or "upper" for the upper modulus and the lower
+        damping.
+        """
     @staticmethod
     def vucetic_dobry(plasticity_index: float) -> StrainCurves:
-        """Soil by its plasticity index, per cent (Vucetic & Dobry 1991)."""
+        """Soil by its ``plasticity_index``, per cent, after Vucetic and Dobry (1991)."""
     @staticmethod
     def epri(depth: float) -> StrainCurves:
-        """Sand by the ``depth`` of its layer's middle, m (EPRI 1993)."""
+        """Sand by the ``depth`` (m) of the middle of its layer, after EPRI (1993)."""
     @staticmethod
     def darendeli(
         plasticity_index: float,
@@ -611,14 +616,16 @@ class StrainCurves:
         frequency: float = 1.0,
         cycles: float = 10.0,
     ) -> StrainCurves:
-        """Soil by plasticity index (per cent), overconsolidation ratio, mean effective stress (Pa), ``frequency`` (Hz) and
-        number of ``cycles`` (Darendeli 2001).
+        """Soil after Darendeli (2001) by its ``plasticity_index`` (per cent), ratio of ``overconsolidation``, effective
+        ``mean_stress`` (Pa), the ``frequency`` (Hz; 1 by default) and the number of ``cycles`` (10 by default).
         """
     @staticmethod
     def table(
         strains: ArrayLike, modulus_ratios: ArrayLike, dampings: ArrayLike
     ) -> StrainCurves:
-        """A table: arrays of shape (n,) of increasing ``strains``, G/G_max and damping ratios."""
+        """A table: arrays of shape (n,) of increasing ``strains``, of their ``modulus_ratios`` G/G_max and of damping
+        ratios, ``dampings``.
+        """
     def at(self, strains: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """G/G_max and damping ratios at ``strains`` (array of shape (n,)): two arrays of shape (n,)."""
 
@@ -635,22 +642,22 @@ class EquivalentLinear:
         """Record of the free surface."""
     @property
     def depth(self) -> NDArray[np.float64]:
-        """Depth of each layer's top, m."""
+        """Depth of the tops of the layers: array of shape (layers,), m."""
     @property
     def shear_modulus(self) -> NDArray[np.float64]:
-        """Strain-compatible shear moduli, Pa."""
+        """Strain-compatible shear moduli: array of shape (layers,), Pa."""
     @property
     def modulus_ratio(self) -> NDArray[np.float64]:
-        """The same over those at small strain."""
+        """Ratio of the strain-compatible shear moduli to those at small strain: array of shape (layers,)."""
     @property
     def damping(self) -> NDArray[np.float64]:
-        """Damping ratios."""
+        """Strain-compatible damping ratio of each layer: array of shape (layers,)."""
     @property
     def largest_strain(self) -> NDArray[np.float64]:
-        """Largest shear strains in the layers' middles."""
+        """Largest shear strains in the middle of the layers, relative to 1: array of shape (layers,)."""
     @property
     def effective_strain(self) -> NDArray[np.float64]:
-        """Effective shear strains, at which the curves were read."""
+        """Effective shear strains, at which the curves were read, relative to 1: array of shape (layers,)."""
     @property
     def accelerations(self) -> NDArray[np.float64]:
         """Accelerations at the tops of layers and base: array of shape (layers + 1, samples), m/s²."""
@@ -1291,6 +1298,8 @@ class Simulation:
         flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
             most so many iterations a step, for comparison with their paper; the robust search unless
             given.
+        progress: True for a line on stderr, or a function ``(parts done, parts in all)``, while the coefficients of a
+            layered ground are computed for the expected steps; none unless given.
     """
 
     def __new__(
@@ -1338,8 +1347,8 @@ class Simulation:
         motion. If that is past, as many as it has, under rest, with a :class:`BasematWarning`:
         :meth:`reset` goes back to the start.
 
-        ``progress``: True for a line on stderr, or a function ``(steps done, steps in all)`` that is
-        called about every 50 ms. ``observe(state)`` is called after every ``observe_every``th step
+        ``progress``: True for lines on stderr, one for the coefficients of a layered ground and one for the steps, or a
+        function ``(steps done, steps in all)`` that is called about every 50 ms. ``observe(state)`` is called after every ``observe_every``th step
         and ends the run when it returns True; what it raises comes out of here. Ctrl-C is heard, or
         a :class:`BasematWarning` says that the process ignores it. In all three cases the
         simulation stays at the last accepted step.

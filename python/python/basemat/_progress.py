@@ -26,8 +26,8 @@ class Line:
         self._written = now
         begin, before = self._begin
         made = done - before
-        left = f"{(now - begin) * (total - done) / made:.0f} s left" if made else ""
+        left = f", {(now - begin) * (total - done) / made:.0f} s left" if made else ""
         share = 100.0 * done / total if total else 100.0
         end = "\n" if done >= total else ""
-        sys.stderr.write(f"\r{done} of {total} {self._items} ({share:.0f} %), {left}   {end}")
+        sys.stderr.write(f"\r{done} of {total} {self._items} ({share:.0f} %){left}   {end}")
         sys.stderr.flush()
