@@ -26,7 +26,7 @@ def simulation(time_step: float = 0.01, elements: int = 4, **keywords: object) -
 def test_a_line_for_coefficients_and_one_for_steps(capsys: pytest.CaptureFixture[str]) -> None:
     simulation(2e-4, 12).run(3000, progress=True)
     coefficients, steps = capsys.readouterr().err.strip().split("\n")
-    assert coefficients.split("\r")[-1].endswith("parts of the ground's coefficients (100 %), 0 s left")
+    assert coefficients.split("\r")[-1].strip().endswith("parts of the ground's coefficients (100 %), 0 s left")
     assert "3000 of 3000 steps (100 %)" in steps and "coefficients" not in steps
 
 

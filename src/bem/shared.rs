@@ -24,7 +24,8 @@ const KEPT: usize = 8;
 ///
 /// ```
 /// use basemat::bem::{ElasticGround, Ground, SharedKernels, Strip};
-/// use basemat::{Error, Soil, Sweep};
+/// use basemat::sweep::Sweep;
+/// use basemat::{Error, Soil};
 /// let kernels = SharedKernels::default();
 /// Sweep::new(3).run(
 ///     |case| {

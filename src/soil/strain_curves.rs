@@ -19,7 +19,7 @@ use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive}
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 #[non_exhaustive]
 pub enum StrainCurves {
     /// A soil or rock that stays linear, with this damping ratio.

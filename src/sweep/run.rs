@@ -12,7 +12,8 @@ use crate::error::{CaseError, Error, Result};
 ///
 /// ```
 /// use basemat::sweep::Parameter;
-/// use basemat::{CaseError, Sweep};
+/// use basemat::CaseError;
+/// use basemat::sweep::Sweep;
 ///
 /// let roots = Sweep::new(4).collect(|case| match case.index() {
 ///     1 => Err("no one"),

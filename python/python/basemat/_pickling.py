@@ -194,6 +194,9 @@ def _repr(self: Any) -> str:
 def _values(self: Any) -> str:
     """The values that can be read of it."""
     names = [name for name, own in vars(type(self)).items() if inspect.isgetsetdescriptor(own)]
+    # Arguments of the constructor as there, others by their names: the class keeps no order.
+    order = [*inspect.signature(type(self)).parameters] if type(self).__text_signature__ else []
+    names.sort(key=lambda name: (order.index(name) if name in order else len(order), name))
     values = [f"{name}={_short(getattr(self, name))}" for name in names if name != "__dict__"]
     return f"{type(self).__name__}({', '.join(values)})"
 

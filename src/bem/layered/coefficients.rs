@@ -199,6 +199,7 @@ impl Quadrature {
                     // The transform has the other sign.
                     *input = (*value * *over).conj().inner();
                 }
+                samples.reach(0)?;
                 // The ends of the circle are real.
                 [input[0].im, input[length / 2].im] = [0.0; 2];
                 transform.process_with_scratch(&mut input, &mut output, &mut scratch).map_err(
@@ -236,7 +237,7 @@ impl Quadrature {
             })?;
             for place in covering {
                 let Some(Some(panel)) = panels.kept().get(&place).cloned() else { continue };
-                evaluate(node, &panel, place, circle, &mut spectra);
+                evaluate(node, &panel, place, circle, &mut spectra, || samples.reach(0))?;
             }
             let places = alone.iter().map(|point| [circle.logarithm, circle.angle(*point)]);
             let values = self.shares(node, &places.collect::<Vec<_>>(), threads, samples)?;

@@ -200,14 +200,19 @@ impl Circle {
     }
 }
 
+/// Points evaluated between two calls of `heard`.
+const HEARD: usize = LANES << 9;
+
 /// Adds an eigenvalue's share by a panel to the values at the points of a circle, row by row one function of them.
+/// An error of `heard` ends it.
 pub(super) fn evaluate(
     node: usize,
     panel: &[Complex],
     place: Place,
     circle: Circle,
     spectra: &mut [Complex],
-) {
+    mut heard: impl FnMut() -> Result<()>,
+) -> Result<()> {
     let count = panel.len() / POINTS;
     let points = place.points_of(circle);
     // The polynomials of the panel's line in that of the circle, x − iy.
@@ -225,6 +230,9 @@ pub(super) fn evaluate(
     }
     let panel = transformed(&moved);
     for first in points.clone().step_by(LANES) {
+        if (first - points.start).is_multiple_of(HEARD) {
+            heard()?;
+        }
         let x: [f64; LANES] = std::array::from_fn(|lane| {
             2.0 * (first + lane - points.start) as f64 / points.len() as f64 - 1.0
         });
@@ -253,4 +261,5 @@ pub(super) fn evaluate(
             }
         }
     }
+    Ok(())
 }

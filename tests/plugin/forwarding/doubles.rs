@@ -165,6 +165,11 @@ impl Ground for Double {
         Err(refusal())
     }
 
+    fn precompute(&mut self, _: usize, _: &mut basemat::Observer<'_>) -> Result<()> {
+        self.0.asked("precompute");
+        Err(refusal())
+    }
+
     fn expect_steps(&mut self, _: usize) -> Result<()> {
         self.0.asked("expect_steps");
         Err(refusal())

@@ -117,6 +117,8 @@ fn boxed_grounds() {
         assert_eq!(part.prepare(CORRECT), Err(doubles::refusal()));
         assert_eq!(part.expect_steps(3), Err(doubles::refusal()));
         assert_eq!(part.reserve(3), Err(doubles::refusal()));
+        let mut goes_on = |_| std::ops::ControlFlow::Continue(());
+        assert_eq!(part.precompute(3, &mut goes_on), Err(doubles::refusal()));
         part.step_compliance(&mut matrix).unwrap();
         assert_eq!(matrix, [CORRECT; 4]);
         part.history(&mut matrix[..2]).unwrap();
