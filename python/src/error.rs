@@ -104,6 +104,7 @@ pub(crate) fn in_python(mut text: String) -> String {
             "a shorter step may get through",
         ),
         ("; `with_time_limit` allows more", ""),
+        ("GeneralizedMaxwell::constant_q", "DampingLaw.constant_q"),
         ("take `Midpoint`,", "take TimeScheme.midpoint(),"),
     ] {
         text = text.replace(core, python);
