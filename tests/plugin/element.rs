@@ -6,7 +6,7 @@ use basemat::fem::{Direction, Element, Layer, MassKind, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::structure::FemModel;
 
-use super::{run, shaken};
+use super::scene::{run, shaken};
 use basemat_problems::block_on_springs::bed;
 
 /// A column that is only a spring between two heights.

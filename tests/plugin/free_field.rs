@@ -6,7 +6,7 @@ use basemat::Simulation;
 use basemat::interface::Coulomb;
 use basemat::motion::FreeField;
 
-use super::{STEP, run};
+use super::scene::{STEP, run};
 use basemat_problems::block_on_springs::{bed, block};
 
 /// A wave that runs along the surface, so that the elements do not move alike.

@@ -5,7 +5,7 @@
 use basemat::fundamental::{FundamentalSolution, LoadHistory};
 use basemat::{Error, Result, Soil};
 
-use super::soil;
+use super::scene::soil;
 
 /// Kelvin's plane in antiplane disguise: not a solution of anything, but it has the shape of one.
 struct Toy(Soil);

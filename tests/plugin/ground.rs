@@ -6,7 +6,7 @@ use basemat::Result;
 use basemat::bem::{ContactElement, Ground, SpringGround, Strip};
 use basemat::interface::Coulomb;
 
-use super::{assert_same_motion, run, shaken};
+use super::scene::{assert_same_motion, run, shaken};
 use basemat_problems::block_on_springs::block;
 
 /// Springs that know nothing of the crate's own bed.

@@ -10,7 +10,7 @@ use basemat::history::{ConvolutionHistory, ConvolutionWeights, DirectHistory};
 use basemat::interface::Coulomb;
 use basemat::{Result, Simulation};
 
-use super::{assert_same_motion, push, soil};
+use super::scene::{assert_same_motion, push, soil};
 use basemat_problems::block_on_springs::block;
 
 /// The convolution as a triple loop over the kernel's classes, with its own store.

@@ -15,7 +15,7 @@ use basemat::interface::Coulomb;
 use basemat::results::Run;
 use basemat::{Error, Result, Simulation};
 
-use super::{assert_same_motion, push, soil};
+use super::scene::{assert_same_motion, push, soil};
 use basemat_problems::block_on_springs::block;
 
 /// Coefficients that fade with distance and lag; reciprocal, not passive.

@@ -6,7 +6,7 @@ use basemat::interface::{
     Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
 };
 
-use super::{run, shaken};
+use super::scene::{run, shaken};
 use basemat_problems::block_on_springs::{bed, block};
 
 /// Sticks until it once slid; from then on there is no friction at all.

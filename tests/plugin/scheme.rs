@@ -7,7 +7,7 @@ use std::sync::Arc;
 use basemat::coupled::{Midpoint, SchemeCoefficients, Theta, TimeScheme};
 use basemat::interface::Bonded;
 
-use super::{assert_same_motion, run, shaken};
+use super::scene::{assert_same_motion, run, shaken};
 use crate::structure::Hardening;
 use basemat_problems::block_on_springs::bed;
 use basemat_problems::wrapped::Bare;

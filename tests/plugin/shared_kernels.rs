@@ -13,7 +13,7 @@ use basemat::bem::{
 use basemat::history::ConvolutionWeights;
 use basemat::{Error, Result};
 
-use super::soil;
+use super::scene::soil;
 
 /// A source that first has the store make the kernels of `others`, and `meets` another thread.
 #[derive(Clone)]

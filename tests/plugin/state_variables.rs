@@ -11,7 +11,7 @@ use basemat::interface::{Coulomb, InterfaceLaw};
 use basemat::motion::FreeFieldFn;
 use basemat::structure::RigidBlock;
 
-use super::{run, shaken};
+use super::scene::{run, shaken};
 use basemat_problems::block_on_springs::{bed, block};
 use basemat_problems::laws_with_memory::{Adhesion, SlipWeakening, SofteningPads};
 

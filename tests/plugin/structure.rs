@@ -9,7 +9,7 @@ use basemat::Simulation;
 use basemat::interface::Coulomb;
 use basemat::structure::{ContactNode, NonlinearForce, Structure, Triplets};
 
-use super::{assert_same_motion, run, shaken};
+use super::scene::{assert_same_motion, run, shaken};
 use basemat_problems::block_on_springs::{bed, block};
 use basemat_problems::wrapped::Bare;
 

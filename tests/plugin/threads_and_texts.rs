@@ -14,7 +14,7 @@ use basemat::structure::{StructureGroup, WithSprings};
 use basemat::sweep::{Parameter, Sweep};
 use basemat::{Error, Simulation};
 
-use super::{STEP, push, shaken, soil};
+use super::scene::{STEP, push, shaken, soil};
 use basemat_problems::block_on_springs::{bed, block};
 
 #[test]

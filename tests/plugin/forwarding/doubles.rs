@@ -12,7 +12,7 @@ use basemat::motion::{FreeField, Record, RecordFormat};
 use basemat::structure::{Hysteresis, InternalEnergy, SpringResponse};
 use basemat::{Error, Result, Soil};
 
-use super::Log;
+use super::log::Log;
 
 /// A number that no default knows.
 pub(crate) const CORRECT: f64 = 0.625;

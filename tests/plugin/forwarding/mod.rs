@@ -7,10 +7,8 @@
 #![allow(clippy::needless_pass_by_value, reason = "parts are given away, as to a builder")]
 
 mod doubles;
+mod log;
 mod structure;
-
-use std::collections::BTreeSet;
-use std::sync::{Arc, Mutex};
 
 use basemat::bem::full_plane::{BoundaryKernel, IncidentField};
 use basemat::bem::{Ground, SpringGround};
@@ -23,40 +21,7 @@ use basemat::structure::{Hysteresis, RigidBlock, Structure};
 use basemat::{Simulation, Soil};
 
 use doubles::{CORRECT, Double};
-
-/// What a double was asked.
-#[derive(Clone, Default)]
-struct Log(Arc<Mutex<BTreeSet<String>>>);
-
-impl Log {
-    fn asked(&self, method: &str) {
-        self.0.lock().unwrap().insert(method.to_owned());
-    }
-
-    fn take(&self) -> BTreeSet<String> {
-        std::mem::take(&mut self.0.lock().unwrap())
-    }
-}
-
-/// The methods of a trait, in its source.
-fn methods(source: &str, name: &str) -> BTreeSet<String> {
-    let (_, body) = source.split_once(&format!("pub trait {name}")).unwrap();
-    let (body, _) = body.split_once("\n}\n").unwrap();
-    let name = |line: &str| {
-        let (name, _) = line.strip_prefix("    fn ")?.split_once('(')?;
-        Some(name.to_owned())
-    };
-    let all: BTreeSet<_> = body.lines().filter_map(name).collect();
-    assert!(!all.is_empty());
-    all
-}
-
-macro_rules! source {
-    ($path:literal) => {
-        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/", $path))
-    };
-}
-use source;
+use log::{Log, methods, source};
 
 #[test]
 fn boxed_springs() {

@@ -11,7 +11,7 @@ use basemat::structure::{
 use basemat::{Error, Result};
 
 use super::doubles::CORRECT;
-use super::{Log, methods, source};
+use super::log::{Log, methods, source};
 
 /// Four degrees of freedom, two of them those of the base.
 struct Double {
