@@ -173,6 +173,9 @@ impl ModeSearch {
                 continue;
             };
             most = most.max(method);
+            if !bonds.contains(&Bond::Held) {
+                return Some(most);
+            }
             let tolerance = solver.tolerance(input).traction;
             self.overloads.clear();
             for (e, state) in solver.states.iter().enumerate() {
