@@ -88,7 +88,7 @@ fn block_under(law: impl basemat::interface::InterfaceLaw + 'static) -> Result<S
 
 fn tower_in(coordinates: Coordinates) -> Result<SimulationBuilder> {
     let tower = tower()?.with_rayleigh(damping()?);
-    let top = tower.node_at(2.0, 6.0)?;
+    let top = tower.mesh().node_at(2.0, 6.0)?;
     let row = tower.row(top, basemat::fem::Direction::X)?;
     let ground = half_plane(&tower)?;
     let probes = [Probe::acceleration("top", row.clone()), Probe::displacement("drift", row)];

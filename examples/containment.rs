@@ -56,7 +56,7 @@ fn shake(friction: Option<f64>) -> Result<(Run, TimeSeries)> {
     let model = structure()?;
     let (half, layer) = (0.5 * WIDTH * FOOT, HEIGHT * FOOT / LAYERS as f64);
     // A corner of the roof; the force of the superstructure on the foundation.
-    let corner = model.node_at(-half, LAYERS as f64 * layer)?;
+    let corner = model.mesh().node_at(-half, LAYERS as f64 * layer)?;
     let roof = [("roof x", Direction::X), ("roof y", Direction::Y)].map(|(name, direction)| {
         Ok(Probe::absolute_displacement(name, model.row(corner, direction)?))
     });
@@ -107,7 +107,7 @@ fn main() -> Result<()> {
             run.wall.as_secs_f64()
         );
         let name = name.replace([' ', '.'], "_");
-        histories.save_csv(out.join(format!("{name}.csv")))?;
+        histories.csv().save(out.join(format!("{name}.csv")))?;
         plot::mode_map("Contact modes", histories)?.save(out.join(format!("modes_{name}.svg")))?;
     }
     let curves: Vec<_> = CASES.iter().zip(&runs).map(|(case, (_, h))| (case.0, h)).collect();

@@ -37,7 +37,7 @@ fn write_files(
     model.stiffness(&mut stiffness)?;
     mass.write_matrix_market(mass_file)?;
     stiffness.write_matrix_market(stiffness_file)?;
-    let top = model.row(model.node_at(0.0, 100.0)?, Direction::X)?;
+    let top = model.row(model.mesh().node_at(0.0, 100.0)?, Direction::X)?;
     Ok((model.contact_nodes(), top))
 }
 

@@ -80,8 +80,8 @@ fn in_frequency_domain(impedance: &StripImpedance) -> Result<f64> {
     // Sway and rotation under the force at the top, by Cramer's rule.
     let force = UNBALANCE * square;
     let determinant = sway * rocking - coupling * coupling;
-    let top = rocking - coupling.scale(2.0 * HEIGHT) + sway.scale(HEIGHT * HEIGHT);
-    Ok((top.scale(force) * determinant.inverse()).abs())
+    let top = rocking - coupling * (2.0 * HEIGHT) + sway * (HEIGHT * HEIGHT);
+    Ok((top * force * determinant.inverse()).abs())
 }
 
 /// Runs the machine up from 2 to 25 Hz in 12 s.

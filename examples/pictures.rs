@@ -24,7 +24,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, TimeSeries, DeformedS
     let mesh = Mesh::layered_block(-4.0..4.0, 8, &[Layer::new(20.0, 16, material)])?;
     let damping = RayleighDamping::from_ratios([1.5, 15.0], [0.05; 2])?;
     let tower = FemModel::on_base(mesh)?.with_rayleigh(damping);
-    let roof = tower.row(tower.node_at(0.0, 20.0)?, Direction::X)?;
+    let roof = tower.row(tower.mesh().node_at(0.0, 20.0)?, Direction::X)?;
     // The structure moves into the simulation: its shape is kept for the pictures.
     let shape = DeformedShape::of_model(&tower);
     let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0)?;

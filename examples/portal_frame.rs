@@ -53,7 +53,7 @@ fn portal(width: f64) -> Result<(FemModel, DofCombination)> {
     }
     let mut drift = DofCombination::default();
     for x in [-0.5 * SPAN, 0.5 * SPAN] {
-        let [foot, top] = [model.node_at(x, 0.0)?, model.node_at(x, HEIGHT)?];
+        let [foot, top] = [model.mesh().node_at(x, 0.0)?, model.mesh().node_at(x, HEIGHT)?];
         drift += 0.5 * model.row(top, Direction::X)? - 0.5 * model.row(foot, Direction::X)?;
     }
     Ok((model, drift))

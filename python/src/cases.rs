@@ -55,7 +55,7 @@ pub(crate) fn save_cases(
     });
     let outcomes: Vec<_> = outcomes.collect::<PyResult<_>>()?;
     let table = sweep(grid, shard)?.tabulate(&columns, outcomes).or_raise()?;
-    table.save_csv(path).or_raise()
+    table.csv().save(path).or_raise()
 }
 
 /// Columns and results of all cases of a grid from the files of its shards, and the texts of errors.

@@ -118,13 +118,8 @@ impl Drop for Making<'_> {
 
 impl SharedKernels {
     /// Number of kernels held.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.kernels().kept.len()
-    }
-
-    /// Whether none is held.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
     }
 
     fn kernels(&self) -> MutexGuard<'_, Kernels> {

@@ -124,7 +124,7 @@ impl EnergyTerm {
     }
 
     /// Its column in files: `soil_energy_j_per_m`.
-    pub fn column(self) -> String {
+    pub(crate) fn column(self) -> String {
         let word = ROWS[self as usize].0;
         column(
             &if word.contains("bound") { word.to_owned() } else { format!("{word} energy") },
@@ -162,7 +162,7 @@ impl EnergyBalance {
     }
 
     /// What the input has become, J/m: the left-hand side by the [names](EnergyTerm::name) of its terms.
-    pub fn parts(&self) -> Vec<(&'static str, f64)> {
+    pub(crate) fn parts(&self) -> Vec<(&'static str, f64)> {
         let mut parts: Vec<(&'static str, f64)> = Vec::new();
         for (term, energy) in self.balance() {
             match parts.iter_mut().find(|(name, _)| *name == term.name()) {
@@ -191,7 +191,7 @@ impl EnergyBalance {
     }
 
     /// Whether no energy balance is kept: every term is then NaN.
-    pub fn is_left_out(&self) -> bool {
+    pub(crate) fn is_left_out(&self) -> bool {
         self.input.is_nan()
     }
 

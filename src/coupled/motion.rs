@@ -234,7 +234,7 @@ impl Load {
     }
 
     /// Where it acts.
-    pub fn row(&self) -> &DofCombination {
+    pub(crate) fn row(&self) -> &DofCombination {
         &self.row
     }
 
@@ -268,7 +268,7 @@ pub(crate) struct SteppedLoad {
 
 impl SteppedLoad {
     pub(crate) fn new(load: Load, transformation: &Transformation, is_static: bool) -> Self {
-        let row = transformation.row(load.row.terms());
+        let row = transformation.row(&load.row);
         let at_start = if is_static { load.value(0.0) } else { 0.0 };
         Self { load, row, at_start }
     }

@@ -15,7 +15,6 @@ use super::step::{Forcing, Increment};
 use crate::bem::{ContactElement, Ground};
 use crate::coupled::run::Run;
 use crate::error::{Error, Observer, Result, StepError, not_negative, positive};
-use crate::history::HistoryChoice;
 use crate::interface::Mode;
 use crate::motion::FreeField;
 use crate::structure::Structure;
@@ -95,7 +94,7 @@ impl Simulation {
     }
 
     /// The contact elements, from left to right.
-    pub fn elements(&self) -> &[ContactElement] {
+    pub(crate) fn elements(&self) -> &[ContactElement] {
         &self.scene.elements
     }
 
@@ -128,11 +127,6 @@ impl Simulation {
     /// The structure alone, after a run: as [`Simulation::structure`], by value.
     pub fn into_structure(self) -> Box<dyn Structure> {
         self.structure
-    }
-
-    /// Which history the ground keeps and why, if it has chosen one yet.
-    pub fn history_choice(&self) -> Option<HistoryChoice> {
-        self.ground.history_choice()
     }
 
     /// The ground as it is now. It is [`Any`](std::any::Any): of its own type it is what was given

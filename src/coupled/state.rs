@@ -30,12 +30,12 @@ pub struct Transition {
 
 impl Transition {
     /// Whether the element opened.
-    pub fn is_debonding(&self) -> bool {
+    pub(crate) fn is_debonding(&self) -> bool {
         self.from.is_closed() && !self.to.is_closed()
     }
 
     /// Whether the element closed again.
-    pub fn is_rebonding(&self) -> bool {
+    pub(crate) fn is_rebonding(&self) -> bool {
         !self.from.is_closed() && self.to.is_closed()
     }
 }

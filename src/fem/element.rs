@@ -169,23 +169,13 @@ impl Material {
         Ok(material)
     }
 
-    /// Young's modulus E, Pa.
-    pub fn young_modulus(&self) -> f64 {
-        self.young_modulus
-    }
-
-    /// Poisson's ratio ν.
-    pub fn poisson(&self) -> f64 {
-        self.poisson
-    }
-
     /// Density ρ, kg/m³.
     pub fn density(&self) -> f64 {
         self.density
     }
 
     /// Shear modulus E/(2(1+ν)), Pa.
-    pub fn shear_modulus(&self) -> f64 {
+    pub(crate) fn shear_modulus(&self) -> f64 {
         0.5 * self.young_modulus / (1.0 + self.poisson)
     }
 

@@ -156,11 +156,6 @@ impl Mesh {
         self.elements.iter().map(AsRef::as_ref)
     }
 
-    /// The element of this index; `None` if there is none.
-    pub fn element(&self, index: usize) -> Option<&dyn Element> {
-        self.elements.get(index).map(AsRef::as_ref)
-    }
-
     /// Node at (`x`, `y`), m: the nearest one, which may be a millionth of the mesh's size away.
     ///
     /// # Errors
@@ -214,7 +209,7 @@ impl Mesh {
     }
 
     /// Height of the lowest node, m; 0 for an empty mesh.
-    pub fn lowest(&self) -> f64 {
+    pub(crate) fn lowest(&self) -> f64 {
         self.nodes.iter().map(|node| node[1]).reduce(f64::min).unwrap_or(0.0)
     }
 

@@ -69,7 +69,7 @@ impl HalfPlane {
     }
 
     /// Roots of the Rayleigh polynomial.
-    pub fn rayleigh(&self) -> &Rayleigh {
+    pub(crate) fn rayleigh(&self) -> &Rayleigh {
         &self.branches.rayleigh
     }
 

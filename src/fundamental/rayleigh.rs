@@ -46,7 +46,7 @@ pub struct Rayleigh {
 
 impl Rayleigh {
     /// Roots for a soil.
-    pub fn new(soil: Soil) -> Self {
+    pub(crate) fn new(soil: Soil) -> Self {
         let nu = soil.poisson();
         let a2 = soil.speed_ratio_squared();
         let h = 0.5 / (1.0 - nu);
@@ -79,24 +79,9 @@ impl Rayleigh {
         Self { a2, h, g, square: 1.0 + excess, z, excess, sum, product }
     }
 
-    /// P(y).
-    pub fn polynomial(&self, y: f64) -> f64 {
-        self.at(y - self.a2)
-    }
-
     /// Time at which the Rayleigh wave passes, `c_S` t/|x|: `c_S`/`c_R`.
-    pub fn arrival(&self) -> f64 {
+    pub(crate) fn arrival(&self) -> f64 {
         self.square.sqrt()
-    }
-
-    /// Rayleigh wave speed over shear wave speed.
-    pub(crate) fn speed_ratio(&self) -> f64 {
-        1.0 / self.arrival()
-    }
-
-    /// P at y = a² + z.
-    pub(crate) fn at(&self, z: f64) -> f64 {
-        -16.0 * self.h * (z - self.z) * self.pair(z)
     }
 
     /// z² + σ z + ϖ, the factor of the two roots that are not the Rayleigh wave.
@@ -132,13 +117,6 @@ impl Rayleigh {
     /// Residue at the Rayleigh root, in z, of numerator/P.
     pub(crate) fn residue(&self, numerator: f64) -> f64 {
         -numerator / (16.0 * self.h * self.pair(self.z))
-    }
-}
-
-impl Soil {
-    /// Rayleigh (R) wave speed, m/s: the speed of the surface wave (Achenbach 1973, § 5.11).
-    pub fn rayleigh_wave_speed(&self) -> f64 {
-        self.shear_wave_speed() * Rayleigh::new(*self).speed_ratio()
     }
 }
 
@@ -196,7 +174,7 @@ mod tests {
         let [first, second] = [first, second].map(|root| quarter.a2 + root.re);
         assert!((first - (3.0 - 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
         assert!((second - 0.25).abs() < 4e-16);
-        let speed = soil(0.0).rayleigh_wave_speed();
+        let speed = 1.0 / Rayleigh::new(soil(0.0)).arrival();
         assert!((speed - (3.0 - 5.0_f64.sqrt()).sqrt()).abs() < 4e-16);
     }
 
@@ -221,7 +199,9 @@ mod tests {
                 let k: f64 = 1.0 - 2.0 * y;
                 let direct = k.powi(4) + 16.0 * y * y * (y - r.a2) * (1.0 - y);
                 let scale = k.powi(4) + 16.0 * y * y * (y + 1.0) * (1.0 + y);
-                assert!((r.polynomial(y) - direct).abs() < 4e-15 * scale, "{nu} {y}");
+                let z = y - r.a2;
+                let product = -16.0 * r.h * (z - r.z) * r.pair(z);
+                assert!((product - direct).abs() < 4e-15 * scale, "{nu} {y}");
             }
         }
     }

@@ -206,7 +206,7 @@ impl PairClasses {
     }
 
     /// Length from the first element's left end to the last one's right end, m.
-    pub fn span(&self) -> f64 {
+    pub(crate) fn span(&self) -> f64 {
         self.elements[self.elements.len() - 1].right - self.elements[0].left
     }
 }

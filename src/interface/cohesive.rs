@@ -69,13 +69,8 @@ impl Cohesive {
         })
     }
 
-    /// Tensile strength and cohesion, Pa.
-    pub fn strengths(&self) -> [f64; 2] {
-        [self.tension, self.cohesion]
-    }
-
     /// The friction coefficient.
-    pub fn friction(&self) -> f64 {
+    pub(crate) fn friction(&self) -> f64 {
         self.broken.friction()
     }
 

@@ -63,13 +63,13 @@ impl Mode {
     }
 
     /// Whether the soil under the element yields.
-    pub fn is_yield(self) -> bool {
+    pub(crate) fn is_yield(self) -> bool {
         matches!(self, Mode::Yield | Mode::YieldLeft | Mode::YieldRight)
     }
 
     /// The same mode on soil that does not yield.
     #[must_use]
-    pub fn elastic(self) -> Self {
+    pub(crate) fn elastic(self) -> Self {
         match self {
             Mode::Yield => Mode::Stick,
             Mode::YieldLeft => Mode::SlipLeft,
@@ -80,7 +80,7 @@ impl Mode {
 
     /// The same mode on soil that yields; an open element stays open.
     #[must_use]
-    pub fn yielding(self) -> Self {
+    pub(crate) fn yielding(self) -> Self {
         match self {
             Mode::Stick => Mode::Yield,
             Mode::SlipLeft => Mode::YieldLeft,

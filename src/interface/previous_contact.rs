@@ -1,7 +1,7 @@
 //! The start of a step: the past of each element, as its law sees it.
 
 use super::{ContactState, InterfaceLaw, Mode, law_of};
-use crate::error::{LawError, Result, finite, memory, positive, same_length};
+use crate::error::{LawError, Result, finite, memory, same_length};
 
 /// State of an element at the beginning of a step, as its law sees it.
 ///
@@ -140,13 +140,8 @@ impl PreviousContacts {
     }
 
     /// Number of elements.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.past.len()
-    }
-
-    /// Whether there is no element.
-    pub fn is_empty(&self) -> bool {
-        self.past.is_empty()
     }
 
     /// The start as the law of `element` sees it; `None` beyond the last one.
@@ -163,15 +158,6 @@ impl PreviousContacts {
     /// Length of the step to come, s.
     pub fn time_step(&self) -> f64 {
         self.time_step
-    }
-
-    /// Another length (s) from the step to come on.
-    ///
-    /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless finite and above zero; the length is then the one before.
-    pub fn set_time_step(&mut self, time_step: f64) -> Result<()> {
-        self.time_step = positive("time step", time_step)?;
-        Ok(())
     }
 
     /// The start of an element that is there.

@@ -231,11 +231,6 @@ impl ThinLayer {
         self.reference.map(|k| k / self.ratio)
     }
 
-    /// The friction coefficient.
-    pub fn friction(&self) -> f64 {
-        self.friction
-    }
-
     /// Friction's limit of the shear traction, if it is known before the step.
     fn known_limit(&self, start: &PreviousContact) -> Option<f64> {
         let pressure = match self.limit {

@@ -74,13 +74,8 @@ impl Yielding {
         Ok(Self { bearing_pressure, contact: Coulomb::new(friction)? })
     }
 
-    /// The bearing pressure q, Pa.
-    pub fn bearing_pressure(&self) -> f64 {
-        self.bearing_pressure
-    }
-
     /// The friction coefficient.
-    pub fn friction(&self) -> f64 {
+    pub(crate) fn friction(&self) -> f64 {
         self.contact.friction()
     }
 }

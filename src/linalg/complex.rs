@@ -69,7 +69,7 @@ where
 /// let s = Complex::new(3.0, 4.0);
 /// assert_eq!(s.abs(), 5.0);
 /// assert_eq!(s.sqrt(), Complex::new(2.0, 1.0));
-/// assert_eq!(s * s.conj(), Complex::real(25.0));
+/// assert_eq!(s * Complex::new(3.0, -4.0), Complex::real(25.0));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -93,7 +93,7 @@ impl Complex {
     }
 
     /// `size` e^(i `angle`).
-    pub fn polar(size: f64, angle: f64) -> Self {
+    pub(crate) fn polar(size: f64, angle: f64) -> Self {
         Self::new(size * angle.cos(), size * angle.sin())
     }
 
@@ -105,19 +105,19 @@ impl Complex {
     }
 
     /// |x|².
-    pub fn square(self) -> f64 {
+    pub(crate) fn square(self) -> f64 {
         self.re * self.re + self.im * self.im
     }
 
     /// Complex conjugate.
     #[must_use]
-    pub const fn conj(self) -> Self {
+    pub(crate) const fn conj(self) -> Self {
         Self::new(self.re, -self.im)
     }
 
     /// Times a real number.
     #[must_use]
-    pub fn scale(self, factor: f64) -> Self {
+    pub(crate) fn scale(self, factor: f64) -> Self {
         Self::new(self.re * factor, self.im * factor)
     }
 
@@ -195,7 +195,7 @@ impl Complex {
     }
 
     /// Whether both parts are finite.
-    pub fn is_finite(self) -> bool {
+    pub(crate) fn is_finite(self) -> bool {
         self.re.is_finite() && self.im.is_finite()
     }
 }
@@ -224,6 +224,13 @@ impl Mul for Complex {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         Self::new(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
+    }
+}
+
+impl Mul<f64> for Complex {
+    type Output = Self;
+    fn mul(self, factor: f64) -> Self {
+        self.scale(factor)
     }
 }
 

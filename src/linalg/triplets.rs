@@ -165,7 +165,7 @@ impl Triplets {
     }
 
     /// Forgets all entries, keeping the memory.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.entries.clear();
     }
 }

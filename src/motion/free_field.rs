@@ -228,7 +228,7 @@ impl TravellingWave {
     }
 
     /// Time (s) at which the motion of `origin` reaches `x`.
-    pub fn delay(&self, x: f64) -> f64 {
+    pub(crate) fn delay(&self, x: f64) -> f64 {
         self.slowness * (x - self.origin)
     }
 }

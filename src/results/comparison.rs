@@ -1,14 +1,13 @@
 //! Several cases in one table.
 
 use std::fmt;
-use std::path::Path;
 
 use super::{ProbeExtremes, Quantity, Run, ServiceCheck};
 use crate::coupled::EnergyTerm;
 use crate::coupled::run::page::factor;
 use crate::coupled::run::quantity::Place;
-use crate::error::{Result, write_file};
 use crate::text::column::{Cell, column, distinct, number, printed};
+use crate::text::csv::Csv;
 use crate::text::table::Table;
 
 /// Runs side by side; prints as a table with a row per quantity and a column per case, in blocks of
@@ -20,7 +19,7 @@ use crate::text::table::Table;
 /// let named = runs().into_iter().map(|(friction, run)| (format!("friction {friction}"), run));
 /// let comparison: Comparison = named.collect();
 /// println!("{comparison}");
-/// comparison.save_csv("cases.csv")?;
+/// comparison.csv().save("cases.csv")?;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Default)]
@@ -123,11 +122,6 @@ impl Comparison {
         self.cases.push((name.into(), run));
     }
 
-    /// The cases, in the order they were added.
-    pub fn cases(&self) -> &[(String, Run)] {
-        &self.cases
-    }
-
     fn table(&self) -> Table {
         let mut heading = vec![String::new(), "unit".to_owned()];
         heading.extend(self.cases.iter().map(|(name, _)| name.clone()));
@@ -169,17 +163,9 @@ impl Comparison {
         self.table().markdown()
     }
 
-    /// Writes the table of [`Comparison::csv`] to a file; its folder is made if it is not there.
-    ///
-    /// # Errors
-    /// [`Error::Write`](crate::Error::Write) if that fails.
-    pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
-        write_file(path.as_ref(), self.csv())
-    }
-
     /// A line per case and a column per quantity, in SI units (probes in their own): columns and numbers
     /// as the [module](super) has them for all files; empty where a case has no value.
-    pub fn csv(&self) -> String {
+    pub fn csv(&self) -> Csv {
         let mut heading = vec!["case".to_owned()];
         let lines = lines();
         heading.extend(lines.iter().map(|row| row.column.clone()));
@@ -193,7 +179,7 @@ impl Comparison {
             let cells = values.chain(peaks).map(|v| Cell(v.unwrap_or(f64::NAN)).to_string());
             std::iter::once(name.clone()).chain(cells).collect()
         };
-        Table { heading, repeated: 1, rows: self.cases.iter().map(line).collect() }.csv()
+        Csv(Table { heading, repeated: 1, rows: self.cases.iter().map(line).collect() }.csv())
     }
 }
 

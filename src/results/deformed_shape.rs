@@ -55,7 +55,7 @@ impl DeformedShape {
             for value in point.position {
                 finite("coordinate of a deformed shape", value)?;
             }
-            for &(_, weight) in point.horizontal.iter().chain(point.vertical.terms()) {
+            for &(_, weight) in point.horizontal.iter().chain(point.vertical.iter()) {
                 finite("weight of a deformed shape", weight)?;
             }
         }

@@ -46,7 +46,7 @@
 //!
 //! One rule for CSV and for the arrays of NPZ: a column is called by its quantity in `snake_case`, with the
 //! unit spelled out behind it (`base_shear_n_per_m`, `roof_m_per_s2`, `base_rotation_rad`, none of a
-//! ratio), probes as well ([`Probe::column`](crate::coupled::Probe::column)); of equal ones the second
+//! ratio), probes as well; of equal ones the second
 //! ends in `_2`. Values are in SI units, those of probes in their own. Numbers have the digits that
 //! read back as the same number; one that is not there or not known (NaN) is an empty cell, infinities
 //! are `inf` and `-inf`, as pandas reads them.
@@ -76,8 +76,9 @@ pub use crate::coupled::run::{
     Criterion, ElementEnvelope, Extremes, Fallbacks, Peak, ProbeExtremes, Quantity, Run,
     ServiceCheck, Serviceability, Sliding, SlipEvent, Summary, Uplift,
 };
+pub use crate::text::csv::Csv;
 pub use comparison::Comparison;
-pub use csv::{save_spectrum_csv, write_spectrum_csv};
+pub use csv::spectrum_csv;
 #[cfg(any(feature = "io", feature = "plot"))]
 pub use deformed_shape::{DeformedShape, ShapePoint};
 pub use floor::{broadened, log_spaced};

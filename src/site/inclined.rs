@@ -102,11 +102,6 @@ impl InclinedWave {
         1.0 / self.slowness
     }
 
-    /// Time (s) that the wave takes along `distance` (m) of the surface, positive to the right.
-    pub fn delay(&self, distance: f64) -> f64 {
-        self.slowness * distance
-    }
-
     /// Motion of the surface, horizontal and up, by that of `control` for e^(iωt) at `frequency` (Hz).
     /// Angles beyond the critical one and any damping are allowed.
     ///

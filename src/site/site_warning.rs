@@ -39,7 +39,7 @@ pub enum SiteWarning {
 
 impl SiteWarning {
     /// Largest strain within the method's range.
-    pub const STRAIN_LIMIT: f64 = 5e-3;
+    pub(crate) const STRAIN_LIMIT: f64 = 5e-3;
 }
 
 impl fmt::Display for SiteWarning {

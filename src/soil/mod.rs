@@ -113,7 +113,7 @@ impl Soil {
     }
 
     /// a² = (c₂/c₁)² = (1−2ν)/(2(1−ν)), between 0 and 3/4.
-    pub fn speed_ratio_squared(&self) -> f64 {
+    pub(crate) fn speed_ratio_squared(&self) -> f64 {
         (1.0 - 2.0 * self.poisson) / (2.0 * (1.0 - self.poisson))
     }
 }

@@ -135,7 +135,7 @@ impl SoilProfile {
     }
 
     /// The soil at the surface; `None` for a bare rigid base.
-    pub fn surface(&self) -> Option<Soil> {
+    pub(crate) fn surface(&self) -> Option<Soil> {
         self.soils().next().map(|(soil, _)| soil)
     }
 
@@ -151,14 +151,14 @@ impl SoilProfile {
     }
 
     /// Whether it is a half-plane without layers or damping, which has a closed form.
-    pub fn is_elastic_half_plane(&self) -> bool {
+    pub(crate) fn is_elastic_half_plane(&self) -> bool {
         let elastic = |damping: &Arc<dyn Relaxation>| damping.identity() == Elastic.identity();
         self.layers.is_empty()
             && matches!(&self.base, Base::HalfPlane { damping, .. } if elastic(damping))
     }
 
     /// Numbers that are equal only for equal profiles; `None` if a damping law has none.
-    pub fn identity(&self) -> Option<Vec<f64>> {
+    pub(crate) fn identity(&self) -> Option<Vec<f64>> {
         let mut numbers = vec![self.layers.len() as f64];
         for layer in &self.layers {
             numbers.push(layer.thickness);

@@ -1,6 +1,6 @@
 //! Weighted sums of degrees of freedom, and the nodes of a base, which are made of them.
 
-use std::ops::{Add, AddAssign, Mul, Neg, Range, Sub, SubAssign};
+use std::ops::{Add, AddAssign, Deref, Mul, Neg, Range, Sub, SubAssign};
 
 use super::Structure;
 use crate::error::{Error, Result, finite, positive};
@@ -15,7 +15,7 @@ use crate::error::{Error, Result, finite, positive};
 /// use basemat::structure::DofCombination;
 ///
 /// let roof = DofCombination::from(7);
-/// assert_eq!(roof.terms(), [(7, 1.0)]);
+/// assert_eq!(roof[..], [(7, 1.0)]);
 /// let mut drift = DofCombination::from(7) - DofCombination::from(6);
 /// drift += 3.0 * DofCombination::from(2);
 /// assert_eq!(drift, DofCombination::from([(7, 1.0), (6, -1.0), (2, 3.0)]));
@@ -28,21 +28,6 @@ use crate::error::{Error, Result, finite, positive};
 pub struct DofCombination(Vec<(usize, f64)>);
 
 impl DofCombination {
-    /// The (unknown, weight) terms.
-    pub fn terms(&self) -> &[(usize, f64)] {
-        &self.0
-    }
-
-    /// The terms, one after the other.
-    pub fn iter(&self) -> std::slice::Iter<'_, (usize, f64)> {
-        self.0.iter()
-    }
-
-    /// Whether it is a sum of nothing.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
     /// The sum for these values of all degrees of freedom (displacements, velocities or accelerations);
     /// degrees of freedom beyond their end count as zero.
     pub fn value(&self, dofs: &[f64]) -> f64 {
@@ -172,6 +157,15 @@ impl From<&DofCombination> for DofCombination {
 impl FromIterator<(usize, f64)> for DofCombination {
     fn from_iter<I: IntoIterator<Item = (usize, f64)>>(terms: I) -> Self {
         Self(terms.into_iter().collect())
+    }
+}
+
+/// The (degree of freedom, weight) terms.
+impl Deref for DofCombination {
+    type Target = [(usize, f64)];
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
     }
 }
 

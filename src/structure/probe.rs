@@ -93,7 +93,7 @@ impl Probe {
     /// use basemat::coupled::Probe;
     /// assert_eq!(Probe::acceleration("Roof, left", 7).column(), "roof_left_m_per_s2");
     /// ```
-    pub fn column(&self) -> String {
+    pub(crate) fn column(&self) -> String {
         column(&self.name, &self.unit)
     }
 

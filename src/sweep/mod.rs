@@ -161,12 +161,12 @@ impl Parameter {
     }
 
     /// Name of the parameter and of its column.
-    pub fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         &self.name
     }
 
     /// Number of values.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         match &self.values {
             Values::Numbers(numbers) => numbers.len(),
             Values::Texts(texts) => texts.len(),
@@ -174,7 +174,7 @@ impl Parameter {
     }
 
     /// Whether it takes none: such a parameter is refused.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.len() == 0
     }
 

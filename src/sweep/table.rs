@@ -1,16 +1,15 @@
 //! Parameters and results of cases, a row each.
 
 use std::fmt;
-use std::hash::{BuildHasher, Hasher, RandomState};
-use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
 use super::{Grid, LAST_COLUMNS, no_name};
-use crate::error::{Error, Result, SweepError};
+use crate::error::{Result, SweepError};
 use crate::text::check_sum::CheckSum;
 use crate::text::column::{Cell, number};
-use crate::text::table::{LONGEST_LINE, Table, csv_line, in_columns};
+use crate::text::csv::{Csv, csv_line};
+use crate::text::table::{LONGEST_LINE, Table, in_columns};
 
 /// The cases of a [`Sweep`](super::Sweep), a row each: the case's number, its parameters, its results, and why it has none if it
 /// failed. Prints as a table of five figures no line of which is longer than 99 characters: a wide
@@ -185,54 +184,16 @@ impl CaseTable {
     /// `error` and `check`, a check sum of the row without which it is not read again. Numbers have as many digits as read back to the last bit, in the caller's units; NaN
     /// is an empty cell, infinities are `inf` and `-inf`. Of a case that failed the results are empty
     /// and `error` is not.
-    pub fn csv(&self) -> String {
+    pub fn csv(&self) -> Csv {
         let mut text = csv_line(&heading(&self.grid, &self.columns));
         text.extend(self.rows.iter().map(|row| row.csv(&self.grid, &self.columns)));
-        text
-    }
-
-    /// Writes [`CaseTable::csv`] to a file, in a folder that is made if it is not there. The file is
-    /// there with all its lines or as it was before: it is written under another name and renamed.
-    ///
-    /// # Errors
-    /// [`Error::Write`](crate::Error::Write) if that fails.
-    pub fn save_csv(&self, path: impl AsRef<Path>) -> Result<()> {
-        replace(path.as_ref(), &self.csv())
+        Csv(text)
     }
 }
 
 /// The path, printed.
 pub(super) fn name(path: &Path) -> String {
     path.display().to_string()
-}
-
-/// [`Error::Write`] of `path`.
-pub(super) fn unwritten(path: &Path) -> impl Fn(std::io::Error) -> Error {
-    let file = name(path);
-    move |error| Error::Write { file: file.clone(), reason: error.kind() }
-}
-
-/// Replaces a file by one with this content, or leaves it as it was.
-pub(super) fn replace(path: &Path, content: &str) -> Result<()> {
-    replaced(path, content).map_err(unwritten(path))
-}
-
-/// The same, with the system's own error.
-pub(super) fn replaced(path: &Path, content: &str) -> std::io::Result<()> {
-    // The hash of nothing, under keys that are random: two processes must not share the name.
-    let mark = RandomState::new().build_hasher().finish();
-    let mut temporary = path.as_os_str().to_owned();
-    temporary.push(format!(".{mark:016x}.tmp"));
-    let write = || {
-        path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
-        let mut file = std::fs::File::create(&temporary)?;
-        file.write_all(content.as_bytes())?;
-        file.sync_all()?;
-        std::fs::rename(&temporary, path)
-    };
-    write().inspect_err(|_| {
-        let _ = std::fs::remove_file(&temporary);
-    })
 }
 
 /// Five figures, counts as they are; the smallest numbers, too, which need not be rounding here.

@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 
 use super::file::{Content, Ending, read};
 use super::run::{Sweep, SweepCase};
-use super::table::{CaseTable, Row, heading, name, replaced, unwritten};
+use super::table::{CaseTable, Row, heading, name};
 use super::{Parameter, check_names};
 use crate::error::{CaseError, Error, Result, SweepError, same_length};
-use crate::text::table::csv_line;
+use crate::text::csv::{csv_line, replaced, unwritten};
 
 /// Rows by their cases, each with the file that it is from.
 type Rows = BTreeMap<usize, (Row, PathBuf)>;
@@ -132,7 +132,7 @@ impl Sweep<'_> {
     fn unwritten(&self, file: &Path, reason: ErrorKind, table: &CaseTable) -> Error {
         let (file, computed) = (name(file), table.rows.len());
         let left = self.cases().len() - computed;
-        SweepError::Unwritten { file, reason, computed, left, rows: table.csv() }.into()
+        SweepError::Unwritten { file, reason, computed, left, rows: table.csv().0 }.into()
     }
 
     /// The table of all cases from the files of its shards, to the last bit the one that

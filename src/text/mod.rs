@@ -5,4 +5,5 @@ pub(crate) mod words;
 pub(crate) mod bounded_line;
 pub(crate) mod check_sum;
 pub(crate) mod column;
+pub(crate) mod csv;
 pub(crate) mod table;

@@ -1,20 +1,6 @@
 //! Plain tables, and text broken into lines.
 
-use std::borrow::Cow;
-
-/// A cell as CSV has it (RFC 4180): in quotes where it needs them.
-pub(crate) fn csv_cell(cell: &str) -> Cow<'_, str> {
-    if cell.contains([',', '"', '\n', '\r']) {
-        Cow::Owned(format!("\"{}\"", cell.replace('"', "\"\"")))
-    } else {
-        Cow::Borrowed(cell)
-    }
-}
-
-/// Cells as a line of CSV, with its end.
-pub(crate) fn csv_line(cells: &[String]) -> String {
-    cells.iter().map(|cell| csv_cell(cell)).collect::<Vec<_>>().join(",") + "\n"
-}
+use crate::text::csv::csv_line;
 
 /// A cell on one line: line ends and other control characters become spaces.
 fn one_line(cell: &str) -> String {

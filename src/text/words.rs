@@ -12,7 +12,7 @@ macro_rules! words {
             pub(crate) const ALL: [Self; [$($word),+].len()] = [$(Self::$variant),+];
 
             /// Its word, as `Display` writes and `FromStr` reads it.
-            pub fn word(self) -> &'static str {
+            pub(crate) fn word(self) -> &'static str {
                 match self {
                     $(Self::$variant => $word,)+
                 }

@@ -53,8 +53,8 @@ fn outcome(builder: SimulationBuilder, parts: usize, duration: f64) -> Outcome {
             all_open |= state.modes.iter().all(|mode| *mode == Mode::Open);
         })
         .unwrap();
-    let opened = transitions.iter().filter(|change| change.is_debonding()).count();
-    let closed = transitions.iter().filter(|change| change.is_rebonding()).count();
+    let opened = transitions.iter().filter(|change| change.to == Mode::Open).count();
+    let closed = transitions.iter().filter(|change| change.from == Mode::Open).count();
     assert_eq!(
         [run.mode_changes, run.debondings, run.rebondings],
         [transitions.len(), opened, closed]

@@ -159,16 +159,14 @@ fn runs_and_histories_are_saved() -> Result<()> {
 
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("conveniences/new/one");
     let _ = std::fs::remove_dir_all(&folder);
-    histories.save_csv(folder.join("run.csv"))?;
-    let mut text = Vec::new();
-    histories.write_csv(&mut text).unwrap();
-    assert_eq!(std::fs::read(folder.join("run.csv")).unwrap(), text);
+    histories.csv().save(folder.join("run.csv"))?;
+    assert_eq!(std::fs::read_to_string(folder.join("run.csv")).unwrap(), *histories.csv());
     let mut comparison = Comparison::new();
     comparison.add("only", run);
-    comparison.save_csv(folder.join("cases.csv"))?;
-    assert_eq!(std::fs::read_to_string(folder.join("cases.csv")).unwrap(), comparison.csv());
+    comparison.csv().save(folder.join("cases.csv"))?;
+    assert_eq!(std::fs::read_to_string(folder.join("cases.csv")).unwrap(), *comparison.csv());
     let nowhere = folder.join("run.csv/below_a_file.csv");
-    assert!(matches!(histories.save_csv(&nowhere), Err(Error::Write { .. })));
-    assert!(matches!(comparison.save_csv(&nowhere), Err(Error::Write { .. })));
+    assert!(matches!(histories.csv().save(&nowhere), Err(Error::Write { .. })));
+    assert!(matches!(comparison.csv().save(&nowhere), Err(Error::Write { .. })));
     Ok(())
 }

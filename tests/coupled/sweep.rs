@@ -99,7 +99,7 @@ fn shared_kernels_change_no_bit() {
             |now| Ok::<_, Error>(run(&shared, lengths[now.index()])),
             |index, states| results[index] = states.unwrap(),
         );
-        assert_eq!(shared.len(), 1);
+        assert_eq!(shared.count(), 1);
         for (found, steps) in results.iter().zip(lengths) {
             assert!(*found == run(&SharedKernels::default(), steps), "{grading:?}, {steps} steps");
         }
@@ -109,7 +109,7 @@ fn shared_kernels_change_no_bit() {
 #[test]
 fn shared_kernels_are_told_apart_and_bounded() {
     let kernels = SharedKernels::default();
-    assert!(kernels.is_empty());
+    assert_eq!(kernels.count(), 0);
     let prepare = |modulus: f64, count: usize, step: f64| {
         let soil = Soil::new(modulus, 0.3, 1900.0).unwrap();
         let mut ground = ElasticGround::new(soil, Strip::uniform(-2.0..2.0, count).unwrap())
@@ -125,9 +125,9 @@ fn shared_kernels_are_told_apart_and_bounded() {
         assert_ne!(first, other);
     }
     assert_eq!(first, prepare(8e7, 4, 1e-3));
-    assert_eq!(kernels.len(), 4);
+    assert_eq!(kernels.count(), 4);
     for k in 1..20 {
         prepare(8e7, 4, 1e-3 * f64::from(k));
     }
-    assert_eq!(kernels.len(), 8);
+    assert_eq!(kernels.count(), 8);
 }

@@ -241,11 +241,11 @@ fn strains_of_a_harmonic_are_those_of_theory() {
         let wavenumber = Complex::real(omega / 200.0) / root;
         let cosine = |x: Complex| {
             let e = (Complex::new(0.0, 1.0) * x).exp();
-            [(e + e.inverse()).scale(0.5), (e - e.inverse()) * Complex::new(0.0, -0.5)]
+            [(e + e.inverse()) * 0.5, (e - e.inverse()) * Complex::new(0.0, -0.5)]
         };
-        let [bottom, _] = cosine(wavenumber.scale(depth));
+        let [bottom, _] = cosine(wavenumber * depth);
         for (k, layer) in found.layers.iter().enumerate() {
-            let [_, sine] = cosine(wavenumber.scale(5.0 * k as f64 + 2.5));
+            let [_, sine] = cosine(wavenumber * (5.0 * k as f64 + 2.5));
             let wanted = (wavenumber * sine / bottom).abs() / (omega * omega);
             let ratio = layer.largest_strain / wanted;
             println!("{frequency} Hz, layer {k}: {ratio}");
@@ -253,7 +253,7 @@ fn strains_of_a_harmonic_are_those_of_theory() {
             assert_eq!(layer.effective_strain, 0.65 * layer.largest_strain);
         }
         for (k, peak) in found.peak_accelerations.iter().enumerate() {
-            let [here, _] = cosine(wavenumber.scale(5.0 * k as f64));
+            let [here, _] = cosine(wavenumber * (5.0 * k as f64));
             let ratio = peak / (here / bottom).abs();
             assert!((ratio - 1.0).abs() < 2e-3, "{frequency} {k} {ratio}");
         }
@@ -295,8 +295,7 @@ fn small_motions_pass_a_linear_column() {
     };
     let product = |l: usize| {
         let samples = motion.accelerations().iter().enumerate();
-        let sum =
-            samples.fold(Complex::default(), |sum, (i, a)| sum + turn(length - l, i).scale(*a));
+        let sum = samples.fold(Complex::default(), |sum, (i, a)| sum + turn(length - l, i) * *a);
         sum * linear.transfer(ControlPoint::Within, frequency(l)).unwrap()
     };
     // Up to 12 Hz; the pulse has 1e-14 of its spectrum above.
@@ -363,7 +362,7 @@ fn strained_assumptions_are_told() {
     has(&short, |w| matches!(w, SiteWarning::NotConverged { iterations: 2, .. }));
     let strained = found(&curves_of(&layers), 50);
     has(&strained, |w| matches!(w, SiteWarning::LargeStrain { layer: 3, .. }));
-    assert!(strained.layers[2].largest_strain > SiteWarning::STRAIN_LIMIT);
+    assert!(strained.layers[2].largest_strain > 5e-3);
     assert!(strained.last_change <= 1e-3 && strained.iterations <= 8, "{strained}");
     // With next to no damping on a rigid base it rings long.
     let ringing = SoilColumn::new(uniform(0.0), VerticalWave::Shear).unwrap();

@@ -301,5 +301,5 @@ fn the_choice_is_made_and_explained() {
     asked.prepare(1e-3).unwrap();
     let choice = asked.history_choice().unwrap();
     assert_eq!((choice.kind, choice.reason), (Exponentials, ChoiceReason::Asked));
-    assert!(choice.error_bound > 0.0 && choice.error_bound <= ExponentialHistory::TOLERANCE);
+    assert!(choice.error_bound > 0.0 && choice.error_bound <= 1e-10);
 }

@@ -110,7 +110,7 @@ struct Own(f64);
 
 impl Relaxation for Own {
     fn modulus(&self, s: Complex) -> Complex {
-        Complex::real(1.0) + s.scale(self.0) / (s + Complex::real(2.0))
+        Complex::real(1.0) + s * self.0 / (s + Complex::real(2.0))
     }
 }
 
@@ -239,9 +239,9 @@ fn runs_from_a_file_are_the_same_to_the_last_bit() {
         bits
     };
     let wanted = run(None);
-    assert_eq!(shared.len(), 1);
+    assert_eq!(shared.count(), 1);
     assert_eq!(run(Some(&file.0)), wanted);
-    assert!(file.0.exists() && shared.len() == 2);
+    assert!(file.0.exists() && shared.count() == 2);
     // A damaged file stops a ground that has to read it, and no other.
     std::fs::write(&file.0, "damaged").unwrap();
     assert_eq!(run(Some(&file.0)), wanted);

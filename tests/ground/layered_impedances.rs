@@ -50,7 +50,7 @@ fn errors(
                 *worst = worst.max((mesh[component] - wanted).abs() / size);
             }
             let [_, b, c] = meshes.map(|mesh| mesh[component]);
-            let extrapolated = c.scale(4.0 / 3.0) - b.scale(1.0 / 3.0);
+            let extrapolated = c * (4.0 / 3.0) - b * (1.0 / 3.0);
             worst[3] = worst[3].max((extrapolated - wanted).abs() / size);
         }
     }

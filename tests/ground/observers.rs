@@ -138,6 +138,6 @@ fn builds_and_runs_hand_their_observer_on() {
     let before = simulation.state().clone();
     watched(|observer| simulation.precompute(200, observer), None);
     assert_eq!(*simulation.state(), before);
-    assert_eq!(simulation.history_choice(), None);
+    assert_eq!(simulation.ground().history_choice(), None);
     assert_eq!(states(simulation), wanted);
 }

@@ -164,7 +164,7 @@ fn the_surface_moves_by_the_transfer_function() {
         let frequencies = || (0..=length / 2).map(|l| l as f64 / (length as f64 * step));
         let lows = || (0..=length / 2).map(|l| low(2.0 * l as f64 / length as f64));
         let mut check = |found: &SiteMotion, transfer: &[Complex]| {
-            let wanted = transfer.iter().zip(lows()).map(|(factor, low)| factor.scale(low));
+            let wanted = transfer.iter().zip(lows()).map(|(factor, low)| *factor * low);
             let passed = reference(&found.samples, lows().map(Complex::real));
             let error = apart(&reference(&motion, wanted), &passed) / found.peak();
             assert!(error < 1e-9, "{name}: {error:e}; {found}");

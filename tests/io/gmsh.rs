@@ -113,7 +113,7 @@ fn written(mesh: &Mesh, lower: usize, contact: &[usize]) -> String {
     for (entity, range) in [(1, 0..lower), (2, lower..quads)] {
         let _ = writeln!(text, "2 {entity} 3 {}", range.len());
         for k in range {
-            let mut nodes = mesh.element(k).unwrap().nodes().to_vec();
+            let mut nodes = mesh.elements().nth(k).unwrap().nodes().to_vec();
             if k % 2 == 1 {
                 nodes.reverse();
             }
@@ -305,7 +305,7 @@ fn clockwise_elements_of_the_second_order_are_turned() {
         1\n2\n3\n4\n5\n6\n7\n8\n0 0 0\n0 2 0\n2 2 0\n2 0 0\n0 1 0\n1 2 0\n2 1 0\n1 0 0\n$EndNodes\n\
         $Elements\n1 1 1 1\n2 1 16 1\n1 1 2 3 4 5 6 7 8\n$EndElements\n";
     let mesh = read(text).unwrap().mesh(&[("", concrete())]).unwrap();
-    let nodes = mesh.element(0).unwrap().nodes();
+    let nodes = mesh.elements().next().unwrap().nodes();
     let places: Vec<[f64; 2]> = nodes.iter().map(|&node| mesh.nodes()[node]).collect();
     let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
     assert_eq!(places[..4], corners);

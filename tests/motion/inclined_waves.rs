@@ -92,7 +92,7 @@ fn components_that_vanish_are_not_prescribed() {
     };
     let near = [0.0_f64, 1e-12, -1e-9, 1e-6, -1e-4, 1e-3];
     for poisson in [-0.5, -0.1, 0.0, 0.01, 0.25, 0.3, 0.45] {
-        let critical = soil(poisson).speed_ratio_squared().sqrt().asin();
+        let critical = f64::sqrt(0.5 * (1.0 - 2.0 * poisson) / (1.0 - poisson)).asin();
         let right_angle = std::f64::consts::FRAC_PI_4;
         for off in near {
             let sv = |angle: f64| PlaneWave::sv(soil(poisson), angle).unwrap();
@@ -341,7 +341,6 @@ fn travelling_waves_are_late_and_refuse_nonsense() {
     }
     assert!(TravellingWave::new(el_centro_1940(), 1.0, f64::NAN).is_err());
     let left = TravellingWave::new(el_centro_1940(), -500.0, 20.0).unwrap();
-    assert!((left.delay(-30.0) - 0.1).abs() < 1e-15);
     let velocity = left.velocity(-30.0, 3.1)[0];
     assert!((velocity - el_centro_1940().velocity_at(3.0)).abs() < 1e-12);
     assert_eq!(left.displacement(0.0, 0.0), [0.0; 2]);

@@ -9,9 +9,7 @@ use proptest::prelude::*;
 const SI: AccelerationUnit = AccelerationUnit::MetrePerSecondSquared;
 
 fn written(record: &Record) -> Vec<u8> {
-    let mut text = Vec::new();
-    record.write_csv(&mut text).unwrap();
-    text
+    record.csv().as_bytes().to_vec()
 }
 
 #[test]
@@ -77,11 +75,11 @@ fn parts_outside_are_refused() {
 fn records_are_read_back_from_files() {
     let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("records/new/el_centro.csv");
     let record = el_centro_1940();
-    record.save_csv(&path).unwrap();
+    record.csv().save(&path).unwrap();
     assert_eq!(Record::read(&path, &ColumnFormat::new(SI)).unwrap(), record);
     assert_eq!(std::fs::read(&path).unwrap(), written(&record));
     let below = path.join("below_a_file.csv");
-    assert!(matches!(record.save_csv(&below), Err(Error::Write { .. })));
+    assert!(matches!(record.csv().save(&below), Err(Error::Write { .. })));
 }
 
 proptest! {

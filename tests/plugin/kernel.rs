@@ -355,7 +355,7 @@ fn a_block_on_the_voigt_bed() {
     let kinds = [HistoryMethod::Auto, HistoryMethod::Direct, HistoryMethod::Exponentials];
     let [auto, direct, exponentials] =
         kinds.map(|kind| run(bed().with_history_kind(kind), 2e-3, 600));
-    assert_eq!(auto.0.history_choice().unwrap().kind, HistoryMethod::RelaxedFft);
+    assert_eq!(auto.0.ground().history_choice().unwrap().kind, HistoryMethod::RelaxedFft);
     for (simulation, run) in [&auto, &direct, &exponentials] {
         assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
         assert_same_motion(simulation, &auto.0, 1e-6);
@@ -403,7 +403,7 @@ fn kernels_are_shared_by_type_and_identity() {
     let prepare = |soil: Voigt, time_step: f64| {
         let ground = WeightsGround::new(soil, strips(Grading::Uniform)).unwrap();
         ground.with_shared_kernels(&kernels).prepare(time_step).unwrap();
-        kernels.len()
+        kernels.count()
     };
     assert_eq!([prepare(VOIGT, 1e-3), prepare(VOIGT, 1e-3)], [1, 1]);
     assert_eq!(prepare(VOIGT, 2e-3), 2);
@@ -487,7 +487,7 @@ fn the_steps_of_a_run_are_announced_however_many() {
             .build()
             .unwrap();
         simulation.run(steps, |_| std::ops::ControlFlow::Break(())).unwrap();
-        let choice = simulation.history_choice().unwrap();
+        let choice = simulation.ground().history_choice().unwrap();
         assert_eq!((choice.kind, choice.reason), (kind, reason), "{steps} steps");
         assert_eq!(choice.steps.is_none(), steps == usize::MAX);
     }

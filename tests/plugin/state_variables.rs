@@ -153,7 +153,8 @@ fn pads_that_soften_store_half_c_t_squared() {
     let pads = SofteningPads { stiffness: [6e7, 3e7], softening: 2e5 };
     let mut simulation =
         shaken().structure(block()).ground(bed(4)).interface(pads).build().unwrap();
-    let lengths: Vec<f64> = simulation.elements().iter().map(ContactElement::length).collect();
+    let lengths: Vec<f64> =
+        simulation.ground().elements().iter().map(ContactElement::length).collect();
     // With what the pads remembered when the step began.
     let stored = |state: &State, borne: &[f64]| -> f64 {
         let pad = |e: usize| {

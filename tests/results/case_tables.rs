@@ -56,7 +56,7 @@ fn shards(folder: &Path, of: usize) -> Vec<PathBuf> {
     (0..of)
         .map(|index| {
             let shard = sweep().shard(index, of).unwrap();
-            shard.table(COLUMNS, compute).unwrap().save_csv(path(index)).unwrap();
+            shard.table(COLUMNS, compute).unwrap().csv().save(path(index)).unwrap();
             path(index)
         })
         .collect()
@@ -155,7 +155,7 @@ fn merged_shards_are_the_whole() {
     assert!(half().shard(2, 3).unwrap().cases().eq((0..24).filter(|case| case % 6 == 5)));
     let paths = [0, 1, 2].map(|index| {
         let path = folder.join(format!("half_{index}.csv"));
-        half().shard(index, 3).unwrap().table(COLUMNS, compute).unwrap().save_csv(&path).unwrap();
+        half().shard(index, 3).unwrap().table(COLUMNS, compute).unwrap().csv().save(&path).unwrap();
         path
     });
     assert_eq!(half().merge(&paths).unwrap(), half().table(COLUMNS, compute).unwrap());
@@ -212,7 +212,7 @@ fn wrong_sets_of_shards_are_refused() {
     let other = folder.join("other.csv");
     let reason = |sweep: Sweep<'_>, columns: [&str; 2]| {
         let shard = sweep.shard(3, 4).unwrap();
-        shard.table(columns, |_| Ok::<_, Error>([0.0; 2])).unwrap().save_csv(&other).unwrap();
+        shard.table(columns, |_| Ok::<_, Error>([0.0; 2])).unwrap().csv().save(&other).unwrap();
         let shards = [&paths[0], &paths[1], &paths[2], &other];
         match self::sweep().merge(shards) {
             Err(Error::Sweep(SweepError::File { reason, file, .. })) => {
@@ -314,7 +314,7 @@ fn a_killed_sweep_goes_on() {
     // As a whole, and again.
     assert_eq!(kept().unwrap(), whole());
     assert_eq!((ran(), part.exists()), (24, false));
-    assert_eq!(std::fs::read_to_string(&path).unwrap(), whole().csv());
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), *whole().csv());
     assert_eq!(kept().unwrap(), whole());
     assert_eq!(ran(), 0);
 
@@ -327,7 +327,7 @@ fn a_killed_sweep_goes_on() {
         let _ = std::fs::remove_file(&path);
         std::fs::write(&part, &bytes[..end]).unwrap();
         assert_eq!(kept().unwrap(), whole(), "{end}");
-        assert!(!part.exists() && std::fs::read_to_string(&path).unwrap() == text, "{end}");
+        assert!(!part.exists() && std::fs::read_to_string(&path).unwrap() == *text, "{end}");
         assert_eq!(ran(), ends.iter().filter(|&&row| row > end).count(), "{end}");
     }
     assert_eq!(ran(), 0);
@@ -377,7 +377,7 @@ fn a_killed_sweep_goes_on() {
         refused(other),
         SweepError::File { reason: CaseFileError::Heading { .. }, .. }
     ));
-    assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), *text);
     std::fs::remove_file(&path).unwrap();
     std::fs::write(&part, text.replace("\n2,0.1", "\n1,0.1")).unwrap();
     assert!(refused(kept()).to_string().contains("line 4"));
@@ -388,7 +388,7 @@ fn a_killed_sweep_goes_on() {
         unreachable!("the file cannot be written")
     });
     assert!(matches!(nowhere, Err(Error::Write { .. })), "{nowhere:?}");
-    assert!(matches!(whole().save_csv(file.join("cases.csv")), Err(Error::Write { .. })));
+    assert!(matches!(whole().csv().save(file.join("cases.csv")), Err(Error::Write { .. })));
 }
 
 #[test]
@@ -434,7 +434,7 @@ fn parameters_and_columns_are_checked() {
     let lines: Vec<_> = table.csv().lines().map(str::to_owned).collect();
     assert!(lines[0] == "case,error,check" && lines[1].starts_with("0,,") && lines.len() == 3);
     let none = Sweep::new(0);
-    assert_eq!(none.merge([""; 0]).unwrap().csv(), "case,error,check\n");
+    assert_eq!(none.merge([""; 0]).unwrap().csv().to_string(), "case,error,check\n");
     assert_eq!(
         none.table(["y"], |_| Ok::<_, Error>([0.0])).unwrap().to_string(),
         "case  y\n-------"
@@ -504,10 +504,10 @@ proptest! {
             _ => Ok([0, 1, 2].map(|k| f64::from_bits(numbers[k]))),
         }).unwrap();
         let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("case_tables_of_any_bits.csv");
-        table.save_csv(&path).unwrap();
+        table.csv().save(&path).unwrap();
         prop_assert_eq!(&sweep().merge([&path]).unwrap(), &table);
 
-        let mut reader = basemat_problems::csv::Reader::from_reader(table.csv().into_bytes().leak() as &[u8]);
+        let mut reader = basemat_problems::csv::Reader::from_reader(table.csv().as_bytes().to_vec().leak() as &[u8]);
         let heading: Vec<_> = reader.headers().unwrap().iter().map(str::to_owned).collect();
         prop_assert_eq!(&heading, &["case", &*name, "x", "y", "z", "w", "error", "check"]);
         for (record, row) in reader.records().zip(table.rows()) {

@@ -5,19 +5,15 @@
 use basemat::coupled::Probe;
 use basemat::interface::{Coulomb, Mode};
 use basemat::motion::AtRest;
-use basemat::results::{Quantity, Recorder, save_spectrum_csv, write_spectrum_csv};
+use basemat::results::{Quantity, Recorder, spectrum_csv};
 use basemat::structure::RigidBlock;
 
 use super::{Recorded, STEPS, recorded};
 use basemat_problems::scenes::{SI, block, scene};
 
-/// Heading and rows of what `write` writes.
-fn table(
-    write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
-) -> (Vec<String>, Vec<Vec<String>>) {
-    let mut text = Vec::new();
-    write(&mut text).unwrap();
-    let mut reader = basemat_problems::csv::Reader::from_reader(&text[..]);
+/// Heading and rows of a text.
+fn table(text: &str) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut reader = basemat_problems::csv::Reader::from_reader(text.as_bytes());
     let owned =
         |record: &basemat_problems::csv::StringRecord| record.iter().map(str::to_owned).collect();
     let heading = owned(reader.headers().unwrap());
@@ -38,7 +34,7 @@ fn same(cell: &str, value: f64) {
 #[test]
 fn histories_have_a_column_for_every_series() {
     let Recorded { histories, .. } = recorded(Recorder::new().every(3));
-    let (heading, rows) = table(|out| histories.write_csv(out));
+    let (heading, rows) = table(&histories.csv());
     let mut wanted = vec!["time_s".to_owned()];
     wanted.extend(Quantity::ALL.map(Quantity::column));
     wanted
@@ -68,7 +64,7 @@ fn what_is_not_known_is_an_empty_cell() {
         .unwrap();
     let mut histories = Recorder::new().start(&simulation).unwrap();
     simulation.run(2, |state| histories.record(state)).unwrap();
-    let (_, rows) = table(|out| histories.write_csv(out));
+    let (_, rows) = table(&histories.csv());
     assert!(rows.iter().all(|row| row.last().unwrap().is_empty()));
 }
 
@@ -89,7 +85,7 @@ fn columns_of_probes_differ() {
         .build()
         .unwrap();
     let histories = Recorder::new().start(&simulation).unwrap();
-    let (heading, _) = table(|out| histories.write_csv(out));
+    let (heading, _) = table(&histories.csv());
     let wanted = [
         "roof_left_m",
         "roof_left_m_2",
@@ -105,7 +101,7 @@ fn columns_of_probes_differ() {
 #[test]
 fn contact_has_a_row_for_every_frame_and_element() {
     let Recorded { histories, states, .. } = recorded(Recorder::new().contact(10));
-    let (heading, rows) = table(|out| histories.write_contact_csv(out));
+    let (heading, rows) = table(&histories.contact_csv());
     assert_eq!(heading.len(), 9);
     let count = histories.elements().len();
     assert_eq!(rows.len(), (STEPS / 10 + 1) * count);
@@ -124,14 +120,14 @@ fn contact_has_a_row_for_every_frame_and_element() {
     }
     assert!(modes.len() > 2, "{modes:?}");
     // Without frames there is the heading alone.
-    let (_, none) = table(|out| recorded(Recorder::new()).histories.write_contact_csv(out));
+    let (_, none) = table(&recorded(Recorder::new()).histories.contact_csv());
     assert!(none.is_empty());
 }
 
 #[test]
 fn envelopes_and_spectra() {
     let Recorded { histories, run, .. } = recorded(Recorder::new());
-    let (heading, rows) = table(|out| run.write_envelope_csv(out));
+    let (heading, rows) = table(&run.envelope_csv());
     assert_eq!((heading.len(), rows.len()), (15, run.envelope.len()));
     let at = |name: &str| heading.iter().position(|column| column == name).unwrap();
     for (row, own) in rows.iter().zip(&run.envelope) {
@@ -145,16 +141,18 @@ fn envelopes_and_spectra() {
         same(&row[at("open_s")], own.open);
     }
     let spectrum = histories.floor_spectrum("top acceleration", &[0.2, 0.5], 0.05).unwrap();
-    let (heading, rows) = table(|out| write_spectrum_csv(out, &spectrum));
+    let (heading, rows) = table(&spectrum_csv(&spectrum));
     assert_eq!(heading[3], "pseudo_acceleration_m_per_s2");
     same(&rows[1][3], spectrum[1].pseudo_acceleration);
     same(&rows[0][4], spectrum[0].acceleration);
 
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("files");
-    run.save_envelope_csv(folder.join("envelope.csv")).unwrap();
-    histories.save_contact_csv(folder.join("contact.csv")).unwrap();
-    save_spectrum_csv(folder.join("spectrum.csv"), &spectrum).unwrap();
+    run.envelope_csv().save(folder.join("envelope.csv")).unwrap();
+    histories.contact_csv().save(folder.join("contact.csv")).unwrap();
+    spectrum_csv(&spectrum).save(folder.join("spectrum.csv")).unwrap();
     let below = folder.join("envelope.csv/below_a_file.csv");
-    assert!(run.save_envelope_csv(&below).is_err() && histories.save_contact_csv(&below).is_err());
-    assert!(save_spectrum_csv(&below, &spectrum).is_err());
+    assert!(
+        run.envelope_csv().save(&below).is_err() && histories.contact_csv().save(&below).is_err()
+    );
+    assert!(spectrum_csv(&spectrum).save(&below).is_err());
 }

@@ -12,7 +12,7 @@ use super::{FRICTION, Recorded, STEPS, recorded};
 #[test]
 fn histories_and_peaks_are_those_of_the_states() {
     let Recorded { simulation, states, histories, run } = recorded(Recorder::new().contact(1));
-    let elements = simulation.elements();
+    let elements = simulation.ground().elements();
     let times: Vec<f64> = states.iter().map(|s| s.time).collect();
     assert_eq!(histories.times(), times);
     let shear: Vec<f64> = states.iter().map(|s| s.base_shear).collect();

@@ -147,8 +147,8 @@ fn archives_are_saved_beside_their_tables() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("npz");
     let Recorded { histories, .. } = recorded(Recorder::new().contact(4).motion(100));
     histories.save_npz(folder.join("run.npz")).unwrap();
-    histories.save_csv(folder.join("run.csv")).unwrap();
-    histories.save_contact_csv(folder.join("contact.csv")).unwrap();
+    histories.csv().save(folder.join("run.csv")).unwrap();
+    histories.contact_csv().save(folder.join("contact.csv")).unwrap();
     let below = folder.join("run.npz/below_a_file.npz");
     assert!(matches!(histories.save_npz(below), Err(Error::Write { .. })));
 }

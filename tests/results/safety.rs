@@ -125,7 +125,7 @@ fn friction_is_that_of_the_laws() {
         let run = simulation.run(20, |state| histories.record(state))?;
         Ok::<_, Error>((run, histories))
     };
-    let count = simulation().elements().len();
+    let count = simulation().ground().elements().len();
     let each = |friction: &dyn Fn(usize) -> f64| -> Laws {
         (0..count).map(|e| Box::new(coulomb(friction(e))) as Box<dyn InterfaceLaw>).collect()
     };

@@ -60,7 +60,7 @@ impl Portal {
         let (roof, footing) = (0.5 * ROOF_MASS, density * depth * width);
         let mut overturning = DofCombination::default();
         for x in [-0.5 * SPAN, 0.5 * SPAN] {
-            let [foot, top] = [model.node_at(x, 0.0)?, model.node_at(x, HEIGHT)?];
+            let [foot, top] = [model.mesh().node_at(x, 0.0)?, model.mesh().node_at(x, HEIGHT)?];
             let sway = model.row(top, Direction::X)?;
             overturning += roof * HEIGHT * sway
                 - x * roof * model.row(top, Direction::Y)?

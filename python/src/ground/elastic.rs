@@ -39,7 +39,7 @@ impl PySharedKernels {
     }
 
     fn __len__(&self) -> usize {
-        self.0.len()
+        self.0.count()
     }
 }
 

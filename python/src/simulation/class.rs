@@ -332,7 +332,7 @@ impl PySimulation {
     /// Ends of the contact elements: list of (left, right), m.
     #[getter]
     fn elements(&self) -> PyResult<Vec<(f64, f64)>> {
-        Ok(self.lock()?.elements().iter().map(|e| (e.left, e.right)).collect())
+        Ok(self.lock()?.ground().elements().iter().map(|e| (e.left, e.right)).collect())
     }
 
     /// Static displacement of the degrees of freedom: array of shape (n,), m and rad.
@@ -344,7 +344,7 @@ impl PySimulation {
     /// Which history the ground keeps and why, in words; None if it has not chosen one yet.
     #[getter]
     fn history_choice(&self) -> PyResult<Option<String>> {
-        Ok(self.lock()?.history_choice().map(|choice| choice.to_string()))
+        Ok(self.lock()?.ground().history_choice().map(|choice| choice.to_string()))
     }
 
     /// Condition numbers of the three matrices of a step: effective stiffness, ground, contact problem.

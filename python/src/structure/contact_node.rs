@@ -66,8 +66,8 @@ impl PyContactNode {
         format!(
             "ContactNode({:?}, {:?}, {:?})",
             self.0.x,
-            self.0.horizontal.terms(),
-            self.0.vertical.terms()
+            self.0.horizontal.to_vec(),
+            self.0.vertical.to_vec()
         )
     }
 

@@ -19,7 +19,7 @@ impl PyDofCombination {
     /// List of pairs ``(dof, weight)``.
     #[getter]
     fn terms(&self) -> Vec<(usize, f64)> {
-        self.0.terms().to_vec()
+        self.0.to_vec()
     }
 
     /// The sum for given degrees of freedom: ``dofs`` is an array of shape (n,); in their unit.
@@ -92,7 +92,7 @@ impl PyDofCombination {
     }
 
     fn __repr__(&self) -> String {
-        format!("DofCombination({:?})", self.0.terms())
+        format!("DofCombination({:?})", &*self.0)
     }
 
     fn __getnewargs__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>,)> {

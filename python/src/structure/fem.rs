@@ -104,7 +104,7 @@ impl PyFemModel {
 
     /// Number of the node at (``x``, ``y``), m, to a millionth of the model's size.
     fn node_at(&self, x: f64, y: f64) -> PyResult<usize> {
-        self.0.node_at(x, y).or_raise()
+        self.0.mesh().node_at(x, y).or_raise()
     }
 
     /// The :class:`SectionRows` of shear (N/m), compression (N/m) and moment (N·m/m) that the part above

@@ -67,14 +67,9 @@ impl Sliding {
     }
 
     /// The event with the largest |slip|.
-    pub fn largest_event(&self) -> Option<SlipEvent> {
+    pub(crate) fn largest_event(&self) -> Option<SlipEvent> {
         let larger = |a: &SlipEvent, b: &SlipEvent| a.slip.abs().total_cmp(&b.slip.abs());
         self.events.iter().copied().max_by(larger)
-    }
-
-    /// Number of events of at least `least` (m) of slip.
-    pub fn events_above(&self, least: f64) -> usize {
-        self.events.iter().filter(|event| event.slip.abs() >= least).count()
     }
 }
 
@@ -280,7 +275,6 @@ mod tests {
         assert_eq!(sliding.events, known);
         assert_eq!((sliding.path, sliding.duration), (11.0, 5.0));
         assert_eq!(sliding.largest_event(), Some(known[1]));
-        assert_eq!([0.0, 3.5, 6.0].map(|least| sliding.events_above(least)), [3, 1, 0]);
         assert_eq!(Sliding::default().largest_event(), None);
     }
 }

@@ -239,7 +239,7 @@ impl Run {
     }
 
     /// The criterion with the least margin; `None` without limits.
-    pub fn least_serviceable(&self) -> Option<&ServiceCheck> {
+    pub(crate) fn least_serviceable(&self) -> Option<&ServiceCheck> {
         self.serviceability.iter().min_by(|a, b| a.margin().total_cmp(&b.margin()))
     }
 
@@ -259,7 +259,7 @@ impl Run {
 
     /// Error bound of the energy balance's `soil` by an approximate history, J/m since the start; zero for
     /// exact histories, NaN if no energy balance is kept. See [`EnergyBalance::soil_error_bound`].
-    pub fn history_error_bound(&self) -> f64 {
+    pub(crate) fn history_error_bound(&self) -> f64 {
         self.energy_balance.soil_error_bound
     }
 }

@@ -86,7 +86,7 @@ short_debug! {
 
 impl ExponentialHistory {
     /// Accuracy unless another one is asked for.
-    pub const TOLERANCE: f64 = 1e-10;
+    pub(crate) const TOLERANCE: f64 = 1e-10;
     /// Steps over which `tolerance` holds, unless others are asked for.
     pub(crate) const HORIZON: usize = 1 << 20;
 
@@ -171,7 +171,7 @@ impl ExponentialHistory {
     }
 
     /// The tolerance that was asked for.
-    pub fn tolerance(&self) -> f64 {
+    pub(crate) fn tolerance(&self) -> f64 {
         self.fit.request.tolerance
     }
 

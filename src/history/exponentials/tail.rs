@@ -75,17 +75,17 @@ impl ExponentialSum {
     }
 
     /// Rates per step.
-    pub fn rates(&self) -> &[f64] {
+    pub(crate) fn rates(&self) -> &[f64] {
         &self.rates
     }
 
     /// Per function: its means over the elements.
-    pub fn functions(&self) -> &[Vec<f64>] {
+    pub(crate) fn functions(&self) -> &[Vec<f64>] {
         &self.functions
     }
 
     /// Products of functions, and their weights.
-    pub fn products(&self) -> &[TailProduct] {
+    pub(crate) fn products(&self) -> &[TailProduct] {
         &self.products
     }
 }

@@ -295,7 +295,7 @@ pub struct LeadRubber {
 
 impl LeadRubber {
     /// Shear stress at which lead yields unless set otherwise, Pa.
-    pub const LEAD_YIELD_STRESS: f64 = 10.0e6;
+    pub(crate) const LEAD_YIELD_STRESS: f64 = 10.0e6;
     /// Ratio of the first stiffness to that after yield unless set otherwise.
     pub const STIFFNESS_RATIO: f64 = 10.0;
 

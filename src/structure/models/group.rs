@@ -37,7 +37,7 @@ struct Member {
 /// let group = StructureGroup::new()
 ///     .with(RigidBlock::new(4.0, 8.0, 1500.0)?, 0.0)?
 ///     .with(RigidBlock::new(3.0, 4.0, 1500.0)?, 6.0)?;
-/// assert_eq!(group.row(1, RigidBlock::HORIZONTAL)?.terms(), [(3, 1.0)]);
+/// assert_eq!(group.row(1, RigidBlock::HORIZONTAL)?[..], [(3, 1.0)]);
 /// // The first block has no fourth unknown: that is one of the other block.
 /// assert!(group.row(0, 3).is_err());
 /// let mut simulation = Simulation::builder(0.005)
@@ -98,13 +98,8 @@ impl StructureGroup {
     }
 
     /// Number of structures.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.members.len()
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.members.is_empty()
     }
 
     /// A weighted sum of the degrees of freedom of structure `member` (0: the leftmost) in those of the group.

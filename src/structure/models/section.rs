@@ -156,7 +156,7 @@ impl FemModel {
     /// // Wind on the left side, from the roof to the base: 1 kPa × 10 m to the right.
     /// let side: Vec<usize> = [10.0, 8.0, 6.0, 4.0, 2.0, 0.0]
     ///     .into_iter()
-    ///     .map(|y| tower.node_at(-2.0, y))
+    ///     .map(|y| tower.mesh().node_at(-2.0, y))
     ///     .collect::<Result<_, _>>()?;
     /// let row = tower.pressure_row(&side)?;
     /// let force = row.value(&tower.rigid_motion(Direction::X, [0.0, 0.0]));

@@ -164,7 +164,7 @@ impl ShearBuilding {
     }
 
     /// The storeys, from below.
-    pub fn storeys(&self) -> &[Storey] {
+    pub(crate) fn storeys(&self) -> &[Storey] {
         &self.storeys
     }
 

@@ -30,14 +30,14 @@ use crate::structure::{ContactNode, DofCombination, Structure, Triplets};
 /// let material = Material::new(3.0e9, 0.2, 2400.0)?;
 /// let mesh = Mesh::layered_block(-5.0..5.0, 8, &[Layer::new(20.0, 16, material)])?;
 /// let model = FemModel::on_base(mesh)?;
-/// let roof = model.row(model.node_at(0.0, 20.0)?, Direction::X)?;
+/// let roof = model.row(model.mesh().node_at(0.0, 20.0)?, Direction::X)?;
 /// assert_eq!(model.dofs(), 306);
 ///
 /// let reduced = CraigBampton::new(12).reduce(model)?;
 /// assert_eq!(reduced.dofs(), 2 * 9 + 12);
 /// // A probe on an unknown that is no longer there:
 /// let row = reduced.recovery().row(roof)?;
-/// assert_eq!(row.terms().len(), 30);
+/// assert_eq!(row.len(), 30);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -115,7 +115,8 @@ fn layer_stores_energy() {
         };
         contact.iter().zip(lengths).map(|(c, length)| length * stored(c)).sum()
     };
-    let lengths: Vec<_> = simulation.elements().iter().map(ContactElement::length).collect();
+    let lengths: Vec<_> =
+        simulation.ground().elements().iter().map(ContactElement::length).collect();
     let at_rest = energy(&simulation.state().contact, &lengths);
     let run = simulation
         .run(250, |state| {

@@ -42,7 +42,7 @@ fn what_auto_has_chosen_is_chosen_again() {
         let case = format!("{elements} elements, {memory} bytes, {expected} steps expected");
         let mut whole = auto(elements, memory).expected_steps(expected).build().unwrap();
         whole.run(steps, |_| {}).unwrap();
-        let choice = whole.history_choice().unwrap();
+        let choice = whole.ground().history_choice().unwrap();
         assert_eq!(choice.kind, kind, "{case}");
         let saved = carried(&whole.checkpoint().unwrap());
         let wanted = states(&mut whole, 40);
@@ -50,7 +50,7 @@ fn what_auto_has_chosen_is_chosen_again() {
         used.run(steps + 10, |_| {}).unwrap();
         for mut other in [auto(elements, memory).build().unwrap(), used] {
             other.resume(&saved).unwrap_or_else(|e| panic!("{case}: {e}"));
-            assert_eq!(other.history_choice(), Some(choice), "{case}");
+            assert_eq!(other.ground().history_choice(), Some(choice), "{case}");
             assert_eq!(other.checkpoint().unwrap(), saved, "{case}");
             assert_eq!(states(&mut other, 40)[1..], wanted[1..], "{case}");
         }
@@ -63,11 +63,11 @@ fn where_nothing_was_chosen_the_choice_is_open_again() {
     let fresh = auto(10, 60_000).build().unwrap().checkpoint().unwrap();
     let mut used = auto(10, 60_000).build().unwrap();
     used.run(100, |_| {}).unwrap();
-    assert_eq!(used.history_choice().unwrap().kind, HistoryMethod::Exponentials);
+    assert_eq!(used.ground().history_choice().unwrap().kind, HistoryMethod::Exponentials);
     used.resume(&fresh).unwrap();
-    assert_eq!((used.history_choice(), used.state().step), (None, 0));
+    assert_eq!((used.ground().history_choice(), used.state().step), (None, 0));
     used.run(50, |_| {}).unwrap();
-    assert_eq!(used.history_choice().unwrap().kind, HistoryMethod::RelaxedFft);
+    assert_eq!(used.ground().history_choice().unwrap().kind, HistoryMethod::RelaxedFft);
 }
 
 /// GOAL: where a long run is announced the exponentials take over, with an error at rounding.
@@ -81,7 +81,7 @@ fn the_history_of_a_long_run_differs_by_rounding() {
             simulation
         };
         let (short, long) = (run(0), run(100_000));
-        let kinds = [&short, &long].map(|simulation| simulation.history_choice().unwrap());
+        let kinds = [&short, &long].map(|simulation| simulation.ground().history_choice().unwrap());
         assert_eq!(kinds.map(|c| c.kind), [HistoryMethod::RelaxedFft, HistoryMethod::Exponentials]);
         assert_eq!(kinds[1].reason, ChoiceReason::Rounding);
         assert!(kinds[1].error_bound > 0.0 && kinds[1].error_bound <= 1e-12);
@@ -121,7 +121,7 @@ fn a_run_may_be_cut_anywhere() {
             for expected in [0, 40, 300, 1000] {
                 let cut = run(cuts, expected);
                 assert_eq!(cut.state(), state, "{elements} elements, {cuts:?}, {expected}");
-                assert_eq!(cut.history_choice().unwrap().kind, HistoryMethod::RelaxedFft);
+                assert_eq!(cut.ground().history_choice().unwrap().kind, HistoryMethod::RelaxedFft);
             }
             // Only the first announcement is noted.
             assert_eq!(
@@ -153,7 +153,7 @@ fn a_used_simulation_resumes_the_same_scene() {
         for (first, second) in [(50, 300), (300, 50)] {
             let (mut one, mut other) = (run(first), run(second));
             other.resume(&one.checkpoint().unwrap()).unwrap();
-            assert_eq!(other.history_choice(), one.history_choice());
+            assert_eq!(other.ground().history_choice(), one.ground().history_choice());
             assert_eq!(states(&mut other, 40)[1..], states(&mut one, 40)[1..]);
         }
     }
@@ -168,7 +168,7 @@ fn a_choice_by_memory_is_that_of_the_first_announcement() {
         for steps in cuts {
             simulation.run(*steps, |_| {}).unwrap();
         }
-        (simulation.history_choice().unwrap().kind, simulation.state().clone())
+        (simulation.ground().history_choice().unwrap().kind, simulation.state().clone())
     };
     assert_eq!(run(&[300], 0).0, HistoryMethod::Exponentials);
     assert_eq!(run(&[50], 0).0, HistoryMethod::RelaxedFft);
@@ -196,12 +196,12 @@ fn beyond_the_memory_exponentials_take_over() {
         let mut whole = make(50).build().unwrap();
         let found = states(&mut whole, 400);
         assert!(found[most] == exact[most], "{elements}: exact until there");
-        let choice = whole.history_choice().unwrap();
+        let choice = whole.ground().history_choice().unwrap();
         assert_eq!(
             (choice.kind, choice.reason),
             (HistoryMethod::Exponentials, ChoiceReason::MemoryLimit)
         );
-        assert!(choice.error_bound > 0.0 && choice.error_bound <= ExponentialHistory::TOLERANCE);
+        assert!(choice.error_bound > 0.0 && choice.error_bound <= 1e-10);
         assert!(found[400].energy_balance.soil_error_bound > 0.0);
         let scale = exact.iter().map(|s| s.base_shear.abs()).fold(0.0, f64::max);
         for (found, exact) in found.iter().zip(&exact) {
@@ -301,7 +301,7 @@ fn another_choice_is_refused_and_changes_nothing() {
         // It would choose another one.
         let mut fresh = auto(10, memory).build().unwrap();
         assert_eq!(refusal(&mut fresh, checkpoint), CheckpointError::OtherScene { quantity });
-        assert_eq!(fresh.history_choice(), None);
+        assert_eq!(fresh.ground().history_choice(), None);
         // It has chosen another one.
         fresh.run(50, |_| {}).unwrap();
         assert_eq!(refusal(&mut fresh, checkpoint), CheckpointError::OtherScene { quantity });
@@ -335,11 +335,11 @@ fn an_approximate_history_is_in_the_energy_balance() {
         base.ground(ground).build().unwrap().run(STEPS, |_| {}).unwrap()
     };
     let exact = run(HistoryMethod::Direct, 1e-3);
-    assert_eq!(exact.history_error_bound(), 0.0);
+    assert_eq!(exact.energy_balance.soil_error_bound, 0.0);
     let mut last = f64::INFINITY;
     for tolerance in [1e-3, 1e-6, 1e-9] {
         let run = run(HistoryMethod::Exponentials, tolerance);
-        let bound = run.history_error_bound();
+        let bound = run.energy_balance.soil_error_bound;
         println!("{tolerance:e}: soil {:e} within {bound:e}", run.energy_balance.soil);
         assert!(bound > 0.0 && bound < 100.0 * tolerance * run.energy_balance.soil);
         assert!(bound < 0.1 * last);

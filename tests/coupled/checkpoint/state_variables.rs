@@ -34,7 +34,7 @@ fn memories_resume_to_the_last_bit() {
     ];
     for (name, build) in kinds {
         let memory = |simulation: &Simulation| -> Vec<f64> {
-            let count = simulation.elements().len();
+            let count = simulation.ground().elements().len();
             (0..count).flat_map(|e| simulation.state().state_variables(e).to_vec()).collect()
         };
         let mut whole = build();

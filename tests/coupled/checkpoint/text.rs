@@ -72,10 +72,10 @@ fn a_damaged_choice_of_the_history_is_refused() {
         let bad = sealed(value).unwrap();
         let mut fresh = auto(10, 1 << 30).build().unwrap();
         for simulation in [&mut fresh, &mut whole] {
-            let before = simulation.history_choice();
+            let before = simulation.ground().history_choice();
             let found = refusal(simulation, &bad);
             assert!(matches!(found, CheckpointError::Corrupt { .. }), "{place}, {wrong}");
-            assert_eq!(simulation.history_choice(), before);
+            assert_eq!(simulation.ground().history_choice(), before);
         }
     }
     // Numbers that mean something, but something else.
@@ -87,7 +87,7 @@ fn a_damaged_choice_of_the_history_is_refused() {
     for kind in [0.0, 1.0, 3.0] {
         let mut fresh = auto(10, 1 << 30).build().unwrap();
         refusal(&mut fresh, &changed(0, kind));
-        assert_eq!(fresh.history_choice(), None);
+        assert_eq!(fresh.ground().history_choice(), None);
     }
     // Other numbers of steps for which the same history is chosen: it goes on to the same bits.
     whole.run(50, |_| {}).unwrap();

@@ -86,7 +86,8 @@ impl Scene {
                 let layers = [Layer::new(self.height, rows, material)];
                 let mesh = Mesh::layered_block(-half..half, self.elements, &layers)?;
                 let model = FemModel::on_base(mesh)?;
-                let top = model.row(model.nearest_node(0.0, self.height), Direction::X)?;
+                let top = model
+                    .row(model.mesh().nearest_node(0.0, self.height).unwrap(), Direction::X)?;
                 builder.structure(model).probe(Probe::acceleration("top", top))
             }
         };

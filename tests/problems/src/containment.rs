@@ -148,8 +148,8 @@ impl Containment {
         let mut terms = Vec::new();
         for k in 0..=self.elements {
             let x = start + (end - start) * k as f64 / self.elements as f64;
-            let row = model.row(model.node_at(x, self.layer_height())?, Direction::X)?;
-            terms.extend(row.terms().iter().map(|(unknown, weight)| (*unknown, share * weight)));
+            let row = model.row(model.mesh().node_at(x, self.layer_height())?, Direction::X)?;
+            terms.extend(row.iter().map(|(unknown, weight)| (*unknown, share * weight)));
         }
         Ok(terms)
     }
@@ -163,17 +163,14 @@ impl Containment {
     /// against the base.
     pub fn probes(&self, model: &FemModel) -> basemat::Result<[Probe; 4]> {
         let [left, roof] = self.corner();
-        let corner = model.node_at(left, roof)?;
+        let corner = model.mesh().node_at(left, roof)?;
         let [x, y] = [Direction::X, Direction::Y].map(|direction| model.row(corner, direction));
         let (x, y) = (x?, y?);
-        let feet: Vec<_> = model
-            .contact_nodes()
-            .iter()
-            .flat_map(|node| node.horizontal.terms().to_vec())
-            .collect();
+        let feet: Vec<_> =
+            model.contact_nodes().iter().flat_map(|node| node.horizontal.to_vec()).collect();
         let share = 1.0 / feet.len() as f64;
         let feet = feet.into_iter().map(|(unknown, weight)| (unknown, -share * weight));
-        let sway: DofCombination = x.terms().iter().copied().chain(feet).collect();
+        let sway: DofCombination = x.iter().copied().chain(feet).collect();
         Ok([
             Probe::absolute_displacement("roof x", x),
             Probe::absolute_displacement("roof y", y),

@@ -31,7 +31,7 @@ impl Tower {
         let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(model.dofs()));
         model.mass(&mut mass)?;
         model.stiffness(&mut stiffness)?;
-        let top = model.row(model.node_at(0.0, 100.0)?, Direction::X)?;
+        let top = model.row(model.mesh().node_at(0.0, 100.0)?, Direction::X)?;
         Ok(Self { mass, stiffness, contact: model.contact_nodes(), top })
     }
 }

@@ -17,9 +17,7 @@ fn column(length: f64, [across, along]: [usize; 2], nu: f64, kind: QuadFormulati
 
 fn fixed_base(model: &FemModel) -> Vec<(usize, f64)> {
     let ends = model.contact_nodes();
-    ends.iter()
-        .flat_map(|node| [(node.horizontal.terms()[0].0, 0.0), (node.vertical.terms()[0].0, 0.0)])
-        .collect()
+    ends.iter().flat_map(|node| [(node.horizontal[0].0, 0.0), (node.vertical[0].0, 0.0)]).collect()
 }
 
 /// Tip deflection under a unit shear, relative to Timoshenko's beam in plane strain.
@@ -77,7 +75,7 @@ fn pure_bending_of_rectangles_is_exact() {
         let model = column(length, [1, rows], nu, QuadFormulation::IncompatibleModes);
         let mut load = vec![0.0; model.dofs()];
         for (x, sign) in [(-0.5, -1.0), (0.5, 1.0)] {
-            let node = model.node_at(x, length).unwrap();
+            let node = model.mesh().node_at(x, length).unwrap();
             load[model.unknown(node, Direction::Y).unwrap()] = sign;
         }
         // The base may widen: only its left node is held sideways.

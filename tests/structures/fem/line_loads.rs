@@ -60,7 +60,7 @@ fn wind_on_a_wall_meets_the_ground() {
     let mesh = Mesh::layered_block(-2.0..2.0, 4, &[Layer::new(6.0, 4, material())]).unwrap();
     let wall = FemModel::on_base(mesh).unwrap();
     let side: Vec<usize> =
-        [6.0, 4.5, 3.0, 1.5, 0.0].map(|y| wall.node_at(-2.0, y).unwrap()).to_vec();
+        [6.0, 4.5, 3.0, 1.5, 0.0].map(|y| wall.mesh().node_at(-2.0, y).unwrap()).to_vec();
     let row = wall.pressure_row(&side).unwrap();
     let simulation = Simulation::builder(0.01)
         .structure(wall)

@@ -24,11 +24,11 @@ fn layered_block_runs_from_the_base_upwards() {
     assert_eq!(heights, [0.0, 1.0, 3.0, 5.0, 7.0]);
     let line: Vec<f64> = mesh.nodes()[..4].iter().map(|node| node[0]).collect();
     assert_eq!(line, [-3.0, -1.0, 1.0, 3.0]);
-    assert_eq!(mesh.element(3).unwrap().nodes(), [4, 5, 9, 8]);
+    assert_eq!(mesh.elements().nth(3).unwrap().nodes(), [4, 5, 9, 8]);
     assert_eq!(mesh.nodes_at_height(3.0, 1e-9).unwrap(), [8, 9, 10, 11]);
     assert_eq!(mesh.nearest_node(1.4, 4.8), Some(14));
     assert_eq!(Mesh::new().nearest_node(0.0, 0.0), None);
-    assert!(mesh.element(12).is_none());
+    assert_eq!(mesh.elements().len(), 12);
     // A clone grows by itself.
     let mut larger = mesh.clone();
     let [low, high] = [0.0, 1.0].map(|y| larger.add_node(5.0, y).unwrap());
@@ -47,21 +47,21 @@ fn a_node_is_where_it_is_looked_for_or_nowhere() {
     let mesh = Mesh::layered_block(-2.0..2.0, 3, &[Layer::new(20.0, 10, soft())]).unwrap();
     let model = FemModel::on_base(mesh).unwrap();
     // Coordinates with rounding: −2 + 4/3 and 7 · 2.
-    assert_eq!(model.node_at(-0.666_666_67, 14.0), Ok(7 * 4 + 1));
+    assert_eq!(model.mesh().node_at(-0.666_666_67, 14.0), Ok(7 * 4 + 1));
     for (x, y, nearest) in
         [(0.0, 200.0, [-2.0 / 3.0, 20.0]), (2.0, 13.9, [2.0, 14.0]), (2.001, 14.0, [2.0, 14.0])]
     {
-        let Err(Error::NoNode { nearest: found, distance, .. }) = model.node_at(x, y) else {
+        let Err(Error::NoNode { nearest: found, distance, .. }) = model.mesh().node_at(x, y) else {
             panic!("({x}, {y})")
         };
         assert!((found[0] - nearest[0]).hypot(found[1] - nearest[1]) < 1e-12);
         assert!((distance - (x - nearest[0]).hypot(y - nearest[1])).abs() < 1e-12);
     }
-    let error = model.node_at(2.0, 200.0).unwrap_err().to_string();
+    let error = model.mesh().node_at(2.0, 200.0).unwrap_err().to_string();
     assert_eq!(error, "no node at (2, 200): the nearest, at (2, 20), is 180 m away");
     for bad in [f64::NAN, f64::INFINITY] {
-        assert!(matches!(model.node_at(bad, 0.0), Err(Error::Input { .. })));
-        assert!(matches!(model.node_at(0.0, bad), Err(Error::Input { .. })));
+        assert!(matches!(model.mesh().node_at(bad, 0.0), Err(Error::Input { .. })));
+        assert!(matches!(model.mesh().node_at(0.0, bad), Err(Error::Input { .. })));
     }
     assert!(matches!(Mesh::new().node_at(0.0, 0.0), Err(Error::Size { .. })));
     // A single node has no size: only its own place will do.

@@ -123,7 +123,7 @@ fn tip_ratio(elements: usize, nu: f64, integration: Quad8Integration) -> f64 {
     let held: Vec<(usize, f64)> = model
         .contact_nodes()
         .iter()
-        .flat_map(|node| [(node.horizontal.terms()[0].0, 0.0), (node.vertical.terms()[0].0, 0.0)])
+        .flat_map(|node| [(node.horizontal[0].0, 0.0), (node.vertical[0].0, 0.0)])
         .collect();
     let top = model.mesh().nodes_at_height(length, 1e-9).unwrap();
     let mut load = vec![0.0; model.dofs()];

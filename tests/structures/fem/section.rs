@@ -38,7 +38,7 @@ fn frame_on_block() -> [FemModel; 2] {
         mesh.add(LumpedMass::new(top, 3000.0).unwrap().with_rotary_inertia(500.0).unwrap())
             .unwrap();
         mesh.add(Dashpot::axial([foot, roof], 6.0e4).unwrap()).unwrap();
-        let base = mesh.nodes_at_height(mesh.lowest(), 1e-9).unwrap();
+        let base = mesh.nodes_at_height(0.0, 1e-9).unwrap();
         let model = FemModel::new(mesh, &base).unwrap();
         model.with_rayleigh(RayleighDamping::new(0.0, 0.003).unwrap())
     })
@@ -48,7 +48,7 @@ fn frame_on_block() -> [FemModel; 2] {
 #[test]
 fn static_load_passes_through_every_section() {
     let [model, _] = frame_on_block();
-    let top = model.node_at(3.5, 6.0).unwrap();
+    let top = model.mesh().node_at(3.5, 6.0).unwrap();
     let mut load = vec![0.0; model.dofs()];
     load[model.unknown(top, Direction::X).unwrap()] = 700.0;
     load[model.unknown(top, Direction::Y).unwrap()] = -300.0;
@@ -71,7 +71,7 @@ fn static_load_passes_through_every_section() {
 fn moving_structure_keeps_the_balance_of_its_upper_part() {
     let [model, upper] = frame_on_block();
     let n = model.dofs();
-    let first = model.node_at(-1.0, CUT).unwrap();
+    let first = model.mesh().node_at(-1.0, CUT).unwrap();
     assert_eq!(model.dofs() - upper.dofs(), 2 * first);
     let [u, v, a] = [1, 2, 3].map(|seed| noise(n, seed));
     let force: Vec<f64> = multiply(&stiffness(&model), &u)

@@ -18,7 +18,7 @@ fn damped() -> FemModel {
 }
 
 fn top(model: &FemModel) -> usize {
-    model.unknown(model.node_at(0.0, 15.0).unwrap(), Direction::X).unwrap()
+    model.unknown(model.mesh().node_at(0.0, 15.0).unwrap(), Direction::X).unwrap()
 }
 
 /// A x for a matrix of the structure.

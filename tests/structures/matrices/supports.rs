@@ -68,7 +68,9 @@ fn weak_supports_are_refused_and_named() {
     for (place, direction, name) in
         [([0.0, 15.0], Direction::X, "to the right"), ([-1.0, 7.5], Direction::Y, "upwards")]
     {
-        let unknown = block.unknown(block.nearest_node(place[0], place[1]), direction).unwrap();
+        let unknown = block
+            .unknown(block.mesh().nearest_node(place[0], place[1]).unwrap(), direction)
+            .unwrap();
         let stiffest = by_matrices(&block, |value| value, None);
         let mut entries = Triplets::new(block.dofs());
         stiffest.stiffness(&mut entries).unwrap();
@@ -85,7 +87,7 @@ fn weak_supports_are_refused_and_named() {
             }
         }
     }
-    let top = wall().unknown(wall().nearest_node(0.0, 50.0), Direction::X).unwrap();
+    let top = wall().unknown(wall().mesh().nearest_node(0.0, 50.0).unwrap(), Direction::X).unwrap();
     for share in [1e-9, 1e-6, 1e-3, 1.0, 1e3] {
         let held = by_matrices(&wall(), |value| value, Some((top, share)));
         let reduced = CraigBampton::new(5).reduce(held.clone()).unwrap();
@@ -105,7 +107,7 @@ fn rounding_is_no_support() {
     stands(wall_on_soil(by_matrices(&wall(), shuffled, None)));
     stands(wall_on_soil(by_matrices(&wall(), digits(12), None)));
     stands(wall_on_soil(wall()));
-    let top = wall().unknown(wall().nearest_node(0.0, 50.0), Direction::X).unwrap();
+    let top = wall().unknown(wall().mesh().nearest_node(0.0, 50.0).unwrap(), Direction::X).unwrap();
     let reduced = CraigBampton::new(10).keep(&[top]).reduce(wall()).unwrap();
     stands(wall_on_soil(reduced));
 }

@@ -118,7 +118,7 @@ pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
     let cases = options.out.join("cases.csv");
     let table = if options.merge {
         let table = sweep()?.merge(shards(&options.out)?)?;
-        table.save_csv(&cases)?;
+        table.csv().save(&cases)?;
         table
     } else {
         compute(sweep()?, &cases, &motions)?

@@ -50,7 +50,7 @@ impl Tower {
 
     fn build(self, coordinates: Coordinates) -> Result<Simulation> {
         let model = self.model()?;
-        let row = |y| model.row(model.node_at(-4.0, y)?, Direction::X);
+        let row = |y| model.row(model.mesh().node_at(-4.0, y)?, Direction::X);
         let (base, roof) = (row(0.0)?, row(24.0)?);
         let ground =
             ElasticGround::new(Soil::new(80e6, 0.33, 1900.0)?, Strip::uniform(-4.0..4.0, 10)?)?;

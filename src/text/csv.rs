@@ -1,0 +1,95 @@
+//! Text of CSV files, and files that are whole or as they were.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::hash::{BuildHasher, Hasher, RandomState};
+use std::io::Write;
+use std::ops::Deref;
+use std::path::Path;
+
+use crate::error::{Error, Result};
+
+/// Text of a CSV file (RFC 4180): a heading and a line for every row. It is a `str`, to be searched, printed or
+/// written to any writer.
+///
+/// ```
+/// use basemat::motion::Record;
+/// let text = Record::new(0.5, vec![0.0, 0.1, -2.5])?.csv();
+/// assert_eq!(&*text, "time_s,acceleration_m_per_s2\n0.0,0.0\n0.5,0.1\n1.0,-2.5\n");
+/// let path = std::env::temp_dir().join("basemat-record.csv");
+/// text.save(&path)?;
+/// # std::fs::remove_file(path).unwrap();
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Csv(pub(crate) String);
+
+impl Csv {
+    /// Saves the text as a file; its folder is made if it is not there. The file is there with all its lines or as it
+    /// was before: it is written under another name and renamed.
+    ///
+    /// # Errors
+    /// [`Error::Write`] if that fails.
+    pub fn save(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path.as_ref();
+        replaced(path, &self.0).map_err(unwritten(path))
+    }
+}
+
+impl Deref for Csv {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        &self.0
+    }
+}
+
+impl AsRef<[u8]> for Csv {
+    fn as_ref(&self) -> &[u8] {
+        self.0.as_bytes()
+    }
+}
+
+impl fmt::Display for Csv {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+/// [`Error::Write`] of `path`.
+pub(crate) fn unwritten(path: &Path) -> impl Fn(std::io::Error) -> Error {
+    let file = path.display().to_string();
+    move |error| Error::Write { file: file.clone(), reason: error.kind() }
+}
+
+/// Replaces a file by one with this content, or leaves it as it was.
+pub(crate) fn replaced(path: &Path, content: &str) -> std::io::Result<()> {
+    // The hash of nothing, under keys that are random: two processes must not share the name.
+    let mark = RandomState::new().build_hasher().finish();
+    let mut temporary = path.as_os_str().to_owned();
+    temporary.push(format!(".{mark:016x}.tmp"));
+    let write = || {
+        path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
+        let mut file = std::fs::File::create(&temporary)?;
+        file.write_all(content.as_bytes())?;
+        file.sync_all()?;
+        std::fs::rename(&temporary, path)
+    };
+    write().inspect_err(|_| {
+        let _ = std::fs::remove_file(&temporary);
+    })
+}
+
+/// A cell as CSV has it (RFC 4180): in quotes where it needs them.
+pub(crate) fn csv_cell(cell: &str) -> Cow<'_, str> {
+    if cell.contains([',', '"', '\n', '\r']) {
+        Cow::Owned(format!("\"{}\"", cell.replace('"', "\"\"")))
+    } else {
+        Cow::Borrowed(cell)
+    }
+}
+
+/// Cells as a line of CSV, with its end.
+pub(crate) fn csv_line(cells: &[String]) -> String {
+    cells.iter().map(|cell| csv_cell(cell)).collect::<Vec<_>>().join(",") + "\n"
+}
