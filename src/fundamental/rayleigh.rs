@@ -120,6 +120,13 @@ impl Rayleigh {
     }
 }
 
+impl Soil {
+    /// Rayleigh (R) wave speed, m/s: the speed of the surface wave (Achenbach 1973, § 5.11).
+    pub fn rayleigh_wave_speed(&self) -> f64 {
+        self.shear_wave_speed() / Rayleigh::new(*self).arrival()
+    }
+}
+
 /// Terms kept: enough for rounding from three Rayleigh arrivals on.
 pub(crate) const TERMS: usize = 20;
 
@@ -174,7 +181,7 @@ mod tests {
         let [first, second] = [first, second].map(|root| quarter.a2 + root.re);
         assert!((first - (3.0 - 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
         assert!((second - 0.25).abs() < 4e-16);
-        let speed = 1.0 / Rayleigh::new(soil(0.0)).arrival();
+        let speed = soil(0.0).rayleigh_wave_speed();
         assert!((speed - (3.0 - 5.0_f64.sqrt()).sqrt()).abs() < 4e-16);
     }
 
