@@ -145,7 +145,7 @@ impl EnergyAccumulator {
         all
     }
 
-    /// EnergyAccumulator the step that leads from `state` to its end.
+    /// Books the step that leads from `state` to its end.
     pub(crate) fn book(
         &mut self,
         scene: &Scene,

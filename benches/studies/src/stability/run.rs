@@ -4,13 +4,15 @@
 //! that then
 //!
 //! ```text
-//! H = kinetic + strain + layer + preload + soil
+//! H = kinetic + strain + interface + static_contact + soil
 //! ```
 //!
-//! cannot rise, the same for the dissipative midpoint rule with `algorithmic` in it, but for the work of a weight that acts as a load, which is taken off: dashpots, friction and
-//! impacts only take. `rise` says by how much it does all the
-//! same, relative to the largest energy of the run. `least_soil` is the least work done on the soil,
-//! relative in the same way: below zero, the soil gave more than it had got.
+//! cannot rise, but for the work of a weight that acts as a load, which is taken off: dashpots, friction
+//! and impacts only take. The same holds for the dissipative midpoint rule with `algorithmic` in H.
+//! `rise` says by how much H rises all the same, relative to the largest energy of the run, that of the
+//! structure carried along by the ground included: a block that its ground leaves behind has none but
+//! rounding. `least_soil` is the least work done on the soil, relative in the same way: below zero, the
+//! soil gave more than it had got.
 
 use basemat::contact::SearchMethod;
 use basemat::coupled::{EnergyBalance, State};
@@ -155,15 +157,7 @@ impl Watch {
             + energy_balance.strain
             + energy_balance.interface
             + energy_balance.static_contact;
-        let terms = [
-            energy_balance.kinetic,
-            energy_balance.strain,
-            energy_balance.interface,
-            energy_balance.static_contact,
-            energy_balance.soil,
-            energy_balance.contact,
-        ];
-        self.scale = terms.iter().fold(self.scale, |m, x| m.max(x.abs()));
+        self.scale = self.scale.max(energy_balance.largest);
         self.least_soil = self.least_soil.min(energy_balance.soil);
         self.least_algorithmic = self.least_algorithmic.min(energy_balance.algorithmic);
         let [shaking, rest] = self.phases;
