@@ -155,7 +155,10 @@ const SCENES: [(&str, Make); 32] = [
         Ok(block_under(Coulomb::new(0.4)?)?.motion(wave.field_from_horizontal(&shaking(), -2.0)?))
     }),
     ("block, vertical motion", || {
-        Ok(block_under(Coulomb::new(0.4)?)?.motion(VerticalIncidence::vertical(shaking())))
+        Ok(block_under(Coulomb::new(0.4)?)?.motion(VerticalIncidence {
+            vertical: Some(shaking()),
+            ..VerticalIncidence::default()
+        }))
     }),
     ("block, tilted and loaded", || {
         let block = block()?;

@@ -36,7 +36,7 @@ fn shake(law: impl InterfaceLaw + 'static) -> Result<(Run, TimeSeries, DeformedS
         .motion(el_centro_1940())
         .probe(Probe::acceleration("roof", roof))
         // The bonded base has no friction: what would it need of this one?
-        .safety_friction(FRICTION)
+        .safety_friction([FRICTION])
         .build()?;
     // Base and structure at every sixth step, for pictures in time.
     let mut histories = Recorder::new().contact(6).motion(6).start(&simulation)?;

@@ -31,7 +31,7 @@ fn shake(law: impl InterfaceLaw + 'static, friction: f64) -> Result<Run> {
         .interface(law)
         .motion(el_centro_1940())
         .probes(probes)
-        .safety_friction(friction)
+        .safety_friction([friction])
         .build()?;
     let steps = simulation.steps_for(12.0);
     simulation.run(steps, |_| {})

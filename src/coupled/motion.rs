@@ -197,7 +197,7 @@ impl Load {
     /// samples are in m/s² whatever they stand for.
     pub fn record(row: impl Into<DofCombination>, record: &Record, force: f64) -> Self {
         let record = record.clone();
-        Self::new(row, move |time| force * record.acceleration_at(time))
+        Self::new(row, move |time| force * record.at(time).acceleration)
     }
 
     /// `forces` at `times` (s, ascending), linear between them; zero before the first and after the

@@ -227,7 +227,7 @@ impl Motion {
         let last = samples.len() - 1;
         let mut values = Vec::with_capacity(GAUSS.len() * last);
         for index in 0..last {
-            let start = super::integral::Instant {
+            let start = super::integral::Motion {
                 acceleration: samples[index],
                 velocity: velocity[index],
                 displacement: displacement[index],

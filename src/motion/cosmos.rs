@@ -44,39 +44,28 @@ use crate::text::column::finite;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct CosmosFormat {
-    channel: usize,
-    unit: Option<AccelerationUnit>,
-}
-
-impl Default for CosmosFormat {
-    /// The first channel, in the unit that the file names.
-    fn default() -> Self {
-        Self { channel: 1, unit: None }
-    }
-}
-
-impl CosmosFormat {
-    /// The acceleration block of this number, counted from 1 in the order of the file.
-    #[must_use]
-    pub fn with_channel(self, channel: usize) -> Self {
-        Self { channel, ..self }
-    }
-
-    /// The unit of files that do not name one: those of the 1970s and 1980s end with
-    /// `EQUALLY SPACED AT .010 SEC.`, and are in cm/s². What a file says goes before this.
+    /// Number of the acceleration block, counted from 1 in the order of the file.
+    pub channel: usize,
+    /// Unit of files that do not name one: those of the 1970s and 1980s end with `EQUALLY SPACED AT .010 SEC.`, and are
+    /// in cm/s². What a file says goes before this.
     ///
     /// ```
     /// use basemat::motion::{AccelerationUnit, CosmosFormat, Record};
     /// let text = "2 POINTS OF ACCEL DATA EQUALLY SPACED AT  .010 SEC.   (8F10.3)\n 981.0 -490.5\n";
     /// let read = |format| Record::from_reader("old.V2", text.as_bytes(), &format);
     /// assert!(read(CosmosFormat::default()).is_err());
-    /// let record = read(CosmosFormat::default().with_unit(AccelerationUnit::Gal))?;
-    /// assert!((record.peak_acceleration() - 9.81).abs() < 1e-12);
+    /// let unit = Some(AccelerationUnit::Gal);
+    /// let record = read(CosmosFormat { unit, ..CosmosFormat::default() })?;
+    /// assert!((record.peaks().acceleration - 9.81).abs() < 1e-12);
     /// # Ok::<(), basemat::Error>(())
     /// ```
-    #[must_use]
-    pub fn with_unit(self, unit: AccelerationUnit) -> Self {
-        Self { unit: Some(unit), ..self }
+    pub unit: Option<AccelerationUnit>,
+}
+
+impl Default for CosmosFormat {
+    /// The first channel, in the unit that the file names.
+    fn default() -> Self {
+        Self { channel: 1, unit: None }
     }
 }
 

@@ -30,8 +30,8 @@ impl Record {
     /// let filtered = record.high_pass(0.1, 4)?;
     /// assert!((filtered.duration() - record.duration() - 2.0 * 60.0).abs() < 0.05);
     /// // Nothing is left of the drift: the ground comes back to where it was.
-    /// assert!(filtered.displacement_at(filtered.duration()).abs() < 1e-5);
-    /// assert!(record.displacement_at(record.duration()).abs() > 5e-3);
+    /// assert!(filtered.at(filtered.duration()).displacement.abs() < 1e-5);
+    /// assert!(record.at(record.duration()).displacement.abs() > 5e-3);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///

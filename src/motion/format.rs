@@ -48,7 +48,7 @@ impl Record {
     /// let format = ColumnFormat::new(AccelerationUnit::Gal);
     /// let record = Record::from_reader("text", text.as_bytes(), &format)?;
     /// assert_eq!(record.time_step(), 0.01);
-    /// assert!((record.peak_acceleration() - 0.981).abs() < 1e-15);
+    /// assert!((record.peaks().acceleration - 0.981).abs() < 1e-15);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///

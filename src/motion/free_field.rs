@@ -124,60 +124,45 @@ impl FreeField for FreeFieldFn {
 /// ```
 /// use basemat::motion::{FreeField, Record, VerticalIncidence};
 /// let shake = Record::new(0.5, vec![1.0, 1.0, 1.0])?;
-/// let field = VerticalIncidence::new(shake.clone()).with_vertical(shake.scaled(0.5)?);
+/// let vertical = Some(shake.scaled(0.5)?);
+/// let field = VerticalIncidence { horizontal: Some(shake), vertical };
 /// assert_eq!(field.displacement(7.0, 1.0), [0.5, 0.25]);
 /// assert_eq!(field.velocity(-7.0, 1.0), [1.0, 0.5]);
 /// # Ok::<(), basemat::Error>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct VerticalIncidence {
-    horizontal: Option<Record>,
-    vertical: Option<Record>,
-}
-
-impl VerticalIncidence {
-    /// S wave: the surface moves horizontally by `record`, positive to the right.
-    pub fn new(record: Record) -> Self {
-        Self { horizontal: Some(record), vertical: None }
-    }
-
-    /// P wave: the surface moves vertically by `record`, positive up.
-    pub fn vertical(record: Record) -> Self {
-        Self { horizontal: None, vertical: Some(record) }
-    }
-
-    /// Adds (or replaces) the vertical component, positive up; its time step may differ.
-    #[must_use]
-    pub fn with_vertical(self, record: Record) -> Self {
-        Self { vertical: Some(record), ..self }
-    }
+    /// Horizontal motion of the surface, positive to the right.
+    pub horizontal: Option<Record>,
+    /// Vertical motion of the surface, positive up; its time step may be another.
+    pub vertical: Option<Record>,
 }
 
 impl From<Record> for VerticalIncidence {
     fn from(record: Record) -> Self {
-        Self::new(record)
+        Self { horizontal: Some(record), vertical: None }
     }
 }
 
 impl FreeField for VerticalIncidence {
     fn displacement(&self, _x: f64, time: f64) -> [f64; 2] {
-        let at = |record: &Option<Record>| record.as_ref().map_or(0.0, |r| r.displacement_at(time));
+        let at = |record: &Option<Record>| record.as_ref().map_or(0.0, |r| r.at(time).displacement);
         [at(&self.horizontal), at(&self.vertical)]
     }
 
     fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
-        let at = |record: &Option<Record>| record.as_ref().map_or(0.0, |r| r.velocity_at(time));
+        let at = |record: &Option<Record>| record.as_ref().map_or(0.0, |r| r.at(time).velocity);
         [at(&self.horizontal), at(&self.vertical)]
     }
 }
 
 impl FreeField for Record {
     fn displacement(&self, _x: f64, time: f64) -> [f64; 2] {
-        [self.displacement_at(time), 0.0]
+        [self.at(time).displacement, 0.0]
     }
 
     fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
-        [self.velocity_at(time), 0.0]
+        [self.at(time).velocity, 0.0]
     }
 }
 

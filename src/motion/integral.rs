@@ -1,14 +1,19 @@
 //! Exact integration of a piecewise linear acceleration.
 
-/// Motion at one instant: acceleration, velocity, displacement.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Instant {
-    pub(super) acceleration: f64,
-    pub(super) velocity: f64,
-    pub(super) displacement: f64,
+/// Motion of a [`Record`](super::Record): at one time ([`Record::at`](super::Record::at)), or the largest magnitudes
+/// ([`Record::peaks`](super::Record::peaks)).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Motion {
+    /// Acceleration, m/s².
+    pub acceleration: f64,
+    /// Velocity, m/s.
+    pub velocity: f64,
+    /// Displacement, m.
+    pub displacement: f64,
 }
 
-impl Instant {
+impl Motion {
     /// Motion a time `elapsed` later, while the acceleration changes at the rate `jerk`.
     pub(super) fn after(self, elapsed: f64, jerk: f64) -> Self {
         let Self { acceleration: a, velocity: v, displacement: u } = self;

@@ -26,6 +26,7 @@ pub use format::RecordFormat;
 pub use free_field::{
     AtRest, FreeField, FreeFieldFn, RickerDisplacement, TravellingWave, VerticalIncidence,
 };
+pub use integral::Motion;
 pub(crate) use integral::quadratic_roots_within;
 pub use peer::PeerFormat;
 pub use plane_wave::PlaneWave;

@@ -45,11 +45,11 @@ impl OutOfPhase {
 
 impl FreeField for OutOfPhase {
     fn displacement(&self, _x: f64, time: f64) -> [f64; 2] {
-        self.both(self.given.displacement_at(time), self.late.at(time)[0])
+        self.both(self.given.at(time).displacement, self.late.at(time)[0])
     }
 
     fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
-        self.both(self.given.velocity_at(time), self.late.at(time)[1])
+        self.both(self.given.at(time).velocity, self.late.at(time)[1])
     }
 }
 
@@ -70,8 +70,8 @@ struct Late {
 
 impl Late {
     fn new(record: &Record) -> Result<Self> {
-        let end = record.velocity_at(record.duration());
-        if end.abs() > REST * record.peak_velocity() {
+        let end = record.at(record.duration()).velocity;
+        if end.abs() > REST * record.peaks().velocity {
             return Err(Error::Input {
                 quantity: "velocity at the end of the record",
                 value: end,

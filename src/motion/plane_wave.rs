@@ -42,7 +42,7 @@ const VANISHING: f64 = 1e-14;
 /// let wave = PlaneWave::sv(soil, 20.0_f64.to_radians())?;
 /// let field = wave.field_from_horizontal(&el_centro_1940(), -10.0)?;
 /// let [horizontal, vertical] = field.displacement(-10.0, 5.0);
-/// assert!((horizontal - el_centro_1940().displacement_at(5.0)).abs() < 1e-15);
+/// assert!((horizontal - el_centro_1940().at(5.0).displacement).abs() < 1e-15);
 /// assert!((vertical / horizontal + 0.41535).abs() < 1e-5);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -150,7 +150,8 @@ impl PlaneWave {
             return TravellingWave::new(field, self.apparent_velocity(), origin);
         }
         let vertical = record.scaled(ratio.re)?;
-        let field = VerticalIncidence::new(record.clone()).with_vertical(vertical);
+        let field =
+            VerticalIncidence { horizontal: Some(record.clone()), vertical: Some(vertical) };
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
 
@@ -171,7 +172,10 @@ impl PlaneWave {
             let field = OutOfPhase::new(record, true, ratio)?;
             return TravellingWave::new(field, self.apparent_velocity(), origin);
         }
-        let field = VerticalIncidence::new(record.scaled(ratio.re)?).with_vertical(record.clone());
+        let field = VerticalIncidence {
+            horizontal: Some(record.scaled(ratio.re)?),
+            vertical: Some(record.clone()),
+        };
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
 }

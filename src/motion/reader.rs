@@ -25,14 +25,18 @@ const STEP_TOLERANCE: f64 = 0.01;
 ///
 /// The time column must advance by equal steps, to 1 % of a step (for rounded print); the time
 /// step is their mean, rounded to twelve digits, or the second time where all are exact multiples of
-/// it, as [`Record::write_csv`] writes them. The first time may be any: the record counts from there. Files without a time column are read by [`equally_spaced`](Self::equally_spaced). A
+/// it, as [`Record::csv`] writes them. The first time may be any: the record counts from there. Files without a time column are read by [`equally_spaced`](Self::equally_spaced). A
 /// file cut within its last number cannot be told from a whole one: give
-/// [`with_samples`](Self::with_samples) where the count is known.
+/// `samples` where their number is known.
 ///
 /// ```
 /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
 /// let text = "1 0.00 0.0\n2 0.01 1.0\n3 0.03 2.0\n";
-/// let format = ColumnFormat::new(AccelerationUnit::StandardGravity).with_columns(2, 3);
+/// let format = ColumnFormat {
+///     time_column: 2,
+///     acceleration_column: Some(3),
+///     ..ColumnFormat::new(AccelerationUnit::StandardGravity)
+/// };
 /// let error = Record::from_reader("my.txt", text.as_bytes(), &format).unwrap_err();
 /// assert_eq!(error.to_string(), "my.txt, line 3: time advances by 0.02 s, but by 0.01 s before");
 /// ```
@@ -40,33 +44,27 @@ const STEP_TOLERANCE: f64 = 0.01;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ColumnFormat {
-    time: Time,
-    /// None: the only one.
-    acceleration: Option<usize>,
-    unit: AccelerationUnit,
-    samples: Option<usize>,
-}
-
-/// Where the time step comes from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-enum Time {
-    /// The column of times, s.
-    Column(usize),
-    /// The step itself, s.
-    Step(f64),
+    /// Unit of the accelerations.
+    pub unit: AccelerationUnit,
+    /// Column of times (s), counted from 1; it does not matter where `time_step` is given.
+    pub time_column: usize,
+    /// Time step (s) of a file without times.
+    pub time_step: Option<f64>,
+    /// Column of accelerations, counted from 1; `None`: there must be no other column.
+    pub acceleration_column: Option<usize>,
+    /// Number of samples that a file must have, if that is known.
+    pub samples: Option<usize>,
 }
 
 impl ColumnFormat {
     /// Time (s) in the first column, acceleration in `unit` in the second.
     pub fn new(unit: AccelerationUnit) -> Self {
-        Self { time: Time::Column(1), acceleration: Some(2), unit, samples: None }
+        Self { unit, time_column: 1, time_step: None, acceleration_column: Some(2), samples: None }
     }
 
     /// A single column of acceleration in `unit` every `time_step` (s): a line with more than one
-    /// number is refused, unless [`with_acceleration_column`](Self::with_acceleration_column) says
-    /// which counts. A step that is not positive is refused when a file is read.
+    /// number is refused, unless `acceleration_column` says which counts. A step
+    /// that is not positive is an error when a file is read.
     ///
     /// ```
     /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
@@ -77,25 +75,8 @@ impl ColumnFormat {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn equally_spaced(unit: AccelerationUnit, time_step: f64) -> Self {
-        Self { time: Time::Step(time_step), acceleration: None, unit, samples: None }
-    }
-
-    /// Other columns, counted from 1; column 0 is refused when a file is read.
-    #[must_use]
-    pub fn with_columns(self, time: usize, acceleration: usize) -> Self {
-        Self { time: Time::Column(time), acceleration: Some(acceleration), ..self }
-    }
-
-    /// Another column of acceleration, counted from 1; the others do not matter.
-    #[must_use]
-    pub fn with_acceleration_column(self, column: usize) -> Self {
-        Self { acceleration: Some(column), ..self }
-    }
-
-    /// Refuses files that have not exactly this number of samples.
-    #[must_use]
-    pub fn with_samples(self, samples: usize) -> Self {
-        Self { samples: Some(samples), ..self }
+        let time_step = Some(time_step);
+        Self { time_step, acceleration_column: None, ..Self::new(unit) }
     }
 }
 
@@ -123,9 +104,9 @@ fn read(lines: &mut Lines, format: &ColumnFormat) -> Reason<(f64, Vec<f64>)> {
     if let Some(needed) = format.samples.filter(|&needed| needed != found) {
         return Err((last_line, RecordError::SampleCount { found, needed }));
     }
-    let step = match format.time {
-        Time::Column(_) => equal_step(&samples)?,
-        Time::Step(step) => step,
+    let step = match format.time_step {
+        Some(step) => step,
+        None => equal_step(&samples)?,
     };
     let factor = format.unit.in_metres_per_second_squared();
     Ok((step, samples.iter().map(|sample| sample.acceleration * factor).collect()))
@@ -147,15 +128,12 @@ fn read_samples(lines: &mut Lines, format: &ColumnFormat) -> Reason<Vec<Sample>>
             continue;
         }
         let value = |column| fields.number(column).map_err(|why| lines.refuse(why));
-        let time = match format.time {
-            Time::Column(column) => value(column)?,
-            Time::Step(_) => 0.0,
-        };
+        let time = if format.time_step.is_some() { 0.0 } else { value(format.time_column)? };
         let found = fields.texts.len();
-        if format.acceleration.is_none() && found > 1 {
+        if format.acceleration_column.is_none() && found > 1 {
             return Err(lines.refuse(RecordError::SeveralColumns { found }));
         }
-        let acceleration = value(format.acceleration.unwrap_or(1))?;
+        let acceleration = value(format.acceleration_column.unwrap_or(1))?;
         let expected = *columns.get_or_insert(found);
         // A comma of thousands, or an empty field between tabs, has moved the columns behind it.
         if found != expected && (fields.separator == Some(',') || text.contains("\t\t")) {
@@ -213,11 +191,14 @@ const TEXT: &str = include_str!("../../data/elcentro1940_NS_peknold_0319g.csv");
 /// ```
 /// let record = basemat::motion::el_centro_1940();
 /// assert_eq!(record.len(), 1560);
-/// assert!((record.peak_acceleration() - 0.31882 * 9.80665).abs() < 1e-12);
+/// assert!((record.peaks().acceleration - 0.31882 * 9.80665).abs() < 1e-12);
 /// ```
 #[expect(clippy::missing_panics_doc, reason = "the embedded text is read by the tests")]
 pub fn el_centro_1940() -> Record {
-    let format = ColumnFormat::new(AccelerationUnit::StandardGravity).with_samples(1560);
+    let format = ColumnFormat {
+        samples: Some(1560),
+        ..ColumnFormat::new(AccelerationUnit::StandardGravity)
+    };
     Record::from_reader("El Centro 1940", TEXT.as_bytes(), &format)
         .expect("the embedded record is valid")
 }

@@ -1,7 +1,7 @@
 //! Equally spaced records of ground acceleration: their parts, their integrals, and as CSV.
 
 use super::Baseline;
-use super::integral::{Instant, integrate};
+use super::integral::{Motion, integrate};
 use crate::error::{Error, MemoryError, RecordError, Result, finite, memory, positive};
 use crate::text::column::{Cell, line};
 use crate::text::csv::Csv;
@@ -22,9 +22,9 @@ pub(super) fn check_samples(count: f64) -> std::result::Result<(), MemoryError> 
 /// use basemat::motion::Record;
 /// // a = t for one second: v = t²/2, u = t³/6
 /// let record = Record::new(0.5, vec![0.0, 0.5, 1.0])?;
-/// assert!((record.velocity_at(0.8) - 0.32).abs() < 1e-15);
-/// assert!((record.displacement_at(0.9) - 0.1215).abs() < 1e-15);
-/// assert_eq!(record.velocity_at(2.0), 0.5);
+/// assert!((record.at(0.8).velocity - 0.32).abs() < 1e-15);
+/// assert!((record.at(0.9).displacement - 0.1215).abs() < 1e-15);
+/// assert_eq!(record.at(2.0).velocity, 0.5);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -83,7 +83,7 @@ impl Record {
     /// // One cycle of sine, 2 m/s² and half a second.
     /// let pulse = Record::from_fn(0.005, 0.5, |t| 2.0 * (std::f64::consts::TAU * t / 0.5).sin())?;
     /// assert_eq!(pulse.accelerations().len(), 101);
-    /// assert!((pulse.peak_acceleration() - 2.0).abs() < 1e-12);
+    /// assert!((pulse.peaks().acceleration - 2.0).abs() < 1e-12);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -136,27 +136,12 @@ impl Record {
         &self.displacement
     }
 
-    /// Acceleration (m/s²) at any `time` (s): linear between samples, zero outside the record.
-    pub fn acceleration_at(&self, time: f64) -> f64 {
-        self.at(time).acceleration
-    }
-
-    /// Velocity (m/s) at any `time` (s); constant after the last sample.
-    pub fn velocity_at(&self, time: f64) -> f64 {
-        self.at(time).velocity
-    }
-
-    /// Displacement (m) at any `time` (s); linear in time after the last sample.
-    pub fn displacement_at(&self, time: f64) -> f64 {
-        self.at(time).displacement
-    }
-
     /// Record with its samples every `time_step` (s), the acceleration linear between the old
     /// ones.
     ///
     /// The same function of time if the old step is a multiple of the new one; otherwise the old
     /// corners are cut. Where only motion at other times is wanted, ask
-    /// [`displacement_at`](Self::displacement_at), which is exact at any time. The last sample is
+    /// [`Record::at`], which is exact at any time. The last sample is
     /// the first one not before the end of the old record.
     ///
     /// ```
@@ -182,7 +167,7 @@ impl Record {
             let time = k as f64 * time_step;
             let rounded =
                 if time - duration < 1e-8 * time_step { time.min(duration) } else { time };
-            self.acceleration_at(rounded)
+            self.at(rounded).acceleration
         };
         Self::new(time_step, (0..=count).map(sample).collect())
     }
@@ -200,7 +185,7 @@ impl Record {
     ///
     /// ```
     /// let record = basemat::motion::el_centro_1940().scaled_to_peak(5.0)?;
-    /// assert!((record.peak_acceleration() - 5.0).abs() < 1e-15);
+    /// assert!((record.peaks().acceleration - 5.0).abs() < 1e-15);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -218,8 +203,8 @@ impl Record {
     /// use basemat::motion::{Baseline, el_centro_1940};
     /// let record = el_centro_1940().with_baseline(Baseline::RestToRest { degree: 4 })?;
     /// let end = record.duration();
-    /// assert!(record.velocity_at(end).abs() < 1e-12);
-    /// assert!(record.displacement_at(end + 100.0).abs() < 1e-10);
+    /// assert!(record.at(end).velocity.abs() < 1e-12);
+    /// assert!(record.at(end + 100.0).displacement.abs() < 1e-10);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -229,16 +214,17 @@ impl Record {
         Self::new(self.step, baseline.apply(&self.acceleration)?)
     }
 
-    /// Motion at any time.
-    fn at(&self, time: f64) -> Instant {
+    /// Motion at any `time` (s): between samples the acceleration is linear; after the last one it is zero, the velocity
+    /// constant and the displacement linear in time. Before t = 0 all are zero.
+    pub fn at(&self, time: f64) -> Motion {
         let last = self.len() - 1;
         if time.is_nan() || time <= 0.0 {
             let acceleration = if time == 0.0 { self.acceleration[0] } else { 0.0 };
-            return Instant { acceleration, velocity: 0.0, displacement: 0.0 };
+            return Motion { acceleration, velocity: 0.0, displacement: 0.0 };
         }
         let duration = self.duration();
         if time > duration {
-            let end = Instant { acceleration: 0.0, ..self.sample(last) };
+            let end = Motion { acceleration: 0.0, ..self.sample(last) };
             return end.after(time - duration, 0.0);
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=last")]
@@ -247,8 +233,8 @@ impl Record {
     }
 
     /// Motion at a sample.
-    pub(super) fn sample(&self, index: usize) -> Instant {
-        Instant {
+    pub(super) fn sample(&self, index: usize) -> Motion {
+        Motion {
             acceleration: self.acceleration[index],
             velocity: self.velocity[index],
             displacement: self.displacement[index],
@@ -301,25 +287,6 @@ impl Record {
             (first, ((end / step - SLACK).ceil().max(0.0) as usize).clamp(first + 1, last))
         };
         Self::new(step, self.accelerations()[first..=end].to_vec())
-    }
-
-    /// The part in which the Arias intensity grows from the fraction `from` to the fraction `to` of its
-    /// final value, 0.05 and 0.95 as a rule: [`Record::trimmed`] at [`Record::significant_times`].
-    ///
-    /// ```
-    /// let record = basemat::motion::el_centro_1940();
-    /// let strong = record.trimmed_to_significant_duration(0.05, 0.95)?;
-    /// // 1.67 s to 25.51 s, and the samples around, from 83 times 0.02 s on.
-    /// assert!((strong.duration() - 23.86).abs() < 1e-9);
-    /// assert_eq!(strong.accelerations()[0], record.accelerations()[83]);
-    /// # Ok::<(), basemat::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::Input`] as for both of them.
-    pub fn trimmed_to_significant_duration(&self, from: f64, to: f64) -> Result<Self> {
-        let [start, end] = self.significant_times(from, to)?;
-        self.trimmed(start, end)
     }
 }
 

@@ -7,7 +7,7 @@
 //! | u, v | displacement and velocity relative to the ground: u'' + 2ζω u' + ω² u = −a(t) |
 //! | h | substep: the record's interval divided so that a period has at least 40 of them |
 
-use super::integral::quadratic_roots_within;
+use super::integral::{Motion, quadratic_roots_within};
 use super::{Record, STANDARD_GRAVITY};
 use crate::error::{Error, Observer, Result, Watch, damping_ratio, positive};
 
@@ -115,7 +115,7 @@ impl Record {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 1e9")]
         let (substeps, free) = (substeps as usize, (period / self.time_step()).ceil() as usize);
         let oscillator = Oscillator::new(frequency, damping, self.time_step() / substeps as f64);
-        let mut motion = Motion { displacement: 0.0, velocity: 0.0 };
+        let mut motion = Response { displacement: 0.0, velocity: 0.0 };
         let (mut displacement, mut acceleration) = (0.0_f64, 0.0_f64);
         let mut made = 0;
         let mut march = |sample: usize, ground: f64, slope: f64| -> Result<()> {
@@ -154,7 +154,7 @@ impl Record {
 }
 
 #[derive(Clone, Copy)]
-struct Motion {
+struct Response {
     displacement: f64,
     velocity: f64,
 }
@@ -178,8 +178,8 @@ impl Oscillator {
         Self { frequency, damping, step, cosine, sine }
     }
 
-    /// Motion a substep later; the ground's acceleration is `ground` now and grows by `growth`.
-    fn next(&self, motion: Motion, ground: f64, growth: f64) -> Motion {
+    /// Response a substep later; the ground's acceleration is `ground` now and grows by `growth`.
+    fn next(&self, motion: Response, ground: f64, growth: f64) -> Response {
         let Self { frequency, damping, step, cosine, sine } = *self;
         let square = frequency * frequency;
         let half_width = damping * frequency;
@@ -191,12 +191,12 @@ impl Oscillator {
         let swing = v + half_width * u;
         let displacement = cosine * u + sine * swing;
         let velocity = cosine * v - sine * (half_width * v + square * u);
-        Motion { displacement: displacement + p + q * step, velocity: velocity + q }
+        Response { displacement: displacement + p + q * step, velocity: velocity + q }
     }
 
     /// Total acceleration, and its rate times the substep.
-    fn total(&self, motion: Motion, ground: f64) -> [f64; 2] {
-        let Motion { displacement: u, velocity: v } = motion;
+    fn total(&self, motion: Response, ground: f64) -> [f64; 2] {
+        let Response { displacement: u, velocity: v } = motion;
         let square = self.frequency * self.frequency;
         let total = -square * u - 2.0 * self.damping * self.frequency * v;
         let relative = total - ground;
@@ -224,13 +224,23 @@ fn largest_between(ends: [[f64; 2]; 2]) -> f64 {
 // Peaks and intensities of records.
 
 impl Record {
-    /// Peak ground acceleration (PGA): largest |a|, m/s².
-    pub fn peak_acceleration(&self) -> f64 {
+    /// Peak ground acceleration, velocity and displacement (PGA, PGV, PGD): the largest magnitudes during the record,
+    /// between samples too.
+    pub fn peaks(&self) -> Motion {
+        Motion {
+            acceleration: self.peak_acceleration(),
+            velocity: self.peak_velocity(),
+            displacement: self.peak_displacement(),
+        }
+    }
+
+    /// Largest |a|, m/s².
+    pub(super) fn peak_acceleration(&self) -> f64 {
         largest(self.accelerations().iter().copied())
     }
 
-    /// Peak ground velocity (PGV): largest |v| at any time, between samples too, m/s.
-    pub fn peak_velocity(&self) -> f64 {
+    /// Largest |v| at any time, m/s.
+    fn peak_velocity(&self) -> f64 {
         let between = (0..self.len() - 1).flat_map(|index| {
             let start = self.sample(index);
             let jerk = self.jerk(index);
@@ -242,8 +252,8 @@ impl Record {
         largest(self.velocities().iter().copied().chain(between))
     }
 
-    /// Peak ground displacement (PGD): largest |u| during the record, between samples too, m.
-    pub fn peak_displacement(&self) -> f64 {
+    /// Largest |u| during the record, m.
+    fn peak_displacement(&self) -> f64 {
         let between = (0..self.len() - 1).flat_map(|index| {
             let start = self.sample(index);
             let jerk = self.jerk(index);
@@ -274,7 +284,8 @@ impl Record {
     }
 
     /// Times (s) at which the Arias intensity has reached the fractions `from` and `to` of its
-    /// final value; the significant duration is their difference, for 0.05 and 0.95 as a rule.
+    /// final value; the significant duration is their difference, for 0.05 and 0.95 as a rule. [`Record::trimmed`] cuts
+    /// the record there.
     ///
     /// Trifunac & Brady, "A study on the duration of strong earthquake ground motion", Bull. Seism.
     /// Soc. Am. 65 (1975), 581–626. Linear between samples.

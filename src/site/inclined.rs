@@ -175,8 +175,10 @@ impl InclinedWave {
         let count = horizontal.duration().max(vertical.duration()).max(record.len());
         horizontal.cut(count);
         vertical.cut(count);
-        let field = VerticalIncidence::new(Record::new(step, horizontal.samples)?);
-        let field = field.with_vertical(Record::new(step, vertical.samples)?);
+        let field = VerticalIncidence {
+            horizontal: Some(Record::new(step, horizontal.samples)?),
+            vertical: Some(Record::new(step, vertical.samples)?),
+        };
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
 

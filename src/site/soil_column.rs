@@ -151,7 +151,7 @@ impl SoilColumn {
     /// let back = column.from_surface(ControlPoint::Outcrop, 0.02, &surface.samples)?;
     /// assert!(surface.is_whole() && back.is_whole(), "{surface}; {back}");
     /// for (found, given) in back.samples.iter().zip(record.accelerations()) {
-    ///     assert!((found - given).abs() < 1e-9 * record.peak_acceleration());
+    ///     assert!((found - given).abs() < 1e-9 * record.peaks().acceleration);
     /// }
     /// # Ok::<(), basemat::Error>(())
     /// ```

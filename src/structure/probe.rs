@@ -17,12 +17,14 @@ use crate::text::column::column;
 ///
 /// let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
 /// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?;
+/// // The base's `[u_x, u_y, θ]` come first.
+/// let rotation = 2;
 /// let probes = [
 ///     Probe::acceleration("roof", building.roof()),
 ///     Probe::displacement("lowest drift", building.drift(0)?),
 ///     Probe::displacement("sway of the roof", building.total_drift(4)?),
 ///     Probe::section("base shear", &building.shear(0)?),
-///     Probe::displacement("rotation", ShearBuilding::ROTATION).in_unit("rad"),
+///     Probe::displacement("rotation", rotation).in_unit("rad"),
 /// ];
 /// assert_eq!(probes.map(|probe| probe.unit), ["m/s²", "m", "m", "N/m", "rad"]);
 /// # Ok::<(), basemat::Error>(())

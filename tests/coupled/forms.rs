@@ -233,9 +233,13 @@ fn schemes_dampings_strips_and_limits() {
     refused::<ModalDamping>(json!({"ratios": []}), "list of damping ratios");
     kept(&Strip::graded(-5.0..5.0, 7).unwrap());
     refused::<Strip>(json!({"nodes": [0.0, 1.0, 1.0]}), "length of a contact element");
-    let limits = Serviceability::new().with_slip(5e-3).unwrap().with_rotation(0.05).unwrap();
+    let limits =
+        Serviceability { slip: Some(5e-3), rotation: Some(0.05), ..Serviceability::default() };
     kept(&limits);
-    assert_eq!(serde_json::from_value::<Serviceability>(json!({})).unwrap(), Serviceability::new());
+    assert_eq!(
+        serde_json::from_value::<Serviceability>(json!({})).unwrap(),
+        Serviceability::default()
+    );
     for name in ["slip", "gap", "uplifted_fraction", "rotation"] {
         refused::<Serviceability>(json!({ name: -1.0 }), "allowable");
         kept(&serde_json::from_value::<Serviceability>(json!({ name: 0.5 })).unwrap());
@@ -310,9 +314,14 @@ fn probes_storeys_layers_and_formats_of_files() {
     kept(&Layer { height: 1.0, rows: 2, material, formulation });
     kept(&ContactNode::rigid_base(-1.0, 1.0, [0, 1, 2]));
     kept(&ContactElement { left: -1.0, right: 1.0 });
-    kept(&ColumnFormat::new(AccelerationUnit::Gal).with_columns(2, 3).with_samples(7));
+    kept(&ColumnFormat {
+        time_column: 2,
+        acceleration_column: Some(3),
+        samples: Some(7),
+        ..ColumnFormat::new(AccelerationUnit::Gal)
+    });
     kept(&ColumnFormat::equally_spaced(AccelerationUnit::StandardGravity, 0.02));
-    kept(&CosmosFormat::default().with_channel(2).with_unit(AccelerationUnit::Gal));
+    kept(&CosmosFormat { channel: 2, unit: Some(AccelerationUnit::Gal) });
     kept(&(PeerFormat, KNetFormat));
 }
 
@@ -379,7 +388,7 @@ fn run() -> (Simulation, Run) {
         .structure(block)
         .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7).unwrap())
         .interface(Coulomb::new(0.3).unwrap())
-        .serviceability(Serviceability::new().with_slip(1e-3).unwrap())
+        .serviceability(Serviceability { slip: Some(1e-3), ..Serviceability::default() })
         .motion(el_centro_1940())
         .build()
         .unwrap();

@@ -423,7 +423,7 @@ fn fields_run_along_the_surface() {
     for (place, time) in [(4.0, 1.6), (0.0, 1.7), (-6.0, 1.75)] {
         let then = time - (place - 4.0) / wave.apparent_velocity();
         assert!((place - 4.0) / wave.apparent_velocity() >= 0.0);
-        let wanted = [x.displacement_at(then), up.displacement_at(then)];
+        let wanted = [x.at(then).displacement, up.at(then).displacement];
         let found = field.displacement(place, time);
         assert!((found[0] - wanted[0]).abs() + (found[1] - wanted[1]).abs() < 1e-14);
         assert!(found[0].abs() > 1e-4 && found[1].abs() > 1e-3, "{found:?}");

@@ -20,14 +20,14 @@ fn baselines_keep_their_promises() {
     let mut velocity_square = f64::INFINITY;
     for degree in 1..=8 {
         let treated = treat(Baseline::VelocityPolynomial { degree });
-        assert!(treated.velocity_at(end).abs() < 1e-13, "{degree}");
+        assert!(treated.at(end).velocity.abs() < 1e-13, "{degree}");
         // a higher degree fits better
         let now = square(treated.velocities());
         assert!(now <= velocity_square * (1.0 + 1e-9), "{degree}: {now} {velocity_square}");
         velocity_square = now;
     }
     let mean = treat(Baseline::RemoveMean);
-    assert!(mean.velocity_at(end).abs() < 1e-13);
+    assert!(mean.at(end).velocity.abs() < 1e-13);
     let first = treat(Baseline::VelocityPolynomial { degree: 1 });
     for (a, b) in mean.accelerations().iter().zip(first.accelerations()) {
         close("degree 1 is the mean", *a, *b, 1e-15, 0.0);
@@ -35,9 +35,9 @@ fn baselines_keep_their_promises() {
 
     for degree in 3..=8 {
         let treated = treat(Baseline::RestToRest { degree });
-        assert!(treated.velocity_at(end).abs() < 1e-13, "{degree}");
-        assert!(treated.displacement_at(end).abs() < 1e-12, "{degree}");
-        assert!(treated.displacement_at(end + 1000.0).abs() < 1e-10, "{degree}");
+        assert!(treated.at(end).velocity.abs() < 1e-13, "{degree}");
+        assert!(treated.at(end).displacement.abs() < 1e-12, "{degree}");
+        assert!(treated.at(end + 1000.0).displacement.abs() < 1e-10, "{degree}");
         assert_eq!(treated.accelerations()[0], record.accelerations()[0]);
     }
 
@@ -85,7 +85,7 @@ fn baselines_remove_a_polynomial() {
         Baseline::DisplacementPolynomial { degree: 6 },
     ] {
         let treated = drift.with_baseline(baseline).unwrap();
-        let left = treated.peak_acceleration();
+        let left = treated.peaks().acceleration;
         // the normal equations of twice integrated polynomials cost four digits
         assert!(left < 1e-11, "{baseline:?}: {left:e}");
     }
@@ -118,12 +118,12 @@ proptest! {
         let end = record.duration();
         for degree in 1..=8 {
             let treated = record.with_baseline(Baseline::VelocityPolynomial { degree }).unwrap();
-            prop_assert!(treated.velocity_at(end).abs() < 1e-11);
+            prop_assert!(treated.at(end).velocity.abs() < 1e-11);
         }
         for degree in 3..=8 {
             let treated = record.with_baseline(Baseline::RestToRest { degree }).unwrap();
-            prop_assert!(treated.velocity_at(end).abs() < 1e-11);
-            prop_assert!(treated.displacement_at(end).abs() < 1e-11);
+            prop_assert!(treated.at(end).velocity.abs() < 1e-11);
+            prop_assert!(treated.at(end).displacement.abs() < 1e-11);
         }
     }
 }

@@ -14,18 +14,19 @@ use basemat_problems::close;
 fn free_fields_agree_with_their_sources() {
     let record = el_centro_1940();
     let vertical = record.scaled(-0.5).unwrap().resampled(0.03).unwrap();
-    let both = VerticalIncidence::new(record.clone()).with_vertical(vertical.clone());
-    let only_vertical = VerticalIncidence::vertical(vertical.clone());
+    let both =
+        VerticalIncidence { horizontal: Some(record.clone()), vertical: Some(vertical.clone()) };
+    let only_vertical = VerticalIncidence { horizontal: None, vertical: Some(vertical.clone()) };
     let from = VerticalIncidence::from(record.clone());
     for k in -10..3000 {
         let time = f64::from(k) * 0.0123;
-        let (u, w) = (record.displacement_at(time), vertical.displacement_at(time));
+        let (u, w) = (record.at(time).displacement, vertical.at(time).displacement);
         assert_eq!(both.displacement(1e3, time), [u, w]);
         assert_eq!(only_vertical.displacement(0.0, time), [0.0, w]);
         assert_eq!(from.displacement(0.0, time), [u, 0.0]);
         assert_eq!(record.displacement(0.0, time), [u, 0.0]);
-        assert_eq!(record.velocity(0.0, time), [record.velocity_at(time), 0.0]);
-        let (u, w) = (record.velocity_at(time), vertical.velocity_at(time));
+        assert_eq!(record.velocity(0.0, time), [record.at(time).velocity, 0.0]);
+        let (u, w) = (record.at(time).velocity, vertical.at(time).velocity);
         assert_eq!(both.velocity(-1e3, time), [u, w]);
     }
     assert_eq!(AtRest.displacement(0.0, 1.0), [0.0; 2]);

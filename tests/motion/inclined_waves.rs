@@ -67,7 +67,7 @@ fn vertical_incidence_doubles_one_component() {
     }
     let record = el_centro_1940();
     let field = s.field_from_horizontal(&record, 0.0).unwrap();
-    assert_eq!(field.displacement(50.0, 7.0), [record.displacement_at(7.0), 0.0]);
+    assert_eq!(field.displacement(50.0, 7.0), [record.at(7.0).displacement, 0.0]);
     assert!(s.field_from_vertical(&record, 0.0).is_err());
     assert!(p.field_from_horizontal(&record, 0.0).is_err());
     // At 45 degrees SV moves the surface up and down only.
@@ -253,7 +253,7 @@ fn quiet_time_changes_nothing_but_the_start() {
             let padded = record.padded(before, after).unwrap();
             let field = wave.field_from_horizontal(&padded, 0.0).unwrap();
             let at = |time: f64| field.displacement(0.0, before + time)[1];
-            let drift = padded.velocity_at(padded.duration()).abs();
+            let drift = padded.at(padded.duration()).velocity.abs();
             (times.map(|time| at(time) - at(0.0)), field.velocity(0.0, 0.0)[1], drift)
         };
         let (bare, jolt, _) = moved(0.0, 0.0);
@@ -342,6 +342,6 @@ fn travelling_waves_are_late_and_refuse_nonsense() {
     assert!(TravellingWave::new(el_centro_1940(), 1.0, f64::NAN).is_err());
     let left = TravellingWave::new(el_centro_1940(), -500.0, 20.0).unwrap();
     let velocity = left.velocity(-30.0, 3.1)[0];
-    assert!((velocity - el_centro_1940().velocity_at(3.0)).abs() < 1e-12);
+    assert!((velocity - el_centro_1940().at(3.0).velocity).abs() < 1e-12);
     assert_eq!(left.displacement(0.0, 0.0), [0.0; 2]);
 }

@@ -143,10 +143,10 @@ const CSMIP: &str = "Corrected accelerogram from Chan  1\n\
 fn csmip_files_hold_channels() {
     let format = CosmosFormat::default();
     same(&read(CSMIP, &format).unwrap(), 0.02, &[0.01, -123.45678, 0.03]);
-    let second = format.with_channel(2);
+    let second = CosmosFormat { channel: 2, ..format };
     same(&read(CSMIP, &second).unwrap(), 0.01, &[0.5 * GRAVITY, -0.5 * GRAVITY]);
     for needed in [0, 3] {
-        let (_, reason) = refusal(CSMIP, &format.with_channel(needed));
+        let (_, reason) = refusal(CSMIP, &CosmosFormat { channel: needed, ..format });
         assert_eq!(reason, RecordError::Channel { found: 2, needed });
     }
     let counts = CSMIP.replace("in g.", "in counts.");
@@ -223,7 +223,9 @@ fn units_of_cosmos_files_are_words() {
     };
     let unit = AccelerationUnit::MetrePerSecondSquared;
     for units in ["in mgal. (8f10.3)", "units=mgal", "in cm/sec. (8f10.3)", "units=counts (50)"] {
-        for format in [CosmosFormat::default(), CosmosFormat::default().with_unit(unit)] {
+        for format in
+            [CosmosFormat::default(), CosmosFormat { unit: Some(unit), ..CosmosFormat::default() }]
+        {
             let (line, reason) = refusal(&with(units), &format);
             assert!(line == 2 && matches!(reason, RecordError::NotAcceleration { .. }), "{units}");
         }
@@ -232,7 +234,9 @@ fn units_of_cosmos_files_are_words() {
     for (units, factor) in
         [("in gal. (8f10.3)", 0.01), ("units=cm/s^2 (4)", 0.01), ("in G (8f10.3)", GRAVITY)]
     {
-        let record = read(&with(units), &CosmosFormat::default().with_unit(unit)).unwrap();
+        let record =
+            read(&with(units), &CosmosFormat { unit: Some(unit), ..CosmosFormat::default() })
+                .unwrap();
         same(&record, 0.02, &values.map(|a| a * factor));
     }
     // Old files name no unit.
@@ -241,7 +245,11 @@ fn units_of_cosmos_files_are_words() {
         refusal(&old, &CosmosFormat::default()),
         (2, RecordError::NotAcceleration { .. })
     ));
-    same(&read(&old, &CosmosFormat::default().with_unit(unit)).unwrap(), 0.02, &values);
+    same(
+        &read(&old, &CosmosFormat { unit: Some(unit), ..CosmosFormat::default() }).unwrap(),
+        0.02,
+        &values,
+    );
 }
 
 /// El Centro, printed as each of the formats print, comes back to the digits printed.
@@ -329,7 +337,7 @@ proptest! {
         bytes in prop_oneof![prop::collection::vec(any::<u8>(), 0..300), nearly_a_record()],
         channel in 0..3_usize,
     ) {
-        let cosmos = CosmosFormat::default().with_channel(channel);
+        let cosmos = CosmosFormat { channel, ..CosmosFormat::default() };
         let formats: [&dyn RecordFormat; 3] = [&PeerFormat, &KNetFormat, &cosmos];
         for format in formats {
             if let Ok(record) = Record::from_reader("bytes", &bytes[..], format) {

@@ -15,6 +15,10 @@ fn metric() -> ColumnFormat {
     ColumnFormat::new(METRIC)
 }
 
+fn columns(time_column: usize, acceleration: usize) -> ColumnFormat {
+    ColumnFormat { time_column, acceleration_column: Some(acceleration), ..metric() }
+}
+
 fn read(text: &str) -> Result<Record, Error> {
     Record::from_reader("text", text.as_bytes(), &metric())
 }
@@ -41,11 +45,11 @@ fn reader_takes_every_usual_layout() {
     for text in ["0\n1.5\n-0.25", "# 0.02 s\nacceleration\n 0.0 \r\n\n+1.5\n-25e-2\n"] {
         assert_eq!(Record::from_reader("text", text.as_bytes(), &alone).unwrap(), wanted);
     }
-    let third = alone.with_acceleration_column(3).with_samples(3);
+    let third = ColumnFormat { acceleration_column: Some(3), samples: Some(3), ..alone };
     let text = b"9;9;0\n9;x;1.5\n8;9;-0.25\n";
     assert_eq!(Record::from_reader("text", &text[..], &third).unwrap(), wanted);
     let swapped = b"1 0.0 0\n2 1.5 0.02\n3 -0.25 0.04\n";
-    let format = metric().with_columns(3, 2).with_samples(3);
+    let format = ColumnFormat { samples: Some(3), ..columns(3, 2) };
     assert_eq!(Record::from_reader("text", &swapped[..], &format).unwrap(), wanted);
     // bytes that are not UTF-8 do no harm in comments
     let latin = b"# S\xe9isme\n0 0\n0.02 1.5\n0.04 -0.25\n";
@@ -112,14 +116,14 @@ fn reader_refuses_with_line_and_reason() {
 #[test]
 fn reader_refuses_wrong_columns_and_counts() {
     let text = b"0 1\n1 1\n";
-    let found = refusal(text, &metric().with_columns(1, 3));
+    let found = refusal(text, &columns(1, 3));
     assert_eq!(found, (1, RecordError::Column { found: 2, needed: 3 }));
-    let found = refusal(text, &metric().with_columns(0, 1));
+    let found = refusal(text, &columns(0, 1));
     assert_eq!(found, (1, RecordError::Column { found: 2, needed: 0 }));
-    let found = refusal(text, &metric().with_samples(3));
+    let found = refusal(text, &ColumnFormat { samples: Some(3), ..metric() });
     assert_eq!(found, (2, RecordError::SampleCount { found: 2, needed: 3 }));
     // the acceleration taken for the time
-    let found = refusal(b"0 1\n1 3\n2 9\n", &metric().with_columns(2, 1));
+    let found = refusal(b"0 1\n1 3\n2 9\n", &columns(2, 1));
     assert_eq!(found, (3, RecordError::UnequalStep { found: 6.0, expected: 2.0 }));
 }
 
@@ -130,9 +134,9 @@ fn a_single_column_is_single() {
     assert_eq!(found, (2, RecordError::SeveralColumns { found: 2 }));
     let found = refusal(b"0.00,1\n0.02,2\n", &alone);
     assert_eq!(found, (1, RecordError::SeveralColumns { found: 2 }));
-    let found = refusal(b"1\n2\n3\n", &alone.with_samples(2));
+    let found = refusal(b"1\n2\n3\n", &ColumnFormat { samples: Some(2), ..alone });
     assert_eq!(found, (3, RecordError::SampleCount { found: 3, needed: 2 }));
-    let found = refusal(b"1\n2\n", &alone.with_acceleration_column(2));
+    let found = refusal(b"1\n2\n", &ColumnFormat { acceleration_column: Some(2), ..alone });
     assert_eq!(found, (1, RecordError::Column { found: 1, needed: 2 }));
     for step in [0.0, -0.02, f64::NAN, f64::INFINITY] {
         let format = ColumnFormat::equally_spaced(METRIC, step);
@@ -140,7 +144,7 @@ fn a_single_column_is_single() {
         assert!(line == 0 && matches!(reason, RecordError::Unusable(_)), "{reason}");
     }
     // A time column after all.
-    let record = Record::from_reader("", &b"0 5\n1 6\n"[..], &alone.with_columns(1, 2)).unwrap();
+    let record = Record::from_reader("", &b"0 5\n1 6\n"[..], &columns(1, 2)).unwrap();
     assert_eq!((record.time_step(), record.accelerations()), (1.0, &[5.0, 6.0][..]));
 }
 
@@ -171,7 +175,10 @@ fn reader_refuses_drifting_steps_and_endless_lines() {
 #[test]
 fn reader_refuses_a_truncated_record() {
     let text = include_str!("../../data/elcentro1940_NS_peknold_0319g.csv");
-    let format = ColumnFormat::new(AccelerationUnit::StandardGravity).with_samples(1560);
+    let format = ColumnFormat {
+        samples: Some(1560),
+        ..ColumnFormat::new(AccelerationUnit::StandardGravity)
+    };
     let whole = text.trim_end();
     assert_eq!(Record::from_reader("", whole.as_bytes(), &format).unwrap().len(), 1560);
     let line = whole.lines().count();
@@ -220,7 +227,7 @@ proptest! {
         time in 0..4_usize,
         acceleration in 0..4_usize,
     ) {
-        let format = metric().with_columns(time, acceleration);
+        let format = columns(time, acceleration);
         if let Ok(record) = Record::from_reader("bytes", &bytes[..], &format) {
             prop_assert!(record.len() >= 2 && record.time_step() > 0.0);
             prop_assert!(record.accelerations().iter().all(|a| a.is_finite()));

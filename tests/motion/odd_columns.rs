@@ -51,7 +51,7 @@ fn decimal_commas_are_refused() {
         let line = if text.starts_with('t') { 2 } else { 1 };
         assert_eq!(refusal(text, &pairs()), (line, not_a_number(field)), "{text:?}");
     }
-    let first = alone().with_acceleration_column(1);
+    let first = ColumnFormat { acceleration_column: Some(1), ..alone() };
     for (text, line, field) in [
         ("0,05\n0,15\n", 1, "0,05"),
         ("1,5\n-0,05\n", 2, "-0,05"),

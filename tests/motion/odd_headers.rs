@@ -219,7 +219,7 @@ fn a_unit_of_g_with_a_factor_is_refused() {
 
 #[test]
 fn time_steps_of_csmip_files_are_whole_quantities() {
-    let format = CosmosFormat::default().with_unit(AccelerationUnit::Gal);
+    let format = CosmosFormat { unit: Some(AccelerationUnit::Gal), ..CosmosFormat::default() };
     let wanted = [0.01, -0.02, 0.03, 0.04];
     for (text, step) in STEPS {
         for rest in [" in cm/sec2. (8f10.3)", ", in cm/sec2. (8f10.3)", "", "  (8f10.3)"] {
@@ -240,7 +240,10 @@ fn time_steps_of_csmip_files_are_whole_quantities() {
 
 #[test]
 fn units_and_formats_of_csmip_and_cosmos_are_whole() {
-    let format = CosmosFormat::default().with_unit(AccelerationUnit::MetrePerSecondSquared);
+    let format = CosmosFormat {
+        unit: Some(AccelerationUnit::MetrePerSecondSquared),
+        ..CosmosFormat::default()
+    };
     for title in [
         ".01 sec, in g X 1000. (8f10.3)",
         ".01 sec, in g*1000 (8f10.3)",

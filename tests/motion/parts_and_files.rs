@@ -64,11 +64,16 @@ fn parts_outside_are_refused() {
         let given = if name == "start" { start } else { stop };
         assert_eq!(value.to_bits(), given.to_bits());
     }
-    assert!(record.trimmed_to_significant_duration(0.5, 0.5).is_err());
-    assert!(record.trimmed_to_significant_duration(0.95, 0.05).is_err());
-    assert!(
-        Record::new(0.1, vec![0.0; 5]).unwrap().trimmed_to_significant_duration(0.0, 1.0).is_err()
-    );
+    let part = |record: &Record, from, to| {
+        let [start, end] = record.significant_times(from, to)?;
+        record.trimmed(start, end)
+    };
+    assert!(part(&record, 0.5, 0.5).is_err() && part(&record, 0.95, 0.05).is_err());
+    assert!(part(&Record::new(0.1, vec![0.0; 5]).unwrap(), 0.0, 1.0).is_err());
+    // 1.67 s to 25.51 s, and the samples around, from 83 times 0.02 s on.
+    let strong = part(&record, 0.05, 0.95).unwrap();
+    assert!((strong.duration() - 23.86).abs() < 1e-9);
+    assert_eq!(strong.accelerations()[0], record.accelerations()[83]);
 }
 
 #[test]

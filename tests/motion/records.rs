@@ -59,51 +59,51 @@ fn el_centro_1940_peaks() {
     assert_eq!(record.len() as f64, count);
     assert_eq!(record.time_step(), step);
     close("duration", record.duration(), duration, 1e-12, 0.0);
-    close("PGA", record.peak_acceleration() / STANDARD_GRAVITY, peak, 1e-12, 0.0);
+    close("PGA", record.peaks().acceleration / STANDARD_GRAVITY, peak, 1e-12, 0.0);
     close(
         "at its time",
-        record.acceleration_at(peak_time).abs() / STANDARD_GRAVITY,
+        record.at(peak_time).acceleration.abs() / STANDARD_GRAVITY,
         peak,
         1e-12,
         0.0,
     );
     let at_samples = record.velocities().iter().fold(0.0, |most: f64, v| most.max(v.abs()));
     close("PGV at the samples", at_samples, velocity, 5e-7, 0.0);
-    close("v at the end", record.velocity_at(record.duration()), v_end, 5e-7, 0.0);
-    close("u at the end", record.displacement_at(record.duration()), d_end, 5e-7, 0.0);
+    close("v at the end", record.at(record.duration()).velocity, v_end, 5e-7, 0.0);
+    close("u at the end", record.at(record.duration()).displacement, d_end, 5e-7, 0.0);
     close("Arias", record.arias_intensity(), arias, 5e-7, 0.0);
     // between the samples the peaks are at least as large, as a fine resampling finds too
     let fine = record.resampled(0.02 / 64.0).unwrap();
     let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-    assert!(record.peak_velocity() >= at_samples);
-    close("PGV", largest(fine.velocities()), record.peak_velocity(), 1e-6, 0.0);
-    close("PGD", largest(fine.displacements()), record.peak_displacement(), 1e-8, 0.0);
-    assert!(largest(fine.velocities()) <= record.peak_velocity() + 1e-14);
+    assert!(record.peaks().velocity >= at_samples);
+    close("PGV", largest(fine.velocities()), record.peaks().velocity, 1e-6, 0.0);
+    close("PGD", largest(fine.displacements()), record.peaks().displacement, 1e-8, 0.0);
+    assert!(largest(fine.velocities()) <= record.peaks().velocity + 1e-14);
 }
 
 #[test]
 fn peaks_between_samples() {
     // a = 1 − t on [0, 2]: v = t − t²/2 peaks at t = 1 with 1/2; u = t²/2 − t³/6 rises to 2/3
     let record = Record::new(2.0, vec![1.0, -1.0]).unwrap();
-    assert_eq!(record.peak_velocity(), 0.5);
-    assert_relative_eq!(record.peak_displacement(), 2.0 / 3.0, max_relative = 1e-15);
+    assert_eq!(record.peaks().velocity, 0.5);
+    assert_relative_eq!(record.peaks().displacement, 2.0 / 3.0, max_relative = 1e-15);
     // a = 1 − t on [0, 4]: v = 0 again at t = 2, u = 2/3 there and −8/3 at the end
     let record = Record::new(4.0, vec![1.0, -3.0]).unwrap();
-    assert_relative_eq!(record.peak_displacement(), 8.0 / 3.0, max_relative = 1e-15);
+    assert_relative_eq!(record.peaks().displacement, 8.0 / 3.0, max_relative = 1e-15);
     let record = Record::new(3.0, vec![1.0, -2.0]).unwrap();
-    assert_relative_eq!(record.peak_displacement(), 2.0 / 3.0, max_relative = 1e-15);
+    assert_relative_eq!(record.peaks().displacement, 2.0 / 3.0, max_relative = 1e-15);
 }
 
 #[test]
 fn motion_outside_the_record() {
     let record = Record::new(1.0, vec![2.0, 2.0]).unwrap();
     for time in [-1.0, 0.0, f64::NEG_INFINITY, f64::NAN] {
-        assert_eq!(record.velocity_at(time), 0.0);
-        assert_eq!(record.displacement_at(time), 0.0);
+        assert_eq!(record.at(time).velocity, 0.0);
+        assert_eq!(record.at(time).displacement, 0.0);
     }
-    assert_eq!([-1.0, 0.0, 1.0, 1.5].map(|t| record.acceleration_at(t)), [0.0, 2.0, 2.0, 0.0]);
-    assert_eq!(record.velocity_at(3.0), 2.0);
-    assert_eq!(record.displacement_at(3.0), 5.0);
+    assert_eq!([-1.0, 0.0, 1.0, 1.5].map(|t| record.at(t).acceleration), [0.0, 2.0, 2.0, 0.0]);
+    assert_eq!(record.at(3.0).velocity, 2.0);
+    assert_eq!(record.at(3.0).displacement, 5.0);
 }
 
 #[test]
@@ -112,9 +112,9 @@ fn resampling_keeps_the_function() {
     let fine = record.resampled(0.0025).unwrap();
     for k in 0..4000 {
         let time = f64::from(k) * 0.0077;
-        close("a", fine.acceleration_at(time), record.acceleration_at(time), 1e-11, 0.0);
-        close("v", fine.velocity_at(time), record.velocity_at(time), 1e-12, 0.0);
-        close("u", fine.displacement_at(time), record.displacement_at(time), 1e-12, 0.0);
+        close("a", fine.at(time).acceleration, record.at(time).acceleration, 1e-11, 0.0);
+        close("v", fine.at(time).velocity, record.at(time).velocity, 1e-12, 0.0);
+        close("u", fine.at(time).displacement, record.at(time).displacement, 1e-12, 0.0);
     }
     assert_eq!(fine.resampled(0.02).unwrap().len(), record.len());
     // a step that does not divide the duration ends after the record, at zero
@@ -140,13 +140,13 @@ proptest! {
         // central differences of a cubic are off by u''' h²/6, those across a corner by (Δa/Δt) h
         let slope = |f: &dyn Fn(f64) -> f64| (f(time + h) - f(time - h)) / (2.0 * h);
         let scale = 20.0 * record.duration().max(1.0);
-        let v = slope(&|t| record.displacement_at(t));
+        let v = slope(&|t| record.at(t).displacement);
         if time > h {
-            prop_assert!((v - record.velocity_at(time)).abs() < 20.0 * h + 1e-9 * scale);
+            prop_assert!((v - record.at(time).velocity).abs() < 20.0 * h + 1e-9 * scale);
             let corner = (time / step - (time / step).round()).abs() * step;
             if corner > h {
-                let a = slope(&|t| record.velocity_at(t));
-                prop_assert!((a - record.acceleration_at(time)).abs() < 1e-8 * scale / step);
+                let a = slope(&|t| record.at(t).velocity);
+                prop_assert!((a - record.at(time).acceleration).abs() < 1e-8 * scale / step);
             }
         }
     }
@@ -163,7 +163,7 @@ proptest! {
         let sum = new(pairs.iter().map(|p| p.0 + factor * p.1).collect());
         let time = at * sum.duration();
         let motion = |r: &Record| {
-            [r.acceleration_at(time), r.velocity_at(time), r.displacement_at(time)]
+            [r.at(time).acceleration, r.at(time).velocity, r.at(time).displacement]
         };
         let (a, b, c) = (motion(&first), motion(&second), motion(&sum));
         for k in 0..3 {

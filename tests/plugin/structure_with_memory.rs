@@ -143,7 +143,7 @@ fn by_central_differences(record: &Record, h: f64, every: usize, count: usize) -
     let (mut d, mut v, mut z, mut drifts) = (0.0, 0.0, 0.0, Vec::new());
     for step in 0..every * count {
         let force = HARDENING * STIFFNESS * d + (1.0 - HARDENING) * STRENGTH * z;
-        let a = -record.acceleration_at(step as f64 * h) - force / MASS;
+        let a = -record.at(step as f64 * h).acceleration - force / MASS;
         v += if step == 0 { 0.5 * h * a } else { h * a };
         let first = rate(z, v);
         z += 0.5 * h * v * (first + rate(z + h * v * first, v));

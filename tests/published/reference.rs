@@ -205,7 +205,7 @@ fn slip_by_steps(record: &Record, yield_acceleration: f64, substeps: u32) -> f64
     let step = record.time_step() / f64::from(substeps);
     let (mut slip, mut velocity, mut time) = (0.0, 0.0_f64, 0.0);
     while time < record.duration() + 60.0 {
-        let ground = record.acceleration_at(time + step / 2.0);
+        let ground = record.at(time + step / 2.0).acceleration;
         let push = velocity - ground * step;
         // friction stops the block within the step if it can
         let next = push - push.signum() * push.abs().min(yield_acceleration * step);
@@ -247,7 +247,7 @@ proptest! {
         prop_assert!(history.minimum() <= history.residual());
         prop_assert!(history.maximum() >= history.residual());
         // slip and velocity are continuous, and stay within the extremes
-        let most = record.peak_acceleration() + 1.0;
+        let most = record.peaks().acceleration + 1.0;
         for k in 0..2000 {
             let time = f64::from(k) * 0.01;
             let jump = history.slip_velocity(time + 0.01) - history.slip_velocity(time);

@@ -39,7 +39,7 @@ fn statics_of_a_pushed_block() {
         } else {
             builder.interface(Coulomb::new(0.6).unwrap())
         };
-        let simulation = builder.safety_friction(0.6).build().unwrap();
+        let simulation = builder.safety_friction([0.6]).build().unwrap();
         let histories = Recorder::new().start(&simulation).unwrap();
         let value = |quantity| histories.series(quantity)[0];
         assert!((value(Quantity::SlidingSafety) * share / 0.6 - 1.0).abs() < 1e-6);
@@ -120,7 +120,7 @@ fn friction_is_that_of_the_laws() {
     let layer = |friction| ThinLayer::new(soil(SI), 0.5, friction).unwrap();
     let march = |laws: Laws, told: Vec<f64>| {
         let builder = scene(SI, 0.6).structure(block(SI)).interfaces(laws);
-        let mut simulation = builder.safety_frictions(told).build()?;
+        let mut simulation = builder.safety_friction(told).build()?;
         let mut histories = Recorder::new().start(&simulation)?;
         let run = simulation.run(20, |state| histories.record(state))?;
         Ok::<_, Error>((run, histories))

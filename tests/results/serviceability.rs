@@ -29,7 +29,7 @@ fn value(criterion: Criterion, state: &State) -> f64 {
 
 #[test]
 fn verdicts_are_those_of_the_states() {
-    let (free, states) = run(Serviceability::new());
+    let (free, states) = run(Serviceability::default());
     assert!(free.serviceability.is_empty() && free.is_serviceable().is_none());
     assert!(!free.to_string().contains("Serviceability"));
     let peak = |criterion| states.iter().map(|s| value(criterion, s)).fold(0.0, f64::max);
@@ -39,12 +39,12 @@ fn verdicts_are_those_of_the_states() {
     assert!(peaks.iter().all(|peak| *peak > 0.0));
     for share in [0.5, 1.0, 2.0] {
         let limit = |k: usize| share * peaks[k];
-        let limits = Serviceability::new()
-            .with_slip(limit(0))
-            .and_then(|l| l.with_gap(limit(1)))
-            .and_then(|l| l.with_uplifted_fraction(limit(2).min(1.0)))
-            .and_then(|l| l.with_rotation(limit(3)))
-            .unwrap();
+        let limits = Serviceability {
+            slip: Some(limit(0)),
+            gap: Some(limit(1)),
+            uplifted_fraction: Some(limit(2).min(1.0)),
+            rotation: Some(limit(3)),
+        };
         let (run, again) = run(limits);
         assert_eq!(again.len(), states.len());
         assert_eq!(run.whole.base_shear, free.whole.base_shear);
@@ -80,14 +80,19 @@ fn verdicts_are_those_of_the_states() {
 /// GOAL: limits that are none are refused by name.
 #[test]
 fn bad_limits() {
-    let none = Serviceability::new();
+    let none = Serviceability::default();
+    let built = |limits| {
+        let builder = scene(SI, 0.6).structure(block(SI)).interface(friction(FRICTION));
+        builder.serviceability(limits).build().map(|_| ())
+    };
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let refused = [
-            none.with_slip(bad),
-            none.with_gap(bad),
-            none.with_uplifted_fraction(bad),
-            none.with_rotation(bad),
-        ];
+            Serviceability { slip: Some(bad), ..none },
+            Serviceability { gap: Some(bad), ..none },
+            Serviceability { uplifted_fraction: Some(bad), ..none },
+            Serviceability { rotation: Some(bad), ..none },
+        ]
+        .map(built);
         let names = [
             "allowable slip",
             "allowable gap",
@@ -102,6 +107,6 @@ fn bad_limits() {
             );
         }
     }
-    assert!(none.with_uplifted_fraction(1.0 + 1e-12).is_err());
-    assert!(none.with_uplifted_fraction(1.0).is_ok());
+    let uplifted = |limit| built(Serviceability { uplifted_fraction: Some(limit), ..none });
+    assert!(uplifted(1.0 + 1e-12).is_err() && uplifted(1.0).is_ok());
 }

@@ -38,23 +38,24 @@ pub(super) fn read(
             Box::new(match time_step {
                 Some(step) => {
                     let format = ColumnFormat::equally_spaced(needs_unit()?, step);
-                    if columns == [1, 2] {
-                        format
-                    } else {
-                        format.with_acceleration_column(columns[1])
-                    }
+                    let other = (columns != [1, 2]).then_some(columns[1]);
+                    ColumnFormat { acceleration_column: other, ..format }
                 }
-                None => ColumnFormat::new(needs_unit()?).with_columns(columns[0], columns[1]),
+                None => ColumnFormat {
+                    time_column: columns[0],
+                    acceleration_column: Some(columns[1]),
+                    ..ColumnFormat::new(needs_unit()?)
+                },
             })
         }
         "peer" => Box::new(PeerFormat),
         "cosmos" => {
             let mut format = CosmosFormat::default();
             if let Some(channel) = channel {
-                format = format.with_channel(channel);
+                format.channel = channel;
             }
             if let Some(symbol) = unit_symbol {
-                format = format.with_unit(unit(symbol)?);
+                format.unit = Some(unit(symbol)?);
             }
             Box::new(format)
         }

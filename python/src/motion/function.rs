@@ -91,7 +91,7 @@ fn sampled(
     })?;
     let up = Record::new(time_step, up.into_inner())?;
     let end = right.duration();
-    Ok((VerticalIncidence::new(right).with_vertical(up), end))
+    Ok((VerticalIncidence { horizontal: Some(right), vertical: Some(up) }, end))
 }
 
 /// What a function returns: a pair, or a number to the right. NaN, which ends the step, if it raises.

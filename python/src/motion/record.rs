@@ -128,19 +128,19 @@ impl PyRecord {
     /// Largest |acceleration|, m/s².
     #[getter]
     fn peak_acceleration(&self) -> f64 {
-        self.0.peak_acceleration()
+        self.0.peaks().acceleration
     }
 
     /// Largest |velocity|, m/s.
     #[getter]
     fn peak_velocity(&self) -> f64 {
-        self.0.peak_velocity()
+        self.0.peaks().velocity
     }
 
     /// Largest |displacement|, m.
     #[getter]
     fn peak_displacement(&self) -> f64 {
-        self.0.peak_displacement()
+        self.0.peaks().displacement
     }
 
     /// Arias intensity, m/s.
@@ -235,7 +235,7 @@ impl PyRecord {
             "Record({} samples of {:?} s, peak {:.3} m/s²)",
             self.0.len(),
             self.0.time_step(),
-            self.0.peak_acceleration()
+            self.0.peaks().acceleration
         )
     }
 

@@ -36,14 +36,13 @@ pub(crate) fn vertical_incidence(
     vertical: Option<Bound<'_, PyRecord>>,
 ) -> PyResult<PyFreeField> {
     let own = |record: &Bound<'_, PyRecord>| Record::clone(&record.get().0);
-    let incidence = match (&horizontal, &vertical) {
-        (Some(first), Some(second)) => {
-            VerticalIncidence::new(own(first)).with_vertical(own(second))
-        }
-        (Some(first), None) => VerticalIncidence::new(own(first)),
-        (None, Some(second)) => VerticalIncidence::vertical(own(second)),
-        (None, None) => return Err(refuse("give a horizontal record, a vertical one, or both")),
+    let incidence = VerticalIncidence {
+        horizontal: horizontal.as_ref().map(own),
+        vertical: vertical.as_ref().map(own),
     };
+    if incidence == VerticalIncidence::default() {
+        return Err(refuse("give a horizontal record, a vertical one, or both"));
+    }
     let ends = [&horizontal, &vertical].into_iter().flatten();
     let duration = ends.map(|record| record.get().0.duration()).reduce(f64::max);
     Ok(PyFreeField { duration, ..field(move || Ok(incidence.clone()))? })

@@ -49,21 +49,8 @@ pub(super) fn limits(
     gap: Option<f64>,
     uplifted_fraction: Option<f64>,
     rotation: Option<f64>,
-) -> PyResult<Serviceability> {
-    let mut limits = Serviceability::new();
-    if let Some(limit) = slip {
-        limits = limits.with_slip(limit).or_raise()?;
-    }
-    if let Some(limit) = gap {
-        limits = limits.with_gap(limit).or_raise()?;
-    }
-    if let Some(limit) = uplifted_fraction {
-        limits = limits.with_uplifted_fraction(limit).or_raise()?;
-    }
-    if let Some(limit) = rotation {
-        limits = limits.with_rotation(limit).or_raise()?;
-    }
-    Ok(limits)
+) -> Serviceability {
+    Serviceability { slip, gap, uplifted_fraction, rotation }
 }
 
 /// The search that follows the paper's flow chart with so many iterations, or the robust one.

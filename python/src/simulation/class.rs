@@ -180,7 +180,7 @@ impl PySimulation {
                 allowable_gap,
                 allowable_uplifted_fraction,
                 allowable_rotation,
-            )?)
+            ))
             .probes(build::probes(probes.iter().flatten(), dofs)?);
         for load in loads.iter().flatten() {
             load.get().order.check("a load", dofs)?;
@@ -196,7 +196,7 @@ impl PySimulation {
             coordinates(coordinates.map(|own| build::coordinates(&own)).transpose()?),
             expected_steps(expected_steps),
             moment_center(moment_center),
-            safety_friction(safety_friction),
+            safety_friction(safety_friction.map(|coefficient| [coefficient])),
         );
         if !energy_balance {
             builder = builder.without_energy_balance();

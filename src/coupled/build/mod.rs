@@ -201,20 +201,12 @@ impl SimulationBuilder {
         self
     }
 
-    /// Friction coefficient for the factor of safety against sliding, in place of that of the interface
-    /// laws ([`InterfaceLaw::friction_coefficient`]): for a bonded base, say, which has none. It
-    /// changes nothing else.
+    /// Friction coefficients for the factor of safety against sliding, one for all elements or one each from left to
+    /// right, in place of those of the interface laws ([`InterfaceLaw::friction_coefficient`]): for a bonded base, say,
+    /// which has none. They change nothing else.
     #[must_use]
-    pub fn safety_friction(mut self, coefficient: f64) -> Self {
-        self.given.safety_friction = vec![coefficient];
-        self
-    }
-
-    /// Friction coefficients for the factor of safety against sliding, one per element from left to right, see
-    /// [`safety_friction`](Self::safety_friction).
-    #[must_use]
-    pub fn safety_frictions(mut self, coefficients: Vec<f64>) -> Self {
-        self.given.safety_friction = coefficients;
+    pub fn safety_friction(mut self, coefficients: impl Into<Vec<f64>>) -> Self {
+        self.given.safety_friction = coefficients.into();
         self
     }
 

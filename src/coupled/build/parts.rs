@@ -113,7 +113,7 @@ impl Given {
             coordinates: Coordinates::default(),
             energy_balance: true,
             safety_friction: Vec::new(),
-            serviceability: Serviceability::new(),
+            serviceability: Serviceability::default(),
         }
     }
 
@@ -160,6 +160,7 @@ impl Parts {
         let time_step = positive("time step", given.time_step)?;
         positive("square of the time step", time_step * time_step)?;
         not_negative("gravity", given.gravity)?;
+        given.serviceability = given.serviceability.checked()?;
         let missing = |quantity, needed| Error::Scene { quantity, needed };
         let mut structure =
             structure.ok_or(missing("structure", "give one to the builder with `structure`"))?;

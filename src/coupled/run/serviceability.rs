@@ -72,9 +72,10 @@ impl Criterion {
 /// use basemat::motion::el_centro_1940;
 /// use basemat::results::{Criterion, Serviceability};
 /// use basemat::structure::RigidBlock;
-/// use basemat::{Error, Simulation};
+/// use basemat::Simulation;
 ///
-/// let limits = Serviceability::new().with_slip(5e-3)?.with_rotation(0.05)?;
+/// let limits =
+///     Serviceability { slip: Some(5e-3), rotation: Some(0.05), ..Serviceability::default() };
 /// let mut simulation = Simulation::builder(0.01)
 ///     .structure(RigidBlock::new(4.0, 2.0, 2000.0)?)
 ///     .ground(SpringGround::new(-2.0..2.0, 8, 2e8, 1e8)?)
@@ -91,18 +92,20 @@ impl Criterion {
 /// assert!(slip.first_excess.is_some_and(|time| time > 1.0 && time <= slip.largest.time));
 /// assert!(rotation.is_met() && rotation.margin() > 0.9 && rotation.first_excess.is_none());
 /// assert_eq!(run.is_serviceable(), Some(false));
-///
-/// assert!(matches!(Serviceability::new().with_slip(-1.0), Err(Error::Input { .. })));
-/// # Ok::<(), Error>(())
+/// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "ServiceabilityForm"))]
 pub struct Serviceability {
-    slip: Option<f64>,
-    gap: Option<f64>,
-    uplifted_fraction: Option<f64>,
-    rotation: Option<f64>,
+    /// Allowable slip (m), above zero: [`Criterion::Slip`].
+    pub slip: Option<f64>,
+    /// Allowable gap (m), above zero: [`Criterion::Gap`].
+    pub gap: Option<f64>,
+    /// Allowable uplifted fraction, above zero and at most one: [`Criterion::UpliftedFraction`].
+    pub uplifted_fraction: Option<f64>,
+    /// Allowable rotation (rad), above zero: [`Criterion::Rotation`].
+    pub rotation: Option<f64>,
 }
 
 validated! {
@@ -117,67 +120,30 @@ validated! {
         rotation: Option<f64>,
     }
     => {
-        let mut limits = Serviceability::new();
-        if let Some(limit) = slip {
-            limits = limits.with_slip(limit)?;
-        }
-        if let Some(limit) = gap {
-            limits = limits.with_gap(limit)?;
-        }
-        if let Some(limit) = uplifted_fraction {
-            limits = limits.with_uplifted_fraction(limit)?;
-        }
-        if let Some(limit) = rotation {
-            limits = limits.with_rotation(limit)?;
-        }
-        Ok(limits)
+        Serviceability { slip, gap, uplifted_fraction, rotation }.checked()
     }
 }
 
 impl Serviceability {
-    /// No limits.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// With an allowable slip (m), see [`Criterion::Slip`].
+    /// The limits, if all are such.
     ///
     /// # Errors
-    /// [`Error::Input`] unless finite and above zero.
-    pub fn with_slip(mut self, limit: f64) -> Result<Self> {
-        self.slip = Some(positive("allowable slip", limit)?);
-        Ok(self)
-    }
-
-    /// With an allowable gap (m), see [`Criterion::Gap`].
-    ///
-    /// # Errors
-    /// [`Error::Input`] unless finite and above zero.
-    pub fn with_gap(mut self, limit: f64) -> Result<Self> {
-        self.gap = Some(positive("allowable gap", limit)?);
-        Ok(self)
-    }
-
-    /// With an allowable uplifted fraction, see [`Criterion::UpliftedFraction`].
-    ///
-    /// # Errors
-    /// [`Error::Input`] unless above zero and not above one.
-    pub fn with_uplifted_fraction(mut self, limit: f64) -> Result<Self> {
-        let quantity = "allowable uplifted fraction";
-        if !(limit > 0.0 && limit <= 1.0) {
-            return Err(Error::Input { quantity, value: limit, needed: "above zero, at most one" });
+    /// [`Error::Input`] unless slip, gap and rotation are finite and above zero, and the fraction is at most one.
+    pub(crate) fn checked(self) -> Result<Self> {
+        for (quantity, limit) in [
+            ("allowable slip", self.slip),
+            ("allowable gap", self.gap),
+            ("allowable rotation", self.rotation),
+        ] {
+            limit.map_or(Ok(0.0), |limit| positive(quantity, limit))?;
         }
-        self.uplifted_fraction = Some(limit);
-        Ok(self)
-    }
-
-    /// With an allowable rotation (rad), see [`Criterion::Rotation`].
-    ///
-    /// # Errors
-    /// [`Error::Input`] unless finite and above zero.
-    pub fn with_rotation(mut self, limit: f64) -> Result<Self> {
-        self.rotation = Some(positive("allowable rotation", limit)?);
-        Ok(self)
+        match self.uplifted_fraction {
+            Some(value) if !(value > 0.0 && value <= 1.0) => {
+                let quantity = "allowable uplifted fraction";
+                Err(Error::Input { quantity, value, needed: "above zero, at most one" })
+            }
+            _ => Ok(self),
+        }
     }
 
     /// One check per limit, at the state from which a run starts.

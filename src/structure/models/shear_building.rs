@@ -73,12 +73,10 @@ pub struct ShearBuilding {
 short_debug! { ShearBuilding; self; storeys: self.storeys, laws: self.springs.len() }
 
 impl ShearBuilding {
-    /// Index of the base's horizontal displacement.
-    pub const HORIZONTAL: usize = 0;
-    /// Index of the vertical displacement of base and floors.
-    pub const VERTICAL: usize = 1;
-    /// Index of the rotation of base and floors.
-    pub const ROTATION: usize = 2;
+    // Degrees of freedom of the base; those of the floors follow.
+    const HORIZONTAL: usize = 0;
+    const VERTICAL: usize = 1;
+    const ROTATION: usize = 2;
 
     /// Building on a rigid base of `width` (m), mass (kg/m) and rotary inertia about the middle of
     /// its underside (kg m²/m); storeys from below, the first one's columns stand at height 0.

@@ -42,7 +42,7 @@ impl Kind {
         };
         match self {
             Kind::Record { begin } => {
-                let at = |t: f64| STRONG.with(|record| record.displacement_at(t));
+                let at = |t: f64| STRONG.with(|record| record.at(t).displacement);
                 let along = at(begin + 2.0 * phase) - at(*begin);
                 // Peaks of a centimetre or so.
                 [100.0 * along, 30.0 * along]

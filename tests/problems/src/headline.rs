@@ -72,7 +72,10 @@ fn friction(builder: SimulationBuilder, friction: f64) -> Result<SimulationBuild
 }
 
 fn vertical(builder: SimulationBuilder, law: impl InterfaceLaw + 'static) -> SimulationBuilder {
-    builder.interface(law).motion(VerticalIncidence::vertical(el_centro_1940()))
+    builder.interface(law).motion(VerticalIncidence {
+        vertical: Some(el_centro_1940()),
+        ..VerticalIncidence::default()
+    })
 }
 
 fn nothing(_: &State) -> f64 {

@@ -38,7 +38,8 @@ fn frame_on_block() -> [FemModel; 2] {
         mesh.add(LumpedMass::new(top, 3000.0).unwrap().with_rotary_inertia(500.0).unwrap())
             .unwrap();
         mesh.add(Dashpot::axial([foot, roof], 6.0e4).unwrap()).unwrap();
-        let base = mesh.nodes_at_height(0.0, 1e-9).unwrap();
+        let lowest = mesh.nodes().iter().map(|node| node[1]).fold(f64::INFINITY, f64::min);
+        let base = mesh.nodes_at_height(lowest, 1e-9).unwrap();
         let model = FemModel::new(mesh, &base).unwrap();
         model.with_rayleigh(RayleighDamping::new(0.0, 0.003).unwrap())
     })

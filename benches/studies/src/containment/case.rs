@@ -62,13 +62,12 @@ impl Case {
             .motion(el_centro_1940())
             .probes(probes)
             .probe(Probe::acceleration("foundation", top))
-            .serviceability(
-                Serviceability::new()
-                    .with_slip(25e-3)?
-                    .with_gap(10e-3)?
-                    .with_uplifted_fraction(0.75)?
-                    .with_rotation(2e-3)?,
-            );
+            .serviceability(Serviceability {
+                slip: Some(25e-3),
+                gap: Some(10e-3),
+                uplifted_fraction: Some(0.75),
+                rotation: Some(2e-3),
+            });
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above zero")]
         let steps = (duration / scene.time_step(0.5)).round() as usize;
         let builder = builder.expected_steps(steps);

@@ -45,7 +45,7 @@ pub(crate) fn shake(
         .ground(ground)
         .structure(building)
         .interface(Coulomb::new(friction)?)
-        .motion(motion.scaled(intensity / motion.peak_velocity())?)
+        .motion(motion.scaled(intensity / motion.peaks().velocity)?)
         .probes(drifts)
         .build()?;
     let steps = simulation.steps_for(motion.duration().min(RECORD) + REST);

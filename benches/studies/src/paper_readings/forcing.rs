@@ -51,7 +51,7 @@ impl Structure for PrintedForcing {
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> basemat::Result<()> {
-        let moved = self.record.displacement_at(time);
+        let moved = self.record.at(time).displacement;
         load.iter_mut().zip(&self.column).for_each(|(load, column)| *load += column * moved);
         Ok(())
     }

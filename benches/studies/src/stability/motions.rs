@@ -59,10 +59,10 @@ impl Motion {
             let n = (time / time_step).round().min(steps as f64);
             match (&record, self) {
                 (Some(record), Self::NearFault) => {
-                    let u = record.displacement_at(n * time_step);
+                    let u = record.at(n * time_step).displacement;
                     [u, 0.5 * u]
                 }
-                (Some(record), _) => [record.displacement_at(n * time_step), 0.0],
+                (Some(record), _) => [record.at(n * time_step).displacement, 0.0],
                 (None, motion) => {
                     // Displacement of one g over one step squared.
                     let g = STANDARD_GRAVITY * time_step * time_step;
