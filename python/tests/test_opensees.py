@@ -20,7 +20,7 @@ NORMAL, TANGENTIAL, DASHPOTS = 40e6, 25e6, (0.8e6, 0.5e6)
 FORCE, RECORD = 100e3, bm.el_centro_1940().resampled(STEP)
 
 
-def frame() -> None:
+def frame(element: str = "elasticBeamColumn") -> None:
     """An unsymmetric frame on a rigid base, whose middle is node 1."""
     ops.wipe()
     ops.model("basic", "-ndm", 2, "-ndf", 3)
@@ -30,15 +30,17 @@ def frame() -> None:
         ops.node(tag, x, y)
         ops.mass(tag, 12e3, 12e3, 100.0 * tag)
     ops.geomTransf("Linear", 1)
+    ops.section("Elastic", 1, 30e9, 0.25, 0.005)
+    ops.beamIntegration("Legendre", 1, 1, 2)
+    section = (0.25, 30e9, 0.005, 1) if element == "elasticBeamColumn" else (1, 1)
     for tag, ends in enumerate(((1, 2), (2, 3), (3, 4), (4, 5), (5, 2)), 1):
-        ops.element("elasticBeamColumn", tag, *ends, 0.25, 30e9, 0.005, 1, "-mass", 500.0)
+        ops.element(element, tag, *ends, *section, "-mass", 500.0)
     # Of the stiffness: the base has no dashpot to the ground's outside.
     ops.region(1, "-eleRange", 1, 5, "-rayleigh", 0.0, 0.0, 0.002, 0.0)
 
 
-def on_springs() -> np.ndarray:
-    """Displacement of node 4 to the right under a force there, by OpenSees alone."""
-    frame()
+def on_springs() -> None:
+    """The frame on springs and dashpots in OpenSees."""
     length = WIDTH / ELEMENTS
     for k in range(ELEMENTS):
         x, tag = (k + 0.5) * length - 0.5 * WIDTH, 100 + k
@@ -50,9 +52,10 @@ def on_springs() -> np.ndarray:
         for own, stiffness, dashpot in zip(materials, (TANGENTIAL, NORMAL), DASHPOTS[::-1]):
             ops.uniaxialMaterial("Elastic", own, stiffness * length, dashpot * length)
         ops.element("zeroLength", tag, tag, tag + 100, "-mat", *materials, "-dir", 1, 2, "-doRayleigh", 0)
-    ops.timeSeries("Path", 1, "-dt", STEP, "-values", *RECORD.accelerations)
-    ops.pattern("Plain", 1, 1, "-fact", FORCE)
-    ops.load(4, 1.0, 0.0, 0.0)
+
+
+def marched() -> np.ndarray:
+    """Displacement of node 4 to the right under the pattern that is set up, by OpenSees alone."""
     ops.constraints("Transformation")
     ops.numberer("Plain")
     ops.system("FullGeneral")
@@ -66,6 +69,14 @@ def on_springs() -> np.ndarray:
     return np.array(found)
 
 
+def simulation(model: opensees.OpenSeesModel, **excitation: object) -> bm.Simulation:
+    """The frame on basemat's springs."""
+    strip = bm.Strip(-0.5 * WIDTH, 0.5 * WIDTH, ELEMENTS, grading="uniform")
+    ground = bm.SpringGround(strip, NORMAL, TANGENTIAL, dashpots=DASHPOTS)
+    probe = bm.Probe.displacement("top", model.row(4))
+    return bm.Simulation(STEP, model, ground, bm.Bonded(), probes=[probe], **excitation)
+
+
 def test_a_frame_moves_as_in_opensees() -> None:
     frame()
     model = opensees.structure(ops, [1], width=WIDTH)
@@ -76,15 +87,30 @@ def test_a_frame_moves_as_in_opensees() -> None:
     assert rigid @ model.mass() @ rigid == pytest.approx(total, rel=1e-12)
     damping = 0.002 * model.stiffness()
     assert np.abs(model.damping() - damping).max() < 1e-12 * damping.max()
-    strip = bm.Strip(-0.5 * WIDTH, 0.5 * WIDTH, ELEMENTS, grading="uniform")
-    ground = bm.SpringGround(strip, NORMAL, TANGENTIAL, dashpots=DASHPOTS)
-    probe = bm.Probe.displacement("top", model.row(4))
     load = bm.Load.record(model.row(4), RECORD, FORCE)
-    simulation = bm.Simulation(STEP, model, ground, bm.Bonded(), loads=[load], probes=[probe])
-    found = simulation.run(STEPS)["top"]
-    expected = on_springs()
+    found = simulation(model, loads=[load]).run(STEPS)["top"]
+    frame()
+    on_springs()
+    ops.timeSeries("Path", 1, "-dt", STEP, "-values", *RECORD.accelerations)
+    ops.pattern("Plain", 1, 1, "-fact", FORCE)
+    ops.load(4, 1.0, 0.0, 0.0)
+    expected = marched()
     assert np.abs(expected).max() > 5e-3
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-6 * np.abs(expected).max())
+
+
+def test_a_frame_is_shaken_as_in_opensees() -> None:
+    """With the mass of elements; OpenSees takes the motion's acceleration at the ends of steps."""
+    frame("dispBeamColumn")
+    model = opensees.structure(ops, [1], width=WIDTH)
+    found = simulation(model, motion=RECORD).run(STEPS, warn=False)["top"]
+    frame("dispBeamColumn")
+    on_springs()
+    ops.timeSeries("Path", 1, "-dt", STEP, "-values", *RECORD.accelerations)
+    ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
+    expected = marched()
+    assert np.abs(expected).max() > 0.05
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=3e-4 * np.abs(expected).max())
 
 
 def test_nodes_of_a_flexible_base_and_what_is_held() -> None:

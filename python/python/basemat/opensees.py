@@ -56,6 +56,9 @@ def structure(ops: Any, base_nodes: Sequence[int], *, width: float | None = None
 
     Returns:
         The structure at rest, without the loads of OpenSees.
+
+    To compare with a ``UniformExcitation`` in OpenSees, give masses to nodes, or to elements other
+    than ``elasticBeamColumn``: OpenSees 3.7.1 doubles the excitation of that element's ``-mass``.
     """
     stiffness = _matrix(ops, 0.0, 0.0, 1.0)
     # With a little stiffness, so that nothing without mass is singular there; a power of two rounds
