@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self, TypeAlias, disjoint_base
 
-from ._protocols import UserLaw, UserStructure
+from ._protocols import UserHysteresis, UserLaw, UserStructure
 
 __version__: str
 MODES: list[_Mode]
@@ -1380,6 +1380,12 @@ class Simulation:
         this simulation works on, with its internal variables.
         """
     @property
+    def hysteresis(self) -> list[Any]:
+        """The springs of the structure that are written in Python (:class:`UserHysteresis`): list of the
+        copies that this simulation works on, with their internal variables, in the order of storeys or
+        springs.
+        """
+    @property
     def probe_names(self) -> list[str]:
         """Names of the probes, in their order."""
     @property
@@ -1747,8 +1753,9 @@ class ShearBuilding(Structure):
     ``base_inertia``: kg m²/m. ``storeys``: list of :class:`Storey`, the lowest first. ``damping``: ratio
     in the first mode on a fixed base, by damping proportional to stiffness; none unless given.
     ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
-    effect; none unless given. ``laws``: dict ``{storey: law}`` of :class:`Hysteresis` laws that take the
-    place of the stiffness of storeys, storey 0 the lowest; none unless given.
+    effect; none unless given. ``laws``: dict ``{storey: law}`` of laws (:class:`Hysteresis`, or your own:
+    :class:`UserHysteresis`) that take the place of the stiffness of storeys, storey 0 the lowest; none
+    unless given.
     """
 
     def __new__(
@@ -1761,21 +1768,21 @@ class ShearBuilding(Structure):
         damping: float | None = None,
         center: float = 0.0,
         p_delta: float | None = None,
-        laws: Mapping[int, Hysteresis] | None = None,
+        laws: Mapping[int, Hysteresis | UserHysteresis] | None = None,
     ) -> Self: ...
     @staticmethod
     def isolated(
         building: ShearBuilding,
-        law: Hysteresis,
+        law: Hysteresis | UserHysteresis,
         *,
         height: float,
         slab_mass: float,
         slab_inertia: float = 0.0,
         damping: float = 0.0,
-        laws: Mapping[int, Hysteresis] | None = None,
+        laws: Mapping[int, Hysteresis | UserHysteresis] | None = None,
     ) -> ShearBuilding:
         """The ``building`` with its lowest columns on a slab that rests on isolators of this ``law``
-        (:class:`Hysteresis`); they become storey 0, and the building's storeys count from 1.
+        (:class:`Hysteresis` or :class:`UserHysteresis`); they become storey 0, and the building's storeys count from 1.
 
         ``height`` of the bearings: m. ``slab_mass``: kg/m. ``slab_inertia``: kg m²/m; 0 by default.
         ``damping`` beside the bearings: N s/m; 0 by default. ``laws``: of further storeys, as for the
@@ -2209,11 +2216,11 @@ class Mesh:
 @final
 class WithSprings(Structure):
     """A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
-    freedom, which is the spring's deformation (m), and a :class:`Hysteresis`.
+    freedom, which is the spring's deformation (m), and a :class:`Hysteresis` or :class:`UserHysteresis`.
     """
 
     def __new__(
-        cls, structure: Structure | UserStructure, springs: Sequence[tuple[_RowLike, Hysteresis]]
+        cls, structure: Structure | UserStructure, springs: Sequence[tuple[_RowLike, Hysteresis | UserHysteresis]]
     ) -> Self: ...
 
 @final
