@@ -81,6 +81,7 @@ def test_a_frame_moves_as_in_opensees() -> None:
     frame()
     model = opensees.structure(ops, [1], width=WIDTH)
     assert model.dofs == 15 and model.nodes == [1, 2, 3, 4, 5]
+    assert len(set(model.dof_names)) == 15 and model.dof("4 rotation") == model.row(4, "rotation")
     rigid = sum(model.row(node, "x").weights(15) for node in model.nodes)
     assert np.abs(model.stiffness() @ rigid).max() < 1e-13 * np.abs(model.stiffness()).max()
     total = 40e3 + 4 * 12e3 + 500.0 * (4.0 + 4.0 + 2.5 + 4.0 + 2.5)

@@ -19,12 +19,14 @@ _DIRECTIONS = ("x", "y", "rotation")
 class OpenSeesModel:
     """A structure from OpenSees with the names of its nodes; what :func:`structure` returns.
 
-    It is a structure like any other, for a ground, a simulation or a reduction.
+    It is a structure like any other, for a ground, a simulation or a reduction. Its degrees of freedom
+    are called "4 x", "4 y" and "4 rotation" by the node's tag, in frames and in errors, too.
     """
 
     def __init__(self, model: MatrixModel, numbers: dict[int, list[int]]) -> None:
         self._numbers = numbers
-        self.dofs = model.dofs
+        self.dofs, self.dof = model.dofs, model.dof
+        self.dof_names = model.dof_names
         self.contact_nodes = model.contact_nodes
         self.mass = model.mass
         self.stiffness = model.stiffness
@@ -79,7 +81,9 @@ def structure(ops: Any, base_nodes: Sequence[int], *, width: float | None = None
     else:
         tags = sorted(base_nodes, key=lambda tag: x[tag])
         contact = [ContactNode(x[tag], dofs[tag][0], dofs[tag][1]) for tag in tags]
-    options = {"damping": _clean(damping)} if np.abs(damping).max() > 1e-12 * np.abs(one).max() else {}
+    options: dict[str, Any] = {"damping": _clean(damping)} if np.abs(damping).max() > 1e-12 * np.abs(one).max() else {}
+    names = {own: f"{tag} {name}" for tag in reversed(numbers) for own, name in zip(numbers[tag], _DIRECTIONS)}
+    options["dof_names"] = [names.get(own, f"equation {own}") for own in range(len(mass))]
     return OpenSeesModel(MatrixModel(_clean(mass), _clean(stiffness), contact, **options), numbers)
 
 

@@ -18,6 +18,7 @@ use crate::motion::PyFreeField;
 use crate::probe::PyProbe;
 use crate::recipe::Recipe;
 use crate::results::PyRun;
+use crate::structure::DofNames;
 use crate::ticker::{progress_function, watched};
 use crate::{error, interface, motion, structure, user};
 
@@ -72,6 +73,7 @@ pub(crate) struct PySimulation {
     structure: Py<PyAny>,
     /// Its springs written in Python.
     hysteresis: Vec<Py<PyAny>>,
+    names: Option<DofNames>,
     /// Length of the motion that it was given, s.
     pub(super) duration: Option<f64>,
     /// Where it began, or why it cannot go back there.
@@ -143,6 +145,7 @@ impl PySimulation {
         let (structure, object) = structure::made(&structure)?;
         let hysteresis = user::made_springs();
         let dofs = structure.dofs();
+        let names = DofNames::of(&object, dofs)?;
         let mut builder = Simulation::builder(time_step)
             .structure(structure)
             .ground(made(&ground.get().make)?)
@@ -180,7 +183,7 @@ impl PySimulation {
         let duration = motion.and_then(|motion| motion.get().duration);
         let start = build::start(&simulation);
         let (simulation, structure) = (Mutex::new(simulation), object.unbind());
-        Ok(Self { simulation, structure, hysteresis, duration, start })
+        Ok(Self { simulation, structure, hysteresis, names, duration, start })
     }
 
     /// Makes ``steps`` steps, or those of a ``duration`` (s); without either, those to the end of the
@@ -247,7 +250,7 @@ impl PySimulation {
             watched(coefficients, |observer| simulation.precompute(steps, observer))?;
             let mut watched = Watched::new(progress, steps, observe, observe_every, histories);
             let result = simulation.run(steps, |state| watched.see(state));
-            watched.end(result)
+            watched.end(result, self.names.as_ref())
         })?;
         if warn {
             run.warnings().into_iter().try_for_each(|text| error::warn(py, text))?;

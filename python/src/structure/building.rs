@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use basemat::structure::{Hysteresis, IsolationLevel, ShearBuilding, Storey};
+use basemat::structure::{Hysteresis, IsolationLevel, ShearBuilding, Storey, Structure};
 use pyo3::prelude::*;
 
-use super::PyStructure;
 use super::hysteresis::LawLike;
+use super::{DofNames, PyStructure};
 use crate::array::whole;
 use crate::error::{OrRaise, refuse};
 use crate::recipe::Recipe;
@@ -63,7 +63,8 @@ fn following(mut building: ShearBuilding, laws: &Laws) -> basemat::Result<ShearB
 /// Rigid floors on columns that shear, on a rigid base.
 ///
 /// Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute
-/// horizontal displacement of every floor from below. ``width`` of the base: m. ``base_mass``: kg/m.
+/// horizontal displacement of every floor from below; for :meth:`dof` "base x", "base y", "base rotation",
+/// "floor 0", "floor 1" and so on. ``width`` of the base: m. ``base_mass``: kg/m.
 /// ``base_inertia``: kg m²/m. ``storeys``: list of :class:`Storey`, the lowest first. ``damping``: ratio
 /// in the first mode on a fixed base, by damping proportional to stiffness; none unless given.
 /// ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
@@ -81,9 +82,12 @@ impl PyShearBuilding {
         make: impl Fn() -> basemat::Result<ShearBuilding> + Send + Sync + 'static,
     ) -> PyResult<PyClassInitializer<Self>> {
         let make: Make = Arc::new(make);
-        make().or_raise()?;
+        let floors = make().or_raise()?.dofs() - 3;
+        let base = ["base x", "base y", "base rotation"].map(String::from);
+        let names = base.into_iter().chain((0..floors).map(|storey| format!("floor {storey}")));
+        let names = DofNames::new(names.collect(), 3 + floors)?;
         let own = Arc::clone(&make);
-        let base = PyStructure { make: Arc::new(move || Ok(Box::new(own()?))) };
+        let base = PyStructure::new(Arc::new(move || Ok(Box::new(own()?)))).named(Some(names));
         Ok(PyClassInitializer::from(base).add_subclass(Self(make)))
     }
 

@@ -6,7 +6,7 @@ use basemat::structure::{DofCombination, Hysteresis, WithSprings};
 use pyo3::prelude::*;
 
 use super::hysteresis::LawLike;
-use super::{PyStructure, recipe};
+use super::{DofNames, PyStructure, recipe};
 use crate::error::OrRaise;
 use crate::recipe::Recipe;
 use crate::row::RowLike;
@@ -23,8 +23,9 @@ impl PyWithSprings {
         structure: Bound<'_, PyAny>,
         springs: Vec<(RowLike, LawLike)>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let structure = recipe(&structure)?;
+        let (object, structure) = (structure.clone(), recipe(&structure)?);
         let dofs = structure().or_raise()?.dofs();
+        let names = DofNames::of(&object, dofs)?;
         let springs: Vec<(DofCombination, Recipe<dyn Hysteresis>)> = springs
             .into_iter()
             .map(|(RowLike(row, order), LawLike(law))| {
@@ -40,6 +41,7 @@ impl PyWithSprings {
             Ok(Box::new(own) as Box<_>)
         };
         make().or_raise()?;
-        Ok(PyClassInitializer::from(PyStructure { make: Arc::new(make) }).add_subclass(Self))
+        let base = PyStructure::new(Arc::new(make)).named(names);
+        Ok(PyClassInitializer::from(base).add_subclass(Self))
     }
 }
