@@ -139,3 +139,25 @@ def test_nodes_of_a_flexible_base_and_what_is_held() -> None:
     ops.fix(3, 0, 1, 0)
     with pytest.raises(bm.InputError, match="node 3 is held in the direction y: it must be free"):
         opensees.structure(ops, [7, 3, 5])
+
+
+def test_models_that_are_none_are_refused() -> None:
+    for dimensions, needed in (((3, 6), "3 coordinates and 6 degrees"), ((2, 2), "2 coordinates and 2 degrees")):
+        ops.wipe()
+        ops.model("basic", "-ndm", dimensions[0], "-ndf", dimensions[1])
+        ops.node(4, *[0.0] * dimensions[0])
+        with pytest.raises(bm.InputError, match=f"node 4 has {needed} of freedom, but must have 2 and 3"):
+            opensees.structure(ops, [4], width=1.0)
+    frame()
+    assert repr(opensees.structure(ops, [1], width=WIDTH)) == "OpenSeesModel(5 nodes, 15 degrees of freedom)"
+    for nodes, width, text in (
+        ([1], None, "1 base nodes: give several, or a single one with a width"),
+        ([1, 5], WIDTH, "heights of 0.0 to 4.0 m, but must be at one"),
+        ([2, 5], WIDTH, "2 base nodes: give several"),
+        ([8], WIDTH, "no node 8"),
+    ):
+        with pytest.raises(bm.InputError, match=text):
+            opensees.structure(ops, nodes, width=width)
+    ops.wipe()
+    with pytest.raises(bm.InputError, match="no elements"):
+        opensees.structure(ops, [1], width=1.0)
